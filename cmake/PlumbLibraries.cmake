@@ -1,0 +1,85 @@
+# The libraries. Sources are found per room, so that adding a file needs no change here; a room that is
+# still empty is no error, a library without any source is not made.
+
+include(GNUInstallDirs)
+
+set(PLUMB_CORE_ROOMS core numeric array gravity calibration detection navigation health)
+set(PLUMB_CAPACITIES 8)
+if(PLUMB_ALL_CAPACITIES)
+  list(APPEND PLUMB_CAPACITIES 4 16 24)
+elseif(PLUMB_BUILD_HOST)
+  list(APPEND PLUMB_CAPACITIES 24)
+endif()
+
+plumb_find_package(Eigen3 DEBIAN libeigen3-dev TARGET Eigen3::Eigen NO_MODULE)
+plumb_find_package(tl-expected DEBIAN libexpected-dev TARGET tl::expected)
+
+# plumb_sources(VARIABLE ROOM...): the sources of the named rooms.
+function(plumb_sources variable)
+  set(patterns ${ARGN})
+  list(TRANSFORM patterns REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/\\1/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  set(${variable} "${sources}" PARENT_SCOPE)
+endfunction()
+
+# Common to all libraries: headers in place and installed, one alias plumb::<name>.
+function(plumb_library target export_name)
+  add_library(plumb::${export_name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  target_include_directories(${target} PUBLIC
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  plumb_compile_settings(${target})
+  if(NOT PROJECT_IS_TOP_LEVEL)
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)  # a parent builds what it links
+  endif()
+endfunction()
+
+# --- Floors 1 to 4: one static library per capacity; a mixture of two does not link. ---------------------
+plumb_sources(core_sources ${PLUMB_CORE_ROOMS})
+if(NOT core_sources)
+  message(FATAL_ERROR "no sources below src/ in any of: ${PLUMB_CORE_ROOMS}")
+endif()
+foreach(capacity IN LISTS PLUMB_CAPACITIES)
+  add_library(plumb_${capacity} STATIC ${core_sources})
+  plumb_library(plumb_${capacity} plumb_${capacity})
+  target_compile_definitions(plumb_${capacity} PUBLIC PLUMB_CAPACITY=${capacity})
+  target_compile_options(plumb_${capacity} PRIVATE -fno-exceptions -fno-rtti)
+  target_link_libraries(plumb_${capacity} PUBLIC Eigen3::Eigen tl::expected)
+endforeach()
+add_library(plumb::plumb ALIAS plumb_8)
+
+# --- Host libraries, always with 24 sensors. ----------------------------------------------------------------
+if(NOT PLUMB_BUILD_HOST)
+  return()
+endif()
+
+plumb_sources(scenario_sources scenario)
+if(scenario_sources)
+  plumb_find_header(TARGET plumb_random123 HEADER Random123/philox.h DEBIAN librandom123-dev)
+  add_library(plumb_scenario STATIC ${scenario_sources})
+  plumb_library(plumb_scenario scenario)
+  target_link_libraries(plumb_scenario PUBLIC plumb_24 PRIVATE "$<BUILD_INTERFACE:plumb_random123>")
+endif()
+
+plumb_sources(io_sources io)
+if(io_sources)
+  plumb_find_package(toml11 DEBIAN libtoml11-dev TARGET toml11::toml11)
+  plumb_find_package(nlohmann_json DEBIAN nlohmann-json3-dev TARGET nlohmann_json::nlohmann_json)
+  plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
+  add_library(plumb_io STATIC ${io_sources})
+  plumb_library(plumb_io io)
+  target_link_libraries(plumb_io PUBLIC plumb_24 toml11::toml11 nlohmann_json::nlohmann_json fmt::fmt)
+  if(TARGET plumb_scenario)
+    target_link_libraries(plumb_io PUBLIC plumb_scenario)
+  endif()
+endif()
+
+plumb_sources(report_sources report)
+if(report_sources)
+  plumb_find_header(TARGET plumb_mustache HEADER kainjow/mustache.hpp DEBIAN libkainjow-mustache-dev)
+  plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
+  add_library(plumb_report STATIC ${report_sources})
+  plumb_library(plumb_report report)
+  target_link_libraries(plumb_report PUBLIC plumb_io fmt::fmt PRIVATE "$<BUILD_INTERFACE:plumb_mustache>")
+endif()

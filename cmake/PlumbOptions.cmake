@@ -1,0 +1,54 @@
+# Options, default build type, compiler cache, and the one flag that plumb refuses.
+
+option(PLUMB_ALL_CAPACITIES "Build floors 1-4 for 4 and 16 sensors too (8 is always built, 24 for the host)" ON)
+option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})
+option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
+option(PLUMB_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(PLUMB_BUILD_BENCH "Build the benchmarks (Google Benchmark)" OFF)
+option(PLUMB_INSTALL "Provide the install rules" ${PROJECT_IS_TOP_LEVEL})
+set(PLUMB_RC_PARAMS "seed=20180227 max_success=200" CACHE STRING "RC_PARAMS (RapidCheck) of every test run by ctest")
+
+if(PLUMB_BUILD_TOOL AND NOT PLUMB_BUILD_HOST)
+  message(FATAL_ERROR "PLUMB_BUILD_TOOL needs PLUMB_BUILD_HOST")
+endif()
+
+if(PROJECT_IS_TOP_LEVEL)
+  get_property(is_multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(NOT CMAKE_BUILD_TYPE AND NOT is_multi_config)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  endif()
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+  find_program(PLUMB_CCACHE ccache)
+  mark_as_advanced(PLUMB_CCACHE)
+  if(PLUMB_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${PLUMB_CCACHE}")
+  endif()
+endif()
+
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang)$")
+  message(FATAL_ERROR "plumb is built with GCC or Clang; found ${CMAKE_CXX_COMPILER_ID}")
+endif()
+
+# Fast-math lets the compiler assume that no NaN exists: every channel gate would be optimised away. The
+# header plumb/core/config.hpp refuses it too; here it is refused before a line is compiled.
+function(plumb_refuse_fast_math)
+  get_directory_property(directory_options COMPILE_OPTIONS)
+  set(given "${CMAKE_CXX_FLAGS} ${CMAKE_EXE_LINKER_FLAGS} ${CMAKE_SHARED_LINKER_FLAGS} ${directory_options}")
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+  if(build_type)
+    string(APPEND given " ${CMAKE_CXX_FLAGS_${build_type}} ${CMAKE_EXE_LINKER_FLAGS_${build_type}}")
+  else()
+    string(APPEND given " ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX_FLAGS_DEBUG}")
+  endif()
+  foreach(flag -ffast-math -Ofast -ffinite-math-only -funsafe-math-optimizations -fassociative-math
+               -freciprocal-math -fno-signed-zeros)
+    string(REGEX MATCH "(^|[ ;])${flag}($|[ ;])" hit "${given}")
+    if(hit)
+      message(FATAL_ERROR
+        "plumb refuses ${flag}: it removes the NaN checks that keep a broken channel out of a sum, or reorders "
+        "sums that must be exact. Take it out of CMAKE_CXX_FLAGS (or of the environment variable CXXFLAGS).")
+    endif()
+  endforeach()
+endfunction()
+plumb_refuse_fast_math()

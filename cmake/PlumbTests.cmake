@@ -1,0 +1,60 @@
+# Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels: core, host, compile,
+# proof.
+
+plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
+plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
+
+# plumb_test_executable(NAME LABEL <label> ROOMS <room>... LIBRARIES <target>...)
+# All *_test.cpp of the rooms below tests/, with the helpers of tests/support.
+function(plumb_test_executable name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL" "ROOMS;LIBRARIES")
+  set(patterns ${arg_ROOMS})
+  list(TRANSFORM patterns REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1/*_test.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  file(GLOB helpers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/support/*.cpp")
+  if(NOT sources)
+    message(STATUS "no tests yet for ${name}")
+    return()
+  endif()
+  add_executable(${name} ${sources} ${helpers})
+  plumb_compile_settings(${name})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_compile_definitions(${name} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  foreach(library IN LISTS arg_LIBRARIES)
+    if(TARGET ${library})
+      target_link_libraries(${name} PRIVATE ${library})
+    endif()
+  endforeach()
+  target_link_libraries(${name} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest GTest::gtest_main)
+  gtest_discover_tests(${name}
+    DISCOVERY_TIMEOUT 60
+    PROPERTIES
+      LABELS ${arg_LABEL}
+      TIMEOUT 900
+      ENVIRONMENT "RC_PARAMS=${PLUMB_RC_PARAMS}")
+endfunction()
+
+include(GoogleTest)
+
+plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} LIBRARIES plumb_8)
+
+if(PLUMB_BUILD_HOST)
+  plumb_test_executable(plumb_host_tests
+    LABEL host
+    ROOMS scenario io report cli recordings
+    LIBRARIES plumb_report plumb_io plumb_scenario plumb_24)
+  if(TARGET plumb_host_tests AND TARGET plumb_tool)
+    add_dependencies(plumb_host_tests plumb_tool)
+    target_compile_definitions(plumb_host_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
+  endif()
+endif()
+
+include(PlumbCompileChecks)
+
+# --- Proofs: every proofs/*.smt2 carries its expected answers; see proofs/check.sh. ------------------------
+file(GLOB proofs CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/proofs/*.smt2")
+foreach(proof IN LISTS proofs)
+  get_filename_component(name "${proof}" NAME_WE)
+  add_test(NAME proof.${name} COMMAND bash "${PROJECT_SOURCE_DIR}/proofs/check.sh" "${proof}")
+  set_tests_properties(proof.${name} PROPERTIES LABELS proof SKIP_RETURN_CODE 77 TIMEOUT 600)
+endforeach()

@@ -1,0 +1,20 @@
+# The command line tool: target plumb_tool, executable plumb.
+
+plumb_sources(cli_sources cli)
+if(cli_sources)
+  plumb_find_package(CLI11 DEBIAN libcli11-dev TARGET CLI11::CLI11)
+  plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
+  plumb_find_package(Boost DEBIAN libboost-dev TARGET Boost::headers)
+  plumb_find_package(Threads DEBIAN libc6-dev TARGET Threads::Threads)
+
+  add_executable(plumb_tool ${cli_sources})
+  set_target_properties(plumb_tool PROPERTIES OUTPUT_NAME plumb)
+  plumb_compile_settings(plumb_tool)
+  target_compile_definitions(plumb_tool PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")
+  foreach(library IN ITEMS plumb_report plumb_io plumb_scenario plumb_24)
+    if(TARGET ${library})
+      target_link_libraries(plumb_tool PRIVATE ${library})
+    endif()
+  endforeach()
+  target_link_libraries(plumb_tool PRIVATE CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
+endif()

@@ -1,0 +1,23 @@
+# How every target of plumb is compiled. Third-party headers are SYSTEM (imported targets are by default).
+
+set(PLUMB_WARNINGS
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Werror)
+
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  list(APPEND PLUMB_WARNINGS -Wnull-dereference)  # GCC's at -O2 reports false positives through inlined Eigen
+endif()
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  list(APPEND PLUMB_WARNINGS -Wno-maybe-uninitialized)  # GCC's manual: false positives under sanitizers
+endif()
+
+# plumb_compile_settings(TARGET): C++17 without extensions, warnings as errors, no fused multiply-add
+# contraction (results must not depend on the compiler's choice of instructions).
+function(plumb_compile_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES
+    CXX_EXTENSIONS OFF
+    POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE ${PLUMB_WARNINGS})
+endfunction()
