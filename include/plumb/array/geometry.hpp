@@ -1,0 +1,72 @@
+/// What a set of axes can and cannot determine: least squares, triple maps, parity, coplanarity.
+#pragma once
+
+#include <array>
+
+#include "plumb/array/sensor_array.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Readings of the sensors of one array, indexed by sensor [m/s^2].
+using Readings = std::array<double, kCapacity>;
+
+/// Rank of the axes of `used` (0..3), with singular values below 1e-6 counted as zero.
+int rank_of(const SensorArray& array, SensorSet used) noexcept;
+
+/// The 3 x |used| map of least squares (eq 5; weighted with 1/sigma^2 where the sigmas differ) and
+/// what follows from it. `valid` is false where rank(used) < 3.
+struct LeastSquares {
+  bool valid = false;
+  std::array<Vec3, kCapacity> column{};  ///< column i of the pseudo-inverse; zero for sensors not used
+  Mat3 covariance{};                     ///< of x for one sample [(m/s^2)^2]
+  Vec3 estimate(const Readings& y) const noexcept;
+};
+LeastSquares least_squares(const SensorArray& array, SensorSet used) noexcept;
+
+/// Inverse of the three rows of a triple: x = map * (y_i, y_j, y_k), eqs (18)-(21). The triple must
+/// have rank 3 as `rank_of` judges it (finite condition); otherwise all entries are zero.
+Mat3 triple_map(const SensorArray& array, int triple) noexcept;
+
+/// Orthonormal basis of the left null space of the rows of `used`, each divided by its sigma
+/// (weighted parity, (|used|-3) rows). Entry [r][i] multiplies y_i in m/s^2; the result has unit
+/// variance under white noise. For the tetrahedron of eq (16) the row is (1,1,1,-1)/(2 sigma). The first
+/// coefficient of weight in a row is positive. No rows where rank(used) < 3.
+struct ParityBasis {
+  int rows = 0;
+  std::array<std::array<double, kCapacity>, kCapacity> weight{};
+};
+ParityBasis parity_basis(const SensorArray& array, SensorSet used) noexcept;
+
+/// c(H): the largest number of axes of `used` within kPlaneTolerance of one plane (of any two axes of
+/// the array, in use or not, so that a loss never raises a grade); 2 in general position, |used| where
+/// rank < 3.
+int coplanarity(const SensorArray& array, SensorSet used) noexcept;
+
+/// m_strict = |used| - 1 - c, never below 0 (safety note 4; n-3 is the case of general position).
+int strict_grade(const SensorArray& array, SensorSet used) noexcept;
+/// m_parity = |used| - 2 - c, never below 0; needs no gravity.
+int parity_grade(const SensorArray& array, SensorSet used) noexcept;
+
+/// Sensors whose loss leaves rank < 3 (coplanarity within the rank tolerance of 0.05, so a nearly
+/// coplanar rest counts as lost too).
+SensorSet critical_sensors(const SensorArray& array, SensorSet used) noexcept;
+
+/// Figures of merit of a geometry (paper section 4; Shim and Yang's criterion for FDI is the angle
+/// between the two nearest axes: the larger the better).
+struct FiguresOfMerit {
+  double gdop = 0.0;               ///< sqrt(trace((H'H)^-1)), noise gain of the vector
+  double condition = 0.0;          ///< of H
+  double nearest_angle_rad = 0.0;  ///< smallest angle between two measurement lines
+  double min_triple_det = 0.0;     ///< smallest |det| over all triples
+  double max_triple_condition = 0.0;
+  double common_bias_visibility = 0.0;  ///< |V'1|/|1|, V = parity basis (safety note 5)
+  int coplanarity = 0;
+  int strict_grade = 0;
+  int parity_grade = 0;
+  int near_singular_triples = 0;
+};
+FiguresOfMerit figures_of_merit(const SensorArray& array) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

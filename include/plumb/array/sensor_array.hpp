@@ -1,0 +1,91 @@
+/// `SensorArray`: which rows measure what. Single-axis accelerometers with unit axes h_i on one rigid
+/// body measure y = H g + e (paper eq 4), H is n x 3, in the tool frame, SI units.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/error.hpp"
+#include "plumb/core/sensor_set.hpp"
+#include "plumb/core/vec3.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Name of a sensor, at most 15 characters, zero padded.
+using SensorId = std::array<char, 16>;
+SensorId make_id(const char* text) noexcept;
+
+/// One row of the measurement matrix.
+struct SensorRow {
+  SensorId id{};
+  Vec3 axis{};              ///< unit vector in the tool frame
+  double sigma_mps2 = 0.0;  ///< white noise of one sample, 1 sigma
+};
+
+/// What calibration leaves in every row: covariance of (axis error [m/s^2 per m/s^2], offset error
+/// [m/s^2]), four numbers a sensor, packed lower triangle over 4n; plus a per-sensor misfit that no
+/// parameter explains. All zero for a perfectly known array.
+struct RowUncertainty {
+  static constexpr int kSize = 4 * kCapacity * (4 * kCapacity + 1) / 2;
+  std::array<double, kSize> covariance{};       ///< SI; entry (a,b), a >= b, at a(a+1)/2+b
+  std::array<double, kCapacity> misfit_mps2{};  ///< 1 sigma per sensor and attitude
+
+  /// Covariance of the errors of sensors i and j at gravity vector g [m/s^2]: z' Cov_ij z with
+  /// z = (g, 1), plus misfit^2 where i == j. Safety note 10. [(m/s^2)^2]
+  double at(int i, int j, const Vec3& g_mps2) const noexcept;
+};
+
+/// Three sensors and what they can do together.
+struct Triple {
+  std::array<std::uint8_t, 3> sensors{};
+  bool votes = false;            ///< |det| >= kMinTripleDet: may raise a MAE alarm
+  double det = 0.0;              ///< determinant of the three axes
+  double condition = 0.0;        ///< ratio of the extreme singular values
+  std::array<double, 6> form{};  ///< |x|^2 = y'Ay: A11, A22, A33, 2 A12, 2 A13, 2 A23 (eqs 22-25)
+
+  SensorSet set() const noexcept {
+    return SensorSet::of(sensors[0]) | SensorSet::of(sensors[1]) | SensorSet::of(sensors[2]);
+  }
+};
+
+inline constexpr double kMinTripleDet = 0.05;
+/// A third axis within this sine of the plane of two others counts as lying in it (coplanarity c).
+inline constexpr double kPlaneTolerance = 0.05;
+inline constexpr double kAxisLengthTolerance = 1e-6;
+
+class SensorArray {
+ public:
+  /// Checks and builds. Errors: too_few_sensors, too_many_sensors, axis_not_unit (index),
+  /// axes_rank_deficient, duplicate_id (index), empty_id, sigma_not_positive (index), not_finite.
+  /// Parallel axes are allowed (arrays of triads), duplicate ids are not.
+  static Expected<SensorArray> make(const SensorRow* rows, int n) noexcept;
+
+  /// An empty array (size 0): a placeholder inside states that are filled later.
+  SensorArray() noexcept = default;
+
+  int size() const noexcept { return size_; }
+  SensorSet all() const noexcept { return SensorSet::first(size_); }
+  const SensorRow& row(int i) const noexcept { return rows_[static_cast<std::size_t>(i)]; }
+  const Vec3& axis(int i) const noexcept { return row(i).axis; }
+  double sigma_mps2(int i) const noexcept { return row(i).sigma_mps2; }
+
+  /// All C(n,3) triples in lexicographic order, near-singular ones included (eq 13).
+  int triple_count() const noexcept { return triple_count_of(size_); }
+  const Triple& triple(int k) const noexcept { return triples_[static_cast<std::size_t>(k)]; }
+  /// Index of the triple {i,j,k}, i < j < k; -1 where the three are no triple of this array.
+  int triple_index(int i, int j, int k) const noexcept;
+
+  const RowUncertainty& uncertainty() const noexcept { return uncertainty_; }
+  void set_uncertainty(const RowUncertainty& u) noexcept { uncertainty_ = u; }
+
+ private:
+  std::array<SensorRow, kCapacity> rows_{};
+  std::array<Triple, kTripleCapacity> triples_{};
+  RowUncertainty uncertainty_{};
+  int size_ = 0;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

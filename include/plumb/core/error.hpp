@@ -1,0 +1,60 @@
+/// Errors as values: a code, the index of what was wrong, and the figure that broke the rule.
+/// Nothing in floors 1 to 4 throws, aborts or allocates; bad input comes back as an `Error`.
+#pragma once
+
+#include <cstdint>
+#include <tl/expected.hpp>
+
+#include "plumb/core/config.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+enum class Errc : std::uint8_t {
+  ok = 0,
+  too_few_sensors,      ///< value = number given, limit = 3
+  too_many_sensors,     ///< value = number given, limit = capacity
+  axis_not_unit,        ///< index = sensor, value = |h|, limit = 1
+  axes_rank_deficient,  ///< value = smallest singular value of H
+  duplicate_id,         ///< index = the later sensor
+  empty_id,             ///< index = sensor
+  sigma_not_positive,   ///< index = sensor, value = sigma
+  not_finite,           ///< index = position of the value
+  out_of_range,         ///< index = field, value = given, limit = the bound it broke
+  range_too_small,      ///< full scale below gravity plus margin: index = sensor
+  too_few_stations,     ///< value = given, limit = needed
+  unobservable,         ///< value = rank, limit = rank needed
+  diverged,             ///< value = cost
+  implausible,          ///< index = sensor, value = the parameter, limit = its physical bound
+  poor_fit,             ///< value = residual, limit = allowed
+  not_calibrated,       ///< no accepted calibration
+  wrong_key,            ///< reset key does not match
+  not_invertible,       ///< cross-axis matrix of eq (3) is singular
+};
+
+struct Error {
+  Errc code = Errc::ok;
+  int index = -1;      ///< sensor, station or field, -1 where none applies
+  double value = 0.0;  ///< what was found
+  double limit = 0.0;  ///< what would have been allowed
+
+  friend constexpr bool operator==(const Error& a, const Error& b) noexcept {
+    return a.code == b.code && a.index == b.index;
+  }
+};
+
+template <class T>
+using Expected = tl::expected<T, Error>;
+
+inline tl::unexpected<Error> fail(Errc code, int index = -1, double value = 0.0, double limit = 0.0) noexcept {
+  return tl::unexpected<Error>(Error{code, index, value, limit});
+}
+
+/// What is wrong, in a few words ("axis is not of unit length"). Never null.
+const char* describe(Errc code) noexcept;
+
+/// How to mend it, as an instruction ("divide the axis by its length"). Never null.
+const char* remedy(Errc code) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,127 @@
+#include "plumb/array/sensor_array.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "linear.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr int pairs_of(int n) noexcept { return n * (n - 1) / 2; }
+
+/// The id as it will be compared and printed: always terminated, nothing behind the terminator.
+SensorId canonical(const SensorId& id) noexcept {
+  SensorId out{};
+  for (std::size_t i = 0; i + 1 < id.size() && id[i] != '\0'; ++i) out[i] = id[i];
+  return out;
+}
+
+Error check_row(const SensorRow& row, int i) noexcept {
+  if (row.id[0] == '\0') return Error{Errc::empty_id, i, 0.0, 0.0};
+  for (const double h : row.axis) {
+    if (!std::isfinite(h)) return Error{Errc::not_finite, i, h, 0.0};
+  }
+  const double length = norm(row.axis);
+  if (!(std::fabs(length - 1.0) <= kAxisLengthTolerance)) return Error{Errc::axis_not_unit, i, length, 1.0};
+  if (!std::isfinite(row.sigma_mps2)) return Error{Errc::not_finite, i, row.sigma_mps2, 0.0};
+  // A subnormal sigma is positive, yet its reciprocal, the weight of the row, is not a number.
+  if (!(row.sigma_mps2 >= std::numeric_limits<double>::min())) {
+    return Error{Errc::sigma_not_positive, i, row.sigma_mps2, 0.0};
+  }
+  return Error{};
+}
+
+Triple make_triple(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  Triple t;
+  t.det = det3(a, b, c);
+  array_detail::Rows rows;
+  rows.add(a);
+  rows.add(b);
+  rows.add(c);
+  const Vec3 s = array_detail::singular_values(rows);
+  if (!(s[2] >= array_detail::kRankTolerance)) {
+    t.condition = std::numeric_limits<double>::infinity();
+    return t;
+  }
+  t.condition = s[0] / s[2];
+  t.votes = std::fabs(t.det) >= kMinTripleDet;
+  const auto w = array_detail::inverse_columns(a, b, c, t.det);
+  t.form = {dot(w[0], w[0]),       dot(w[1], w[1]),       dot(w[2], w[2]),
+            2.0 * dot(w[0], w[1]), 2.0 * dot(w[0], w[2]), 2.0 * dot(w[1], w[2])};
+  return t;
+}
+
+}  // namespace
+
+SensorId make_id(const char* text) noexcept {
+  SensorId id{};
+  if (text == nullptr) return id;
+  for (std::size_t i = 0; i + 1 < id.size() && text[i] != '\0'; ++i) id[i] = text[i];
+  return id;
+}
+
+double RowUncertainty::at(int i, int j, const Vec3& g_mps2) const noexcept {
+  const std::array<double, 4> z = {g_mps2[0], g_mps2[1], g_mps2[2], 1.0};
+  double sum = 0.0;
+  for (int p = 0; p < 4; ++p) {
+    for (int q = 0; q < 4; ++q) {
+      const int a = 4 * i + p;
+      const int b = 4 * j + q;
+      const int hi = a >= b ? a : b;
+      const int lo = a >= b ? b : a;
+      sum += z[index(p)] * z[index(q)] * covariance[index(hi * (hi + 1) / 2 + lo)];
+    }
+  }
+  if (i == j) sum += misfit_mps2[index(i)] * misfit_mps2[index(i)];
+  return sum;
+}
+
+Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {
+  if (n < 3 || rows == nullptr) return fail(Errc::too_few_sensors, -1, rows == nullptr ? 0.0 : n, 3.0);
+  if (n > kCapacity) return fail(Errc::too_many_sensors, -1, n, kCapacity);
+  SensorArray array;
+  array_detail::Rows h;
+  for (int i = 0; i < n; ++i) {
+    const Error wrong = check_row(rows[i], i);
+    if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
+    SensorRow& row = array.rows_[index(i)];
+    row = rows[i];
+    row.id = canonical(rows[i].id);
+    for (int k = 0; k < i; ++k) {
+      if (array.rows_[index(k)].id == row.id) return fail(Errc::duplicate_id, i);
+    }
+    h.add(row.axis);
+  }
+  const Vec3 s = array_detail::singular_values(h);
+  if (!(s[2] >= array_detail::kRankTolerance)) {
+    return fail(Errc::axes_rank_deficient, -1, s[2], array_detail::kRankTolerance);
+  }
+  array.size_ = n;
+  std::size_t next = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      for (int k = j + 1; k < n; ++k) {
+        Triple& t = array.triples_[next++];
+        t = make_triple(array.axis(i), array.axis(j), array.axis(k));
+        t.sensors = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), static_cast<std::uint8_t>(k)};
+      }
+    }
+  }
+  return array;
+}
+
+int SensorArray::triple_index(int i, int j, int k) const noexcept {
+  if (i < 0 || j <= i || k <= j || k >= size_) return -1;
+  // Triples that start below i, then those that start (i, below j), then those (i, j, below k).
+  const int before_i = triple_count_of(size_) - triple_count_of(size_ - i);
+  const int before_j = pairs_of(size_ - i - 1) - pairs_of(size_ - j);
+  return before_i + before_j + (k - j - 1);
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

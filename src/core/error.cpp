@@ -1,0 +1,60 @@
+#include "plumb/core/error.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+// Neither switch has a default, so that -Wswitch names a code that was added without its text.
+
+const char* describe(Errc code) noexcept {
+  switch (code) {
+    case Errc::ok: return "no error";
+    case Errc::too_few_sensors: return "fewer than three sensors";
+    case Errc::too_many_sensors: return "more sensors than this build holds";
+    case Errc::axis_not_unit: return "axis is not of unit length";
+    case Errc::axes_rank_deficient: return "axes lie in one plane and cannot determine a vector";
+    case Errc::duplicate_id: return "sensor id is used twice";
+    case Errc::empty_id: return "sensor id is empty";
+    case Errc::sigma_not_positive: return "noise sigma is not positive";
+    case Errc::not_finite: return "value is not a finite number";
+    case Errc::out_of_range: return "value is outside its range";
+    case Errc::range_too_small: return "full scale is below gravity plus margin";
+    case Errc::too_few_stations: return "too few stations";
+    case Errc::unobservable: return "the stations do not determine every parameter";
+    case Errc::diverged: return "the fit did not converge";
+    case Errc::implausible: return "a fitted parameter is outside its physical bound";
+    case Errc::poor_fit: return "the residual is larger than the noise allows";
+    case Errc::not_calibrated: return "no calibration has been accepted";
+    case Errc::wrong_key: return "the reset key does not match";
+    case Errc::not_invertible: return "the cross-axis matrix is singular";
+  }
+  return "unknown error code";
+}
+
+const char* remedy(Errc code) noexcept {
+  switch (code) {
+    case Errc::ok: return "nothing to do";
+    case Errc::too_few_sensors: return "give at least three sensors";
+    case Errc::too_many_sensors: return "give fewer sensors or link the build of a larger capacity";
+    case Errc::axis_not_unit: return "divide the axis by its length";
+    case Errc::axes_rank_deficient: return "turn at least one axis out of the plane of the others";
+    case Errc::duplicate_id: return "give every sensor an id of its own";
+    case Errc::empty_id: return "give the sensor an id of 1 to 15 characters";
+    case Errc::sigma_not_positive: return "give the 1-sigma noise of one sample in m/s^2, larger than zero";
+    case Errc::not_finite: return "replace the NaN or infinity by a number";
+    case Errc::out_of_range: return "give a value inside the stated bound, in the stated unit";
+    case Errc::range_too_small:
+      return "use a sensor whose full scale exceeds gravity with margin, or correct full_scale";
+    case Errc::too_few_stations: return "record more stations at other attitudes";
+    case Errc::unobservable: return "add stations at the attitudes that the fit report names";
+    case Errc::diverged: return "check units, signs and axes of the datasheet values, and the stations for motion";
+    case Errc::implausible: return "check the wiring, unit and axis of the named sensor";
+    case Errc::poor_fit: return "look for motion, a faulty sensor or a wrong gravity value in the stations";
+    case Errc::not_calibrated: return "run a calibration or load an accepted one";
+    case Errc::wrong_key: return "use the reset key of the configuration";
+    case Errc::not_invertible: return "correct the misalignment terms: two sensors are given the same axis";
+  }
+  return "report this code as a defect of plumb";
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb
