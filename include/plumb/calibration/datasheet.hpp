@@ -1,0 +1,37 @@
+/// What is known of the sensors before gravity has spoken: nominal axes, nominal coefficients, noise,
+/// and how far the truth may lie from them (the prior of the fit).
+#pragma once
+
+#include <array>
+
+#include "plumb/calibration/sensor_model.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// 1-sigma of the datasheet values, per sensor.
+struct Prior {
+  double bias_mps2 = 0.02 * 9.80665;
+  double scale = 0.02;      ///< relative
+  double axis_rad = 0.035;  ///< about each of the two directions across the axis (2 deg)
+};
+
+struct DatasheetSensor {
+  SensorRow row;                    ///< id, nominal axis, noise of one sample
+  SensorCoefficients coefficients;  ///< nominal
+  Prior prior;
+  double full_scale_raw = 0.0;  ///< |raw| at and beyond which the channel is clipped; 0 = unknown
+  double resolution_raw = 0.0;  ///< one code; 0 = unknown
+};
+
+struct Datasheet {
+  int size = 0;
+  Reads reads = Reads::gravity;
+  std::array<DatasheetSensor, kCapacity> sensor{};
+
+  SensorModel model() const noexcept;            ///< nominal coefficients, no misalignment
+  Expected<SensorArray> array() const noexcept;  ///< nominal axes, checked
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

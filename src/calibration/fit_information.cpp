@@ -1,0 +1,254 @@
+/// What the stations can and cannot see: rank, null directions, posterior covariance with the gauge removed.
+#include <cmath>
+
+#include "fit_internal.hpp"
+#include "plumb/numeric/symmetric_eigen.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace fit {
+namespace {
+
+/// Three directions in parameter space, stored sensor by sensor.
+using Directions = std::array<Parameters, 3>;
+
+double inner(const Parameters& a, const Parameters& b, int n4) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < n4; ++k) sum += a[at(k)] * b[at(k)];
+  return sum;
+}
+
+/// Common rotations dW_i = W_i x e_q, natural units.
+Directions rotations(const Parameters& theta, int n) noexcept {
+  Directions out{};
+  for (int q = 0; q < 3; ++q) {
+    Vec3 e{};
+    e[at(q)] = 1.0;
+    for (int i = 0; i < n; ++i) {
+      const Vec3 d = cross(row_of(theta, i), e);
+      for (int p = 0; p < 3; ++p) out[at(q)][at(4 * i + p)] = d[at(p)];
+    }
+  }
+  return out;
+}
+
+double reciprocal(double v) noexcept { return v > 0.0 ? 1.0 / v : 0.0; }
+
+/// The rotations in prior units, orthonormal. Frozen parameters (prior sigma zero) are left out.
+Directions gauge_basis(const Datasheet& datasheet, const Directions& rotation) noexcept {
+  const int n = datasheet.size;
+  Directions out = rotation;
+  for (std::size_t q = 0; q < 3; ++q) {
+    for (int i = 0; i < n; ++i) {
+      const DatasheetSensor& s = datasheet.sensor[at(i)];
+      const double across = reciprocal(s.prior.axis_rad);
+      const Vec3 d = row_of(out[q], i);
+      const double along = dot(s.row.axis, d) * (reciprocal(s.prior.scale) - across);
+      for (int p = 0; p < 3; ++p) out[q][at(4 * i + p)] = across * d[at(p)] + along * s.row.axis[at(p)];
+    }
+    for (std::size_t r = 0; r < q; ++r) {
+      const double shared = inner(out[r], out[q], 4 * n);
+      for (int k = 0; k < 4 * n; ++k) out[q][at(k)] -= shared * out[r][at(k)];
+    }
+    const double length = reciprocal(std::sqrt(inner(out[q], out[q], 4 * n)));
+    for (int k = 0; k < 4 * n; ++k) out[q][at(k)] *= length;
+  }
+  return out;
+}
+
+/// Information about a direction of unit length.
+double information_along(const double* information, const Parameters& v, int n4) noexcept {
+  double sum = 0.0;
+  for (int i = 0; i < n4; ++i) {
+    double row = 0.0;
+    for (int j = 0; j < n4; ++j) row += information[i * n4 + j] * v[at(j)];
+    sum += v[at(i)] * row;
+  }
+  return sum;
+}
+
+void mirror(double* m, int n4) noexcept {
+  for (int i = 0; i < n4; ++i) {
+    for (int j = i + 1; j < n4; ++j) m[i * n4 + j] = m[j * n4 + i];
+  }
+}
+
+/// (information + 1)^-1 in prior units.
+void posterior(const Parameters& values, const double* vectors, int n4, double* out) noexcept {
+  for (int i = 0; i < n4; ++i) {
+    Parameters weighted;
+    for (int k = 0; k < n4; ++k) weighted[at(k)] = vectors[i * n4 + k] / (1.0 + std::fmax(values[at(k)], 0.0));
+    for (int j = 0; j <= i; ++j) {
+      double sum = 0.0;
+      for (int k = 0; k < n4; ++k) sum += weighted[at(k)] * vectors[j * n4 + k];
+      out[i * n4 + j] = sum;
+    }
+  }
+  mirror(out, n4);
+}
+
+/// S C S, row by row and column by column.
+void to_natural(const PriorRoots& roots, int n, double* m) noexcept {
+  const int n4 = 4 * n;
+  Parameters line;
+  for (int pass = 0; pass < 2; ++pass) {
+    const int along = pass == 0 ? 1 : n4, across = pass == 0 ? n4 : 1;
+    for (int r = 0; r < n4; ++r) {
+      for (int k = 0; k < n4; ++k) line[at(k)] = m[r * across + k * along];
+      line = times_roots(roots, n, line);
+      for (int k = 0; k < n4; ++k) m[r * across + k * along] = line[at(k)];
+    }
+  }
+  mirror(m, n4);
+}
+
+/// K = R (R'R)^-1, so that 1 - K R' takes the best common rotation out of a parameter error. This is the
+/// rotation that `turn_to_datasheet` settles afterwards: the covariance is that of the turned axes.
+Directions removal(const Directions& rotation, int n4) noexcept {
+  const Symmetric3 gram = {inner(rotation[0], rotation[0], n4), inner(rotation[0], rotation[1], n4),
+                           inner(rotation[0], rotation[2], n4), inner(rotation[1], rotation[1], n4),
+                           inner(rotation[1], rotation[2], n4), inner(rotation[2], rotation[2], n4)};
+  Directions out{};
+  for (int k = 0; k < n4; ++k) {
+    const Vec3 row = solve(gram, Vec3{rotation[0][at(k)], rotation[1][at(k)], rotation[2][at(k)]});
+    for (std::size_t q = 0; q < 3; ++q) out[q][at(k)] = row[q];
+  }
+  return out;
+}
+
+/// (1 - K R') C (1 - R K') = C - K Y' - Y K' + K Z K' with Y = C R, Z = R'C R.
+void remove_gauge(const Directions& rotation, const Directions& k, int n4, double* c) noexcept {
+  Directions y{};
+  for (std::size_t q = 0; q < 3; ++q) {
+    for (int i = 0; i < n4; ++i) {
+      double sum = 0.0;
+      for (int j = 0; j < n4; ++j) sum += c[i * n4 + j] * rotation[q][at(j)];
+      y[q][at(i)] = sum;
+    }
+  }
+  // Half of Z goes with either side: y <- Y - K Z / 2.
+  Directions half = y;
+  for (std::size_t q = 0; q < 3; ++q) {
+    for (std::size_t r = 0; r < 3; ++r) {
+      const double z = 0.5 * inner(rotation[r], y[q], n4);
+      for (int i = 0; i < n4; ++i) half[q][at(i)] -= z * k[r][at(i)];
+    }
+  }
+  for (int i = 0; i < n4; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = c[i * n4 + j];
+      for (std::size_t q = 0; q < 3; ++q) sum -= k[q][at(i)] * half[q][at(j)] + half[q][at(i)] * k[q][at(j)];
+      c[i * n4 + j] = sum;
+    }
+  }
+  mirror(c, n4);
+}
+
+/// Prior variance of every parameter with the same gauge removed.
+Parameters prior_variance(const PriorRoots& roots, const Directions& rotation, const Directions& k, int n) noexcept {
+  const int n4 = 4 * n;
+  Parameters out;
+  Directions y;
+  for (std::size_t q = 0; q < 3; ++q) y[q] = times_roots(roots, n, times_roots(roots, n, rotation[q]));
+  for (int i = 0; i < n4; ++i) {
+    const Symmetric3& a = roots[at(i / 4)].axes;
+    const std::array<double, 4> own = {a[0] * a[0] + a[1] * a[1] + a[2] * a[2],
+                                       a[1] * a[1] + a[3] * a[3] + a[4] * a[4],
+                                       a[2] * a[2] + a[4] * a[4] + a[5] * a[5],
+                                       roots[at(i / 4)].bias * roots[at(i / 4)].bias};
+    double variance = own[at(i % 4)];
+    for (std::size_t q = 0; q < 3; ++q) {
+      variance -= 2.0 * k[q][at(i)] * y[q][at(i)];
+      for (std::size_t r = 0; r < 3; ++r) variance += k[q][at(i)] * k[r][at(i)] * inner(rotation[q], y[r], n4);
+    }
+    out[at(i)] = std::fmax(variance, 0.0);
+  }
+  return out;
+}
+
+/// Takes the directions of `basis` out of column c of `vectors`.
+void orthogonalise(const Parameters& basis, double* vectors, int n4, int c) noexcept {
+  double shared = 0.0;
+  for (int k = 0; k < n4; ++k) shared += basis[at(k)] * vectors[k * n4 + c];
+  for (int k = 0; k < n4; ++k) vectors[k * n4 + c] -= shared * basis[at(k)];
+}
+
+double column_length(const double* vectors, int n4, int c) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < n4; ++k) sum += vectors[k * n4 + c] * vectors[k * n4 + c];
+  return std::sqrt(sum);
+}
+
+/// Null eigenvectors (the first `null` columns) less the gauge: the longest remainder first, so that what
+/// the gauge used up is never mistaken for a direction.
+void keep_null_directions(const Directions& gauge, int n4, int null, double* vectors, FitReport& report) noexcept {
+  for (int c = 0; c < null; ++c) {
+    for (std::size_t q = 0; q < 3 && report.gauge > 0; ++q) orthogonalise(gauge[q], vectors, n4, c);
+  }
+  const int kept = report.null_directions < kMaxNullDirections ? report.null_directions : kMaxNullDirections;
+  for (int d = 0; d < kept; ++d) {
+    int longest = 0;
+    for (int c = 1; c < null; ++c) {
+      if (column_length(vectors, n4, c) > column_length(vectors, n4, longest)) longest = c;
+    }
+    const double scale = reciprocal(column_length(vectors, n4, longest));
+    Parameters& direction = report.null_direction[at(d)].component;
+    for (int k = 0; k < n4; ++k) direction[at(k)] = scale * vectors[k * n4 + longest];
+    for (int c = 0; c < null; ++c) orthogonalise(direction, vectors, n4, c);
+  }
+}
+
+void count_rank(const Parameters& values, const Vec3& along_gauge, int n4, double floor, FitReport& report) noexcept {
+  const double largest = values[at(n4 - 1)];
+  report.rank = 0;
+  report.gauge = 0;
+  const double threshold = floor * largest;
+  for (int k = n4 - 1; k >= 0 && largest > 0.0; --k) {
+    if (!(values[at(k)] > threshold)) break;
+    ++report.rank;
+    report.condition = std::sqrt(largest / values[at(k)]);
+  }
+  for (const double along : along_gauge) {
+    if (along <= threshold) ++report.gauge;
+  }
+  if (report.gauge > n4 - report.rank) report.gauge = n4 - report.rank;
+  report.null_directions = n4 - report.rank - report.gauge;
+}
+
+}  // namespace
+
+bool analyse(const Datasheet& datasheet, const PriorRoots& roots, const Parameters& theta, double floor,
+             double* information, double* scratch, FitReport& report) noexcept {
+  const int n = datasheet.size;
+  const int n4 = 4 * n;
+  mirror(information, n4);
+  const Directions rotation = rotations(theta, n);
+  const Directions gauge = gauge_basis(datasheet, rotation);
+  Vec3 along_gauge{};
+  for (std::size_t q = 0; q < 3; ++q) along_gauge[q] = information_along(information, gauge[q], n4);
+  Parameters values{};
+  if (!symmetric_eigen(information, n4, n4, values.data(), scratch)) return false;
+  count_rank(values, along_gauge, n4, floor, report);
+  posterior(values, scratch, n4, information);
+  to_natural(roots, n, information);
+  const Directions k = removal(rotation, n4);
+  remove_gauge(rotation, k, n4, information);
+  const Parameters prior = prior_variance(roots, rotation, k, n);
+  for (int i = 0; i < n4; ++i) {
+    const double variance = std::fmax(information[i * n4 + i], 0.0);
+    report.sigma[at(i)] = std::sqrt(variance);
+    report.data_share[at(i)] = std::fmax(1.0 - variance * reciprocal(prior[at(i)]), 0.0);
+    if (!(prior[at(i)] > 0.0)) report.data_share[at(i)] = 0.0;
+  }
+  keep_null_directions(gauge, n4, n4 - report.rank, scratch, report);
+  return true;
+}
+
+void inflate(double factor, int n4, double* covariance, FitReport& report) noexcept {
+  for (int k = 0; k < n4 * n4; ++k) covariance[k] *= factor;
+  for (int k = 0; k < n4; ++k) report.sigma[at(k)] *= std::sqrt(factor);
+}
+
+}  // namespace fit
+}  // namespace PLUMB_ABI
+}  // namespace plumb

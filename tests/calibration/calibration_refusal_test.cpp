@@ -1,0 +1,156 @@
+/// What a fit must refuse, and with which word.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "calibration_support.hpp"
+
+namespace {
+
+using namespace calibration_test;
+
+constexpr double kSigma = 2e-4 * plumb::kG0_mps2;
+
+struct Bench {
+  Noise noise{1};
+  plumb::Datasheet sheet = paper_tool(kSigma);
+  Truth truth = draw_truth(sheet, noise);
+  std::vector<plumb::Station> stations = random_stations(sheet, truth, 48, noise, kSigma);
+  plumb::GravityReference gravity = standard_gravity();
+  plumb::FitOptions options;
+  plumb::FitReport report;
+
+  plumb::Expected<plumb::Calibration> run() {
+    return plumb::calibrate(sheet, gravity, stations.data(), static_cast<int>(stations.size()), options, &report);
+  }
+  plumb::Errc refusal() {
+    const auto c = run();
+    return c ? plumb::Errc::ok : c.error().code;
+  }
+};
+
+TEST(CalibrationRefusal, TheBenchItselfIsFine) {
+  Bench b;
+  EXPECT_EQ(b.refusal(), plumb::Errc::ok);
+}
+
+TEST(CalibrationRefusal, TooFewStations) {
+  Bench b;
+  b.stations.resize(2);
+  const auto c = b.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error().code, plumb::Errc::too_few_stations);
+  EXPECT_EQ(c.error().value, 2.0);
+  EXPECT_EQ(c.error().limit, 9.0);
+  b.options.require_full_rank = false;
+  EXPECT_EQ(b.refusal(), plumb::Errc::too_few_stations);
+  b.stations.clear();
+  EXPECT_EQ(b.refusal(), plumb::Errc::too_few_stations);
+  const auto null = plumb::calibrate(b.sheet, b.gravity, nullptr, 48);
+  ASSERT_FALSE(null.has_value());
+  EXPECT_EQ(null.error().code, plumb::Errc::too_few_stations);
+}
+
+TEST(CalibrationRefusal, NumbersThatAreNone) {
+  for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity(), -1e308, 1e308}) {
+    Bench b;
+    b.stations[7].mean[2] = poison;
+    EXPECT_EQ(b.refusal(), plumb::Errc::diverged) << poison;
+    EXPECT_EQ(b.report.stop, plumb::StopReason::not_finite) << poison;
+  }
+  Bench b;
+  b.stations[7].temperature_degc = std::nan("");
+  EXPECT_EQ(b.refusal(), plumb::Errc::diverged);
+  Bench weight;
+  weight.gravity.g_mps2 = std::nan("");
+  EXPECT_EQ(weight.refusal(), plumb::Errc::diverged);
+  Bench prior;
+  prior.sheet.sensor[1].prior.scale = -1.0;
+  EXPECT_EQ(prior.refusal(), plumb::Errc::diverged);
+}
+
+TEST(CalibrationRefusal, AllAttitudesTheSame) {
+  Bench b;
+  for (plumb::Station& s : b.stations) s = station_at(b.sheet, b.truth, rolled(30.0, 10.0), b.noise, kSigma);
+  EXPECT_EQ(b.refusal(), plumb::Errc::unobservable);
+  EXPECT_EQ(b.report.rank, 2);
+}
+
+TEST(CalibrationRefusal, ScaleOfTheWrongSignOrZero) {
+  Bench negative;
+  for (double& c : negative.sheet.sensor[0].coefficients.scale) c = -c;
+  EXPECT_NE(negative.refusal(), plumb::Errc::ok);
+  Bench zero;
+  zero.sheet.sensor[0].coefficients.scale = {};
+  EXPECT_EQ(zero.refusal(), plumb::Errc::diverged);
+}
+
+TEST(CalibrationRefusal, GravityFarOff) {
+  for (const double factor : {0.7, 1.3}) {
+    Bench b;
+    b.gravity.g_mps2 *= factor;
+    const plumb::Errc code = b.refusal();
+    EXPECT_TRUE(code == plumb::Errc::implausible || code == plumb::Errc::poor_fit) << static_cast<int>(code);
+  }
+}
+
+TEST(CalibrationRefusal, ParametersBeyondTheirPhysicalBounds) {
+  Bench scale;
+  scale.options.max_scale_change = 1e-4;
+  EXPECT_EQ(scale.refusal(), plumb::Errc::implausible);
+  Bench axis;
+  axis.options.max_axis_change_rad = 1e-5;
+  EXPECT_EQ(axis.refusal(), plumb::Errc::implausible);
+  Bench bias;
+  bias.options.max_bias_sigmas = 1e-3;
+  EXPECT_EQ(bias.refusal(), plumb::Errc::implausible);
+}
+
+TEST(CalibrationRefusal, NormBeyondItsBound) {
+  Bench b;
+  b.options.max_norm_rms_mps2 = 1e-4;
+  const auto c = b.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error().code, plumb::Errc::poor_fit);
+  EXPECT_GT(c.error().value, c.error().limit);
+}
+
+TEST(CalibrationRefusal, ConvergenceNotReached) {
+  Bench b;
+  b.options.max_iterations = 2;
+  EXPECT_EQ(b.refusal(), plumb::Errc::diverged);
+  EXPECT_EQ(b.report.stop, plumb::StopReason::iteration_limit);
+  EXPECT_EQ(b.report.iterations, 2);
+  Bench unused;
+  plumb::Calibrator calibrator(unused.sheet, unused.gravity, {});
+  EXPECT_FALSE(calibrator.finish(unused.stations.data(), 48).has_value());
+}
+
+TEST(CalibrationRefusal, DatasheetThatIsNoArray) {
+  Bench twin;
+  twin.sheet.sensor[1].row.id = twin.sheet.sensor[0].row.id;
+  EXPECT_EQ(twin.refusal(), plumb::Errc::duplicate_id);
+  Bench flat;
+  for (int i = 0; i < 4; ++i) {
+    const double a = 0.5 * i;
+    flat.sheet.sensor[at(i)].row.axis = {std::cos(a), std::sin(a), 0.0};
+  }
+  EXPECT_EQ(flat.refusal(), plumb::Errc::axes_rank_deficient);
+  Bench crowd;
+  crowd.sheet.size = plumb::kCapacity + 1;
+  EXPECT_EQ(crowd.refusal(), plumb::Errc::too_many_sensors);
+  Bench silent;
+  silent.sheet.sensor[2].row.sigma_mps2 = 0.0;
+  EXPECT_EQ(silent.refusal(), plumb::Errc::sigma_not_positive);
+}
+
+TEST(CalibrationRefusal, EveryStopReasonHasAName) {
+  for (const plumb::StopReason r : {plumb::StopReason::none, plumb::StopReason::converged, plumb::StopReason::iteration_limit,
+                                    plumb::StopReason::no_descent, plumb::StopReason::not_finite}) {
+    EXPECT_STRNE(plumb::to_string(r), "unknown");
+  }
+  EXPECT_STREQ(plumb::to_string(static_cast<plumb::StopReason>(99)), "unknown");
+}
+
+}  // namespace
