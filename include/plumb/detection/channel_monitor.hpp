@@ -1,0 +1,51 @@
+/// The channel gate: what each channel delivered, before any number enters a sum.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/sample.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Facts about the channels of one sample.
+struct GateResult {
+  SensorSet usable;  ///< delivered and finite; the only channels whose raw value may be read
+  SensorSet not_finite;
+  SensorSet missing;
+  SensorSet clipped;  ///< at or beyond 99.5 % of full scale: still evidence, never an exclusion by itself
+  bool gap = false;   ///< no channel delivered: a gap of the bus, not n lost sensors
+};
+
+/// Confirms losses and returns over several samples. Plain state, copyable.
+class ChannelMonitor {
+ public:
+  /// `full_scale_raw[i]` 0 = unknown; `confirm` samples in a row decide.
+  void configure(int n, const std::array<double, kCapacity>& full_scale_raw, int confirm) noexcept;
+
+  GateResult gate(const Sample& sample) noexcept;
+  /// Channels that have been unusable for `confirm` samples in a row (a level, until they deliver).
+  SensorSet lost() const noexcept { return lost_; }
+  /// Lost channels that have delivered usable values for `confirm` samples in a row again.
+  SensorSet back() const noexcept { return back_; }
+  /// Forgets that the channels had been lost (the monitor has taken note).
+  void welcome(SensorSet channels) noexcept;
+
+  struct Counters {
+    std::uint32_t not_finite = 0, missing = 0, clipped = 0;
+  };
+  const Counters& counters(int i) const noexcept { return counters_[static_cast<std::size_t>(i)]; }
+
+ private:
+  std::array<double, kCapacity> full_scale_raw_{};
+  std::array<Counters, kCapacity> counters_{};
+  std::array<std::uint16_t, kCapacity> bad_run_{}, good_run_{};
+  SensorSet lost_, back_;
+  int size_ = 0;
+  int confirm_ = 3;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,69 @@
+/// The paper's statistic: mean absolute error of the length of gravity from every triple (eqs 13, 14,
+/// 22-29) over a sliding window, exact for ever. Errors are held as integers of 2^-26 g0, so that a sum
+/// updated a billion times equals a fresh sum bit for bit, and a NaN cannot enter it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/core/config.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// One unit of the fixed-point errors [m/s^2].
+inline constexpr double kMaeUnit_mps2 = 9.80665 / 67108864.0;
+/// Largest error that is kept; larger ones (and non-finite ones) count as this, about 31.9 g0.
+inline constexpr std::int32_t kMaeClamp = 2140000000;
+
+/// Absolute error as an integer number of units, clamped; a NaN becomes the clamp.
+std::int32_t to_mae_units(double error_mps2) noexcept;
+
+class CombinationMae {
+ public:
+  /// Empties everything; `window` 1 .. kWindowCapacity.
+  void configure(int triples, int window) noexcept;
+  /// Empties the window (gap, motion, change of calibration).
+  void clear() noexcept;
+  /// Empties only the window of the sensors in service (their set changed).
+  void clear_all_sensor() noexcept;
+
+  /// Adds one sample. Triples with a member outside `usable` are marked absent in this slot.
+  /// `in_service` is the least-squares map of the sensors in service (invalid: slot absent).
+  void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const LeastSquares& in_service,
+           double g_mps2) noexcept;
+
+  /// MAE of triple k over the samples present in the window [m/s^2]; 0 where there are none.
+  double triple_mps2(int k) const noexcept {
+    return mean(sum_[static_cast<std::size_t>(k)], count_[static_cast<std::size_t>(k)]);
+  }
+  int triple_samples(int k) const noexcept { return count_[static_cast<std::size_t>(k)]; }
+  /// Exact window sum of triple k in units, for checks.
+  std::int64_t triple_sum(int k) const noexcept { return sum_[static_cast<std::size_t>(k)]; }
+  std::int64_t fresh_triple_sum(int k) const noexcept;
+  /// MAE of the sensors in service (eq 14) [m/s^2].
+  double all_mps2() const noexcept { return mean(all_sum_, all_count_); }
+  int all_samples() const noexcept { return all_count_; }
+  int window() const noexcept { return window_; }
+
+ private:
+  static double mean(std::int64_t sum, int count) noexcept {
+    return count > 0 ? static_cast<double>(sum) / count * kMaeUnit_mps2 : 0.0;
+  }
+  static void replace(std::int32_t& slot, std::int32_t value, std::int64_t& sum, std::uint16_t& count) noexcept;
+
+  // Slot-major, so that one sample touches one contiguous row; -1 = absent.
+  std::array<std::int32_t, static_cast<std::size_t>(kTripleCapacity) * kWindowCapacity> ring_{};
+  std::array<std::int64_t, kTripleCapacity> sum_{};
+  std::array<std::uint16_t, kTripleCapacity> count_{};
+  std::array<std::int32_t, kWindowCapacity> all_ring_{};
+  std::int64_t all_sum_ = 0;
+  std::uint16_t all_count_ = 0;
+  int triples_ = 0;
+  int window_ = 1;
+  int head_ = 0;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,106 @@
+/// Who is at fault: which sets of sensors can still explain the evidence of an episode.
+///
+/// A sensor is convicted only if every explanation with at most m faults accuses it (theorem T5:
+/// a sensor healthy throughout the episode is never convicted while the sensors healthy throughout
+/// have rank 3, at most m are not, and systematic errors are within their bounds).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/detection/set_test.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Largest binomial coefficient over kStrictCapacity: the most sets of one size that can vote.
+constexpr int max_voting_sets() noexcept {
+  long best = 1;
+  for (int k = 1; k <= kStrictCapacity; ++k) {
+    long value = 1;
+    for (int i = 1; i <= k; ++i) value = value * (kStrictCapacity - k + i) / i;
+    if (value > best) best = value;
+  }
+  return static_cast<int>(best);
+}
+inline constexpr int kVotingCapacity = max_voting_sets();
+
+/// Fault sets of up to this many members are scanned one by one.
+inline constexpr int kScanDepth = 3;
+
+/// What a vote found.
+struct IsolationAnswer {
+  SensorSet strict;            ///< convicted at the strict grade, empty where nobody is or the survivors are not alive
+  SensorSet parity;            ///< convicted at the parity grade by this station alone
+  SensorSet asserted;          ///< convicted under "at most M faults"
+  int live = 0;                ///< voting sets still alive
+  int voting = 0;              ///< voting sets in all
+  bool contradiction = false;  ///< some sensor is redundant and no voting set is alive
+  bool norm_void = false;      ///< a well-checked set passed parity and failed the norm: no norm evidence here
+  bool full_alive = false;     ///< the empty fault set still explains everything
+};
+
+/// Outcome of scanning the fault sets of at most kScanDepth members.
+struct FaultSetScan {
+  std::array<std::uint8_t, kCapacity> fewest_faults{};  ///< s_i, 255 = none found
+  SensorSet suspects;                                   ///< union of the live fault sets of least size
+  SensorSet asserted;           ///< intersection of the live fault sets of at most `asserted_faults` members
+  int least = 255;              ///< size of the smallest live fault set
+  double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members
+  bool protection_available = false;
+};
+
+class Isolation {
+ public:
+  /// Poses the problem on the sensors `posed` (those not latched out). Dead sets stay dead as long as
+  /// the voting size is unchanged and they consist of posed sensors (projection); otherwise all live.
+  void pose(const SensorArray& array, SensorSet posed) noexcept;
+  /// Forgets all evidence: a new episode.
+  void clear() noexcept;
+
+  SensorSet posed() const noexcept { return posed_; }
+  int coplanarity() const noexcept { return coplanarity_; }
+  int strict_grade() const noexcept { return strict_; }
+  int parity_grade() const noexcept { return parity_; }
+
+  /// One station's pooled block: kills what it contradicts and answers. Sets with a member that is not
+  /// usable are not tested and stay alive.
+  IsolationAnswer vote(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                       const BlockEvidence& block) noexcept;
+
+  /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
+  /// protection level is the largest separation from the estimate of `in_service` (solution
+  /// separation) plus `k_integrity` sigmas of noise and calibration.
+  FaultSetScan scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                    const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
+                    int protection_faults, double k_integrity) const noexcept;
+
+  int live() const noexcept;
+  int voting() const noexcept { return voting_; }
+
+ private:
+  bool is_dead(int index) const noexcept {
+    return ((dead_[static_cast<std::size_t>(index) / 64U] >> (static_cast<unsigned>(index) % 64U)) & 1U) != 0;
+  }
+  void kill(int index) noexcept {
+    dead_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
+  }
+  bool has_dead_subset(SensorSet set) const noexcept;
+  bool norm_is_void(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                    const BlockEvidence& block) const noexcept;
+  SensorSet convict_by_parity(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                              const BlockEvidence& block) const noexcept;
+
+  std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
+  SensorSet posed_;
+  int universe_ = 0;     ///< configured sensors, over which sets are numbered
+  int voting_size_ = 3;  ///< c + 1
+  int voting_ = 0;       ///< voting sets within the posed sensors
+  int coplanarity_ = 2;
+  int strict_ = 0;
+  int parity_ = 0;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,76 @@
+/// What one block of quiet samples says about one set of sensors: can a single acceleration of
+/// gravity's length still explain their readings? Parity residual and norm residual with limits that
+/// carry both noise and what is systematic (safety notes 1 and 10).
+#pragma once
+
+#include <array>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/core/config.hpp"
+#include "plumb/gravity/gravity.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// The evidence of a block: means of the readings and what their noise may be.
+struct BlockEvidence {
+  Readings mean_mps2{};
+  SensorSet usable;             ///< channels that delivered at every sample of the block
+  double samples = 0.0;         ///< N behind the mean
+  double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
+};
+
+/// Quantiles in standard deviations, precomputed from the rates of the configuration.
+struct TestLimits {
+  std::array<double, kCapacity + 1> reject{};        ///< [nu]: sqrt of chi^2_nu quantile at the rejection rate
+  std::array<double, kCapacity + 1> parity_alarm{};  ///< [nu]: the same at the false-alarm rate
+  double norm_alarm = 0.0;                           ///< one degree of freedom, false-alarm rate
+  double calibration = 0.0;  ///< k_c = sqrt(chi^2_(4n-3) quantile at 0.99): all attitudes at once
+  double gravity = 3.0;      ///< sigmas of the gravity reference
+
+  static TestLimits from_rates(int n, double false_alarm_rate, double rejection_rate) noexcept;
+};
+
+/// All statistics and limits are in standard deviations of the block mean (whitened, times sqrt(N)).
+struct SetTest {
+  bool tested = false;  ///< rank 3 and all members usable
+  Vec3 x_mps2{};        ///< weighted least squares over the set (eq 5)
+  Mat3 covariance{};    ///< of x, noise of the block mean [(m/s^2)^2]
+  double parity = 0.0;  ///< |parity residual|, |S|-3 degrees of freedom
+  double norm = 0.0;    ///< (|x| - G), signed, in its own sigma
+  double norm_error_mps2 = 0.0;
+  double norm_sigma_mps2 = 0.0;    ///< s_T: 1 sigma of |x| for one sample
+  double parity_systematic = 0.0;  ///< b_S of the parity rows alone
+  double norm_systematic = 0.0;    ///< b_S of the norm row alone
+  double systematic = 0.0;         ///< b_S of all rows together
+  double least_leverage = 0.0;     ///< min over members of the parity projector's diagonal: 0 = a member nobody checks
+  int parity_rows = 0;
+
+  double combined() const noexcept;  ///< sqrt(parity^2 + norm^2)
+  double reject_limit(const TestLimits& limits) const noexcept;
+  double parity_reject_limit(const TestLimits& limits) const noexcept;
+  double parity_alarm_limit(const TestLimits& limits) const noexcept;
+  double norm_alarm_limit(const TestLimits& limits) const noexcept;
+  double norm_reject_limit(const TestLimits& limits) const noexcept;
+
+  /// A set that was not tested is alive (safety note 4). Comparisons are written so that a NaN,
+  /// which cannot arise from finite readings, would leave the set alive and raise the alarm.
+  bool alive(const TestLimits& limits) const noexcept { return !tested || !(combined() > reject_limit(limits)); }
+  bool parity_alive(const TestLimits& limits) const noexcept {
+    return !tested || parity_rows == 0 || !(parity > parity_reject_limit(limits));
+  }
+};
+
+SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                 const BlockEvidence& block, SensorSet set) noexcept;
+
+/// Covariance of x over the set that calibration leaves at this attitude [(m/s^2)^2]; zero where the
+/// set was not tested.
+Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept;
+
+/// 1-sigma of the direction of x from a covariance, in rad: root of the part across x over its length.
+/// pi where x has no length.
+double tilt_sigma_rad(const Vec3& x_mps2, const Mat3& covariance) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,109 @@
+/// Quiet or moving: blocks of samples, their scatter, and the stations they make up.
+#pragma once
+
+#include <array>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/core/config.hpp"
+#include "plumb/core/sample.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/detection/set_test.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Collects one block: means and covariances of the channels, accumulated about the first sample so
+/// that nothing drifts; emptied at every block.
+class BlockAccumulator {
+ public:
+  void clear() noexcept;
+  /// Adds one set of readings; those outside `usable` are not read. `count` raw samples stand behind it.
+  void add(const Readings& y_mps2, SensorSet usable, double count) noexcept;
+  int size() const noexcept { return size_; }
+  /// Channels that were usable at every sample of the block.
+  SensorSet usable() const noexcept { return usable_; }
+  double samples() const noexcept { return samples_; }
+  Readings mean() const noexcept;
+  /// Sample covariance of channels i and j [(m/s^2)^2]; 0 with fewer than two samples.
+  double covariance(int i, int j) const noexcept;
+
+ private:
+  std::array<double, kCapacity> origin_{};
+  std::array<double, kCapacity> sum_{};
+  std::array<double, kCapacity*(kCapacity + 1) / 2> product_{};
+  SensorSet usable_;
+  double samples_ = 0.0;
+  int size_ = 0;
+};
+
+/// How a block looked.
+struct BlockJudgement {
+  bool quiet = false;
+  SensorSet restless;  ///< channels whose scatter is above their own noise limit
+  SensorSet noisy;     ///< restless ones that the quiet others contradict: a channel, not the tool, moves
+  BlockEvidence evidence;
+};
+
+/// Scatter limit of a channel over its own variance: shared by n channels, the chance that any healthy
+/// one exceeds it in a block of `size` samples is `rate`. 0 where a block has no scatter (size < 2).
+double restless_factor(int n, int size, double rate) noexcept;
+
+/// Judges a finished block. A block is quiet when no channel is restless, or when the channels that
+/// are not restless have rank 3 and the residual of every restless one against their estimate is itself
+/// restless: then it is the channel that shakes, not the tool (safety note 12). A block of one sample
+/// (a station mean) has no scatter and is quiet. Only channels in `considered` are judged, so that an
+/// excluded one cannot stop the evidence. `factor` comes from `restless_factor`.
+BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                           double g_mps2) noexcept;
+
+/// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag or by a
+/// change of direction. Serves calibration from continuous logs. The first and the last quiet block of
+/// a stretch are left out: they hold the settling and the onset of motion that noise still covers.
+class StationFinder {
+ public:
+  struct Settings {
+    int block = 32;  ///< samples per quiet test
+    double restless_rate = 1e-6;
+    double station_angle_rad = rad_from_deg(2.0);
+    double max_gap_s = 5.0;
+    int min_blocks = 2;  ///< stretches with fewer blocks left are dropped
+  };
+  /// `array` is the nominal one: only noise and rough direction matter here.
+  StationFinder(const SensorArray& array, double g_mps2, const Settings& settings) noexcept;
+
+  /// Feeds one sample with its readings by the nominal model; channels that did not deliver a finite
+  /// value must be left out of `usable`. True where a station has ended and was written to `finished`.
+  bool add(const Sample& sample, const Readings& y_mps2, SensorSet usable, Station& finished) noexcept;
+  /// Ends the stream; true where a last station was written.
+  bool finish(Station& finished) noexcept;
+
+ private:
+  /// One quiet block in raw units.
+  struct Block {
+    std::array<double, kCapacity> origin{};    ///< first raw value: sums about it do not cancel
+    std::array<double, kCapacity> mean{};      ///< of raw - origin while collecting, of raw when done
+    std::array<double, kCapacity> variance{};  ///< sum of squares while collecting
+    SensorSet usable;
+    double temperature_degc = 0.0, begin_s = 0.0, end_s = 0.0;
+    std::uint32_t tag = 0, count = 0;
+    Vec3 direction{};
+    bool present = false;
+  };
+  bool block_done(Station& finished) noexcept;
+  bool close(Station& finished) noexcept;
+  void merge(const Block& block) noexcept;
+
+  SensorArray array_;
+  Settings settings_;
+  double g_mps2_;
+  double factor_;
+  BlockAccumulator readings_;
+  Block current_, waiting_, station_;
+  double last_s_ = 0.0;
+  int blocks_ = 0;
+  bool settling_ = true;
+  bool started_ = false;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,71 @@
+#include "plumb/detection/channel_monitor.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+namespace {
+
+constexpr double kClipFraction = 0.995;
+
+/// Counters stop at the top instead of wrapping: a wrapped counter would deny a broken channel.
+template <class T>
+void count_up(T& counter) noexcept {
+  if (counter != static_cast<T>(~T{0})) ++counter;
+}
+
+}  // namespace
+
+void ChannelMonitor::configure(int n, const std::array<double, kCapacity>& full_scale_raw, int confirm) noexcept {
+  *this = ChannelMonitor{};
+  size_ = n;
+  full_scale_raw_ = full_scale_raw;
+  confirm_ = confirm;
+}
+
+GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
+  GateResult out;
+  for (int i = 0; i < size_; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    if (!sample.delivered.has(i)) {
+      out.missing = out.missing.with(i);
+    } else if (!std::isfinite(sample.raw[a])) {
+      out.not_finite = out.not_finite.with(i);
+    } else {
+      out.usable = out.usable.with(i);
+      if (full_scale_raw_[a] > 0.0 && std::fabs(sample.raw[a]) >= kClipFraction * full_scale_raw_[a]) {
+        out.clipped = out.clipped.with(i);
+      }
+    }
+  }
+  out.gap = out.missing == SensorSet::first(size_);
+  if (out.gap) return out;  // a silent bus says nothing about any one channel
+  for (int i = 0; i < size_; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    if (out.missing.has(i)) count_up(counters_[a].missing);
+    if (out.not_finite.has(i)) count_up(counters_[a].not_finite);
+    if (out.clipped.has(i)) count_up(counters_[a].clipped);
+    if (out.usable.has(i)) {
+      bad_run_[a] = 0;
+      count_up(good_run_[a]);
+    } else {
+      good_run_[a] = 0;
+      count_up(bad_run_[a]);
+    }
+    if (bad_run_[a] >= confirm_) {
+      lost_ = lost_.with(i);
+      back_ = back_.without(i);
+    }
+    if (lost_.has(i) && good_run_[a] >= confirm_) back_ = back_.with(i);
+  }
+  return out;
+}
+
+void ChannelMonitor::welcome(SensorSet channels) noexcept {
+  lost_ = lost_ - channels;
+  back_ = back_ - channels;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

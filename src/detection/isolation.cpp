@@ -1,0 +1,224 @@
+#include "plumb/detection/isolation.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+namespace {
+
+using std::size_t;
+
+/// A set whose every member is checked by the parity of the others at least this well may speak about
+/// gravity; with a member that nobody checks, norm off and parity good is that member's fault as well
+/// (mikoff5's z axes: four of them with three coplanar pass parity whatever the fourth reads).
+constexpr double kMinLeverage = 0.05;
+
+/// Calls f(set, index) for all subsets of {0..universe-1} of the given size, in a fixed order.
+template <class F>
+void for_each_subset(int universe, int size, F&& f) noexcept {
+  if (size < 1 || size > universe) return;
+  const SensorSet all = SensorSet::first(universe);
+  int index = 0;
+  for (SensorSet s = SensorSet::first(size); all.contains(s); s = next_of_same_size(s)) {
+    f(s, index);
+    ++index;
+  }
+}
+
+/// Calls f(F) for every subset of `posed` with at most `depth` members (depth <= 3), smallest first.
+template <class F>
+void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
+  f(SensorSet{});
+  if (depth < 1) return;
+  for (int i = 0; i < n; ++i) {
+    if (posed.has(i)) f(SensorSet::of(i));
+  }
+  if (depth < 2) return;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      if (posed.has(i) && posed.has(j)) f(SensorSet::of(i).with(j));
+    }
+  }
+  if (depth < 3) return;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      for (int k = j + 1; k < n; ++k) {
+        if (posed.has(i) && posed.has(j) && posed.has(k)) f(SensorSet::of(i).with(j).with(k));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void Isolation::clear() noexcept { dead_.fill(0); }
+
+void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
+  const int c = plumb::coplanarity(array, posed);
+  if (c + 1 != voting_size_ || !posed_.contains(posed) || universe_ != array.size()) clear();
+  posed_ = posed;
+  universe_ = array.size();
+  coplanarity_ = c;
+  voting_size_ = c + 1;
+  const bool strict_possible = universe_ <= kStrictCapacity;
+  strict_ = strict_possible ? plumb::strict_grade(array, posed) : 0;
+  parity_ = plumb::parity_grade(array, posed);
+  if (!strict_possible && parity_ > kScanDepth) parity_ = kScanDepth;
+  voting_ = 0;
+  if (strict_ < 1) return;
+  for_each_subset(universe_, voting_size_, [&](SensorSet s, int) {
+    if (posed_.contains(s)) ++voting_;
+  });
+}
+
+int Isolation::live() const noexcept {
+  int count = 0;
+  if (strict_ < 1) return count;
+  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
+    if (posed_.contains(s) && !is_dead(index)) ++count;
+  });
+  return count;
+}
+
+bool Isolation::has_dead_subset(SensorSet set) const noexcept {
+  bool found = false;
+  if (strict_ < 1) return found;
+  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
+    if (set.contains(s) && is_dead(index)) found = true;
+  });
+  return found;
+}
+
+bool Isolation::norm_is_void(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                             const BlockEvidence& block) const noexcept {
+  bool found = false;
+  const auto consider = [&](SensorSet set) {
+    if (found || set.size() < 4) return;
+    const SetTest t = test_set(array, gravity, limits, block, set);
+    if (!t.tested || t.parity_rows < 1 || t.least_leverage < kMinLeverage) return;
+    const double off = t.norm < 0.0 ? -t.norm : t.norm;
+    if (t.parity_alive(limits) && off > t.norm_reject_limit(limits)) found = true;
+  };
+  const SensorSet posed = posed_ & block.usable;
+  for_each_fault_set(posed, universe_, 2, [&](SensorSet f) { consider(posed - f); });
+  if (universe_ <= kStrictCapacity) {
+    for_each_subset(universe_, coplanarity_ + 2, [&](SensorSet s, int) {
+      if (posed.contains(s)) consider(s);
+    });
+  }
+  return found;
+}
+
+SensorSet Isolation::convict_by_parity(const SensorArray& array, const GravityReference& gravity,
+                                       const TestLimits& limits, const BlockEvidence& block) const noexcept {
+  // A posed sensor that did not deliver in this block is neither accused nor cleared: the question is
+  // put to the others, whose own grade may be lower.
+  const SensorSet asked = posed_ & block.usable;
+  int grade = asked == posed_ ? parity_ : plumb::parity_grade(array, asked);
+  if (universe_ > kStrictCapacity && grade > kScanDepth) grade = kScanDepth;
+  if (grade < 1) return {};
+  SensorSet cleared;
+  const auto hear = [&](SensorSet s) {
+    if (cleared.contains(s)) return;
+    if (test_set(array, gravity, limits, block, s).parity_alive(limits)) cleared = cleared | s;
+  };
+  if (universe_ <= kStrictCapacity) {
+    const int size = asked.size() - grade;
+    for_each_subset(universe_, size, [&](SensorSet s, int) {
+      if (asked.contains(s)) hear(s);
+    });
+  }
+  for_each_fault_set(asked, universe_, grade < kScanDepth ? grade : kScanDepth, [&](SensorSet f) { hear(asked - f); });
+  const SensorSet convicted = asked - cleared;
+  if (convicted.empty() || convicted.size() > grade) return {};
+  const SetTest rest = test_set(array, gravity, limits, block, asked - convicted);
+  return rest.tested && rest.parity_alive(limits) ? convicted : SensorSet{};
+}
+
+IsolationAnswer Isolation::vote(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                                const BlockEvidence& block) noexcept {
+  IsolationAnswer out;
+  out.voting = voting_;
+  out.norm_void = norm_is_void(array, gravity, limits, block);
+  out.parity = convict_by_parity(array, gravity, limits, block);
+  const auto alive_here = [&](SensorSet s) {
+    const SetTest t = test_set(array, gravity, limits, block, s);
+    return out.norm_void ? t.parity_alive(limits) : t.alive(limits) && t.parity_alive(limits);
+  };
+  out.full_alive = !has_dead_subset(posed_) && alive_here(posed_);
+  if (strict_ < 1) return out;
+
+  SensorSet innocent;
+  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
+    if (!posed_.contains(s) || is_dead(index)) return;
+    if (alive_here(s)) {
+      innocent = innocent | s;
+      ++out.live;
+    } else {
+      kill(index);
+    }
+  });
+  out.contradiction = out.live == 0;
+  const SensorSet accused = posed_ - innocent;
+  if (!out.contradiction && !accused.empty() && accused.size() <= strict_) {
+    const SensorSet survivors = posed_ - accused;
+    const bool tested = test_set(array, gravity, limits, block, survivors).tested;
+    if (tested && alive_here(survivors)) out.strict = accused;
+  }
+  return out;
+}
+
+FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                             const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
+                             int protection_faults, double k_integrity) const noexcept {
+  FaultSetScan out;
+  out.fewest_faults.fill(255);
+  const SensorSet posed = posed_ & block.usable;
+  const SetTest used = test_set(array, gravity, limits, block, in_service & block.usable);
+  const bool norm_void = norm_is_void(array, gravity, limits, block);
+  out.protection_available = used.tested && protection_faults <= kScanDepth && used.parity_rows > 0;
+  bool any_protected = false, any_asserted = false;
+  SensorSet common = posed;
+  for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
+    const int size = f.size();
+    const SensorSet rest = posed - f;
+    const SetTest t = test_set(array, gravity, limits, block, rest);
+    if (!t.tested) {
+      // What is left cannot determine a vector, so this hypothesis bounds nothing.
+      if (size <= protection_faults) out.protection_available = false;
+      return;
+    }
+    const bool alive =
+        (norm_void ? t.parity_alive(limits) : t.alive(limits) && t.parity_alive(limits)) && !has_dead_subset(rest);
+    if (!alive) return;
+    for (int i = 0; i < universe_; ++i) {
+      if (rest.has(i) && size < out.fewest_faults[static_cast<size_t>(i)])
+        out.fewest_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
+    }
+    if (size < out.least) {
+      out.least = size;
+      out.suspects = f;
+    } else if (size == out.least) {
+      out.suspects = out.suspects | f;
+    }
+    if (size <= asserted_faults) {
+      common = common & f;
+      any_asserted = true;
+    }
+    if (size <= protection_faults && used.tested) {
+      any_protected = true;
+      const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
+      const double left = tilt_sigma_rad(t.x_mps2, calibration_covariance(array, t, rest));
+      const double spread = std::sqrt(noise * noise + left * left);
+      const double level = angle_between_rad(t.x_mps2, used.x_mps2) + k_integrity * spread;
+      if (level > out.protection_rad) out.protection_rad = level;
+    }
+  });
+  out.protection_available = out.protection_available && any_protected;
+  if (any_asserted) out.asserted = common;
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

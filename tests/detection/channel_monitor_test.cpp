@@ -1,0 +1,86 @@
+#include "plumb/detection/channel_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+using namespace plumb;
+
+Sample full_sample() {
+  Sample s;
+  s.delivered = SensorSet::first(4);
+  for (double& v : s.raw) v = 1.0;
+  return s;
+}
+
+ChannelMonitor monitor_of_four(double full_scale = 5.0) {
+  ChannelMonitor gate;
+  std::array<double, kCapacity> full{};
+  full.fill(full_scale);
+  gate.configure(4, full, 3);
+  return gate;
+}
+
+TEST(ChannelGate, SortsChannelsByWhatTheyDelivered) {
+  ChannelMonitor gate = monitor_of_four();
+  Sample s = full_sample();
+  s.delivered = s.delivered.without(0);
+  s.raw[1] = std::numeric_limits<double>::quiet_NaN();
+  s.raw[2] = -4.98;  // 99.6 % of full scale
+  const GateResult r = gate.gate(s);
+  EXPECT_EQ(r.missing, SensorSet::of(0));
+  EXPECT_EQ(r.not_finite, SensorSet::of(1));
+  EXPECT_EQ(r.clipped, SensorSet::of(2));
+  EXPECT_EQ(r.usable, SensorSet::of(2).with(3)) << "a clipped value is still evidence";
+  EXPECT_FALSE(r.gap);
+}
+
+TEST(ChannelGate, UnknownFullScaleNeverClips) {
+  ChannelMonitor gate = monitor_of_four(0.0);
+  Sample s = full_sample();
+  s.raw[0] = 1e9;
+  EXPECT_TRUE(gate.gate(s).clipped.empty());
+}
+
+TEST(ChannelGate, LossIsConfirmedAndSoIsReturn) {
+  ChannelMonitor gate = monitor_of_four();
+  Sample bad = full_sample();
+  bad.raw[3] = std::numeric_limits<double>::infinity();
+  gate.gate(bad);
+  gate.gate(bad);
+  EXPECT_TRUE(gate.lost().empty()) << "two bad samples are a glitch";
+  gate.gate(bad);
+  EXPECT_EQ(gate.lost(), SensorSet::of(3));
+  EXPECT_EQ(gate.counters(3).not_finite, 3U);
+  for (int k = 0; k < 2; ++k) gate.gate(full_sample());
+  EXPECT_TRUE(gate.back().empty());
+  gate.gate(full_sample());
+  EXPECT_EQ(gate.back(), SensorSet::of(3));
+  gate.welcome(SensorSet::of(3));
+  EXPECT_TRUE(gate.lost().empty());
+  EXPECT_TRUE(gate.back().empty());
+}
+
+TEST(ChannelGate, AGlitchBetweenGoodSamplesNeverAddsUp) {
+  ChannelMonitor gate = monitor_of_four();
+  Sample bad = full_sample();
+  bad.delivered = bad.delivered.without(2);
+  for (int k = 0; k < 100; ++k) {
+    gate.gate(bad);
+    gate.gate(full_sample());
+  }
+  EXPECT_TRUE(gate.lost().empty());
+  EXPECT_EQ(gate.counters(2).missing, 100U);
+}
+
+TEST(ChannelGate, ASilentBusIsAGapAndLosesNobody) {
+  ChannelMonitor gate = monitor_of_four();
+  Sample silent = full_sample();
+  silent.delivered = SensorSet{};
+  for (int k = 0; k < 50; ++k) EXPECT_TRUE(gate.gate(silent).gap);
+  EXPECT_TRUE(gate.lost().empty());
+}
+
+}  // namespace

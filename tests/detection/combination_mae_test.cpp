@@ -1,0 +1,120 @@
+#include "plumb/detection/combination_mae.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "support/simulated_tool.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::Noise;
+
+/// Eqs (22)-(25) by the inverse of the three rows, independent of the quadratic form of the kernel.
+double length_by_inverse(const SensorArray& array, int k, const Readings& y) {
+  const auto& s = array.triple(k).sensors;
+  return norm(times(triple_map(array, k), {y[s[0]], y[s[1]], y[s[2]]}));
+}
+
+TEST(CombinationMae, EqualsDirectEvaluationOfEquations26To29) {
+  const SensorArray array = plumb_test::tetrahedron();
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array.triple_count(), 8);
+  Noise noise(3);
+  const LeastSquares all = least_squares(array, array.all());
+  std::vector<Readings> window;
+  for (int step = 0; step < 8; ++step) {
+    const Vec3 u = plumb_test::random_direction(noise);
+    Readings y{};
+    for (int i = 0; i < 4; ++i)
+      y[static_cast<std::size_t>(i)] = dot(array.axis(i), u) * kG0_mps2 + 0.05 * noise.normal();
+    window.push_back(y);
+    mae->add(array, y, array.all(), all, kG0_mps2);
+  }
+  for (int k = 0; k < array.triple_count(); ++k) {
+    double sum = 0.0;
+    for (const auto& y : window) sum += std::fabs(length_by_inverse(array, k, y) - kG0_mps2);
+    EXPECT_NEAR(mae->triple_mps2(k), sum / 8.0, 1.01 * kMaeUnit_mps2 / 2.0);
+    EXPECT_EQ(mae->triple_samples(k), 8);
+  }
+  double sum = 0.0;
+  for (const auto& y : window) sum += std::fabs(norm(all.estimate(y)) - kG0_mps2);
+  EXPECT_NEAR(mae->all_mps2(), sum / 8.0, kMaeUnit_mps2);
+}
+
+TEST(CombinationMae, HugeAndNonFiniteErrorsTakeTheClampAndLeaveNoTrace) {
+  EXPECT_EQ(to_mae_units(std::numeric_limits<double>::quiet_NaN()), kMaeClamp);
+  EXPECT_EQ(to_mae_units(std::numeric_limits<double>::infinity()), kMaeClamp);
+  EXPECT_EQ(to_mae_units(-1e300), kMaeClamp);
+  EXPECT_EQ(to_mae_units(0.0), 0);
+
+  const SensorArray array = plumb_test::tetrahedron();
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array.triple_count(), 4);
+  const LeastSquares none;
+  Readings wild{};
+  wild.fill(1e300);
+  Readings calm{};
+  for (int i = 0; i < 4; ++i) calm[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2;
+  for (int k = 0; k < 2; ++k) mae->add(array, wild, array.all(), none, kG0_mps2);
+  EXPECT_GT(mae->triple_mps2(0), 100.0);
+  for (int k = 0; k < 4; ++k) mae->add(array, calm, array.all(), none, kG0_mps2);
+  for (int k = 0; k < array.triple_count(); ++k) EXPECT_LT(mae->triple_mps2(k), 2e-7);
+}
+
+/// The window sum after any history equals a fresh sum over the ring, bit for bit.
+RC_GTEST_PROP(CombinationMaeLaw, WindowSumIsExactWhateverCameBefore, ()) {
+  const int n = *rc::gen::inRange(3, kCapacity + 1);
+  const int window = *rc::gen::inRange(1, kWindowCapacity + 1);
+  const int steps = *rc::gen::inRange(1, 200);
+  Noise noise(*rc::gen::arbitrary<std::uint64_t>());
+  AxisList axes{};
+  for (int i = 0; i < n; ++i) axes[static_cast<std::size_t>(i)] = plumb_test::random_direction(noise);
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < n; ++i) {
+    auto& row = rows[static_cast<std::size_t>(i)];
+    row.id = make_id(("s" + std::to_string(i)).c_str());
+    row.axis = axes[static_cast<std::size_t>(i)];
+    row.sigma_mps2 = 0.01;
+  }
+  const auto array = SensorArray::make(rows.data(), n);
+  RC_PRE(array.has_value());
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array->triple_count(), window);
+  const LeastSquares map = least_squares(*array, array->all());
+  for (int step = 0; step < steps; ++step) {
+    Readings y{};
+    SensorSet usable = array->all();
+    for (int i = 0; i < n; ++i) {
+      const double kind = noise.uniform();
+      double v = 20.0 * (noise.uniform() - 0.5);
+      if (kind < 0.05) v = 1e300;
+      if (kind > 0.98) v = std::numeric_limits<double>::infinity();
+      if (kind > 0.99) v = std::numeric_limits<double>::quiet_NaN();
+      if (noise.uniform() < 0.1) usable = usable.without(i);
+      y[static_cast<std::size_t>(i)] = v;
+    }
+    mae->add(*array, y, usable, map, kG0_mps2);
+  }
+  for (int k = 0; k < array->triple_count(); ++k) RC_ASSERT(mae->triple_sum(k) == mae->fresh_triple_sum(k));
+}
+
+TEST(CombinationMae, ATripleWithAMissingMemberUsesItsOwnCount) {
+  const SensorArray array = plumb_test::tetrahedron();
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array.triple_count(), 4);
+  Readings y{};
+  for (int i = 0; i < 4; ++i) y[static_cast<std::size_t>(i)] = array.axis(i)[2] * 9.0;
+  const LeastSquares none;
+  mae->add(array, y, array.all(), none, kG0_mps2);
+  mae->add(array, y, array.all().without(3), none, kG0_mps2);
+  EXPECT_EQ(mae->triple_samples(array.triple_index(0, 1, 2)), 2);
+  EXPECT_EQ(mae->triple_samples(array.triple_index(0, 1, 3)), 1);
+  EXPECT_NEAR(mae->triple_mps2(array.triple_index(0, 1, 3)), kG0_mps2 - 9.0, 1e-6);
+}
+
+}  // namespace

@@ -1,0 +1,144 @@
+#include "plumb/detection/set_test.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "plumb/numeric/tails.hpp"
+#include "support/simulated_tool.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::Noise;
+
+const GravityReference kGravity{kG0_mps2, 0.0, GravityModel::value};
+
+BlockEvidence exact_block(const SensorArray& array, const Vec3& direction, double g_mps2 = kG0_mps2,
+                          double samples = 32) {
+  BlockEvidence block;
+  block.usable = array.all();
+  block.samples = samples;
+  for (int i = 0; i < array.size(); ++i)
+    block.mean_mps2[static_cast<std::size_t>(i)] = dot(array.axis(i), direction) * g_mps2;
+  return block;
+}
+
+TEST(SetTest, ParityOfTheTetrahedronIsHalfTheFault) {
+  const double sigma = 0.002;
+  const SensorArray array = plumb_test::tetrahedron(sigma);
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  BlockEvidence block = exact_block(array, plumb_test::direction_at(35, 70));
+  block.mean_mps2[1] += 0.1;
+  const SetTest t = test_set(array, kGravity, limits, block, array.all());
+  ASSERT_TRUE(t.tested);
+  EXPECT_EQ(t.parity_rows, 1);
+  EXPECT_NEAR(t.parity, 0.5 * 0.1 / sigma * std::sqrt(32.0), 1e-6);
+  EXPECT_NEAR(t.least_leverage, 0.25, 1e-12);
+}
+
+TEST(SetTest, MirrorOfTheoremT1PassesATripleExactly) {
+  const SensorArray array = plumb_test::tetrahedron();
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  const Vec3 u = plumb_test::direction_at(40, 25);
+  BlockEvidence block = exact_block(array, u);
+  // Fault f* = -2 g.w/|w|^2 of sensor 1 in the triple 1, 2, 4: the vector is mirrored, its length kept.
+  const int k = array.triple_index(0, 1, 3);
+  const Mat3 map = triple_map(array, k);
+  const Vec3 w = {map[0], map[3], map[6]};
+  const double mirror = -2.0 * kG0_mps2 * dot(u, w) / dot(w, w);
+  ASSERT_GT(std::fabs(mirror), 1.0);
+  block.mean_mps2[0] += mirror;
+  const SetTest t = test_set(array, kGravity, limits, block, array.triple(k).set());
+  EXPECT_NEAR(t.norm_error_mps2, 0.0, 1e-12);
+  EXPECT_TRUE(t.alive(limits)) << "one attitude cannot tell a mirror from the truth";
+  EXPECT_GT(angle_between_rad(t.x_mps2, u), 0.1);
+  EXPECT_FALSE(test_set(array, kGravity, limits, block, array.all()).parity_alive(limits)) << "parity can";
+}
+
+TEST(SetTest, UntestedSetsAreAlive) {
+  const SensorArray array = plumb_test::tetrahedron();
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  BlockEvidence block = exact_block(array, {0, 0, 1});
+  block.usable = block.usable.without(2);
+  const SetTest t = test_set(array, kGravity, limits, block, array.all());
+  EXPECT_FALSE(t.tested);
+  EXPECT_TRUE(t.alive(limits));
+  EXPECT_TRUE(t.parity_alive(limits));
+  EXPECT_FALSE(test_set(array, kGravity, limits, block, SensorSet::first(2)).tested);
+}
+
+/// Safety note 1: an error of the gravity reference within three of its sigmas kills nothing.
+RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {
+  const int n = *rc::gen::inRange(3, kCapacity + 1);
+  const SensorArray array = plumb_test::cone_array(n);
+  Noise noise(*rc::gen::arbitrary<std::uint64_t>());
+  GravityReference gravity = kGravity;
+  gravity.sigma_mps2 = 1e-3;
+  const double off = (noise.uniform() * 2.0 - 1.0) * 2.999e-3;
+  const BlockEvidence block = exact_block(array, plumb_test::random_direction(noise), kG0_mps2 + off, 1e6);
+  const TestLimits limits = TestLimits::from_rates(n, 1e-5, 1e-6);
+  for (SensorSet s = SensorSet::first(3); array.all().contains(s); s = next_of_same_size(s)) {
+    RC_ASSERT(test_set(array, gravity, limits, block, s).alive(limits));
+  }
+  RC_ASSERT(test_set(array, gravity, limits, block, array.all()).alive(limits));
+}
+
+/// ... and an error of the calibration within k_c of its covariance kills nothing either.
+RC_GTEST_PROP(SetTestLaw, CalibrationErrorWithinItsBoundKillsNoSet, ()) {
+  const int n = *rc::gen::inRange(4, kCapacity + 1);
+  SensorArray array = plumb_test::cone_array(n);
+  Noise noise(*rc::gen::arbitrary<std::uint64_t>());
+  RowUncertainty u;
+  const double s_axis = 1e-4, s_offset = 1e-3;
+  for (int a = 0; a < 4 * n; ++a) {
+    const double s = a % 4 == 3 ? s_offset : s_axis;
+    u.covariance[static_cast<std::size_t>(a * (a + 1) / 2 + a)] = s * s;
+  }
+  array.set_uncertainty(u);
+  const TestLimits limits = TestLimits::from_rates(n, 1e-5, 1e-6);
+  const Vec3 direction = plumb_test::random_direction(noise);
+  BlockEvidence block = exact_block(array, direction, kG0_mps2, 1e9);  // no noise left: only the bound protects
+  // A parameter error vector of Mahalanobis length 0.95 k_c in a random direction.
+  std::vector<double> error(static_cast<std::size_t>(4 * n));
+  double length = 0.0;
+  for (double& e : error) {
+    e = noise.normal();
+    length += e * e;
+  }
+  const double scale = 0.95 * limits.calibration / std::sqrt(length);
+  for (int i = 0; i < n; ++i) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double z = c < 3 ? direction[c] * kG0_mps2 : 1.0;
+      block.mean_mps2[static_cast<std::size_t>(i)] +=
+          error[4 * static_cast<std::size_t>(i) + c] * scale * (c < 3 ? s_axis : s_offset) * z;
+    }
+  }
+  for (int size = 3; size <= n; ++size) {
+    for (SensorSet s = SensorSet::first(size); array.all().contains(s); s = next_of_same_size(s)) {
+      RC_ASSERT(test_set(array, kGravity, limits, block, s).alive(limits));
+      RC_ASSERT(test_set(array, kGravity, limits, block, s).parity_alive(limits));
+    }
+  }
+}
+
+TEST(SetTest, HealthyFullSetExceedsItsAlarmLimitAtTheRequestedRate) {
+  // 200 000 blocks at 1e-3: expected 200 +- 4.5 sigma.
+  const double sigma = 0.01;
+  const SensorArray array = plumb_test::cone_array(6, sigma);
+  const TestLimits limits = TestLimits::from_rates(6, 1e-3, 1e-6);
+  Noise noise(20181);
+  int parity = 0, norm_count = 0;
+  for (int k = 0; k < 200000; ++k) {
+    BlockEvidence block = exact_block(array, plumb_test::random_direction(noise), kG0_mps2, 1);
+    for (int i = 0; i < 6; ++i) block.mean_mps2[static_cast<std::size_t>(i)] += sigma * noise.normal();
+    const SetTest t = test_set(array, kGravity, limits, block, array.all());
+    parity += t.parity > t.parity_alarm_limit(limits) ? 1 : 0;
+    norm_count += std::fabs(t.norm) > t.norm_alarm_limit(limits) ? 1 : 0;
+  }
+  EXPECT_NEAR(parity, 200, 64);
+  EXPECT_NEAR(norm_count, 200, 64);
+}
+
+}  // namespace
