@@ -1,0 +1,67 @@
+/// What the monitor remembers between an alarm and its end: which attitudes have been seen, which
+/// answer has stayed unique over how many of them, how many clean ones have passed since.
+#pragma once
+
+#include <array>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/sensor_set.hpp"
+#include "plumb/core/vec3.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Directions that differ from each other by at least a given angle.
+class DirectionRecord {
+ public:
+  static constexpr int kMax = 24;
+  void clear() noexcept { size_ = 0; }
+  int size() const noexcept { return size_; }
+  /// Counts the direction if it differs from all on record; true where it did. A full record counts no more.
+  bool add(const Vec3& direction, double angle_rad) noexcept {
+    for (int k = 0; k < size_; ++k) {
+      if (!(angle_between_rad(direction_[static_cast<std::size_t>(k)], direction) >= angle_rad)) return false;
+    }
+    if (size_ == kMax) return false;
+    direction_[static_cast<std::size_t>(size_)] = direction;
+    ++size_;
+    return true;
+  }
+
+ private:
+  std::array<Vec3, kMax> direction_{};
+  int size_ = 0;
+};
+
+struct Episode {
+  bool open = false;         ///< an alarm is on record
+  DirectionRecord stations;  ///< excited stations since the first alarm (patience)
+  SensorSet candidate;       ///< the unique strict answer so far
+  DirectionRecord agreeing;  ///< excited stations at which it was the answer (E)
+  DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
+
+  void clear() noexcept {
+    open = false;
+    stations.clear();
+    candidate = SensorSet{};
+    agreeing.clear();
+    clean.clear();
+  }
+};
+
+/// The attitude at which blocks are being pooled.
+struct StationPool {
+  bool open = false;
+  std::uint32_t tag = 0;
+  Vec3 direction{};
+  std::array<double, kCapacity> sum{};  ///< readings times samples
+  SensorSet usable;
+  double samples = 0.0;
+  double spread = 0.0;  ///< largest block spread v
+  int blocks = 0;
+
+  void clear() noexcept { *this = StationPool{}; }
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,145 @@
+/// `HealthMonitor`: one `step(sample)` at a time it says which sensors may be believed, which way is
+/// down and within what bound. No heap, no exceptions, no clock, no global state; bounded work in every
+/// step; plain copyable state, so a snapshot is an assignment and a replay is a loop.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/calibration/calibration.hpp"
+#include "plumb/detection/channel_monitor.hpp"
+#include "plumb/detection/combination_mae.hpp"
+#include "plumb/detection/isolation.hpp"
+#include "plumb/detection/stationarity.hpp"
+#include "plumb/health/episode.hpp"
+#include "plumb/health/monitor_config.hpp"
+#include "plumb/health/transition_table.hpp"
+#include "plumb/health/verdict.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Everything a monitor is built from.
+struct MonitorSetup {
+  SensorModel model;  ///< of an accepted calibration, common-frame form
+  SensorArray array;  ///< calibrated axes with their uncertainty
+  GravityReference gravity;
+  MonitorConfig config;
+  std::array<double, kCapacity> full_scale_raw{};  ///< 0 = unknown
+  Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
+};
+
+class HealthMonitor {
+ public:
+  HealthMonitor() noexcept = default;
+
+  /// Checks the setup and powers on: suspect, unproven. On an error the monitor is left unconfigured
+  /// and every step answers `invalid`. Errors: those of `checked(config)`; too_few_sensors;
+  /// not_calibrated (misalignment terms left in the model, or its size is not the array's);
+  /// range_too_small (index = sensor) where a full scale does not reach gravity plus 20 %.
+  Expected<void> configure(const MonitorSetup& setup) noexcept;
+
+  /// One sample in, one verdict out. Accepts any bit pattern. The reference stays valid until the next call.
+  const Verdict& step(const Sample& sample) noexcept;
+  const Verdict& verdict() const noexcept { return verdict_; }
+
+  /// Leaves `failed` at the next step: the named sensors return to service where they deliver.
+  /// Error: wrong_key. Ignored in any other state (design, section 5).
+  Expected<void> reset(std::uint64_t key, SensorSet sensors) noexcept;
+
+  /// Another length of gravity (depth has changed). Error: out_of_range.
+  Expected<void> set_gravity(const GravityReference& gravity) noexcept;
+
+  const SensorArray& array() const noexcept { return array_; }
+  const MonitorConfig& config() const noexcept { return config_; }
+  const ChannelMonitor& channels() const noexcept { return gate_; }
+  const CombinationMae& mae() const noexcept { return mae_; }
+  Mode mode() const noexcept { return mode_; }
+
+ private:
+  using EventMask = std::uint32_t;
+  static constexpr EventMask bit(HealthEvent e) noexcept { return EventMask{1} << static_cast<unsigned>(e); }
+
+  struct BlockView;  // what one quiet block said
+
+  // health_monitor.cpp: the flow of one step
+  bool admit(const Sample& sample, bool& gap) noexcept;
+  Readings readings_of(const Sample& sample, GateResult& gate) const noexcept;
+  void publish(const Sample& sample, bool tick) noexcept;
+  Validity validity() const noexcept;
+  void publish_vector() noexcept;
+
+  // evidence.cpp: one block
+  EventMask tick(const Sample& sample) noexcept;
+  BlockView judge(const BlockEvidence& evidence) const noexcept;
+  void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
+  void pool_station(const Sample& sample, const BlockEvidence& evidence, const Vec3& direction) noexcept;
+  BlockEvidence pooled() const noexcept;
+  void vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
+  void count_clean(const BlockView& view) noexcept;
+  EventMask raise_block_events(const BlockView& view) noexcept;
+  SensorSet culprits() const noexcept;
+  void examine_probation(const BlockEvidence& evidence, const BlockView& view) noexcept;
+  void rescan() noexcept;
+
+  // decision.cpp: one event
+  void decide(EventMask raised, double time_s) noexcept;
+  SensorSet act(Action::Bits actions) noexcept;  // each returns the sensors that it names
+  SensorSet move_channels(Action::Bits actions) noexcept;
+  SensorSet return_to_service(Action::Bits actions) noexcept;
+  void retire(SensorSet culprits) noexcept;
+  void forget_episode() noexcept;
+  void sets_changed() noexcept;
+  SizeClass classify() const noexcept;
+  Cause cause_of(HealthEvent event) const noexcept;
+
+  // What was configured.
+  MonitorConfig config_;
+  SensorModel model_;
+  SensorArray array_;
+  GravityReference gravity_;
+  Mat3 frame_{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  TestLimits limits_;
+  double restless_factor_ = 0.0;
+  double mae_quantile_ = 0.0;
+  double k_integrity_ = 0.0;
+  int protection_faults_ = 1;
+  int asserted_left_ = -1;
+  bool configured_ = false;
+
+  // What is remembered.
+  Mode mode_ = Mode::suspect;
+  SizeClass size_class_ = SizeClass::rank_lost;  ///< of the sensors in service
+  int live_ = 0;                                 ///< voting sets alive
+  SensorSet in_service_, set_aside_, excluded_, absent_;
+  SensorSet readmitted_, banned_;
+  bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
+  bool have_evidence_ = false, have_time_ = false;
+  double last_time_s_ = 0.0, evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
+  std::uint32_t sequence_ = 0;
+  int clean_run_ = 0;
+  std::array<double, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
+  bool have_predictions_ = false;
+  DirectionRecord probation_;
+  SensorSet on_probation_;
+  SensorSet reset_sensors_;
+  bool reset_pending_ = false;
+  Grade last_grade_ = Grade::none;
+
+  // Evidence.
+  ChannelMonitor gate_;
+  BlockAccumulator block_;
+  CombinationMae mae_;
+  Isolation isolation_;
+  Episode episode_;
+  StationPool station_;
+  LeastSquares map_;        ///< of the sensors in service
+  BlockEvidence evidence_;  ///< last quiet block
+  IsolationAnswer answer_;
+  FaultSetScan scan_;
+  SensorSet clipped_, not_finite_;
+  Verdict verdict_;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

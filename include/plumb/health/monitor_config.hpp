@@ -1,0 +1,45 @@
+/// Settings of a `HealthMonitor`. Every number has a unit, a default and a reason.
+#pragma once
+
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/error.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+enum class MonitorMode : std::uint8_t { plumb, paper };
+
+struct MonitorConfig {
+  MonitorMode mode = MonitorMode::plumb;
+  int window = 32;                 ///< samples per block and length of the sliding MAE window, 1 .. kWindowCapacity
+  double delta_f_mps2 = 0.0;       ///< given MAE limit (eq 15); 0 = computed from noise and geometry
+  double false_alarm_rate = 1e-5;  ///< per block, each test, 1e-9 .. 1e-2
+  double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
+  int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
+  int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
+  int patience = 6;                ///< P: excited stations on record before suspect must justify itself
+  int clean_blocks = 3;            ///< R: clean blocks in a row that end suspicion
+  int forget_blocks = 3;           ///< M: clean excited blocks that end an episode
+  int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
+  int missing_confirm = 3;         ///< samples in a row without a usable value: the channel is lost
+  double max_gap_s = 5.0;          ///< a longer gap between samples empties windows and ends the station
+  double max_age_s = 60.0;         ///< T_age: without a quiet block for this long nothing is published as valid
+  double station_angle_rad = rad_from_deg(2.0);     ///< change of direction that begins a new station
+  double excitation_angle_rad = rad_from_deg(5.0);  ///< directions at least this far apart count as excited
+  double clear_fraction = 0.7;                      ///< clean means below this fraction of the limit while in suspect
+  double alert_limit_rad = rad_from_deg(1.0);       ///< largest tilt error that the user can bear
+  double integrity_risk = 1e-6;                     ///< allocation to fault sets that the protection level leaves out
+  double fault_prior = 1e-4;                        ///< probability that one given sensor is faulty
+  std::uint64_t reset_key = 0x706c756d62ULL;        ///< what `reset` must be called with
+  double temperature_min_degc = -1e9;               ///< calibrated span; beyond it by > 5 degC output is unconfirmed
+  double temperature_max_degc = 1e9;
+};
+
+/// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.
+Expected<MonitorConfig> checked(const MonitorConfig& config) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,80 @@
+/// The six states, the events and the causes: the closed vocabulary of the monitor.
+#pragma once
+
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+enum class HealthState : std::uint8_t { nominal, suspect, isolated, degraded_3_sensor, recalibrating, failed };
+inline constexpr int kStateCount = 6;
+const char* to_string(HealthState state) noexcept;
+
+/// Events in rank order: the first that applies is taken (design, section 5).
+enum class HealthEvent : std::uint8_t {
+  reset,
+  channel_lost,
+  channel_back,
+  culprit,
+  set_aside,
+  patience_over,
+  contradiction,
+  alarm,
+  reference,
+  fit_accepted,
+  fit_rejected,
+  probation_passed,
+  recalibrate,
+  clean_block,
+  none,
+};
+inline constexpr int kEventCount = 15;
+const char* to_string(HealthEvent event) noexcept;
+
+/// Why the verdict says what it says.
+enum class Cause : std::uint8_t {
+  none,
+  power_on,        ///< trust not yet earned (unproven)
+  parity,          ///< parity residual beyond its limit
+  norm,            ///< three sensors: length of the vector beyond its limit
+  mae,             ///< a triple's mean absolute error beyond its limit (eqs 26-29)
+  reference,       ///< parity good, norm off: gravity, common scale, common bias, steady acceleration
+  moving,          ///< spread above the noise: evidence suspended
+  isolated_fault,  ///< a sensor was excluded or set aside
+  ambiguous,       ///< a fault, but more than one explanation is left
+  contradiction,   ///< no explanation is left
+  channel_lost,
+  channel_back,
+  temperature,  ///< outside the calibrated span
+  patience,
+  calibration,
+  probation,
+  host_request,  ///< reset, recalibrate
+  time_fault,    ///< time not increasing; the sample was refused
+  gap,
+  clean,
+};
+const char* to_string(Cause cause) noexcept;
+
+/// What the output may be used for.
+enum class Validity : std::uint8_t { valid, degraded, unconfirmed, held, invalid };
+const char* to_string(Validity validity) noexcept;
+
+/// Qualifier bits beside the state.
+struct Qualifier {
+  static constexpr std::uint8_t unproven = 1;
+  static constexpr std::uint8_t moving = 2;
+  static constexpr std::uint8_t initial_calibration = 4;
+  static constexpr std::uint8_t provisional = 8;
+  static constexpr std::uint8_t no_redundancy = 16;
+  static constexpr std::uint8_t exhausted = 32;
+};
+
+/// Grade of an exclusion (design, section 4).
+enum class Grade : std::uint8_t { none, parity, strict, asserted };
+const char* to_string(Grade grade) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,77 @@
+/// `Verdict`: everything that plumb says about one sample. Plain data, trivially copyable.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/core/vec3.hpp"
+#include "plumb/health/state.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Written once per change of state or of a mask (property S15).
+struct TransitionRecord {
+  std::uint32_t sequence = 0;  ///< 1, 2, 3, ... ; 0 = no record in this verdict
+  double time_s = 0.0;
+  HealthState from = HealthState::suspect;
+  HealthState to = HealthState::suspect;
+  HealthEvent event = HealthEvent::none;
+  Cause cause = Cause::none;
+  Grade grade = Grade::none;
+  SensorSet sensors;  ///< sensors that the event names (excluded, lost, back)
+  double statistic = 0.0;
+  double limit = 0.0;
+};
+
+/// s_i value that stands for "no live hypothesis keeps sensor i healthy".
+inline constexpr std::uint8_t kNoHypothesis = 255;
+
+struct Verdict {
+  double time_s = 0.0;
+  HealthState state = HealthState::suspect;
+  std::uint8_t qualifiers = 0;  ///< bits of Qualifier
+  Validity validity = Validity::invalid;
+  Cause cause = Cause::none;
+  bool tick = false;            ///< this sample completed a block: statistic, s_i and vector are new
+  bool accepted = false;        ///< the sample was used (time in order, enough channels)
+  TransitionRecord transition;  ///< sequence != 0 where something changed at this sample
+
+  // The test that decided, in units of its own limit's unit (whitened standard deviations).
+  double statistic = 0.0;
+  double limit = 0.0;
+  double margin = 0.0;  ///< 1 - statistic/limit; negative = alarm
+
+  // Who. configured = in service + set aside + excluded + absent (property S4).
+  SensorSet configured, in_service, set_aside, excluded, absent;
+  SensorSet suspects;                                   ///< sensors that some live hypothesis accuses
+  SensorSet clipped, restless, not_finite;              ///< channel facts of this block
+  std::array<std::uint8_t, kCapacity> fewest_faults{};  ///< s_i: fewest faults that explain the data with i healthy
+  Grade grade = Grade::none;                            ///< of the last exclusion
+  int strict_grade = 0;                                 ///< m_strict of the sensors not latched out
+  int parity_grade = 0;
+  int live_hypotheses = 0;      ///< voting sets still alive in this episode
+  int stations_on_record = 0;   ///< excited stations of this episode
+  bool wants_rotation = false;  ///< another attitude would help
+
+  // Figures of the paper: sliding MAE over the window (eq 14), m/s^2.
+  double mae_all_mps2 = 0.0;    ///< of the sensors in service
+  double mae_worst_mps2 = 0.0;  ///< largest over the voting triples in service
+  double mae_worst_limit_mps2 = 0.0;
+  double parity = 0.0;  ///< whitened parity residual of the last block
+  double parity_limit = 0.0;
+  double norm_error_mps2 = 0.0;  ///< |x| - G of the last block
+
+  // Which way is down.
+  Vec3 gravity_mps2{};  ///< last quiet block, sensors in service, positive down, output frame
+  Mat3 covariance{};    ///< [(m/s^2)^2], noise and calibration
+  double age_s = 0.0;   ///< since the block that gave the vector
+  Vec3 latest_mps2{};   ///< this one sample, no claim made
+  double protection_level_rad = 0.0;
+  bool protection_available = false;
+  bool alert = false;  ///< protection level beyond the alert limit, or none available where valid
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

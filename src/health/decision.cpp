@@ -1,0 +1,167 @@
+// One event per step through the transition table, and what its actions do to the sets.
+#include "plumb/health/health_monitor.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+SizeClass HealthMonitor::classify() const noexcept {
+  if (rank_of(array_, in_service_) < 3) return SizeClass::rank_lost;
+  if (!critical_sensors(array_, in_service_).empty()) return SizeClass::critical;
+  return in_service_ == array_.all() ? SizeClass::all_configured : SizeClass::reduced;
+}
+
+void HealthMonitor::sets_changed() noexcept {
+  size_class_ = classify();
+  map_ = least_squares(array_, in_service_);
+  mae_.clear_all_sensor();
+  isolation_.pose(array_, in_service_ | set_aside_);
+  rescan();
+  if (have_evidence_) publish_vector();
+}
+
+void HealthMonitor::forget_episode() noexcept {
+  episode_.clear();
+  isolation_.clear();
+  answer_ = IsolationAnswer{};
+  exhausted_ = false;
+}
+
+void HealthMonitor::retire(SensorSet culprits) noexcept {
+  in_service_ = in_service_ - culprits;
+  set_aside_ = set_aside_ - culprits;
+  excluded_ = excluded_ | culprits;
+  banned_ = banned_ | (culprits & readmitted_);  // readmitted once and convicted again: out for good
+  if (asserted_left_ > 0) asserted_left_ -= culprits.size() < asserted_left_ ? culprits.size() : asserted_left_;
+  forget_episode();
+}
+
+SensorSet HealthMonitor::move_channels(Action::Bits actions) noexcept {
+  SensorSet named;
+  if ((actions & Action::mark_absent) != 0) {
+    named = (gate_.lost() & array_.all()) - absent_;
+    in_service_ = in_service_ - named;
+    set_aside_ = set_aside_ - named;
+    excluded_ = excluded_ - named;
+    absent_ = absent_ | named;
+  }
+  if ((actions & Action::mark_back) != 0) {
+    named = gate_.back() & absent_;
+    absent_ = absent_ - named;
+    excluded_ = excluded_ | named;
+    gate_.welcome(named);
+  }
+  return named;
+}
+
+SensorSet HealthMonitor::return_to_service(Action::Bits actions) noexcept {
+  SensorSet named;
+  if ((actions & Action::reinstate) != 0) {
+    named = SensorSet::of(on_probation_.lowest());
+    readmitted_ = readmitted_ | named;
+    probation_.clear();
+    on_probation_ = SensorSet{};
+  }
+  if ((actions & Action::rearm) != 0) {
+    named = reset_sensors_ - gate_.lost();
+    gate_.welcome(named);
+    forget_episode();
+  }
+  excluded_ = excluded_ - named;
+  set_aside_ = set_aside_ - named;
+  absent_ = absent_ - named;
+  in_service_ = in_service_ | named;
+  return named;
+}
+
+SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
+  const SensorSet before = in_service_, posed_before = in_service_ | set_aside_;
+  SensorSet named;
+  if ((actions & Action::exclude) != 0) {
+    named = culprits();
+    retire(named);
+  }
+  if ((actions & Action::set_aside) != 0) {
+    named = answer_.parity & in_service_;
+    in_service_ = in_service_ - named;
+    set_aside_ = set_aside_ | named;
+    last_grade_ = Grade::parity;
+  }
+  if ((actions & (Action::mark_absent | Action::mark_back)) != 0) named = move_channels(actions);
+  if ((actions & (Action::reinstate | Action::rearm)) != 0) named = return_to_service(actions);
+  if ((actions & Action::exhausted) != 0) exhausted_ = true;
+  if ((actions & Action::unproven) != 0) {
+    unproven_ = true;
+    have_predictions_ = false;
+  }
+  if (before != in_service_) clean_run_ = 0;
+  if (before != in_service_ || posed_before != (in_service_ | set_aside_)) sets_changed();
+  return named;
+}
+
+Cause HealthMonitor::cause_of(HealthEvent event) const noexcept {
+  switch (event) {
+    case HealthEvent::reset:
+    case HealthEvent::recalibrate: return Cause::host_request;
+    case HealthEvent::channel_lost: return Cause::channel_lost;
+    case HealthEvent::channel_back: return Cause::channel_back;
+    case HealthEvent::culprit:
+    case HealthEvent::set_aside: return Cause::isolated_fault;
+    case HealthEvent::patience_over: return Cause::patience;
+    case HealthEvent::contradiction: return Cause::contradiction;
+    case HealthEvent::alarm: return verdict_.cause;  // parity, norm or mae, as the block said
+    case HealthEvent::reference: return Cause::reference;
+    case HealthEvent::fit_accepted:
+    case HealthEvent::fit_rejected: return Cause::calibration;
+    case HealthEvent::probation_passed: return Cause::probation;
+    case HealthEvent::clean_block: return Cause::clean;
+    case HealthEvent::none: return Cause::none;
+  }
+  return Cause::none;
+}
+
+void HealthMonitor::decide(EventMask raised, double time_s) noexcept {
+  HealthEvent event = HealthEvent::none;
+  for (int e = 0; e < kEventCount && event == HealthEvent::none; ++e) {
+    const auto candidate = static_cast<HealthEvent>(e);
+    if ((raised & bit(candidate)) == 0) continue;
+    const CellKind kind = cell_of(mode_, candidate).kind;
+    // An ignored or held event must not block those behind it, else one level could livelock the rest.
+    if (kind == CellKind::taken || kind == CellKind::impossible) event = candidate;
+  }
+  const bool was_reset = reset_pending_;
+  const Cell& cell = cell_of(mode_, event);
+  const Mode from = mode_;
+  const SensorSet sets[4] = {in_service_, set_aside_, excluded_, absent_};
+  const SensorSet named = act(cell.actions);
+  if (was_reset) {
+    reset_pending_ = false;
+    reset_sensors_ = SensorSet{};
+  }
+
+  TargetFacts facts;
+  facts.size = size_class_;
+  facts.unproven = unproven_;
+  facts.earned = clean_run_ >= config_.clean_blocks && !unproven_;
+  facts.protection_within = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
+  facts.calibrated = true;
+  mode_ = resolve(from, cell.target, facts);
+
+  const bool changed =
+      mode_ != from || sets[0] != in_service_ || sets[1] != set_aside_ || sets[2] != excluded_ || sets[3] != absent_;
+  if (!changed) return;
+  if (event != HealthEvent::alarm && event != HealthEvent::clean_block) verdict_.cause = cause_of(event);
+  TransitionRecord& record = verdict_.transition;
+  record.sequence = ++sequence_;
+  record.time_s = time_s;
+  record.from = state_of(from);
+  record.to = state_of(mode_);
+  record.event = event;
+  record.cause = cause_of(event);
+  record.grade = event == HealthEvent::culprit || event == HealthEvent::set_aside ? last_grade_ : Grade::none;
+  record.sensors = named;
+  record.statistic = verdict_.statistic;
+  record.limit = verdict_.limit;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,269 @@
+// The flow of one step: admit, gate, convert, collect, decide, publish.
+#include "plumb/health/health_monitor.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include "plumb/numeric/tails.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+using std::size_t;
+
+static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a snapshot is an assignment");
+static_assert(noexcept(std::declval<HealthMonitor&>().step(std::declval<const Sample&>())));
+
+namespace {
+
+/// Readings beyond this are held at it: large enough that nothing believes them, small enough that no
+/// square or sum of them overflows.
+constexpr double kReadingClamp_mps2 = 1e5;
+/// Output beyond the calibrated span by more than this is unconfirmed (design, section 4).
+constexpr double kTemperatureMargin_degc = 5.0;
+constexpr double kFullScaleMargin = 1.2;
+constexpr double kRestlessRate = 1e-6;
+
+/// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.
+int faults_to_cover(int n, double prior, double risk) noexcept {
+  double term = std::pow(1.0 - prior, n);
+  double cumulative = term;
+  for (int k = 0; k < n; ++k) {
+    if (1.0 - cumulative <= risk) return k < 1 ? 1 : k;
+    term *= prior / (1.0 - prior) * (n - k) / (k + 1);
+    cumulative += term;
+  }
+  return n;
+}
+
+Expected<void> check_setup(const MonitorSetup& setup) noexcept {
+  const int n = setup.array.size();
+  if (n < 3) return fail(Errc::too_few_sensors, -1, n, 3);
+  if (setup.model.size != n) return fail(Errc::not_calibrated, -1, setup.model.size, n);
+  for (double m : setup.model.misalignment) {
+    if (m != 0.0) return fail(Errc::not_calibrated, -1, m, 0.0);
+  }
+  for (int i = 0; i < n; ++i) {
+    const double full = setup.full_scale_raw[static_cast<size_t>(i)];
+    const double needed =
+        std::fabs(setup.model.scale_at(i, setup.model.sensor[static_cast<size_t>(i)].reference_degc)) *
+        kFullScaleMargin * setup.gravity.g_mps2;
+    if (full > 0.0 && full < needed) return fail(Errc::range_too_small, i, full, needed);
+  }
+  if (!(setup.gravity.g_mps2 > 1.0) || !(setup.gravity.sigma_mps2 >= 0.0) ||
+      !std::isfinite(setup.gravity.g_mps2 + setup.gravity.sigma_mps2)) {
+    return fail(Errc::out_of_range, 0, setup.gravity.g_mps2, 1.0);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
+  configured_ = false;
+  verdict_ = Verdict{};
+  const Expected<MonitorConfig> config = checked(setup.config);
+  if (!config) return tl::unexpected<Error>(config.error());
+  const Expected<void> sound = check_setup(setup);
+  if (!sound) return sound;
+
+  config_ = setup.config;
+  model_ = setup.model;
+  array_ = setup.array;
+  gravity_ = setup.gravity;
+  frame_ = setup.output_frame;
+  const int n = array_.size();
+  limits_ = TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate);
+  restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
+  mae_quantile_ = half_normal_mean_quantile(config_.window, config_.false_alarm_rate / triple_count_of(n));
+  k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);
+  protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
+  asserted_left_ = config_.asserted_faults;
+
+  mode_ = Mode::suspect;
+  in_service_ = array_.all();
+  set_aside_ = excluded_ = absent_ = readmitted_ = banned_ = SensorSet{};
+  unproven_ = true;
+  exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_time_ = have_predictions_ = reset_pending_ = false;
+  last_time_s_ = evidence_time_s_ = 0.0;
+  sequence_ = 0;
+  clean_run_ = 0;
+  probation_.clear();
+  on_probation_ = reset_sensors_ = clipped_ = not_finite_ = SensorSet{};
+  last_grade_ = Grade::none;
+  gate_.configure(n, setup.full_scale_raw, config_.missing_confirm);
+  block_.clear();
+  mae_.configure(array_.triple_count(), config_.window);
+  isolation_ = Isolation{};
+  isolation_.pose(array_, in_service_);
+  episode_.clear();
+  station_.clear();
+  map_ = least_squares(array_, in_service_);
+  evidence_ = BlockEvidence{};
+  answer_ = IsolationAnswer{};
+  scan_ = FaultSetScan{};
+  size_class_ = classify();
+  live_ = isolation_.live();
+  configured_ = true;
+  publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
+  return {};
+}
+
+Expected<void> HealthMonitor::reset(std::uint64_t key, SensorSet sensors) noexcept {
+  if (key != config_.reset_key) return fail(Errc::wrong_key);
+  reset_pending_ = true;
+  reset_sensors_ = sensors & array_.all();
+  return {};
+}
+
+Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexcept {
+  const bool sound = std::isfinite(gravity.g_mps2) && gravity.g_mps2 > 1.0 && std::isfinite(gravity.sigma_mps2) &&
+                     gravity.sigma_mps2 >= 0.0;
+  if (!sound) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
+  gravity_ = gravity;
+  return {};
+}
+
+bool HealthMonitor::admit(const Sample& sample, bool& gap) noexcept {
+  gap = false;
+  if (!std::isfinite(sample.time_s)) return false;
+  if (have_time_) {
+    if (!(sample.time_s > last_time_s_)) return false;
+    gap = sample.time_s - last_time_s_ > config_.max_gap_s;
+  }
+  have_time_ = true;
+  last_time_s_ = sample.time_s;
+  return true;
+}
+
+Readings HealthMonitor::readings_of(const Sample& sample, GateResult& gate) const noexcept {
+  const bool known = std::isfinite(sample.temperature_degc);
+  Readings y = model_.apply(sample.raw, known ? sample.temperature_degc : last_temperature_degc_, gate.usable);
+  for (int i = 0; i < array_.size(); ++i) {
+    double& v = y[static_cast<size_t>(i)];
+    if (!std::isfinite(v)) {
+      gate.usable = gate.usable.without(i);
+      gate.not_finite = gate.not_finite.with(i);
+      v = 0.0;
+    } else if (v > kReadingClamp_mps2) {
+      v = kReadingClamp_mps2;
+    } else if (v < -kReadingClamp_mps2) {
+      v = -kReadingClamp_mps2;
+    }
+  }
+  return y;
+}
+
+const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
+  verdict_.transition = TransitionRecord{};
+  verdict_.tick = false;
+  verdict_.accepted = false;
+  if (!configured_) return verdict_;
+  verdict_.time_s = sample.time_s;
+  bool gap = false;
+  if (!admit(sample, gap)) {
+    // The sample is refused and the windows stay as they are; what was valid is now only held.
+    verdict_.cause = Cause::time_fault;
+    if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
+    verdict_.alert = true;
+    station_.clear();
+    return verdict_;
+  }
+  GateResult gate = gate_.gate(sample);
+  if (gap || gate.gap) {
+    verdict_.cause = Cause::gap;
+    block_.clear();
+    mae_.clear();
+    station_.clear();
+  }
+  bool ticked = false;
+  EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
+  if (!gate.gap) {
+    const Readings y = readings_of(sample, gate);
+    clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
+    not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
+    const double t = sample.temperature_degc;
+    temperature_out_ = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
+                         t <= config_.temperature_max_degc + kTemperatureMargin_degc);
+    if (std::isfinite(t)) last_temperature_degc_ = t;
+    const bool map_usable = gate.usable.contains(in_service_);
+    mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
+    if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
+    block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
+    verdict_.accepted = true;
+    ticked = block_.size() >= config_.window;
+    if (ticked) raised |= tick(sample);
+    if (!((gate_.lost() & array_.all()) - absent_).empty()) raised |= bit(HealthEvent::channel_lost);
+    if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
+  }
+  decide(raised, sample.time_s);
+  publish(sample, ticked);
+  return verdict_;
+}
+
+Validity HealthMonitor::validity() const noexcept {
+  if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
+  if (moving_ || last_time_s_ - evidence_time_s_ > config_.max_age_s) return Validity::held;
+  if (mode_ == Mode::suspect || mode_ == Mode::recalibrating || temperature_out_) return Validity::unconfirmed;
+  return mode_ == Mode::degraded ? Validity::degraded : Validity::valid;
+}
+
+void HealthMonitor::publish_vector() noexcept {
+  const SensorSet used = in_service_ & evidence_.usable;
+  const SetTest t = test_set(array_, gravity_, limits_, evidence_, used);
+  if (!t.tested) return;
+  Mat3 covariance = calibration_covariance(array_, t, used);
+  for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
+  Mat3 half{};  // F C F'
+  for (size_t r = 0; r < 3; ++r) {
+    for (size_t c = 0; c < 3; ++c) {
+      for (size_t k = 0; k < 3; ++k) half[3 * r + c] += frame_[3 * r + k] * covariance[3 * k + c];
+    }
+  }
+  verdict_.covariance = Mat3{};
+  for (size_t r = 0; r < 3; ++r) {
+    for (size_t c = 0; c < 3; ++c) {
+      for (size_t k = 0; k < 3; ++k) verdict_.covariance[3 * r + c] += half[3 * r + k] * frame_[3 * c + k];
+    }
+  }
+  verdict_.gravity_mps2 = times(frame_, t.x_mps2);
+  verdict_.norm_error_mps2 = t.norm_error_mps2;
+}
+
+void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
+  Verdict& v = verdict_;
+  v.time_s = sample.time_s;
+  v.tick = ticked && !moving_;
+  v.state = state_of(mode_);
+  v.qualifiers = static_cast<std::uint8_t>((unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
+                                           (mode_ == Mode::initial ? Qualifier::initial_calibration : 0) |
+                                           (!set_aside_.empty() ? Qualifier::provisional : 0) |
+                                           (exhausted_ ? Qualifier::exhausted : 0) |
+                                           (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0));
+  v.configured = array_.all();
+  v.in_service = in_service_;
+  v.set_aside = set_aside_;
+  v.excluded = excluded_;
+  v.absent = absent_;
+  v.clipped = clipped_;
+  v.not_finite = not_finite_;
+  v.suspects = episode_.open ? scan_.suspects : SensorSet{};
+  v.fewest_faults = scan_.fewest_faults;
+  v.grade = last_grade_;
+  v.strict_grade = isolation_.strict_grade();
+  v.parity_grade = isolation_.parity_grade();
+  v.live_hypotheses = live_;
+  v.stations_on_record = episode_.stations.size();
+  v.wants_rotation = mode_ == Mode::suspect && (unproven_ || (episode_.open && !answer_.contradiction));
+  v.mae_all_mps2 = mae_.all_mps2();
+  v.validity = validity();
+  v.age_s = have_evidence_ ? last_time_s_ - evidence_time_s_ : 0.0;
+  v.protection_available = scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
+                           mode_ != Mode::degraded;
+  v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
+  v.alert =
+      !v.protection_available || v.protection_level_rad > config_.alert_limit_rad || v.validity != Validity::valid;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,120 @@
+#include "plumb/health/state.hpp"
+
+#include "plumb/health/transition_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+const char* to_string(HealthState state) noexcept {
+  switch (state) {
+    case HealthState::nominal: return "nominal";
+    case HealthState::suspect: return "suspect";
+    case HealthState::isolated: return "isolated";
+    case HealthState::degraded_3_sensor: return "degraded";
+    case HealthState::recalibrating: return "recalibrating";
+    case HealthState::failed: return "failed";
+  }
+  return "?";
+}
+
+const char* to_string(HealthEvent event) noexcept {
+  switch (event) {
+    case HealthEvent::reset: return "reset";
+    case HealthEvent::channel_lost: return "channel_lost";
+    case HealthEvent::channel_back: return "channel_back";
+    case HealthEvent::culprit: return "culprit";
+    case HealthEvent::set_aside: return "set_aside";
+    case HealthEvent::patience_over: return "patience_over";
+    case HealthEvent::contradiction: return "contradiction";
+    case HealthEvent::alarm: return "alarm";
+    case HealthEvent::reference: return "reference";
+    case HealthEvent::fit_accepted: return "fit_accepted";
+    case HealthEvent::fit_rejected: return "fit_rejected";
+    case HealthEvent::probation_passed: return "probation_passed";
+    case HealthEvent::recalibrate: return "recalibrate";
+    case HealthEvent::clean_block: return "clean_block";
+    case HealthEvent::none: return "none";
+  }
+  return "?";
+}
+
+const char* to_string(Cause cause) noexcept {
+  switch (cause) {
+    case Cause::none: return "none";
+    case Cause::power_on: return "power_on";
+    case Cause::parity: return "parity";
+    case Cause::norm: return "norm";
+    case Cause::mae: return "mae";
+    case Cause::reference: return "reference";
+    case Cause::moving: return "moving";
+    case Cause::isolated_fault: return "isolated_fault";
+    case Cause::ambiguous: return "ambiguous";
+    case Cause::contradiction: return "contradiction";
+    case Cause::channel_lost: return "channel_lost";
+    case Cause::channel_back: return "channel_back";
+    case Cause::temperature: return "temperature";
+    case Cause::patience: return "patience";
+    case Cause::calibration: return "calibration";
+    case Cause::probation: return "probation";
+    case Cause::host_request: return "host_request";
+    case Cause::time_fault: return "time_fault";
+    case Cause::gap: return "gap";
+    case Cause::clean: return "clean";
+  }
+  return "?";
+}
+
+const char* to_string(Validity validity) noexcept {
+  switch (validity) {
+    case Validity::valid: return "valid";
+    case Validity::degraded: return "degraded";
+    case Validity::unconfirmed: return "unconfirmed";
+    case Validity::held: return "held";
+    case Validity::invalid: return "invalid";
+  }
+  return "?";
+}
+
+const char* to_string(Grade grade) noexcept {
+  switch (grade) {
+    case Grade::none: return "none";
+    case Grade::parity: return "parity";
+    case Grade::strict: return "strict";
+    case Grade::asserted: return "asserted";
+  }
+  return "?";
+}
+
+const char* to_string(Mode mode) noexcept {
+  switch (mode) {
+    case Mode::nominal: return "nominal";
+    case Mode::isolated: return "isolated";
+    case Mode::suspect: return "suspect";
+    case Mode::degraded: return "degraded";
+    case Mode::recalibrating: return "recalibrating";
+    case Mode::initial: return "recalibrating (initial)";
+    case Mode::failed: return "failed";
+  }
+  return "?";
+}
+
+const char* to_string(Target target) noexcept {
+  switch (target) {
+    case Target::stay: return "stay";
+    case Target::by_size: return "by size";
+    case Target::by_size_if_proven: return "by size (unproven: stay)";
+    case Target::by_size_when_earned: return "by size when earned";
+    case Target::suspect: return "suspect";
+    case Target::suspect_or_failed: return "suspect (rank < 3: failed)";
+    case Target::stay_or_failed: return "stay (rank < 3: failed)";
+    case Target::by_protection: return "stay while PL <= AL, else failed";
+    case Target::recalibrating: return "recalibrating";
+    case Target::base: return "by size; from suspect: suspect";
+    case Target::rearm: return "suspect (rank < 3: stay; no calibration: recalibrating (initial))";
+    case Target::failed: return "failed";
+  }
+  return "?";
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,249 @@
+#include "plumb/health/health_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "support/simulated_tool.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::direction_at;
+using plumb_test::Rig;
+
+TEST(HealthMonitor, PowersOnUnprovenAndEarnsTrustOnlyByChangingAttitude) {
+  Rig rig(plumb_test::tetrahedron());
+  EXPECT_EQ(rig.stay(direction_at(40, 30), 20).state, HealthState::suspect)
+      << "one attitude proves nothing (stuck at power-on)";
+  EXPECT_EQ(rig.monitor.verdict().validity, Validity::unconfirmed);
+  EXPECT_TRUE(rig.monitor.verdict().qualifiers & Qualifier::unproven);
+  const Verdict& v = rig.prove();
+  EXPECT_EQ(v.state, HealthState::nominal);
+  EXPECT_EQ(v.validity, Validity::valid);
+  EXPECT_TRUE(v.protection_available);
+  EXPECT_FALSE(v.alert);
+  EXPECT_LT(angle_between_rad(v.gravity_mps2, direction_at(100, 340)), 1e-3);
+}
+
+TEST(HealthMonitor, NothingIsSaidBeforeTheFirstBlock) {
+  Rig rig(plumb_test::tetrahedron());
+  const Verdict& v = rig.step(rig.sample(direction_at(30, 0), kG0_mps2));
+  EXPECT_EQ(v.validity, Validity::invalid);
+  EXPECT_TRUE(v.alert);
+}
+
+TEST(HealthMonitor, AStuckSensorOfFourIsExcludedAfterFourAttitudesAndLeavesDegraded) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 2 ? 0.0 : r; };
+  const Verdict& first = rig.stay(direction_at(45, 200));
+  EXPECT_EQ(first.state, HealthState::suspect);
+  EXPECT_EQ(first.validity, Validity::unconfirmed);
+  EXPECT_EQ(first.cause, Cause::parity);
+  EXPECT_LT(first.margin, 0.0);
+  rig.stay(direction_at(45, 200), 10);
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::suspect) << "more samples at one attitude do not isolate";
+  rig.stay(direction_at(50, 260));
+  rig.stay(direction_at(60, 320));
+  const Verdict& last = rig.stay(direction_at(70, 20));
+  EXPECT_EQ(last.state, HealthState::degraded_3_sensor);
+  EXPECT_EQ(last.excluded, SensorSet::of(2));
+  EXPECT_EQ(last.validity, Validity::degraded);
+  EXPECT_FALSE(last.protection_available) << "three sensors carry no protection level";
+  EXPECT_LT(angle_between_rad(last.gravity_mps2, direction_at(70, 20)), 2e-3);
+  EXPECT_EQ(rig.ever_blamed, SensorSet::of(2));
+}
+
+TEST(HealthMonitor, SevenSensorsSetTheFaultAsideAtOnceAndStayUsable) {
+  Rig rig(plumb_test::cone_array(7));
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 5 ? r + 0.3 : r; };
+  const Verdict& first = rig.stay(direction_at(45, 200));
+  EXPECT_EQ(first.state, HealthState::suspect);
+  EXPECT_EQ(first.set_aside, SensorSet::of(5));
+  EXPECT_LT(angle_between_rad(first.gravity_mps2, direction_at(45, 200)), 1e-3) << "the vector is already without it";
+  const Verdict& v = rig.stay(direction_at(45, 200), 3);
+  EXPECT_EQ(v.state, HealthState::isolated);
+  EXPECT_EQ(v.validity, Validity::valid);
+  EXPECT_TRUE(v.qualifiers & Qualifier::provisional);
+  // Over four attitudes the strict grade confirms it and it is latched.
+  rig.stay(direction_at(55, 260));
+  rig.stay(direction_at(65, 310));
+  const Verdict& latched = rig.stay(direction_at(75, 10), 1);
+  EXPECT_EQ(latched.excluded, SensorSet::of(5));
+  EXPECT_EQ(latched.grade, Grade::strict);
+  EXPECT_EQ(rig.ever_blamed, SensorSet::of(5));
+}
+
+TEST(HealthMonitor, AnAssertedSingleFaultIsLatchedAtOneStation) {
+  MonitorConfig config;
+  config.asserted_faults = 1;
+  Rig rig(plumb_test::tetrahedron(), config);
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 1 ? r + 1.0 : r; };
+  const Verdict& v = rig.stay(direction_at(55, 77));
+  EXPECT_EQ(v.excluded, SensorSet::of(1));
+  EXPECT_EQ(v.grade, Grade::asserted);
+}
+
+TEST(HealthMonitor, MotionIsHeldAndBlamesNobody) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  for (int k = 0; k < 50; ++k) {
+    const Verdict& v = rig.shake(direction_at(100, 340), 0.05 * (k + 1));
+    EXPECT_EQ(v.state, HealthState::nominal);
+    EXPECT_EQ(v.validity, Validity::held);
+    EXPECT_EQ(v.cause, Cause::moving);
+  }
+  EXPECT_TRUE(rig.ever_blamed.empty());
+  EXPECT_EQ(rig.stay(direction_at(100, 340)).validity, Validity::valid);
+}
+
+TEST(HealthMonitor, WrongGravityIsReferenceAndNeverABlameNorAFailure) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.prove();
+  plumb_test::Noise noise(4);
+  for (int k = 0; k < 40; ++k) rig.stay(plumb_test::random_direction(noise), 1, kG0_mps2 * 1.003);
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::suspect);
+  EXPECT_EQ(rig.monitor.verdict().cause, Cause::reference);
+  EXPECT_TRUE(rig.ever_blamed.empty());
+}
+
+TEST(HealthMonitor, ALostChannelIsAbsentAndTwoOfFourFail) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 0 ? std::numeric_limits<double>::quiet_NaN() : r; };
+  EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::degraded_3_sensor);
+  EXPECT_EQ(rig.monitor.verdict().absent, SensorSet::of(0));
+  rig.distort = [](int i, double r, int) { return i <= 1 ? std::numeric_limits<double>::infinity() : r; };
+  const Verdict& v = rig.stay(direction_at(60, 10));
+  EXPECT_EQ(v.state, HealthState::failed);
+  EXPECT_EQ(v.validity, Validity::invalid);
+  rig.distort = [](int, double r, int) { return r; };
+  rig.prove();
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "latched";
+}
+
+TEST(HealthMonitor, OnlyTheKeyLeavesFailedAndTrustIsEarnedAgain) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i <= 1 ? std::numeric_limits<double>::infinity() : r; };
+  rig.stay(direction_at(60, 10));
+  ASSERT_EQ(rig.monitor.verdict().state, HealthState::failed);
+  rig.distort = [](int, double r, int) { return r; };
+  rig.stay(direction_at(60, 10));
+  EXPECT_EQ(rig.monitor.reset(1, SensorSet::first(4)).error().code, Errc::wrong_key);
+  rig.stay(direction_at(60, 10));
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed);
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
+  const Verdict& v = rig.stay(direction_at(60, 10));
+  EXPECT_EQ(v.state, HealthState::suspect);
+  EXPECT_TRUE(v.qualifiers & Qualifier::unproven);
+  EXPECT_EQ(v.in_service, SensorSet::first(4));
+  EXPECT_EQ(rig.prove().state, HealthState::nominal);
+}
+
+TEST(HealthMonitor, ThreeSensorsWithAPersistentNormViolationFailAfterPatience) {
+  AxisList axes{};
+  Rig rig(plumb_test::make_array(axes, orthogonal_triad(axes), 2e-4 * kG0_mps2));
+  rig.prove();
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::degraded_3_sensor) << "three sensors are degraded from the start";
+  rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.5 : r; };
+  plumb_test::Noise noise(8);
+  EXPECT_EQ(rig.stay(direction_at(90, 270)).state, HealthState::suspect);
+  for (int k = 0; k < 12; ++k) rig.stay(plumb_test::random_direction(noise));
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed);
+}
+
+TEST(HealthMonitor, ARecoveredSensorReturnsOnlyByProbation) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 4 ? r + 0.4 : r; };
+  plumb_test::Noise noise(12);
+  for (int k = 0; k < 8; ++k) rig.stay(plumb_test::random_direction(noise));
+  ASSERT_EQ(rig.monitor.verdict().excluded, SensorSet::of(4));
+  rig.distort = [](int, double r, int) { return r; };
+  for (int k = 0; k < 4; ++k) {
+    rig.stay(plumb_test::random_direction(noise));
+    EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(4));
+  }
+  for (int k = 0; k < 12; ++k) rig.stay(plumb_test::random_direction(noise));
+  EXPECT_TRUE(rig.monitor.verdict().excluded.empty());
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal);
+  EXPECT_EQ(rig.records.back().event, HealthEvent::probation_passed);
+}
+
+TEST(HealthMonitor, RefusedTimesChangeNothingButHoldTheOutput) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  Sample late = rig.sample(direction_at(100, 340), kG0_mps2);
+  late.time_s = 0.001;
+  for (int k = 0; k < 100; ++k) {
+    const Verdict& v = rig.monitor.step(late);
+    EXPECT_FALSE(v.accepted);
+    EXPECT_EQ(v.cause, Cause::time_fault);
+    EXPECT_EQ(v.state, HealthState::nominal);
+    EXPECT_EQ(v.validity, Validity::held);
+  }
+  late.time_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(rig.monitor.step(late).accepted);
+  EXPECT_EQ(rig.stay(direction_at(100, 340)).validity, Validity::valid);
+}
+
+TEST(HealthMonitor, WithoutAQuietBlockForTAgeNothingIsValid) {
+  MonitorConfig config;
+  config.max_age_s = 2.0;
+  Rig rig(plumb_test::tetrahedron(), config);
+  rig.prove();
+  Sample silent = rig.sample(direction_at(10, 0), kG0_mps2);
+  silent.delivered = SensorSet{};
+  for (int k = 0; k < 300; ++k) {
+    silent.time_s += 0.01;
+    rig.monitor.step(silent);
+  }
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal);
+  EXPECT_EQ(rig.monitor.verdict().validity, Validity::held);
+}
+
+TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
+  MonitorConfig config;
+  config.temperature_min_degc = 0.0;
+  config.temperature_max_degc = 100.0;
+  Rig rig(plumb_test::cone_array(5), config);
+  rig.prove();
+  for (int k = 0; k < 10 * 32; ++k) {
+    Sample s = rig.sample(direction_at(45, 40.0 * (k / 32)), kG0_mps2);
+    s.temperature_degc = 140.0;
+    s.raw[0] += 1.0;
+    rig.step(s);
+  }
+  EXPECT_EQ(rig.monitor.verdict().validity, Validity::unconfirmed);
+  EXPECT_TRUE(rig.ever_blamed.empty());
+}
+
+TEST(HealthMonitor, RefusesWhatItCannotWatch) {
+  Rig rig(plumb_test::tetrahedron());
+  auto monitor = std::make_unique<HealthMonitor>();
+  MonitorSetup bad = rig.setup;
+  bad.config.window = 0;
+  EXPECT_EQ(monitor->configure(bad).error().code, Errc::out_of_range);
+  EXPECT_EQ(monitor->step(Sample{}).validity, Validity::invalid);
+  bad = rig.setup;
+  bad.model.misalignment[1] = 0.1;
+  EXPECT_EQ(monitor->configure(bad).error().code, Errc::not_calibrated);
+  bad = rig.setup;
+  bad.full_scale_raw[3] = 9.9;
+  EXPECT_EQ(monitor->configure(bad).error().code, Errc::range_too_small);
+  EXPECT_EQ(monitor->configure(bad).error().index, 3);
+  bad = rig.setup;
+  bad.config.false_alarm_rate = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(monitor->configure(bad).error().code, Errc::not_finite);
+  bad = rig.setup;
+  bad.gravity.g_mps2 = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(monitor->configure(bad).has_value());
+}
+
+}  // namespace
