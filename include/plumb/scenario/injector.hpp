@@ -1,0 +1,64 @@
+/// Puts faults into samples: simulated ones and recorded logs alike.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "plumb/calibration/datasheet.hpp"
+#include "plumb/calibration/sensor_model.hpp"
+#include "plumb/core/config.hpp"
+#include "plumb/core/sample.hpp"
+#include "plumb/scenario/fault.hpp"
+#include "plumb/scenario/noise.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace scenario {
+
+/// Faults are applied in the order of the list: two on one sensor add up, and what comes later in the
+/// list acts on what comes earlier. A changed channel is digitised again (resolution, full scale), except
+/// in station means (`Sample::count` > 1), which are not codes. Channels that did not deliver stay so.
+///
+/// A sensor that is stuck at its last value keeps the last finite one from before the onset, other faults
+/// included; with none, the value at the onset.
+class Injector {
+ public:
+  /// `model` gives the scale factors: of the truth in a simulation, of the datasheet for a recorded log.
+  /// Refuses faults that `check` refuses; the text says which.
+  static tl::expected<Injector, std::string> make(const Datasheet& datasheet, const SensorModel& model,
+                                                  std::vector<Fault> faults, std::uint64_t seed,
+                                                  const NoiseLaw& converter = {});
+
+  /// Row by row over a log, from its first row on. Stations are counted by changes of the tag. Returns the
+  /// sensors that were in fault at this row.
+  SensorSet apply(Sample& sample) noexcept;
+
+  const std::vector<Fault>& faults() const noexcept { return faults_; }
+  /// Positions in the list of the faults that no row has shown yet. After the last row: those outside the
+  /// log's time, by station in a log without tags, or on a channel that did not deliver.
+  std::vector<int> without_effect() const;
+
+  /// For simulators, which know where they are and may jump: the faults at one moment, with the memory as
+  /// it stands. `remember` must have been called for every stuck or drifting fault in effect.
+  SensorSet inject(Sample& sample, const Moment& now) const noexcept;
+  void remember(int fault, const FaultMemory& memory) noexcept;
+
+ private:
+  Injector(const Datasheet& datasheet, const SensorModel& model, std::vector<Fault> faults, std::uint64_t seed,
+           const NoiseLaw& converter);
+
+  Datasheet datasheet_;
+  SensorModel model_;
+  std::vector<Fault> faults_;
+  std::vector<FaultMemory> memory_;
+  std::uint64_t seed_;
+  NoiseLaw converter_;
+  Moment now_;
+  std::uint32_t tag_ = 0;
+};
+
+}  // namespace scenario
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,105 @@
+/// `Scenario`: everything that happens to one tool, as a value; `Simulator` turns it into samples.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/sample.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/core/vec3.hpp"
+#include "plumb/scenario/attitude.hpp"
+#include "plumb/scenario/fault.hpp"
+#include "plumb/scenario/injector.hpp"
+#include "plumb/scenario/noise.hpp"
+#include "plumb/scenario/random.hpp"
+#include "plumb/scenario/truth.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace scenario {
+
+/// Sensor temperature over time; constant where the rate is 0.
+struct TemperatureLaw {
+  double start_degc = 25.0;
+  double rate_degc_per_s = 0.0;
+  double at(double time_s) const noexcept { return start_degc + rate_degc_per_s * time_s; }
+};
+
+struct Scenario {
+  Tool tool;
+  double gravity_mps2 = kG0_mps2;
+  AttitudeLaw attitudes = FixedAttitude{};
+  double rate_hz = 100.0;
+  double dwell_s = 2.0;         ///< at rest at every station
+  double move_s = 1.0;          ///< between two stations, turning along the great circle
+  double vibration_mps2 = 0.0;  ///< rms per axis of the tool frame, while moving
+  bool record_motion = true;    ///< false: the log has the dwells only, with time gaps between them
+  bool tag_stations = false;    ///< true: samples at rest carry the tag 1, 2, ...; moving ones none
+  double start_s = 0.0;         ///< time of the first sample
+  NoiseLaw noise;
+  TemperatureLaw temperature;
+  std::vector<Fault> faults;  ///< Clock::station counts the stations of the law, the motion behind one included
+  std::uint64_t seed = 1;
+};
+
+/// What is really the case at one sample.
+struct Truth {
+  Vec3 gravity_mps2{};            ///< in the tool frame, positive down; vibration left out
+  Vec3 body_acceleration_mps2{};  ///< vibration, in the tool frame
+  std::uint32_t station = 0;      ///< counted from 1; while moving: the one left behind
+  bool moving = false;
+  SensorSet faulty;  ///< sensors in fault
+};
+
+class Simulator {
+ public:
+  /// Refuses, with a remedy, a scenario that cannot be played: sensors, rates, counts, attitudes, faults.
+  static tl::expected<Simulator, std::string> make(Scenario scenario);
+
+  /// Number of samples of the whole run.
+  std::uint64_t size() const noexcept { return rows_; }
+  double duration_s() const noexcept;
+
+  /// The next sample; false at the end. `truth()` then belongs to it.
+  bool next(Sample& sample) noexcept;
+  const Truth& truth() const noexcept { return truth_; }
+  void rewind() noexcept { cursor_ = 0; }
+
+  /// Sample `row` < size(), whatever was asked for before: a pure function of scenario and row.
+  Sample at(std::uint64_t row, Truth* truth = nullptr) const noexcept;
+
+  const Scenario& scenario() const noexcept { return scenario_; }
+  const std::vector<Vec3>& directions() const noexcept { return directions_; }
+
+ private:
+  Simulator(Scenario scenario, std::vector<Vec3> directions, Injector injector);
+
+  struct Place {
+    Moment moment;
+    bool moving = false;
+    double part = 0.0;  ///< of the way to the next station
+  };
+  Place place_of(std::uint64_t row) const noexcept;
+  Truth truth_at(const Place& place) const noexcept;
+  Sample healthy(const Place& place, const Truth& truth) const noexcept;
+  void remember_onsets() noexcept;
+
+  Scenario scenario_;
+  std::vector<Vec3> directions_;
+  std::vector<Passage> passages_;
+  std::vector<Stream> noise_;
+  Stream vibration_;
+  Injector injector_;
+  std::uint64_t dwell_rows_ = 0;
+  std::uint64_t move_rows_ = 0;
+  std::uint64_t rows_ = 0;
+  std::uint64_t cursor_ = 0;
+  Truth truth_;
+};
+
+}  // namespace scenario
+}  // namespace PLUMB_ABI
+}  // namespace plumb

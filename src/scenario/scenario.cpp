@@ -1,0 +1,193 @@
+#include "plumb/scenario/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace scenario {
+namespace {
+
+constexpr double kMaxRows = 1e12;
+
+tl::unexpected<std::string> refuse(std::string why) { return tl::unexpected<std::string>(std::move(why)); }
+
+/// Also false for NaN.
+bool within(double value, double low, double high) noexcept { return value >= low && value <= high; }
+
+std::uint64_t rows_of(double time_s, double rate_hz) noexcept {
+  return static_cast<std::uint64_t>(std::floor(time_s * rate_hz + 0.5));
+}
+
+/// Empty where all is well.
+std::string numbers_wrong(const Scenario& s) {
+  if (!within(s.rate_hz, 1e-6, 1e9)) return "the sample rate is not usable. Remedy: give it in Hz, as in 100";
+  if (!within(s.dwell_s, 0.0, 1e9) || !within(s.move_s, 0.0, 1e9)) {
+    return "dwell or motion time is negative or not finite. Remedy: give both in seconds";
+  }
+  if (s.dwell_s * s.rate_hz < 0.5) return "a dwell holds no sample. Remedy: raise the dwell time or the sample rate";
+  if ((s.dwell_s + s.move_s) * s.rate_hz > kMaxRows) return "too many samples. Remedy: lower the times or the rate";
+  if (!within(s.gravity_mps2, 0.0, 1e3)) return "gravity is not usable. Remedy: give it in m/s^2, as in 9.81";
+  if (!within(s.vibration_mps2, 0.0, 1e6)) return "the vibration is not usable. Remedy: give its rms in m/s^2";
+  if (!within(s.noise.white, 0.0, 1e6)) return "the noise factor is negative or not finite. Remedy: give 1 or 0";
+  if (!within(s.start_s, -1e12, 1e12)) return "the start time is not usable. Remedy: give it in seconds";
+  if (!within(s.temperature.start_degc, -273.15, 1e4) || !within(s.temperature.rate_degc_per_s, -1e3, 1e3)) {
+    return "the temperature is not usable. Remedy: give degC and degC per second";
+  }
+  return {};
+}
+
+std::string tool_wrong(const Tool& tool) {
+  if (tool.datasheet.size < 3 || tool.datasheet.size > kCapacity || tool.model.size != tool.datasheet.size) {
+    return "the tool has " + std::to_string(tool.datasheet.size) + " sensors. Remedy: give it 3 to " +
+           std::to_string(kCapacity) + ", the same number in datasheet and model";
+  }
+  if (!tool.model.raw_from(Readings{}, tool.datasheet.sensor[0].coefficients.reference_degc)) {
+    return "the cross-axis matrix of the tool cannot be inverted. Remedy: keep its entries well below 1";
+  }
+  return {};
+}
+
+}  // namespace
+
+tl::expected<Simulator, std::string> Simulator::make(Scenario scenario) {
+  std::string wrong = numbers_wrong(scenario);
+  if (wrong.empty()) wrong = tool_wrong(scenario.tool);
+  if (!wrong.empty()) return refuse(std::move(wrong));
+  auto directions = directions_of(scenario.attitudes, scenario.seed);
+  if (!directions) return refuse(directions.error());
+  auto injector =
+      Injector::make(scenario.tool.datasheet, scenario.tool.model, scenario.faults, scenario.seed, scenario.noise);
+  if (!injector) return refuse(injector.error());
+  return Simulator(std::move(scenario), std::move(*directions), std::move(*injector));
+}
+
+Simulator::Simulator(Scenario scenario, std::vector<Vec3> directions, Injector injector)
+    : scenario_(std::move(scenario)),
+      directions_(std::move(directions)),
+      vibration_(scenario_.seed, Purpose::vibration),
+      injector_(std::move(injector)),
+      dwell_rows_(std::max<std::uint64_t>(1, rows_of(scenario_.dwell_s, scenario_.rate_hz))),
+      move_rows_(rows_of(scenario_.move_s, scenario_.rate_hz)) {
+  for (std::size_t k = 0; k + 1 < directions_.size(); ++k) passages_.emplace_back(directions_[k], directions_[k + 1]);
+  for (int i = 0; i < scenario_.tool.datasheet.size; ++i) {
+    noise_.emplace_back(scenario_.seed, Purpose::noise, static_cast<std::uint32_t>(i));
+  }
+  const std::uint64_t stations = directions_.size();
+  rows_ = stations * dwell_rows_ + (scenario_.record_motion ? (stations - 1) * move_rows_ : 0);
+  remember_onsets();
+}
+
+double Simulator::duration_s() const noexcept { return place_of(rows_ - 1).moment.time_s - scenario_.start_s; }
+
+bool Simulator::next(Sample& sample) noexcept {
+  if (cursor_ >= rows_) return false;
+  sample = at(cursor_++, &truth_);
+  return true;
+}
+
+Sample Simulator::at(std::uint64_t row, Truth* truth) const noexcept {
+  const Place place = place_of(row);
+  Truth real = truth_at(place);
+  Sample sample = healthy(place, real);
+  real.faulty = injector_.inject(sample, place.moment);
+  if (truth != nullptr) *truth = real;
+  return sample;
+}
+
+Simulator::Place Simulator::place_of(std::uint64_t row) const noexcept {
+  // Without recorded motion the rows skip it, but time does not.
+  const std::uint64_t period = dwell_rows_ + move_rows_;
+  const std::uint64_t stride = scenario_.record_motion ? period : dwell_rows_;
+  const std::uint64_t station = row / stride;
+  const std::uint64_t within_station = row % stride;
+  Place place;
+  place.moment.row = row;
+  place.moment.station = station + 1;
+  place.moment.time_s = scenario_.start_s + static_cast<double>(station * period + within_station) / scenario_.rate_hz;
+  place.moving = within_station >= dwell_rows_;
+  if (place.moving) {
+    const std::uint64_t step = within_station - dwell_rows_ + 1;
+    place.part = static_cast<double>(step) / static_cast<double>(move_rows_ + 1);
+  }
+  return place;
+}
+
+Truth Simulator::truth_at(const Place& place) const noexcept {
+  const auto station = static_cast<std::size_t>(place.moment.station - 1);
+  const Vec3 down = place.moving ? passages_[station].at(place.part) : directions_[station];
+  Truth truth;
+  truth.gravity_mps2 = scaled(down, scenario_.gravity_mps2);
+  truth.station = static_cast<std::uint32_t>(place.moment.station);
+  truth.moving = place.moving;
+  if (place.moving && scenario_.vibration_mps2 > 0.0) {
+    truth.body_acceleration_mps2 = vibration(vibration_, place.moment.row, scenario_.vibration_mps2);
+  }
+  return truth;
+}
+
+Sample Simulator::healthy(const Place& place, const Truth& truth) const noexcept {
+  const Tool& tool = scenario_.tool;
+  // An accelerometer cannot tell gravity from the body accelerating the other way.
+  const Vec3 felt = minus(truth.gravity_mps2, truth.body_acceleration_mps2);
+  Readings accel_mps2{};
+  for (int i = 0; i < tool.datasheet.size; ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    accel_mps2[s] = dot(tool.axes[s], felt);
+    const double sigma_mps2 = scenario_.noise.white * tool.datasheet.sensor[s].row.sigma_mps2;
+    if (sigma_mps2 > 0.0) accel_mps2[s] += sigma_mps2 * noise_[s].normal(place.moment.row);
+  }
+  Sample sample;
+  sample.time_s = place.moment.time_s;
+  sample.temperature_degc = scenario_.temperature.at(place.moment.time_s - scenario_.start_s);
+  sample.delivered = SensorSet::first(tool.datasheet.size);
+  sample.station = scenario_.tag_stations && !place.moving ? truth.station : 0;
+  const auto raw = tool.model.raw_from(accel_mps2, sample.temperature_degc);
+  if (!raw) return sample;  // refused by `make`: the cross-axis matrix does not depend on temperature
+  for (int i = 0; i < tool.datasheet.size; ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    sample.raw[s] = digitised((*raw)[s], tool.datasheet.sensor[s], scenario_.noise);
+  }
+  return sample;
+}
+
+/// Gives every fault its memory beforehand, so that `at` may jump. A fault that is stuck at its last
+/// value needs the row before its onset, faults that began earlier included: hence in order of onset.
+void Simulator::remember_onsets() noexcept {
+  struct Onset {
+    std::uint64_t row;
+    int fault;
+  };
+  const std::vector<Fault>& faults = injector_.faults();
+  std::vector<Onset> onsets;
+  for (std::size_t k = 0; k < faults.size(); ++k) {
+    std::uint64_t low = 0;  // the first row at or after onset: rows are ordered on every clock
+    std::uint64_t high = rows_;
+    while (low < high) {
+      const std::uint64_t middle = low + (high - low) / 2;
+      if (has_begun(faults[k], place_of(middle).moment)) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    if (low < rows_) onsets.push_back({low, static_cast<int>(k)});
+  }
+  std::stable_sort(onsets.begin(), onsets.end(), [](const Onset& a, const Onset& b) { return a.row < b.row; });
+  for (const Onset& onset : onsets) {
+    const Fault& fault = faults[static_cast<std::size_t>(onset.fault)];
+    const Place place = place_of(onset.row);
+    FaultMemory memory;
+    memory.begun = true;
+    memory.begun_s = fault.clock == Clock::time && onset.row > 0 ? fault.onset : place.moment.time_s;
+    memory.has_last = true;
+    const Sample last = onset.row > 0 ? at(onset.row - 1) : healthy(place, truth_at(place));
+    memory.last_raw = last.raw[static_cast<std::size_t>(fault.sensor)];
+    injector_.remember(onset.fault, memory);
+  }
+}
+
+}  // namespace scenario
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,254 @@
+#include "plumb/scenario/fault_text.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "plumb/scenario/library.hpp"
+
+namespace plumb {
+namespace scenario {
+namespace {
+
+FaultContext volts() {
+  FaultContext context;
+  context.datasheet = paper_datasheet();
+  return context;
+}
+
+FaultContext counts() {
+  FaultContext context;
+  context.datasheet = paper_datasheet();
+  context.raw = FaultContext::Raw::count;
+  context.raw_unit = "count";
+  for (DatasheetSensor& sensor : context.datasheet.sensor) {
+    sensor.coefficients.scale[0] = 415.0;
+    sensor.coefficients.bias[0] = 33123.0 / 415.0;
+    sensor.full_scale_raw = 65535.0;
+    sensor.resolution_raw = 1.0;
+  }
+  return context;
+}
+
+FaultContext accelerations() {
+  FaultContext context;
+  context.datasheet = paper_datasheet();
+  context.raw = FaultContext::Raw::acceleration;
+  context.raw_unit = "m/s^2";
+  return context;
+}
+
+Fault parsed(const char* text, const FaultContext& context) {
+  const auto fault = parse_fault(text, context);
+  EXPECT_TRUE(fault) << (fault ? "" : fault.error());
+  return fault ? *fault : Fault{};
+}
+
+TEST(FaultText, ReadsTheExamplesOfTheHelp) {
+  const Fault stuck = parsed("a2:stuck=0V@12s", volts());
+  EXPECT_EQ(stuck.kind, FaultKind::stuck_level);
+  EXPECT_EQ(stuck.sensor, 1);
+  EXPECT_EQ(stuck.onset, 12.0);
+  EXPECT_EQ(stuck.magnitude, 0.0);
+  EXPECT_TRUE(std::isinf(stuck.duration));
+
+  const Fault bias = parsed("2:bias=50mg0@30s+10s", volts());
+  EXPECT_EQ(bias.kind, FaultKind::bias_step);
+  EXPECT_EQ(bias.sensor, 1) << "number 2 counted from 1";
+  EXPECT_DOUBLE_EQ(bias.magnitude, 0.05 * kG0_mps2);
+  EXPECT_EQ(bias.duration, 10.0);
+
+  const Fault random = parsed("a1:random=-3V..3V@20s", volts());
+  EXPECT_EQ(random.kind, FaultKind::random_range);
+  EXPECT_EQ(random.magnitude, -3.0);
+  EXPECT_EQ(random.upper, 3.0);
+  EXPECT_EQ(random, parsed("a1:random=-3..3V@20s", volts()));
+
+  EXPECT_EQ(parsed("a3:last@5s", volts()).kind, FaultKind::stuck_last);
+  EXPECT_DOUBLE_EQ(parsed("a3:last=0.5LSB@5s", volts()).magnitude, 0.5 * kPaperResolution_V);
+  EXPECT_EQ(parsed("a3:held=-3V..3V@5s", volts()).kind, FaultKind::random_level);
+  EXPECT_DOUBLE_EQ(parsed("a1:drift=1mg0/s@10s", volts()).magnitude, 1e-3 * kG0_mps2);
+  EXPECT_DOUBLE_EQ(parsed("a1:drift=3.6mg/h@10s", volts()).magnitude, 1e-6 * kG0_mps2);
+  EXPECT_DOUBLE_EQ(parsed("a1:drift=2m/s^2/min@10s", volts()).magnitude, 2.0 / 60.0);
+  EXPECT_EQ(parsed("a4:scale=1.1@10s", volts()).magnitude, 1.1);
+}
+
+TEST(FaultText, ReadsLevelsInEveryUnit) {
+  EXPECT_EQ(parsed("a1:stuck=FS@1s", volts()).magnitude, 5.0);
+  EXPECT_EQ(parsed("a1:stuck=-FS@1s", volts()).magnitude, -5.0);
+  EXPECT_EQ(parsed("a1:stuck=+3V@1s", volts()).magnitude, 3.0);
+  EXPECT_DOUBLE_EQ(parsed("a1:stuck=250mV@1s", volts()).magnitude, 0.25);
+  EXPECT_DOUBLE_EQ(parsed("a1:stuck=-1g0@1s", volts()).magnitude, -3.0) << "what the datasheet makes of -1 g0";
+  EXPECT_EQ(parsed("a1:stuck=36000count@1s", counts()).magnitude, 36000.0);
+  EXPECT_DOUBLE_EQ(parsed("a1:stuck=0m/s^2@1s", counts()).magnitude, 33123.0) << "mid scale is zero acceleration";
+  EXPECT_DOUBLE_EQ(parsed("a1:stuck=1g0@1s", accelerations()).magnitude, kG0_mps2);
+  FaultContext millivolts = volts();
+  millivolts.raw_unit = "mV";
+  millivolts.base_per_raw = 1e-3;
+  EXPECT_DOUBLE_EQ(parsed("a1:stuck=3V@1s", millivolts).magnitude, 3000.0);
+  EXPECT_EQ(parsed("a1:stuck=3mV@1s", millivolts).magnitude, 3.0);
+}
+
+TEST(FaultText, ReadsTimesRowsAndStations) {
+  EXPECT_DOUBLE_EQ(parsed("a1:last@2min+500ms", volts()).onset, 120.0);
+  EXPECT_DOUBLE_EQ(parsed("a1:last@2min+500ms", volts()).duration, 0.5);
+  EXPECT_EQ(parsed("a1:last@1e+02s+1e+01s", volts()).onset, 100.0);
+  EXPECT_EQ(parsed("a1:last@-3s", volts()).onset, -3.0);
+  const Fault row = parsed("a1:last@#5+#10", volts());
+  EXPECT_EQ(row.clock, Clock::row);
+  EXPECT_EQ(row.onset, 5.0);
+  EXPECT_EQ(row.duration, 10.0);
+  const Fault station = parsed("a1:last@station6", volts());
+  EXPECT_EQ(station.clock, Clock::station);
+  EXPECT_EQ(station.onset, 6.0);
+  EXPECT_EQ(parsed(" a1 : stuck = 0 V @ 12 s + 3 s ", volts()), parsed("a1:stuck=0V@12s+3s", volts()));
+}
+
+TEST(FaultText, AnIdGoesBeforeANumberAndMayHoldAnything) {
+  FaultContext context = volts();
+  context.datasheet.sensor[0].row.id = make_id("2");
+  context.datasheet.sensor[3].row.id = make_id("x:1@7");
+  EXPECT_EQ(parsed("2:last@1s", context).sensor, 0);
+  EXPECT_EQ(parsed("3:last@1s", context).sensor, 2);
+  EXPECT_EQ(parsed("x:1@7:last@1s", context).sensor, 3);
+  EXPECT_EQ(parsed(to_text(parsed("x:1@7:last@1s", context), context).c_str(), context).sensor, 3);
+}
+
+TEST(FaultText, BadStringsAreRefusedWithARemedy) {
+  struct Bad {
+    const char* text;
+    const char* says;
+  };
+  const Bad bad[] = {{"", "no onset"},
+                     {"a2:stuck=0V", "no onset"},
+                     {"stuck=0V@12s", "no sensor"},
+                     {"b2:stuck=0V@12s", "name one of a1, a2, a3, a4"},
+                     {"0:stuck=0V@12s", "no sensor '0'"},
+                     {"5:stuck=0V@12s", "no sensor '5'"},
+                     {"a2:broken=0V@12s", "write one of stuck, last, random, held, bias, drift, scale"},
+                     {"a2:stuck@12s", "needs a size"},
+                     {"a2:stuck=@12s", "needs a size"},
+                     {"a2:last=@12s", "needs a size"},
+                     {"a2:stuck=0@12s", "has no unit. Remedy: write the level in one of V, mV, uV, LSB, as FS"},
+                     {"a2:stuck=1g@12s", "'g' is ambiguous"},
+                     {"a2:stuck=3apples@12s", "unknown unit 'apples'"},
+                     {"a2:stuck=xV@12s", "does not begin with a number"},
+                     {"a2:stuck=nanV@12s", "does not begin with a number"},
+                     {"a2:stuck=infV@12s", "does not begin with a number"},
+                     {"a2:stuck=1e999V@12s", "too large"},
+                     {"a2:bias=50@12s", "no unit"},
+                     {"a2:bias=0.05g@12s", "'g' is ambiguous"},
+                     {"a2:drift=0.05g/s@12s", "'g' is ambiguous"},
+                     {"a2:drift=1mg0@12s", "unknown unit"},
+                     {"a2:drift=1mg0/day@12s", "unknown unit"},
+                     {"a2:random=3V@12s", "not a range"},
+                     {"a2:random=3V..-3V@12s", "range of the random value is empty"},
+                     {"a2:random=..3V@12s", "does not begin with a number"},
+                     {"a2:scale=1.1V@12s", "not a plain factor"},
+                     {"a2:scale=1@12s", "no fault"},
+                     {"a2:stuck=0V@", "onset"},
+                     {"a2:stuck=0V@12", "no unit"},
+                     {"a2:stuck=0V@12V", "unknown unit"},
+                     {"a2:stuck=0V@#0", "the first is 1"},
+                     {"a2:stuck=0V@#1.5", "whole number"},
+                     {"a2:stuck=0V@#x", "write #5 or station6"},
+                     {"a2:stuck=0V@station", "write #5 or station6"},
+                     {"a2:stuck=0V@12s+", "duration"},
+                     {"a2:stuck=0V@12s+0s", "duration is not positive"},
+                     {"a2:stuck=0V@12s+-1s", "duration is not positive"},
+                     {"a2:stuck=0V@12s+#4", "counted differently"}};
+  for (const Bad& b : bad) {
+    const auto fault = parse_fault(b.text, volts());
+    ASSERT_FALSE(fault) << b.text;
+    EXPECT_NE(fault.error().find(b.says), std::string::npos) << b.text << " -> " << fault.error();
+    EXPECT_NE(fault.error().find("Remedy: "), std::string::npos) << b.text << " -> " << fault.error();
+    EXPECT_EQ(fault.error().rfind("fault '" + std::string(b.text) + "': ", 0), 0U) << fault.error();
+  }
+  FaultContext unknown = volts();
+  unknown.datasheet.sensor[1].full_scale_raw = 0.0;
+  EXPECT_FALSE(parse_fault("a2:stuck=FS@12s", unknown));
+}
+
+TEST(FaultText, DescribesInSentences) {
+  const auto said = [](const char* text) { return describe(parsed(text, volts()), volts()); };
+  EXPECT_EQ(said("a2:stuck=0V@12s"), "a2 stands at 0 V from t = 12 s on");
+  EXPECT_EQ(said("a3:last@#5"), "a3 stands at its last value from row 5 on");
+  EXPECT_EQ(said("a2:bias=50mg0@30s+10s"), "a2 reads 50 mg0 too much from t = 30 s on, for 10 s");
+  EXPECT_EQ(said("a1:random=-3V..3V@station2+station3"),
+            "a1 delivers random values from -3 V to 3 V, new in every row from station 2 on, for 3 stations");
+  EXPECT_EQ(said("a1:held=-3V..3V@1s"), "a1 stands at a random value from -3 V to 3 V from t = 1 s on");
+  EXPECT_EQ(said("a1:drift=1mg0/s@10s"), "a1 drifts by 1 mg0/s from t = 10 s on");
+  EXPECT_EQ(said("a4:scale=1.1@10s"), "a4 has its scale factor multiplied by 1.1 from t = 10 s on");
+}
+
+TEST(FaultText, ShortTextsComeBackAsWritten) {
+  for (const char* text :
+       {"a2:stuck=0V@12s", "a3:last@5s", "a1:random=-3V..3V@20s", "a1:held=-3V..3V@20s", "a2:bias=50mg0@30s+10s",
+        "a1:drift=1mg0/s@10s", "a4:scale=1.1@10s", "a1:stuck=5V@#5+#3", "a1:stuck=-3V@station6"}) {
+    EXPECT_EQ(to_text(parsed(text, volts()), volts()), text);
+  }
+}
+
+/// Any finite double, from its bits, so that round trips meet the awkward ones.
+rc::Gen<double> any_finite() {
+  return rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
+    const double mantissa = 1.0 + std::ldexp(static_cast<double>(bits >> 12U), -52);
+    const int exponent = static_cast<int>(bits % 120U) - 60;
+    return (bits & 0x800U) != 0 ? -std::ldexp(mantissa, exponent) : std::ldexp(mantissa, exponent);
+  });
+}
+
+rc::Gen<Fault> any_fault() {
+  return rc::gen::exec([] {
+    Fault fault;
+    fault.kind = static_cast<FaultKind>(*rc::gen::inRange(0, kFaultKinds));
+    fault.sensor = *rc::gen::inRange(0, 4);
+    fault.clock = static_cast<Clock>(*rc::gen::inRange(0, 3));
+    const bool counted = fault.clock != Clock::time;
+    fault.onset = counted ? *rc::gen::inRange(1, 1000000) : *any_finite();
+    if (*rc::gen::arbitrary<bool>()) {
+      fault.duration = counted ? *rc::gen::inRange(1, 1000000) : std::abs(*any_finite());
+    }
+    fault.magnitude = *any_finite();
+    if (fault.kind == FaultKind::stuck_last) fault.magnitude = std::abs(fault.magnitude);
+    if (fault.kind == FaultKind::scale_change && fault.magnitude == 1.0) fault.magnitude = 2.0;
+    if (fault.kind == FaultKind::random_range || fault.kind == FaultKind::random_level) {
+      fault.upper = fault.magnitude + 2.0 * std::abs(fault.magnitude);
+    }
+    return fault;
+  });
+}
+
+RC_GTEST_PROP(FaultTextLaw, ToTextParsesBackToTheIdenticalFault, ()) {
+  const Fault fault = *any_fault();
+  RC_ASSERT(check(fault, 4));
+  for (const FaultContext& context : {volts(), counts(), accelerations()}) {
+    const std::string text = to_text(fault, context);
+    RC_LOG() << text << "\n";
+    const auto back = parse_fault(text, context);
+    RC_ASSERT(back);
+    RC_ASSERT(*back == fault);
+    RC_ASSERT(!describe(fault, context).empty());
+  }
+}
+
+RC_GTEST_PROP(FaultTextLaw, AnyTextIsParsedOrRefusedWithARemedy, ()) {
+  static const std::string kLetters = "a123:=@+-#.Vsg0mgSFLBtuckscalebiasdriftrandomstation/ ^e";
+  std::string text;
+  for (const int i : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, static_cast<int>(kLetters.size())))) {
+    text += kLetters[static_cast<std::size_t>(i)];
+  }
+  const std::string prefix = *rc::gen::element<std::string>("", "a1:stuck=", "a2:bias=1mg0@", "a3:last@1s+", "a4:");
+  const auto fault = parse_fault(prefix + text, volts());
+  if (fault) {
+    RC_ASSERT(check(*fault, 4));
+  } else {
+    RC_ASSERT(fault.error().find("Remedy: ") != std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace scenario
+}  // namespace plumb
