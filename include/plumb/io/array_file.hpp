@@ -1,0 +1,76 @@
+/// The array file (TOML): one array of sensors, where it is, how its log looks, how it is watched.
+/// Contract: design, section 6.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plumb/array/sensor_array.hpp"
+#include "plumb/calibration/datasheet.hpp"
+#include "plumb/core/vec3.hpp"
+#include "plumb/gravity/gravity.hpp"
+#include "plumb/health/monitor_config.hpp"
+#include "plumb/io/file_error.hpp"
+#include "plumb/io/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+enum class RowKind : std::uint8_t { samples, stations };
+const char* to_string(RowKind rows) noexcept;
+
+/// Only rows whose `column` holds this value are read ([input] where).
+struct ColumnFilter {
+  std::string column;
+  std::string text;  ///< as written
+  double number = 0.0;
+  bool numeric = false;  ///< compare as numbers (1 == 1.0) rather than as text
+};
+
+/// [input] and the `column` keys of the sensors.
+struct InputSpec {
+  RowKind rows = RowKind::samples;
+  std::string time_column;         ///< empty: time follows from `rate_hz`, or is the row number (stations)
+  double time_unit_s = 1.0;        ///< seconds per unit of the time column
+  double rate_hz = 0.0;            ///< 0: not given
+  std::string station_column;      ///< empty: none
+  std::string count_column;        ///< empty: every row stands for one sample
+  std::string temperature_column;  ///< empty: every row gets `default_temperature_degc`
+  double default_temperature_degc = 25.0;
+  std::vector<ColumnFilter> where;
+  RawUnit unit;
+  std::vector<std::string> sensor_columns;  ///< one per sensor, in the order of the array
+};
+
+inline constexpr Mat3 kIdentity3 = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+
+/// A reading range must exceed gravity by this fraction, or the sensor clips in normal use.
+inline constexpr double kFullScaleMargin = 0.05;
+
+struct ArrayFile {
+  std::string path;
+  std::string name;
+  Datasheet datasheet;
+  SensorArray array;  ///< nominal axes, checked
+  GravityReference gravity;
+  MonitorConfig monitor;
+  InputSpec input;
+  Mat3 output_frame = kIdentity3;  ///< rows; applied to vectors at output only
+  std::uint64_t fingerprint = 0;   ///< binds a calibration to this array, see fingerprint_of
+  std::string text;                ///< the file as read
+};
+
+FileExpected<ArrayFile> read_array_file(const std::string& path);
+
+/// The same from text; `path` is used in messages only.
+FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path);
+
+/// FNV-1a (64 bit) over ids, axes, nominal coefficients and `reads`: what a calibration depends on.
+/// Names, limits, noise, priors and the layout of the log do not enter.
+std::uint64_t fingerprint_of(const Datasheet& datasheet) noexcept;
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,49 @@
+/// The calibration file (JSON, schema "plumb-calibration" version 1): checksummed, bound to its array,
+/// every double bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "plumb/calibration/calibration.hpp"
+#include "plumb/gravity/gravity.hpp"
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/file_error.hpp"
+#include "plumb/io/hash.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+inline constexpr const char* kCalibrationSchema = "plumb-calibration";
+inline constexpr int kCalibrationVersion = 1;
+
+/// Where a calibration comes from. No clock time: the same input gives the same bytes.
+struct CalibrationContext {
+  std::string log_file;  ///< only the last part of the path is kept
+  std::uint64_t log_bytes = 0;
+  std::uint64_t log_hash = 0;  ///< FNV-1a of the bytes of the log
+  int stations = 0;            ///< used by the fit
+  std::string plumb_version;
+  GravityReference gravity;  ///< that the fit assumed
+};
+
+struct CalibrationFile {
+  Calibration calibration;
+  CalibrationContext context;
+  std::string array_name;
+  std::string array_file;  ///< last part of the path
+};
+
+std::string calibration_json(const Calibration& calibration, const ArrayFile& array, const CalibrationContext& context);
+
+FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,
+                                     const CalibrationContext& context);
+
+/// Refuses, with remedy: unreadable, truncated, edited (checksum), another schema or version, a
+/// calibration of another array (names the id, axis, scale or bias that differs).
+FileExpected<CalibrationFile> read_calibration(const std::string& path, const ArrayFile& array);
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

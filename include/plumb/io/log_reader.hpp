@@ -1,0 +1,93 @@
+/// Streaming reader of CSV logs, from a file or from standard input ("-").
+///
+/// First row: column names. Cells of a sensor: empty = the channel did not deliver; nan or inf = it
+/// delivered a value that is not finite; both are counted and are not bad rows. A bad row (text in a
+/// number, too few or too many cells, time that does not increase) is named by line and column and
+/// skipped or ends the run. Values stay in the unit of the log (InputSpec::unit), correctly rounded.
+#pragma once
+
+#include <array>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/core/sample.hpp"
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/file_error.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+/// --on-bad-row
+enum class BadRowPolicy : std::uint8_t { stop, skip };
+
+/// Station column <-> Sample::station. 0 means "none" in a Sample but is a common first label in logs,
+/// so every label v >= 0 becomes the tag v + 1; an empty cell or -1 means none.
+constexpr std::uint32_t tag_of_label(std::int64_t label) noexcept {
+  return label < 0 || label >= 0xFFFFFFFFLL ? 0U : static_cast<std::uint32_t>(label + 1);
+}
+constexpr std::int64_t label_of_tag(std::uint32_t tag) noexcept { return static_cast<std::int64_t>(tag) - 1; }
+
+struct LogStatistics {
+  static constexpr std::size_t kBadRowsKept = 20;
+
+  std::uint64_t rows = 0;                             ///< delivered as samples
+  std::uint64_t rows_bad = 0;                         ///< skipped as bad (with BadRowPolicy::stop: 0 or 1)
+  std::uint64_t rows_filtered = 0;                    ///< not selected by [input] where
+  std::uint64_t temperature_held = 0;                 ///< rows without a temperature, which got the one before
+  std::array<std::uint64_t, kCapacity> missing{};     ///< empty cells per sensor
+  std::array<std::uint64_t, kCapacity> not_finite{};  ///< nan or inf per sensor
+  std::vector<FileError> bad_rows;                    ///< the first kBadRowsKept of them
+  double first_time_s = 0.0;
+  double last_time_s = 0.0;
+  std::uint64_t bytes = 0;  ///< read so far
+  std::uint64_t hash = 0;   ///< FNV-1a of these bytes where `LogReader::hash_bytes` was asked for
+};
+
+class LogReader {
+ public:
+  enum class Next : std::uint8_t { row, end, error };
+
+  /// Opens the file and reads the header row. Errors: unreadable, empty, a column missing or named twice.
+  static FileExpected<LogReader> open(const std::string& path, const ArrayFile& array, BadRowPolicy policy);
+
+  LogReader(LogReader&& other) noexcept;
+  LogReader& operator=(LogReader&& other) noexcept;
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
+  ~LogReader();
+
+  /// The next sample; `end` at the end of the input, `error` at a bad row under BadRowPolicy::stop, when
+  /// reading fails, or at the end of a log without a single usable row.
+  Next next(Sample& sample);
+  const FileError& error() const noexcept;
+  const LogStatistics& statistics() const noexcept;
+  /// Line of the sample delivered last.
+  int line() const noexcept;
+
+  /// Hash the bytes as they pass (for the provenance of a calibration). Call before the first `next`.
+  void hash_bytes();
+  /// Treat the input as ended once *flag != 0, also while waiting on a pipe, provided the handler that
+  /// sets it was installed by sigaction without SA_RESTART.
+  void stop_when(const volatile std::sig_atomic_t* flag);
+
+ private:
+  struct State;
+  explicit LogReader(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
+};
+
+/// All rows of a log at once.
+struct LogContent {
+  std::vector<Sample> samples;
+  LogStatistics statistics;
+};
+FileExpected<LogContent> read_log(const std::string& path, const ArrayFile& array, BadRowPolicy policy);
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

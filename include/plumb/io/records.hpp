@@ -1,0 +1,40 @@
+/// JSON Lines: one object per transition and per verdict. Stable key order, every double with full
+/// precision (null where not finite), sensor sets as arrays of ids, angles in deg with `_deg` keys.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "plumb/array/sensor_array.hpp"
+#include "plumb/core/vec3.hpp"
+#include "plumb/health/verdict.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+/// Without a newline at the end.
+std::string event_json(const TransitionRecord& record, const SensorArray& array);
+
+/// `frame` (rows, ArrayFile::output_frame) is applied to the vectors, their covariance and the angles
+/// here and nowhere else.
+std::string verdict_json(const Verdict& verdict, const SensorArray& array, const Mat3& frame = kIdentity3);
+
+/// The same into a string that the caller reuses from record to record.
+void append_event_json(std::string& out, const TransitionRecord& record, const SensorArray& array);
+void append_verdict_json(std::string& out, const Verdict& verdict, const SensorArray& array,
+                         const Mat3& frame = kIdentity3);
+
+/// F v and F C F'.
+Vec3 in_frame(const Mat3& frame, const Vec3& v) noexcept;
+Mat3 covariance_in_frame(const Mat3& frame, const Mat3& covariance) noexcept;
+
+/// The quoted JSON string of any bytes (control characters escaped; bytes that are not UTF-8 become U+FFFD).
+void append_json_string(std::string& out, std::string_view text);
+/// The number, or null where it is not finite.
+void append_json_number(std::string& out, double value);
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

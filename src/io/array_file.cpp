@@ -1,0 +1,212 @@
+#include "plumb/io/array_file.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <exception>
+
+#include "array_parts.hpp"
+#include "plumb/io/hash.hpp"
+#include "plumb/io/output_file.hpp"
+#include "refusal.hpp"
+#include "text_tools.hpp"
+#include "toml_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+const std::vector<std::string>& known_sections() {
+  static const std::vector<std::string> names = {"name", "gravity", "monitor", "input", "output", "sensor"};
+  return names;
+}
+
+const std::vector<std::string>& known_input_keys() {
+  static const std::vector<std::string> names = {"rows",  "time",  "time_unit",   "rate",  "station",
+                                                 "count", "where", "temperature", "reads", "unit"};
+  return names;
+}
+
+constexpr double kFrameTolerance = 1e-6;
+
+void read_time(const TomlTable& table, InputSpec& input) {
+  input.time_column = table.text("time", "");
+  const bool has_rate = table.has("rate");
+  if (table.has("time_unit")) {
+    const TomlNode& value = table.need("time_unit", "");
+    const std::string text = table.text_with_unit(value, "time_unit", accepted_units(Quantity::time));
+    input.time_unit_s = table.checked(parse_quantity(Quantity::time, "1 " + text), "time_unit", value);
+    if (input.time_column.empty())
+      table.fail(value.line, "time_unit", "has no time column to belong to", "add time = \"<column>\", or take it out");
+  }
+  if (has_rate && !input.time_column.empty()) {
+    table.fail(table.line_of("rate"), "rate", "and time both give the time", "keep one of them");
+  }
+  if (has_rate && input.rows == RowKind::stations) {
+    table.fail(table.line_of("rate"), "rate", "has no meaning where every row is a station",
+               "take it out; the row number is the time then");
+  }
+  if (has_rate) {
+    input.rate_hz = table.need_quantity(Quantity::rate, "rate", "");
+    if (!(input.rate_hz > 0.0))
+      table.fail(table.line_of("rate"), "rate", "must be above zero", "give rate = \"100 Hz\"");
+  }
+  if (input.rows == RowKind::samples && !has_rate && input.time_column.empty()) {
+    table.fail(table.line(), "time", "is missing", "name the time column, time = \"t_s\", or give rate = \"100 Hz\"");
+  }
+}
+
+void read_where(const TomlTable& table, InputSpec& input) {
+  const TomlNode* where = table.find("where");
+  if (where == nullptr) return;
+  const std::string form = "write where = {exp = 1}: a column and the value of the rows to be read";
+  if (where->kind != TomlNode::Kind::table)
+    table.fail(where->line, "where", std::string("is ") + where->kind_name() + ", must be a table", form);
+  for (const auto& [column, value] : where->members) {
+    ColumnFilter filter;
+    filter.column = column;
+    filter.numeric = value.kind == TomlNode::Kind::integer || value.kind == TomlNode::Kind::number;
+    filter.number = value.number;
+    if (value.kind == TomlNode::Kind::integer) filter.text = std::to_string(value.integer);
+    if (value.kind == TomlNode::Kind::number) filter.text = shortest(value.number);
+    if (value.kind == TomlNode::Kind::text) filter.text = value.text;
+    if (!filter.numeric && value.kind != TomlNode::Kind::text) {
+      table.fail(where->line, "where." + column,
+                 std::string("is ") + value.kind_name() + ", must be a number or a string", form);
+    }
+    if (filter.numeric && !std::isfinite(filter.number)) {
+      table.fail(where->line, "where." + column, "is not finite", form);
+    }
+    input.where.push_back(filter);
+  }
+}
+
+/// Rows of unit length at right angles: a rotation, perhaps with a mirror (left-handed conventions).
+Mat3 read_frame(const TomlNode& root, const std::string& file) {
+  const TomlNode* node = root.find("output");
+  if (node == nullptr) return kIdentity3;
+  const TomlTable table(*node, file, "output", {"frame"});
+  const TomlNode* frame = table.find("frame");
+  if (frame == nullptr) return kIdentity3;
+  const std::string form =
+      "write frame = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], rows of unit length at right angles, signs as you need them";
+  if (frame->kind != TomlNode::Kind::array || frame->items.size() != 3)
+    table.fail(frame->line, "frame", "must be three rows of three numbers", form);
+  Mat3 out{};
+  for (std::size_t r = 0; r < 3; ++r) {
+    const TomlNode& row = frame->items[r];
+    if (row.kind != TomlNode::Kind::array || row.items.size() != 3)
+      table.fail(frame->line, "frame", "must be three rows of three numbers", form);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const TomlNode& item = row.items[c];
+      const bool number = item.kind == TomlNode::Kind::integer || item.kind == TomlNode::Kind::number;
+      if (!number || !std::isfinite(item.number))
+        table.fail(frame->line, "frame", "holds something that is not a finite number", form);
+      out[3 * r + c] = item.number;
+    }
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      const double product =
+          out[3 * a] * out[3 * b] + out[3 * a + 1] * out[3 * b + 1] + out[3 * a + 2] * out[3 * b + 2];
+      if (std::abs(product - (a == b ? 1.0 : 0.0)) <= kFrameTolerance) continue;
+      const std::string rows = "rows " + std::to_string(a + 1) + " and " + std::to_string(b + 1);
+      table.fail(frame->line, "frame",
+                 a == b ? "row " + std::to_string(a + 1) + " is not of unit length" : rows + " are not at right angles",
+                 form);
+    }
+  }
+  return out;
+}
+
+ArrayFile parsed(const TomlNode& root, const std::string& text, const std::string& path) {
+  const TomlTable top(root, path, "", known_sections());
+  ArrayFile out;
+  out.path = path;
+  out.text = text;
+  const std::string file_name = last_part(path);
+  out.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
+  out.gravity = read_gravity(root, path);
+  out.monitor = read_monitor(root, path);
+  out.input = read_input(root, path, out.datasheet.reads);
+  read_sensors(root, path, out);
+  out.output_frame = read_frame(root, path);
+  out.fingerprint = fingerprint_of(out.datasheet);
+  return out;
+}
+
+std::uint64_t hashed(double value, std::uint64_t hash) noexcept {
+  const double plain = value == 0.0 ? 0.0 : value;  // -0 and 0 are the same nominal value
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &plain, sizeof bits);
+  std::array<unsigned char, 8> bytes{};
+  for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = static_cast<unsigned char>(bits >> (8U * k));
+  return fnv1a(bytes.data(), bytes.size(), hash);
+}
+
+}  // namespace
+
+const char* to_string(RowKind rows) noexcept { return rows == RowKind::stations ? "stations" : "samples"; }
+
+InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads) {
+  const TomlNode* node = root.find("input");
+  if (node == nullptr) {
+    throw Refusal(FileError{file, 0, "input", "is missing",
+                            "add [input] with reads, unit and time (or rate): how the log is to be read"});
+  }
+  const TomlTable table(*node, file, "input", known_input_keys());
+  InputSpec input;
+  input.rows = table.choice("rows", {"samples", "stations"}, 0) == 1 ? RowKind::stations : RowKind::samples;
+  const std::string about_reads =
+      "say which way the sensors count: reads = \"specific-force\" where a sensor pointing up reads +1 g0 at rest "
+      "(most "
+      "MEMS parts), reads = \"gravity\" where one pointing down does";
+  reads = table.need_choice("reads", {"specific-force", "gravity"}, about_reads) == 1 ? Reads::gravity
+                                                                                      : Reads::specific_force;
+  const std::string about_unit = "say what unit the log is in, one of: " + accepted_raw_units();
+  const std::string unit = table.need_text("unit", about_unit);
+  input.unit = table.checked(parse_raw_unit(unit), "unit", table.need("unit", about_unit));
+  read_time(table, input);
+  input.station_column = table.text("station", "");
+  input.count_column = table.text("count", "");
+  input.temperature_column = table.text("temperature", "");
+  read_where(table, input);
+  return input;
+}
+
+FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path) {
+  try {
+    const FileExpected<TomlNode> root = parse_toml(text, path);
+    if (!root) return tl::unexpected<FileError>(root.error());
+    return parsed(*root, text, path);
+  } catch (const Refusal& refusal) {
+    return tl::unexpected<FileError>(refusal.error());
+  } catch (const std::exception& error) {
+    return tl::unexpected<FileError>(
+        FileError{path, 0, "", error.what(), "report this as a bug of plumb", ExitCode::other});
+  }
+}
+
+FileExpected<ArrayFile> read_array_file(const std::string& path) {
+  const FileExpected<std::string> text = read_file(path);
+  if (!text) return tl::unexpected<FileError>(text.error());
+  return parse_array_text(*text, path);
+}
+
+std::uint64_t fingerprint_of(const Datasheet& datasheet) noexcept {
+  const char reads = datasheet.reads == Reads::gravity ? 'g' : 's';
+  std::uint64_t hash = fnv1a(&reads, 1);
+  for (int i = 0; i < datasheet.size && i < kCapacity; ++i) {
+    const DatasheetSensor& sensor = datasheet.sensor[static_cast<std::size_t>(i)];
+    hash = fnv1a(sensor.row.id.data(), sensor.row.id.size(), hash);
+    for (const double value : sensor.row.axis) hash = hashed(value, hash);
+    for (const double value : sensor.coefficients.scale) hash = hashed(value, hash);
+    for (const double value : sensor.coefficients.bias) hash = hashed(value, hash);
+    hash = hashed(sensor.coefficients.reference_degc, hash);
+  }
+  return hash;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,124 @@
+#include <vector>
+
+#include "array_parts.hpp"
+#include "text_tools.hpp"
+#include "toml_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+/// Limit of paper mode where none is given: the paper's own (design, section 4).
+constexpr double kPaperDeltaF_mps2 = 0.05 * kG0_mps2;
+
+/// Keys in the order of the fields of MonitorConfig, which is the order of the indices of `checked`.
+const std::vector<std::string>& known_keys() {
+  static const std::vector<std::string> names = {"mode",
+                                                 "window",
+                                                 "delta_f",
+                                                 "false_alarm_rate",
+                                                 "rejection_rate",
+                                                 "asserted_faults",
+                                                 "isolation_stations",
+                                                 "patience",
+                                                 "clean_blocks",
+                                                 "forget_blocks",
+                                                 "probation_stations",
+                                                 "missing_confirm",
+                                                 "max_gap",
+                                                 "max_age",
+                                                 "station_angle",
+                                                 "excitation_angle",
+                                                 "clear_fraction",
+                                                 "alert_limit",
+                                                 "integrity_risk",
+                                                 "fault_prior",
+                                                 "reset_key",
+                                                 "temperature_min",
+                                                 "temperature_max"};
+  return names;
+}
+
+int whole(const TomlTable& table, const char* key, int fallback) {
+  const std::int64_t value = table.integer(key, fallback);
+  if (value < -1 || value > 1000000000) {
+    table.fail(table.line_of(key), key, "is " + std::to_string(value) + ", out of range",
+               "give a count, usually below 100");
+  }
+  return static_cast<int>(value);
+}
+
+MonitorConfig filled(const TomlTable& table) {
+  MonitorConfig config;
+  config.mode = table.choice("mode", {"plumb", "paper"}, 0) == 1 ? MonitorMode::paper : MonitorMode::plumb;
+  config.window = whole(table, "window", config.window);
+  config.delta_f_mps2 =
+      table.quantity(Quantity::acceleration, "delta_f", config.mode == MonitorMode::paper ? kPaperDeltaF_mps2 : 0.0);
+  config.false_alarm_rate = table.quantity(Quantity::ratio, "false_alarm_rate", config.false_alarm_rate);
+  config.rejection_rate = table.quantity(Quantity::ratio, "rejection_rate", config.rejection_rate);
+  config.asserted_faults = whole(table, "asserted_faults", config.asserted_faults);
+  config.isolation_stations = whole(table, "isolation_stations", config.isolation_stations);
+  config.patience = whole(table, "patience", config.patience);
+  config.clean_blocks = whole(table, "clean_blocks", config.clean_blocks);
+  config.forget_blocks = whole(table, "forget_blocks", config.forget_blocks);
+  config.probation_stations = whole(table, "probation_stations", config.probation_stations);
+  config.missing_confirm = whole(table, "missing_confirm", config.missing_confirm);
+  config.max_gap_s = table.quantity(Quantity::time, "max_gap", config.max_gap_s);
+  config.max_age_s = table.quantity(Quantity::time, "max_age", config.max_age_s);
+  config.station_angle_rad = table.quantity(Quantity::angle, "station_angle", config.station_angle_rad);
+  config.excitation_angle_rad = table.quantity(Quantity::angle, "excitation_angle", config.excitation_angle_rad);
+  config.clear_fraction = table.quantity(Quantity::ratio, "clear_fraction", config.clear_fraction);
+  config.alert_limit_rad = table.quantity(Quantity::angle, "alert_limit", config.alert_limit_rad);
+  config.integrity_risk = table.quantity(Quantity::ratio, "integrity_risk", config.integrity_risk);
+  config.fault_prior = table.quantity(Quantity::ratio, "fault_prior", config.fault_prior);
+  const std::int64_t key = table.integer("reset_key", static_cast<std::int64_t>(config.reset_key));
+  if (key < 0)
+    table.fail(table.line_of("reset_key"), "reset_key", "is negative",
+               "give a whole number from 0 up, 0x706c756d62 for example");
+  config.reset_key = static_cast<std::uint64_t>(key);
+  config.temperature_min_degc = table.quantity(Quantity::temperature, "temperature_min", config.temperature_min_degc);
+  config.temperature_max_degc = table.quantity(Quantity::temperature, "temperature_max", config.temperature_max_degc);
+  return config;
+}
+
+/// Unit in which MonitorConfig holds the field of a key, for messages.
+const char* unit_of(const std::string& key) noexcept {
+  if (key == "delta_f") return " m/s^2";
+  if (key == "max_gap" || key == "max_age") return " s";
+  if (key == "station_angle" || key == "excitation_angle" || key == "alert_limit") return " rad";
+  if (key == "temperature_min" || key == "temperature_max") return " degC";
+  return "";
+}
+
+/// The refusal of `plumb::checked` in the words of the file.
+[[noreturn]] void refuse_field(const TomlTable& table, const Error& error) {
+  const bool known = error.index >= 0 && static_cast<std::size_t>(error.index) < known_keys().size();
+  const std::string key = known ? known_keys()[static_cast<std::size_t>(error.index)] : "";
+  const int line = table.line_of(key.c_str());
+  if (key == "mode") {
+    table.fail(line, key, "\"paper\" is not available in this version",
+               "use mode = \"plumb\" with delta_f = \"0.05 g0\" for the paper's limit");
+  }
+  if (error.code == Errc::not_finite) table.fail(line, key, "is not finite", "write a finite number");
+  const std::string unit = unit_of(key);
+  table.fail(line, key, "is " + brief(error.value) + unit + ", out of range",
+             std::string("give a value ") + (error.value < error.limit ? "of at least " : "of at most ") +
+                 brief(error.limit) + unit);
+}
+
+}  // namespace
+
+MonitorConfig read_monitor(const TomlNode& root, const std::string& file) {
+  const TomlNode* node = root.find("monitor");
+  TomlNode nothing;
+  nothing.kind = TomlNode::Kind::table;
+  const TomlTable table(node == nullptr ? nothing : *node, file, "monitor", known_keys());
+  const Expected<MonitorConfig> config = plumb::checked(filled(table));
+  if (config) return *config;
+  refuse_field(table, config.error());
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

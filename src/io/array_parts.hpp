@@ -1,0 +1,22 @@
+/// The parts of `parse_array_text`, one function per section (private to src/io). They throw Refusal.
+#pragma once
+
+#include <string>
+
+#include "plumb/io/array_file.hpp"
+#include "toml_tree.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+GravityReference read_gravity(const TomlNode& root, const std::string& file);
+MonitorConfig read_monitor(const TomlNode& root, const std::string& file);
+/// All of [input] but the columns of the sensors.
+InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);
+/// Fills `out.datasheet`, `out.array` and the columns; `out.input` and `out.gravity` must be set.
+void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out);
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,241 @@
+#include <cmath>
+#include <vector>
+
+#include "array_parts.hpp"
+#include "refusal.hpp"
+#include "text_tools.hpp"
+#include "toml_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+const std::vector<std::string>& known_keys() {
+  static const std::vector<std::string> names = {"id",      "column", "axis",  "scale", "bias",       "bias_t",
+                                                 "scale_t", "t_ref",  "noise", "prior", "full_scale", "resolution"};
+  return names;
+}
+
+constexpr std::size_t kLongestId = 15;
+
+/// Everything that reading one sensor needs besides its table.
+struct Surroundings {
+  const RawUnit& unit;
+  double g_mps2;
+};
+
+void refuse_unless_positive(const TomlTable& table, const char* key, double value, const std::string& remedy) {
+  if (!(value > 0.0)) table.fail(table.line_of(key), key, "must be above zero", remedy);
+}
+
+Vec3 read_axis(const TomlTable& table) {
+  const Vec3 axis =
+      table.need_vec3("axis", "give the direction that the sensor measures, in the tool frame: axis = [0.0, 0.0, 1.0]");
+  const double length = norm(axis);
+  if (std::abs(length - 1.0) <= kAxisLengthTolerance) return axis;
+  std::string remedy = "give a direction: the three numbers must not all be zero";
+  if (std::isfinite(length) && length > 0.0) {
+    remedy = "divide it by its length: [" + shortest(axis[0] / length) + ", " + shortest(axis[1] / length) + ", " +
+             shortest(axis[2] / length) + "]";
+  }
+  table.fail(table.line_of("axis"), "axis", "is " + brief(length, 9) + " long, must be of unit length", remedy);
+}
+
+/// Terms 1..3 of eqs (1), (2); a relative slope of the scale is multiplied by `factor` = the scale.
+void read_slopes(const TomlTable& table, const char* key, Quantity quantity, double factor,
+                 std::array<double, 4>& out) {
+  const TomlNode* list = table.find(key);
+  if (list == nullptr) return;
+  const std::string form = std::string("write ") + key +
+                           (quantity == Quantity::ratio ? " = [\"200 ppm/degC\", \"1 ppm/degC^2\"]"
+                                                        : " = [\"0.1 mg/degC\", \"2 ug/degC^2\"]");
+  if (list->kind != TomlNode::Kind::array || list->items.empty() || list->items.size() > 3) {
+    table.fail(list->line, key, "must be a list of one to three coefficients", form);
+  }
+  int order = 0;
+  for (const TomlNode& item : list->items) {
+    ++order;
+    const std::string name = std::string(key) + "[" + std::to_string(order) + "]";
+    if (item.kind != TomlNode::Kind::text)
+      table.fail(list->line, name, std::string("is ") + item.kind_name() + ", must be a string with a unit", form);
+    out[static_cast<std::size_t>(order)] =
+        factor * table.checked(parse_temperature_slope(quantity, item.text, order), name.c_str(), *list);
+  }
+}
+
+Prior read_prior(const TomlTable& table, const RawUnit& unit, double scale) {
+  Prior prior;
+  const TomlNode* node = table.find("prior");
+  if (node == nullptr) return prior;
+  const TomlTable inner(*node, table.file(), table.field("prior"), {"bias", "scale", "axis"});
+  if (const TomlNode* bias = inner.find("bias"); bias != nullptr) {
+    const std::string text = inner.text_with_unit(*bias, "bias", accepted_raw_units());
+    prior.bias_mps2 = std::abs(inner.checked(parse_as_acceleration(text, unit, scale), "bias", *bias));
+  }
+  prior.scale = inner.quantity(Quantity::ratio, "scale", prior.scale);
+  prior.axis_rad = inner.quantity(Quantity::angle, "axis", prior.axis_rad);
+  refuse_unless_positive(inner, "bias", prior.bias_mps2,
+                         "give the 1-sigma tolerance of the bias, for example \"20 mg\"");
+  refuse_unless_positive(inner, "scale", prior.scale, "give the 1-sigma tolerance of the scale, for example \"2 %\"");
+  refuse_unless_positive(inner, "axis", prior.axis_rad,
+                         "give the 1-sigma tolerance of the direction, for example \"2 deg\"");
+  return prior;
+}
+
+/// A value in raw units or as an acceleration, without its sign; 0 = unknown where the key is absent.
+double read_raw(const TomlTable& table, const char* key, const RawUnit& unit, double scale) {
+  const TomlNode* value = table.find(key);
+  if (value == nullptr) return 0.0;
+  const std::string text = table.text_with_unit(*value, key, accepted_raw_units());
+  return std::abs(table.checked(parse_as_raw(text, unit, scale), key, *value));
+}
+
+void check_range(const TomlTable& table, const DatasheetSensor& sensor, double g_mps2) {
+  if (!table.has("full_scale")) return;
+  const double reach_mps2 =
+      sensor.full_scale_raw / std::abs(sensor.coefficients.scale[0]) - std::abs(sensor.coefficients.bias[0]);
+  const double needed_mps2 = g_mps2 * (1.0 + kFullScaleMargin);
+  if (reach_mps2 >= needed_mps2) return;
+  table.fail(
+      table.line_of("full_scale"), "full_scale",
+      "reaches " + brief(reach_mps2) + " m/s^2 beside the bias, below gravity plus a margin of 5 % (" +
+          brief(needed_mps2) + " m/s^2)",
+      "such a sensor clips when it points along gravity: check full_scale, scale and bias, or leave the sensor out");
+}
+
+double read_scale(const TomlTable& table, const RawUnit& unit) {
+  const bool acceleration = unit.kind == RawUnit::Kind::acceleration;
+  if (!table.has("scale") && acceleration) return 1.0 / unit.base_per_unit;
+  const std::string example = unit.kind == RawUnit::Kind::count ? "\"2048 count/g0\"" : "\"3 V/g0\"";
+  const TomlNode& value = table.need("scale", "the log is in " + unit.name + ": give scale = " + example);
+  const bool plain = value.kind == TomlNode::Kind::number || value.kind == TomlNode::Kind::integer;
+  const std::string text = acceleration && plain
+                               ? shortest(value.number)
+                               : table.text_with_unit(value, "scale", "V/g0, mV/g0, count/g0, count/(m/s^2), ...");
+  return table.checked(parse_scale(text, unit), "scale", value);
+}
+
+DatasheetSensor read_sensor(const TomlTable& table, const Surroundings& around) {
+  DatasheetSensor sensor;
+  const std::string id = table.need_text("id", "name the sensor: id = \"A1\"");
+  if (id.size() > kLongestId) {
+    table.fail(table.line_of("id"), "id", in_quotes(id) + " is longer than 15 characters", "shorten it");
+  }
+  sensor.row.id = make_id(id.c_str());
+  sensor.row.axis = read_axis(table);
+  const double scale = read_scale(table, around.unit);
+  sensor.coefficients.scale[0] = scale;
+  if (const TomlNode* bias = table.find("bias"); bias != nullptr) {
+    const std::string text = table.text_with_unit(*bias, "bias", accepted_raw_units());
+    sensor.coefficients.bias[0] = table.checked(parse_as_acceleration(text, around.unit, scale), "bias", *bias);
+  }
+  read_slopes(table, "bias_t", Quantity::acceleration, 1.0, sensor.coefficients.bias);
+  read_slopes(table, "scale_t", Quantity::ratio, scale, sensor.coefficients.scale);
+  sensor.coefficients.reference_degc =
+      table.quantity(Quantity::temperature, "t_ref", sensor.coefficients.reference_degc);
+  const std::string remedy = "give the noise of one sample, 1 sigma: noise = \"0.5 mg\"";
+  const TomlNode& noise = table.need("noise", remedy);
+  const std::string text = table.text_with_unit(noise, "noise", accepted_raw_units());
+  const double sigma_mps2 = table.checked(parse_as_acceleration(text, around.unit, std::abs(scale)), "noise", noise);
+  refuse_unless_positive(table, "noise", sigma_mps2, remedy);
+  sensor.row.sigma_mps2 = sigma_mps2;
+  sensor.full_scale_raw = read_raw(table, "full_scale", around.unit, scale);
+  sensor.resolution_raw = read_raw(table, "resolution", around.unit, scale);
+  check_range(table, sensor, around.g_mps2);
+  sensor.prior = read_prior(table, around.unit, scale);
+  return sensor;
+}
+
+std::string path_of(std::size_t i) { return "sensor[" + std::to_string(i + 1) + "]"; }
+
+void refuse_twins(const std::vector<TomlTable>& tables, const std::vector<std::string>& values, const char* key,
+                  const std::string& remedy) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (values[i] != values[j]) continue;
+      tables[i].fail(tables[i].line_of(key), key,
+                     in_quotes(values[i]) + " is already the " + key + " of " + path_of(j) + " (line " +
+                         std::to_string(tables[j].line_of(key)) + ")",
+                     remedy);
+    }
+  }
+}
+
+const TomlNode& sensor_list(const TomlNode& root, const std::string& file) {
+  const TomlNode* list = root.find("sensor");
+  const std::string form = "add one [[sensor]] section for each accelerometer, three at least";
+  if (list == nullptr) throw Refusal(FileError{file, 0, "sensor", "no sensor is described", form});
+  if (list->kind != TomlNode::Kind::array)
+    throw Refusal(FileError{file, list->line, "sensor", "is " + std::string(list->kind_name()) + ", must be a list",
+                            "write [[sensor]] with two brackets"});
+  const std::size_t n = list->items.size();
+  if (n < 3)
+    throw Refusal(FileError{file, list->line, "sensor",
+                            "an array of " + std::to_string(n) + " sensors cannot determine a vector, 3 are needed",
+                            form});
+  if (n > static_cast<std::size_t>(kCapacity)) {
+    throw Refusal(FileError{
+        file, list->items[static_cast<std::size_t>(kCapacity)].line, path_of(static_cast<std::size_t>(kCapacity)),
+        std::to_string(n) + " sensors are more than this build holds (" + std::to_string(kCapacity) + ")",
+        "leave sensors out, or build plumb with a larger PLUMB_CAPACITY (24 at most)"});
+  }
+  return *list;
+}
+
+/// The rules of SensorArray, in the words of the file.
+SensorArray built_array(const std::vector<TomlTable>& tables, const Datasheet& sheet) {
+  std::array<SensorRow, kCapacity> rows{};
+  for (std::size_t i = 0; i < tables.size(); ++i) rows[i] = sheet.sensor[i].row;
+  const Expected<SensorArray> array = SensorArray::make(rows.data(), sheet.size);
+  if (array) return *array;
+  const Error& error = array.error();
+  if (error.code == Errc::axes_rank_deficient) {
+    tables.front().fail(tables.front().line_of("axis"), "axis",
+                        "the axes of all sensors lie in one plane (smallest singular value " + brief(error.value) +
+                            "): they cannot see across it",
+                        "check the axes for copies and signs; at least one must point out of the plane of the others");
+  }
+  const std::size_t i = error.index >= 0 && error.index < sheet.size ? static_cast<std::size_t>(error.index) : 0;
+  const FileError words = from_error(error);
+  tables[i].fail(tables[i].line(), "", words.what, words.remedy);
+}
+
+/// Without a temperature in the log, nothing may depend on it, and every row gets the reference.
+void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& sheet, InputSpec& input) {
+  if (!input.temperature_column.empty()) return;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const char* key = tables[i].has("bias_t") ? "bias_t" : "scale_t";
+    if (tables[i].has(key)) {
+      tables[i].fail(tables[i].line_of(key), key, "needs the temperature, but [input] names no temperature column",
+                     "add temperature = \"<column>\" to [input], or take " + std::string(key) + " out");
+    }
+  }
+  input.default_temperature_degc = sheet.sensor[0].coefficients.reference_degc;
+}
+
+}  // namespace
+
+void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out) {
+  const TomlNode& list = sensor_list(root, file);
+  std::vector<TomlTable> tables;
+  std::vector<std::string> ids;
+  std::vector<std::string> columns;
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    tables.emplace_back(list.items[i], file, path_of(i), known_keys());
+    out.datasheet.sensor[i] = read_sensor(tables.back(), {out.input.unit, out.gravity.g_mps2});
+    ids.push_back(tables.back().text("id", ""));
+    columns.push_back(tables.back().text("column", ids.back()));
+  }
+  out.datasheet.size = static_cast<int>(tables.size());
+  refuse_twins(tables, ids, "id",
+               "give every sensor a name of its own (parallel axes are allowed, equal names are not)");
+  refuse_twins(tables, columns, "column", "two sensors that read one column are one sensor: name the column of each");
+  out.array = built_array(tables, out.datasheet);
+  settle_temperature(tables, out.datasheet, out.input);
+  out.input.sensor_columns = columns;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

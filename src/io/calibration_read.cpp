@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <initializer_list>
+#include <limits>
+
+#include "calibration_json.hpp"
+#include "plumb/io/calibration_file.hpp"
+#include "plumb/io/output_file.hpp"
+#include "refusal.hpp"
+#include "text_tools.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+constexpr int kDeepest = 16;
+constexpr const char* kMakeAnew = "run plumb calibrate again, or fetch the file again from where it came";
+
+/// The text with what it takes to say where something is wrong; its functions throw Refusal.
+struct Source {
+  std::string path;
+  std::string text;
+
+  int line_at(std::size_t position) const {
+    return 1 + static_cast<int>(std::count(
+                   text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(position, text.size())), '\n'));
+  }
+  /// Line of the first `key` behind `section`, 0 where it does not stand.
+  int line_of(const std::string& section, const std::string& key) const {
+    const std::size_t from = text.find("\"" + section + "\"");
+    const std::size_t at = from == std::string::npos ? from : text.find(key, from);
+    return at == std::string::npos ? 0 : line_at(at);
+  }
+  [[noreturn]] void fail(int line, const std::string& field, const std::string& what, const std::string& remedy) const {
+    throw Refusal(FileError{path, line, field, what, remedy});
+  }
+  const Json& member(const Json& object, const std::string& key) const {
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    if (!object.is_object() || found == object.end()) fail(0, key, "is missing", kMakeAnew);
+    return *found;
+  }
+  double number(const Json& value, const std::string& key) const {
+    if (value.is_number()) return value.get<double>();
+    if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
+    if (value == "inf") return std::numeric_limits<double>::infinity();
+    if (value == "-inf") return -std::numeric_limits<double>::infinity();
+    fail(0, key, "is not a number", kMakeAnew);
+  }
+  double number_of(const Json& object, const std::string& key) const { return number(member(object, key), key); }
+  template <class T>
+  T whole_of(const Json& object, const std::string& key) const {
+    const Json& value = member(object, key);
+    if (!value.is_number_integer()) fail(0, key, "is not a whole number", kMakeAnew);
+    return value.get<T>();
+  }
+  std::string text_of(const Json& object, const std::string& key) const {
+    const Json& value = member(object, key);
+    if (!value.is_string()) fail(0, key, "is not a string", kMakeAnew);
+    return value.get<std::string>();
+  }
+  const Json& list(const Json& value, const std::string& key, std::size_t size) const {
+    if (!value.is_array() || value.size() != size) fail(0, key, "is not a list of " + std::to_string(size), kMakeAnew);
+    return value;
+  }
+  void numbers(const Json& value, const std::string& key, double* out, std::size_t count) const {
+    list(value, key, count);
+    for (std::size_t k = 0; k < count; ++k) out[k] = number(value[k], key);
+  }
+  void numbers_of(const Json& object, const std::string& key, double* out, std::size_t count) const {
+    numbers(member(object, key), key, out, count);
+  }
+};
+
+Json parsed(const Source& source) {
+  if (source.text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    source.fail(0, "", "the file is empty", kMakeAnew);
+  }
+  const auto shallow = [&source](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeepest) source.fail(0, "", "is nested too deeply for a calibration file", kMakeAnew);
+    return true;
+  };
+  try {
+    return Json::parse(source.text, shallow);
+  } catch (const Json::parse_error& error) {
+    const std::size_t last = source.text.find_last_not_of(" \t\r\n");
+    const bool cut = error.byte > last + 1;
+    source.fail(source.line_at(error.byte), "",
+                cut ? "the file ends in the middle: it is truncated" : "is not valid JSON", kMakeAnew);
+  } catch (const Json::exception&) {
+    source.fail(0, "", "is not valid JSON: a number is out of range", kMakeAnew);
+  }
+}
+
+void check_envelope(const Source& source, const Json& root) {
+  const bool ours = root.is_object() && root.contains("schema") && root["schema"] == kCalibrationSchema;
+  if (!ours) {
+    const std::string found = root.is_object() && root.contains("schema") ? root["schema"].dump() : "none";
+    source.fail(source.line_of("schema", "schema"), "schema",
+                std::string("is ") + found + ", must be \"" + kCalibrationSchema + "\"",
+                "give a file that plumb calibrate wrote");
+  }
+  const Json& version = source.member(root, "version");
+  if (version != kCalibrationVersion) {
+    source.fail(source.line_of("version", "version"), "version",
+                "is " + version.dump() + ", this plumb reads version " + std::to_string(kCalibrationVersion),
+                "run plumb calibrate again with this plumb, or use the plumb that wrote the file");
+  }
+  const std::string stated = source.text_of(root, "checksum");
+  const std::string actual = checksum_of(root);
+  if (stated != actual) {
+    source.fail(source.line_of("checksum", "checksum"), "checksum",
+                "is " + stated + ", the content gives " + actual + ": the file was edited or damaged",
+                std::string("do not edit calibration files; ") + kMakeAnew);
+  }
+}
+
+[[noreturn]] void refuse_array(const Source& source, const ArrayFile& array, const std::string& id,
+                               const std::string& field, const std::string& what) {
+  const int line =
+      id.empty() ? source.line_of("array", "\"" + field + "\"") : source.line_of("nominal", Json(id).dump());
+  source.fail(line, "array." + field, "the calibration belongs to another array: " + what,
+              "use the calibration made with " + array.path + ", or calibrate this array: plumb calibrate");
+}
+
+/// Which number of `there` differs from `here`, -1 where none does.
+int first_difference(const Source& source, const Json& there, const std::string& key, const double* here,
+                     std::size_t count) {
+  std::array<double, 4> values{};
+  source.numbers_of(there, key, values.data(), count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(values[k] == here[k])) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+void compare_sensor(const Source& source, const ArrayFile& array, const Json& there, std::size_t i) {
+  const DatasheetSensor& here = array.datasheet.sensor[i];
+  const std::string id = here.row.id.data();
+  const std::string field = "nominal[" + std::to_string(i + 1) + "].";
+  const std::string other = source.text_of(there, "id");
+  if (other != id)
+    refuse_array(source, array, other, field + "id",
+                 "sensor " + std::to_string(i + 1) + " is " + in_quotes(other) + " there and " + in_quotes(id) +
+                     " in the array file");
+  Vec3 axis{};
+  source.numbers_of(there, "axis", axis.data(), 3);
+  if (axis != here.row.axis) {
+    refuse_array(source, array, id, field + "axis",
+                 "the nominal axis of " + id + " differs by " +
+                     brief(deg_from_rad(angle_between_rad(axis, here.row.axis))) + " deg");
+  }
+  const struct {
+    const char* key;
+    const double* values;
+    const char* words;
+  } cubics[] = {{"scale", here.coefficients.scale.data(), "scale"},
+                {"bias_mps2", here.coefficients.bias.data(), "bias"}};
+  for (const auto& cubic : cubics) {
+    const int k = first_difference(source, there, cubic.key, cubic.values, 4);
+    if (k < 0) continue;
+    const double found = source.number(there[cubic.key][static_cast<std::size_t>(k)], cubic.key);
+    refuse_array(source, array, id, field + cubic.words,
+                 std::string("the nominal ") + cubic.words +
+                     (k > 0 ? " (temperature term " + std::to_string(k) + ")" : "") + " of " + id + " is " +
+                     shortest(found) + " there and " + shortest(cubic.values[k]) + " in the array file");
+  }
+  if (source.number_of(there, "reference_degc") != here.coefficients.reference_degc) {
+    refuse_array(source, array, id, field + "t_ref", "the reference temperature of " + id + " differs");
+  }
+}
+
+void check_array(const Source& source, const Json& root, const ArrayFile& array) {
+  const Json& there = source.member(root, "array");
+  const auto n = static_cast<std::size_t>(array.datasheet.size);
+  const Json& nominal = source.member(there, "nominal");
+  if (!nominal.is_array() || nominal.size() != n) {
+    refuse_array(source, array, "", "nominal",
+                 "it has " + std::to_string(nominal.size()) + " sensors, the array file has " + std::to_string(n));
+  }
+  for (std::size_t i = 0; i < n; ++i) compare_sensor(source, array, nominal[i], i);
+  const std::string reads = source.text_of(there, "reads");
+  if (reads != reads_word(array.datasheet.reads)) {
+    refuse_array(source, array, "", "reads",
+                 "its sensors read " + reads + ", those of the array file " + reads_word(array.datasheet.reads));
+  }
+  if (source.text_of(there, "fingerprint") != hex(array.fingerprint)) {
+    refuse_array(source, array, "", "fingerprint", "the fingerprints differ");
+  }
+}
+
+template <class Enum>
+Enum enum_from(const Source& source, const Json& object, const std::string& key, std::initializer_list<Enum> all) {
+  const std::string word = source.text_of(object, key);
+  for (const Enum value : all) {
+    if (word == to_string(value)) return value;
+  }
+  source.fail(0, key, in_quotes(word) + " is not known", kMakeAnew);
+}
+
+FitReport read_report(const Source& source, const Json& object, std::size_t n) {
+  FitReport report;
+  report.stations = source.whole_of<int>(object, "stations");
+  report.parameters = source.whole_of<int>(object, "parameters");
+  report.rank = source.whole_of<int>(object, "rank");
+  report.gauge = source.whole_of<int>(object, "gauge");
+  report.null_directions = source.whole_of<int>(object, "null_directions");
+  const int kept = std::clamp(report.null_directions, 0, kMaxNullDirections);
+  const Json& unseen =
+      source.list(source.member(object, "null_direction"), "null_direction", static_cast<std::size_t>(kept));
+  for (std::size_t d = 0; d < unseen.size(); ++d)
+    source.numbers(unseen[d], "null_direction", report.null_direction[d].component.data(), 4 * n);
+  report.condition = source.number_of(object, "condition");
+  report.norm_rms_mps2 = source.number_of(object, "norm_rms_mps2");
+  report.parity_rms_mps2 = source.number_of(object, "parity_rms_mps2");
+  report.misfit_mps2 = source.number_of(object, "misfit_mps2");
+  report.chi2 = source.number_of(object, "chi2");
+  report.degrees_of_freedom = source.whole_of<int>(object, "degrees_of_freedom");
+  report.p_value = source.number_of(object, "p_value");
+  report.excitation = source.number_of(object, "excitation");
+  report.iterations = source.whole_of<int>(object, "iterations");
+  report.stop = enum_from(source, object, "stop",
+                          {StopReason::none, StopReason::converged, StopReason::iteration_limit, StopReason::no_descent,
+                           StopReason::not_finite});
+  return report;
+}
+
+Calibration read_content(const Source& source, const Json& root, const ArrayFile& array) {
+  Calibration out;
+  const auto n = static_cast<std::size_t>(array.datasheet.size);
+  out.report = read_report(source, source.member(root, "report"), n);
+  out.model.size = array.datasheet.size;
+  out.model.reads = array.datasheet.reads;
+  RowUncertainty uncertainty;
+  std::array<SensorRow, kCapacity> rows{};
+  const Json& sensors = source.list(source.member(root, "sensors"), "sensors", n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Json& one = sensors[i];
+    rows[i].id = make_id(source.text_of(one, "id").c_str());
+    source.numbers_of(one, "axis", rows[i].axis.data(), 3);
+    rows[i].sigma_mps2 = source.number_of(one, "sigma_mps2");
+    SensorCoefficients& c = out.model.sensor[i];
+    source.numbers_of(one, "scale", c.scale.data(), 4);
+    source.numbers_of(one, "bias_mps2", c.bias.data(), 4);
+    c.reference_degc = source.number_of(one, "reference_degc");
+    uncertainty.misfit_mps2[i] = source.number_of(one, "misfit_mps2");
+    out.report.e_cal_mps2[i] = source.number_of(one, "e_cal_mps2");
+    out.report.residual_rms_mps2[i] = source.number_of(one, "residual_rms_mps2");
+    source.numbers_of(one, "fit_sigma", &out.report.sigma[4 * i], 4);
+    source.numbers_of(one, "data_share", &out.report.data_share[4 * i], 4);
+  }
+  if (root.contains("misalignment")) {
+    const Json& mixing = source.list(root["misalignment"], "misalignment", n);
+    for (std::size_t i = 0; i < n; ++i)
+      source.numbers(mixing[i], "misalignment", &out.model.misalignment[i * kCapacity], n);
+  }
+  const Json& covariance = source.list(source.member(root, "covariance"), "covariance", 4 * n);
+  for (std::size_t a = 0; a < 4 * n; ++a)
+    source.numbers(covariance[a], "covariance", &uncertainty.covariance[a * (a + 1) / 2], a + 1);
+  const Expected<SensorArray> built = SensorArray::make(rows.data(), static_cast<int>(n));
+  if (!built) {
+    const FileError words = from_error(built.error());
+    source.fail(source.line_of("sensors", "\"id\""), "sensors", words.what, kMakeAnew);
+  }
+  out.array = *built;
+  out.array.set_uncertainty(uncertainty);
+  return out;
+}
+
+CalibrationContext read_context(const Source& source, const Json& root) {
+  CalibrationContext context;
+  const Json& gravity = source.member(root, "gravity");
+  context.gravity.model = enum_from(
+      source, gravity, "model", {GravityModel::normal, GravityModel::paper, GravityModel::value, GravityModel::table});
+  context.gravity.g_mps2 = source.number_of(gravity, "g_mps2");
+  context.gravity.sigma_mps2 = source.number_of(gravity, "sigma_mps2");
+  const Json& provenance = source.member(root, "provenance");
+  context.log_file = source.text_of(provenance, "log_file");
+  context.log_bytes = source.whole_of<std::uint64_t>(provenance, "log_bytes");
+  context.log_hash = std::strtoull(source.text_of(provenance, "log_hash").c_str(), nullptr, 16);
+  context.stations = source.whole_of<int>(provenance, "stations");
+  context.plumb_version = source.text_of(provenance, "plumb_version");
+  return context;
+}
+
+}  // namespace
+
+FileExpected<CalibrationFile> read_calibration(const std::string& path, const ArrayFile& array) {
+  FileExpected<std::string> text = read_file(path);
+  if (!text) return tl::unexpected<FileError>(text.error());
+  const Source source{path, *std::move(text)};
+  try {
+    const Json root = parsed(source);
+    check_envelope(source, root);
+    check_array(source, root, array);
+    CalibrationFile out;
+    out.calibration = read_content(source, root, array);
+    out.context = read_context(source, root);
+    out.array_name = source.text_of(root["array"], "name");
+    out.array_file = source.text_of(root["array"], "file");
+    return out;
+  } catch (const Refusal& refusal) {
+    return tl::unexpected<FileError>(refusal.error());
+  } catch (const std::exception& error) {
+    return tl::unexpected<FileError>(FileError{path, 0, "", error.what(), kMakeAnew});
+  }
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

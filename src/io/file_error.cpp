@@ -1,0 +1,33 @@
+#include "plumb/io/file_error.hpp"
+
+#include "text_tools.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+std::string FileError::text() const {
+  std::string out = file;
+  if (line > 0) out += (out.empty() ? "line " : ":") + std::to_string(line);
+  if (!out.empty()) out += ": ";
+  if (!field.empty()) out += field + ": ";
+  out += what;
+  if (!out.empty() && out.back() != '.' && out.back() != '?') out += '.';
+  if (!remedy.empty()) out += " Remedy: " + remedy + (remedy.back() == '.' ? "" : ".");
+  return out;
+}
+
+FileError from_error(const Error& error, ExitCode code) {
+  FileError out;
+  out.what = describe(error.code);
+  if (error.value != 0.0 || error.limit != 0.0) {
+    out.what += " (found " + brief(error.value) + ", limit " + brief(error.limit) + ")";
+  }
+  out.remedy = remedy(error.code);
+  out.code = code;
+  return out;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

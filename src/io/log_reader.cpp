@@ -1,0 +1,361 @@
+#include "plumb/io/log_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+
+#include "csv.hpp"
+#include "text_tools.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
+constexpr std::int64_t kLargestCount = 0xFFFFFFFFLL;
+
+std::string shown_path(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 40;
+  if (names.size() <= kShown) return joined(names);
+  return joined({names.begin(), names.begin() + kShown}) + ", and " + std::to_string(names.size() - kShown) + " more";
+}
+
+bool matches(const ColumnFilter& filter, std::string_view cell) noexcept {
+  if (!filter.numeric) return bare_cell(cell) == filter.text;
+  double value = 0.0;
+  return parse_cell(cell, value) == CellKind::number && value == filter.number;
+}
+
+}  // namespace
+
+struct LogReader::State {
+  std::string path;
+  InputSpec input;
+  BadRowPolicy policy = BadRowPolicy::stop;
+  LineSource source;
+  std::vector<std::string> header;
+  std::vector<std::string_view> cells;
+  std::size_t time = kNoColumn;
+  std::size_t station = kNoColumn;
+  std::size_t count = kNoColumn;
+  std::size_t temperature = kNoColumn;
+  std::vector<std::size_t> sensors;
+  std::vector<std::size_t> filters;
+  int line = 0;
+  std::uint64_t index = 0;  ///< of the row among those not filtered out, bad ones included
+  double last_temperature_degc = 0.0;
+  bool has_temperature = false;
+  LogStatistics statistics;
+  FileError error;
+
+  // What the row at hand is refused for.
+  std::size_t bad_column = kNoColumn;
+  std::string bad_what;
+
+  bool refuse(std::size_t column, std::string what) {
+    bad_column = column;
+    bad_what = std::move(what);
+    return false;
+  }
+  FileError io_failure(int error_number) const;
+  FileExpected<void> read_header();
+  FileExpected<void> map_columns();
+  FileExpected<std::size_t> column_of(const std::string& name, const std::string& role) const;
+  FileError bad_row() const;
+  bool fill(Sample& sample);
+  bool fill_time(Sample& sample);
+  bool fill_tags(Sample& sample);
+  bool fill_temperature(Sample& sample);
+  bool fill_sensors(Sample& sample);
+  bool selected() const noexcept;
+  FileError nothing_usable() const;
+};
+
+FileError LogReader::State::io_failure(int error_number) const {
+  FileError out;
+  out.file = path;
+  out.line = error_number == EMSGSIZE ? line + 1 : 0;
+  out.what = error_number == EMSGSIZE ? "a line is longer than 16 MB"
+                                      : std::string("cannot be read: ") + system_message(error_number);
+  out.remedy = "check the path and the permissions";
+  if (error_number == EISDIR) out.remedy = "name a file, not a directory";
+  if (error_number == EMSGSIZE) out.remedy = "give a CSV file: text with one row a line";
+  return out;
+}
+
+FileExpected<void> LogReader::State::read_header() {
+  std::string_view text;
+  do {
+    const LineSource::Status status = source.next(text);
+    if (status == LineSource::Status::failed) return tl::unexpected<FileError>(io_failure(source.error_number()));
+    if (status == LineSource::Status::end) {
+      return tl::unexpected<FileError>(
+          FileError{path, 0, "", "the log is empty", "give a CSV file with a header row that names the columns"});
+    }
+    ++line;
+    if (line == 1 && text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  } while (trimmed(text).empty());
+  cells.resize(static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')) + 1);
+  cells.resize(split_cells(text, cells));
+  bool numbers = true;
+  for (const std::string_view cell : cells) {
+    double value = 0.0;
+    numbers = numbers && parse_cell(cell, value) == CellKind::number;
+    header.emplace_back(bare_cell(cell));
+  }
+  if (numbers) {
+    return tl::unexpected<FileError>(
+        FileError{path, line, "", "the first row holds numbers, it must name the columns",
+                  "put a header row in front, for example: t_s," + joined(input.sensor_columns)});
+  }
+  return {};
+}
+
+FileExpected<std::size_t> LogReader::State::column_of(const std::string& name, const std::string& role) const {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) {
+    std::string remedy = did_you_mean(name, header) + "columns present: " + listed(header);
+    if (header.size() == 1 && header[0].find_first_of(";\t") != std::string::npos) {
+      remedy = "separate the cells by commas (this file seems to use " +
+               std::string(header[0].find(';') != std::string::npos ? "semicolons" : "tabs") + ")";
+    }
+    return tl::unexpected<FileError>(
+        FileError{path, line, name, "the column is missing, it is " + role + " in the array file", remedy});
+  }
+  if (std::find(found + 1, header.end(), name) != header.end()) {
+    return tl::unexpected<FileError>(
+        FileError{path, line, name, "two columns have this name", "rename or remove one of them"});
+  }
+  return static_cast<std::size_t>(found - header.begin());
+}
+
+FileExpected<void> LogReader::State::map_columns() {
+  struct Wanted {
+    const std::string& name;
+    const char* role;
+    std::size_t& place;
+  };
+  const Wanted wanted[] = {{input.time_column, "input.time", time},
+                           {input.station_column, "input.station", station},
+                           {input.count_column, "input.count", count},
+                           {input.temperature_column, "input.temperature", temperature}};
+  for (const Wanted& one : wanted) {
+    if (one.name.empty()) continue;
+    const FileExpected<std::size_t> column = column_of(one.name, one.role);
+    if (!column) return tl::unexpected<FileError>(column.error());
+    one.place = *column;
+  }
+  for (const ColumnFilter& filter : input.where) {
+    const FileExpected<std::size_t> column = column_of(filter.column, "input.where");
+    if (!column) return tl::unexpected<FileError>(column.error());
+    filters.push_back(*column);
+  }
+  for (std::size_t i = 0; i < input.sensor_columns.size(); ++i) {
+    const FileExpected<std::size_t> column =
+        column_of(input.sensor_columns[i], "sensor[" + std::to_string(i + 1) + "].column");
+    if (!column) return tl::unexpected<FileError>(column.error());
+    sensors.push_back(*column);
+  }
+  return {};
+}
+
+FileError LogReader::State::bad_row() const {
+  FileError out;
+  out.file = path;
+  out.line = line;
+  if (bad_column < header.size()) out.field = header[bad_column] + " (column " + std::to_string(bad_column + 1) + ")";
+  out.what = bad_what;
+  out.remedy = "mend the row, or run with --on-bad-row skip";
+  return out;
+}
+
+bool LogReader::State::selected() const noexcept {
+  for (std::size_t k = 0; k < filters.size(); ++k) {
+    if (!matches(input.where[k], cells[filters[k]])) return false;
+  }
+  return true;
+}
+
+bool LogReader::State::fill_time(Sample& sample) {
+  if (time == kNoColumn) {
+    const auto number = static_cast<double>(index - 1);
+    sample.time_s = input.rate_hz > 0.0 ? number / input.rate_hz : number;
+    return true;
+  }
+  double value = 0.0;
+  if (parse_cell(cells[time], value) != CellKind::number)
+    return refuse(time, in_quotes(cells[time]) + " is not a time");
+  if (!std::isfinite(value)) return refuse(time, "the time is not finite");
+  sample.time_s = value * input.time_unit_s;
+  if (statistics.rows > 0 && !(sample.time_s > statistics.last_time_s)) {
+    return refuse(time, "time " + shortest(sample.time_s) + " s does not increase (the row before has " +
+                            shortest(statistics.last_time_s) + " s)");
+  }
+  return true;
+}
+
+bool LogReader::State::fill_tags(Sample& sample) {
+  std::int64_t value = 0;
+  if (station != kNoColumn) {
+    const CellKind kind = parse_whole(cells[station], value);
+    const bool fits = kind == CellKind::empty || (kind == CellKind::number && value >= -1 && value < kLargestCount);
+    if (!fits)
+      return refuse(station, in_quotes(cells[station]) +
+                                 " is not a station number (a whole number from 0 up, -1 or empty for none)");
+    sample.station = kind == CellKind::empty ? 0U : tag_of_label(value);
+  }
+  if (count != kNoColumn) {
+    const bool fits = parse_whole(cells[count], value) == CellKind::number && value >= 1 && value <= kLargestCount;
+    if (!fits) return refuse(count, in_quotes(cells[count]) + " is not a number of samples (a whole number from 1 up)");
+    sample.count = static_cast<std::uint32_t>(value);
+  }
+  return true;
+}
+
+bool LogReader::State::fill_temperature(Sample& sample) {
+  sample.temperature_degc = input.default_temperature_degc;
+  if (temperature == kNoColumn) return true;
+  double value = 0.0;
+  const CellKind kind = parse_cell(cells[temperature], value);
+  if (kind == CellKind::text) return refuse(temperature, in_quotes(cells[temperature]) + " is not a temperature");
+  if (kind == CellKind::number && std::isfinite(value)) {
+    last_temperature_degc = value;
+    has_temperature = true;
+  } else if (!has_temperature) {
+    return refuse(temperature, "there is no temperature yet in this row or before it");
+  } else {
+    ++statistics.temperature_held;
+  }
+  sample.temperature_degc = last_temperature_degc;
+  return true;
+}
+
+bool LogReader::State::fill_sensors(Sample& sample) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    double value = 0.0;
+    const std::string_view cell = cells[sensors[i]];
+    switch (parse_cell(cell, value)) {
+      case CellKind::number:
+        sample.raw[i] = value;
+        sample.delivered.bits |= 1U << static_cast<unsigned>(i);
+        break;
+      case CellKind::empty: break;
+      case CellKind::text: return refuse(sensors[i], in_quotes(cell) + " is not a number");
+    }
+  }
+  // Counted only now that the row is known to be good.
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (!sample.delivered.has(static_cast<int>(i))) {
+      ++statistics.missing[i];
+    } else if (!std::isfinite(sample.raw[i])) {
+      ++statistics.not_finite[i];
+    }
+  }
+  return true;
+}
+
+bool LogReader::State::fill(Sample& sample) {
+  sample = Sample();
+  return fill_time(sample) && fill_tags(sample) && fill_temperature(sample) && fill_sensors(sample);
+}
+
+FileError LogReader::State::nothing_usable() const {
+  FileError out;
+  out.file = path;
+  out.line = line;
+  out.what = "the log has a header, but no row that can be used (" + std::to_string(statistics.rows_bad) + " bad, " +
+             std::to_string(statistics.rows_filtered) + " not selected by [input] where)";
+  out.remedy = statistics.rows_bad > 0
+                   ? "mend the rows, the first: line " + std::to_string(statistics.bad_rows.front().line) + ", " +
+                         statistics.bad_rows.front().what
+               : statistics.rows_filtered > 0 ? "check [input] where in the array file against the log"
+                                              : "give a log with rows";
+  return out;
+}
+
+LogReader::LogReader(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+LogReader::LogReader(LogReader&& other) noexcept = default;
+LogReader& LogReader::operator=(LogReader&& other) noexcept = default;
+LogReader::~LogReader() = default;
+
+FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {
+  auto state = std::make_unique<State>();
+  state->path = shown_path(path);
+  state->input = array.input;
+  state->policy = policy;
+  const int error_number = state->source.open(path);
+  if (error_number != 0) return tl::unexpected<FileError>(state->io_failure(error_number));
+  FileExpected<void> done = state->read_header();
+  if (done) done = state->map_columns();
+  if (!done) return tl::unexpected<FileError>(done.error());
+  return LogReader(std::move(state));
+}
+
+LogReader::Next LogReader::next(Sample& sample) {
+  State& s = *state_;
+  std::string_view text;
+  for (;;) {
+    const LineSource::Status status = s.source.next(text);
+    s.statistics.bytes = s.source.bytes();
+    s.statistics.hash = s.source.hash();
+    if (status == LineSource::Status::failed) {
+      s.error = s.io_failure(s.source.error_number());
+      return Next::error;
+    }
+    if (status == LineSource::Status::end) {
+      if (s.statistics.rows > 0 || s.source.stopped()) return Next::end;
+      s.error = s.nothing_usable();
+      return Next::error;
+    }
+    ++s.line;
+    if (trimmed(text).empty()) continue;
+    const std::size_t found = split_cells(text, s.cells);
+    bool good = found == s.cells.size();
+    if (!good) {
+      s.refuse(kNoColumn,
+               "the row has " + std::to_string(found) + " cells, the header names " + std::to_string(s.cells.size()));
+    } else if (!s.selected()) {
+      ++s.statistics.rows_filtered;
+      continue;
+    }
+    ++s.index;
+    if (good && s.fill(sample)) {
+      if (s.statistics.rows++ == 0) s.statistics.first_time_s = sample.time_s;
+      s.statistics.last_time_s = sample.time_s;
+      return Next::row;
+    }
+    ++s.statistics.rows_bad;
+    s.error = s.bad_row();
+    if (s.statistics.bad_rows.size() < LogStatistics::kBadRowsKept) s.statistics.bad_rows.push_back(s.error);
+    if (s.policy == BadRowPolicy::stop) return Next::error;
+  }
+}
+
+const FileError& LogReader::error() const noexcept { return state_->error; }
+const LogStatistics& LogReader::statistics() const noexcept { return state_->statistics; }
+int LogReader::line() const noexcept { return state_->line; }
+void LogReader::hash_bytes() {
+  state_->source.hash_bytes();
+  state_->statistics.hash = state_->source.hash();
+}
+void LogReader::stop_when(const volatile std::sig_atomic_t* flag) { state_->source.stop_when(flag); }
+
+FileExpected<LogContent> read_log(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {
+  FileExpected<LogReader> reader = LogReader::open(path, array, policy);
+  if (!reader) return tl::unexpected<FileError>(reader.error());
+  reader->hash_bytes();
+  LogContent out;
+  Sample sample;
+  LogReader::Next status = reader->next(sample);
+  for (; status == LogReader::Next::row; status = reader->next(sample)) out.samples.push_back(sample);
+  if (status == LogReader::Next::error) return tl::unexpected<FileError>(reader->error());
+  out.statistics = reader->statistics();
+  return out;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,275 @@
+#include "plumb/io/records.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "plumb/core/units.hpp"
+#include "plumb/io/units.hpp"
+#include "plumb/navigation/tilt.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+/// Length of the UTF-8 sequence that starts at `i`, 0 where it is not well formed.
+std::size_t utf8_length(std::string_view text, std::size_t i) noexcept {
+  const auto byte = [&text](std::size_t k) {
+    return k < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[k])) : 0U;
+  };
+  const unsigned lead = byte(i);
+  std::size_t length = 0;
+  unsigned lowest = 0x80;  // of the second byte: rules out overlong forms, surrogates and > U+10FFFF
+  unsigned highest = 0xBF;
+  if (lead < 0x80) return 1;
+  if (lead >= 0xC2 && lead <= 0xDF) length = 2;
+  if (lead >= 0xE0 && lead <= 0xEF) length = 3;
+  if (lead >= 0xF0 && lead <= 0xF4) length = 4;
+  if (lead == 0xE0) lowest = 0xA0;
+  if (lead == 0xED) highest = 0x9F;
+  if (lead == 0xF0) lowest = 0x90;
+  if (lead == 0xF4) highest = 0x8F;
+  if (length == 0 || byte(i + 1) < lowest || byte(i + 1) > highest) return 0;
+  for (std::size_t k = 2; k < length; ++k) {
+    if (byte(i + k) < 0x80 || byte(i + k) > 0xBF) return 0;
+  }
+  return length;
+}
+
+/// Writes the members of one object in the order of the calls.
+class Object {
+ public:
+  explicit Object(std::string& out) : out_(out) { out_ += '{'; }
+  void close() { out_ += '}'; }
+
+  void number(const char* key, double value) {
+    name(key);
+    append_json_number(out_, value);
+  }
+  /// null where `known` is false.
+  void number_if(bool known, const char* key, double value) {
+    name(key);
+    append_json_number(out_, known ? value : std::nan(""));
+  }
+  void whole(const char* key, std::int64_t value) {
+    name(key);
+    append_whole(value);
+  }
+  void flag(const char* key, bool value) {
+    name(key);
+    out_ += value ? "true" : "false";
+  }
+  /// `value` needs no escapes: one of plumb's own words.
+  void word(const char* key, const char* value) {
+    name(key);
+    out_.append("\"").append(value).append("\"");
+  }
+  void sensors(const char* key, SensorSet set, const SensorArray& array) {
+    name(key);
+    out_ += '[';
+    bool first = true;
+    for (int i = 0; i < array.size(); ++i) {
+      if (!set.has(i)) continue;
+      if (!first) out_ += ',';
+      first = false;
+      append_json_string(out_, array.row(i).id.data());
+    }
+    out_ += ']';
+  }
+  template <std::size_t N>
+  void numbers(const char* key, const std::array<double, N>& values) {
+    name(key);
+    for (std::size_t k = 0; k < N; ++k) {
+      out_ += k == 0 ? '[' : ',';
+      append_json_number(out_, values[k]);
+    }
+    out_ += ']';
+  }
+  /// s_i in the order of the array; null where no hypothesis keeps the sensor healthy.
+  void fewest_faults(const char* key, const Verdict& verdict, int size) {
+    name(key);
+    out_ += '[';
+    for (int i = 0; i < size; ++i) {
+      const std::uint8_t value = verdict.fewest_faults[static_cast<std::size_t>(i)];
+      if (i > 0) out_ += ',';
+      if (value == kNoHypothesis) {
+        out_ += "null";
+      } else {
+        append_whole(value);
+      }
+    }
+    out_ += ']';
+  }
+  void qualifiers(const char* key, std::uint8_t bits) {
+    static constexpr const char* kNames[] = {"unproven",    "moving",        "initial_calibration",
+                                             "provisional", "no_redundancy", "exhausted"};
+    name(key);
+    out_ += '[';
+    bool first = true;
+    for (unsigned k = 0; k < 6; ++k) {
+      if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
+      if (!first) out_ += ',';
+      first = false;
+      out_.append("\"").append(kNames[k]).append("\"");
+    }
+    out_ += ']';
+  }
+
+ private:
+  void name(const char* key) {
+    if (!first_) out_ += ',';
+    first_ = false;
+    out_.append("\"").append(key).append("\":");
+  }
+  void append_whole(std::int64_t value) {
+    char text[24];
+    out_.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+  }
+
+  std::string& out_;
+  bool first_ = true;
+};
+
+void append_masks(Object& object, const Verdict& v, const SensorArray& array) {
+  object.sensors("configured", v.configured, array);
+  object.sensors("in_service", v.in_service, array);
+  object.sensors("set_aside", v.set_aside, array);
+  object.sensors("excluded", v.excluded, array);
+  object.sensors("absent", v.absent, array);
+  object.sensors("suspects", v.suspects, array);
+  object.sensors("clipped", v.clipped, array);
+  object.sensors("restless", v.restless, array);
+  object.sensors("not_finite", v.not_finite, array);
+  object.fewest_faults("fewest_faults", v, array.size());
+}
+
+void append_vector(Object& object, const Verdict& v, const Mat3& frame) {
+  const Vec3 gravity = in_frame(frame, v.gravity_mps2);
+  const Mat3 covariance = covariance_in_frame(frame, v.covariance);
+  const Tilt tilt = tilt_of(gravity, covariance);
+  object.number_if(tilt.inclination_valid, "inclination_deg", deg_from_rad(tilt.inclination_rad));
+  object.number_if(tilt.inclination_valid, "inclination_sigma_deg", deg_from_rad(tilt.inclination_sigma_rad));
+  object.number_if(tilt.toolface_valid, "toolface_deg", deg_from_rad(tilt.toolface_rad));
+  object.number_if(tilt.toolface_valid, "toolface_sigma_deg", deg_from_rad(tilt.toolface_sigma_rad));
+  object.number_if(v.protection_available, "protection_level_deg", deg_from_rad(v.protection_level_rad));
+  object.flag("protection_available", v.protection_available);
+  object.flag("alert", v.alert);
+  object.number("age_s", v.age_s);
+  object.numbers("gravity_mps2", gravity);
+  object.numbers("covariance_mps2_2", covariance);
+  object.numbers("latest_mps2", in_frame(frame, v.latest_mps2));
+}
+
+}  // namespace
+
+void append_json_string(std::string& out, std::string_view text) {
+  static constexpr char kHex[] = "0123456789abcdef";
+  out += '"';
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (length == 0) {
+      out += "\\ufffd";
+      ++i;
+      continue;
+    }
+    if (c == '"' || c == '\\') out += '\\';
+    if (c < 0x20 || c == 0x7f) {
+      out += "\\u00";
+      out += kHex[c >> 4U];
+      out += kHex[c & 15U];
+    } else {
+      out.append(text.substr(i, length));
+    }
+    i += length;
+  }
+  out += '"';
+}
+
+void append_json_number(std::string& out, double value) {
+  if (std::isfinite(value)) {
+    append_shortest(out, value);
+  } else {
+    out += "null";
+  }
+}
+
+Vec3 in_frame(const Mat3& frame, const Vec3& v) noexcept { return times(frame, v); }
+
+Mat3 covariance_in_frame(const Mat3& frame, const Mat3& covariance) noexcept {
+  Mat3 half{};
+  Mat3 out{};
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < 3; ++k) half[3 * r + c] += frame[3 * r + k] * covariance[3 * k + c];
+    }
+  }
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < 3; ++k) out[3 * r + c] += half[3 * r + k] * frame[3 * c + k];
+    }
+  }
+  return out;
+}
+
+void append_event_json(std::string& out, const TransitionRecord& record, const SensorArray& array) {
+  Object object(out);
+  object.whole("sequence", record.sequence);
+  object.number("t_s", record.time_s);
+  object.word("from", to_string(record.from));
+  object.word("to", to_string(record.to));
+  object.word("event", to_string(record.event));
+  object.word("cause", to_string(record.cause));
+  object.word("grade", to_string(record.grade));
+  object.sensors("sensors", record.sensors, array);
+  object.number("statistic", record.statistic);
+  object.number("limit", record.limit);
+  object.close();
+}
+
+void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& array, const Mat3& frame) {
+  Object object(out);
+  object.number("t_s", v.time_s);
+  object.word("state", to_string(v.state));
+  object.qualifiers("qualifiers", v.qualifiers);
+  object.word("validity", to_string(v.validity));
+  object.word("cause", to_string(v.cause));
+  object.flag("tick", v.tick);
+  object.flag("accepted", v.accepted);
+  object.whole("transition", v.transition.sequence);
+  object.number("statistic", v.statistic);
+  object.number("limit", v.limit);
+  object.number("margin", v.margin);
+  append_masks(object, v, array);
+  object.word("grade", to_string(v.grade));
+  object.whole("strict_grade", v.strict_grade);
+  object.whole("parity_grade", v.parity_grade);
+  object.whole("live_hypotheses", v.live_hypotheses);
+  object.whole("stations_on_record", v.stations_on_record);
+  object.flag("wants_rotation", v.wants_rotation);
+  object.number("mae_all_mps2", v.mae_all_mps2);
+  object.number("mae_worst_mps2", v.mae_worst_mps2);
+  object.number("mae_worst_limit_mps2", v.mae_worst_limit_mps2);
+  object.number("parity", v.parity);
+  object.number("parity_limit", v.parity_limit);
+  object.number("norm_error_mps2", v.norm_error_mps2);
+  append_vector(object, v, frame);
+  object.close();
+}
+
+std::string event_json(const TransitionRecord& record, const SensorArray& array) {
+  std::string out;
+  append_event_json(out, record, array);
+  return out;
+}
+
+std::string verdict_json(const Verdict& verdict, const SensorArray& array, const Mat3& frame) {
+  std::string out;
+  append_verdict_json(out, verdict, array, frame);
+  return out;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,37 @@
+/// A TOML document as a plain tree with line numbers (private to src/io), so that only one file has to
+/// compile toml11.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plumb/io/file_error.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+struct TomlNode {
+  enum class Kind : std::uint8_t { text, integer, number, boolean, array, table, other };
+  Kind kind = Kind::other;
+  int line = 0;
+  std::string text;
+  std::int64_t integer = 0;
+  double number = 0.0;  ///< also of an integer
+  bool boolean = false;
+  std::vector<TomlNode> items;
+  std::vector<std::pair<std::string, TomlNode>> members;  ///< in the order of their lines
+
+  const TomlNode* find(const std::string& key) const noexcept;
+  /// "a string", "a number", ... for messages.
+  const char* kind_name() const noexcept;
+};
+
+/// Errors: empty file, syntax (with its line).
+FileExpected<TomlNode> parse_toml(const std::string& text, const std::string& path);
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

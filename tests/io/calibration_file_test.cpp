@@ -1,0 +1,233 @@
+#include "plumb/io/calibration_file.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "io_test_support.hpp"
+#include "plumb/io/output_file.hpp"
+
+namespace {
+
+using namespace plumb;
+using namespace plumb::io;
+using namespace io_test;
+
+using Draw = double (*)();
+
+/// A calibration of `array` whose free numbers come from `draw`.
+std::unique_ptr<Calibration> calibration_of(const ArrayFile& array, Draw draw) {
+  auto out = std::make_unique<Calibration>();
+  const int n = array.array.size();
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < n; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    rows[k] = array.array.row(i);
+    rows[k].sigma_mps2 = 1e-3 * (1.0 + 1.0 / 3.0 * i);
+    for (std::size_t t = 0; t < 4; ++t) {
+      out->model.sensor[k].scale[t] = draw();
+      out->model.sensor[k].bias[t] = draw();
+    }
+    out->report.e_cal_mps2[k] = draw();
+    out->report.residual_rms_mps2[k] = draw();
+    for (std::size_t t = 4 * k; t < 4 * k + 4; ++t) {
+      out->report.sigma[t] = draw();
+      out->report.data_share[t] = draw();
+    }
+  }
+  out->array = *SensorArray::make(rows.data(), n);
+  RowUncertainty uncertainty;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(2 * n * (4 * n + 1)); ++k) uncertainty.covariance[k] = draw();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) uncertainty.misfit_mps2[k] = draw();
+  out->array.set_uncertainty(uncertainty);
+  out->model.size = n;
+  out->model.reads = array.datasheet.reads;
+  FitReport& report = out->report;
+  report.stations = 48;
+  report.rank = 4 * n - 3;
+  report.null_directions = 2;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(4 * n); ++k) report.null_direction[1].component[k] = draw();
+  for (double* value : {&report.condition, &report.norm_rms_mps2, &report.parity_rms_mps2, &report.misfit_mps2,
+                        &report.chi2, &report.p_value, &report.excitation})
+    *value = draw();
+  report.stop = StopReason::converged;
+  return out;
+}
+
+double third() {
+  static double next = 1.0;
+  next = std::fmod(next * 1.37 + 0.1, 1.0);
+  return next / 3.0 - 0.1;
+}
+
+CalibrationContext context_of(const ArrayFile& array) {
+  CalibrationContext context;
+  context.log_file = "/somewhere/stations.csv";
+  context.log_bytes = 12345;
+  context.log_hash = 0xFEDCBA9876543210ULL;
+  context.stations = 48;
+  context.plumb_version = "0.1.0";
+  context.gravity = array.gravity;
+  return context;
+}
+
+std::string good_json(const ArrayFile& array = array_of()) {
+  return calibration_json(*calibration_of(array, &third), array, context_of(array));
+}
+
+/// Refuses `json` for `array`; returns the error, whose path is checked here.
+FileError refusal_of(const std::string& json, const ArrayFile& array = array_of()) {
+  const std::string path = written("cal.json", json);
+  const auto file = read_calibration(path, array);
+  EXPECT_FALSE(file.has_value());
+  if (file) return {};
+  EXPECT_EQ(file.error().file, path);
+  return file.error();
+}
+
+int line_of(const std::string& json, const std::string& part) {
+  EXPECT_NE(json.find(part), std::string::npos) << part;
+  const auto end = json.begin() + static_cast<std::ptrdiff_t>(std::min(json.find(part), json.size()));
+  return 1 + static_cast<int>(std::count(json.begin(), end, '\n'));
+}
+
+void expect_refusal(const FileError& error, int line, const std::string& field,
+                    std::initializer_list<const char*> parts) {
+  expect_error(error, error.file, line, field, parts);
+}
+
+TEST(CalibrationFile, HasTheSameBytesForTheSameContent) {
+  const ArrayFile array = array_of();
+  const auto calibration = calibration_of(array, &third);
+  const std::string json = calibration_json(*calibration, array, context_of(array));
+  EXPECT_EQ(json, calibration_json(*calibration, array, context_of(array)));
+  EXPECT_EQ(json.find("somewhere"), std::string::npos) << "paths of one machine do not belong here";
+  EXPECT_EQ(json.substr(0, 49), "{\n \"schema\": \"plumb-calibration\",\n \"version\": 1,\n");
+}
+
+TEST(CalibrationFile, KeepsContext) {
+  const ArrayFile array = array_of();
+  const std::string path = written("cal.json", "");
+  ASSERT_TRUE(write_calibration(path, *calibration_of(array, &third), array, context_of(array)).has_value());
+  const auto file = read_calibration(path, array);
+  ASSERT_TRUE(file.has_value()) << file.error().text();
+  EXPECT_EQ(file->context.log_file, "stations.csv");
+  EXPECT_EQ(file->context.log_hash, 0xFEDCBA9876543210ULL);
+  EXPECT_EQ(file->context.log_bytes, 12345U);
+  EXPECT_EQ(file->context.gravity.g_mps2, 9.81);
+  EXPECT_EQ(file->context.plumb_version, "0.1.0");
+  EXPECT_EQ(file->array_name, "four on a tool");
+  EXPECT_EQ(file->calibration.report.stop, StopReason::converged);
+  EXPECT_EQ(file->calibration.report.stations, 48);
+}
+
+TEST(CalibrationFile, WhiteSpaceMayChange) {
+  std::string json = good_json();
+  for (std::size_t at = json.find('\n'); at != std::string::npos; at = json.find('\n', at + 2)) json.insert(at, "\r");
+  EXPECT_TRUE(read_calibration(written("cal.json", json), array_of()).has_value());
+}
+
+TEST(CalibrationFileRefuses, UnreadableAndTruncated) {
+  const auto missing = read_calibration("/nonexistent/cal.json", array_of());
+  ASSERT_FALSE(missing.has_value());
+  expect_error(missing.error(), "/nonexistent/cal.json", 0, "", {"No such file"});
+  expect_refusal(refusal_of(""), 0, "", {"empty", "plumb calibrate"});
+  const std::string json = good_json();
+  const std::string half = json.substr(0, json.size() / 2);
+  expect_refusal(refusal_of(half), line_of(half + "@", "@"), "", {"truncated", "plumb calibrate"});
+  const std::string tail_cut = json.substr(0, json.size() - 3);
+  expect_refusal(refusal_of(tail_cut), line_of(tail_cut + "@", "@"), "", {"truncated"});
+  expect_refusal(refusal_of(changed("\"version\": 1", "\"version\" 1", json)), 3, "", {"not valid JSON"});
+  expect_refusal(refusal_of(std::string(1000, '[') + std::string(1000, ']')), 0, "", {"nested too deeply"});
+}
+
+TEST(CalibrationFileRefuses, Edited) {
+  const std::string json = good_json();
+  const std::string edited = changed("\"g_mps2\": 9.81", "\"g_mps2\": 9.82", json);
+  expect_refusal(refusal_of(edited), 4, "checksum", {"edited or damaged", "do not edit", "plumb calibrate"});
+  expect_refusal(refusal_of(changed("fnv1a64:", "fnv1a64:0", json)), 4, "checksum", {"edited or damaged"});
+  expect_refusal(refusal_of(changed("\n \"gravity\"", "\n \"extra\": 1,\n \"gravity\"", json)), 4, "checksum",
+                 {"edited"});
+}
+
+TEST(CalibrationFileRefuses, OtherSchemasAndVersions) {
+  const std::string json = good_json();
+  expect_refusal(refusal_of(changed("plumb-calibration", "plumb-report", json)), 2, "schema",
+                 {"plumb-report", "plumb calibrate wrote"});
+  expect_refusal(refusal_of("[1, 2, 3]"), 0, "schema", {"none"});
+  expect_refusal(refusal_of(changed("\"version\": 1", "\"version\": 2", json)), 3, "version",
+                 {"is 2", "reads version 1"});
+}
+
+TEST(CalibrationFileRefuses, AnotherArrayByWhatDiffers) {
+  const std::string json = good_json();
+  const auto refusal = [&json](const std::string& from, const std::string& to) {
+    return refusal_of(json, array_of(changed(from, to)));
+  };
+  expect_refusal(refusal("id = \"A3\"", "id = \"B3\""), line_of(json, "\"A3\""), "array.nominal[3].id",
+                 {"another array", "\"A3\" there and \"B3\"", "plumb calibrate"});
+  expect_refusal(refusal("[0.6, 0.0, 0.8]", "[0.8, 0.0, 0.6]"), line_of(json, "\"A4\""), "array.nominal[4].axis",
+                 {"A4 differs by 16.26", "deg"});
+  expect_refusal(refusal("\"3 V/g0\"", "\"2 V/g0\""), line_of(json, "\"A1\""), "array.nominal[1].scale",
+                 {"scale of A1 is 0.30591", "and 0.2039"});
+  expect_refusal(refusal("\"12 mg\"", "\"13 mg\""), line_of(json, "\"A1\""), "array.nominal[1].bias", {"bias of A1"});
+  expect_refusal(refusal("\"gravity\"", "\"specific-force\""), line_of(json, "\"reads\""), "array.reads",
+                 {"read gravity", "specific-force"});
+  const std::string fifth = "[[sensor]]\nid = \"A5\"\naxis = [0, 0, 1]\nscale = \"3 V/g0\"\nnoise = \"1 mg\"\n";
+  expect_refusal(refusal_of(json, array_of(kArrayText + fifth)), line_of(json, "\"nominal\""), "array.nominal",
+                 {"has 4 sensors", "has 5"});
+}
+
+TEST(CalibrationFile, DoesNotWriteWhereItCannot) {
+  const ArrayFile array = array_of();
+  const auto done =
+      write_calibration("/nonexistent/cal.json", *calibration_of(array, &third), array, context_of(array));
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().code, ExitCode::other);
+}
+
+double any_double() {
+  const std::uint64_t bits = *rc::gen::arbitrary<std::uint64_t>();
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof value);
+  return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
+template <class T>
+bool same_bits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+RC_GTEST_PROP(CalibrationFileLaw, EveryDoubleComesBackBitForBit, ()) {
+  static const ArrayFile array = array_of();
+  const auto in = calibration_of(array, &any_double);
+  if (*rc::gen::arbitrary<bool>()) in->model.misalignment[kCapacity + 2] = 0.1;
+  const std::string path = written("cal.json", calibration_json(*in, array, context_of(array)));
+  const auto file = read_calibration(path, array);
+  RC_ASSERT(file.has_value());
+  const Calibration& out = file->calibration;
+  for (std::size_t k = 0; k < 4; ++k) {
+    RC_ASSERT(same_bits(in->model.sensor[k].scale, out.model.sensor[k].scale));
+    RC_ASSERT(same_bits(in->model.sensor[k].bias, out.model.sensor[k].bias));
+    const SensorRow& a = in->array.row(static_cast<int>(k));
+    const SensorRow& b = out.array.row(static_cast<int>(k));
+    RC_ASSERT(same_bits(a, b));
+  }
+  RC_ASSERT(same_bits(in->model.misalignment, out.model.misalignment));
+  RC_ASSERT(same_bits(in->array.uncertainty(), out.array.uncertainty()));
+  RC_ASSERT(same_bits(in->report.sigma, out.report.sigma));
+  RC_ASSERT(same_bits(in->report.data_share, out.report.data_share));
+  RC_ASSERT(same_bits(in->report.null_direction, out.report.null_direction));
+  RC_ASSERT(same_bits(in->report.chi2, out.report.chi2));
+  RC_ASSERT(same_bits(in->report.p_value, out.report.p_value));
+  RC_ASSERT(calibration_json(out, array, context_of(array)) == calibration_json(*in, array, context_of(array)));
+}
+
+}  // namespace

@@ -1,0 +1,88 @@
+#include "plumb/io/output_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "io_test_support.hpp"
+
+namespace {
+
+using namespace plumb::io;
+using io_test::written;
+
+bool exists(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0;
+}
+
+std::string content(const std::string& path) {
+  const auto text = read_file(path);
+  return text ? *text : "unreadable";
+}
+
+TEST(OutputFile, WholeFilesAppearOnCommitOnly) {
+  const std::string path = written("result.json", "old");
+  {
+    auto file = OutputFile::create(path, OutputFile::Mode::whole);
+    ASSERT_TRUE(file.has_value());
+    ASSERT_TRUE(file->write("half of it").has_value());
+    ASSERT_TRUE(file->flush().has_value());
+  }
+  EXPECT_EQ(content(path), "old") << "an abandoned result leaves the old one alone";
+  EXPECT_FALSE(exists(path + ".part" + std::to_string(::getpid())));
+  ASSERT_TRUE(write_file(path, "new").has_value());
+  EXPECT_EQ(content(path), "new");
+  EXPECT_FALSE(exists(path + ".part" + std::to_string(::getpid())));
+}
+
+TEST(OutputFile, StreamsKeepWhatWasWritten) {
+  const std::string path = written("events.jsonl", "");
+  {
+    auto file = OutputFile::create(path, OutputFile::Mode::stream);
+    ASSERT_TRUE(file.has_value());
+    ASSERT_TRUE(file->write("{\"sequence\":1}\n").has_value());
+    OutputFile moved = *std::move(file);
+    ASSERT_TRUE(moved.write("{\"sequence\":2}\n").has_value());
+  }
+  EXPECT_EQ(content(path), "{\"sequence\":1}\n{\"sequence\":2}\n") << "an interrupted run keeps its lines";
+}
+
+TEST(OutputFile, SaysWhyItCannotWrite) {
+  const auto missing = OutputFile::create("/nonexistent/result.json", OutputFile::Mode::whole);
+  ASSERT_FALSE(missing.has_value());
+  EXPECT_EQ(missing.error().text(),
+            "/nonexistent/result.json: cannot write: No such file or directory. Remedy: create the directory first, or "
+            "choose another path.");
+  EXPECT_EQ(missing.error().code, ExitCode::other);
+  const auto directory = OutputFile::create(testing::TempDir(), OutputFile::Mode::stream);
+  ASSERT_FALSE(directory.has_value());
+  EXPECT_NE(directory.error().text().find("Is a directory"), std::string::npos);
+  const auto below = OutputFile::create(written("file", "") + "/result.json", OutputFile::Mode::whole);
+  ASSERT_FALSE(below.has_value());
+  EXPECT_NE(below.error().text().find("Not a directory"), std::string::npos);
+}
+
+TEST(OutputFile, AFullDiskIsReported) {
+  if (!exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  auto file = OutputFile::create("/dev/full", OutputFile::Mode::whole);
+  ASSERT_TRUE(file.has_value());
+  const auto done = file->write("x");
+  const auto result = done ? file->commit() : done;
+  ASSERT_FALSE(result.has_value());
+  EXPECT_NE(result.error().text().find("No space left on device"), std::string::npos);
+  EXPECT_NE(result.error().text().find("free space"), std::string::npos);
+}
+
+TEST(FileErrorText, LeavesOutWhatDoesNotApply) {
+  EXPECT_EQ((FileError{"a.toml", 12, "sensor[2].axis", "is 1.02 long", "divide it"}).text(),
+            "a.toml:12: sensor[2].axis: is 1.02 long. Remedy: divide it.");
+  EXPECT_EQ((FileError{"a.toml", 0, "", "is empty", "fill it."}).text(), "a.toml: is empty. Remedy: fill it.");
+  EXPECT_EQ((FileError{"", 0, "", "x", ""}).text(), "x.");
+  EXPECT_EQ(to_int(ExitCode::invalid_input), 3);
+}
+
+}  // namespace

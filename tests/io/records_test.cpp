@@ -1,0 +1,139 @@
+#include "plumb/io/records.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "io_test_support.hpp"
+
+namespace {
+
+using namespace plumb;
+using namespace plumb::io;
+using namespace io_test;
+using Json = nlohmann::ordered_json;
+
+Verdict some_verdict() {
+  Verdict v;
+  v.time_s = 0.1 + 0.2;
+  v.state = HealthState::suspect;
+  v.qualifiers = Qualifier::unproven | Qualifier::no_redundancy;
+  v.tick = true;
+  v.statistic = std::numeric_limits<double>::infinity();
+  v.limit = 4.5;
+  v.margin = std::nan("");
+  v.configured = SensorSet::first(4);
+  v.in_service = SensorSet::first(4).without(2);
+  v.excluded = SensorSet::of(2);
+  v.fewest_faults = {0, 1, kNoHypothesis, 2};
+  v.gravity_mps2 = {0.0, -5.0, 5.0};
+  v.covariance = {1.0, 0.5, 0.0, 0.5, 2.0, 0.0, 0.0, 0.0, 3.0};
+  v.protection_level_rad = rad_from_deg(0.5);
+  return v;
+}
+
+TEST(Records, EventIsOneObjectWithStableKeys) {
+  TransitionRecord record;
+  record.sequence = 7;
+  record.time_s = 12.25;
+  record.from = HealthState::suspect;
+  record.to = HealthState::isolated;
+  record.event = HealthEvent::culprit;
+  record.cause = Cause::isolated_fault;
+  record.grade = Grade::strict;
+  record.sensors = SensorSet::of(1).with(3);
+  record.statistic = 12.0;
+  record.limit = 4.5;
+  const std::string json = event_json(record, array_of().array);
+  EXPECT_EQ(json.find('\n'), std::string::npos);
+  const Json object = Json::parse(json);
+  EXPECT_EQ(object["sequence"], 7);
+  EXPECT_EQ(object["t_s"], 12.25);
+  EXPECT_EQ(object["from"], to_string(HealthState::suspect));
+  EXPECT_EQ(object["to"], to_string(HealthState::isolated));
+  EXPECT_EQ(object["event"], to_string(HealthEvent::culprit));
+  EXPECT_EQ(object["grade"], to_string(Grade::strict));
+  EXPECT_EQ(object["sensors"], Json({"A2", "A4"}));
+  std::string keys;
+  for (const auto& item : object.items()) keys += item.key() + " ";
+  EXPECT_EQ(keys, "sequence t_s from to event cause grade sensors statistic limit ");
+}
+
+TEST(Records, VerdictCarriesEverything) {
+  const ArrayFile file = array_of();
+  const Json object = Json::parse(verdict_json(some_verdict(), file.array));
+  EXPECT_EQ(object["t_s"].get<double>(), 0.1 + 0.2) << "full precision";
+  EXPECT_EQ(object["qualifiers"], Json({"unproven", "no_redundancy"}));
+  EXPECT_TRUE(object["statistic"].is_null()) << "not finite";
+  EXPECT_TRUE(object["margin"].is_null());
+  EXPECT_EQ(object["in_service"], Json({"A1", "A2", "A4"}));
+  EXPECT_EQ(object["excluded"], Json({"A3"}));
+  EXPECT_EQ(object["absent"], Json::array());
+  EXPECT_EQ(object["fewest_faults"], Json({0, 1, nullptr, 2}));
+  EXPECT_NEAR(object["inclination_deg"].get<double>(), 45.0, 1e-12);
+  EXPECT_NEAR(object["toolface_deg"].get<double>(), 0.0, 1e-12);
+  EXPECT_TRUE(object["protection_level_deg"].is_null()) << "not available";
+  EXPECT_EQ(object["transition"], 0);
+  for (const char* key : {"state",
+                          "validity",
+                          "cause",
+                          "tick",
+                          "accepted",
+                          "limit",
+                          "configured",
+                          "set_aside",
+                          "suspects",
+                          "clipped",
+                          "restless",
+                          "not_finite",
+                          "grade",
+                          "strict_grade",
+                          "parity_grade",
+                          "live_hypotheses",
+                          "stations_on_record",
+                          "wants_rotation",
+                          "mae_all_mps2",
+                          "mae_worst_mps2",
+                          "mae_worst_limit_mps2",
+                          "parity",
+                          "parity_limit",
+                          "norm_error_mps2",
+                          "age_s",
+                          "gravity_mps2",
+                          "covariance_mps2_2",
+                          "latest_mps2",
+                          "protection_available",
+                          "alert",
+                          "inclination_sigma_deg",
+                          "toolface_sigma_deg"}) {
+    EXPECT_TRUE(object.contains(key)) << key;
+  }
+}
+
+TEST(Records, NoVectorNoAngles) {
+  const Json object = Json::parse(verdict_json(Verdict(), array_of().array));
+  EXPECT_TRUE(object["inclination_deg"].is_null());
+  EXPECT_TRUE(object["toolface_deg"].is_null());
+}
+
+TEST(Records, FrameIsAppliedToVectorCovarianceAndAngles) {
+  const Mat3 turned = {1, 0, 0, 0, 0, -1, 0, 1, 0};  // y' = -z, z' = y
+  const Json object = Json::parse(verdict_json(some_verdict(), array_of().array, turned));
+  EXPECT_EQ(object["gravity_mps2"], Json({0.0, -5.0, -5.0}));
+  EXPECT_NEAR(object["inclination_deg"].get<double>(), 135.0, 1e-12);
+  EXPECT_EQ(object["covariance_mps2_2"][4], 3.0);
+  EXPECT_EQ(object["covariance_mps2_2"][8], 2.0);
+  EXPECT_EQ(object["covariance_mps2_2"][2], 0.5);
+}
+
+TEST(Records, StringsAreEscaped) {
+  std::string out;
+  append_json_string(out, "a\"b\\c\n\x01 \xC3\xA9 \xFF \xED\xA0\x80");
+  EXPECT_EQ(out, "\"a\\\"b\\\\c\\u000a\\u0001 \xC3\xA9 \\ufffd \\ufffd\\ufffd\\ufffd\"");
+  EXPECT_EQ(Json::parse(out).get<std::string>().substr(0, 6), "a\"b\\c\n");
+}
+
+}  // namespace
