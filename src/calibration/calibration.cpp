@@ -20,7 +20,7 @@ constexpr int kStationsForFullRank = 9;
 constexpr int kStationsAtLeast = 3;
 
 struct Deviation {
-  double scale = 0.0;     ///< relative to the datasheet, the larger of the two ratios
+  double scale = 0.0;  ///< relative to the datasheet, the larger of the two ratios
   double axis_rad = 0.0;
   double bias_mps2 = 0.0;
 };
@@ -28,7 +28,8 @@ struct Deviation {
 Deviation deviation_of(const Datasheet& datasheet, const fit::Parameters& theta, int i) noexcept {
   const Vec3 w = fit::row_of(theta, i);
   const double ratio = norm(w);
-  return {std::fmax(ratio, 1.0 / ratio) - 1.0, angle_between_rad(w, datasheet.sensor[at(i)].row.axis), theta[at(4 * i + 3)]};
+  return {std::fmax(ratio, 1.0 / ratio) - 1.0, angle_between_rad(w, datasheet.sensor[at(i)].row.axis),
+          theta[at(4 * i + 3)]};
 }
 
 /// First parameter beyond its physical bound; written so that a NaN is beyond every bound.

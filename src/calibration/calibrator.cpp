@@ -18,6 +18,8 @@ constexpr double kCostTolerance = 1e-9;
 /// Rises in a row that are let pass. Where stations are few the optimum lies in a narrow curved valley: a
 /// step along it first rises, the next falls back into the valley further on. Damping would crawl.
 constexpr int kPatience = 4;
+/// A frozen parameter that is zero has neither size nor prior to measure its rounding by.
+constexpr double kFrozenFloor = 1e-9;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMaxDamping = 1e9;
 
@@ -72,7 +74,7 @@ bool Calibrator::settled(const fit::Parameters& natural) const noexcept {
     const std::array<double, 4> sigma = {norm(x), norm(y), norm(z), root.bias};
     for (int p = 0; p < 4; ++p) {
       const std::size_t k = at(4 * i + p);
-      const double floor = std::fmax(std::fabs(natural[k]), sigma[at(p)]);
+      const double floor = std::fmax(std::fmax(std::fabs(natural[k]), sigma[at(p)]), kFrozenFloor);
       if (!(std::fabs(moved[k]) <= options_.stop_relative * floor)) return false;
     }
   }

@@ -152,8 +152,7 @@ Parameters prior_variance(const PriorRoots& roots, const Directions& rotation, c
   for (std::size_t q = 0; q < 3; ++q) y[q] = times_roots(roots, n, times_roots(roots, n, rotation[q]));
   for (int i = 0; i < n4; ++i) {
     const Symmetric3& a = roots[at(i / 4)].axes;
-    const std::array<double, 4> own = {a[0] * a[0] + a[1] * a[1] + a[2] * a[2],
-                                       a[1] * a[1] + a[3] * a[3] + a[4] * a[4],
+    const std::array<double, 4> own = {a[0] * a[0] + a[1] * a[1] + a[2] * a[2], a[1] * a[1] + a[3] * a[3] + a[4] * a[4],
                                        a[2] * a[2] + a[4] * a[4] + a[5] * a[5],
                                        roots[at(i / 4)].bias * roots[at(i / 4)].bias};
     double variance = own[at(i % 4)];

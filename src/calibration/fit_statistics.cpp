@@ -10,7 +10,7 @@ namespace fit {
 namespace {
 
 constexpr int kHarmonics = 9;
-using Gram = std::array<double, kHarmonics * kHarmonics>;
+using Gram = std::array<double, std::size_t{kHarmonics} * kHarmonics>;
 
 /// Spherical harmonics of degree 0 to 2, normalised so that their Gram matrix over the sphere is 1. The
 /// length of the vector sees the parameters through these nine alone (calibration note 4).
@@ -92,7 +92,9 @@ void add_station(const Problem& problem, const Parameters& theta, const StationR
   tally.rows += rows.rows;
 }
 
-double root_mean(double sum, int count) noexcept { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0; }
+double root_mean(double sum, int count) noexcept {
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
 
 void write(const Tally& tally, int n, FitReport& report) noexcept {
   report.stations = tally.stations;
@@ -131,7 +133,8 @@ ResidualSummary describe_residuals(const Problem& problem, const Parameters& the
   write(tally, problem.datasheet.size, report);
   summary.finite = true;
   summary.rows = tally.rows;
-  summary.direction_variance = tally.stations > 0 ? tally.direction_variance / static_cast<double>(tally.stations) : 0.0;
+  summary.direction_variance =
+      tally.stations > 0 ? tally.direction_variance / static_cast<double>(tally.stations) : 0.0;
   return summary;
 }
 

@@ -34,7 +34,7 @@ void add_station(const StationRows& rows, const StationFit& station, double* blo
     for (int l = 0; l <= k; ++l) {
       double m = -t1 * station.tangent1[at(l)] - t2 * station.tangent2[at(l)];
       if (l == k) m += rows.weight[at(k)];
-      double* block = blocks + kMomentCount * pair_of(i, rows.sensor[at(l)]);
+      double* block = blocks + at(kMomentCount * pair_of(i, rows.sensor[at(l)]));
       for (int q = 0; q < kMomentCount; ++q) block[q] += m * moments[at(q)];
     }
   }
@@ -88,7 +88,7 @@ Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_v
 void expand(const double* blocks, const PriorRoots& roots, int n, double* information) noexcept {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j <= i; ++j) {
-      const double* moments = blocks + kMomentCount * pair_of(i, j);
+      const double* moments = blocks + at(kMomentCount * pair_of(i, j));
       Block block{};
       for (std::size_t k = 0; k < 16; ++k) block[k] = moments[kMoment[k]];
       block = times_root(roots[at(i)], block, false);

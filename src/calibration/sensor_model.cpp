@@ -15,7 +15,7 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 constexpr double kPivotTolerance = 1e-12;
 
 struct CrossSystem {
-  std::array<double, kCapacity * kCapacity> a{};  ///< I - M, row-major with stride kCapacity
+  std::array<double, std::size_t{kCapacity} * kCapacity> a{};  ///< I - M, row-major with stride kCapacity
   std::array<double, kCapacity> b{};
   int n = 0;
 

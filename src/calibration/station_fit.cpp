@@ -8,10 +8,10 @@ inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
 
-/// Newton on the sphere settles quadratically: after a step below this (squared) the error is below 1e-9,
+/// Newton on the sphere settles quadratically: after a step below this (squared) the error is about 1e-8 rad,
 /// and the residuals, projected across the tangents, feel its square.
 constexpr int kDirectionSteps = 8;
-constexpr double kDirectionStop = 1e-10;
+constexpr double kDirectionStop = 1e-8;
 
 /// det(H'H) of the rows of a station, relative to equal axes: |det| of a triple above about 1e-3.
 constexpr double kIndependent = 1e-6;
@@ -63,7 +63,8 @@ inline Vec3 best_direction(const Symmetric3& h, const Vec3& c, const Vec3& start
 }
 
 /// Images W t of the tangents, weighted and made orthonormal in the whitened space.
-inline void set_tangents(const StationRows& rows, const Parameters& theta, const Tangents& t, StationFit& out) noexcept {
+inline void set_tangents(const StationRows& rows, const Parameters& theta, const Tangents& t,
+                         StationFit& out) noexcept {
   const double first = 1.0 / std::sqrt(t.s11);
   const double shear = t.s12 / t.s11;
   const double rest = t.s22 - t.s12 * shear;

@@ -100,6 +100,7 @@ void sort_ascending(double* values, const View& v, int n) noexcept {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-non-const-parameter): both are written, through the views below
 bool symmetric_eigen(double* a, int n, int stride, double* values, double* vectors) noexcept {
   if (a == nullptr || values == nullptr || vectors == nullptr) return false;
   if (n < 1 || n > 4 * kCapacity || stride < n) return false;

@@ -94,6 +94,18 @@ double half_normal_mean_tail(int n, double t) noexcept {
   return normal_tail(w) + normal_density(w) * (1.0 / u - 1.0 / w);
 }
 
+/// normal_tail_quantile for 0 < p <= 0.5: Abramowitz and Stegun 26.2.23 (4.5e-4), then Newton on
+/// ln(tail), which is nearly a parabola.
+double upper_quantile(double p) noexcept {
+  const double t = std::sqrt(-2.0 * std::log(p));
+  double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+  for (int i = 0; i < 4; ++i) {
+    const double tail = normal_tail(z);
+    z += std::log(tail / p) * tail / normal_density(z);
+  }
+  return z;
+}
+
 }  // namespace
 
 double normal_tail(double z) noexcept { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
@@ -102,15 +114,8 @@ double normal_tail_quantile(double p) noexcept {
   if (std::isnan(p)) return kNan;
   if (p <= 0.0) return kInfinity;
   if (p >= 1.0) return -kInfinity;
-  if (p > 0.5) return -normal_tail_quantile(1.0 - p);  // 1 - p is exact here
-  // Abramowitz and Stegun 26.2.23 (4.5e-4), then Newton on ln(tail), which is nearly a parabola.
-  const double t = std::sqrt(-2.0 * std::log(p));
-  double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-  for (int i = 0; i < 4; ++i) {
-    const double tail = normal_tail(z);
-    z += std::log(tail / p) * tail / normal_density(z);
-  }
-  return z;
+  if (p > 0.5) return -upper_quantile(1.0 - p);  // 1 - p is exact here
+  return upper_quantile(p);
 }
 
 double chi2_tail(double x, int dof) noexcept {

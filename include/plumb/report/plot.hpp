@@ -1,0 +1,30 @@
+/// The picture of a monitored run, drawn by gnuplot (a program that must be installed at run time).
+#pragma once
+
+#include <string>
+
+#include "plumb/io/file_error.hpp"
+#include "plumb/report/timeline.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+
+/// The gnuplot program that draws `csv` (as written by `timeline_csv`) into `svg`; both are names
+/// without a directory, so that the script runs wherever the three files lie together.
+std::string timeline_script(const Timeline& timeline, const std::string& csv, const std::string& svg);
+
+/// Runs `gnuplot script` inside `directory`. Where gnuplot is not installed the error names it, and the
+/// package to install.
+io::FileExpected<void> run_gnuplot(const std::string& directory, const std::string& script);
+
+/// The SVG made fit to stand inside a page: no XML prologue, no namespace attributes, no names of
+/// programs, black replaced by the colour of the surrounding text (so that it is readable on dark pages).
+std::string inline_svg(const std::string& svg);
+
+/// Colour of a state in plots and pages, "#rrggbb".
+const char* colour_of(HealthState state) noexcept;
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb

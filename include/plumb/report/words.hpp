@@ -1,0 +1,27 @@
+/// The monitor's vocabulary in plain words, for tables and pages.
+#pragma once
+
+#include <string>
+
+#include "plumb/array/sensor_array.hpp"
+#include "plumb/health/verdict.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+
+/// "a1, a3", or `none` for the empty set.
+std::string sensor_names(SensorSet set, const SensorArray& array, const char* none = "-");
+
+/// Why the monitor says what it says, for someone who has not read the manual. `state` is the state it led to.
+std::string explain(Cause cause, HealthState state);
+
+/// What a state means, in one sentence.
+const char* meaning(HealthState state) noexcept;
+
+/// What the output may be used for, in a few words.
+const char* meaning(Validity validity) noexcept;
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb
