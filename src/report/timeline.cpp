@@ -1,0 +1,109 @@
+#include "plumb/report/timeline.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "plumb/core/units.hpp"
+#include "plumb/io/records.hpp"
+#include "plumb/io/units.hpp"
+#include "plumb/navigation/tilt.hpp"
+#include "plumb/report/words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+namespace {
+
+std::string figure_or_dash(double value, bool known) { return known ? fmt::format("{:.4g}", value) : "-"; }
+
+/// A cell that is empty where the value is not known: CSV readers and gnuplot take it as missing.
+void add_cell(std::string& out, double value) {
+  out += ',';
+  if (std::isfinite(value)) io::append_shortest(out, value);
+}
+
+}  // namespace
+
+bool inclination_of(const Vec3& gravity_mps2, const Mat3& frame, double& inclination_deg) {
+  const Tilt tilt = tilt_of(io::in_frame(frame, gravity_mps2), Mat3{});
+  if (tilt.inclination_valid) inclination_deg = deg_from_rad(tilt.inclination_rad);
+  return tilt.inclination_valid;
+}
+
+TimelineRow power_on_row(double time_s, HealthState state) {
+  TimelineRow row;
+  row.time_s = time_s;
+  row.state = state;
+  row.cause = Cause::power_on;
+  row.sensors = "-";
+  row.explanation = explain(Cause::power_on, state);
+  return row;
+}
+
+TimelineRow row_of(const Verdict& verdict, const SensorArray& array, const Mat3& frame) {
+  TimelineRow row;
+  const TransitionRecord& record = verdict.transition;
+  row.time_s = record.time_s;
+  row.state = record.to;
+  row.validity = verdict.validity;
+  row.cause = record.cause;
+  row.sensors = sensor_names(record.sensors, array);
+  row.explanation = explain(record.cause, record.to);
+  row.statistic = record.statistic;
+  row.limit = record.limit;
+  row.has_inclination = inclination_of(verdict.gravity_mps2, frame, row.inclination_deg);
+  return row;
+}
+
+std::string table_header() {
+  return fmt::format(
+      "{:>10}  {:<13}  {:<14}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n{:>10}  {:<13}  {:<14}  {:<10}  {:>9} "
+      "{:>9}  {:>11}\n",
+      "time", "state", "cause", "sensor", "statistic", "limit", "inclination", "output", "in words", "s", "", "", "",
+      "", "", "deg");
+}
+
+std::string table_line(const TimelineRow& row) {
+  const bool tested = row.limit > 0.0;
+  return fmt::format(
+      "{:>10.3f}  {:<13}  {:<14}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n", row.time_s, to_string(row.state),
+      to_string(row.cause), row.sensors, figure_or_dash(row.statistic, tested), figure_or_dash(row.limit, tested),
+      row.has_inclination ? fmt::format("{:.3f}", row.inclination_deg) : "-", to_string(row.validity), row.explanation);
+}
+
+std::string timeline_csv(const Timeline& timeline) {
+  std::string out =
+      "t_s,state,output,cause,sensors_in_service,statistic,limit,statistic_over_limit,inclination_true_deg,"
+      "inclination_plumb_deg,inclination_plain_deg,error_plumb_deg,error_plain_deg,protection_level_deg\n";
+  for (const TimelinePoint& p : timeline.points) {
+    io::append_shortest(out, p.time_s);
+    out += fmt::format(",{},{},{},{}", to_string(p.state), to_string(p.validity), to_string(p.cause),
+                       p.sensors_in_service);
+    for (const double value :
+         {p.statistic, p.limit, p.limit > 0.0 ? p.statistic / p.limit : std::nan(""), p.inclination_true_deg,
+          p.inclination_plumb_deg, p.inclination_plain_deg, p.inclination_plumb_deg - p.inclination_true_deg,
+          p.inclination_plain_deg - p.inclination_true_deg, p.protection_level_deg}) {
+      add_cell(out, value);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+ErrorSummary errors_where(const Timeline& timeline, Validity validity) {
+  ErrorSummary out;
+  for (const TimelinePoint& p : timeline.points) {
+    if (p.validity != validity) continue;
+    ++out.points;
+    const double plumb_deg = std::fabs(p.inclination_plumb_deg - p.inclination_true_deg);
+    const double plain_deg = std::fabs(p.inclination_plain_deg - p.inclination_true_deg);
+    if (plumb_deg > out.worst_plumb_deg) out.worst_plumb_deg = plumb_deg;
+    if (plain_deg > out.worst_plain_deg) out.worst_plain_deg = plain_deg;
+  }
+  return out;
+}
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb
