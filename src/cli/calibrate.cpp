@@ -1,0 +1,79 @@
+// plumb calibrate: a log of quiet attitudes in, a calibration file out.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "fit_summary.hpp"
+#include "pipeline.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+struct Options {
+  std::string array;
+  LogSpec log;
+  std::string out;
+  bool json = false;
+  bool verbose = false;
+};
+
+constexpr const char* kAbout =
+    "Estimate what every sensor really does (bias, scale, direction) from a log in which the tool is held\n"
+    "still at many attitudes. Gravity is the only reference. plumb finds the still stretches by itself, or\n"
+    "takes every row as one where the array file says rows = \"stations\". The calibration file is written\n"
+    "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible.";
+constexpr const char* kNotes =
+    "Example:\n"
+    "  plumb calibrate --array tool.toml --log calibration.csv --out calibration.json\n\n"
+    "Units: mg0 = 0.001 x 9.80665 m/s^2; angles in deg; scales in the unit of the log per g0. Attitudes are named by\n"
+    "inclination (0 = tool axis z points down), toolface (turn about z) and the direction of down in the tool frame.\n"
+    "Record at least 12 attitudes spread over all directions, 10 s each; 24 to 48 are better.\n"
+    "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
+
+io::ExitCode run(const Options& options) {
+  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  if (!array) return report(array.error());
+  watch_interrupts();
+  const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log);
+  if (!fit) return report(fit.error());
+  print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, options.verbose));
+  if (!fit->accepted) {
+    const Refusal refusal = refusal_of(*fit, *array);
+    print_error("plumb: the calibration was not accepted: " + refusal.reason + ". " + options.out +
+                " was not written. Remedy: " + refusal.next + ".\n");
+    return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
+  }
+  const io::FileExpected<void> saved = save_calibration(options.out, *fit, *array, options.log.path);
+  if (!saved) return report(saved.error());
+  if (!options.json && options.out != "-") print("written: " + options.out + "\n");
+  if (!fit->interrupted) return io::ExitCode::done;
+  print_error("plumb: interrupted; the calibration uses the " + std::to_string(fit->stations.size()) +
+              " stations found up to then.\n");
+  return io::ExitCode::other;
+}
+
+}  // namespace
+
+Command add_calibrate(CLI::App& tool) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      tool.add_subcommand("calibrate", "find bias, scale and direction of every sensor from a log of quiet attitudes");
+  app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
+      ->required()
+      ->type_name("ARRAY.toml");
+  app->add_option("--log", options->log.path, "the log, CSV with a header row; `-` reads standard input")
+      ->required()
+      ->type_name("LOG.csv");
+  app->add_option("--out", options->out, "the calibration file to write")->required()->type_name("CAL.json");
+  add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_flag("--json", options->json, "the report as JSON, for machines");
+  app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times");
+  app->footer(kNotes + exit_codes_help());
+  return {app, kAbout, [options] { return run(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,42 @@
+/// Plumb's answer beside the plain one, block by block: what the demo's plot shows.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "pipeline.hpp"
+#include "plumb/report/timeline.hpp"
+#include "plumb/scenario/scenario.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// Records the timeline of a simulated run. "Plain" is least squares over all sensors with the same
+/// calibration, on the same samples: what one would have without plumb.
+class ComparisonSink : public VerdictSink {
+ public:
+  /// `truth` holds one entry per row of the log. All references must outlive the sink.
+  ComparisonSink(const io::ArrayFile& array, const Calibration& calibration, const std::vector<scenario::Truth>& truth);
+
+  io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
+  const report::Timeline& timeline() const noexcept { return timeline_; }
+  /// Time of the first row with a sensor in fault; beyond the end where there is none.
+  double fault_s() const noexcept { return fault_s_; }
+
+ private:
+  Readings mean_of_window() const;
+
+  const io::ArrayFile& array_;
+  const Calibration& calibration_;
+  const std::vector<scenario::Truth>& truth_;
+  LeastSquares all_;
+  std::vector<Readings> window_;  ///< ring of the last block's readings
+  std::size_t row_ = 0;
+  double fault_s_ = std::numeric_limits<double>::infinity();
+  report::Timeline timeline_;
+};
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

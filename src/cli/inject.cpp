@@ -1,0 +1,139 @@
+// plumb inject: faults into a recorded log, to see what the monitor makes of them.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/log_reader.hpp"
+#include "plumb/io/log_writer.hpp"
+#include "plumb/scenario/fault_text.hpp"
+#include "plumb/scenario/injector.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+struct Options {
+  std::string array;
+  std::string log;
+  std::string out;
+  std::vector<std::string> faults;
+  std::uint64_t seed = 1;
+  io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
+};
+
+constexpr const char* kAbout =
+    "Put faults into a recorded log and write the log anew: what would the monitor have said, had this sensor\n"
+    "died at that moment? Rows and times stay as they are; only the named channels change.";
+constexpr const char* kNotes =
+    "A fault is SENSOR:KIND[=SIZE]@ONSET[+DURATION]:\n"
+    "  a2:stuck=0V@12s          stands at 0 V from t = 12 s on (also 3V, FS, -FS, 12count, 1g0)\n"
+    "  a3:last@5s               stands at its last value; last=0.5LSB dithers about it\n"
+    "  a1:random=-3V..3V@20s    a new random value every row; held= draws one value and keeps it\n"
+    "  a2:bias=50mg0@30s+10s    reads 50 mg0 too much for ten seconds\n"
+    "  a1:drift=1mg0/s@10s      the error grows; also per min, per h\n"
+    "  a4:scale=1.1@10s         scale factor times 1.1\n"
+    "ONSET: a time on the log's own time axis (12s, 2min), a row (#5), a station (station6, needs station tags).\n\n"
+    "Example (inject, then watch):\n"
+    "  plumb inject --array tool.toml --log run.csv --fault \"a2:stuck=0V@12s\" --out - |\n"
+    "    plumb monitor --array tool.toml --calibration cal.json --log -\n\n"
+    "The same seed gives the same bytes. With --out - nothing else is written to standard output.\n\n";
+
+scenario::FaultContext context_of(const io::ArrayFile& array) {
+  scenario::FaultContext context;
+  context.datasheet = array.datasheet;
+  switch (array.input.unit.kind) {
+    case io::RawUnit::Kind::voltage: context.raw = scenario::FaultContext::Raw::voltage; break;
+    case io::RawUnit::Kind::count: context.raw = scenario::FaultContext::Raw::count; break;
+    case io::RawUnit::Kind::acceleration: context.raw = scenario::FaultContext::Raw::acceleration; break;
+  }
+  context.base_per_raw = array.input.unit.base_per_unit;
+  context.raw_unit = array.input.unit.name;
+  return context;
+}
+
+io::FileError fault_error(std::string what) {
+  return io::FileError{"--fault", 0, "", std::move(what), "", io::ExitCode::usage};
+}
+
+/// Copies the log row by row through the injector.
+io::FileExpected<io::LogStatistics> copy(const Options& options, const io::ArrayFile& array,
+                                         scenario::Injector& injector) {
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->stop_when(interrupt_flag());
+  io::FileExpected<io::LogWriter> writer = io::LogWriter::create(options.out, array);
+  if (!writer) return tl::unexpected<io::FileError>(writer.error());
+  Sample sample;
+  io::LogReader::Next status = reader->next(sample);
+  for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    injector.apply(sample);
+    const io::FileExpected<void> written = writer->write(sample);
+    if (!written) return tl::unexpected<io::FileError>(written.error());
+  }
+  const io::FileExpected<void> kept = writer->commit();
+  if (!kept) return tl::unexpected<io::FileError>(kept.error());
+  if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
+  return reader->statistics();
+}
+
+io::ExitCode run(const Options& options) {
+  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  if (!array) return report(array.error());
+  const scenario::FaultContext context = context_of(*array);
+  std::vector<scenario::Fault> faults;
+  for (const std::string& text : options.faults) {
+    const tl::expected<scenario::Fault, std::string> fault = scenario::parse_fault(text, context);
+    if (!fault) return report(fault_error(fault.error()));
+    faults.push_back(*fault);
+  }
+  tl::expected<scenario::Injector, std::string> injector =
+      scenario::Injector::make(array->datasheet, array->datasheet.model(), faults, options.seed);
+  if (!injector) return report(fault_error(injector.error()));
+  watch_interrupts();
+  const io::FileExpected<io::LogStatistics> done = copy(options, *array, *injector);
+  if (!done) return report(done.error());
+  const bool to_pipe = options.out == "-";
+  if (!to_pipe) {
+    for (const scenario::Fault& fault : faults) print(scenario::describe(fault, context) + "\n");
+    print(fmt::format("written: {} ({} rows)\n", options.out, done->rows));
+  }
+  for (const int k : injector->without_effect()) {
+    print_error(fmt::format(
+        "plumb: --fault \"{}\" changed nothing: the log (t = {:.3f} to {:.3f} s) has no such time or station, or the "
+        "channel did not deliver.\n",
+        options.faults[static_cast<std::size_t>(k)], done->first_time_s, done->last_time_s));
+  }
+  if (!interrupted()) return io::ExitCode::done;
+  print_error(fmt::format("plumb: interrupted; the rows up to t = {:.3f} s are written.\n", done->last_time_s));
+  return io::ExitCode::other;
+}
+
+}  // namespace
+
+Command add_inject(CLI::App& tool) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      tool.add_subcommand("inject", "put faults into a recorded log, to see what the monitor makes of them");
+  app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
+      ->required()
+      ->type_name("ARRAY.toml");
+  app->add_option("--log", options->log, "the log to read; `-` = standard input")->required()->type_name("LOG.csv|-");
+  app->add_option("--fault", options->faults, "a fault, as below; may be given several times")
+      ->required()
+      ->type_name("FAULT")
+      ->expected(1)
+      ->take_all();
+  app->add_option("--seed", options->seed, "of the random kinds of fault, 1 by default")->type_name("N");
+  app->add_option("--out", options->out, "the log to write; `-` = standard output")->required()->type_name("OUT.csv|-");
+  add_bad_row_option(*app, options->on_bad_row);
+  app->footer(kNotes + exit_codes_help());
+  return {app, kAbout, [options] { return run(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,123 @@
+// plumb: the command-line tool. Finds the command, and turns every misunderstanding into a hint.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <vector>
+
+#include "../io/text_tools.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+constexpr const char* kAbout =
+    "plumb keeps redundant accelerometers honest: it calibrates an array of single-axis accelerometers from\n"
+    "gravity, watches it sample by sample, says which sensors may be believed, and which way is down.";
+constexpr const char* kNotes =
+    "Start here:\n"
+    "  plumb demo                     simulates a tool whose sensor dies; needs no file\n"
+    "  plumb COMMAND --help           what a command does, with an example\n\n";
+
+std::string without_dashes(const std::string& option) {
+  const std::size_t begin = option.find_first_not_of('-');
+  return begin == std::string::npos ? option : option.substr(begin, option.find('=') - begin);
+}
+
+int usage(const std::string& what, const std::string& help_of) {
+  print_error("plumb: " + what + "\nTry: " + help_of + " --help\n");
+  return io::to_int(io::ExitCode::usage);
+}
+
+/// The first argument names the command: an unknown one is answered with the nearest known.
+bool unknown_command(const std::string& word, const std::vector<Command>& commands, std::string& answer) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.app->get_name());
+  for (const std::string& name : names) {
+    if (name == word) return false;
+  }
+  const std::string nearest = io::nearest_name(word, names);
+  answer = "there is no command " + io::in_quotes(word) + ". " +
+           (nearest.empty() ? "Commands: " + io::joined(names) : "Did you mean \"" + nearest + "\"?");
+  return true;
+}
+
+/// What the command line holds beyond what the command knows.
+std::string leftover(const CLI::App& app) {
+  const std::vector<std::string> rest = app.remaining();
+  if (rest.empty()) return "";
+  if (rest.front().empty() || rest.front()[0] != '-')
+    return app.get_name() + ": " + io::in_quotes(rest.front()) + " is not expected here.";
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back(name);
+  }
+  const std::string nearest = io::nearest_name(without_dashes(rest.front()), known);
+  return app.get_name() + ": there is no option " + io::in_quotes(rest.front()) + "." +
+         (nearest.empty() ? "" : " Did you mean \"--" + nearest + "\"?");
+}
+
+int parse_failure(CLI::App& tool, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) {  // --help and --version
+    tool.exit(error);
+    return output_is_sound() ? 0 : io::to_int(io::ExitCode::other);
+  }
+  for (const CLI::App* app : tool.get_subcommands()) {
+    const std::string unknown = leftover(*app);
+    if (!unknown.empty()) return usage(unknown, "plumb " + app->get_name());
+    return usage(app->get_name() + ": " + error.what() + ".", "plumb " + app->get_name());
+  }
+  const std::string unknown = leftover(tool);
+  return usage(unknown.empty() ? error.what() + std::string(".") : unknown, "plumb");
+}
+
+int run(int argc, char** argv) {
+  CLI::App tool(kAbout, "plumb");
+  tool.set_version_flag("--version", std::string("plumb ") + kVersion);
+  tool.get_formatter()->column_width(34);
+  tool.footer(kNotes + exit_codes_help());
+  // In the order in which a newcomer meets them.
+  std::vector<Command> commands;
+  for (const auto add : {add_demo, add_geometry, add_calibrate, add_monitor, add_inject, add_model}) {
+    tool.footer("");  // a command inherits what stands here, and has notes of its own
+    commands.push_back(add(tool));
+  }
+  tool.footer(kNotes + exit_codes_help());
+  if (argc < 2) {
+    print_error(tool.help());
+    return io::to_int(io::ExitCode::usage);
+  }
+  std::string answer;
+  if (argv[1][0] != '-' && unknown_command(argv[1], commands, answer)) return usage(answer, "plumb");
+  for (const Command& command : commands) {
+    if (command.app->get_name() == argv[1]) command.app->description(command.about);
+  }
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parse_failure(tool, error);
+  }
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    const io::ExitCode code = command.run();
+    if (output_is_sound()) return io::to_int(code);
+    print_error("plumb: standard output cannot be written. Remedy: free space, or write to another place.\n");
+    return io::to_int(io::ExitCode::other);
+  }
+  return usage("a command is missing.", "plumb");
+}
+
+}  // namespace
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb
+
+int main(int argc, char** argv) {
+  try {
+    return plumb::cli::run(argc, argv);
+  } catch (const std::exception& error) {
+    // Only memory and the libraries of the host tool throw; plumb itself returns its errors.
+    plumb::cli::print_error(std::string("plumb: unexpected: ") + error.what() + ". Please report this.\n");
+    return plumb::io::to_int(plumb::io::ExitCode::other);
+  }
+}

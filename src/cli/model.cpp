@@ -1,0 +1,231 @@
+// plumb model: the state machine as it runs, printed from the one table in the code.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "plumb/health/transition_table.hpp"
+#include "plumb/report/plot.hpp"
+#include "plumb/report/words.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+enum class Format { markdown, dot, json };
+
+struct Options {
+  Format format = Format::markdown;
+};
+
+constexpr const char* kAbout =
+    "Print the state machine of the monitor: for every state and every event, what is done and where it leads.\n"
+    "It is printed from the very table that runs in the monitor, so it cannot be out of date.";
+constexpr const char* kNotes =
+    "Examples:\n"
+    "  plumb model                                  a Markdown table, events in rank order\n"
+    "  plumb model --format dot | dot -Tsvg > m.svg a drawing (needs Graphviz)\n"
+    "  plumb model --format json                    every cell, for machines\n\n"
+    "Events are in rank order: where several apply at once, the first is taken. \"by size\" = failed, degraded,\n"
+    "nominal or isolated, by what is left in service. PL = protection level, AL = alert limit.\n\n";
+
+struct NamedAction {
+  Action::Bits bit;
+  const char* name;
+};
+constexpr NamedAction kActions[] = {{Action::exclude, "exclude"},
+                                    {Action::set_aside, "set aside"},
+                                    {Action::mark_absent, "mark absent"},
+                                    {Action::mark_back, "mark as back"},
+                                    {Action::discard_fit, "discard fit"},
+                                    {Action::restart_fit, "restart collection"},
+                                    {Action::adopt_fit, "adopt fit"},
+                                    {Action::start_fit, "start fit"},
+                                    {Action::reinstate, "reinstate"},
+                                    {Action::rearm, "return named sensors"},
+                                    {Action::exhausted, "exhausted"},
+                                    {Action::unproven, "unproven"},
+                                    {Action::count, "count"}};
+
+const char* kind_name(CellKind kind) {
+  switch (kind) {
+    case CellKind::taken: return "taken";
+    case CellKind::ignored: return "ignored";
+    case CellKind::held: return "held";
+    case CellKind::impossible: return "impossible";
+  }
+  return "?";
+}
+
+std::vector<std::string> actions_of(const Cell& cell) {
+  std::vector<std::string> out;
+  for (const NamedAction& action : kActions) {
+    if ((cell.actions & action.bit) != 0) out.emplace_back(action.name);
+  }
+  return out;
+}
+
+std::string cell_text(const Cell& cell) {
+  if (cell.kind != CellKind::taken) return kind_name(cell.kind);
+  std::string out;
+  for (const std::string& action : actions_of(cell)) out += action + "; ";
+  return out + to_string(cell.target);
+}
+
+bool same_cells(Mode a, Mode b) {
+  for (int e = 0; e < kEventCount; ++e) {
+    const auto event = static_cast<HealthEvent>(e);
+    if (cell_text(cell_of(a, event)) != cell_text(cell_of(b, event))) return false;
+  }
+  return true;
+}
+
+/// Modes with the same row share a column, as in the design.
+std::vector<std::vector<Mode>> columns() {
+  std::vector<std::vector<Mode>> out;
+  for (int m = 0; m < kModeCount; ++m) {
+    const auto mode = static_cast<Mode>(m);
+    if (!out.empty() && same_cells(out.back().front(), mode)) {
+      out.back().push_back(mode);
+    } else {
+      out.push_back({mode});
+    }
+  }
+  return out;
+}
+
+std::string markdown() {
+  const std::vector<std::vector<Mode>> modes = columns();
+  std::string out = "| event (rank order) |";
+  std::string rule = "|---|";
+  for (const std::vector<Mode>& column : modes) {
+    std::string title;
+    for (const Mode mode : column) title += (title.empty() ? "" : ", ") + std::string(to_string(mode));
+    out += " " + title + " |";
+    rule += "---|";
+  }
+  out += "\n" + rule + "\n";
+  for (int e = 0; e < kEventCount; ++e) {
+    const auto event = static_cast<HealthEvent>(e);
+    if (event == HealthEvent::none) continue;  // nothing happened: ignored everywhere
+    out += fmt::format("| {} |", to_string(event));
+    for (const std::vector<Mode>& column : modes) out += " " + cell_text(cell_of(column.front(), event)) + " |";
+    out += "\n";
+  }
+  return out;
+}
+
+/// Every mode that a cell can lead to, over all facts that its target may depend on.
+std::set<Mode> destinations(Mode from, const Cell& cell) {
+  std::set<Mode> out;
+  for (const SizeClass size :
+       {SizeClass::rank_lost, SizeClass::critical, SizeClass::all_configured, SizeClass::reduced}) {
+    for (unsigned bits = 0; bits < 32; ++bits) {
+      TargetFacts facts;
+      facts.size = size;
+      facts.unproven = (bits & 1U) != 0;
+      facts.earned = (bits & 2U) != 0;
+      facts.base_suspect = (bits & 4U) != 0;
+      facts.protection_within = (bits & 8U) != 0;
+      facts.calibrated = (bits & 16U) != 0;
+      out.insert(resolve(from, cell.target, facts));
+    }
+  }
+  return out;
+}
+
+std::string dot() {
+  std::string out =
+      "digraph plumb {\n  rankdir=LR;\n  node [shape=box, style=\"rounded,filled\", fontname=\"sans-serif\", "
+      "fontcolor=white];\n"
+      "  edge [fontname=\"sans-serif\", fontsize=10];\n";
+  for (int m = 0; m < kModeCount; ++m) {
+    const auto mode = static_cast<Mode>(m);
+    out += fmt::format("  \"{}\" [fillcolor=\"{}\", color=\"{}\"];\n", to_string(mode),
+                       report::colour_of(state_of(mode)), report::colour_of(state_of(mode)));
+  }
+  std::map<std::pair<Mode, Mode>, std::string> edges;
+  for (int m = 0; m < kModeCount; ++m) {
+    const auto from = static_cast<Mode>(m);
+    for (int e = 0; e < kEventCount; ++e) {
+      const auto event = static_cast<HealthEvent>(e);
+      const Cell& cell = cell_of(from, event);
+      if (cell.kind != CellKind::taken) continue;
+      for (const Mode to : destinations(from, cell)) {
+        if (to == from) continue;
+        std::string& label = edges[{from, to}];
+        label += (label.empty() ? "" : "\\n") + std::string(to_string(event));
+      }
+    }
+  }
+  for (const auto& [ends, label] : edges) {
+    out += fmt::format("  \"{}\" -> \"{}\" [label=\"{}\"];\n", to_string(ends.first), to_string(ends.second), label);
+  }
+  return out + "}\n";
+}
+
+std::string json() {
+  using Json = nlohmann::ordered_json;
+  Json out;
+  Json states = Json::array();
+  for (int m = 0; m < kModeCount; ++m) {
+    const auto mode = static_cast<Mode>(m);
+    states.push_back({{"mode", to_string(mode)},
+                      {"state", to_string(state_of(mode))},
+                      {"meaning", report::meaning(state_of(mode))}});
+  }
+  out["modes"] = std::move(states);
+  Json events = Json::array();
+  for (int e = 0; e < kEventCount; ++e) events.push_back(to_string(static_cast<HealthEvent>(e)));
+  out["events_in_rank_order"] = std::move(events);
+  Json cells = Json::array();
+  for (int m = 0; m < kModeCount; ++m) {
+    const auto from = static_cast<Mode>(m);
+    for (int e = 0; e < kEventCount; ++e) {
+      const auto event = static_cast<HealthEvent>(e);
+      const Cell& cell = cell_of(from, event);
+      Json to = Json::array();
+      for (const Mode mode : destinations(from, cell)) to.push_back(to_string(mode));
+      cells.push_back({{"mode", to_string(from)},
+                       {"event", to_string(event)},
+                       {"kind", kind_name(cell.kind)},
+                       {"actions", actions_of(cell)},
+                       {"target", to_string(cell.target)},
+                       {"leads_to", std::move(to)}});
+    }
+  }
+  out["cells"] = std::move(cells);
+  return out.dump(2) + "\n";
+}
+
+io::ExitCode run(const Options& options) {
+  switch (options.format) {
+    case Format::markdown: print(markdown()); break;
+    case Format::dot: print(dot()); break;
+    case Format::json: print(json()); break;
+  }
+  return io::ExitCode::done;
+}
+
+}  // namespace
+
+Command add_model(CLI::App& tool) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app = tool.add_subcommand("model", "print the state machine of the monitor: table, drawing or JSON");
+  const std::map<std::string, Format> names{
+      {"markdown", Format::markdown}, {"dot", Format::dot}, {"json", Format::json}};
+  app->add_option("--format", options->format, "`markdown` (default), `dot` (Graphviz) or `json`")
+      ->transform(CLI::CheckedTransformer(names).description(""))
+      ->type_name("markdown|dot|json");
+  app->footer(kNotes + exit_codes_help());
+  return {app, kAbout, [options] { return run(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,210 @@
+// plumb monitor: a log or a live stream through the health monitor.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "pipeline.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/io/records.hpp"
+#include "plumb/report/timeline.hpp"
+#include "plumb/report/words.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+struct Options {
+  std::string array;
+  std::string calibration;
+  LogSpec log{"-", io::BadRowPolicy::stop};
+  std::string events;
+  std::string verdicts;
+  bool every_sample = false;
+  bool json = false;
+};
+
+constexpr const char* kAbout =
+    "Watch an array of accelerometers: read a log (or a live stream) sample by sample, say which sensors may\n"
+    "be believed, which way is down, and within what bound. A table line is printed at every change of state;\n"
+    "a summary follows at the end. A sensor is excluded only when no other explanation of the data is left.";
+constexpr const char* kNotes =
+    "States: nominal (all sensors agree), suspect (a limit was crossed, or trust is not yet earned; output\n"
+    "unconfirmed), isolated (a faulty sensor is out, the rest still check one another), degraded (three sensors\n"
+    "left, no spare), failed (too few sensors or no bound: do not use the output).\n"
+    "One attitude rarely tells which sensor is at fault: plumb waits for the tool to turn.\n\n"
+    "Examples:\n"
+    "  plumb monitor --array tool.toml --calibration cal.json --log run.csv --events events.jsonl\n"
+    "  tail -f run.csv | plumb monitor --array tool.toml --calibration cal.json --log - --json\n\n"
+    "Units: time in s, inclination in deg (0 = tool axis z points down). `statistic` and `limit` share a unit:\n"
+    "standard deviations for parity and norm, m/s^2 for mae; an alarm is statistic > limit.\n"
+    "--json prints one JSON object per change, then one with the key \"summary\".\n"
+    "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
+
+/// A table line at each change.
+class TableSink : public VerdictSink {
+ public:
+  TableSink(const SensorArray& array, const Mat3& frame) : array_(array), frame_(frame) {}
+
+  io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override {
+    if (!started_)
+      print_now(report::table_header() + report::table_line(report::power_on_row(sample.time_s, HealthState::suspect)));
+    started_ = true;
+    if (verdict.transition.sequence != 0) print_now(report::table_line(report::row_of(verdict, array_, frame_)));
+    return {};
+  }
+
+ private:
+  const SensorArray& array_;
+  Mat3 frame_;
+  bool started_ = false;
+};
+
+/// All that `run` opened, in the order in which samples are handed on.
+struct Outputs {
+  std::optional<EventsFile> events;
+  std::optional<VerdictsFile> verdicts;
+  std::optional<EventsFile> json;
+  std::optional<TableSink> table;
+  std::vector<VerdictSink*> sinks;
+};
+
+io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile& array, const SensorArray& sensors,
+                                    Outputs& out) {
+  const bool live = options.log.path == "-";
+  const bool taken = options.events == "-" || options.verdicts == "-";
+  if (!options.events.empty()) {
+    io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.events, io::OutputFile::Mode::stream);
+    if (!file) return tl::unexpected<io::FileError>(file.error());
+    out.sinks.push_back(&out.events.emplace(*std::move(file), sensors, live || options.events == "-"));
+  }
+  if (!options.verdicts.empty()) {
+    io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.verdicts, io::OutputFile::Mode::stream);
+    if (!file) return tl::unexpected<io::FileError>(file.error());
+    out.sinks.push_back(
+        &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
+  }
+  if (options.json) {
+    io::FileExpected<io::OutputFile> file = io::OutputFile::create("-", io::OutputFile::Mode::stream);
+    if (!file) return tl::unexpected<io::FileError>(file.error());
+    out.sinks.push_back(&out.json.emplace(*std::move(file), sensors, true));
+  } else if (!taken) {
+    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame));
+  }
+  return {};
+}
+
+io::FileExpected<void> commit(Outputs& out) {
+  io::FileExpected<void> done;
+  if (out.events) done = out.events->commit();
+  if (done && out.verdicts) done = out.verdicts->commit();
+  if (done && out.json) done = out.json->commit();
+  return done;
+}
+
+std::string summary_text(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame) {
+  const Verdict& v = run.last;
+  std::string out = fmt::format("\nstate       {}: {}\n", to_string(v.state), report::meaning(v.state));
+  out += fmt::format("log         {} samples, {} quiet blocks, {} changes, {} bad rows skipped\n", run.samples,
+                     run.blocks, run.transitions, run.log.rows_bad);
+  const bool failed = v.state == HealthState::failed;
+  out += fmt::format("in service  {}\n", failed ? "none may be used" : report::sensor_names(v.in_service, sensors));
+  out += fmt::format("excluded    {}\n", report::sensor_names(v.excluded, sensors));
+  if (!v.set_aside.empty()) out += fmt::format("set aside   {}\n", report::sensor_names(v.set_aside, sensors));
+  if (!v.absent.empty()) out += fmt::format("absent      {}\n", report::sensor_names(v.absent, sensors));
+  double inclination_deg = 0.0;
+  const bool known = report::inclination_of(v.gravity_mps2, frame, inclination_deg);
+  out += fmt::format("inclination {}, {} ({})\n", known ? fmt::format("{:.3f} deg", inclination_deg) : "not known",
+                     to_string(v.validity), report::meaning(v.validity));
+  out += "protection  ";
+  return out + (v.protection_available ? fmt::format("the direction is within {:.3f} deg of the truth\n",
+                                                     deg_from_rad(v.protection_level_rad))
+                                       : std::string("no bound on the error can be given\n"));
+}
+
+std::string summary_json(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame) {
+  nlohmann::ordered_json s;
+  s["state"] = to_string(run.last.state);
+  s["output"] = to_string(run.last.validity);
+  s["samples"] = run.samples;
+  s["blocks"] = run.blocks;
+  s["changes"] = run.transitions;
+  s["rows_bad"] = run.log.rows_bad;
+  s["last_time_s"] = run.last_time_s;
+  s["interrupted"] = run.interrupted;
+  s["last_verdict"] = nlohmann::ordered_json::parse(io::verdict_json(run.last, sensors, frame));
+  return nlohmann::ordered_json{{"summary", std::move(s)}}.dump() + "\n";
+}
+
+io::ExitCode run(const Options& options) {
+  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  if (!array) return report(array.error());
+  const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
+  if (!calibration) return report(calibration.error());
+  const io::FileExpected<std::unique_ptr<HealthMonitor>> monitor = make_monitor(*array, calibration->calibration);
+  if (!monitor) return report(monitor.error());
+  if (array->input.rows == io::RowKind::stations && array->monitor.window > 1) {
+    print_error(fmt::format(
+        "plumb: {}: every row of the log is a station, but [monitor] window = {} joins that many rows to one "
+        "block. Remedy: set window = 1.\n",
+        array->path, array->monitor.window));
+  }
+  const SensorArray& sensors = (*monitor)->array();
+  Outputs outputs;
+  const io::FileExpected<void> opened = open_outputs(options, *array, sensors, outputs);
+  if (!opened) return report(opened.error());
+  watch_interrupts();
+  const io::FileExpected<MonitorRun> done = run_monitor(**monitor, *array, options.log, outputs.sinks);
+  if (!done) return report(done.error());
+  const io::FileExpected<void> kept = commit(outputs);
+  if (!kept) return report(kept.error());
+  if (options.json) {
+    print_now(summary_json(*done, sensors, array->output_frame));
+  } else if (outputs.table) {
+    print_now(summary_text(*done, sensors, array->output_frame));
+  }
+  if (done->stopped) {
+    print_error(
+        fmt::format("plumb: the log ended in an error; the results up to t = {:.3f} s are kept.\n", done->last_time_s));
+    return report(done->stop);
+  }
+  if (done->interrupted) {
+    print_error(fmt::format("plumb: interrupted; the results up to t = {:.3f} s are kept.\n", done->last_time_s));
+    return io::ExitCode::other;
+  }
+  return done->last.state == HealthState::failed ? io::ExitCode::monitor_failed : io::ExitCode::done;
+}
+
+}  // namespace
+
+Command add_monitor(CLI::App& tool) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      tool.add_subcommand("monitor", "watch a log or a live stream: which sensors may be believed, which way is down");
+  app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
+      ->required()
+      ->type_name("ARRAY.toml");
+  app->add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
+      ->required()
+      ->type_name("CAL.json");
+  app->add_option("--log", options->log.path, "the log, CSV with a header row; `-` (default) reads standard input")
+      ->type_name("LOG.csv|-");
+  app->add_option("--events", options->events,
+                  "write one JSON line per change; `-` = standard output, instead of the table")
+      ->type_name("E.jsonl");
+  app->add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
+      ->type_name("V.jsonl");
+  app->add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
+  add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
+  app->footer(kNotes + exit_codes_help());
+  return {app, kAbout, [options] { return run(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

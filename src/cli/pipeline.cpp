@@ -1,0 +1,193 @@
+#include "pipeline.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "plumb/detection/stationarity.hpp"
+#include "plumb/io/records.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+SensorSet finite_channels(const Sample& sample, int n) {
+  SensorSet usable = sample.delivered & SensorSet::first(n);
+  for (int i = 0; i < n; ++i) {
+    if (!std::isfinite(sample.raw[static_cast<std::size_t>(i)])) usable = usable.without(i);
+  }
+  return usable;
+}
+
+/// A row of a survey log is a station already.
+Station station_of_row(const Sample& sample, SensorSet usable) {
+  Station station;
+  for (int i = 0; i < kCapacity; ++i) {
+    if (usable.has(i)) station.mean[static_cast<std::size_t>(i)] = sample.raw[static_cast<std::size_t>(i)];
+  }
+  station.delivered = usable;
+  station.temperature_degc = sample.temperature_degc;
+  station.count = sample.count;
+  station.tag = sample.station;
+  station.begin_s = station.end_s = sample.time_s;
+  return station;
+}
+
+/// Turns samples into stations, either way.
+class StationCollector {
+ public:
+  explicit StationCollector(const io::ArrayFile& array)
+      : rows_(array.input.rows), model_(array.datasheet.model()), size_(array.datasheet.size) {
+    StationFinder::Settings settings;
+    settings.station_angle_rad = array.monitor.station_angle_rad;
+    settings.max_gap_s = array.monitor.max_gap_s;
+    if (rows_ == io::RowKind::samples)
+      finder_ = std::make_unique<StationFinder>(array.array, array.gravity.g_mps2, settings);
+  }
+
+  void add(const Sample& sample) {
+    const SensorSet usable = finite_channels(sample, size_);
+    if (!finder_) {
+      stations_.push_back(station_of_row(sample, usable));
+      return;
+    }
+    const Readings y = model_.apply(sample.raw, sample.temperature_degc, usable);
+    Station finished;
+    if (finder_->add(sample, y, usable, finished)) stations_.push_back(finished);
+  }
+
+  std::vector<Station> finish() {
+    Station finished;
+    if (finder_ && finder_->finish(finished)) stations_.push_back(finished);
+    return std::move(stations_);
+  }
+
+ private:
+  io::RowKind rows_;
+  SensorModel model_;
+  int size_;
+  std::unique_ptr<StationFinder> finder_;
+  std::vector<Station> stations_;
+};
+
+io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool live) {
+  line += '\n';
+  io::FileExpected<void> done = file.write(line);
+  if (done && live) done = file.flush();
+  return done;
+}
+
+}  // namespace
+
+io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log) {
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->hash_bytes();
+  reader->stop_when(interrupt_flag());
+  StationCollector collector(array);
+  {
+    Progress progress("reading " + log.path);
+    Sample sample;
+    io::LogReader::Next status = reader->next(sample);
+    for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+      collector.add(sample);
+      progress.at(reader->statistics().rows, sample.time_s);
+    }
+    if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
+  }
+  CalibrationRun run;
+  run.interrupted = interrupted();
+  run.stations = collector.finish();
+  run.log = reader->statistics();
+  Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
+                                        static_cast<int>(run.stations.size()), FitOptions{}, &run.report);
+  if (fit) {
+    run.accepted = std::make_unique<Calibration>(*fit);
+  } else {
+    run.refusal = fit.error();
+  }
+  return run;
+}
+
+io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
+                                        const std::string& log_path) {
+  io::CalibrationContext context;
+  context.log_file = log_path;
+  context.log_bytes = run.log.bytes;
+  context.log_hash = run.log.hash;
+  context.stations = run.report.stations;
+  context.plumb_version = kVersion;
+  context.gravity = array.gravity;
+  return io::write_calibration(path, *run.accepted, array, context);
+}
+
+io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
+  if (verdict.transition.sequence == 0) return {};
+  line_.clear();
+  io::append_event_json(line_, verdict.transition, array_);
+  return put_line(file_, line_, live_);
+}
+
+io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
+  if (!verdict.tick && !every_sample_) return {};
+  line_.clear();
+  io::append_verdict_json(line_, verdict, array_, frame_);
+  return put_line(file_, line_, live_);
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
+                                                              const Calibration& calibration) {
+  auto setup = std::make_unique<MonitorSetup>();
+  setup->model = calibration.model;
+  setup->array = calibration.array;
+  setup->gravity = array.gravity;
+  setup->config = array.monitor;
+  // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    setup->full_scale_raw[static_cast<std::size_t>(i)] =
+        array.datasheet.sensor[static_cast<std::size_t>(i)].full_scale_raw;
+  }
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> configured = monitor->configure(*setup);
+  if (configured) return monitor;
+  io::FileError error = io::from_error(configured.error());
+  error.file = array.path;
+  const int i = configured.error().index;
+  if (configured.error().code == Errc::range_too_small && i >= 0)
+    error.field = "sensor[" + std::to_string(i + 1) + "].full_scale";
+  return tl::unexpected<io::FileError>(error);
+}
+
+io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::ArrayFile& array, const LogSpec& log,
+                                         const std::vector<VerdictSink*>& sinks) {
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->stop_when(interrupt_flag());
+  MonitorRun run;
+  Progress progress("monitoring " + log.path);
+  Sample sample;
+  io::LogReader::Next status = reader->next(sample);
+  for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    const Verdict& verdict = monitor.step(sample);
+    ++run.samples;
+    if (verdict.tick) ++run.blocks;
+    if (verdict.transition.sequence != 0) ++run.transitions;
+    run.last_time_s = sample.time_s;
+    for (VerdictSink* sink : sinks) {
+      const io::FileExpected<void> taken = sink->take(sample, verdict);
+      if (!taken) return tl::unexpected<io::FileError>(taken.error());
+    }
+    progress.at(run.samples, sample.time_s);
+  }
+  run.interrupted = interrupted();
+  run.stopped = status == io::LogReader::Next::error;
+  if (run.stopped) run.stop = reader->error();
+  run.last = monitor.verdict();
+  run.log = reader->statistics();
+  return run;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,112 @@
+/// The two long jobs, as the commands and the demo alike run them: a log to a calibration, and a log
+/// through the monitor.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/calibration/calibration.hpp"
+#include "plumb/health/health_monitor.hpp"
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/calibration_file.hpp"
+#include "plumb/io/log_reader.hpp"
+#include "plumb/io/output_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+struct LogSpec {
+  std::string path;  ///< "-" = standard input
+  io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
+};
+
+// ---- from a log to a calibration ---------------------------------------------------------------
+
+struct CalibrationRun {
+  std::vector<Station> stations;
+  io::LogStatistics log;
+  bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
+  FitReport report;
+  Error refusal;                          ///< why it was not accepted
+  std::unique_ptr<Calibration> accepted;  ///< null where it was not
+};
+
+/// Reads the log, finds the stations (or takes the rows as stations) and fits.
+io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log);
+
+/// Writes the accepted calibration with its provenance.
+io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
+                                        const std::string& log_path);
+
+// ---- from a log through the monitor ------------------------------------------------------------
+
+/// Receives every sample with its verdict, in order.
+class VerdictSink {
+ public:
+  VerdictSink() = default;
+  VerdictSink(const VerdictSink&) = delete;
+  VerdictSink& operator=(const VerdictSink&) = delete;
+  virtual ~VerdictSink() = default;
+  virtual io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) = 0;
+};
+
+/// One JSON line per change (--events).
+class EventsFile : public VerdictSink {
+ public:
+  /// `live`: flush each line, someone is reading along.
+  EventsFile(io::OutputFile file, const SensorArray& array, bool live)
+      : file_(std::move(file)), array_(array), live_(live) {}
+  io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
+  io::FileExpected<void> commit() { return file_.commit(); }
+
+ private:
+  io::OutputFile file_;
+  const SensorArray& array_;
+  bool live_;
+  std::string line_;
+};
+
+/// One JSON line per block, or per sample (--verdicts, --every-sample).
+class VerdictsFile : public VerdictSink {
+ public:
+  VerdictsFile(io::OutputFile file, const SensorArray& array, const Mat3& frame, bool every_sample, bool live)
+      : file_(std::move(file)), array_(array), frame_(frame), every_sample_(every_sample), live_(live) {}
+  io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
+  io::FileExpected<void> commit() { return file_.commit(); }
+
+ private:
+  io::OutputFile file_;
+  const SensorArray& array_;
+  Mat3 frame_;
+  bool every_sample_;
+  bool live_;
+  std::string line_;
+};
+
+struct MonitorRun {
+  Verdict last;
+  std::uint64_t samples = 0;
+  std::uint64_t blocks = 0;  ///< quiet blocks, each judged once
+  std::uint64_t transitions = 0;
+  double last_time_s = 0.0;
+  io::LogStatistics log;
+  bool interrupted = false;
+  bool stopped = false;  ///< the log ended in an error; what came before counts
+  io::FileError stop;
+};
+
+/// A monitor with this calibration, switched on; on the heap, because at capacity 24 it is 2 MB large.
+io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
+                                                              const Calibration& calibration);
+
+/// Steps all samples of the log through the monitor. An error of the log is returned in `stop`, an error
+/// of a sink (a file that cannot be written) as the error.
+io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::ArrayFile& array, const LogSpec& log,
+                                         const std::vector<VerdictSink*>& sinks);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

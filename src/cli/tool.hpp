@@ -1,0 +1,74 @@
+/// What every command of the tool needs: how it is added, how it talks, how it is interrupted.
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "plumb/core/config.hpp"
+#include "plumb/io/file_error.hpp"
+#include "plumb/io/log_reader.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// Set by the build, from the project's version.
+inline constexpr const char* kVersion = PLUMB_VERSION;
+
+/// A command: its part of the command line, and what it does once that has been read.
+struct Command {
+  CLI::App* app = nullptr;
+  const char* about = "";  ///< what it does, at length; `plumb --help` shows one line only
+  std::function<io::ExitCode()> run;
+};
+
+Command add_geometry(CLI::App& tool);
+Command add_calibrate(CLI::App& tool);
+Command add_monitor(CLI::App& tool);
+Command add_inject(CLI::App& tool);
+Command add_model(CLI::App& tool);
+Command add_demo(CLI::App& tool);
+
+/// The exit codes for the end of every --help.
+std::string exit_codes_help();
+/// --on-bad-row skip|stop
+void add_bad_row_option(CLI::App& app, io::BadRowPolicy& policy);
+
+/// Standard output and standard error. A failure to write is remembered and ends the tool with code 1.
+void print(std::string_view text);
+void print_now(std::string_view text);  ///< and flushes: for what someone is waiting for
+void print_error(std::string_view text);
+/// "plumb: <text>" on standard error; returns the code of the error.
+io::ExitCode report(const io::FileError& error);
+bool output_is_sound();
+
+/// A line of progress on standard error, only where that is a terminal; `done` wipes it.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void at(std::uint64_t rows, double time_s);
+
+ private:
+  std::string what_;
+  bool shown_ = false;
+  bool on_terminal_;
+};
+
+/// From now on the first Ctrl-C (or SIGTERM) asks for an orderly end; the second one ends at once.
+void watch_interrupts();
+const volatile std::sig_atomic_t* interrupt_flag() noexcept;
+bool interrupted() noexcept;
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

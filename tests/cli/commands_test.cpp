@@ -1,0 +1,231 @@
+// The commands on good input: help, pipes, interruption, the printed model.
+#include <sys/ioctl.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tool_runner.hpp"
+
+namespace {
+
+using namespace plumb_test;
+
+const std::vector<std::string> kMonitor = {"monitor", "--array", "array.toml", "--calibration", "calibration.json"};
+
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+TEST(Help, EveryCommandSaysWhatItDoesAndItsExitCodes) {
+  const Directory where;
+  const Outcome top = run(where, {"--help"});
+  EXPECT_EQ(top.code, 0);
+  for (const char* command : {"demo", "geometry", "calibrate", "monitor", "inject", "model"}) {
+    EXPECT_NE(top.out.find(command), std::string::npos) << command;
+    const Outcome help = run(where, {command, "--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_TRUE(says(help.out, {"Usage: plumb " + std::string(command), "Example", "plumb " + std::string(command),
+                                "Exit codes:", "0  done", "3  a file is unreadable", "5  the monitor ended"}));
+  }
+}
+
+TEST(Version, IsPrinted) {
+  const Directory where;
+  const Outcome outcome = run(where, {"--version"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out.substr(0, 6), "plumb ");
+}
+
+TEST(Geometry, JsonSaysTheSameAsTheText) {
+  const Directory where;
+  const auto json = nlohmann::json::parse(run(where, {"geometry", "--name", "cone:5", "--json"}).out);
+  EXPECT_EQ(json["sensors"].size(), 5U);
+  EXPECT_EQ(json["triples"].size(), 10U);
+  EXPECT_EQ(json["figures_of_merit"]["strict_grade"], 2);
+  const Outcome text = run(where, {"geometry", "--name", "cone:5"});
+  EXPECT_TRUE(says(text.out, {"strict", "2\n"}));
+}
+
+TEST(Geometry, BuiltInNamesAllWork) {
+  const Directory where;
+  for (const char* name :
+       {"paper-tetrahedron", "triad", "cone:3", "cone:24", "cone-axis:8", "platonic:3", "platonic:10"}) {
+    EXPECT_EQ(run(where, {"geometry", "--name", name}).code, 0) << name;
+  }
+}
+
+TEST(Calibrate, JsonReportIsComplete) {
+  const Workshop where;
+  const Outcome outcome =
+      run(where, {"calibrate", "--array", "array.toml", "--log", "calibration.csv", "--out", "new.json", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(json["accepted"]);
+  EXPECT_EQ(json["stations"].size(), 48U);
+  EXPECT_EQ(json["fit"]["rank"], 13);
+  EXPECT_EQ(json["sensors"].size(), 4U);
+  EXPECT_TRUE(outcome.err.empty()) << "quiet when piped: " << outcome.err;
+}
+
+TEST(Calibrate, VerboseListsTheStations) {
+  const Workshop where;
+  const Outcome outcome = run(
+      where, {"calibrate", "--array", "array.toml", "--log", "-", "--out", "new.json", "--verbose"}, "calibration.csv");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"station", "begin s", "48 ", "sensor", "bias", "accepted", "written: new.json"}));
+}
+
+TEST(Monitor, ReadsAPipe) {
+  const Workshop where;
+  const Outcome file = run(where, kMonitor + std::vector<std::string>{"--log", "drilling.csv"});
+  const Outcome pipe = run(where, kMonitor + std::vector<std::string>{"--log", "-"}, "drilling.csv");
+  EXPECT_EQ(file.code, 0) << file.err;
+  EXPECT_EQ(file.out, pipe.out);
+  EXPECT_TRUE(says(file.out, {"suspect", "power_on", "nominal", "suspect", "parity", "degraded", "a2", "4100 samples",
+                              "in service  a1, a3, a4", "excluded    a2"}));
+  EXPECT_TRUE(file.err.empty()) << file.err;
+}
+
+TEST(Monitor, JsonIsOneObjectALine) {
+  const Workshop where;
+  const Outcome outcome = run(where, kMonitor + std::vector<std::string>{"--log", "drilling.csv", "--json"});
+  std::istringstream in(outcome.out);
+  std::string line;
+  std::vector<nlohmann::json> objects;
+  while (std::getline(in, line)) objects.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(objects.size(), 4U);
+  EXPECT_EQ(objects[2]["sensors"], nlohmann::json({"a2"}));
+  EXPECT_EQ(objects[3]["summary"]["state"], "degraded");
+  EXPECT_EQ(objects[3]["summary"]["samples"], 4100);
+}
+
+TEST(Monitor, VerdictsPerBlockOrPerSample) {
+  const Workshop where;
+  const std::vector<std::string> quietly =
+      kMonitor + std::vector<std::string>{"--log", "drilling.csv", "--verdicts", "-"};
+  const std::string blocks = run(where, quietly).out;
+  const std::string samples = run(where, quietly + std::vector<std::string>{"--every-sample"}).out;
+  EXPECT_EQ(std::count(blocks.begin(), blocks.end(), '\n'), 76);
+  EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 4100);
+}
+
+TEST(Monitor, TwoFaultsAmongFourEndInFailedWithCodeFive) {
+  const Workshop where;
+  ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:bias=50mg0@15s",
+                        "--out", "two.csv"})
+                .code,
+            0);
+  const Outcome outcome = run(where, kMonitor + std::vector<std::string>{"--log", "two.csv"});
+  EXPECT_EQ(outcome.code, 5) << outcome.out << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"failed", "patience", "state       failed", "none may be used"}));
+}
+
+TEST(Monitor, BadRowKeepsWhatCameBefore) {
+  const Workshop where;
+  const std::string log = where.text("drilling.csv");
+  where.put("drilling.csv", with(log, "\n" + line_of(log, 2002) + "\n", "\nnot a row\n"));
+  const Outcome outcome =
+      run(where, kMonitor + std::vector<std::string>{"--log", "drilling.csv", "--events", "events.jsonl"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(says(outcome.err, {"results up to t = 19.99", "drilling.csv:2002"}));
+  EXPECT_TRUE(says(outcome.out, {"nominal", "suspect", "2000 samples"}));
+  EXPECT_TRUE(says(where.text("events.jsonl"), {"nominal", "suspect"}));
+}
+
+TEST(Monitor, InterruptKeepsTheResults) {
+  const Workshop where;
+  const std::string log = where.text("drilling.csv");
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  const Process process(where, kMonitor + std::vector<std::string>{"--log", "-", "--events", "events.jsonl"}, ends[0],
+                        {});
+  ::close(ends[0]);
+  // A live stream that goes on: the pipe stays open, the tool waits for more when the interrupt comes.
+  std::size_t sent = 0;
+  const std::size_t part = log.find(line_of(log, 2000));
+  while (sent < part) {
+    const ssize_t count = ::write(ends[1], log.data() + sent, part - sent);
+    ASSERT_GT(count, 0);
+    sent += static_cast<std::size_t>(count);
+  }
+  ASSERT_TRUE(process.says("contradict")) << "the alarm is printed while the stream is open";
+  process.interrupt();
+  const Outcome outcome = process.wait();
+  ::close(ends[1]);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(says(outcome.err, {"interrupted", "kept"}));
+  EXPECT_TRUE(says(outcome.out, {"nominal", "suspect", "state       suspect", "in service"}));
+  EXPECT_TRUE(says(where.text("events.jsonl"), {"\"to\":\"nominal\"", "\"to\":\"suspect\""}));
+}
+
+TEST(Calibrate, InterruptFitsTheStationsFoundSoFar) {
+  const Workshop where;
+  const std::string log = where.text("calibration.csv");
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  const Process process(where, {"calibrate", "--array", "array.toml", "--log", "-", "--out", "new.json"}, ends[0], {});
+  const std::size_t part = log.find(line_of(log, 30 * 200));
+  for (std::size_t sent = 0; sent < part;) {
+    const ssize_t count = ::write(ends[1], log.data() + sent, part - sent);
+    ASSERT_GT(count, 0);
+    sent += static_cast<std::size_t>(count);
+  }
+  for (int left = 1; left > 0;) ASSERT_EQ(::ioctl(ends[0], FIONREAD, &left), 0);  // until all has been read
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  process.interrupt();
+  const Outcome outcome = process.wait();
+  ::close(ends[0]);
+  ::close(ends[1]);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(says(outcome.out, {"interrupted: the fit uses the stations up to then", "accepted"}));
+  EXPECT_TRUE(says(outcome.err, {"interrupted", "stations found up to then"}));
+  EXPECT_TRUE(std::filesystem::exists(where / "new.json"));
+}
+
+TEST(Inject, ChangesOnlyTheNamedChannelFromTheOnsetOn) {
+  const Workshop where;
+  const Outcome outcome = run(
+      where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:stuck=0V@12s", "--out", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string before = where.text("drilling.csv");
+  EXPECT_EQ(line_of(outcome.out, 1), line_of(before, 1));
+  EXPECT_EQ(line_of(outcome.out, 1201), line_of(before, 1201));
+  const std::string changed = line_of(outcome.out, 1202);
+  EXPECT_EQ(changed.substr(0, 8), "12,-1,0,");
+  EXPECT_EQ(changed.substr(8), line_of(before, 1202).substr(line_of(before, 1202).find(',', 6) + 1));
+}
+
+TEST(Inject, SaysSoWhereAFaultNeverBegan) {
+  const Workshop where;
+  const Outcome outcome = run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault",
+                                      "a1:stuck=0V@1000s", "--out", "same.csv"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(says(outcome.err, {"a1:stuck=0V@1000s", "changed nothing"}));
+  EXPECT_TRUE(where.text("same.csv") == where.text("drilling.csv")) << "what is not in fault is copied bit for bit";
+}
+
+TEST(Model, ThreeFormatsOfOneTable) {
+  const Directory where;
+  const Outcome markdown = run(where, {"model"});
+  EXPECT_TRUE(says(markdown.out, {"| event (rank order) | nominal, isolated | suspect | degraded |", "| reset |",
+                                  "| culprit | exclude; by size |", "| clean_block |"}));
+  const Outcome dot = run(where, {"model", "--format", "dot"});
+  EXPECT_TRUE(says(dot.out, {"digraph plumb {", "\"nominal\" -> \"suspect\"", "}"}));
+  EXPECT_EQ(dot.out.find("\"failed\" -> \"nominal\""), std::string::npos);
+  const auto json = nlohmann::json::parse(run(where, {"model", "--format", "json"}).out);
+  EXPECT_EQ(json["cells"].size(), 7U * 15U);
+  for (const auto& cell : json["cells"]) {
+    const bool latched =
+        cell["mode"] != "failed" || cell["event"] == "reset" || cell["leads_to"] == nlohmann::json({"failed"});
+    EXPECT_TRUE(latched) << cell;
+  }
+}
+
+TEST(Output, FullDiskIsNotSuccess) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const Directory where;
+  EXPECT_EQ(std::system((std::string(PLUMB_TOOL_PATH) + " model > /dev/full 2> /dev/null").c_str()), 1 << 8);
+}
+
+}  // namespace
