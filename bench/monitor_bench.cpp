@@ -1,0 +1,101 @@
+// What one sample costs: the whole monitor, and against it the rival in the same run: the inverse of
+// every triple recomputed per sample with Eigen, which is what a straightforward reading of the paper does.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Dense>
+#include <memory>
+#include <vector>
+
+#include "plumb/array/named.hpp"
+#include "plumb/health/health_monitor.hpp"
+#include "plumb/scenario/random.hpp"
+
+namespace {
+
+using namespace plumb;
+
+SensorArray array_of(int n) {
+  AxisList axes{};
+  if (n == 4) {
+    paper_tetrahedron(axes);
+  } else {
+    cone(axes, n);
+  }
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < n; ++i) {
+    auto& row = rows[static_cast<std::size_t>(i)];
+    row.id = make_id(("a" + std::to_string(i + 1)).c_str());
+    row.axis = axes[static_cast<std::size_t>(i)];
+    row.sigma_mps2 = 2e-4 * kG0_mps2;
+  }
+  return *SensorArray::make(rows.data(), n);
+}
+
+/// A quiet tool that changes attitude every 32 samples, prepared before the clock starts.
+std::vector<Sample> quiet_stream(const SensorArray& array, int samples) {
+  const scenario::Stream noise(1, scenario::Purpose::noise);
+  std::vector<Sample> out(static_cast<std::size_t>(samples));
+  std::uint64_t index = 0;
+  for (int k = 0; k < samples; ++k) {
+    const double a = 0.7 * (k / 32), b = 0.3 * (k / 32);
+    const Vec3 g = {std::sin(a) * std::cos(b) * kG0_mps2, std::sin(a) * std::sin(b) * kG0_mps2, std::cos(a) * kG0_mps2};
+    Sample& s = out[static_cast<std::size_t>(k)];
+    s.time_s = 0.01 * (k + 1);
+    s.delivered = array.all();
+    for (int i = 0; i < array.size(); ++i) {
+      s.raw[static_cast<std::size_t>(i)] = dot(array.axis(i), g) + array.sigma_mps2(i) * noise.normal(index++);
+    }
+  }
+  return out;
+}
+
+void BM_MonitorStep(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  MonitorSetup setup;
+  setup.array = array_of(n);
+  setup.model.size = n;
+  setup.gravity = {kG0_mps2, 1e-3, GravityModel::value};
+  auto monitor = std::make_unique<HealthMonitor>();
+  if (!monitor->configure(setup)) state.SkipWithError("configuration refused");
+  std::vector<Sample> stream = quiet_stream(setup.array, 1 << 14);
+  std::size_t k = 0;
+  double offset = 0.0;
+  for (auto _ : state) {
+    Sample s = stream[k];
+    s.time_s += offset;
+    benchmark::DoNotOptimize(monitor->step(s));
+    if (++k == stream.size()) {
+      k = 0;
+      offset += 0.01 * static_cast<double>(stream.size());
+    }
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(BM_MonitorStep)->Arg(4)->Arg(6)->Arg(8)->Arg(16);
+
+void BM_EigenInversePerTriple(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  const SensorArray array = array_of(n);
+  const std::vector<Sample> stream = quiet_stream(array, 1 << 12);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const Sample& s = stream[k];
+    double sum = 0.0;
+    for (int t = 0; t < array.triple_count(); ++t) {
+      Eigen::Matrix3d h;
+      Eigen::Vector3d y;
+      for (int r = 0; r < 3; ++r) {
+        const int i = array.triple(t).sensors[static_cast<std::size_t>(r)];
+        for (int c = 0; c < 3; ++c) h(r, c) = array.axis(i)[static_cast<std::size_t>(c)];
+        y(r) = s.raw[static_cast<std::size_t>(i)];
+      }
+      sum += std::fabs((h.inverse() * y).norm() - kG0_mps2);
+    }
+    benchmark::DoNotOptimize(sum);
+    k = k + 1 == stream.size() ? 0 : k + 1;
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(BM_EigenInversePerTriple)->Arg(4)->Arg(6)->Arg(8)->Arg(16);
+
+}  // namespace
