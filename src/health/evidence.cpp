@@ -29,6 +29,7 @@ struct HealthMonitor::BlockView {
   SetTest used;
   Kind kind = Kind::none;
   Cause cause = Cause::none;
+  Cause decided_by = Cause::none;
   double parity_ratio = 0.0, norm_ratio = 0.0, mae_ratio = 0.0;
   double mae_worst_mps2 = 0.0, mae_limit_mps2 = 0.0;
   double statistic = 0.0, limit = 0.0;
@@ -69,30 +70,31 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
   view.norm_ratio = std::fabs(t.norm) / t.norm_alarm_limit(limits_);
   judge_mae(evidence, view);
 
-  const auto decided = [&view](Kind kind, Cause cause, double statistic, double limit) {
+  const auto decided = [&view](Kind kind, Cause cause, Cause by, double statistic, double limit) {
     view.kind = kind;
     view.cause = cause;
+    view.decided_by = by;
     view.statistic = statistic;
     view.limit = limit;
   };
   if (view.parity_ratio > 1.0) {
-    decided(Kind::alarm, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
+    decided(Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
   } else if (view.norm_ratio > 1.0) {
     const bool vouched = has_parity && t.least_leverage >= kMinLeverage;
-    decided(vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, std::fabs(t.norm),
-            t.norm_alarm_limit(limits_));
+    decided(vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, Cause::norm,
+            std::fabs(t.norm), t.norm_alarm_limit(limits_));
   } else if (view.mae_ratio > 1.0) {
-    decided(Kind::alarm, Cause::mae, view.mae_worst_mps2, view.mae_limit_mps2);
+    decided(Kind::alarm, Cause::mae, Cause::mae, view.mae_worst_mps2, view.mae_limit_mps2);
   } else {
     const double worst = std::fmax(view.parity_ratio, std::fmax(view.norm_ratio, view.mae_ratio));
     const double limit = mode_ == Mode::suspect ? config_.clear_fraction : 1.0;
     const Kind kind = worst <= limit ? Kind::clean : Kind::soft;
     if (worst == view.parity_ratio && has_parity) {
-      decided(kind, Cause::clean, t.parity, t.parity_alarm_limit(limits_));
+      decided(kind, Cause::clean, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
     } else if (worst == view.mae_ratio) {
-      decided(kind, Cause::clean, view.mae_worst_mps2, view.mae_limit_mps2);
+      decided(kind, Cause::clean, Cause::mae, view.mae_worst_mps2, view.mae_limit_mps2);
     } else {
-      decided(kind, Cause::clean, std::fabs(t.norm), t.norm_alarm_limit(limits_));
+      decided(kind, Cause::clean, Cause::norm, std::fabs(t.norm), t.norm_alarm_limit(limits_));
     }
   }
   return view;
@@ -286,6 +288,7 @@ HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const BlockView view = judge(evidence_);
   if (!view.used.tested) return 0;
   verdict_.cause = temperature_out_ ? Cause::temperature : view.cause;
+  verdict_.decided_by = view.decided_by;
   verdict_.statistic = view.statistic;
   verdict_.limit = view.limit;
   verdict_.margin = view.limit > 0.0 ? 1.0 - view.statistic / view.limit : 0.0;

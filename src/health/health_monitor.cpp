@@ -21,7 +21,6 @@ namespace {
 constexpr double kReadingClamp_mps2 = 1e5;
 /// Output beyond the calibrated span by more than this is unconfirmed (design, section 4).
 constexpr double kTemperatureMargin_degc = 5.0;
-constexpr double kFullScaleMargin = 1.2;
 constexpr double kRestlessRate = 1e-6;
 
 /// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.
@@ -45,10 +44,11 @@ Expected<void> check_setup(const MonitorSetup& setup) noexcept {
   }
   for (int i = 0; i < n; ++i) {
     const double full = setup.full_scale_raw[static_cast<size_t>(i)];
-    const double needed =
-        std::fabs(setup.model.scale_at(i, setup.model.sensor[static_cast<size_t>(i)].reference_degc)) *
-        kFullScaleMargin * setup.gravity.g_mps2;
-    if (full > 0.0 && full < needed) return fail(Errc::range_too_small, i, full, needed);
+    const double reference_degc = setup.model.sensor[static_cast<size_t>(i)].reference_degc;
+    const double scale = std::fabs(setup.model.scale_at(i, reference_degc));
+    const double reach_mps2 = full / scale - std::fabs(setup.model.bias_at(i, reference_degc));
+    const double needed_mps2 = (1.0 + kFullScaleMargin) * setup.gravity.g_mps2;
+    if (full > 0.0 && !(reach_mps2 >= needed_mps2)) return fail(Errc::range_too_small, i, reach_mps2, needed_mps2);
   }
   if (!(setup.gravity.g_mps2 > 1.0) || !(setup.gravity.sigma_mps2 >= 0.0) ||
       !std::isfinite(setup.gravity.g_mps2 + setup.gravity.sigma_mps2)) {

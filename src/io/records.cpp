@@ -238,6 +238,7 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.flag("tick", v.tick);
   object.flag("accepted", v.accepted);
   object.whole("transition", v.transition.sequence);
+  object.word("decided_by", to_string(v.decided_by));
   object.number("statistic", v.statistic);
   object.number("limit", v.limit);
   object.number("margin", v.margin);

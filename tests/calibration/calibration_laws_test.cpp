@@ -29,13 +29,15 @@ Scene drawn_scene(double sigma_mps2) {
     for (int i = 0; i < n; ++i) axes[at(i)] = noise.direction();
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < i; ++j) {
-        for (int k = 0; k < j; ++k) best = std::fmax(best, std::fabs(plumb::det3(axes[at(i)], axes[at(j)], axes[at(k)])));
+        for (int k = 0; k < j; ++k)
+          best = std::fmax(best, std::fabs(plumb::det3(axes[at(i)], axes[at(j)], axes[at(k)])));
       }
     }
     if (best > 0.4) break;
   }
   Scene scene;
-  scene.sheet = datasheet_of(axes, n, kSigma, noise.uniform() < 0.5 ? plumb::Reads::gravity : plumb::Reads::specific_force);
+  scene.sheet =
+      datasheet_of(axes, n, kSigma, noise.uniform() < 0.5 ? plumb::Reads::gravity : plumb::Reads::specific_force);
   scene.truth = draw_truth(scene.sheet, noise, 0.5);
   scene.stations = random_stations(scene.sheet, scene.truth, 40, noise, sigma_mps2);
   return scene;

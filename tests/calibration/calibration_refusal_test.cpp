@@ -146,8 +146,9 @@ TEST(CalibrationRefusal, DatasheetThatIsNoArray) {
 }
 
 TEST(CalibrationRefusal, EveryStopReasonHasAName) {
-  for (const plumb::StopReason r : {plumb::StopReason::none, plumb::StopReason::converged, plumb::StopReason::iteration_limit,
-                                    plumb::StopReason::no_descent, plumb::StopReason::not_finite}) {
+  for (const plumb::StopReason r :
+       {plumb::StopReason::none, plumb::StopReason::converged, plumb::StopReason::iteration_limit,
+        plumb::StopReason::no_descent, plumb::StopReason::not_finite}) {
     EXPECT_STRNE(plumb::to_string(r), "unknown");
   }
   EXPECT_STREQ(plumb::to_string(static_cast<plumb::StopReason>(99)), "unknown");

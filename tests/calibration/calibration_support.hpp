@@ -111,8 +111,8 @@ inline plumb::Station station_at(const plumb::Datasheet& d, const Truth& truth, 
   return s;
 }
 
-inline std::vector<plumb::Station> random_stations(const plumb::Datasheet& d, const Truth& truth, int count, Noise& noise,
-                                                   double sigma_mps2, double g_mps2 = plumb::kG0_mps2) {
+inline std::vector<plumb::Station> random_stations(const plumb::Datasheet& d, const Truth& truth, int count,
+                                                   Noise& noise, double sigma_mps2, double g_mps2 = plumb::kG0_mps2) {
   std::vector<plumb::Station> out;
   for (int k = 0; k < count; ++k) {
     const Vec3 g = plumb::scaled(noise.direction(), g_mps2);
@@ -167,7 +167,8 @@ inline Vec3 turn_onto(std::vector<Vec3>& from, const std::vector<Vec3>& to) {
     }
     const Vec3 a = {m[0], m[1], m[2]}, b = {m[3], m[4], m[5]}, c = {m[6], m[7], m[8]};
     const double det = plumb::det3(a, b, c);
-    const Vec3 turn = {plumb::det3(torque, b, c) / det, plumb::det3(a, torque, c) / det, plumb::det3(a, b, torque) / det};
+    const Vec3 turn = {plumb::det3(torque, b, c) / det, plumb::det3(a, torque, c) / det,
+                       plumb::det3(a, b, torque) / det};
     for (Vec3& u : from) u = turned(u, turn);
     total = plumb::plus(total, turn);
   }
@@ -210,9 +211,9 @@ inline std::vector<double> observable_error(int n, Truth truth, const Truth& fit
 
 /// Error of what the calibrated tool says over the sphere, in the absence of noise.
 struct SphereError {
-  double tilt_rad = 0.0;     ///< rms angle, best common rotation removed
-  double turned_rad = 0.0;   ///< that rotation
-  double parity_g0 = 0.0;    ///< rms of the parity residual
+  double tilt_rad = 0.0;    ///< rms angle, best common rotation removed
+  double turned_rad = 0.0;  ///< that rotation
+  double parity_g0 = 0.0;   ///< rms of the parity residual
 };
 
 inline SphereError sphere_error(const plumb::Datasheet& d, const Truth& truth, const plumb::Calibration& c) {
@@ -223,7 +224,8 @@ inline SphereError sphere_error(const plumb::Datasheet& d, const Truth& truth, c
   double parity = 0.0;
   Noise none(0);
   for (int k = 0; k < kPoints; ++k) {
-    const double z = 1.0 - (2.0 * k + 1.0) / kPoints, a = k * plumb::kPi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
+    const double z = 1.0 - (2.0 * k + 1.0) / kPoints, a = k * plumb::kPi * (3.0 - std::sqrt(5.0)),
+                 r = std::sqrt(1.0 - z * z);
     const Vec3 u = {r * std::cos(a), r * std::sin(a), z};
     const plumb::Station s = station_at(d, truth, plumb::scaled(u, plumb::kG0_mps2), none, 0.0);
     const plumb::Readings y = c.model.apply(s.mean, s.temperature_degc, s.delivered);

@@ -82,6 +82,26 @@ TEST(Calibrator, PaperToolReachesTheAcceptanceBar) {
   tell("most_iterations", most_iterations);
 }
 
+TEST(Calibrator, ConvergesFromTenTimesTheUsualErrors) {
+  // Bias within 0.2 g0, scale within 20 %, two tilts within 20 deg each; the datasheet knows no better than 1x.
+  plumb::FitOptions lenient;
+  lenient.max_bias_sigmas = 100.0;
+  lenient.max_scale_change = 1.0;
+  lenient.max_axis_change_rad = 1.0;
+  constexpr int kRuns = 100;
+  double iterations = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    Noise noise(seed);
+    const plumb::Datasheet d = paper_tool(kSigma);
+    const Truth truth = draw_truth(d, noise, 10.0);
+    const auto c = fit(d, random_stations(d, truth, 48, noise, kSigma), lenient);
+    ASSERT_TRUE(c.has_value()) << "seed " << seed;
+    EXPECT_LE(c->report.norm_rms_mps2, 4.0 * kSigma) << "seed " << seed;
+    iterations += c->report.iterations / static_cast<double>(kRuns);
+  }
+  tell("mean_iterations_at_10x", iterations);
+}
+
 TEST(Calibrator, ParametersLieWithinFourSigma) {
   for (int n : {3, 4, plumb::kCapacity}) {
     plumb::AxisList axes{};
@@ -95,7 +115,8 @@ TEST(Calibrator, ParametersLieWithinFourSigma) {
     ASSERT_TRUE(c.has_value()) << n;
     const std::vector<double> error = observable_error(n, truth, fitted(d, *c));
     for (int k = 0; k < 4 * n; ++k) {
-      EXPECT_LE(std::fabs(error[at(k)]), 4.0 * c->report.sigma[at(k)]) << "parameter " << k << " of " << n << " sensors";
+      EXPECT_LE(std::fabs(error[at(k)]), 4.0 * c->report.sigma[at(k)])
+          << "parameter " << k << " of " << n << " sensors";
       EXPECT_GT(c->report.data_share[at(k)], 0.99);
     }
   }
@@ -168,7 +189,8 @@ TEST(Calibrator, RanksOfStationSetsAsMeasured) {
     const Truth truth = draw_truth(d, noise);
     std::vector<plumb::Station> stations;
     for (const double inclination : set.inclinations) {
-      for (int k = 0; k < 24; ++k) stations.push_back(station_at(d, truth, rolled(inclination, 15.0 * k), noise, kSigma));
+      for (int k = 0; k < 24; ++k)
+        stations.push_back(station_at(d, truth, rolled(inclination, 15.0 * k), noise, kSigma));
     }
     plumb::FitReport report;
     EXPECT_TRUE(fit(d, stations, any_rank(), &report).has_value()) << "first inclination " << set.inclinations[0];
@@ -233,7 +255,8 @@ TEST(Calibrator, KeepsTheTemperatureShapeOfTheDatasheet) {
   const Truth truth = draw_truth(d, noise);
   std::vector<plumb::Station> stations;
   for (int k = 0; k < 48; ++k) {
-    stations.push_back(station_at(d, truth, plumb::scaled(noise.direction(), plumb::kG0_mps2), noise, kSigma, 20.0 + 2.0 * k));
+    stations.push_back(
+        station_at(d, truth, plumb::scaled(noise.direction(), plumb::kG0_mps2), noise, kSigma, 20.0 + 2.0 * k));
   }
   const auto c = fit(d, stations);
   ASSERT_TRUE(c.has_value());
@@ -321,11 +344,13 @@ TEST(Calibrator, PriorOfZeroFreezesTheAxes) {
     d.sensor[at(i)].prior.axis_rad = 0.0;
   }
   const auto c = fit(d, random_stations(d, truth, 12, noise, kSigma), any_rank());
-  ASSERT_TRUE(c.has_value()) << plumb::describe(c.error().code) << ": " << c.error().value << " against " << c.error().limit;
+  ASSERT_TRUE(c.has_value()) << plumb::describe(c.error().code) << ": " << c.error().value << " against "
+                             << c.error().limit;
   EXPECT_EQ(c->report.rank, 8);
   for (int i = 0; i < 4; ++i) {
     EXPECT_LE(plumb::norm(plumb::minus(c->array.axis(i), d.sensor[at(i)].row.axis)), 1e-12);
-    EXPECT_NEAR(c->model.sensor[at(i)].scale[0] / d.sensor[at(i)].coefficients.scale[0], plumb::norm(truth.w[at(i)]), 1e-3);
+    EXPECT_NEAR(c->model.sensor[at(i)].scale[0] / d.sensor[at(i)].coefficients.scale[0], plumb::norm(truth.w[at(i)]),
+                1e-3);
   }
 }
 

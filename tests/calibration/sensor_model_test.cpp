@@ -86,7 +86,8 @@ TEST(SensorModel, RawFromIsTheInverseOfApply) {
     m.reads = trial % 2 == 0 ? plumb::Reads::gravity : plumb::Reads::specific_force;
     plumb::Readings asked{};
     for (int i = 0; i < m.size; ++i) {
-      m.sensor[at(i)] = {{noise.within(1.0) < 0 ? -3.0 : 2.0, 1e-3, 1e-5, 1e-7}, {noise.within(1.0), 1e-2, 1e-4, 1e-6}, 20.0};
+      m.sensor[at(i)] = {
+          {noise.within(1.0) < 0 ? -3.0 : 2.0, 1e-3, 1e-5, 1e-7}, {noise.within(1.0), 1e-2, 1e-4, 1e-6}, 20.0};
       asked[at(i)] = noise.within(10.0);
       for (int k = 0; k < m.size; ++k) m.misalignment[at(i * plumb::kCapacity + k)] = noise.within(0.03);
     }

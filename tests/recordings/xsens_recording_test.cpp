@@ -23,7 +23,8 @@ std::vector<Station> stations_of(const io::ArrayFile& file, const std::vector<Sa
   std::vector<Station> out;
   Station station;
   for (const Sample& s : samples) {
-    if (finder->add(s, model.apply(s.raw, s.temperature_degc, s.delivered), s.delivered, station)) out.push_back(station);
+    if (finder->add(s, model.apply(s.raw, s.temperature_degc, s.delivered), s.delivered, station))
+      out.push_back(station);
   }
   if (finder->finish(station)) out.push_back(station);
   return out;
@@ -57,7 +58,8 @@ TEST(XsensRecording, StaticStretchesFoundByPlumbCalibrateTheTriad) {
   }
   const double n = static_cast<double>(stations.size());
   const double rms_g0 = std::sqrt(square / n), left_out_g0 = std::sqrt(left_out / n);
-  std::cout << "[ measured ] " << stations.size() << " stations, rms " << rms_g0 << " g0, leave-one-out " << left_out_g0 << " g0\n";
+  std::cout << "[ measured ] " << stations.size() << " stations, rms " << rms_g0 << " g0, leave-one-out " << left_out_g0
+            << " g0\n";
   EXPECT_LE(rms_g0, 0.11e-3);
   EXPECT_LE(left_out_g0, 0.16e-3);
 
@@ -66,8 +68,8 @@ TEST(XsensRecording, StaticStretchesFoundByPlumbCalibrateTheTriad) {
     const double scale = fit->model.sensor[static_cast<std::size_t>(i)].scale[0];          // counts per m/s^2
     const double offset = fit->model.sensor[static_cast<std::size_t>(i)].bias[0] * scale;  // counts
     const double certified_scale = factory.at(0, axis), certified_offset = factory.at(1, axis);
-    std::cout << "[ measured ] " << axis << ": offset " << offset << " counts (certificate " << certified_offset << "), scale "
-              << scale << " (certificate " << certified_scale << ")\n";
+    std::cout << "[ measured ] " << axis << ": offset " << offset << " counts (certificate " << certified_offset
+              << "), scale " << scale << " (certificate " << certified_scale << ")\n";
     EXPECT_NEAR(offset, certified_offset, 5.0);
     EXPECT_NEAR(scale / certified_scale, 1.0, 0.0025);
   }

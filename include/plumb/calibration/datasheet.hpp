@@ -9,6 +9,9 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+/// A sensor must reach gravity times (1 + this) beside its bias, else it clips when it points along it.
+inline constexpr double kFullScaleMargin = 0.05;
+
 /// 1-sigma of the datasheet values, per sensor.
 struct Prior {
   double bias_mps2 = 0.02 * 9.80665;

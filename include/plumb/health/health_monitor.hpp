@@ -36,7 +36,8 @@ class HealthMonitor {
   /// Checks the setup and powers on: suspect, unproven. On an error the monitor is left unconfigured
   /// and every step answers `invalid`. Errors: those of `checked(config)`; too_few_sensors;
   /// not_calibrated (misalignment terms left in the model, or its size is not the array's);
-  /// range_too_small (index = sensor) where a full scale does not reach gravity plus 20 %.
+  /// range_too_small (index = sensor) where a full scale does not reach gravity plus
+  /// kFullScaleMargin beside the bias (value = reach, limit = needed [m/s^2]).
   Expected<void> configure(const MonitorSetup& setup) noexcept;
 
   /// One sample in, one verdict out. Accepts any bit pattern. The reference stays valid until the next call.

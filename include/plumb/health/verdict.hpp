@@ -38,7 +38,8 @@ struct Verdict {
   bool accepted = false;        ///< the sample was used (time in order, enough channels)
   TransitionRecord transition;  ///< sequence != 0 where something changed at this sample
 
-  // The test that decided, in units of its own limit's unit (whitened standard deviations).
+  // The test that decided the last block: parity and norm in standard deviations of the block mean, mae in m/s^2.
+  Cause decided_by = Cause::none;  ///< parity, norm or mae
   double statistic = 0.0;
   double limit = 0.0;
   double margin = 0.0;  ///< 1 - statistic/limit; negative = alarm
@@ -68,9 +69,11 @@ struct Verdict {
   Mat3 covariance{};    ///< [(m/s^2)^2], noise and calibration
   double age_s = 0.0;   ///< since the block that gave the vector
   Vec3 latest_mps2{};   ///< this one sample, no claim made
+  // Bound on the angle between gravity_mps2 and the truth, both in the frame of the calibrated axes. How that frame
+  // sits in the housing is not observable from gravity (a common rotation of all axes) and is not covered.
   double protection_level_rad = 0.0;
-  bool protection_available = false;
-  bool alert = false;  ///< protection level beyond the alert limit, or none available where valid
+  bool protection_available = false;  ///< never with three sensors or none to spare: nothing checks direction then
+  bool alert = false;                 ///< protection level beyond the alert limit, or none available where valid
 };
 
 }  // namespace PLUMB_ABI

@@ -46,9 +46,6 @@ struct InputSpec {
 
 inline constexpr Mat3 kIdentity3 = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 
-/// A reading range must exceed gravity by this fraction, or the sensor clips in normal use.
-inline constexpr double kFullScaleMargin = 0.05;
-
 struct ArrayFile {
   std::string path;
   std::string name;
