@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "fit_internal.hpp"
 
@@ -84,7 +85,11 @@ Readings SensorModel::apply(const std::array<double, kCapacity>& raw, double tem
   const double sign = reads == Reads::gravity ? 1.0 : -1.0;
   Readings direct{};
   for (int i = 0; i < size; ++i) {
-    if (delivered.has(i)) direct[at(i)] = raw[at(i)] / scale_at(i, temperature_degc) - bias_at(i, temperature_degc);
+    if (!delivered.has(i)) continue;
+    // A cubic scale factor may pass through zero far from its calibrated span: no reading then, rather than infinity.
+    const double scale = scale_at(i, temperature_degc);
+    direct[at(i)] =
+        scale != 0.0 ? raw[at(i)] / scale - bias_at(i, temperature_degc) : std::numeric_limits<double>::quiet_NaN();
   }
   Readings out{};
   for (int i = 0; i < size; ++i) {

@@ -114,8 +114,9 @@ Loaded load_rows(const Datasheet& datasheet, const Station& station, double misf
     if (!delivered.has(i)) continue;
     const DatasheetSensor& s = datasheet.sensor[at(i)];
     const double t = station.temperature_degc - s.coefficients.reference_degc;
-    const double reading =
-        sign * (station.mean[at(i)] / cubic(s.coefficients.scale, t) - cubic(s.coefficients.bias, t));
+    const double scale = cubic(s.coefficients.scale, t);
+    if (scale == 0.0) return Loaded::not_finite;
+    const double reading = sign * (station.mean[at(i)] / scale - cubic(s.coefficients.bias, t));
     const double weight = 1.0 / (s.row.sigma_mps2 * s.row.sigma_mps2 * share + misfit_variance);
     if (!std::isfinite(reading) || !std::isfinite(weight)) return Loaded::not_finite;
     const std::size_t k = at(rows.rows++);

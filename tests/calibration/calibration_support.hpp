@@ -78,7 +78,8 @@ struct Truth {
 };
 
 /// Bias within 0.02 g0, scale within 2 %, two tilts within 2 deg each, all times `spread`.
-inline Truth draw_truth(const plumb::Datasheet& d, Noise& noise, double spread = 1.0) {
+/// `spread` times bias +-0.02 g0 and scale +-2 %; each axis tilted by at most `tilt_rad` about two axes.
+inline Truth draw_truth(const plumb::Datasheet& d, Noise& noise, double spread = 1.0, double tilt_rad = 0.0349) {
   Truth t;
   for (int i = 0; i < d.size; ++i) {
     const Vec3 h = d.sensor[at(i)].row.axis;
@@ -86,8 +87,10 @@ inline Truth draw_truth(const plumb::Datasheet& d, Noise& noise, double spread =
     Vec3 p = plumb::cross(h, helper);
     p = plumb::scaled(p, 1.0 / plumb::norm(p));
     const Vec3 q = plumb::cross(h, p);
-    Vec3 axis = plumb::plus(h, plumb::plus(plumb::scaled(p, std::tan(noise.within(spread * 0.0349))),
-                                           plumb::scaled(q, std::tan(noise.within(spread * 0.0349)))));
+    // One draw a statement: the order of function arguments is the compiler's choice.
+    const double about_q = std::tan(noise.within(tilt_rad));
+    const double about_p = std::tan(noise.within(tilt_rad));
+    Vec3 axis = plumb::plus(h, plumb::plus(plumb::scaled(p, about_q), plumb::scaled(q, about_p)));
     axis = plumb::scaled(axis, 1.0 / plumb::norm(axis));
     t.w[at(i)] = plumb::scaled(axis, 1.0 + noise.within(spread * 0.02));
     t.b[at(i)] = noise.within(spread * 0.02 * plumb::kG0_mps2);
