@@ -51,6 +51,17 @@ endif()
 
 include(PlumbCompileChecks)
 
+# --- Examples: built, run, and quoted by the guide line by line. ---------------------------------------------
+add_executable(plumb_monitor_loop "${PROJECT_SOURCE_DIR}/examples/embed/monitor_loop.cpp")
+plumb_compile_settings(plumb_monitor_loop)
+target_link_libraries(plumb_monitor_loop PRIVATE plumb::plumb)
+add_test(NAME example.monitor_loop COMMAND plumb_monitor_loop)
+set_tests_properties(example.monitor_loop PROPERTIES LABELS core TIMEOUT 60
+  PASS_REGULAR_EXPRESSION "suspect -> degraded  cause isolated_fault")
+add_test(NAME example.guide_quotes_it
+  COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/guide.md | grep -Fxv -f examples/embed/monitor_loop.cpp"
+  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+
 # --- Proofs: every proofs/*.smt2 carries its expected answers; see proofs/check.sh. ------------------------
 file(GLOB proofs CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/proofs/*.smt2")
 foreach(proof IN LISTS proofs)

@@ -32,6 +32,17 @@ Deviation deviation_of(const Datasheet& datasheet, const fit::Parameters& theta,
           theta[at(4 * i + 3)]};
 }
 
+void note_temperature_span(const fit::Problem& problem, FitReport& report) noexcept {
+  bool any = false;
+  for (int k = 0; k < problem.count; ++k) {
+    const double t = problem.stations[k].temperature_degc;
+    if (problem.stations[k].count == 0 || !std::isfinite(t)) continue;
+    if (!any || t < report.temperature_min_degc) report.temperature_min_degc = t;
+    if (!any || t > report.temperature_max_degc) report.temperature_max_degc = t;
+    any = true;
+  }
+}
+
 /// First parameter beyond its physical bound; written so that a NaN is beyond every bound.
 Error implausible(const Datasheet& datasheet, const FitOptions& options, const fit::Parameters& theta) noexcept {
   for (int i = 0; i < datasheet.size; ++i) {
@@ -142,6 +153,7 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   if (!nominal) return tl::unexpected<Error>(nominal.error());
   const fit::Problem problem = {datasheet_, gravity_.g_mps2, stations, stations == nullptr ? 0 : count};
   r.stations = fit::usable_stations(problem);
+  note_temperature_span(problem, r);
   const int needed = options_.require_full_rank ? kStationsForFullRank : kStationsAtLeast;
   if (r.stations < needed) return fail(Errc::too_few_stations, -1, r.stations, needed);
   if (stop_ == StopReason::not_finite) return fail(Errc::diverged, -1, cost_);

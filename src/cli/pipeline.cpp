@@ -143,6 +143,13 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFil
   setup->array = calibration.array;
   setup->gravity = array.gravity;
   setup->config = array.monitor;
+  // The calibrated span, where the array file does not claim another.
+  const MonitorConfig unset;
+  MonitorConfig& config = setup->config;
+  if (config.temperature_min_degc == unset.temperature_min_degc)
+    config.temperature_min_degc = calibration.report.temperature_min_degc;
+  if (config.temperature_max_degc == unset.temperature_max_degc)
+    config.temperature_max_degc = calibration.report.temperature_max_degc;
   // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
   for (int i = 0; i < array.datasheet.size; ++i) {
     setup->full_scale_raw[static_cast<std::size_t>(i)] =

@@ -48,7 +48,6 @@ const char* to_string(Cause cause) noexcept {
     case Cause::reference: return "reference";
     case Cause::moving: return "moving";
     case Cause::isolated_fault: return "isolated_fault";
-    case Cause::ambiguous: return "ambiguous";
     case Cause::contradiction: return "contradiction";
     case Cause::channel_lost: return "channel_lost";
     case Cause::channel_back: return "channel_back";

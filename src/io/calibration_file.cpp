@@ -84,6 +84,8 @@ Json from_report(const FitReport& report, std::size_t n) {
           {"degrees_of_freedom", report.degrees_of_freedom},
           {"p_value", from_double(report.p_value)},
           {"excitation", from_double(report.excitation)},
+          {"temperature_min_degc", from_double(report.temperature_min_degc)},
+          {"temperature_max_degc", from_double(report.temperature_max_degc)},
           {"iterations", report.iterations},
           {"stop", to_string(report.stop)}};
 }

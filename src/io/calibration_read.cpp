@@ -220,6 +220,8 @@ FitReport read_report(const Source& source, const Json& object, std::size_t n) {
   report.degrees_of_freedom = source.whole_of<int>(object, "degrees_of_freedom");
   report.p_value = source.number_of(object, "p_value");
   report.excitation = source.number_of(object, "excitation");
+  report.temperature_min_degc = source.number_of(object, "temperature_min_degc");
+  report.temperature_max_degc = source.number_of(object, "temperature_max_degc");
   report.iterations = source.whole_of<int>(object, "iterations");
   report.stop = enum_from(source, object, "stop",
                           {StopReason::none, StopReason::converged, StopReason::iteration_limit, StopReason::no_descent,

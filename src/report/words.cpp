@@ -26,7 +26,6 @@ std::string explain(Cause cause, HealthState state) {
     case Cause::isolated_fault:
       return state == HealthState::suspect ? "the sensor named is set aside, the rest must prove itself"
                                            : "one explanation is left: the sensor named is faulty and excluded";
-    case Cause::ambiguous: return "a fault, but more than one explanation is left";
     case Cause::contradiction: return "no explanation is left";
     case Cause::channel_lost: return "a channel delivers no usable value any more";
     case Cause::channel_back: return "a lost channel delivers again; it is not used yet";

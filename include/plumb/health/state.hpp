@@ -43,7 +43,6 @@ enum class Cause : std::uint8_t {
   reference,       ///< parity good, norm off: gravity, common scale, common bias, steady acceleration
   moving,          ///< spread above the noise: evidence suspended
   isolated_fault,  ///< a sensor was excluded or set aside
-  ambiguous,       ///< a fault, but more than one explanation is left
   contradiction,   ///< no explanation is left
   channel_lost,
   channel_back,
