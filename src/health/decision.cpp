@@ -94,7 +94,14 @@ SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
     have_predictions_ = false;
   }
   if (before != in_service_) clean_run_ = 0;
-  if (before != in_service_ || posed_before != (in_service_ | set_aside_)) sets_changed();
+  const bool posed_changed = posed_before != (in_service_ | set_aside_);
+  if (posed_changed) {
+    // The question is another one now: what was answered, and over how many stations, does not carry over.
+    answer_ = IsolationAnswer{};
+    episode_.candidate = SensorSet{};
+    episode_.agreeing.clear();
+  }
+  if (before != in_service_ || posed_changed) sets_changed();
   return named;
 }
 
