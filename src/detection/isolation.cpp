@@ -101,6 +101,10 @@ bool Isolation::norm_is_void(const SensorArray& array, const GravityReference& g
     if (t.parity_alive(limits) && off > t.norm_reject_limit(limits)) found = true;
   };
   const SensorSet posed = posed_ & block.usable;
+  const SetTest full = test_set(array, gravity, limits, block, posed);
+  const double full_off = full.norm < 0.0 ? -full.norm : full.norm;
+  // Everything agrees, gravity included: nothing to void, and the healthy case costs one test.
+  if (full.tested && full.parity_alive(limits) && !(full_off > full.norm_reject_limit(limits))) return false;
   for_each_fault_set(posed, universe_, 2, [&](SensorSet f) { consider(posed - f); });
   if (universe_ <= kStrictCapacity) {
     for_each_subset(universe_, coplanarity_ + 2, [&](SensorSet s, int) {
