@@ -7,6 +7,7 @@
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
+#include "plumb/io/scenario_file.hpp"
 #include "plumb/scenario/fault_text.hpp"
 #include "plumb/scenario/injector.hpp"
 #include "tool.hpp"
@@ -42,19 +43,6 @@ constexpr const char* kNotes =
     "    plumb monitor --array tool.toml --calibration cal.json --log -\n\n"
     "The same seed gives the same bytes. With --out - nothing else is written to standard output.\n\n";
 
-scenario::FaultContext context_of(const io::ArrayFile& array) {
-  scenario::FaultContext context;
-  context.datasheet = array.datasheet;
-  switch (array.input.unit.kind) {
-    case io::RawUnit::Kind::voltage: context.raw = scenario::FaultContext::Raw::voltage; break;
-    case io::RawUnit::Kind::count: context.raw = scenario::FaultContext::Raw::count; break;
-    case io::RawUnit::Kind::acceleration: context.raw = scenario::FaultContext::Raw::acceleration; break;
-  }
-  context.base_per_raw = array.input.unit.base_per_unit;
-  context.raw_unit = array.input.unit.name;
-  return context;
-}
-
 io::FileError fault_error(std::string what) {
   return io::FileError{"--fault", 0, "", std::move(what), "", io::ExitCode::usage};
 }
@@ -83,7 +71,7 @@ io::FileExpected<io::LogStatistics> copy(const Options& options, const io::Array
 io::ExitCode run(const Options& options) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
-  const scenario::FaultContext context = context_of(*array);
+  const scenario::FaultContext context = io::fault_context(*array);
   std::vector<scenario::Fault> faults;
   for (const std::string& text : options.faults) {
     const tl::expected<scenario::Fault, std::string> fault = scenario::parse_fault(text, context);

@@ -32,6 +32,7 @@ struct Command {
 Command add_geometry(CLI::App& tool);
 Command add_calibrate(CLI::App& tool);
 Command add_monitor(CLI::App& tool);
+Command add_simulate(CLI::App& tool);
 Command add_inject(CLI::App& tool);
 Command add_model(CLI::App& tool);
 Command add_demo(CLI::App& tool);

@@ -1,4 +1,5 @@
 // BlockAccumulator and the judgement of a finished block.
+#include <algorithm>
 #include <cmath>
 
 #include "plumb/detection/stationarity.hpp"
@@ -68,31 +69,56 @@ void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double coun
     for (int i = 0; i < kCapacity; ++i)
       origin_[static_cast<size_t>(i)] = usable.has(i) ? y_mps2[static_cast<size_t>(i)] : 0.0;
   }
-  usable_ = usable_ & usable;
+  // A channel that first delivers later in the block starts its origin then.
+  for (int i = 0; i < kCapacity; ++i) {
+    if (usable.has(i) && !usable_.has(i)) origin_[static_cast<size_t>(i)] = y_mps2[static_cast<size_t>(i)];
+  }
+  usable_ = usable_ | usable;
   std::array<double, kCapacity> d{};
   for (int i = 0; i < kCapacity; ++i) {
     const auto a = static_cast<size_t>(i);
-    if (!usable_.has(i)) continue;
+    if (!usable.has(i)) continue;
+    ++present_[a];
     d[a] = y_mps2[a] - origin_[a];
     sum_[a] += d[a];
     for (int j = 0; j <= i; ++j) product_[packed(i, j)] += d[a] * d[static_cast<size_t>(j)];
   }
-  samples_ += count;
+  inverse_count_ += 1.0 / count;
   ++size_;
+}
+
+SensorSet BlockAccumulator::usable() const noexcept {
+  SensorSet out;
+  for (int i = 0; i < kCapacity; ++i) {
+    if (present_[static_cast<size_t>(i)] > 0 && 2 * present_[static_cast<size_t>(i)] >= size_) out = out.with(i);
+  }
+  return out;
+}
+
+double BlockAccumulator::samples(SensorSet of) const noexcept {
+  if (size_ == 0) return 0.0;
+  int least = size_;
+  for (int i = 0; i < kCapacity; ++i) {
+    if (of.has(i)) least = std::min(least, present_[static_cast<size_t>(i)]);
+  }
+  // Variance of an unweighted mean of means: sigma^2 sum(1/count) / size^2; the scarcest channel decides.
+  return static_cast<double>(size_) * least / inverse_count_;
 }
 
 Readings BlockAccumulator::mean() const noexcept {
   Readings out{};
   for (int i = 0; i < kCapacity; ++i) {
     const auto a = static_cast<size_t>(i);
-    if (size_ > 0 && usable_.has(i)) out[a] = origin_[a] + sum_[a] / size_;
+    if (present_[a] > 0) out[a] = origin_[a] + sum_[a] / present_[a];
   }
   return out;
 }
 
 double BlockAccumulator::covariance(int i, int j) const noexcept {
-  if (size_ < 2 || !usable_.has(i) || !usable_.has(j)) return 0.0;
-  const double n = size_;
+  // Over the samples of the scarcer channel: exact without dropouts, within sigma^2/N with a few.
+  const int least = std::min(present_[static_cast<size_t>(i)], present_[static_cast<size_t>(j)]);
+  if (least < 2) return 0.0;
+  const double n = least;
   return (product_[packed(i, j)] - sum_[static_cast<size_t>(i)] * sum_[static_cast<size_t>(j)] / n) / (n - 1.0);
 }
 
@@ -105,7 +131,7 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   BlockJudgement out;
   out.evidence.mean_mps2 = block.mean();
   out.evidence.usable = block.usable() & array.all();
-  out.evidence.samples = block.samples();
+  out.evidence.samples = block.samples(out.evidence.usable & considered);
   const SensorSet judged = out.evidence.usable & considered;
   if (block.size() == 0 || rank_of(array, judged) < 3) return out;
   if (block.size() == 1) {

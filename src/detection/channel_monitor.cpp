@@ -39,8 +39,8 @@ GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
       }
     }
   }
-  out.gap = out.missing == SensorSet::first(size_);
-  if (out.gap) return out;  // a silent bus says nothing about any one channel
+  out.gap = out.usable.empty();
+  if (out.gap) return out;  // a silent or babbling bus says nothing about any one channel
   for (int i = 0; i < size_; ++i) {
     const auto a = static_cast<std::size_t>(i);
     if (out.missing.has(i)) count_up(counters_[a].missing);
@@ -61,6 +61,8 @@ GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
   }
   return out;
 }
+
+void ChannelMonitor::condemn(SensorSet channels) noexcept { lost_ = lost_ | (channels & SensorSet::first(size_)); }
 
 void ChannelMonitor::welcome(SensorSet channels) noexcept {
   lost_ = lost_ - channels;

@@ -116,12 +116,10 @@ bool Isolation::norm_is_void(const SensorArray& array, const GravityReference& g
 
 SensorSet Isolation::convict_by_parity(const SensorArray& array, const GravityReference& gravity,
                                        const TestLimits& limits, const BlockEvidence& block) const noexcept {
-  // A posed sensor that did not deliver in this block is neither accused nor cleared: the question is
-  // put to the others, whose own grade may be lower.
-  const SensorSet asked = posed_ & block.usable;
-  int grade = asked == posed_ ? parity_ : plumb::parity_grade(array, asked);
-  if (universe_ > kStrictCapacity && grade > kScanDepth) grade = kScanDepth;
-  if (grade < 1) return {};
+  // Where a posed sensor did not deliver, the published grade does not hold for the rest: nobody is convicted.
+  const SensorSet asked = posed_;
+  const int grade = parity_;
+  if (grade < 1 || !block.usable.contains(asked)) return {};
   SensorSet cleared;
   const auto hear = [&](SensorSet s) {
     if (cleared.contains(s)) return;
@@ -220,7 +218,11 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
     }
   });
   out.protection_available = out.protection_available && any_protected;
-  if (any_asserted) out.asserted = common;
+  if (any_asserted && !common.empty()) {
+    const SetTest rest = test_set(array, gravity, limits, block, posed - common);
+    const bool alive = norm_void ? rest.parity_alive(limits) : rest.alive(limits) && rest.parity_alive(limits);
+    if (rest.tested && alive) out.asserted = common;
+  }
   return out;
 }
 

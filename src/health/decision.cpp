@@ -43,11 +43,13 @@ SensorSet HealthMonitor::move_channels(Action::Bits actions) noexcept {
     set_aside_ = set_aside_ - named;
     excluded_ = excluded_ - named;
     absent_ = absent_ | named;
+    on_probation_ = on_probation_ - named;
   }
   if ((actions & Action::mark_back) != 0) {
     named = gate_.back() & absent_;
     absent_ = absent_ - named;
     excluded_ = excluded_ | named;
+    banned_ = banned_ | (named & readmitted_);
     gate_.welcome(named);
   }
   return named;
@@ -56,7 +58,7 @@ SensorSet HealthMonitor::move_channels(Action::Bits actions) noexcept {
 SensorSet HealthMonitor::return_to_service(Action::Bits actions) noexcept {
   SensorSet named;
   if ((actions & Action::reinstate) != 0) {
-    named = SensorSet::of(on_probation_.lowest());
+    named = SensorSet::of((on_probation_ & (excluded_ | set_aside_)).lowest());
     readmitted_ = readmitted_ | named;
     probation_.clear();
     on_probation_ = SensorSet{};
@@ -79,11 +81,15 @@ SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
   if ((actions & Action::exclude) != 0) {
     named = culprits();
     retire(named);
+    // The survivors were just found alive together, those set aside before among them: they serve again.
+    in_service_ = in_service_ | set_aside_;
+    set_aside_ = SensorSet{};
   }
   if ((actions & Action::set_aside) != 0) {
     named = answer_.parity & in_service_;
     in_service_ = in_service_ - named;
     set_aside_ = set_aside_ | named;
+    banned_ = banned_ | (named & readmitted_);
     last_grade_ = Grade::parity;
   }
   if ((actions & (Action::mark_absent | Action::mark_back)) != 0) named = move_channels(actions);
@@ -126,7 +132,7 @@ Cause HealthMonitor::cause_of(HealthEvent event) const noexcept {
   return Cause::none;
 }
 
-void HealthMonitor::decide(EventMask raised, double time_s) noexcept {
+HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   HealthEvent event = HealthEvent::none;
   for (int e = 0; e < kEventCount && event == HealthEvent::none; ++e) {
     const auto candidate = static_cast<HealthEvent>(e);
@@ -149,13 +155,13 @@ void HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   facts.size = size_class_;
   facts.unproven = unproven_;
   facts.earned = clean_run_ >= config_.clean_blocks && !unproven_;
-  facts.protection_within = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
+  facts.protection_within = unbounded_run_ < config_.clean_blocks;
   facts.calibrated = true;
   mode_ = resolve(from, cell.target, facts);
 
   const bool changed =
       mode_ != from || sets[0] != in_service_ || sets[1] != set_aside_ || sets[2] != excluded_ || sets[3] != absent_;
-  if (!changed) return;
+  if (!changed) return event;
   if (event != HealthEvent::alarm && event != HealthEvent::clean_block) verdict_.cause = cause_of(event);
   TransitionRecord& record = verdict_.transition;
   record.sequence = ++sequence_;
@@ -168,6 +174,7 @@ void HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   record.sensors = named;
   record.statistic = verdict_.statistic;
   record.limit = verdict_.limit;
+  return event;
 }
 
 }  // namespace PLUMB_ABI

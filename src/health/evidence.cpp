@@ -18,7 +18,7 @@ constexpr double kMinLeverage = 0.05;
 constexpr double kProvingShare = 0.02;
 /// ... and by this many standard deviations of its block mean.
 constexpr double kProvingSigmas = 10.0;
-/// Pooled votes at one station are taken at 1, 2, 4, 8 and 16 blocks: refined, never repeated at will.
+/// Votes at one station are taken at 1, 2, 4, 8 and 16 blocks: refined, never repeated at will.
 constexpr int kLastVoteBlock = 16;
 
 }  // namespace
@@ -32,6 +32,7 @@ struct HealthMonitor::BlockView {
   Cause decided_by = Cause::none;
   double parity_ratio = 0.0, norm_ratio = 0.0, mae_ratio = 0.0;
   double mae_worst_mps2 = 0.0, mae_limit_mps2 = 0.0;
+  bool mae_clean = true;  ///< all voting triples below clear_fraction of their noise limit, systematic part on top
   double statistic = 0.0, limit = 0.0;
 };
 
@@ -50,7 +51,11 @@ void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) co
     const double limit = given ? config_.delta_f_mps2 : computed;
     const double mae = mae_.triple_mps2(k);
     // Against a computed limit the healthy mean is taken off, else "0.7 of the limit" would be noise itself.
-    const double ratio = given ? mae / limit : (mae - kHalfNormalMean * sigma) / (limit - kHalfNormalMean * sigma);
+    const double floor = given ? 0.0 : kHalfNormalMean * sigma;
+    const double ratio = (mae - floor) / (limit - floor);
+    const double noise_limit = given ? limit : sigma * mae_quantile_;
+    const double clear = floor + clear_fraction() * (noise_limit - floor) + (limit - noise_limit);
+    if (mae > clear) view.mae_clean = false;
     if (ratio > view.mae_ratio || view.mae_limit_mps2 == 0.0) {
       view.mae_ratio = ratio;
       view.mae_worst_mps2 = mae;
@@ -58,6 +63,8 @@ void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) co
     }
   }
 }
+
+double HealthMonitor::clear_fraction() const noexcept { return mode_ == Mode::suspect ? config_.clear_fraction : 1.0; }
 
 HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) const noexcept {
   using Kind = BlockView::Kind;
@@ -87,8 +94,14 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
     decided(Kind::alarm, Cause::mae, Cause::mae, view.mae_worst_mps2, view.mae_limit_mps2);
   } else {
     const double worst = std::fmax(view.parity_ratio, std::fmax(view.norm_ratio, view.mae_ratio));
-    const double limit = mode_ == Mode::suspect ? config_.clear_fraction : 1.0;
-    const Kind kind = worst <= limit ? Kind::clean : Kind::soft;
+    // In suspect, clean means a part of the noise limit with the systematic bound on top: scaling that bound too would
+    // lock out a healthy tool whose gravity is off by what its sigma allows.
+    const double f = clear_fraction();
+    const double parity_noise = has_parity ? t.parity_alarm_limit(limits_) - t.parity_systematic : 0.0;
+    const double norm_noise = t.norm_alarm_limit(limits_) - t.norm_systematic;
+    const bool parity_clean = t.parity <= f * parity_noise + t.parity_systematic;
+    const bool norm_clean = std::fabs(t.norm) <= f * norm_noise + t.norm_systematic;
+    const Kind kind = parity_clean && norm_clean && view.mae_clean && !partial_ ? Kind::clean : Kind::soft;
     if (worst == view.parity_ratio && has_parity) {
       decided(kind, Cause::clean, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
     } else if (worst == view.mae_ratio) {
@@ -100,55 +113,38 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
   return view;
 }
 
-void HealthMonitor::pool_station(const Sample& sample, const BlockEvidence& evidence, const Vec3& direction) noexcept {
-  const bool tagged = sample.station != 0 || station_.tag != 0;
-  const bool other = tagged ? sample.station != station_.tag
-                            : angle_between_rad(station_.direction, direction) > config_.station_angle_rad;
-  if (!station_.open || other) {
+void HealthMonitor::follow_station(const Sample& sample, const Vec3& direction) noexcept {
+  const bool turned = angle_between_rad(station_.direction, direction) > config_.station_angle_rad;
+  if (!station_.open || sample.station != station_.tag || turned) {
     station_.clear();
     station_.open = true;
     station_.tag = sample.station;
     station_.direction = direction;
-    station_.usable = evidence.usable;
+    station_.last = direction;
   }
-  station_.usable = station_.usable & evidence.usable;
-  for (int i = 0; i < array_.size(); ++i) {
-    if (station_.usable.has(i))
-      station_.sum[static_cast<size_t>(i)] += evidence.mean_mps2[static_cast<size_t>(i)] * evidence.samples;
-  }
-  station_.samples += evidence.samples;
-  if (evidence.spread_mps2_sq > station_.spread) station_.spread = evidence.spread_mps2_sq;
+  drift_rad_ = angle_between_rad(station_.last, direction);
+  station_.last = direction;
   ++station_.blocks;
-}
-
-BlockEvidence HealthMonitor::pooled() const noexcept {
-  BlockEvidence out;
-  out.usable = station_.usable;
-  out.samples = station_.samples;
-  out.spread_mps2_sq = station_.spread;
-  for (int i = 0; i < array_.size(); ++i) {
-    if (out.usable.has(i))
-      out.mean_mps2[static_cast<size_t>(i)] = station_.sum[static_cast<size_t>(i)] / station_.samples;
-  }
-  return out;
 }
 
 void HealthMonitor::vote(const BlockEvidence& evidence, const BlockView& view) noexcept {
   const int blocks = station_.blocks;
-  const bool due = blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
+  // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
+  const bool testable = evidence.usable.contains(isolation_.posed());
+  const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
   Vec3 direction = view.used.x_mps2;
   if (due) {
-    const BlockEvidence station = pooled();
-    answer_ = isolation_.vote(array_, gravity_, limits_, station);
+    answer_ = isolation_.vote(array_, gravity_, limits_, evidence);
     const SensorSet posed = isolation_.posed();
-    const SetTest full = test_set(array_, gravity_, limits_, station, posed & station.usable);
+    const SetTest full = test_set(array_, gravity_, limits_, evidence, posed & evidence.usable);
     const bool visible = full.tested && !(full.alive(limits_) && full.parity_alive(limits_));
     if (answer_.strict != episode_.candidate) {
       episode_.candidate = answer_.strict;
       episode_.agreeing.clear();
     }
     if (!answer_.strict.empty()) {
-      const SetTest survivors = test_set(array_, gravity_, limits_, station, (posed - answer_.strict) & station.usable);
+      const SetTest survivors =
+          test_set(array_, gravity_, limits_, evidence, (posed - answer_.strict) & evidence.usable);
       if (survivors.tested) direction = survivors.x_mps2;
       // A station at which the fault cannot be seen confirms nothing.
       if (visible) episode_.agreeing.add(direction, config_.excitation_angle_rad);
@@ -158,7 +154,7 @@ void HealthMonitor::vote(const BlockEvidence& evidence, const BlockView& view) n
     const SetTest survivors = test_set(array_, gravity_, limits_, evidence, rest);
     if (survivors.tested) direction = survivors.x_mps2;
   }
-  episode_.stations.add(direction, config_.excitation_angle_rad);
+  if (view.kind == BlockView::Kind::alarm) episode_.stations.add(direction, config_.excitation_angle_rad);
 }
 
 void HealthMonitor::count_clean(const BlockView& view) noexcept {
@@ -212,7 +208,7 @@ void HealthMonitor::examine_probation(const BlockEvidence& evidence, const Block
   if (view.kind != BlockView::Kind::clean || episode_.open || unproven_ || mode_ == Mode::failed ||
       mode_ == Mode::suspect)
     return;
-  const SensorSet asked = ((excluded_ | set_aside_) - banned_) & evidence.usable;
+  const SensorSet asked = ((excluded_ | set_aside_) - (banned_ | absent_)) & evidence.usable;
   SensorSet fine;
   for (int i = 0; i < array_.size(); ++i) {
     if (!asked.has(i)) continue;
@@ -234,6 +230,8 @@ void HealthMonitor::rescan() noexcept {
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
   scan_ = isolation_.scan(array_, gravity_, limits_, evidence_, in_service_, depth, asserted_left_, protection_faults_,
                           k_integrity_);
+  // The vector is that of a block: what the tool turned since the one before, and inside it, comes on top.
+  scan_.protection_rad += drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
 }
 
 HealthMonitor::EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
@@ -254,8 +252,7 @@ HealthMonitor::EventMask HealthMonitor::raise_block_events(const BlockView& view
   }
   if ((mode_ == Mode::suspect || mode_ == Mode::recalibrating) && episode_.open &&
       episode_.stations.size() >= config_.patience) {
-    const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
-    if (!exhausted_ || !bounded) raised |= bit(HealthEvent::patience_over);
+    if (!exhausted_ || unbounded_run_ >= config_.clean_blocks) raised |= bit(HealthEvent::patience_over);
   }
   if (view.kind == Kind::alarm) {
     const bool refuted = asserted_left_ == 0;  // "no more faults", and here is one
@@ -272,11 +269,15 @@ HealthMonitor::EventMask HealthMonitor::raise_block_events(const BlockView& view
 HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
-  const BlockJudgement judged = judge_block(array_, block_, posed, restless_factor_, gravity_.g_mps2);
+  const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2);
+  block_usable_ = block_.usable();
   block_.clear();
   verdict_.restless = judged.restless;
   moving_ = !judged.quiet;
-  if (moving_) {
+  partial_ = !block_usable_.contains(in_service_);
+  const BlockView view = moving_ ? BlockView{} : judge(judged.evidence);
+  if (moving_ || !view.used.tested) {  // a block that cannot be tested is no evidence, and its vector no news
+    moving_ = true;
     verdict_.cause = Cause::moving;
     mae_.clear();
     station_.clear();
@@ -285,8 +286,6 @@ HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   evidence_ = judged.evidence;
   evidence_time_s_ = sample.time_s;
   have_evidence_ = true;
-  const BlockView view = judge(evidence_);
-  if (!view.used.tested) return 0;
   verdict_.cause = temperature_out_ ? Cause::temperature : view.cause;
   verdict_.decided_by = view.decided_by;
   verdict_.statistic = view.statistic;
@@ -303,14 +302,16 @@ HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   }
   if (view.kind == Kind::alarm && !episode_.open) {
     episode_.open = true;
-    station_.clear();  // what was pooled before the alarm belongs to a healthy past
+    station_.clear();  // votes are counted from the alarm
   }
   const SensorSet voters = episode_.candidate.empty() ? in_service_ : posed - episode_.candidate;
   const SetTest pose = test_set(array_, gravity_, limits_, evidence_, voters & evidence_.usable);
-  pool_station(sample, evidence_, pose.tested ? pose.x_mps2 : view.used.x_mps2);
+  follow_station(sample, pose.tested ? pose.x_mps2 : view.used.x_mps2);
   if (episode_.open && view.kind != Kind::reference) vote(evidence_, view);
   count_clean(view);
   rescan();
+  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
+  unbounded_run_ = bounded ? 0 : unbounded_run_ + (unbounded_run_ < config_.clean_blocks ? 1 : 0);
   examine_probation(evidence_, view);
   const EventMask raised = raise_block_events(view);
   publish_vector();

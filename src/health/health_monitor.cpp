@@ -22,6 +22,10 @@ constexpr double kReadingClamp_mps2 = 1e5;
 /// Output beyond the calibrated span by more than this is unconfirmed (design, section 4).
 constexpr double kTemperatureMargin_degc = 5.0;
 constexpr double kRestlessRate = 1e-6;
+/// Beyond this ratio of the sigmas the precise sensors alone would decide and the normal matrix loses its digits.
+constexpr double kMaxSigmaRatio = 300.0;
+/// So many refused samples that increase among themselves are a new time base, not a glitch.
+constexpr int kNewTimeBase = 16;
 
 /// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.
 int faults_to_cover(int n, double prior, double risk) noexcept {
@@ -41,6 +45,13 @@ Expected<void> check_setup(const MonitorSetup& setup) noexcept {
   if (setup.model.size != n) return fail(Errc::not_calibrated, -1, setup.model.size, n);
   for (double m : setup.model.misalignment) {
     if (m != 0.0) return fail(Errc::not_calibrated, -1, m, 0.0);
+  }
+  double least_sigma = setup.array.sigma_mps2(0);
+  for (int i = 1; i < n; ++i) least_sigma = std::fmin(least_sigma, setup.array.sigma_mps2(i));
+  for (int i = 0; i < n; ++i) {
+    const double sigma = setup.array.sigma_mps2(i);
+    if (!(sigma <= kMaxSigmaRatio * least_sigma))
+      return fail(Errc::out_of_range, i, sigma, kMaxSigmaRatio * least_sigma);
   }
   for (int i = 0; i < n; ++i) {
     const double full = setup.full_scale_raw[static_cast<size_t>(i)];
@@ -84,6 +95,12 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   in_service_ = array_.all();
   set_aside_ = excluded_ = absent_ = readmitted_ = banned_ = SensorSet{};
   unproven_ = true;
+  partial_ = false;
+  silent_blocks_.fill(0);
+  block_usable_ = SensorSet{};
+  pending_ = 0;
+  refused_run_ = unbounded_run_ = 0;
+  drift_rad_ = 0.0;
   exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_time_ = have_predictions_ = reset_pending_ = false;
   last_time_s_ = evidence_time_s_ = 0.0;
   sequence_ = 0;
@@ -121,16 +138,28 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
                      gravity.sigma_mps2 >= 0.0;
   if (!sound) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
   gravity_ = gravity;
+  // What died under the other gravity may have died of it.
+  isolation_.clear();
+  answer_ = IsolationAnswer{};
+  episode_.candidate = SensorSet{};
+  episode_.agreeing.clear();
   return {};
 }
 
 bool HealthMonitor::admit(const Sample& sample, bool& gap) noexcept {
   gap = false;
   if (!std::isfinite(sample.time_s)) return false;
-  if (have_time_) {
-    if (!(sample.time_s > last_time_s_)) return false;
+  if (have_time_ && !(sample.time_s > last_time_s_)) {
+    const bool goes_on = refused_run_ > 0 && sample.time_s > last_refused_s_;
+    refused_run_ = goes_on ? refused_run_ + 1 : 1;
+    last_refused_s_ = sample.time_s;
+    if (refused_run_ < kNewTimeBase) return false;
+    have_evidence_ = false;  // its age cannot be told any more
+    gap = true;
+  } else if (have_time_) {
     gap = sample.time_s - last_time_s_ > config_.max_gap_s;
   }
+  refused_run_ = 0;
   have_time_ = true;
   last_time_s_ = sample.time_s;
   return true;
@@ -166,7 +195,11 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     verdict_.cause = Cause::time_fault;
     if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
     verdict_.alert = true;
-    station_.clear();
+    if (reset_pending_) {  // the host's key is served whatever the clock does
+      decide(bit(HealthEvent::reset), last_time_s_);
+      publish(sample, false);
+      verdict_.cause = Cause::time_fault;
+    }
     return verdict_;
   }
   GateResult gate = gate_.gate(sample);
@@ -183,8 +216,9 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
     not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
     const double t = sample.temperature_degc;
-    temperature_out_ = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
-                         t <= config_.temperature_max_degc + kTemperatureMargin_degc);
+    const bool outside = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
+                           t <= config_.temperature_max_degc + kTemperatureMargin_degc);
+    temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
     if (std::isfinite(t)) last_temperature_degc_ = t;
     const bool map_usable = gate.usable.contains(in_service_);
     mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
@@ -192,19 +226,39 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
     verdict_.accepted = true;
     ticked = block_.size() >= config_.window;
-    if (ticked) raised |= tick(sample);
+    if (ticked) {
+      raised |= tick(sample);
+      note_silent_channels();
+    }
     if (!((gate_.lost() & array_.all()) - absent_).empty()) raised |= bit(HealthEvent::channel_lost);
     if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
   }
-  decide(raised, sample.time_s);
+  // What a block said is a level: a channel event that ranks before it must not make it unsaid.
+  constexpr EventMask kKept = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
+  raised |= pending_;
+  const HealthEvent taken = decide(raised, sample.time_s);
+  const bool channel = taken == HealthEvent::channel_lost || taken == HealthEvent::channel_back;
+  pending_ = channel || taken == HealthEvent::reset ? raised & kKept : 0;
   publish(sample, ticked);
   return verdict_;
+}
+
+void HealthMonitor::note_silent_channels() noexcept {
+  SensorSet silent;
+  for (int i = 0; i < array_.size(); ++i) {
+    int& run = silent_blocks_[static_cast<size_t>(i)];
+    run = block_usable_.has(i) ? 0 : run + (run < config_.missing_confirm ? 1 : 0);
+    if (run >= config_.missing_confirm) silent = silent.with(i);
+  }
+  // Channels that deliver less than half of their samples, or values that no model makes finite.
+  if (!silent.empty() && silent != array_.all()) gate_.condemn(silent - absent_);
 }
 
 Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
   if (moving_ || last_time_s_ - evidence_time_s_ > config_.max_age_s) return Validity::held;
-  if (mode_ == Mode::suspect || mode_ == Mode::recalibrating || temperature_out_) return Validity::unconfirmed;
+  if (mode_ == Mode::suspect || mode_ == Mode::recalibrating || temperature_out_ || partial_)
+    return Validity::unconfirmed;
   return mode_ == Mode::degraded ? Validity::degraded : Validity::valid;
 }
 

@@ -56,14 +56,28 @@ TEST(Stationarity, ChannelScatterAndMeanAreThoseOfTheSamples) {
   EXPECT_NEAR(block.covariance(0, 1), -14.0 / 3.0, 1e-12);
 }
 
-TEST(Stationarity, AMissedSampleTakesTheChannelOutOfTheBlock) {
+TEST(Stationarity, AChannelCountsWhileItDeliversHalfItsSamples) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   BlockAccumulator block;
   Readings y{};
-  block.add(y, array.all(), 1);
-  block.add(y, array.all().without(1), 1);
-  block.add(y, array.all(), 1);
-  EXPECT_EQ(block.usable(), array.all().without(1));
+  y.fill(1.0);
+  for (int k = 0; k < 8; ++k) {
+    SensorSet usable = array.all();
+    if (k < 3) usable = usable.without(1);  // 5 of 8
+    if (k < 5) usable = usable.without(2);  // 3 of 8
+    block.add(y, usable, 1);
+  }
+  EXPECT_EQ(block.usable(), array.all().without(2));
+  EXPECT_DOUBLE_EQ(block.mean()[1], 1.0);
+  EXPECT_DOUBLE_EQ(block.samples(array.all().without(2)), 5.0) << "as noisy as the scarcest channel";
+}
+
+TEST(Stationarity, AnUnweightedMeanIsAsNoisyAsItsScarcestSamples) {
+  BlockAccumulator block;
+  Readings y{};
+  block.add(y, SensorSet::first(4), 1);
+  block.add(y, SensorSet::first(4), 1000);
+  EXPECT_NEAR(block.samples(SensorSet::first(4)), 4.0 / 1.001, 1e-12);
 }
 
 TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {

@@ -16,7 +16,7 @@ struct GateResult {
   SensorSet not_finite;
   SensorSet missing;
   SensorSet clipped;  ///< at or beyond 99.5 % of full scale: still evidence, never an exclusion by itself
-  bool gap = false;   ///< no channel delivered: a gap of the bus, not n lost sensors
+  bool gap = false;   ///< nothing usable from any channel: a gap of the bus, not n lost sensors
 };
 
 /// Confirms losses and returns over several samples. Plain state, copyable.
@@ -30,6 +30,8 @@ class ChannelMonitor {
   SensorSet lost() const noexcept { return lost_; }
   /// Lost channels that have delivered usable values for `confirm` samples in a row again.
   SensorSet back() const noexcept { return back_; }
+  /// Counts the channels as lost whatever their last samples were (half of them missing, block after block).
+  void condemn(SensorSet channels) noexcept;
   /// Forgets that the channels had been lost (the monitor has taken note).
   void welcome(SensorSet channels) noexcept;
 

@@ -15,7 +15,7 @@ inline namespace PLUMB_ABI {
 /// The evidence of a block: means of the readings and what their noise may be.
 struct BlockEvidence {
   Readings mean_mps2{};
-  SensorSet usable;             ///< channels that delivered at every sample of the block
+  SensorSet usable;             ///< channels that delivered in at least half of the samples
   double samples = 0.0;         ///< N behind the mean
   double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
 };

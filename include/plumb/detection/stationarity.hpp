@@ -20,9 +20,10 @@ class BlockAccumulator {
   /// Adds one set of readings; those outside `usable` are not read. `count` raw samples stand behind it.
   void add(const Readings& y_mps2, SensorSet usable, double count) noexcept;
   int size() const noexcept { return size_; }
-  /// Channels that were usable at every sample of the block.
-  SensorSet usable() const noexcept { return usable_; }
-  double samples() const noexcept { return samples_; }
+  /// Channels that were usable in at least half of the samples: a few dropouts do not silence a channel.
+  SensorSet usable() const noexcept;
+  /// N behind the mean of the scarcest channel of `of`, in raw samples.
+  double samples(SensorSet of) const noexcept;
   Readings mean() const noexcept;
   /// Sample covariance of channels i and j [(m/s^2)^2]; 0 with fewer than two samples.
   double covariance(int i, int j) const noexcept;
@@ -31,8 +32,9 @@ class BlockAccumulator {
   std::array<double, kCapacity> origin_{};
   std::array<double, kCapacity> sum_{};
   std::array<double, kCapacity*(kCapacity + 1) / 2> product_{};
-  SensorSet usable_;
-  double samples_ = 0.0;
+  std::array<int, kCapacity> present_{};  ///< samples of each channel
+  SensorSet usable_;                      ///< seen at all
+  double inverse_count_ = 0.0;            ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples
   int size_ = 0;
 };
 

@@ -49,18 +49,16 @@ struct Episode {
   }
 };
 
-/// The attitude at which blocks are being pooled.
-struct StationPool {
+/// The attitude at which blocks are being taken. Blocks of one station are not pooled: between them the tool may have
+/// turned by up to the station angle, and a mean over that is no gravity vector (it killed the truth in a test).
+struct StationTrack {
   bool open = false;
   std::uint32_t tag = 0;
-  Vec3 direction{};
-  std::array<double, kCapacity> sum{};  ///< readings times samples
-  SensorSet usable;
-  double samples = 0.0;
-  double spread = 0.0;  ///< largest block spread v
+  Vec3 direction{};  ///< of its first block
+  Vec3 last{};       ///< of its last block
   int blocks = 0;
 
-  void clear() noexcept { *this = StationPool{}; }
+  void clear() noexcept { *this = StationTrack{}; }
 };
 
 }  // namespace PLUMB_ABI

@@ -67,15 +67,16 @@ class HealthMonitor {
   bool admit(const Sample& sample, bool& gap) noexcept;
   Readings readings_of(const Sample& sample, GateResult& gate) const noexcept;
   void publish(const Sample& sample, bool tick) noexcept;
+  void note_silent_channels() noexcept;
   Validity validity() const noexcept;
   void publish_vector() noexcept;
 
   // evidence.cpp: one block
   EventMask tick(const Sample& sample) noexcept;
+  double clear_fraction() const noexcept;
   BlockView judge(const BlockEvidence& evidence) const noexcept;
   void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
-  void pool_station(const Sample& sample, const BlockEvidence& evidence, const Vec3& direction) noexcept;
-  BlockEvidence pooled() const noexcept;
+  void follow_station(const Sample& sample, const Vec3& direction) noexcept;
   void vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
   void count_clean(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
@@ -84,8 +85,8 @@ class HealthMonitor {
   void rescan() noexcept;
 
   // decision.cpp: one event
-  void decide(EventMask raised, double time_s) noexcept;
-  SensorSet act(Action::Bits actions) noexcept;  // each returns the sensors that it names
+  HealthEvent decide(EventMask raised, double time_s) noexcept;  // the event that was taken
+  SensorSet act(Action::Bits actions) noexcept;                  // each returns the sensors that it names
   SensorSet move_channels(Action::Bits actions) noexcept;
   SensorSet return_to_service(Action::Bits actions) noexcept;
   void retire(SensorSet culprits) noexcept;
@@ -115,8 +116,16 @@ class HealthMonitor {
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_, banned_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
+  bool partial_ = false;  ///< a sensor in service was silent in the last block: nobody vouches for it
   bool have_evidence_ = false, have_time_ = false;
   double last_time_s_ = 0.0, evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
+  double last_refused_s_ = 0.0;
+  int refused_run_ = 0;
+  EventMask pending_ = 0;  ///< block events that a channel event pushed back
+  std::array<int, kCapacity> silent_blocks_{};
+  SensorSet block_usable_;
+  double drift_rad_ = 0.0;  ///< turn since the block before, at one station
+  int unbounded_run_ = 0;   ///< blocks in a row whose protection level was beyond the alert limit
   std::uint32_t sequence_ = 0;
   int clean_run_ = 0;
   std::array<double, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
@@ -133,7 +142,7 @@ class HealthMonitor {
   CombinationMae mae_;
   Isolation isolation_;
   Episode episode_;
-  StationPool station_;
+  StationTrack station_;
   LeastSquares map_;        ///< of the sensors in service
   BlockEvidence evidence_;  ///< last quiet block
   IsolationAnswer answer_;

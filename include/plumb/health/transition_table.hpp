@@ -126,7 +126,7 @@ constexpr Row kSuspect = {
 };
 constexpr Row kDegraded = {
     ignored(),
-    go(T::failed, A::mark_absent),
+    go(T::by_size, A::mark_absent),
     go(T::stay, A::mark_back),
     impossible(),
     impossible(),

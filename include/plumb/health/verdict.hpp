@@ -73,7 +73,7 @@ struct Verdict {
   // sits in the housing is not observable from gravity (a common rotation of all axes) and is not covered.
   double protection_level_rad = 0.0;
   bool protection_available = false;  ///< never with three sensors or none to spare: nothing checks direction then
-  bool alert = false;                 ///< protection level beyond the alert limit, or none available where valid
+  bool alert = true;                  ///< protection level beyond the alert limit, or none available where valid
 };
 
 }  // namespace PLUMB_ABI

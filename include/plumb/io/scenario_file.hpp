@@ -1,0 +1,44 @@
+/// The scenario file (TOML): what `plumb simulate` plays. docs/scenario-file.md lists every key.
+#pragma once
+
+#include <string>
+
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/file_error.hpp"
+#include "plumb/scenario/fault_text.hpp"
+#include "plumb/scenario/scenario.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+struct ScenarioFile {
+  std::string path;
+  std::string name;
+  std::string array_path;  ///< as the scenario names it, relative to the scenario file; empty: tool = "paper"
+  ArrayFile array;         ///< read from there, or the one of the paper's tool: what sensors, how the log looks
+  scenario::Scenario scenario;
+};
+
+/// Refuses, with file, line, field and remedy, all that cannot be played and all that the log's layout
+/// could not show (another sampling rate than the array file declares, say).
+FileExpected<ScenarioFile> read_scenario(const std::string& path);
+
+/// The same from text; `path` is used in messages, and to find the array file beside it.
+FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const std::string& path);
+
+/// The text that reads back as the identical scenario, bit for bit, every drawn error of the sensors
+/// spelled out. The tool's datasheet must be that of `file.array`; it is not written, only named.
+std::string scenario_text(const ScenarioFile& file);
+FileExpected<void> write_scenario(const std::string& path, const ScenarioFile& file);
+
+/// The array file of the paper's tool (`scenario::paper_datasheet`), as a person would write it: volts,
+/// columns t_s and station.
+std::string paper_array_text(double gravity_mps2);
+
+/// What the text of a fault is read against, for the log that this array file describes.
+scenario::FaultContext fault_context(const ArrayFile& array);
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

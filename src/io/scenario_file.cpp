@@ -1,0 +1,219 @@
+#include "plumb/io/scenario_file.hpp"
+
+#include <exception>
+#include <filesystem>
+
+#include "plumb/io/output_file.hpp"
+#include "refusal.hpp"
+#include "scenario_parts.hpp"
+#include "text_tools.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+const std::vector<std::string>& known_sections() {
+  static const std::vector<std::string> names = {"name",        "array", "tool",  "seed",         "gravity",
+                                                 "rate",        "start", "truth", "sensor_truth", "attitude",
+                                                 "temperature", "noise", "fault"};
+  return names;
+}
+
+/// Bounds of the length of gravity that an array file may declare.
+constexpr double kLeastGravity_mps2 = 9.5;
+constexpr double kMostGravity_mps2 = 10.2;
+
+double read_gravity_value(const TomlTable& top, double fallback_mps2) {
+  return within(top, "gravity", top.quantity(Quantity::acceleration, "gravity", fallback_mps2), kLeastGravity_mps2,
+                kMostGravity_mps2, "give the true length of gravity, 9.5 to 10.2 m/s^2");
+}
+
+ArrayFile paper_array(const TomlTable& top) {
+  top.need_choice("tool", {"paper"}, "");
+  FileExpected<ArrayFile> array =
+      parse_array_text(paper_array_text(read_gravity_value(top, kG0_mps2)), "paper_tool.toml");
+  if (!array) throw Refusal(array.error());
+  return *std::move(array);
+}
+
+/// The array file that the scenario names, beside the scenario unless the path is absolute.
+ArrayFile named_array(const TomlTable& top) {
+  const std::string given = top.text("array", "");
+  const std::filesystem::path path = std::filesystem::path(top.file()).parent_path() / given;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    top.fail(top.line_of("array"), "array", "there is no file " + in_quotes(path.string()),
+             "give the path of the array file, relative to the scenario file");
+  }
+  FileExpected<ArrayFile> array = read_array_file(path.string());
+  if (!array) throw Refusal(array.error());
+  return *std::move(array);
+}
+
+ArrayFile read_tool(const TomlTable& top) {
+  const bool array = top.has("array");
+  if (array && top.has("tool")) top.fail(top.line_of("tool"), "tool", "and array both name the sensors", "keep one");
+  if (array) return named_array(top);
+  if (top.has("tool")) return paper_array(top);
+  top.fail(0, "array", "is missing",
+           "name the sensors: array = \"my_tool.toml\" (an array file), or tool = \"paper\" for the paper's tool");
+}
+
+/// "3 degC/min" -> degC per s.
+double read_temperature_rate(const TomlTable& table) {
+  const std::string form = "write it with a unit of time, as in rate = \"3 degC/min\"";
+  const TomlNode& value = table.need("rate", form);
+  const std::string text = table.text_with_unit(value, "rate", "degC/s, degC/min, degC/h");
+  const std::size_t slash = text.rfind('/');
+  if (slash == std::string::npos) table.fail(value.line, "rate", in_quotes(text) + " is not a rate", form);
+  const double degc = table.checked(parse_quantity(Quantity::temperature, text.substr(0, slash)), "rate", value);
+  const std::string unit(trimmed(std::string_view(text).substr(slash + 1)));
+  return degc / table.checked(parse_quantity(Quantity::time, "1 " + unit), "rate", value);
+}
+
+scenario::TemperatureLaw read_temperature(const ScenarioSource& source, double reference_degc) {
+  const TomlTable table = section_of(source, "temperature", {"law", "value", "start", "rate"});
+  const std::vector<std::string> laws = {"constant", "linear"};
+  const int law = table.choice("law", laws, 0);
+  refuse_unused(table, laws[static_cast<std::size_t>(law)],
+                law == 0 ? std::vector<std::string>{"law", "value"} : std::vector<std::string>{"law", "start", "rate"});
+  const char* key = law == 0 ? "value" : "start";
+  scenario::TemperatureLaw out;
+  out.start_degc = within(table, key, table.quantity(Quantity::temperature, key, reference_degc), -273.15, 1e4,
+                          "give a temperature of the sensors, as in \"25 degC\"");
+  if (law == 1) {
+    out.rate_degc_per_s =
+        within(table, "rate", read_temperature_rate(table), -1e3, 1e3, "give a slower change, as in \"3 degC/min\"");
+  }
+  return out;
+}
+
+scenario::NoiseLaw read_noise(const ScenarioSource& source) {
+  const TomlTable table = section_of(source, "noise", {"factor", "quantise", "clip"});
+  scenario::NoiseLaw noise;
+  noise.white = within(table, "factor", table.quantity(Quantity::ratio, "factor", noise.white), 0.0, 1e6,
+                       "give a factor on the datasheet's noise: 1 as declared, 0 none");
+  noise.quantise = read_flag(table, "quantise", noise.quantise);
+  noise.clip = read_flag(table, "clip", noise.clip);
+  return noise;
+}
+
+std::vector<scenario::Fault> read_faults(const ScenarioSource& source, const ArrayFile& array) {
+  std::vector<scenario::Fault> faults;
+  const scenario::FaultContext context = fault_context(array);
+  for (const TomlTable& table : tables_of(source, "fault", {"spec"})) {
+    const std::string text = table.need_text("spec", "write what breaks and when: spec = \"a2:stuck=0V@12s\"");
+    const tl::expected<scenario::Fault, std::string> fault = scenario::parse_fault(text, context);
+    if (!fault) {
+      const auto [what, remedy] = without_remedy(fault.error());
+      table.fail(table.line_of("spec"), "spec", what, remedy);
+    }
+    faults.push_back(*fault);
+  }
+  return faults;
+}
+
+/// What the log could not show, and its reader would therefore take for something else.
+void refuse_what_the_log_cannot_hold(const TomlTable& top, const ScenarioSource& source, const ArrayFile& array,
+                                     const scenario::Scenario& scenario) {
+  const auto refuse = [&top, &source](const char* key, const std::string& what, const std::string& remedy) {
+    const TomlNode* value = source.root.find("attitude")->find(key);
+    top.fail(value == nullptr ? 0 : value->line, std::string("attitude.") + key, what, remedy);
+  };
+  if (scenario.tag_stations && array.input.station_column.empty()) {
+    refuse("tag_stations", "is true, but the log has no column for it",
+           "add station = \"station\" to [input] of the array file, or take tag_stations out");
+  }
+  if (!array.input.time_column.empty() || array.input.rows == RowKind::stations) return;
+  const std::string remedy = "add time = \"t_s\" to [input] of the array file in the place of rate, or ";
+  if (scenario.rate_hz != array.input.rate_hz) {
+    top.fail(top.line_of("rate"), "rate",
+             "is " + brief(scenario.rate_hz) + " Hz, but a log of this array has no time column and is read at " +
+                 brief(array.input.rate_hz) + " Hz",
+             remedy + "take rate out here");
+  }
+  if (scenario.start_s != 0.0) {
+    top.fail(top.line_of("start"), "start", "but a log of this array has no time column", remedy + "take start out");
+  }
+  if (!scenario.record_motion) {
+    refuse("record_motion", "is false, but a log of this array has no time column to show the gaps",
+           remedy + "take record_motion out");
+  }
+}
+
+ScenarioFile parsed(const TomlNode& root, const std::string& path) {
+  const ScenarioSource source{root, path};
+  const TomlTable top(root, path, "", known_sections());
+  ScenarioFile out;
+  out.path = path;
+  const std::string file_name = last_part(path);
+  out.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
+  out.array = read_tool(top);
+  out.array_path = top.text("array", "");
+  scenario::Scenario& scenario = out.scenario;
+  const double declared_hz = out.array.input.rate_hz;
+  scenario.seed = read_seed(top, "seed", scenario.seed);
+  scenario.gravity_mps2 = read_gravity_value(top, out.array.gravity.g_mps2);
+  scenario.rate_hz =
+      within(top, "rate", top.quantity(Quantity::rate, "rate", declared_hz > 0.0 ? declared_hz : scenario.rate_hz),
+             1e-6, 1e9, "give the samples per second, as in rate = \"100 Hz\"");
+  scenario.start_s = within(top, "start", top.quantity(Quantity::time, "start", scenario.start_s), -1e12, 1e12,
+                            "give the time of the first sample, as in \"0 s\"");
+  read_attitude(source, scenario);
+  scenario.tool = read_truth(source, out.array);
+  scenario.temperature = read_temperature(source, out.array.datasheet.sensor[0].coefficients.reference_degc);
+  scenario.noise = read_noise(source);
+  scenario.faults = read_faults(source, out.array);
+  refuse_what_the_log_cannot_hold(top, source, out.array, scenario);
+  // The simulator has the last word; what is said above is said with the line.
+  const tl::expected<scenario::Simulator, std::string> playable = scenario::Simulator::make(scenario);
+  if (!playable) {
+    const auto [what, remedy] = without_remedy(playable.error());
+    throw Refusal(FileError{path, 0, "", what, remedy});
+  }
+  return out;
+}
+
+}  // namespace
+
+FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const std::string& path) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    return tl::unexpected<FileError>(
+        FileError{path, 0, "", "the file is empty",
+                  "say what is simulated: array = \"my_tool.toml\" (or tool = \"paper\") and [attitude] with its law"});
+  }
+  try {
+    const FileExpected<TomlNode> root = parse_toml(text, path);
+    if (!root) return tl::unexpected<FileError>(root.error());
+    return parsed(*root, path);
+  } catch (const Refusal& refusal) {
+    return tl::unexpected<FileError>(refusal.error());
+  } catch (const std::exception& error) {
+    return tl::unexpected<FileError>(
+        FileError{path, 0, "", error.what(), "report this as a bug of plumb", ExitCode::other});
+  }
+}
+
+FileExpected<ScenarioFile> read_scenario(const std::string& path) {
+  const FileExpected<std::string> text = read_file(path);
+  if (!text) return tl::unexpected<FileError>(text.error());
+  return parse_scenario_text(*text, path);
+}
+
+scenario::FaultContext fault_context(const ArrayFile& array) {
+  scenario::FaultContext context;
+  context.datasheet = array.datasheet;
+  switch (array.input.unit.kind) {
+    case RawUnit::Kind::voltage: context.raw = scenario::FaultContext::Raw::voltage; break;
+    case RawUnit::Kind::count: context.raw = scenario::FaultContext::Raw::count; break;
+    case RawUnit::Kind::acceleration: context.raw = scenario::FaultContext::Raw::acceleration; break;
+  }
+  context.base_per_raw = array.input.unit.base_per_unit;
+  context.raw_unit = array.input.unit.name;
+  return context;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,317 @@
+/// The paper's fit: its step, its trace, what it leaves alone and what it refuses.
+#include "plumb/calibration/paper_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "calibration_support.hpp"
+
+namespace {
+
+using namespace calibration_test;
+using plumb::PaperFit;
+using plumb::PaperOptions;
+using plumb::PaperStep;
+using plumb::PaperTrace;
+using plumb::SensorSet;
+
+static_assert(std::is_trivially_copyable_v<PaperFit>);
+static_assert(std::is_trivially_copyable_v<PaperTrace>);
+static_assert(std::is_trivially_copyable_v<plumb::PaperError>);
+
+constexpr double kSigma = 2e-4 * plumb::kG0_mps2;
+const SensorSet kAll = SensorSet::first(4);
+
+void tell(const std::string& name, double value) {
+  testing::Test::RecordProperty(name, std::to_string(value));
+  std::cout << "[ measured ] " << name << " = " << value << '\n';
+}
+
+struct Scene {
+  plumb::Datasheet sheet;
+  Truth truth;
+  std::vector<plumb::Station> stations;
+};
+
+Scene scene_of(std::uint64_t seed, double sigma_mps2 = kSigma) {
+  Noise noise(seed);
+  Scene s;
+  s.sheet = paper_tool(kSigma);
+  s.truth = draw_truth(s.sheet, noise);
+  s.stations = random_stations(s.sheet, s.truth, 48, noise, sigma_mps2);
+  return s;
+}
+
+PaperFit fitted_by_paper(const Scene& s, SensorSet used, const PaperOptions& options = {},
+                         PaperTrace* trace = nullptr) {
+  PaperFit fit;
+  const auto done = plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(),
+                                           static_cast<int>(s.stations.size()), used, options, fit, trace);
+  EXPECT_TRUE(done.has_value());
+  return fit;
+}
+
+/// J'J in prior units, by the gradient alone.
+std::vector<double> information(const plumb::PaperError& error, const plumb::PaperParameters& at_parameters,
+                                const Scene& s, std::vector<double>& slope) {
+  const int n = error.parameters();
+  std::vector<double> out(at(n * n));
+  slope.assign(at(n), 0.0);
+  plumb::PaperParameters gradient;
+  for (const plumb::Station& station : s.stations) {
+    const double e = error(at_parameters, station, &gradient);
+    for (int a = 0; a < n; ++a) {
+      gradient[at(a)] *= error.prior()[at(a)];
+      slope[at(a)] += e * gradient[at(a)];
+    }
+    for (int a = 0; a < n; ++a) {
+      for (int b = 0; b < n; ++b) out[at(a * n + b)] += gradient[at(a)] * gradient[at(b)];
+    }
+  }
+  return out;
+}
+
+/// The eigenvalues of the whole matrix, and the step of rank nine that they give [prior units].
+std::vector<double> reference_step(const plumb::PaperError& error, const plumb::PaperParameters& from, const Scene& s,
+                                   std::vector<double>& values) {
+  const int n = error.parameters();
+  std::vector<double> slope, vectors(at(n * n)), step(at(n));
+  std::vector<double> matrix = information(error, from, s, slope);
+  values.assign(at(n), 0.0);
+  EXPECT_TRUE(plumb::symmetric_eigen(matrix.data(), n, n, values.data(), vectors.data()));
+  for (int v = n - plumb::kPaperRank; v < n; ++v) {
+    double share = 0.0;
+    for (int k = 0; k < n; ++k) share += vectors[at(k * n + v)] * slope[at(k)];
+    for (int k = 0; k < n; ++k) step[at(k)] -= vectors[at(k * n + v)] * share / values[at(v)];
+  }
+  return step;
+}
+
+/// n sensors of a cone and its axis, at four temperatures.
+Scene scene_of_many(int n, std::uint64_t seed, double sigma_mps2) {
+  Noise noise(seed);
+  Scene s;
+  plumb::AxisList axes{};
+  EXPECT_EQ(plumb::cone_with_axis(axes, n), n);
+  s.sheet = datasheet_of(axes, n, kSigma);
+  s.truth = draw_truth(s.sheet, noise);
+  for (int k = 0; k < 60; ++k) {
+    const Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
+    s.stations.push_back(station_at(s.sheet, s.truth, g, noise, sigma_mps2, 25.0 + 10.0 * (k % 4)));
+  }
+  return s;
+}
+
+TEST(PaperCalibration, StepIsThePseudoInverseOfRankNine) {
+  const auto trace = std::make_unique<PaperTrace>();
+  for (const int n : {4, 5}) {
+    const Scene s = n == 4 ? scene_of(4711) : scene_of_many(5, 4712, kSigma);
+    const SensorSet used = SensorSet::first(n);
+    const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), used);
+    ASSERT_TRUE(error.has_value());
+    const PaperFit fit = fitted_by_paper(s, used, {}, trace.get());
+    ASSERT_TRUE(fit.converged);
+    std::vector<double> values;
+    for (int k = 0; k + 1 < trace->size; ++k) {
+      const plumb::PaperParameters& now = trace->iteration[at(k)].parameter;
+      const plumb::PaperParameters& next = trace->iteration[at(k + 1)].parameter;
+      const std::vector<double> step = reference_step(*error, now, s, values);
+      for (int p = 0; p < error->parameters(); ++p) {
+        EXPECT_NEAR((next[at(p)] - now[at(p)]) / error->prior()[at(p)], step[at(p)], 1e-9) << k << ' ' << p;
+      }
+    }
+    const std::string name = "n" + std::to_string(n) + ".singular_value_";
+    const std::size_t count = values.size();
+    tell(name + "9_to_1", std::sqrt(values[count - 9] / values[count - 1]));
+    tell(name + "10_to_9", std::sqrt(values[count - 10] / values[count - 9]));
+    EXPECT_LT(std::sqrt(values[count - 10] / values[count - 9]), n == 4 ? 1e-2 : 2e-2);
+    EXPECT_EQ(fit.rank, plumb::kPaperRank);
+  }
+}
+
+TEST(PaperCalibration, TraceHasTheStartAndEveryIteration) {
+  const Scene s = scene_of(42);
+  const auto trace = std::make_unique<PaperTrace>();
+  for (const PaperStep step : {PaperStep::minimum_norm, PaperStep::plain_inverse}) {
+    PaperOptions options;
+    options.step = step;
+    options.max_iterations = 20;
+    const PaperFit fit = fitted_by_paper(s, kAll, options, trace.get());
+    ASSERT_EQ(trace->size, fit.iterations + 1);
+    const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), kAll);
+    ASSERT_TRUE(error.has_value());
+    EXPECT_EQ(trace->iteration[0].parameter, error->start());
+    EXPECT_EQ(trace->iteration[0].change, 0.0);
+    for (int k = 0; k < trace->size; ++k) {
+      const plumb::PaperIteration& i = trace->iteration[at(k)];
+      EXPECT_EQ(i.cost, error->cost(i.parameter, s.stations.data(), 48));
+      if (k == 0 || k + 1 == trace->size) continue;
+      EXPECT_GE(i.change, options.stop);
+    }
+    const plumb::PaperIteration& last = trace->iteration[at(fit.iterations)];
+    EXPECT_EQ(last.cost, fit.cost);
+    EXPECT_EQ(last.parameter[5], fit.model.sensor[1].scale[0]);
+    EXPECT_EQ(last.parameter[8], fit.model.misalignment[1]);
+    EXPECT_EQ(last.parameter[19], fit.model.misalignment[at(3 * plumb::kCapacity + 2)]);
+    if (step == PaperStep::plain_inverse) continue;
+    EXPECT_TRUE(fit.converged);
+    EXPECT_LT(last.change, options.stop);
+    tell("cost_falls_by", trace->iteration[0].cost / last.cost);
+    EXPECT_GT(trace->iteration[0].cost, 1e3 * last.cost);
+    for (int k = 0; k < trace->size; ++k) tell("cost." + std::to_string(k), trace->iteration[at(k)].cost);
+  }
+}
+
+TEST(PaperCalibration, WithoutNoiseTheVectorHasTheLengthOfGravity) {
+  for (const std::uint32_t bits : {0b1111U, 0b0111U, 0b1011U, 0b1101U, 0b1110U}) {
+    const Scene s = scene_of(99, 0.0);
+    const PaperFit fit = fitted_by_paper(s, SensorSet(bits));
+    EXPECT_TRUE(fit.converged);
+    const auto nominal = s.sheet.array();
+    ASSERT_TRUE(nominal.has_value());
+    for (const plumb::Station& station : s.stations) {
+      const Vec3 x = plumb::paper_vector(*nominal, fit, station.mean, station.temperature_degc);
+      EXPECT_NEAR(plumb::norm(x), plumb::kG0_mps2, 1e-9);
+    }
+  }
+}
+
+/// Stations from 20 to 150 degC of a tool that the paper's parameters describe exactly.
+Scene scene_over_temperature(bool bias_drifts) {
+  Scene s = scene_of(7);
+  for (int i = 0; i < 4 && !bias_drifts; ++i) s.sheet.sensor[at(i)].coefficients.bias = {0.02, 0.0, 0.0, 0.0};
+  const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), kAll);
+  EXPECT_TRUE(error.has_value());
+  if (!error) return s;
+  Noise noise(8);
+  plumb::PaperParameters truth = error->start();
+  for (int k = 0; k < error->parameters(); ++k) truth[at(k)] += 0.5 * error->prior()[at(k)] * noise.normal();
+  plumb::SensorModel model = s.sheet.model();
+  error->store(truth, model);
+  EXPECT_NEAR(model.sensor[0].scale[1] / model.sensor[0].scale[0], 1e-5 / (3.0 / plumb::kG0_mps2), 1e-18);
+  EXPECT_EQ(model.sensor[0].bias[1], bias_drifts ? 1e-3 : 0.0);
+  for (plumb::Station& station : s.stations) {
+    const Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
+    plumb::Readings y{};
+    for (int i = 0; i < 4; ++i) y[at(i)] = plumb::dot(s.sheet.sensor[at(i)].row.axis, g);
+    station.temperature_degc = 85.0 + noise.within(65.0);
+    const auto raw = model.raw_from(y, station.temperature_degc);
+    EXPECT_TRUE(raw.has_value());
+    if (raw) station.mean = *raw;
+  }
+  return s;
+}
+
+TEST(PaperCalibration, TemperatureTermsGoAlong) {
+  const PaperFit still = fitted_by_paper(scene_over_temperature(false), kAll);
+  EXPECT_TRUE(still.converged);
+  EXPECT_LT(still.cost, 1e-16);
+  // A drift tells the scale factors apart, but so faintly that rank nine leaves it alone.
+  const PaperFit drifting = fitted_by_paper(scene_over_temperature(true), kAll);
+  EXPECT_TRUE(drifting.converged);
+  const double norm_g0 = plumb::g0_from_mps2(std::sqrt(drifting.cost) / (2.0 * plumb::kG0_mps2));
+  tell("norm_left_by_a_drifting_bias_g0", norm_g0);
+  EXPECT_LT(norm_g0, 2e-5);
+}
+
+TEST(PaperCalibration, OneCircleOfRollsShowsFiveDirections) {
+  Scene s = scene_of(21);
+  s.stations.clear();
+  Noise noise(22);
+  for (int k = 0; k < 24; ++k) {
+    s.stations.push_back(station_at(s.sheet, s.truth, rolled(30.0, 15.0 * k), noise, kSigma));
+  }
+  EXPECT_EQ(fitted_by_paper(s, kAll).rank, 5);
+}
+
+TEST(PaperCalibration, DampingSlowsAndFrozenParametersStay) {
+  Scene s = scene_of(31);
+  PaperOptions options;
+  options.damping = 0.5;
+  const PaperFit slow = fitted_by_paper(s, kAll, options);
+  const PaperFit fast = fitted_by_paper(s, kAll);
+  EXPECT_TRUE(slow.converged);
+  EXPECT_GT(slow.iterations, 15);
+  EXPECT_NEAR(slow.cost / fast.cost, 1.0, 1e-4);  // what is left alone depends on the way
+  s.sheet.sensor[2].prior = {0.0, 0.0, 0.0};
+  const PaperFit frozen = fitted_by_paper(s, kAll);
+  EXPECT_TRUE(frozen.converged);
+  EXPECT_EQ(frozen.model.sensor[2].scale, s.sheet.sensor[2].coefficients.scale);
+  EXPECT_EQ(frozen.model.sensor[2].bias, s.sheet.sensor[2].coefficients.bias);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(frozen.model.misalignment[at(2 * plumb::kCapacity + k)], 0.0);
+  for (int i = 0; i < 4; ++i) s.sheet.sensor[at(i)].prior = {0.0, 0.0, 0.0};
+  const PaperFit rigid = fitted_by_paper(s, kAll);
+  EXPECT_EQ(rigid.rank, 0);
+  EXPECT_FALSE(rigid.converged);
+  EXPECT_EQ(rigid.stop, plumb::StopReason::not_finite);
+  EXPECT_EQ(rigid.model.sensor[0].bias, s.sheet.sensor[0].coefficients.bias);
+}
+
+TEST(PaperCalibration, OtherSensorsAreLeftAloneAndIncompleteStationsSkipped) {
+  Scene s = scene_of(51);
+  const SensorSet used(0b1101U);
+  const PaperFit whole = fitted_by_paper(s, used);
+  EXPECT_EQ(whole.used, used);
+  EXPECT_EQ(whole.model.sensor[1].scale, s.sheet.sensor[1].coefficients.scale);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(whole.model.misalignment[at(plumb::kCapacity + k)], 0.0);
+    EXPECT_EQ(whole.model.misalignment[at(k * plumb::kCapacity + 1)], 0.0);
+  }
+  for (plumb::Station& station : s.stations) {
+    station.mean[1] = std::numeric_limits<double>::quiet_NaN();
+    station.delivered = station.delivered.without(1);
+  }
+  plumb::Station partial = s.stations[3];
+  partial.delivered = SensorSet(0b0101U);
+  plumb::Station empty = s.stations[3];
+  empty.count = 0;
+  s.stations.push_back(partial);
+  s.stations.push_back(empty);
+  const PaperFit rest = fitted_by_paper(s, used);
+  EXPECT_EQ(rest.cost, whole.cost);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(rest.model.sensor[at(i)].bias, whole.model.sensor[at(i)].bias);
+}
+
+TEST(PaperCalibration, RefusesWhatItCannotUse) {
+  using plumb::Errc;
+  Scene s = scene_of(61);
+  const auto refused = [&s](const PaperOptions& options, int count, SensorSet used, Errc code, int index) {
+    PaperFit fit;
+    const auto done = plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(), count, used, options, fit);
+    ASSERT_FALSE(done.has_value());
+    EXPECT_EQ(done.error().code, code);
+    EXPECT_EQ(done.error().index, index);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  PaperOptions o;
+  for (const double bad : {0.0, -1.0, 1.5, nan}) {
+    o.damping = bad;
+    refused(o, 48, kAll, Errc::out_of_range, 0);
+  }
+  o = {};
+  for (const double bad : {0.0, -1.0, nan}) {
+    o.stop = bad;
+    refused(o, 48, kAll, Errc::out_of_range, 1);
+  }
+  o = {};
+  for (const int bad : {0, -3, plumb::kMaxPaperIterations + 1}) {
+    o.max_iterations = bad;
+    refused(o, 48, kAll, Errc::out_of_range, 2);
+  }
+  refused({}, 48, SensorSet(0b11U), Errc::too_few_sensors, -1);
+  refused({}, 8, kAll, Errc::too_few_stations, -1);
+  refused({}, -1, kAll, Errc::too_few_stations, -1);
+  s.stations[12].mean[3] = nan;
+  refused({}, 48, kAll, Errc::not_finite, 12);
+  PaperFit fit;
+  EXPECT_TRUE(plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(), 48, kAll.without(3), {}, fit));
+  EXPECT_FALSE(plumb::paper_calibrate(s.sheet, standard_gravity(), nullptr, 48, kAll, {}, fit));
+}
+
+}  // namespace
