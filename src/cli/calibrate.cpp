@@ -33,6 +33,9 @@ constexpr const char* kNotes =
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
 io::ExitCode run(const Options& options) {
+  const std::vector<NamedFile> to_write = {{"--out", options.out}};
+  const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   watch_interrupts();

@@ -69,6 +69,9 @@ io::FileExpected<io::LogStatistics> copy(const Options& options, const io::Array
 }
 
 io::ExitCode run(const Options& options) {
+  const std::vector<NamedFile> to_write = {{"--out", options.out}};
+  const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   const scenario::FaultContext context = io::fault_context(*array);

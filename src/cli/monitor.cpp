@@ -34,12 +34,12 @@ constexpr const char* kAbout =
     "a summary follows at the end. A sensor is excluded only when no other explanation of the data is left.";
 constexpr const char* kNotes =
     "States: nominal (all sensors agree), suspect (a limit was crossed, or trust is not yet earned; output\n"
-    "unconfirmed), isolated (a faulty sensor is out, the rest still check one another), degraded (three sensors\n"
-    "left, no spare), failed (too few sensors or no bound: do not use the output).\n"
+    "unconfirmed), isolated (a faulty sensor is out, the rest still check one another), degraded (no sensor\n"
+    "can be spared, usually three are left), failed (too few sensors or no bound: do not use the output).\n"
     "One attitude rarely tells which sensor is at fault: plumb waits for the tool to turn.\n\n"
     "Examples:\n"
     "  plumb monitor --array tool.toml --calibration cal.json --log run.csv --events events.jsonl\n"
-    "  tail -f run.csv | plumb monitor --array tool.toml --calibration cal.json --log - --json\n\n"
+    "  tail -n +1 -f run.csv | plumb monitor --array tool.toml --calibration cal.json --log - --json\n\n"
     "Units: time in s, inclination in deg (0 = tool axis z points down). `statistic` and `limit` share a unit:\n"
     "standard deviations for parity and norm, m/s^2 for mae; an alarm is statistic > limit.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -141,6 +141,10 @@ std::string summary_json(const MonitorRun& run, const SensorArray& sensors, cons
 }
 
 io::ExitCode run(const Options& options) {
+  const std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
+  const std::vector<NamedFile> to_read = {
+      {"--array", options.array}, {"--calibration", options.calibration}, {"--log", options.log.path}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);

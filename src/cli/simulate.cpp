@@ -249,6 +249,10 @@ io::ExitCode run(const Options& options) {
   if (!file) return report(file.error());
   if (options.seed) file->scenario.seed = *options.seed;
   if (const std::optional<io::FileError> error = conflict(options, *file)) return report(*error);
+  const std::vector<NamedFile> to_write = {
+      {"--out", options.out}, {"--truth", options.truth}, {"--array-out", options.array_out}};
+  const std::vector<NamedFile> to_read = {{"SCENARIO", options.scenario}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   tl::expected<scenario::Simulator, std::string> simulator = scenario::Simulator::make(file->scenario);
   if (!simulator) return report(io::FileError{options.scenario, 0, "", simulator.error(), ""});
   if (!options.array_out.empty()) {

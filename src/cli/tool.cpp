@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -54,6 +55,30 @@ void print_error(std::string_view text) {
   // What was said before on standard output comes first, also where both go to one file.
   std::fflush(stdout);
   std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+std::optional<io::FileError> overwritten(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
+  const auto same = [](const NamedFile& a, const NamedFile& b) {
+    if (a.path.empty() || a.path == "-" || b.path.empty() || b.path == "-") return false;
+    std::error_code absent;  // a file that is not there yet can only be the same by its name
+    if (std::filesystem::equivalent(a.path, b.path, absent) && !absent) return true;
+    return std::filesystem::path(a.path).lexically_normal() == std::filesystem::path(b.path).lexically_normal();
+  };
+  const auto refusal = [](const NamedFile& output, const NamedFile& other) {
+    return io::FileError{
+        output.path,         0,
+        output.option,       std::string("is the file that ") + other.option + " names too, and would be overwritten",
+        "give another name", io::ExitCode::usage};
+  };
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    for (const NamedFile& input : inputs) {
+      if (same(outputs[k], input)) return refusal(outputs[k], input);
+    }
+    for (std::size_t j = 0; j < k; ++j) {
+      if (same(outputs[k], outputs[j])) return refusal(outputs[k], outputs[j]);
+    }
+  }
+  return std::nullopt;
 }
 
 io::ExitCode report(const io::FileError& error) {

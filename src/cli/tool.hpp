@@ -4,8 +4,10 @@
 #include <csignal>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "plumb/core/config.hpp"
 #include "plumb/io/file_error.hpp"
@@ -49,6 +51,14 @@ void print_error(std::string_view text);
 /// "plumb: <text>" on standard error; returns the code of the error.
 io::ExitCode report(const io::FileError& error);
 bool output_is_sound();
+
+/// A file named on the command line, with the option that named it. "" and "-" stand for no file.
+struct NamedFile {
+  const char* option;
+  std::string path;
+};
+/// The first output that is one of the inputs, or another output: writing it would destroy what the user has.
+std::optional<io::FileError> overwritten(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 /// A line of progress on standard error, only where that is a terminal; `done` wipes it.
 class Progress {

@@ -47,7 +47,7 @@ const char* meaning(HealthState state) noexcept {
     case HealthState::suspect: return "a limit was crossed, or trust is not yet earned; the output is unconfirmed";
     case HealthState::isolated: return "a faulty sensor is excluded; the rest can still check one another";
     case HealthState::degraded_3_sensor:
-      return "no spare sensor is left: only the length of gravity still checks the rest";
+      return "no sensor can be spared any more: a further fault could not be located, with three left perhaps not seen";
     case HealthState::recalibrating: return "the coefficients are being estimated anew";
     case HealthState::failed: return "too few sensors, or no bound on the error: the output must not be used";
   }

@@ -254,4 +254,25 @@ TEST(BadCommandLine, FaultThatCannotBeReadIsExplained) {
   EXPECT_FALSE(std::filesystem::exists(where / "x.csv"));
 }
 
+TEST(SameFile, AnOutputThatIsAnInputIsRefusedAndTheInputKept) {
+  const Directory where;
+  const std::string array = read_text(demo() / "array.toml"), log = read_text(demo() / "drilling.csv");
+  write_text(where / "array.toml", array);
+  write_text(where / "log.csv", log);
+  write_text(where / "cal.json", read_text(demo() / "calibration.json"));
+  refused(run(where,
+              {"inject", "--array", "array.toml", "--log", "log.csv", "--fault", "a2:last@3s", "--out", "./log.csv"}),
+          2, {"log.csv", "--out", "--log"});
+  refused(run(where, {"monitor", "--array", "array.toml", "--calibration", "cal.json", "--log", "log.csv", "--events",
+                      "log.csv"}),
+          2, {"log.csv", "--events"});
+  refused(run(where, {"monitor", "--array", "array.toml", "--calibration", "cal.json", "--log", "log.csv", "--events",
+                      "z", "--verdicts", "z"}),
+          2, {"--verdicts", "--events"});
+  refused(run(where, {"calibrate", "--array", "array.toml", "--log", "log.csv", "--out", "array.toml"}), 2,
+          {"array.toml"});
+  EXPECT_EQ(read_text(where / "log.csv"), log);
+  EXPECT_EQ(read_text(where / "array.toml"), array);
+}
+
 }  // namespace
