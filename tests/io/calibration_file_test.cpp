@@ -54,9 +54,9 @@ std::unique_ptr<Calibration> calibration_of(const ArrayFile& array, Draw draw) {
   report.rank = 4 * n - 3;
   report.null_directions = 2;
   for (std::size_t k = 0; k < static_cast<std::size_t>(4 * n); ++k) report.null_direction[1].component[k] = draw();
-  for (double* value : {&report.condition, &report.norm_rms_mps2, &report.parity_rms_mps2, &report.misfit_mps2,
-                        &report.chi2, &report.p_value, &report.excitation, &report.temperature_min_degc,
-                        &report.temperature_max_degc})
+  for (double* value :
+       {&report.condition, &report.norm_rms_mps2, &report.parity_rms_mps2, &report.misfit_mps2, &report.chi2,
+        &report.p_value, &report.excitation, &report.temperature_min_degc, &report.temperature_max_degc})
     *value = draw();
   report.stop = StopReason::converged;
   return out;

@@ -46,7 +46,7 @@ struct FitReport {
   double chi2 = 0.0;                                  ///< against the datasheet's noise alone
   int degrees_of_freedom = 0;
   double p_value = 1.0;
-  double excitation = 0.0;  ///< least eigenvalue of the Gram matrix of the 9 harmonics, uniform sphere = 1
+  double excitation = 0.0;            ///< least eigenvalue of the Gram matrix of the 9 harmonics, uniform sphere = 1
   double temperature_min_degc = 0.0;  ///< span of the stations: beyond it by > 5 degC a monitor confirms nothing
   double temperature_max_degc = 0.0;
   int iterations = 0;

@@ -33,7 +33,8 @@ struct SensorModel {
   double bias_at(int i, double temperature_degc) const noexcept;   ///< B*_i [m/s^2], eq (2)
 
   /// Accelerations along the sensor axes in the gravity sense [m/s^2]: eq (3), then the sign of
-  /// `reads`. Entries of sensors that are not in `delivered` are 0 and do not enter the cross terms; NaN where SF* is 0.
+  /// `reads`. Entries of sensors that are not in `delivered` are 0 and do not enter the cross terms; NaN where SF* is
+  /// 0.
   Readings apply(const std::array<double, kCapacity>& raw, double temperature_degc, SensorSet delivered) const noexcept;
 
   /// The inverse of `apply`: raw values that a sensor with these coefficients shows for the given
