@@ -123,6 +123,29 @@ TEST(Calibrator, ParametersLieWithinFourSigma) {
   }
 }
 
+TEST(Calibrator, GravityUncertaintyIsACommonScaleThatEveryNormSeesAndNoParity) {
+  // The length of gravity at calibration is known to sigma only: all readings scale together with it.
+  Noise noise(77);
+  const plumb::Datasheet d = paper_tool(kSigma);
+  const Truth truth = draw_truth(d, noise);
+  const std::vector<plumb::Station> stations = random_stations(d, truth, 48, noise, kSigma);
+  const int count = static_cast<int>(stations.size());
+  const double sigma_g = 0.01;
+  const auto sure = plumb::calibrate(d, {plumb::kG0_mps2, 0.0, plumb::GravityModel::value}, stations.data(), count);
+  const auto unsure =
+      plumb::calibrate(d, {plumb::kG0_mps2, sigma_g, plumb::GravityModel::value}, stations.data(), count);
+  ASSERT_TRUE(sure.has_value() && unsure.has_value());
+  const Vec3 g = {1.0, -2.0, 9.0};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const double share = sigma_g / plumb::kG0_mps2;
+      const double common = share * share * plumb::dot(unsure->array.axis(i), g) * plumb::dot(unsure->array.axis(j), g);
+      const double added = unsure->array.uncertainty().at(i, j, g) - sure->array.uncertainty().at(i, j, g);
+      EXPECT_NEAR(added, common, 1e-12) << i << " " << j;
+    }
+  }
+}
+
 TEST(Calibrator, TriadHasRankNine) {
   plumb::AxisList axes{};
   const int n = plumb::orthogonal_triad(axes);
