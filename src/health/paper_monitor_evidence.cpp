@@ -180,6 +180,28 @@ EventMask PaperMonitor::recalibrate(bool clean) noexcept {
   return in_state && due ? bit(HealthEvent::recalibrate) : 0;
 }
 
+/// Steps 3 to 10 on a quiet block; the events that it raises.
+EventMask PaperMonitor::judge(double mae_mps2) noexcept {
+  const bool over = !(mae_mps2 < delta_f_mps2_);  // eq (15)
+  EventMask raised = over ? bit(HealthEvent::alarm) : 0;
+  if (over) {
+    episode_open_ = true;
+    add_to(alarmed_);
+  }
+  if (episode_open_ && (over || mode_ == Mode::suspect) && in_service_.size() > 3) {
+    pool_block();
+    raised |= decide_triples();
+  }
+  const double clear = (mode_ == Mode::suspect ? config_.clear_fraction : 1.0) * delta_f_mps2_;
+  const bool pool_over = pool_.samples() > 0 && !(pool_.mae_all_mps2() < delta_f_mps2_);
+  const bool clean = !over && mae_mps2 <= clear && !pool_over;
+  if (clean) raised |= bit(HealthEvent::clean_block);
+  count_clean(clean, over);
+  const bool patient = !episode_open_ || alarmed_.size() < config_.patience;
+  if (mode_ == Mode::suspect && !patient) raised |= bit(HealthEvent::patience_over);
+  return raised | recalibrate(clean);
+}
+
 EventMask PaperMonitor::tick(const Sample& sample) noexcept {
   const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2);
   const SensorSet silent = silence_.note(block_.usable(), array_.size(), config_.missing_confirm);
@@ -194,10 +216,7 @@ EventMask PaperMonitor::tick(const Sample& sample) noexcept {
   evidence_time_s_ = sample.time_s;
   have_evidence_ = true;
   const double mae_mps2 = mae_of_block().mps2();
-  const bool over = !(mae_mps2 < delta_f_mps2_);  // eq (15)
-  const double clear = (mode_ == Mode::suspect ? config_.clear_fraction : 1.0) * delta_f_mps2_;
-  const bool clean = !over && mae_mps2 <= clear;
-  verdict_.cause = temperature_out_ ? Cause::temperature : over ? Cause::mae : Cause::clean;
+  verdict_.cause = temperature_out_ ? Cause::temperature : mae_mps2 < delta_f_mps2_ ? Cause::clean : Cause::mae;
   verdict_.decided_by = Cause::mae;
   verdict_.mae_all_mps2 = verdict_.statistic = mae_mps2;
   verdict_.limit = delta_f_mps2_;
@@ -205,22 +224,7 @@ EventMask PaperMonitor::tick(const Sample& sample) noexcept {
   verdict_.mae_worst_mps2 = verdict_.mae_worst_limit_mps2 = 0.0;  // the triples have not been asked
   show_parity(judged.evidence);
   show_vector();
-  EventMask raised = 0;
-  if (!temperature_out_ && mode_ != Mode::failed) {
-    raised = over ? bit(HealthEvent::alarm) : clean ? bit(HealthEvent::clean_block) : 0;
-    if (over) {
-      episode_open_ = true;
-      add_to(alarmed_);
-    }
-    if (episode_open_ && (over || mode_ == Mode::suspect) && in_service_.size() > 3) {
-      pool_block();
-      raised |= decide_triples();
-    }
-    count_clean(clean, over);
-    const bool patient = !episode_open_ || alarmed_.size() < config_.patience;
-    if (mode_ == Mode::suspect && !patient) raised |= bit(HealthEvent::patience_over);
-    raised |= recalibrate(clean);
-  }
+  const EventMask raised = temperature_out_ || mode_ == Mode::failed ? 0 : judge(mae_mps2);
   empty_block();
   return raised;
 }

@@ -250,16 +250,19 @@ TEST(PaperMonitorLimit, AtOneAttitudeAHealthySensorIsBlamedForTwoThatAgree) {
   EXPECT_EQ(rig.monitor->verdict().validity, Validity::degraded) << "and the output is called usable";
 }
 
-TEST(PaperMonitor, ASuspicionWithoutFurtherAlarmEnds) {
-  PaperRig rig(4);
+TEST(PaperMonitor, ASuspicionEndsOnlyWhenThePoolIsBelowTheLimitToo) {
+  PaperRig rig(4, 20);
   rig.prove();
-  rig.stick(2, 0.0);
-  rig.tour(1);
+  rig.distort = [](int i, double r) { return i == 3 ? r + 0.5 * kG0_mps2 : r; };
+  const double first = rig.stay(direction_at(20, 0)).mae_all_mps2;
   ASSERT_EQ(rig.monitor->verdict().state, HealthState::suspect);
   rig.distort = [](int, double r) { return r; };
-  rig.tour(2);
-  EXPECT_EQ(rig.monitor->verdict().state, HealthState::suspect);
-  EXPECT_EQ(rig.tour(1).state, HealthState::nominal) << "three clean blocks";
+  // One block of `first` and k without error have the mean first / (k + 1).
+  const int diluted = static_cast<int>(first / kPaperDeltaF_mps2);
+  ASSERT_GT(diluted, 3);
+  for (int k = 1; k < diluted + 3; ++k) {
+    EXPECT_EQ(rig.stay(direction_at(20, 0)).state, k < diluted + 2 ? HealthState::suspect : HealthState::nominal) << k;
+  }
   EXPECT_TRUE(rig.ever_excluded.empty());
 }
 

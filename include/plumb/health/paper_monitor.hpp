@@ -58,6 +58,7 @@ class AttitudeRecord {
 ///   is no evidence, as in `HealthMonitor`.
 /// - Step 3: from the block that trips the gate on, all quiet samples are pooled, until the tool has been at
 ///   `isolation_stations` attitudes. Then steps 4 to 8 judge the pool once, and a new pool begins.
+///   Until then a block below the limit does not end the suspicion unless the whole pool is below it (step 5).
 /// - Step 9: the MAE of those that would remain, over the means of the pooled attitudes. Where it fails nobody is
 ///   excluded: a contradiction, as where no triple passes (Table 2, rows 18 to 23).
 /// - Step 10: more than three that remain get a fit of their own: recalibrating. One quiet block per attitude is
@@ -129,6 +130,7 @@ class PaperMonitor {
   double mae_over_stations(SensorSet of) const noexcept;
   bool add_to(AttitudeRecord& record) const noexcept;
   bool add_station() noexcept;
+  EventMask judge(double mae_mps2) noexcept;
   void count_clean(bool clean, bool over) noexcept;
   EventMask recalibrate(bool clean) noexcept;
   bool fit_rest() noexcept;

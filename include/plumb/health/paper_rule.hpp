@@ -64,6 +64,7 @@ class PaperRule {
            SensorSet in_use) noexcept;
   PaperFinding finding(const PaperFits& fits, double delta_f_mps2, SensorSet in_use) const noexcept;
   int samples() const noexcept { return all_.samples; }
+  double mae_all_mps2() const noexcept { return all_.mps2(); }
 
  private:
   PaperMae all_;
