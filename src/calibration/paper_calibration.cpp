@@ -247,7 +247,7 @@ int rank_at(const Problem& problem, const PaperParameters& theta, double noise, 
 void iterate(const Problem& problem, const PaperOptions& options, Workspace& work, PaperParameters& theta,
              PaperFit& out, PaperTrace* trace) noexcept {
   const int size = problem.error.parameters();
-  out.cost = problem.error.cost(theta, problem.stations, problem.count);
+  out.start_cost = out.cost = problem.error.cost(theta, problem.stations, problem.count);
   note(theta, out.cost, 0.0, trace);
   while (out.stop == StopReason::none) {
     const bool solved = options.step == PaperStep::minimum_norm ? minimum_norm_step(problem, theta, work)
@@ -294,6 +294,29 @@ Expected<void> paper_calibrate(const Datasheet& datasheet, const GravityReferenc
   iterate(problem, options, work, theta, out, trace);
   out.rank = rank_at(problem, theta, relative_noise(datasheet, problem, gravity.g_mps2), work);
   error->store(theta, out.model);
+  return {};
+}
+
+Expected<void> paper_calibrate_all(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
+                                   int count, const PaperOptions& options, PaperCalibration& out) noexcept {
+  const int n = datasheet.size;
+  if (n > kPaperCapacity) return fail(Errc::too_many_sensors, -1, static_cast<double>(n), kPaperCapacity);
+  const Expected<void> all =
+      paper_calibrate(datasheet, gravity, stations, count, SensorSet::first(n), options, out.all);
+  if (!all) return all;
+  out.triples = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      for (int k = j + 1; k < n; ++k) {
+        PaperFit& fit = out.triple[at(out.triples++)];
+        const SensorSet used = SensorSet::of(i).with(j).with(k);
+        if (paper_calibrate(datasheet, gravity, stations, count, used, options, fit)) continue;
+        fit = PaperFit{};
+        fit.used = used;
+        fit.model = datasheet.model();
+      }
+    }
+  }
   return {};
 }
 

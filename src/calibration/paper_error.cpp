@@ -194,16 +194,22 @@ void PaperError::store(const PaperParameters& at, SensorModel& model) const noex
 }
 
 Vec3 paper_vector(const SensorArray& nominal, const PaperFit& fit, const std::array<double, kCapacity>& raw,
-                  double temperature_degc) noexcept {
-  const Readings y = fit.model.apply(raw, temperature_degc, fit.used);
+                  double temperature_degc, SensorSet of) noexcept {
+  const SensorSet read = fit.used & of;
+  const Readings y = fit.model.apply(raw, temperature_degc, read);
   fit::Symmetric3 square{};
   Vec3 sum{};
   for (int i = 0; i < nominal.size(); ++i) {
-    if (!fit.used.has(i)) continue;
+    if (!read.has(i)) continue;
     fit::add_outer(square, nominal.axis(i), 1.0);
     sum = plus(sum, scaled(nominal.axis(i), y[at(i)]));
   }
   return fit::solve(square, sum);
+}
+
+Vec3 paper_vector(const SensorArray& nominal, const PaperFit& fit, const std::array<double, kCapacity>& raw,
+                  double temperature_degc) noexcept {
+  return paper_vector(nominal, fit, raw, temperature_degc, fit.used);
 }
 
 }  // namespace PLUMB_ABI

@@ -15,6 +15,7 @@ struct Options {
   std::string array;
   LogSpec log;
   std::string out;
+  bool paper = false;
   bool json = false;
   bool verbose = false;
 };
@@ -30,6 +31,8 @@ constexpr const char* kNotes =
     "Units: mg0 = 0.001 x 9.80665 m/s^2; angles in deg; scales in the unit of the log per g0. Attitudes are named by\n"
     "inclination (0 = tool axis z points down), toolface (turn about z) and the direction of down in the tool frame.\n"
     "Record at least 12 attitudes spread over all directions, 10 s each; 24 to 48 are better.\n"
+    "--paper makes the paper's own fits too, of all sensors and of every three of them, for `plumb monitor` in\n"
+    "mode = \"paper\"; up to 8 sensors. An array file with that mode implies it.\n"
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
 io::ExitCode run(const Options& options) {
@@ -39,12 +42,20 @@ io::ExitCode run(const Options& options) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   watch_interrupts();
-  const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log);
+  const bool by_paper = options.paper || array->monitor.mode == MonitorMode::paper;
+  const io::FileExpected<CalibrationRun> fit =
+      run_calibration(*array, options.log, by_paper ? WithPaperFits::yes : WithPaperFits::no);
   if (!fit) return report(fit.error());
   print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, options.verbose));
   if (!fit->accepted) {
     const Refusal refusal = refusal_of(*fit, *array);
     print_error("plumb: the calibration was not accepted: " + refusal.reason + ". " + options.out +
+                " was not written. Remedy: " + refusal.next + ".\n");
+    return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
+  }
+  if (fit->paper_refusal.code != Errc::ok) {
+    const Refusal refusal = paper_refusal_of(*fit, *array);
+    print_error("plumb: the fit by the paper's method is of no use: " + refusal.reason + ". " + options.out +
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
@@ -71,6 +82,7 @@ Command add_calibrate(CLI::App& tool) {
       ->type_name("LOG.csv");
   app->add_option("--out", options->out, "the calibration file to write")->required()->type_name("CAL.json");
   add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_flag("--paper", options->paper, "the paper's own fits too, kept in the calibration file");
   app->add_flag("--json", options->json, "the report as JSON, for machines");
   app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times");
   app->footer(kNotes + exit_codes_help());

@@ -7,6 +7,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/navigation/tilt.hpp"
+#include "plumb/report/words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -185,6 +186,45 @@ Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
       return {words.what + (sensor.empty() ? "" : " (sensor " + sensor + ")"), words.remedy};
     }
   }
+}
+
+Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Error& e = run.paper_refusal;
+  const std::string rotate = "hold the tool still at attitudes it has not had yet, for example: " +
+                             joined(attitudes_to_record(run, array, 4), "; ");
+  const std::string without = ", or calibrate without --paper and mode = \"paper\"";
+  switch (e.code) {
+    case Errc::diverged: return {"it did not converge", "check axes and scales in the array file" + without};
+    case Errc::unobservable:
+      return {fmt::format("the stations show {} of the {} directions that the length of gravity can show", e.value,
+                          e.limit),
+              rotate + without};
+    case Errc::too_few_stations:
+      return {fmt::format("{} stations have all sensors, {} are needed", e.value, e.limit), rotate + without};
+    default: {
+      const io::FileError words = io::from_error(e);
+      return {words.what, words.remedy + without};
+    }
+  }
+}
+
+std::vector<PaperFigures> paper_figures(const PaperCalibration& paper, const io::ArrayFile& array) {
+  const auto figures_of = [&array](const PaperFit& fit) {
+    PaperFigures f;
+    f.sensors = fit.used == array.array.all() ? "all" : report::sensor_names(fit.used, array.array);
+    f.sound = fit.sound();
+    f.outcome = fit.stop == StopReason::none ? "not possible" : to_string(fit.stop);
+    f.iterations = fit.iterations;
+    f.rank = fit.rank;
+    f.start_cost = fit.start_cost;
+    f.cost = fit.cost;
+    f.length_error_mg = std::sqrt(fit.cost) / (2.0 * array.gravity.g_mps2) / kMilliG0_mps2;
+    return f;
+  };
+  std::vector<PaperFigures> out = {figures_of(paper.all)};
+  const int triples = array.array.size() > 3 ? paper.triples : 0;  // of three sensors the triple is all
+  for (int k = 0; k < triples; ++k) out.push_back(figures_of(paper.triple[static_cast<std::size_t>(k)]));
+  return out;
 }
 
 }  // namespace cli

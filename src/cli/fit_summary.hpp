@@ -38,6 +38,21 @@ struct Refusal {
 };
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
 
+/// The same for the fits by the paper's method.
+Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
+
+/// One fit by the paper's method.
+struct PaperFigures {
+  std::string sensors;  ///< "all", or the ids of the three
+  bool sound = false;
+  std::string outcome;  ///< how it ended
+  int iterations = 0;
+  int rank = 0;
+  double start_cost = 0.0, cost = 0.0;  ///< E_g of eq (10) [(m/s^2)^4]
+  double length_error_mg = 0.0;         ///< rms of the length of gravity that is left, mg0
+};
+std::vector<PaperFigures> paper_figures(const PaperCalibration& paper, const io::ArrayFile& array);
+
 /// The report as text and as JSON.
 std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, bool with_stations);
 std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array);

@@ -57,6 +57,36 @@ std::string gaps_text(const CalibrationRun& run, const io::ArrayFile& array) {
   return out;
 }
 
+std::string paper_text(const PaperCalibration& paper, const io::ArrayFile& array) {
+  std::string out = fmt::format("\n  {:<20} {:<16} {:>10} {:>6} {:>12} {:>12} {:>12}\n", "the paper's fit of", "",
+                                "iterations", "rank", "E_g before", "E_g after", "|g| error");
+  out += fmt::format("  {:<20} {:<16} {:>10} {:>6} {:>12} {:>12} {:>12}\n", "", "", "", "", "(m/s^2)^4", "(m/s^2)^4",
+                     "mg0 rms");
+  bool silent = false;
+  for (const PaperFigures& f : paper_figures(paper, array)) {
+    out += fmt::format("  {:<20} {:<16} {:>10} {:>6} {:>12.4g} {:>12.4g} {:>12.3f}\n", f.sensors, f.outcome,
+                       f.iterations, f.rank, f.start_cost, f.cost, f.length_error_mg);
+    silent = silent || !f.sound;
+  }
+  if (silent) out += fmt::format("  three that did not converge with rank {} have no say in paper mode\n", kPaperRank);
+  return out;
+}
+
+nlohmann::ordered_json paper_json(const PaperCalibration& paper, const io::ArrayFile& array) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const PaperFigures& f : paper_figures(paper, array)) {
+    out.push_back({{"sensors", f.sensors},
+                   {"sound", f.sound},
+                   {"stop", f.outcome},
+                   {"iterations", f.iterations},
+                   {"rank", f.rank},
+                   {"start_cost_m4ps8", f.start_cost},
+                   {"cost_m4ps8", f.cost},
+                   {"length_error_rms_mps2", f.length_error_mg * kMilliG0_mps2}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, bool with_stations) {
@@ -77,6 +107,7 @@ std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, bool
       "spread = 1)\n",
       r.chi2, r.degrees_of_freedom, r.p_value, r.condition, r.excitation);
   out += sensors_text(run, array) + gaps_text(run, array);
+  if (run.paper) out += paper_text(*run.paper, array);
   if (run.interrupted) out += "\ninterrupted: the fit uses the stations up to then\n";
   if (run.accepted) return out + "\naccepted\n";
   const Refusal refusal = refusal_of(run, array);
@@ -132,6 +163,7 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
     sensors.push_back(std::move(one));
   }
   out["sensors"] = std::move(sensors);
+  if (run.paper) out["paper"] = paper_json(*run.paper, array);
   return out.dump(2) + "\n";
 }
 

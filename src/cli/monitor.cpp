@@ -42,6 +42,10 @@ constexpr const char* kNotes =
     "  tail -n +1 -f run.csv | plumb monitor --array tool.toml --calibration cal.json --log - --json\n\n"
     "Units: time in s, inclination in deg (0 = tool axis z points down). `statistic` and `limit` share a unit:\n"
     "standard deviations for parity and norm, m/s^2 for mae; an alarm is statistic > limit.\n"
+    "With [monitor] mode = \"paper\" in the array file the run follows the paper's algorithm instead, for comparison:\n"
+    "one limit delta_f (0.05 g0) for the length of gravity by all sensors and then by every three of them. No bound "
+    "on\n"
+    "the error. The calibration must hold the paper's own fits (plumb calibrate --paper).\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 
@@ -140,36 +144,22 @@ std::string summary_json(const MonitorRun& run, const SensorArray& sensors, cons
   return nlohmann::ordered_json{{"summary", std::move(s)}}.dump() + "\n";
 }
 
-io::ExitCode run(const Options& options) {
-  const std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
-  const std::vector<NamedFile> to_read = {
-      {"--array", options.array}, {"--calibration", options.calibration}, {"--log", options.log.path}};
-  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
-  if (!array) return report(array.error());
-  const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
-  if (!calibration) return report(calibration.error());
-  const io::FileExpected<std::unique_ptr<HealthMonitor>> monitor = make_monitor(*array, calibration->calibration);
-  if (!monitor) return report(monitor.error());
-  if (array->input.rows == io::RowKind::stations && array->monitor.window > 1) {
-    print_error(fmt::format(
-        "plumb: {}: every row of the log is a station, but [monitor] window = {} joins that many rows to one "
-        "block. Remedy: set window = 1.\n",
-        array->path, array->monitor.window));
-  }
-  const SensorArray& sensors = (*monitor)->array();
+/// The run itself, with either monitor.
+template <class Monitor>
+io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& monitor) {
+  const SensorArray& sensors = monitor.array();
   Outputs outputs;
-  const io::FileExpected<void> opened = open_outputs(options, *array, sensors, outputs);
+  const io::FileExpected<void> opened = open_outputs(options, array, sensors, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
-  const io::FileExpected<MonitorRun> done = run_monitor(**monitor, *array, options.log, outputs.sinks);
+  const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, options.log, outputs.sinks);
   if (!done) return report(done.error());
   const io::FileExpected<void> kept = commit(outputs);
   if (!kept) return report(kept.error());
   if (options.json) {
-    print_now(summary_json(*done, sensors, array->output_frame));
+    print_now(summary_json(*done, sensors, array.output_frame));
   } else if (outputs.table) {
-    print_now(summary_text(*done, sensors, array->output_frame));
+    print_now(summary_text(*done, sensors, array.output_frame));
   }
   if (done->stopped) {
     print_error(
@@ -181,6 +171,29 @@ io::ExitCode run(const Options& options) {
     return io::ExitCode::other;
   }
   return done->last.state == HealthState::failed ? io::ExitCode::monitor_failed : io::ExitCode::done;
+}
+
+io::ExitCode run(const Options& options) {
+  const std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
+  const std::vector<NamedFile> to_read = {
+      {"--array", options.array}, {"--calibration", options.calibration}, {"--log", options.log.path}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
+  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  if (!array) return report(array.error());
+  const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
+  if (!calibration) return report(calibration.error());
+  if (array->input.rows == io::RowKind::stations && array->monitor.window > 1) {
+    print_error(fmt::format(
+        "plumb: {}: every row of the log is a station, but [monitor] window = {} joins that many rows to one "
+        "block. Remedy: set window = 1.\n",
+        array->path, array->monitor.window));
+  }
+  if (array->monitor.mode == MonitorMode::paper) {
+    const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
+    return monitor ? watch(options, *array, **monitor) : report(monitor.error());
+  }
+  const auto monitor = make_monitor(*array, calibration->calibration);
+  return monitor ? watch(options, *array, **monitor) : report(monitor.error());
 }
 
 }  // namespace

@@ -78,9 +78,64 @@ io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool li
   return done;
 }
 
+/// The paper's fits beside the accepted one. Of no use where that of all sensors is not sound.
+void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
+  auto paper = std::make_unique<PaperCalibration>();
+  const Expected<void> done = paper_calibrate_all(array.datasheet, array.gravity, run.stations.data(),
+                                                  static_cast<int>(run.stations.size()), PaperOptions{}, *paper);
+  if (!done) {
+    run.paper_refusal = done.error();
+    return;
+  }
+  if (!paper->all.converged) {
+    run.paper_refusal = Error{Errc::diverged, -1, paper->all.cost, 0.0};
+  } else if (!paper->all.sound()) {
+    run.paper_refusal = Error{Errc::unobservable, -1, static_cast<double>(paper->all.rank), kPaperRank};
+  }
+  run.paper = std::move(paper);
+}
+
+std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibration& calibration) {
+  auto setup = std::make_unique<MonitorSetup>();
+  setup->model = calibration.model;
+  setup->array = calibration.array;
+  setup->gravity = array.gravity;
+  setup->config = array.monitor;
+  // The calibrated span, where the array file does not claim another.
+  const MonitorConfig unset;
+  MonitorConfig& config = setup->config;
+  if (config.temperature_min_degc == unset.temperature_min_degc)
+    config.temperature_min_degc = calibration.report.temperature_min_degc;
+  if (config.temperature_max_degc == unset.temperature_max_degc)
+    config.temperature_max_degc = calibration.report.temperature_max_degc;
+  // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    setup->full_scale_raw[static_cast<std::size_t>(i)] =
+        array.datasheet.sensor[static_cast<std::size_t>(i)].full_scale_raw;
+  }
+  return setup;
+}
+
+tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::ArrayFile& array) {
+  io::FileError error = io::from_error(reason);
+  error.file = array.path;
+  if (reason.code == Errc::range_too_small && reason.index >= 0)
+    error.field = "sensor[" + std::to_string(reason.index + 1) + "].full_scale";
+  return tl::unexpected<io::FileError>(error);
+}
+
 }  // namespace
 
-io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log) {
+io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
+                                                 WithPaperFits with_paper) {
+  if (with_paper == WithPaperFits::yes && array.array.size() > kPaperCapacity) {
+    const std::string sensors = std::to_string(array.array.size());
+    return tl::unexpected<io::FileError>(
+        io::FileError{array.path, 0, "",
+                      "the paper's fit is for up to " + std::to_string(kPaperCapacity) + " sensors, this array has " +
+                          sensors + " (their misalignments grow as the square of the number)",
+                      "leave out --paper and mode = \"paper\", or describe a part of the sensors in another file"});
+  }
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->hash_bytes();
@@ -104,6 +159,7 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
                                         static_cast<int>(run.stations.size()), FitOptions{}, &run.report);
   if (fit) {
     run.accepted = std::make_unique<Calibration>(*fit);
+    if (with_paper == WithPaperFits::yes) fit_by_paper(array, run);
   } else {
     run.refusal = fit.error();
   }
@@ -119,7 +175,7 @@ io::FileExpected<void> save_calibration(const std::string& path, const Calibrati
   context.stations = run.report.stations;
   context.plumb_version = kVersion;
   context.gravity = array.gravity;
-  return io::write_calibration(path, *run.accepted, array, context);
+  return io::write_calibration(path, *run.accepted, array, context, run.paper.get());
 }
 
 io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
@@ -138,36 +194,32 @@ io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict)
 
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration& calibration) {
-  auto setup = std::make_unique<MonitorSetup>();
-  setup->model = calibration.model;
-  setup->array = calibration.array;
-  setup->gravity = array.gravity;
-  setup->config = array.monitor;
-  // The calibrated span, where the array file does not claim another.
-  const MonitorConfig unset;
-  MonitorConfig& config = setup->config;
-  if (config.temperature_min_degc == unset.temperature_min_degc)
-    config.temperature_min_degc = calibration.report.temperature_min_degc;
-  if (config.temperature_max_degc == unset.temperature_max_degc)
-    config.temperature_max_degc = calibration.report.temperature_max_degc;
-  // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
-  for (int i = 0; i < array.datasheet.size; ++i) {
-    setup->full_scale_raw[static_cast<std::size_t>(i)] =
-        array.datasheet.sensor[static_cast<std::size_t>(i)].full_scale_raw;
-  }
   auto monitor = std::make_unique<HealthMonitor>();
-  const Expected<void> configured = monitor->configure(*setup);
+  const Expected<void> configured = monitor->configure(*setup_of(array, calibration));
   if (configured) return monitor;
-  io::FileError error = io::from_error(configured.error());
-  error.file = array.path;
-  const int i = configured.error().index;
-  if (configured.error().code == Errc::range_too_small && i >= 0)
-    error.field = "sensor[" + std::to_string(i + 1) + "].full_scale";
-  return tl::unexpected<io::FileError>(error);
+  return refused_setup(configured.error(), array);
 }
 
-io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::ArrayFile& array, const LogSpec& log,
-                                         const std::vector<VerdictSink*>& sinks) {
+io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
+                                                                   const io::CalibrationFile& calibration,
+                                                                   const std::string& path) {
+  if (!calibration.paper) {
+    return tl::unexpected<io::FileError>(io::FileError{
+        path, 0, "paper", "is missing: " + array.path + " asks for mode = \"paper\", which needs the paper's own fits",
+        "run plumb calibrate again with this array file (--paper is implied), or set mode = \"plumb\""});
+  }
+  auto setup = std::make_unique<PaperSetup>();
+  setup->base = *setup_of(array, calibration.calibration);
+  setup->datasheet = array.datasheet;
+  setup->paper = *calibration.paper;
+  auto monitor = std::make_unique<PaperMonitor>();
+  const Expected<void> configured = monitor->configure(*setup);
+  if (configured) return monitor;
+  return refused_setup(configured.error(), array);
+}
+
+io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
+                                       const std::vector<VerdictSink*>& sinks) {
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
@@ -176,7 +228,7 @@ io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::Array
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
-    const Verdict& verdict = monitor.step(sample);
+    const Verdict& verdict = watch.step(sample);
     ++run.samples;
     if (verdict.tick) ++run.blocks;
     if (verdict.transition.sequence != 0) ++run.transitions;
@@ -190,7 +242,7 @@ io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::Array
   run.interrupted = interrupted();
   run.stopped = status == io::LogReader::Next::error;
   if (run.stopped) run.stop = reader->error();
-  run.last = monitor.verdict();
+  run.last = watch.now;
   run.log = reader->statistics();
   return run;
 }

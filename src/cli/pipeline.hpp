@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/health/health_monitor.hpp"
+#include "plumb/health/paper_monitor.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/log_reader.hpp"
@@ -32,10 +34,17 @@ struct CalibrationRun {
   FitReport report;
   Error refusal;                          ///< why it was not accepted
   std::unique_ptr<Calibration> accepted;  ///< null where it was not
+  /// The paper's own fits, where they were asked for and plumb's was accepted; null where they could not be made.
+  std::unique_ptr<PaperCalibration> paper;
+  Error paper_refusal;  ///< why there are none, or why nothing can be monitored with them
 };
 
-/// Reads the log, finds the stations (or takes the rows as stations) and fits.
-io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log);
+enum class WithPaperFits : bool { no, yes };
+
+/// Reads the log, finds the stations (or takes the rows as stations) and fits. Refuses to make the paper's fits for
+/// more than kPaperCapacity sensors before it reads anything.
+io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
+                                                 WithPaperFits with_paper = WithPaperFits::no);
 
 /// Writes the accepted calibration with its provenance.
 io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
@@ -102,10 +111,28 @@ struct MonitorRun {
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration& calibration);
 
+/// The monitor of mode = "paper". Refuses a calibration file without the paper's fits; `path` names it.
+io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
+                                                                   const io::CalibrationFile& calibration,
+                                                                   const std::string& path);
+
+/// What a run needs of a monitor, whichever it is.
+struct Watch {
+  std::function<const Verdict&(const Sample&)> step;
+  const Verdict& now;  ///< the monitor's verdict
+};
+
 /// Steps all samples of the log through the monitor. An error of the log is returned in `stop`, an error
 /// of a sink (a file that cannot be written) as the error.
-io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::ArrayFile& array, const LogSpec& log,
-                                         const std::vector<VerdictSink*>& sinks);
+io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
+                                       const std::vector<VerdictSink*>& sinks);
+
+template <class Monitor>
+io::FileExpected<MonitorRun> run_monitor(Monitor& monitor, const io::ArrayFile& array, const LogSpec& log,
+                                         const std::vector<VerdictSink*>& sinks) {
+  const auto step = [&monitor](const Sample& sample) -> const Verdict& { return monitor.step(sample); };
+  return run_watch({step, monitor.verdict()}, array, log, sinks);
+}
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

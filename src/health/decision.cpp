@@ -133,14 +133,7 @@ Cause HealthMonitor::cause_of(HealthEvent event) const noexcept {
 }
 
 HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
-  HealthEvent event = HealthEvent::none;
-  for (int e = 0; e < kEventCount && event == HealthEvent::none; ++e) {
-    const auto candidate = static_cast<HealthEvent>(e);
-    if ((raised & bit(candidate)) == 0) continue;
-    const CellKind kind = cell_of(mode_, candidate).kind;
-    // An ignored or held event must not block those behind it, else one level could livelock the rest.
-    if (kind == CellKind::taken || kind == CellKind::impossible) event = candidate;
-  }
+  const HealthEvent event = first_taken(mode_, raised);
   const bool was_reset = reset_pending_;
   const Cell& cell = cell_of(mode_, event);
   const Mode from = mode_;

@@ -39,7 +39,9 @@ int faults_to_cover(int n, double prior, double risk) noexcept {
   return n;
 }
 
-Expected<void> check_setup(const MonitorSetup& setup) noexcept {
+}  // namespace
+
+Expected<void> checked(const MonitorSetup& setup) noexcept {
   const int n = setup.array.size();
   if (n < 3) return fail(Errc::too_few_sensors, -1, n, 3);
   if (setup.model.size != n) return fail(Errc::not_calibrated, -1, setup.model.size, n);
@@ -68,14 +70,13 @@ Expected<void> check_setup(const MonitorSetup& setup) noexcept {
   return {};
 }
 
-}  // namespace
-
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   configured_ = false;
   verdict_ = Verdict{};
   const Expected<MonitorConfig> config = checked(setup.config);
   if (!config) return tl::unexpected<Error>(config.error());
-  const Expected<void> sound = check_setup(setup);
+  if (setup.config.mode != MonitorMode::plumb) return fail(Errc::wrong_mode, 0);
+  const Expected<void> sound = checked(setup);
   if (!sound) return sound;
 
   config_ = setup.config;

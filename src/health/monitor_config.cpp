@@ -16,7 +16,7 @@ struct Range {
 Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
   // Order of the fields of MonitorConfig: the index in an error is the position in this list.
   const Range fields[] = {
-      {static_cast<double>(c.mode), 0, 0},  // paper mode needs the paper's own per-triple coefficients
+      {static_cast<double>(c.mode), 0, 1},
       {static_cast<double>(c.window), 1, kWindowCapacity},
       {c.delta_f_mps2, 0, 10},
       {c.false_alarm_rate, 1e-9, 1e-2},

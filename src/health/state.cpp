@@ -63,6 +63,27 @@ const char* to_string(Cause cause) noexcept {
   return "?";
 }
 
+Cause cause_of(HealthEvent event, Cause of_block) noexcept {
+  switch (event) {
+    case HealthEvent::reset: return Cause::host_request;
+    case HealthEvent::channel_lost: return Cause::channel_lost;
+    case HealthEvent::channel_back: return Cause::channel_back;
+    case HealthEvent::culprit:
+    case HealthEvent::set_aside: return Cause::isolated_fault;
+    case HealthEvent::patience_over: return Cause::patience;
+    case HealthEvent::contradiction: return Cause::contradiction;
+    case HealthEvent::alarm: return of_block;
+    case HealthEvent::reference: return Cause::reference;
+    case HealthEvent::recalibrate:
+    case HealthEvent::fit_accepted:
+    case HealthEvent::fit_rejected: return Cause::calibration;
+    case HealthEvent::probation_passed: return Cause::probation;
+    case HealthEvent::clean_block: return Cause::clean;
+    case HealthEvent::none: return Cause::none;
+  }
+  return Cause::none;
+}
+
 const char* to_string(Validity validity) noexcept {
   switch (validity) {
     case Validity::valid: return "valid";

@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "array_parts.hpp"
+#include "plumb/health/paper_rule.hpp"
 #include "text_tools.hpp"
 #include "toml_table.hpp"
 
@@ -8,9 +9,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 namespace {
-
-/// Limit of paper mode where none is given: the paper's own (design, section 4).
-constexpr double kPaperDeltaF_mps2 = 0.05 * kG0_mps2;
 
 /// Keys in the order of the fields of MonitorConfig, which is the order of the indices of `checked`.
 const std::vector<std::string>& known_keys() {
@@ -96,10 +94,6 @@ const char* unit_of(const std::string& key) noexcept {
   const bool known = error.index >= 0 && static_cast<std::size_t>(error.index) < known_keys().size();
   const std::string key = known ? known_keys()[static_cast<std::size_t>(error.index)] : "";
   const int line = table.line_of(key.c_str());
-  if (key == "mode") {
-    table.fail(line, key, "\"paper\" is not available in this version",
-               "use mode = \"plumb\" with delta_f = \"0.05 g0\" for the paper's limit");
-  }
   if (error.code == Errc::not_finite) table.fail(line, key, "is not finite", "write a finite number");
   const std::string unit = unit_of(key);
   table.fail(line, key, "is " + brief(error.value) + unit + ", out of range",

@@ -15,16 +15,6 @@ inline namespace PLUMB_ABI {
 namespace io {
 namespace {
 
-/// JSON has no nan and inf; they become words, so that nothing is lost.
-Json from_double(double value) { return std::isfinite(value) ? Json(value) : Json(shortest(value)); }
-
-template <class Array>
-Json from_array(const Array& values, std::size_t count) {
-  Json out = Json::array();
-  for (std::size_t k = 0; k < count; ++k) out.push_back(from_double(values[k]));
-  return out;
-}
-
 Json from_coefficients(const SensorCoefficients& c) {
   return {{"scale", from_array(c.scale, 4)},
           {"bias_mps2", from_array(c.bias, 4)},
@@ -128,6 +118,8 @@ void print(const Json& value, int indent, std::string& out) {  // NOLINT(misc-no
 
 }  // namespace
 
+Json from_double(double value) { return std::isfinite(value) ? Json(value) : Json(shortest(value)); }
+
 std::string hex(std::uint64_t value) {
   constexpr std::size_t kDigits = 16;
   std::array<char, kDigits> text{};
@@ -144,8 +136,8 @@ std::string checksum_of(Json content) {
   return "fnv1a64:" + hex(fnv1a(text.data(), text.size()));
 }
 
-std::string calibration_json(const Calibration& calibration, const ArrayFile& array,
-                             const CalibrationContext& context) {
+std::string calibration_json(const Calibration& calibration, const ArrayFile& array, const CalibrationContext& context,
+                             const PaperCalibration* paper) {
   const auto n = static_cast<std::size_t>(calibration.array.size());
   Json root;
   root["schema"] = kCalibrationSchema;
@@ -167,6 +159,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
     root["misalignment"] = from_misalignment(calibration.model, n);
   }
   root["covariance"] = from_covariance(calibration.array.uncertainty(), n);
+  if (paper != nullptr) root["paper"] = from_paper(*paper, array.array);
   root["checksum"] = checksum_of(root);
   std::string out;
   print(root, 0, out);
@@ -174,9 +167,9 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
 }
 
 FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,
-                                     const CalibrationContext& context) {
+                                     const CalibrationContext& context, const PaperCalibration* paper) {
   try {
-    return write_file(path, calibration_json(calibration, array, context));
+    return write_file(path, calibration_json(calibration, array, context, paper));
   } catch (const std::exception& error) {  // text that is not UTF-8
     return tl::unexpected<FileError>(
         FileError{path, 0, "", error.what(), "use UTF-8 in names and paths", ExitCode::other});

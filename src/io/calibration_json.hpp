@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/calibration/sensor_model.hpp"
 #include "plumb/core/config.hpp"
 
@@ -21,6 +22,19 @@ std::string hex(std::uint64_t value);
 const char* reads_word(Reads reads) noexcept;
 /// Over the compact text of everything but the checksum itself: white space may change, content may not.
 std::string checksum_of(Json content);
+
+/// JSON has no nan and inf; they become words, so that nothing is lost.
+Json from_double(double value);
+
+template <class Array>
+Json from_array(const Array& values, std::size_t count) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < count; ++k) out.push_back(from_double(values[k]));
+  return out;
+}
+
+/// The section `paper`; sensors are named as in the array.
+Json from_paper(const PaperCalibration& paper, const SensorArray& array);
 
 }  // namespace io
 }  // namespace PLUMB_ABI

@@ -2,13 +2,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <initializer_list>
-#include <limits>
 
-#include "calibration_json.hpp"
+#include "calibration_source.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/output_file.hpp"
-#include "refusal.hpp"
 #include "text_tools.hpp"
 
 namespace plumb {
@@ -17,62 +14,6 @@ namespace io {
 namespace {
 
 constexpr int kDeepest = 16;
-constexpr const char* kMakeAnew = "run plumb calibrate again, or fetch the file again from where it came";
-
-/// The text with what it takes to say where something is wrong; its functions throw Refusal.
-struct Source {
-  std::string path;
-  std::string text;
-
-  int line_at(std::size_t position) const {
-    return 1 + static_cast<int>(std::count(
-                   text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(position, text.size())), '\n'));
-  }
-  /// Line of the first `key` behind `section`, 0 where it does not stand.
-  int line_of(const std::string& section, const std::string& key) const {
-    const std::size_t from = text.find("\"" + section + "\"");
-    const std::size_t at = from == std::string::npos ? from : text.find(key, from);
-    return at == std::string::npos ? 0 : line_at(at);
-  }
-  [[noreturn]] void fail(int line, const std::string& field, const std::string& what, const std::string& remedy) const {
-    throw Refusal(FileError{path, line, field, what, remedy});
-  }
-  const Json& member(const Json& object, const std::string& key) const {
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    if (!object.is_object() || found == object.end()) fail(0, key, "is missing", kMakeAnew);
-    return *found;
-  }
-  double number(const Json& value, const std::string& key) const {
-    if (value.is_number()) return value.get<double>();
-    if (value == "nan") return std::numeric_limits<double>::quiet_NaN();
-    if (value == "inf") return std::numeric_limits<double>::infinity();
-    if (value == "-inf") return -std::numeric_limits<double>::infinity();
-    fail(0, key, "is not a number", kMakeAnew);
-  }
-  double number_of(const Json& object, const std::string& key) const { return number(member(object, key), key); }
-  template <class T>
-  T whole_of(const Json& object, const std::string& key) const {
-    const Json& value = member(object, key);
-    if (!value.is_number_integer()) fail(0, key, "is not a whole number", kMakeAnew);
-    return value.get<T>();
-  }
-  std::string text_of(const Json& object, const std::string& key) const {
-    const Json& value = member(object, key);
-    if (!value.is_string()) fail(0, key, "is not a string", kMakeAnew);
-    return value.get<std::string>();
-  }
-  const Json& list(const Json& value, const std::string& key, std::size_t size) const {
-    if (!value.is_array() || value.size() != size) fail(0, key, "is not a list of " + std::to_string(size), kMakeAnew);
-    return value;
-  }
-  void numbers(const Json& value, const std::string& key, double* out, std::size_t count) const {
-    list(value, key, count);
-    for (std::size_t k = 0; k < count; ++k) out[k] = number(value[k], key);
-  }
-  void numbers_of(const Json& object, const std::string& key, double* out, std::size_t count) const {
-    numbers(member(object, key), key, out, count);
-  }
-};
 
 Json parsed(const Source& source) {
   if (source.text.find_first_not_of(" \t\r\n") == std::string::npos) {
@@ -191,15 +132,6 @@ void check_array(const Source& source, const Json& root, const ArrayFile& array)
   }
 }
 
-template <class Enum>
-Enum enum_from(const Source& source, const Json& object, const std::string& key, std::initializer_list<Enum> all) {
-  const std::string word = source.text_of(object, key);
-  for (const Enum value : all) {
-    if (word == to_string(value)) return value;
-  }
-  source.fail(0, key, in_quotes(word) + " is not known", kMakeAnew);
-}
-
 FitReport read_report(const Source& source, const Json& object, std::size_t n) {
   FitReport report;
   report.stations = source.whole_of<int>(object, "stations");
@@ -300,6 +232,7 @@ FileExpected<CalibrationFile> read_calibration(const std::string& path, const Ar
     CalibrationFile out;
     out.calibration = read_content(source, root, array);
     out.context = read_context(source, root);
+    if (root.contains("paper")) out.paper = read_paper(source, root["paper"], array);
     out.array_name = source.text_of(root["array"], "name");
     out.array_file = source.text_of(root["array"], "file");
     return out;

@@ -198,19 +198,7 @@ void append_json_number(std::string& out, double value) {
 Vec3 in_frame(const Mat3& frame, const Vec3& v) noexcept { return times(frame, v); }
 
 Mat3 covariance_in_frame(const Mat3& frame, const Mat3& covariance) noexcept {
-  Mat3 half{};
-  Mat3 out{};
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < 3; ++k) half[3 * r + c] += frame[3 * r + k] * covariance[3 * k + c];
-    }
-  }
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < 3; ++k) out[3 * r + c] += half[3 * r + k] * frame[3 * c + k];
-    }
-  }
-  return out;
+  return turned_covariance(frame, covariance);
 }
 
 void append_event_json(std::string& out, const TransitionRecord& record, const SensorArray& array) {

@@ -20,7 +20,7 @@ std::string explain(Cause cause, HealthState state) {
     case Cause::power_on: return "just switched on: trust must be earned at several attitudes";
     case Cause::parity: return "the sensors contradict one another";
     case Cause::norm: return "the length of the vector is not gravity's, and no spare sensor can say why";
-    case Cause::mae: return "a group of three sensors measures the wrong length of gravity";
+    case Cause::mae: return "a group of sensors measures the wrong length of gravity";
     case Cause::reference: return "the sensors agree, but not on the length of gravity: nobody is accused";
     case Cause::moving: return "the tool moves: evidence is suspended";
     case Cause::isolated_fault:

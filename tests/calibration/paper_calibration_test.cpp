@@ -278,6 +278,52 @@ TEST(PaperCalibration, OtherSensorsAreLeftAloneAndIncompleteStationsSkipped) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(rest.model.sensor[at(i)].bias, whole.model.sensor[at(i)].bias);
 }
 
+TEST(PaperCalibration, AllSensorsAndEveryTripleOfTheArray) {
+  const Scene s = scene_of(5);
+  const auto all = std::make_unique<plumb::PaperCalibration>();
+  ASSERT_TRUE(plumb::paper_calibrate_all(s.sheet, standard_gravity(), s.stations.data(),
+                                         static_cast<int>(s.stations.size()), {}, *all)
+                  .has_value());
+  const auto nominal = s.sheet.array();
+  ASSERT_TRUE(nominal.has_value());
+  ASSERT_EQ(all->triples, 4);
+  EXPECT_TRUE(all->all.sound());
+  EXPECT_EQ(all->all.used, kAll);
+  EXPECT_LT(all->all.cost, 1e-3 * all->all.start_cost);
+  for (int k = 0; k < all->triples; ++k) {
+    const PaperFit& fit = all->triple[at(k)];
+    const PaperFit alone = fitted_by_paper(s, nominal->triple(k).set());
+    EXPECT_EQ(fit.used, nominal->triple(k).set());
+    EXPECT_TRUE(fit.sound());
+    EXPECT_EQ(fit.cost, alone.cost);
+    EXPECT_EQ(fit.model.sensor[at(fit.used.lowest())].bias, alone.model.sensor[at(fit.used.lowest())].bias);
+  }
+}
+
+TEST(PaperCalibration, ATripleInOnePlaneIsLeftUnsound) {
+  Noise noise(11);
+  Scene s;
+  plumb::AxisList axes{};
+  axes[0] = {1.0, 0.0, 0.0};
+  axes[1] = {0.0, 1.0, 0.0};
+  axes[2] = {0.6, 0.8, 0.0};
+  axes[3] = {0.0, 0.0, 1.0};
+  s.sheet = datasheet_of(axes, 4, kSigma);
+  s.truth = draw_truth(s.sheet, noise);
+  s.stations = random_stations(s.sheet, s.truth, 48, noise, kSigma);
+  const auto all = std::make_unique<plumb::PaperCalibration>();
+  ASSERT_TRUE(plumb::paper_calibrate_all(s.sheet, standard_gravity(), s.stations.data(),
+                                         static_cast<int>(s.stations.size()), {}, *all)
+                  .has_value());
+  EXPECT_EQ(all->triple[0].used, SensorSet::first(3));
+  EXPECT_FALSE(all->triple[0].sound());
+  EXPECT_EQ(all->triple[0].stop, plumb::StopReason::none);
+  EXPECT_TRUE(all->triple[1].sound());
+  const auto few = plumb::paper_calibrate_all(s.sheet, standard_gravity(), s.stations.data(), 8, {}, *all);
+  ASSERT_FALSE(few.has_value());
+  EXPECT_EQ(few.error().code, plumb::Errc::too_few_stations);
+}
+
 TEST(PaperCalibration, RefusesWhatItCannotUse) {
   using plumb::Errc;
   Scene s = scene_of(61);

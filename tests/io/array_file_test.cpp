@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io_test_support.hpp"
+#include "plumb/health/paper_rule.hpp"
 
 namespace {
 
@@ -215,8 +216,17 @@ TEST(ArrayFile, GravityModels) {
   expect_refused(changed(value, "model = \"normal\"\n"), 2, "gravity.latitude", {"is missing"});
 }
 
+TEST(ArrayFile, PaperModeHasThePapersLimitUnlessAnotherIsGiven) {
+  const std::string both = "window = 16\ndelta_f = \"0.05 g0\"";
+  const ArrayFile paper = array_of(changed(both, "mode = \"paper\""));
+  EXPECT_EQ(paper.monitor.mode, MonitorMode::paper);
+  EXPECT_EQ(paper.monitor.delta_f_mps2, kPaperDeltaF_mps2);
+  EXPECT_EQ(array_of(changed(both, "mode = \"paper\"\ndelta_f = \"0.09 m/s^2\"")).monitor.delta_f_mps2, 0.09);
+  EXPECT_EQ(array_of(changed(both, "mode = \"plumb\"")).monitor.delta_f_mps2, 0.0);
+}
+
 TEST(ArrayFileRefuses, WhatTheMonitorRefuses) {
-  expect_refused(changed("window = 16", "mode = \"paper\""), 7, "monitor.mode", {"not available", "delta_f"});
+  expect_refused(changed("window = 16", "mode = \"papr\""), 7, "monitor.mode", {"papr", "paper"});
   expect_refused(changed("\"1 deg\"", "\"200 deg\""), 9, "monitor.alert_limit", {"3.49066 rad", "at most 3.14159 rad"});
   expect_refused(changed("window = 16", "temperature_min = \"50 degC\"\ntemperature_max = \"10 degC\""), 7,
                  "monitor.temperature_min", {"50 degC", "at most 10 degC"});

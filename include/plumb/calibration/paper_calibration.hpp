@@ -124,10 +124,14 @@ struct PaperFit {
   bool converged = false;  ///< the stop rule was met
   StopReason stop = StopReason::none;  ///< converged, iteration_limit or not_finite
   int iterations = 0;                  ///< steps taken
+  double start_cost = 0.0;             ///< E_g of the datasheet's values
   double cost = 0.0;                   ///< E_g at the end
   /// Of the prior-scaled Jacobian at the end, singular values within the reach of the datasheet's noise counted as
   /// zero: 9 where the stations suffice. Below 9 the step leant on noise.
   int rank = 0;
+
+  /// Whether there is a fit to measure with: it ended, and the stations showed all that the length of gravity can show.
+  bool sound() const noexcept { return converged && rank == kPaperRank; }
 };
 
 /// Fits the sensors in `used` to the stations that have them all, starting from the datasheet. Needs 90 KB of stack at
@@ -145,12 +149,22 @@ Expected<void> paper_calibrate(const Datasheet& datasheet, const GravityReferenc
 Vec3 paper_vector(const SensorArray& nominal, const PaperFit& fit, const std::array<double, kCapacity>& raw,
                   double temperature_degc) noexcept;
 
+/// The same over those of `of` alone that the fit holds; the cross terms of the others are left out with them.
+Vec3 paper_vector(const SensorArray& nominal, const PaperFit& fit, const std::array<double, kCapacity>& raw,
+                  double temperature_degc, SensorSet of) noexcept;
+
 /// What paper mode monitors with: the fit of all sensors and, per triple of the array, a fit of its own (step 1).
 struct PaperCalibration {
   PaperFit all;
   int triples = 0;
   std::array<PaperFit, triple_count_of(kPaperCapacity)> triple{};  ///< in the order of SensorArray::triple
 };
+
+/// Fits all sensors, then every triple. A triple that cannot be fitted (axes in one plane, too few stations) is left
+/// with `used` alone, neither converged nor sound. Errors: too_many_sensors (value = sensors, limit = kPaperCapacity);
+/// those of `paper_calibrate` for all sensors.
+Expected<void> paper_calibrate_all(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
+                                   int count, const PaperOptions& options, PaperCalibration& out) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -26,6 +26,22 @@ constexpr Vec3 times(const Mat3& m, const Vec3& v) noexcept {
   return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
           m[6] * v[0] + m[7] * v[1] + m[8] * v[2]};
 }
+/// F C F': a covariance in another frame.
+constexpr Mat3 turned_covariance(const Mat3& f, const Mat3& c) noexcept {
+  Mat3 half{};
+  Mat3 out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) half[3 * i + j] += f[3 * i + k] * c[3 * k + j];
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k) out[3 * i + j] += half[3 * i + k] * f[3 * j + k];
+    }
+  }
+  return out;
+}
 /// Angle between two vectors in rad, by atan2: exact near 0 and pi, where acos is not.
 inline double angle_between_rad(const Vec3& a, const Vec3& b) noexcept {
   return std::atan2(norm(cross(a, b)), dot(a, b));

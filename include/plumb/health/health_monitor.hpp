@@ -29,12 +29,16 @@ struct MonitorSetup {
   Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
 };
 
+/// Checks a setup but for its configuration. Errors: too_few_sensors; not_calibrated; range_too_small; out_of_range
+/// (index = sensor whose sigma is too large beside the least, 0: gravity).
+Expected<void> checked(const MonitorSetup& setup) noexcept;
+
 class HealthMonitor {
  public:
   HealthMonitor() noexcept = default;
 
   /// Checks the setup and powers on: suspect, unproven. On an error the monitor is left unconfigured
-  /// and every step answers `invalid`. Errors: those of `checked(config)`; too_few_sensors;
+  /// and every step answers `invalid`. Errors: wrong_mode (paper); those of `checked(config)`; too_few_sensors;
   /// not_calibrated (misalignment terms left in the model, or its size is not the array's);
   /// range_too_small (index = sensor) where a full scale does not reach gravity plus
   /// kFullScaleMargin beside the bias (value = reach, limit = needed [m/s^2]).

@@ -10,6 +10,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+/// Whose decisions: `HealthMonitor` takes plumb, `PaperMonitor` takes paper.
 enum class MonitorMode : std::uint8_t { plumb, paper };
 
 struct MonitorConfig {

@@ -16,40 +16,59 @@ inline namespace PLUMB_ABI {
 /// delta_F of the paper's drilling tests: 0.05 g0.
 inline constexpr double kPaperDeltaF_mps2 = 0.05 * kG0_mps2;
 
-/// What the paper's rule says of a window.
+/// Mean absolute error of eq (14) over any number of samples. The sum is kept in units of kMaeUnit_mps2, so that it is
+/// exact whatever the order, and a NaN counts as the largest error there is.
+struct PaperMae {
+  std::int64_t sum = 0;
+  int samples = 0;
+
+  void add(double error_mps2) noexcept;
+  double mps2() const noexcept;  ///< 0 without samples
+};
+
+/// The fits that sensors are read with; all three must outlive it.
+struct PaperFits {
+  const SensorArray& nominal;
+  const PaperCalibration& calibration;  ///< of all sensors and of every triple (step 1)
+  const PaperFit& rest;                 ///< of those that remain after an exclusion (step 10); not sound: none
+
+  /// The fit of exactly these sensors, null where there is no sound one.
+  const PaperFit* own(SensorSet in_use) const noexcept;
+};
+
+/// Vector of the sensors in use [m/s^2], eqs (3) and (5): by the fit of exactly these sensors where there is one (three
+/// sensors: that of their triple, step 11); else by the fit of all, least squares over those in use, without the cross
+/// terms of the others: nothing that an excluded sensor says gets in.
+Vec3 paper_vector_in_use(const PaperFits& fits, const std::array<double, kCapacity>& raw, double temperature_degc,
+                         SensorSet in_use) noexcept;
+
+/// What the paper's rule says of the pooled samples.
 struct PaperFinding {
   bool detected = false;      ///< MAE of the sensors in use >= delta_F, eq (15)
   double mae_all_mps2 = 0.0;  ///< eq (14) over the sensors in use
-  int triples = 0;
-  std::array<double, triple_count_of(kPaperCapacity)> mae_triple_mps2{};  ///< eqs (26)-(29); order of SensorArray
-  int passing = 0;                                                        ///< triples in use with MAE < delta_F
-  SensorSet correct;                                                      ///< union of the passing triples
+  int triples = 0;            ///< with a sound fit and all members in use
+  int passing = 0;            ///< of them, those with MAE < delta_F
+  double worst_mps2 = 0.0;    ///< largest MAE among them
+  /// Eqs (26)-(29), in the order of SensorArray::triple; 0 for a triple that is not in use.
+  std::array<double, triple_count_of(kPaperCapacity)> mae_triple_mps2{};
+  SensorSet correct;   ///< union of the passing triples
   SensorSet isolated;  ///< in use, detected, and in no passing triple; empty where no triple passes
 };
 
 /// Pools samples (of one attitude or of several) and judges them together.
 class PaperRule {
  public:
-  /// `calibration` must outlive the rule; `in_use` are the sensors not excluded before.
-  PaperRule(const SensorArray& nominal, const PaperCalibration& calibration, double g_mps2,
-            double delta_f_mps2) noexcept
-      : nominal_(&nominal), calibration_(&calibration), g_mps2_(g_mps2), delta_f_mps2_(delta_f_mps2) {}
-
-  void clear() noexcept;
-  /// Adds one sample's raw values. With exactly three sensors in use "all" is their triple (step 11); with more than
-  /// three but not all, the least squares of their readings by the fit of all sensors.
-  void add(const std::array<double, kCapacity>& raw, double temperature_degc, SensorSet in_use) noexcept;
-  PaperFinding finding(SensorSet in_use) const noexcept;
-  int samples() const noexcept { return samples_; }
+  void clear() noexcept { *this = PaperRule{}; }
+  /// Adds one sample in which all of `in_use` delivered. The set must stay the same until `clear`.
+  void add(const PaperFits& fits, double g_mps2, const std::array<double, kCapacity>& raw, double temperature_degc,
+           SensorSet in_use) noexcept;
+  PaperFinding finding(const PaperFits& fits, double delta_f_mps2, SensorSet in_use) const noexcept;
+  int samples() const noexcept { return all_.samples; }
+  double mae_all_mps2() const noexcept { return all_.mps2(); }
 
  private:
-  const SensorArray* nominal_;
-  const PaperCalibration* calibration_;
-  double g_mps2_;
-  double delta_f_mps2_;
-  std::int64_t all_sum_ = 0;  ///< units of kMaeUnit_mps2: exact whatever the order
-  std::array<std::int64_t, triple_count_of(kPaperCapacity)> triple_sum_{};
-  int samples_ = 0;
+  PaperMae all_;
+  std::array<PaperMae, triple_count_of(kPaperCapacity)> triple_{};
 };
 
 }  // namespace PLUMB_ABI

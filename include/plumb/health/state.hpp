@@ -57,6 +57,9 @@ enum class Cause : std::uint8_t {
 };
 const char* to_string(Cause cause) noexcept;
 
+/// The cause that an event stands for; `of_block` is what the last block said, for an alarm.
+Cause cause_of(HealthEvent event, Cause of_block) noexcept;
+
 /// What the output may be used for.
 enum class Validity : std::uint8_t { valid, degraded, unconfirmed, held, invalid };
 const char* to_string(Validity validity) noexcept;

@@ -206,6 +206,22 @@ constexpr const Cell& cell_of(Mode mode, HealthEvent event) noexcept {
   return kTransitionTable[static_cast<std::size_t>(mode)][static_cast<std::size_t>(event)];
 }
 
+/// Events that apply at one step, one bit each.
+using EventMask = std::uint32_t;
+constexpr EventMask bit(HealthEvent event) noexcept { return EventMask{1} << static_cast<unsigned>(event); }
+
+/// The event that a step takes: the first in rank order that the mode neither ignores nor holds; none where there is no
+/// such. An ignored event must not block those behind it, else one level could livelock the rest.
+constexpr HealthEvent first_taken(Mode mode, EventMask raised) noexcept {
+  for (int e = 0; e < kEventCount; ++e) {
+    const auto event = static_cast<HealthEvent>(e);
+    if ((raised & bit(event)) == 0) continue;
+    const CellKind kind = cell_of(mode, event).kind;
+    if (kind == CellKind::taken || kind == CellKind::impossible) return event;
+  }
+  return HealthEvent::none;
+}
+
 /// What is left in service after an action.
 enum class SizeClass : std::uint8_t { rank_lost, critical, all_configured, reduced };
 
@@ -330,6 +346,15 @@ constexpr bool initial_is_never_trusted() {
   return true;
 }
 
+constexpr bool ignored_events_block_nothing() {
+  constexpr EventMask both = bit(HealthEvent::reset) | bit(HealthEvent::alarm);
+  return first_taken(Mode::nominal, both) == HealthEvent::alarm &&
+         first_taken(Mode::failed, both) == HealthEvent::reset &&
+         first_taken(Mode::nominal, bit(HealthEvent::alarm) | bit(HealthEvent::culprit)) == HealthEvent::culprit &&
+         first_taken(Mode::failed, bit(HealthEvent::alarm)) == HealthEvent::none;
+}
+
+static_assert(ignored_events_block_nothing());
 static_assert(count_impossible() == 3 + 3 + 2 + 5, "an impossible cell was added, or a cell was left unwritten");
 static_assert(kinds_are_consistent());
 static_assert(failed_is_latched());

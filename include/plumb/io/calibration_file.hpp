@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "plumb/calibration/calibration.hpp"
+#include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/gravity/gravity.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/file_error.hpp"
@@ -17,6 +19,8 @@ namespace io {
 
 inline constexpr const char* kCalibrationSchema = "plumb-calibration";
 inline constexpr int kCalibrationVersion = 1;
+/// Of the section `paper`, which a file need not have.
+inline constexpr int kPaperSectionVersion = 1;
 
 /// Where a calibration comes from. No clock time: the same input gives the same bytes.
 struct CalibrationContext {
@@ -31,17 +35,21 @@ struct CalibrationContext {
 struct CalibrationFile {
   Calibration calibration;
   CalibrationContext context;
+  std::shared_ptr<const PaperCalibration> paper;  ///< null where the fits by the paper's method were not asked for
   std::string array_name;
   std::string array_file;  ///< last part of the path
 };
 
-std::string calibration_json(const Calibration& calibration, const ArrayFile& array, const CalibrationContext& context);
+/// `paper`, where given, goes along.
+std::string calibration_json(const Calibration& calibration, const ArrayFile& array, const CalibrationContext& context,
+                             const PaperCalibration* paper = nullptr);
 
 FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,
-                                     const CalibrationContext& context);
+                                     const CalibrationContext& context, const PaperCalibration* paper = nullptr);
 
 /// Refuses, with remedy: unreadable, truncated, edited (checksum), another schema or version, a
-/// calibration of another array (names the id, axis, scale or bias that differs).
+/// calibration of another array (names the id, axis, scale or bias that differs), fits by the paper's method that are
+/// not those of this array's sensors.
 FileExpected<CalibrationFile> read_calibration(const std::string& path, const ArrayFile& array);
 
 }  // namespace io

@@ -1,0 +1,59 @@
+/// What a monitor does with a sample before any evidence is taken from it: is its time in order, what do its channels
+/// read, which channels have fallen silent.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/calibration/sensor_model.hpp"
+#include "plumb/detection/channel_monitor.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Readings beyond this are held at it: large enough that nothing believes them, small enough that no square or sum of
+/// them overflows.
+inline constexpr double kReadingClamp_mps2 = 1e5;
+
+/// How a sample's time stands to the one before.
+enum class Arrival : std::uint8_t {
+  refused,  ///< not finite, or not later: the sample must not be used
+  in_order,
+  after_gap,     ///< later than the longest gap allows
+  new_time_base  ///< samples that increase among themselves have been refused for so long that they are the truth now
+};
+
+/// Strictly increasing time, from the samples alone.
+class SampleClock {
+ public:
+  void clear() noexcept { *this = SampleClock{}; }
+  Arrival admit(double time_s, double max_gap_s) noexcept;
+  /// Of the last sample that was not refused; 0 before the first.
+  double last_s() const noexcept { return last_s_; }
+
+ private:
+  double last_s_ = 0.0;
+  double last_refused_s_ = 0.0;
+  int refused_run_ = 0;
+  bool started_ = false;
+};
+
+/// Readings of the usable channels [m/s^2], clamped; a channel whose reading is not finite is taken out of
+/// `gate.usable`. `temperature_degc` stands in where the sample has none.
+Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
+                     GateResult& gate) noexcept;
+
+/// Channels that are silent in block after block without ever being lost for long enough in a row.
+class SilenceCounter {
+ public:
+  void clear() noexcept { run_.fill(0); }
+  /// Takes note of one block; returns those of the first n channels that were not usable in `confirm` blocks in a row,
+  /// and none where that is all of them (a gap of the bus).
+  SensorSet note(SensorSet usable, int n, int confirm) noexcept;
+
+ private:
+  std::array<int, kCapacity> run_{};
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb
