@@ -157,13 +157,15 @@ StudyExpected<OneAttitudeStudy> one_attitude_study(const Fits& fits, const scena
     bool paper_errs = false;
     bool own_errs = false;
     for (std::size_t e = 0; e < kTable2.size(); ++e) {
+      if (law == RandomLaw::anew && kTable2[e].level != Level::random) continue;
       const std::uint64_t draw = scenario::derive_seed(levels, a * kTable2.size() + e);
       const StudyExpected<std::vector<Sample>> samples = with_fault(tool, kTable2[e], law, draw, clean);
       if (!samples) return tl::unexpected<std::string>(samples.error());
       const Block block = {fits, kTable2[e], clean, *samples};
-      paper_errs |= enter(block, ask_paper(fits, *samples), paper_estimate, out.paper);
+      const bool counts = group_of(kTable2[e]) == FaultGroup::one_fixed;
+      paper_errs |= enter(block, ask_paper(fits, *samples), paper_estimate, out.paper) && counts;
       *monitor = *proven->monitor;
-      own_errs |= enter(block, ask_monitor(*monitor, *samples), own_estimate, out.own);
+      own_errs |= enter(block, ask_monitor(*monitor, *samples), own_estimate, out.own) && counts;
     }
     if (paper_errs) ++out.paper.attitudes_in_error;
     if (own_errs) ++out.own.attitudes_in_error;

@@ -1,5 +1,7 @@
 #include "plumb/study/table2_study.hpp"
 
+#include "plumb/scenario/library.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace study {
@@ -93,6 +95,23 @@ StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& 
     result.excluded = named(monitor->verdict());
   }
   return out;
+}
+
+StudyExpected<Proportion> all_verdicts_as_printed(std::uint64_t seed, int tools) {
+  std::uint64_t equal = 0;
+  constexpr std::uint64_t kFirstTool = 200;
+  for (int k = 0; k < tools; ++k) {
+    const std::uint64_t own_seed = scenario::derive_seed(seed, kFirstTool + static_cast<std::uint64_t>(k));
+    const scenario::Tool tool = scenario::paper_tool(own_seed);
+    const StudyExpected<std::vector<Station>> stations = calibration_stations(tool, own_seed);
+    if (!stations) return tl::unexpected<std::string>(stations.error());
+    const StudyExpected<Fits> fits = fit_both(tool.datasheet, *stations);
+    if (!fits) return tl::unexpected<std::string>(fits.error());
+    const StudyExpected<Table2Study> study = table2_study(*fits, tool, own_seed);
+    if (!study) return tl::unexpected<std::string>(study.error());
+    if (study->same_verdicts() == kExperiments) ++equal;
+  }
+  return proportion(equal, static_cast<std::uint64_t>(tools));
 }
 
 }  // namespace study

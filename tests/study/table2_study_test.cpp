@@ -66,6 +66,10 @@ TEST(Table2Study, TheMonitorExcludesTheFaultyOneAndNobodyElse) {
       if (faulty.empty()) {
         EXPECT_EQ(r.state, plumb::HealthState::nominal);
       }
+      if (faulty.size() == 2) {
+        EXPECT_TRUE(r.state == plumb::HealthState::failed || r.state == plumb::HealthState::suspect);
+        EXPECT_EQ(r.silent, 0) << "seed " << seed << ", experiment " << e + 1;
+      }
       if (faulty.size() == 1) {
         EXPECT_EQ(r.state, plumb::HealthState::degraded_3_sensor);
         EXPECT_GE(r.named_after, 4) << "an answer has to stand at four attitudes before it is acted upon";
@@ -109,7 +113,14 @@ TEST(OneAttitudeStudy, PlumbNamesNoHealthySensorWhateverIsDrawn) {
       EXPECT_EQ(study->own.group[0][Answer::alarm_only] + study->own.group[0][Answer::names_healthy], 0U) << seed;
     }
   }
-  EXPECT_EQ(trials, 10U * 2U * 50U * 22U);
+  EXPECT_EQ(trials, 10U * 50U * (22U + 10U)) << "drawn anew: only the ten random experiments";
+}
+
+TEST(Table2Study, OtherToolsAreCounted) {
+  const auto others = all_verdicts_as_printed(1, 5);
+  ASSERT_TRUE(others.has_value()) << others.error();
+  EXPECT_EQ(others->trials, 5U);
+  EXPECT_EQ(others->count, 5U);
 }
 
 TEST(OneAttitudeStudy, SameSeedSameCounts) {

@@ -41,8 +41,8 @@ struct AnswerCount {
 
 struct RuleRecord {
   std::array<AnswerCount, kFaultGroups> group{};
-  /// Attitudes at which at least one of the experiments with one faulty sensor, or with two, ended in an error. The
-  /// attitudes are drawn independently of each other, the experiments at one of them are not.
+  /// Attitudes at which at least one of the experiments with one sensor at a fixed level ended in an error. They are
+  /// drawn independently of each other; the experiments at one of them are not.
   std::uint64_t attitudes_in_error = 0;
   double largest_silent_mps2 = 0.0;      ///< largest error of a reading that raised no alarm
   double largest_silent_tilt_rad = 0.0;  ///< largest error of direction, due to the fault, without an alarm
@@ -61,6 +61,7 @@ struct OneAttitudeStudy {
 inline constexpr int kOneAttitudes = 500;
 
 /// One block of 32 samples per attitude and experiment; plumb's monitor has been proven before on a healthy tool.
+/// With `RandomLaw::anew` only the experiments with random levels are run: the others would be the same.
 StudyExpected<OneAttitudeStudy> one_attitude_study(const Fits& fits, const scenario::Tool& tool, std::uint64_t seed,
                                                    RandomLaw law, int attitudes = kOneAttitudes);
 

@@ -8,6 +8,7 @@
 #include "plumb/health/paper_rule.hpp"
 #include "plumb/study/experiments.hpp"
 #include "plumb/study/fits.hpp"
+#include "plumb/study/proportion.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -35,6 +36,9 @@ inline constexpr int kBlock = 32;
 
 StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& tool, std::uint64_t seed,
                                         RandomLaw law = RandomLaw::held, int attitudes = kTable2Attitudes);
+
+/// The table again with other tools, other noise and other attitudes: how many of `tools` give all verdicts as printed.
+StudyExpected<Proportion> all_verdicts_as_printed(std::uint64_t seed, int tools);
 
 /// A monitor with plumb's calibration that has earned its trust: nominal, after healthy samples at several attitudes.
 struct ProvenMonitor {
