@@ -100,6 +100,18 @@ Line line_of(const SensorArray& array, const Sums& sums, int s, int i, int p) no
   return t;
 }
 
+/// Covariance of the fitted parameters p and q without the held axes. The weights count those axes as if they were
+/// noise, which they are not: of F'MF + P = A only the share that is noise comes back, and the prior.
+double fit_covariance(const HeldAxisFit& fit, const Sums& sums, int p, int q) noexcept {
+  double from_prior = 0.0;
+  for (int m = 0; m < 2 * sums.k; ++m) {
+    const Prior& prior = fit.prior[at(sums.sensor[at(m / 2)])];
+    const double sigma = m % 2 == 0 ? prior.scale : prior.bias_mps2;
+    from_prior += sums.fitted[at(p * kFitted + m)] * sums.fitted[at(q * kFitted + m)] / (sigma * sigma);
+  }
+  return fit.inflation * (fit.noise_share * sums.fitted[at(p * kFitted + q)] + (1.0 - fit.noise_share) * from_prior);
+}
+
 double packed(const RowUncertainty& u, int a, int b) noexcept {
   return a >= b ? u.covariance[at(a * (a + 1) / 2 + b)] : u.covariance[at(b * (b + 1) / 2 + a)];
 }
@@ -143,7 +155,7 @@ bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gra
         const int p = 2 * i + (a % 4 == 3 ? 1 : 0), q = 2 * l + (b % 4 == 3 ? 1 : 0);
         const double of_a = a % 4 == 3 ? 1.0 : array.axis(a / 4)[at(a % 4)];
         const double of_b = b % 4 == 3 ? 1.0 : array.axis(b / 4)[at(b % 4)];
-        sum += fit.inflation * of_a * of_b * sums.fitted[at(p * kFitted + q)];
+        sum += of_a * of_b * fit_covariance(fit, sums, p, q);
         if (a % 4 != 3 && b % 4 != 3) sum += common * common * of_a * of_b;
       }
       uncertainty.covariance[at(a * (a + 1) / 2 + b)] = sum;

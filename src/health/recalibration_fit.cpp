@@ -35,9 +35,11 @@ int Recalibration::fit_stations(Stations& out) const noexcept {
   return count;
 }
 
-/// 1 sigma of a station's reading that biases and scales cannot explain: noise, held axis, misfit. All stations weigh
-/// as the shortest: what the axes leave is the greater part, and it is the same at all.
-double Recalibration::reading_sigma(const SensorArray& array, const GravityReference& gravity, int i) const noexcept {
+/// 1 sigma of a station's reading that biases and scales cannot explain: noise and misfit, drawn anew at every station,
+/// and what the held axis leaves. All stations weigh as the shortest: more noise is feigned than there is, at the
+/// others.
+Recalibration::ReadingError Recalibration::reading_error(const SensorArray& array, const GravityReference& gravity,
+                                                         int i) const noexcept {
   double samples = 0.0;
   for (int k = 0; k < store_.size(); ++k) {
     const double n = store_.station(k).samples;
@@ -55,7 +57,10 @@ double Recalibration::reading_sigma(const SensorArray& array, const GravityRefer
   const double misfit = u.misfit_mps2[at(i)];
   const double sigma = array.sigma_mps2(i);
   const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of gravity over the sphere
-  return std::sqrt(sigma * sigma / std::fmax(samples, 1.0) + std::fmax(across, 0.0) * mean_square + misfit * misfit);
+  ReadingError out;
+  out.noise_mps2_sq = sigma * sigma / std::fmax(samples, 1.0) + misfit * misfit;
+  out.total_mps2_sq = out.noise_mps2_sq + std::fmax(across, 0.0) * mean_square;
+  return out;
 }
 
 Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
@@ -65,7 +70,7 @@ Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
     if (!sensors_.has(i)) continue;
     DatasheetSensor& sensor = out.sensor[at(out.size++)];
     sensor.row = in_force.array.row(i);
-    sensor.row.sigma_mps2 = reading_sigma(in_force.array, in_force.gravity, i);
+    sensor.row.sigma_mps2 = std::sqrt(reading_error(in_force.array, in_force.gravity, i).total_mps2_sq);
     sensor.coefficients = in_force.model.sensor[at(i)];
     sensor.prior = {drift_.bias_mps2, drift_.scale, 0.0};
   }
@@ -82,8 +87,12 @@ bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityRe
   for (int k = 0; k < store_.size(); ++k) {
     if (!StationStore::held_out(k)) direction[at(fit.count++)] = store_.station(k).direction;
   }
+  fit.noise_share = 0.0;
   for (int i = 0; i < array.size(); ++i) {
-    fit.sigma_mps2[at(i)] = reading_sigma(array, gravity, i);
+    if (!sensors_.has(i)) continue;
+    const ReadingError error = reading_error(array, gravity, i);
+    fit.sigma_mps2[at(i)] = std::sqrt(error.total_mps2_sq);
+    fit.noise_share = std::fmax(fit.noise_share, error.noise_mps2_sq / error.total_mps2_sq);
     fit.prior[at(i)] = {drift_.bias_mps2, drift_.scale, 0.0};
   }
   std::array<double, kCapacity> data_share{};

@@ -15,9 +15,10 @@ struct HeldAxisFit {
   SensorSet sensors;                ///< the fitted ones
   const Vec3* direction = nullptr;  ///< unit vectors of gravity at the stations of the fit
   int count = 0;
-  std::array<double, kCapacity> sigma_mps2{};  ///< error of a station's reading, per sensor of the array
-  std::array<Prior, kCapacity> prior{};        ///< bias and scale that went into the fit; both above zero
-  double inflation = 1.0;                      ///< of the fit's own covariance
+  std::array<double, kCapacity> sigma_mps2{};  ///< of a station's reading, per sensor of the array: gave the weights
+  double noise_share = 1.0;  ///< of sigma^2 that is drawn anew at every station, at most; the rest are the held axes
+  std::array<Prior, kCapacity> prior{};  ///< bias and scale that went into the fit; both above zero
+  double inflation = 1.0;                ///< of the fit's own covariance
 };
 
 /// New uncertainty = T old T' + fit. T keeps the part of every axis error across its axis, drops the old bias and

@@ -68,10 +68,13 @@ class Recalibration {
   static int stations_needed(int n) noexcept;
 
  private:
+  struct ReadingError {
+    double noise_mps2_sq = 0.0, total_mps2_sq = 0.0;
+  };
   using Stations = std::array<Station, StationStore::kMax>;
 
   int fit_stations(Stations& out) const noexcept;
-  double reading_sigma(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
+  ReadingError reading_error(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
   Datasheet datasheet(const InForce& in_force) const noexcept;
   bool uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
                           SensorSet& lacking) const noexcept;
