@@ -60,6 +60,30 @@ TEST(CalibrationStudy, ThePapersCostIsMetWithTheWrongParameters) {
   EXPECT_GT(paper_scale, 100.0 * own_scale);
 }
 
+TEST(CalibrationStudy, TheHistoryBeginsAtTheDatasheetAndEndsAtTheFinishedFit) {
+  const Bench bench = bench_of(9);
+  const plumb::Datasheet& sheet = bench.tool.datasheet;
+  const auto stations = calibration_stations(bench.tool, 9);
+  ASSERT_TRUE(stations.has_value());
+  plumb::Calibrator calibrator(sheet, study_gravity(), {});
+  const CommonFrame start = frame_of(sheet, calibrator.parameters());
+  while (!calibrator.done()) calibrator.iterate(stations->data(), static_cast<int>(stations->size()));
+  const CommonFrame end = frame_of(sheet, calibrator.parameters());
+  const CommonFrame finished = frame_of(*bench.fits.own);
+  for (int i = 0; i < sheet.size; ++i) {
+    EXPECT_EQ(start.axis[at(i)], sheet.sensor[at(i)].row.axis);
+    EXPECT_DOUBLE_EQ(start.scale[at(i)], sheet.sensor[at(i)].coefficients.scale[0]);
+    EXPECT_EQ(start.bias_mps2[at(i)], 0.0);
+    // `finish` only turns the axes onto the nominal ones.
+    EXPECT_NEAR(end.scale[at(i)], finished.scale[at(i)], 1e-12);
+    EXPECT_NEAR(end.bias_mps2[at(i)], finished.bias_mps2[at(i)], 1e-12);
+    for (int k = 0; k < i; ++k) {
+      EXPECT_NEAR(plumb::dot(end.axis[at(i)], end.axis[at(k)]), plumb::dot(finished.axis[at(i)], finished.axis[at(k)]),
+                  1e-12);
+    }
+  }
+}
+
 TEST(CalibrationStudy, PlainInverseHardlyEverEnds) {
   const auto ends = plain_inverse_ends(1, 50);
   ASSERT_TRUE(ends.has_value()) << ends.error();
