@@ -14,8 +14,8 @@ using Readings = std::array<double, kCapacity>;
 /// Rank of the axes of `used` (0..3), with singular values below 1e-6 counted as zero.
 int rank_of(const SensorArray& array, SensorSet used) noexcept;
 
-/// The 3 x |used| map of least squares (eq 5; weighted with 1/sigma^2 where the sigmas differ) and
-/// what follows from it. `valid` is false where rank(used) < 3.
+/// The 3 x |used| map of least squares (eq 5, the matrix of eq 17 for the paper's axes; weighted with 1/sigma^2 where
+/// the sigmas differ) and what follows from it. `valid` is false where rank(used) < 3.
 struct LeastSquares {
   bool valid = false;
   std::array<Vec3, kCapacity> column{};  ///< column i of the pseudo-inverse; zero for sensors not used
@@ -30,7 +30,7 @@ Mat3 triple_map(const SensorArray& array, int triple) noexcept;
 
 /// Orthonormal basis of the left null space of the rows of `used`, each divided by its sigma
 /// (weighted parity, (|used|-3) rows). Entry [r][i] multiplies y_i in m/s^2; the result has unit
-/// variance under white noise. For the tetrahedron of eq (16) the row is (1,1,1,-1)/(2 sigma). The first
+/// variance under white noise. For the paper's tetrahedron the row is (1,1,1,-1)/(2 sigma). The first
 /// coefficient of weight in a row is positive. No rows where rank(used) < 3.
 struct ParityBasis {
   int rows = 0;

@@ -71,7 +71,7 @@ class SensorArray {
   const Vec3& axis(int i) const noexcept { return row(i).axis; }
   double sigma_mps2(int i) const noexcept { return row(i).sigma_mps2; }
 
-  /// All C(n,3) triples in lexicographic order, near-singular ones included (eq 13).
+  /// All C(n,3) triples in lexicographic order, near-singular ones included.
   int triple_count() const noexcept { return triple_count_of(size_); }
   const Triple& triple(int k) const noexcept { return triples_[static_cast<std::size_t>(k)]; }
   /// Index of the triple {i,j,k}, i < j < k; -1 where the three are no triple of this array.

@@ -1,5 +1,5 @@
 /// Calibration from gravity alone: the forward maximum-likelihood fit  a = W g + b + e  in one common
-/// frame (a departure from eqs (7), (10)-(12), whose Hessian is singular; calibration note 0), with the
+/// frame (a departure from the paper's, whose Hessian is singular: `paper_calibration.hpp`), with the
 /// datasheet as prior. Every triple of the array follows from the one fit.
 #pragma once
 
@@ -63,7 +63,7 @@ struct Calibration {
 
 struct FitOptions {
   int max_iterations = 50;
-  double stop_relative = 1.5e-6;      ///< eq (12), with the prior sigma as absolute floor
+  double stop_relative = 1.5e-6;      ///< the paper's stop rule, with the prior sigma as absolute floor
   double max_norm_rms_mps2 = 0.05;    ///< poor_fit beyond it
   double max_scale_change = 0.25;     ///< implausible beyond it: max(SF/SF0, SF0/SF) - 1
   double max_axis_change_rad = 0.26;  ///< implausible beyond it (15 deg)

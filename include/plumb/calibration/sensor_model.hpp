@@ -1,4 +1,4 @@
-/// `SensorModel`: what channel i means in m/s^2, eqs (1)-(3) of the paper complete.
+/// `SensorModel`: what channel i means in m/s^2, the paper's model complete.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ struct SensorModel {
   int size = 0;
   Reads reads = Reads::gravity;
   std::array<SensorCoefficients, kCapacity> sensor{};
-  /// m_ik of eq (3), row-major [i * kCapacity + k]. Zero in the common-frame form that calibration
+  /// m_ik of `apply`, row-major [i * kCapacity + k]. Zero in the common-frame form that calibration
   /// yields (misalignment is then in the axes of the calibrated array), so that no reading depends on
   /// another channel and an excluded channel cannot leak.
   std::array<double, std::size_t{kCapacity} * kCapacity> misalignment{};
 
-  double scale_at(int i, double temperature_degc) const noexcept;  ///< SF*_i, eq (1)
-  double bias_at(int i, double temperature_degc) const noexcept;   ///< B*_i [m/s^2], eq (2)
+  double scale_at(int i, double temperature_degc) const noexcept;  ///< SF*_i
+  double bias_at(int i, double temperature_degc) const noexcept;   ///< B*_i [m/s^2]
 
   /// Accelerations along the sensor axes in the gravity sense [m/s^2]: eq (3), then the sign of
   /// `reads`. Entries of sensors that are not in `delivered` are 0 and do not enter the cross terms; NaN where SF* is

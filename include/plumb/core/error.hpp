@@ -29,7 +29,7 @@ enum class Errc : std::uint8_t {
   poor_fit,             ///< value = residual, limit = allowed
   not_calibrated,       ///< no accepted calibration
   wrong_key,            ///< reset key does not match
-  not_invertible,       ///< cross-axis matrix of eq (3) is singular
+  not_invertible,       ///< cross-axis matrix of the sensor model is singular
   wrong_mode,           ///< mode "paper" was given to HealthMonitor, or "plumb" to PaperMonitor
   wrong_state,          ///< the state machine does not take this request now: value = state (HealthState)
   not_confirmed,        ///< a station held out of the fit contradicts it: index = station, value = statistic

@@ -16,7 +16,7 @@ struct Sample {
   double time_s = 0.0;                  ///< strictly increasing from sample to sample
   std::array<double, kCapacity> raw{};  ///< channel values in the unit of the sensor model (V, counts, ...)
   SensorSet delivered;                  ///< channels that delivered a value at all
-  double temperature_degc = 0.0;        ///< sensor temperature T_S of eqs (1), (2)
+  double temperature_degc = 0.0;        ///< sensor temperature T_S
   std::uint32_t station = 0;            ///< station tag, 0 = none: plumb finds stations by itself
   std::uint32_t count = 1;              ///< raw samples behind this one (a station mean has many)
 };

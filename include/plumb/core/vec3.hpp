@@ -20,6 +20,7 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
 constexpr Vec3 scaled(const Vec3& a, double s) noexcept { return {a[0] * s, a[1] * s, a[2] * s}; }
 constexpr Vec3 plus(const Vec3& a, const Vec3& b) noexcept { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 constexpr Vec3 minus(const Vec3& a, const Vec3& b) noexcept { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// Length; of the least-squares vector it is the measured gravity of the paper's eq (6).
 inline double norm(const Vec3& a) noexcept { return std::sqrt(dot(a, a)); }
 constexpr double det3(const Vec3& a, const Vec3& b, const Vec3& c) noexcept { return dot(a, cross(b, c)); }
 constexpr Vec3 times(const Mat3& m, const Vec3& v) noexcept {

@@ -1,5 +1,5 @@
-/// The paper's statistic: mean absolute error of the length of gravity from every triple (eqs 13, 14,
-/// 22-29) over a sliding window, exact for ever. Errors are held as integers of 2^-26 g0, so that a sum
+/// The paper's statistic: mean absolute error of the length of gravity from every triple over a
+/// sliding window, exact for ever. Errors are held as integers of 2^-26 g0, so that a sum
 /// updated a billion times equals a fresh sum bit for bit, and a NaN cannot enter it.
 #pragma once
 
@@ -34,7 +34,7 @@ class CombinationMae {
   void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const LeastSquares& in_service,
            double g_mps2) noexcept;
 
-  /// MAE of triple k over the samples present in the window [m/s^2]; 0 where there are none.
+  /// Eqs (26)-(29): MAE of triple k over the samples present in the window [m/s^2]; 0 where there are none.
   double triple_mps2(int k) const noexcept {
     return mean(sum_[static_cast<std::size_t>(k)], count_[static_cast<std::size_t>(k)]);
   }

@@ -34,7 +34,7 @@ struct TestLimits {
 /// All statistics and limits are in standard deviations of the block mean (whitened, times sqrt(N)).
 struct SetTest {
   bool tested = false;  ///< rank 3 and all members usable
-  Vec3 x_mps2{};        ///< weighted least squares over the set (eq 5)
+  Vec3 x_mps2{};        ///< weighted least squares over the set
   Mat3 covariance{};    ///< of x, noise of the block mean [(m/s^2)^2]
   double parity = 0.0;  ///< |parity residual|, |S|-3 degrees of freedom
   double norm = 0.0;    ///< (|x| - G), signed, in its own sigma

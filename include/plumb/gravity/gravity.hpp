@@ -40,7 +40,8 @@ struct NormalGravityInput {
 };
 
 /// Somigliana on WGS84, second-order free air for elevation, Prey (0.3086 - 0.0839 rho mGal/m) through
-/// the layers for depth. Departure from eq (9), which has the wrong sign in the crust (domain note 2).
+/// the layers for depth. Departure from the paper's formula for depth, which has the wrong
+/// sign in the crust: gravity rises down to where the rock above is denser than 3.68 g/cm^3.
 /// Errors: out_of_range with index 0 latitude, 1 elevation, 2 depth, 3 density, 4 thickness, 5 sigma;
 /// not_finite with the same index.
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept;

@@ -16,7 +16,7 @@ enum class MonitorMode : std::uint8_t { plumb, paper };
 struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
   int window = 32;                 ///< samples per block and length of the sliding MAE window, 1 .. kWindowCapacity
-  double delta_f_mps2 = 0.0;       ///< given MAE limit (eq 15); 0 = computed from noise and geometry
+  double delta_f_mps2 = 0.0;       ///< given MAE limit (the paper's); 0 = computed from noise and geometry
   double false_alarm_rate = 1e-5;  ///< per block, each test, 1e-9 .. 1e-2
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
   int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim

@@ -16,7 +16,7 @@ inline namespace PLUMB_ABI {
 /// delta_F of the paper's drilling tests: 0.05 g0.
 inline constexpr double kPaperDeltaF_mps2 = 0.05 * kG0_mps2;
 
-/// Mean absolute error of eq (14) over any number of samples. The sum is kept in units of kMaeUnit_mps2, so that it is
+/// The paper's mean absolute error over any number of samples. The sum is kept in units of kMaeUnit_mps2, so that it is
 /// exact whatever the order, and a NaN counts as the largest error there is.
 struct PaperMae {
   std::int64_t sum = 0;
@@ -36,7 +36,7 @@ struct PaperFits {
   const PaperFit* own(SensorSet in_use) const noexcept;
 };
 
-/// Vector of the sensors in use [m/s^2], eqs (3) and (5): by the fit of exactly these sensors where there is one (three
+/// Vector of the sensors in use [m/s^2], by the fit of exactly these sensors where there is one (three
 /// sensors: that of their triple, step 11); else by the fit of all, least squares over those in use, without the cross
 /// terms of the others: nothing that an excluded sensor says gets in.
 Vec3 paper_vector_in_use(const PaperFits& fits, const std::array<double, kCapacity>& raw, double temperature_degc,
@@ -45,11 +45,11 @@ Vec3 paper_vector_in_use(const PaperFits& fits, const std::array<double, kCapaci
 /// What the paper's rule says of the pooled samples.
 struct PaperFinding {
   bool detected = false;      ///< MAE of the sensors in use >= delta_F, eq (15)
-  double mae_all_mps2 = 0.0;  ///< eq (14) over the sensors in use
+  double mae_all_mps2 = 0.0;  ///< mean over the sensors in use
   int triples = 0;            ///< with a sound fit and all members in use
   int passing = 0;            ///< of them, those with MAE < delta_F
   double worst_mps2 = 0.0;    ///< largest MAE among them
-  /// Eqs (26)-(29), in the order of SensorArray::triple; 0 for a triple that is not in use.
+  /// Mean of each triple by its own fit, in the order of SensorArray::triple; 0 for a triple that is not in use.
   std::array<double, triple_count_of(kPaperCapacity)> mae_triple_mps2{};
   SensorSet correct;   ///< union of the passing triples
   SensorSet isolated;  ///< in use, detected, and in no passing triple; empty where no triple passes

@@ -39,7 +39,7 @@ enum class Cause : std::uint8_t {
   power_on,        ///< trust not yet earned (unproven)
   parity,          ///< parity residual beyond its limit
   norm,            ///< three sensors: length of the vector beyond its limit
-  mae,             ///< a triple's mean absolute error beyond its limit (eqs 26-29)
+  mae,             ///< a triple's mean absolute error beyond its limit
   reference,       ///< parity good, norm off: gravity, common scale, common bias, steady acceleration
   moving,          ///< spread above the noise: evidence suspended
   isolated_fault,  ///< a sensor was excluded or set aside

@@ -59,7 +59,7 @@ struct Verdict {
 
   RecalibrationProgress recalibration;  ///< `wanted_direction` in the output frame
 
-  // Figures of the paper: sliding MAE over the window (eq 14), m/s^2.
+  // Figures of the paper: sliding MAE over the window, m/s^2.
   double mae_all_mps2 = 0.0;    ///< of the sensors in service
   double mae_worst_mps2 = 0.0;  ///< largest over the voting triples in service
   double mae_worst_limit_mps2 = 0.0;

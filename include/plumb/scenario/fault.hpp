@@ -77,8 +77,8 @@ struct FaultMemory {
 
 /// How the faulty channel turns acceleration into raw values, at the temperature of the row.
 struct ChannelLaw {
-  double scale = 1.0;     ///< raw unit per m/s^2, SF* of eq (1)
-  double zero_raw = 0.0;  ///< raw value at zero acceleration, SF* B* of eqs (1), (2)
+  double scale = 1.0;     ///< raw unit per m/s^2, SF* of the sensor model
+  double zero_raw = 0.0;  ///< raw value at zero acceleration, SF* B*
 };
 
 /// Raw value of a channel in fault, from its value without this fault. The fault must be in effect.

@@ -23,7 +23,7 @@ inline constexpr double kPaperScale_VpMps2 = 3.0 / kG0_mps2;  ///< 3 V/g0
 inline constexpr double kPaperFullScale_V = 5.0;              ///< 1.67 g0: +-3 V faults lie inside it
 inline constexpr double kPaperResolution_V = 5.0 / 32768.0;   ///< 16 bits over +-5 V: a quarter of the noise
 
-/// Datasheet of the tool: axes of eq (16), ids a1 .. a4, 3 V/g0, no bias, reading gravity [V].
+/// Datasheet of the tool: axes of `paper_tetrahedron`, ids a1 .. a4, 3 V/g0, no bias, reading gravity [V].
 Datasheet paper_datasheet() noexcept;
 
 /// A tool of that datasheet with bias U(+-0.02 g0), scale U(+-2 %), axes tilted U(+-2 deg) about two axes.

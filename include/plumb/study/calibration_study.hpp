@@ -14,7 +14,7 @@ namespace study {
 
 struct IterationPoint {
   PaperParameters parameter{};  ///< bias [m/s^2], scale [raw per m/s^2], misalignments
-  double cost_g4 = 0.0;         ///< E_g of eq (10) of the method's own vectors [g0^4]
+  double cost_g4 = 0.0;         ///< E_g of the method's own vectors [g0^4]
 };
 
 /// One combination of sensors. Both histories start at the datasheet.
@@ -43,9 +43,9 @@ struct CalibrationStudy {
 
 StudyExpected<CalibrationStudy> calibration_study(const scenario::Tool& tool, std::uint64_t seed);
 
-/// Eq (11) as it is printed, with the plain inverse of the Hessian, over `tools` tools of four sensors: how often the
-/// stop rule is met within 100 iterations. The Hessian is singular, so that what happens hangs on the rounding of the
-/// machine; that it hardly ever ends does not.
+/// The paper's Newton step as it is printed, with the plain inverse of the Hessian, over `tools` tools of four sensors:
+/// how often the stop rule is met within 100 iterations. The Hessian is singular, so that what happens hangs on the
+/// rounding of the machine; that it hardly ever ends does not.
 StudyExpected<Proportion> plain_inverse_ends(std::uint64_t seed, int tools);
 
 }  // namespace study

@@ -1,4 +1,4 @@
-/// A calibration in the paper's parameters: bias, scale factor and misalignments m_ij of eqs (1)-(3), so that fits of
+/// A calibration in the paper's parameters: bias, scale factor and misalignments m_ij, so that fits of
 /// different kinds can be laid side by side.
 #pragma once
 
@@ -26,10 +26,10 @@ CommonFrame frame_of(const Datasheet& datasheet, const std::array<double, kFitPa
 /// gravity cannot tell how the array as a whole sits in its housing.
 CommonFrame frame_of(const scenario::Tool& tool) noexcept;
 
-/// The parameters of eq (3), in the order of `PaperParameters`, that turn the raw values of the sensors `used` into
-/// accelerations along the nominal axes (calibration note 8). Three sensors: the row scale of I - M is taken up by the
-/// scale factors. Four: one set of misalignments does it, and the scale factors and biases stay. Nothing for any other
-/// number, or where the axes have rank < 3.
+/// The parameters of the sensor model, in the order of `PaperParameters`, that turn the raw values of the sensors
+/// `used` into accelerations along the nominal axes (calibration note 8). Three sensors: the row scale of I - M is
+/// taken up by the scale factors. Four: one set of misalignments does it, and the scale factors and biases stay.
+/// Nothing for any other number, or where the axes have rank < 3.
 std::optional<PaperParameters> paper_form(const Datasheet& datasheet, const CommonFrame& frame,
                                           SensorSet used) noexcept;
 

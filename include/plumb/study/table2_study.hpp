@@ -30,7 +30,7 @@ struct Table2Study {
   int same_verdicts() const noexcept;
 };
 
-/// Attitudes and samples of each that are pooled, as the paper's eqs (26)-(29) do; one block of the monitor each.
+/// Attitudes and samples of each that are pooled, as the paper does; one block of the monitor each.
 inline constexpr int kTable2Attitudes = 36;
 inline constexpr int kBlock = 32;
 
