@@ -118,27 +118,6 @@ SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
   return named;
 }
 
-Cause HealthMonitor::cause_of(HealthEvent event) const noexcept {
-  switch (event) {
-    case HealthEvent::reset: return Cause::host_request;
-    case HealthEvent::recalibrate: return recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;
-    case HealthEvent::channel_lost: return Cause::channel_lost;
-    case HealthEvent::channel_back: return Cause::channel_back;
-    case HealthEvent::culprit:
-    case HealthEvent::set_aside: return Cause::isolated_fault;
-    case HealthEvent::patience_over: return Cause::patience;
-    case HealthEvent::contradiction: return Cause::contradiction;
-    case HealthEvent::alarm: return verdict_.cause;  // parity, norm or mae, as the block said
-    case HealthEvent::reference: return Cause::reference;
-    case HealthEvent::fit_accepted:
-    case HealthEvent::fit_rejected: return Cause::calibration;
-    case HealthEvent::probation_passed: return Cause::probation;
-    case HealthEvent::clean_block: return Cause::clean;
-    case HealthEvent::none: return Cause::none;
-  }
-  return Cause::none;
-}
-
 HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const HealthEvent event = first_taken(mode_, raised);
   const bool was_reset = reset_pending_;
@@ -164,14 +143,16 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const bool changed =
       mode_ != from || sets[0] != in_service_ || sets[1] != set_aside_ || sets[2] != excluded_ || sets[3] != absent_;
   if (!changed) return event;
-  if (event != HealthEvent::alarm && event != HealthEvent::clean_block) verdict_.cause = cause_of(event);
+  const Cause asked_by = recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;
+  const Cause cause = event == HealthEvent::recalibrate ? asked_by : cause_of(event, verdict_.cause);
+  if (event != HealthEvent::alarm && event != HealthEvent::clean_block) verdict_.cause = cause;
   TransitionRecord& record = verdict_.transition;
   record.sequence = ++sequence_;
   record.time_s = time_s;
   record.from = state_of(from);
   record.to = state_of(mode_);
   record.event = event;
-  record.cause = cause_of(event);
+  record.cause = cause;
   record.grade = event == HealthEvent::culprit || event == HealthEvent::set_aside ? last_grade_ : Grade::none;
   record.sensors = named;
   record.statistic = verdict_.statistic;

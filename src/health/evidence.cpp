@@ -234,7 +234,7 @@ void HealthMonitor::rescan() noexcept {
   scan_.protection_rad += drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
 }
 
-HealthMonitor::EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
+EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
   using Kind = BlockView::Kind;
   EventMask raised = 0;
   const bool accuses =
@@ -281,7 +281,7 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
   recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 
-HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
+EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
   const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2);

@@ -16,17 +16,11 @@ static_assert(noexcept(std::declval<HealthMonitor&>().step(std::declval<const Sa
 
 namespace {
 
-/// Readings beyond this are held at it: large enough that nothing believes them, small enough that no
-/// square or sum of them overflows.
-constexpr double kReadingClamp_mps2 = 1e5;
 /// Output beyond the calibrated span by more than this is unconfirmed (design, section 4).
 constexpr double kTemperatureMargin_degc = 5.0;
 constexpr double kRestlessRate = 1e-6;
 /// Beyond this ratio of the sigmas the precise sensors alone would decide and the normal matrix loses its digits.
 constexpr double kMaxSigmaRatio = 300.0;
-/// So many refused samples that increase among themselves are a new time base, not a glitch.
-constexpr int kNewTimeBase = 16;
-
 /// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.
 int faults_to_cover(int n, double prior, double risk) noexcept {
   double term = std::pow(1.0 - prior, n);
@@ -97,13 +91,14 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   set_aside_ = excluded_ = absent_ = readmitted_ = banned_ = SensorSet{};
   unproven_ = true;
   partial_ = false;
-  silent_blocks_.fill(0);
+  silence_.clear();
+  clock_.clear();
   block_usable_ = SensorSet{};
   pending_ = 0;
-  refused_run_ = unbounded_run_ = 0;
+  unbounded_run_ = 0;
   drift_rad_ = 0.0;
-  exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_time_ = have_predictions_ = reset_pending_ = false;
-  last_time_s_ = evidence_time_s_ = 0.0;
+  exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
+  evidence_time_s_ = 0.0;
   sequence_ = 0;
   clean_run_ = 0;
   probation_.clear();
@@ -158,64 +153,28 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   return {};
 }
 
-bool HealthMonitor::admit(const Sample& sample, bool& gap) noexcept {
-  gap = false;
-  if (!std::isfinite(sample.time_s)) return false;
-  if (have_time_ && !(sample.time_s > last_time_s_)) {
-    const bool goes_on = refused_run_ > 0 && sample.time_s > last_refused_s_;
-    refused_run_ = goes_on ? refused_run_ + 1 : 1;
-    last_refused_s_ = sample.time_s;
-    if (refused_run_ < kNewTimeBase) return false;
-    have_evidence_ = false;  // its age cannot be told any more
-    gap = true;
-  } else if (have_time_) {
-    gap = sample.time_s - last_time_s_ > config_.max_gap_s;
-  }
-  refused_run_ = 0;
-  have_time_ = true;
-  last_time_s_ = sample.time_s;
-  return true;
-}
-
-Readings HealthMonitor::readings_of(const Sample& sample, GateResult& gate) const noexcept {
-  const bool known = std::isfinite(sample.temperature_degc);
-  Readings y = model_.apply(sample.raw, known ? sample.temperature_degc : last_temperature_degc_, gate.usable);
-  for (int i = 0; i < array_.size(); ++i) {
-    double& v = y[static_cast<size_t>(i)];
-    if (!std::isfinite(v)) {
-      gate.usable = gate.usable.without(i);
-      gate.not_finite = gate.not_finite.with(i);
-      v = 0.0;
-    } else if (v > kReadingClamp_mps2) {
-      v = kReadingClamp_mps2;
-    } else if (v < -kReadingClamp_mps2) {
-      v = -kReadingClamp_mps2;
-    }
-  }
-  return y;
-}
-
 const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.transition = TransitionRecord{};
   verdict_.tick = false;
   verdict_.accepted = false;
   if (!configured_) return verdict_;
   verdict_.time_s = sample.time_s;
-  bool gap = false;
-  if (!admit(sample, gap)) {
+  const Arrival arrival = clock_.admit(sample.time_s, config_.max_gap_s);
+  if (arrival == Arrival::refused) {
     // The sample is refused and the windows stay as they are; what was valid is now only held.
     verdict_.cause = Cause::time_fault;
     if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
     verdict_.alert = true;
     if (reset_pending_) {  // the host's key is served whatever the clock does
-      decide(bit(HealthEvent::reset), last_time_s_);
+      decide(bit(HealthEvent::reset), clock_.last_s());
       publish(sample, false);
       verdict_.cause = Cause::time_fault;
     }
     return verdict_;
   }
+  if (arrival == Arrival::new_time_base) have_evidence_ = false;  // its age cannot be told any more
   GateResult gate = gate_.gate(sample);
-  if (gap || gate.gap) {
+  if (arrival != Arrival::in_order || gate.gap) {
     verdict_.cause = Cause::gap;
     block_.clear();
     raw_.clear();
@@ -225,7 +184,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   bool ticked = false;
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
   if (!gate.gap) {
-    const Readings y = readings_of(sample, gate);
+    const Readings y = readings_of(model_, sample, last_temperature_degc_, gate);
     clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
     not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
     const double t = sample.temperature_degc;
@@ -242,7 +201,8 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     ticked = block_.size() >= config_.window;
     if (ticked) {
       raised |= tick(sample);
-      note_silent_channels();
+      const SensorSet silent = silence_.note(block_usable_, array_.size(), config_.missing_confirm);
+      if (!silent.empty()) gate_.condemn(silent - absent_);
     }
     if (!((gate_.lost() & array_.all()) - absent_).empty()) raised |= bit(HealthEvent::channel_lost);
     if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
@@ -258,20 +218,9 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   return verdict_;
 }
 
-void HealthMonitor::note_silent_channels() noexcept {
-  SensorSet silent;
-  for (int i = 0; i < array_.size(); ++i) {
-    int& run = silent_blocks_[static_cast<size_t>(i)];
-    run = block_usable_.has(i) ? 0 : run + (run < config_.missing_confirm ? 1 : 0);
-    if (run >= config_.missing_confirm) silent = silent.with(i);
-  }
-  // Channels that deliver less than half of their samples, or values that no model makes finite.
-  if (!silent.empty() && silent != array_.all()) gate_.condemn(silent - absent_);
-}
-
 Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
-  if (moving_ || last_time_s_ - evidence_time_s_ > config_.max_age_s) return Validity::held;
+  if (moving_ || clock_.last_s() - evidence_time_s_ > config_.max_age_s) return Validity::held;
   const Mode mode = published_mode();
   if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
   if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
@@ -284,18 +233,7 @@ void HealthMonitor::publish_vector() noexcept {
   if (!t.tested) return;
   Mat3 covariance = calibration_covariance(array_, t, used);
   for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
-  Mat3 half{};  // F C F'
-  for (size_t r = 0; r < 3; ++r) {
-    for (size_t c = 0; c < 3; ++c) {
-      for (size_t k = 0; k < 3; ++k) half[3 * r + c] += frame_[3 * r + k] * covariance[3 * k + c];
-    }
-  }
-  verdict_.covariance = Mat3{};
-  for (size_t r = 0; r < 3; ++r) {
-    for (size_t c = 0; c < 3; ++c) {
-      for (size_t k = 0; k < 3; ++k) verdict_.covariance[3 * r + c] += half[3 * r + k] * frame_[3 * c + k];
-    }
-  }
+  verdict_.covariance = turned_covariance(frame_, covariance);
   verdict_.gravity_mps2 = times(frame_, t.x_mps2);
   verdict_.norm_error_mps2 = t.norm_error_mps2;
 }
@@ -331,7 +269,7 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
                      (mode_ == Mode::recalibrating && v.recalibration.stations_wanted > 0);
   v.mae_all_mps2 = mae_.all_mps2();
   v.validity = validity();
-  v.age_s = have_evidence_ ? last_time_s_ - evidence_time_s_ : 0.0;
+  v.age_s = have_evidence_ ? clock_.last_s() - evidence_time_s_ : 0.0;
   v.protection_available = scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
                            published_mode() != Mode::degraded;
   v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;

@@ -29,11 +29,11 @@ Expected<void> HealthMonitor::request_recalibration() noexcept {
 
 /// The condition for which the host asked is no news while the fit that may end it is being made; all else aborts it.
 bool HealthMonitor::expected(HealthEvent event) const noexcept {
-  return mode_ == Mode::recalibrating && base_ == Mode::suspect && suspicion_ == cause_of(event) &&
+  return mode_ == Mode::recalibrating && base_ == Mode::suspect && suspicion_ == cause_of(event, verdict_.cause) &&
          (event == HealthEvent::reference || event == HealthEvent::contradiction);
 }
 
-HealthMonitor::EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
+EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
   EventMask raised = 0;
   if (mode_ == Mode::recalibrating) {
     switch (recalibration_.step({model_, array_, gravity_, limits_}, time_s)) {
@@ -65,7 +65,7 @@ SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
 
 /// What was seen through the old coefficients says nothing about the new ones.
 void HealthMonitor::adopt() noexcept {
-  recalibration_.apply(model_, array_, gravity_, last_time_s_);
+  recalibration_.apply(model_, array_, gravity_, clock_.last_s());
   three_sensor_fit_ = size_class_ == SizeClass::critical;
   forget_episode();
   block_.clear();
@@ -88,7 +88,7 @@ void HealthMonitor::follow_suspicion(HealthEvent event, Mode from) noexcept {
     case HealthEvent::reference:
     case HealthEvent::set_aside:
     case HealthEvent::channel_lost:
-    case HealthEvent::fit_accepted: suspicion_ = cause_of(event); break;
+    case HealthEvent::fit_accepted: suspicion_ = cause_of(event, verdict_.cause); break;
     case HealthEvent::culprit:
       suspicion_ = Cause::none;
       recalibration_due_ = config_.recalibrate_after_exclusion;

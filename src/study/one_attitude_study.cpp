@@ -91,9 +91,12 @@ bool enter(const Block& block, const Finding& said, Estimate estimate, RuleRecor
 }
 
 Finding ask_paper(const Fits& fits, const std::vector<Sample>& samples) {
-  PaperRule rule(fits.nominal, *fits.paper, study_gravity().g_mps2, kPaperDeltaF_mps2);
-  for (const Sample& s : samples) rule.add(s.raw, s.temperature_degc, fits.nominal.all());
-  const PaperFinding finding = rule.finding(fits.nominal.all());
+  const PaperFit no_rest;
+  const PaperFits read_by{fits.nominal, *fits.paper, no_rest};
+  PaperRule rule;
+  for (const Sample& s : samples)
+    rule.add(read_by, study_gravity().g_mps2, s.raw, s.temperature_degc, fits.nominal.all());
+  const PaperFinding finding = rule.finding(read_by, kPaperDeltaF_mps2, fits.nominal.all());
   return {finding.detected, finding.isolated};
 }
 

@@ -70,10 +70,12 @@ StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& 
   const std::uint64_t levels = scenario::derive_seed(seed, static_cast<std::uint64_t>(Part::faults));
   auto monitor = std::make_unique<HealthMonitor>();
   Table2Study out;
+  const PaperFit no_rest;
+  const PaperFits read_by{fits.nominal, *fits.paper, no_rest};
   for (std::size_t e = 0; e < kTable2.size(); ++e) {
     const Table2Row& printed = kTable2[e];
     Table2Result& result = out.result[e];
-    PaperRule rule(fits.nominal, *fits.paper, study_gravity().g_mps2, kPaperDeltaF_mps2);
+    PaperRule rule;
     *monitor = *proven->monitor;
     for (std::size_t a = 0; a < healthy->attitude.size(); ++a) {
       const std::uint64_t draw = scenario::derive_seed(levels, a * kTable2.size() + e);
@@ -81,7 +83,7 @@ StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& 
           with_fault(tool, printed, law, draw, proven->continued(healthy->attitude[a], static_cast<int>(a)));
       if (!samples) return tl::unexpected<std::string>(samples.error());
       for (const Sample& sample : *samples) {
-        rule.add(sample.raw, sample.temperature_degc, fits.nominal.all());
+        rule.add(read_by, study_gravity().g_mps2, sample.raw, sample.temperature_degc, fits.nominal.all());
         result.ever_named = result.ever_named | named(monitor->step(sample));
       }
       const Verdict& verdict = monitor->verdict();
@@ -89,7 +91,7 @@ StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& 
       const bool faulty_in_use = !(printed.faulty & verdict.in_service).empty();
       if (faulty_in_use && verdict.validity == Validity::valid) ++result.silent;
     }
-    result.finding = rule.finding(fits.nominal.all());
+    result.finding = rule.finding(read_by, kPaperDeltaF_mps2, fits.nominal.all());
     result.same_verdict = result.finding.detected == printed.detected && result.finding.isolated == printed.isolated;
     result.state = monitor->verdict().state;
     result.excluded = named(monitor->verdict());

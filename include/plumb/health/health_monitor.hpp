@@ -12,6 +12,7 @@
 #include "plumb/detection/isolation.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/health/episode.hpp"
+#include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/transition_table.hpp"
@@ -70,16 +71,10 @@ class HealthMonitor {
   Mode mode() const noexcept { return mode_; }
 
  private:
-  using EventMask = std::uint32_t;
-  static constexpr EventMask bit(HealthEvent e) noexcept { return EventMask{1} << static_cast<unsigned>(e); }
-
   struct BlockView;  // what one quiet block said
 
   // health_monitor.cpp: the flow of one step
-  bool admit(const Sample& sample, bool& gap) noexcept;
-  Readings readings_of(const Sample& sample, GateResult& gate) const noexcept;
   void publish(const Sample& sample, bool tick) noexcept;
-  void note_silent_channels() noexcept;
   Validity validity() const noexcept;
   void publish_vector() noexcept;
 
@@ -115,7 +110,6 @@ class HealthMonitor {
   void forget_episode() noexcept;
   void sets_changed() noexcept;
   SizeClass classify() const noexcept;
-  Cause cause_of(HealthEvent event) const noexcept;
 
   // What was configured.
   MonitorConfig config_;
@@ -139,12 +133,11 @@ class HealthMonitor {
   SensorSet readmitted_, banned_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
   bool partial_ = false;  ///< a sensor in service was silent in the last block: nobody vouches for it
-  bool have_evidence_ = false, have_time_ = false;
-  double last_time_s_ = 0.0, evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
-  double last_refused_s_ = 0.0;
-  int refused_run_ = 0;
+  bool have_evidence_ = false;
+  double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
+  SampleClock clock_;
+  SilenceCounter silence_;
   EventMask pending_ = 0;  ///< block events that a channel event pushed back
-  std::array<int, kCapacity> silent_blocks_{};
   SensorSet block_usable_;
   double drift_rad_ = 0.0;  ///< turn since the block before, at one station
   int unbounded_run_ = 0;   ///< blocks in a row whose protection level was beyond the alert limit
