@@ -40,6 +40,41 @@ TEST(Recalibrating, WhoMayAskAndWhen) {
   EXPECT_EQ(lost.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
 }
 
+TEST(Recalibrating, RefusedWhileAnAlarmIsOnRecordOrASensorSetAside) {
+  Tool spike(4);
+  spike.rig.prove();
+  spike.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  spike.rig.stay(direction_at(45, 200));
+  spike.fault = [](int, double r, int) { return r; };
+  for (int k = 0; k < 20 && spike.state() != HealthState::nominal; ++k) spike.rig.stay(direction_at(45, 200));
+  ASSERT_EQ(spike.state(), HealthState::nominal);
+  EXPECT_EQ(spike.rig.monitor.request_recalibration().error().code, Errc::wrong_state) << "the episode is open";
+  spike.visit(8);
+  EXPECT_TRUE(spike.rig.monitor.request_recalibration().has_value()) << "clean at several attitudes: it is over";
+  Tool aside(7);
+  aside.rig.prove();
+  aside.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  aside.rig.stay(direction_at(45, 200), 5);
+  ASSERT_EQ(aside.state(), HealthState::isolated);
+  ASSERT_EQ(aside.rig.monitor.verdict().set_aside, SensorSet::of(2));
+  EXPECT_EQ(aside.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
+}
+
+TEST(Recalibrating, ThreeSensorsUnderSuspicionMayNotClearThemselves) {
+  MonitorConfig config;
+  config.asserted_faults = 1;
+  Tool tool(4, config);
+  tool.rig.prove();
+  tool.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  tool.visit(8);
+  ASSERT_EQ(tool.state(), HealthState::degraded_3_sensor);
+  tool.fault = [](int, double r, int) { return 1.02 * r; };  // a second fault refutes the claim of one
+  tool.rig.stay(direction_at(45, 200));
+  ASSERT_EQ(tool.state(), HealthState::suspect);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::contradiction);
+  EXPECT_EQ(tool.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
+}
+
 TEST(Recalibrating, ARequestDoesNotOutliveTheStateThatTookIt) {
   Tool tool(4);
   tool.rig.prove();
@@ -105,7 +140,10 @@ TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
   tool.visit(30, kG0_mps2 * 1.003);
   EXPECT_EQ(tool.count(HealthEvent::fit_accepted), 0);
   EXPECT_EQ(tool.count(HealthEvent::fit_rejected), 1);
-  EXPECT_EQ(tool.state(), HealthState::suspect) << "back to where it came from";
+  const auto rejected = std::find_if(tool.rig.records.begin(), tool.rig.records.end(),
+                                     [](const TransitionRecord& r) { return r.event == HealthEvent::fit_rejected; });
+  ASSERT_NE(rejected, tool.rig.records.end());
+  EXPECT_EQ(rejected->to, HealthState::suspect) << "back to where it came from";
   EXPECT_TRUE(tool.calibration_untouched());
 }
 

@@ -44,6 +44,17 @@ TEST(Recalibrating, AfterAnExclusionTheSurvivorsAreCalibratedAnew) {
   }
 }
 
+TEST(Recalibrating, TheSurvivorsMustBeTrustedFirst) {
+  MonitorConfig config = after_exclusion();
+  config.asserted_faults = 1;
+  Tool tool(6, config);
+  tool.rig.prove();
+  tool.fault = [](int i, double r, int) { return i == 4 ? r + 0.4 : r; };
+  ASSERT_EQ(tool.rig.stay(direction_at(40, 300)).state, HealthState::isolated) << "excluded at once";
+  EXPECT_EQ(tool.rig.stay(direction_at(40, 300), config.clean_blocks - 1).state, HealthState::isolated);
+  EXPECT_EQ(tool.rig.stay(direction_at(40, 300), 2).state, HealthState::recalibrating);
+}
+
 TEST(Recalibrating, ByDefaultNobodyRecalibratesUnasked) {
   Tool tool(6);
   tool.drift(2e-3);
