@@ -57,7 +57,8 @@ const char* remedy(Errc code) noexcept {
     case Errc::not_invertible: return "correct the misalignment terms: two sensors are given the same axis";
     case Errc::wrong_mode: return "use PaperMonitor for mode \"paper\", HealthMonitor for mode \"plumb\"";
     case Errc::wrong_state: return "ask again when the monitor has settled, no alarm on record";
-    case Errc::not_confirmed: return "look for a sensor that changed while the stations were collected, then collect anew";
+    case Errc::not_confirmed:
+      return "look for a sensor that changed while the stations were collected, then collect anew";
   }
   return "report this code as a defect of plumb";
 }

@@ -153,6 +153,13 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   return {};
 }
 
+void HealthMonitor::empty_windows() noexcept {
+  block_.clear();
+  raw_.clear();
+  mae_.clear();
+  station_.clear();
+}
+
 const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.transition = TransitionRecord{};
   verdict_.tick = false;
@@ -176,10 +183,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   GateResult gate = gate_.gate(sample);
   if (arrival != Arrival::in_order || gate.gap) {
     verdict_.cause = Cause::gap;
-    block_.clear();
-    raw_.clear();
-    mae_.clear();
-    station_.clear();
+    empty_windows();
   }
   bool ticked = false;
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;

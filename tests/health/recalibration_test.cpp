@@ -57,12 +57,30 @@ TEST(Recalibration, AShiftedMountIsRefusedNotLaundered) {
 TEST(Recalibration, AHeldOutStationThatDisagreesRefuses) {
   Shadow s(6, 3);
   s.start();
-  s.bend = [](int entry, int i, double r) { return StationStore::held_out(entry) && i == 2 ? r + 0.05 : r; };
+  // Turn and turn about: nothing of it reaches the vector of a cone, only parity sees it.
+  s.bend = [](int entry, int i, double r) {
+    return StationStore::held_out(entry) ? r + (i % 2 == 0 ? 0.05 : -0.05) : r;
+  };
   EXPECT_EQ(s.roam(24), Outcome::rejected);
   const Error refusal = s.fit->progress(s.array).last_refusal;
   EXPECT_EQ(refusal.code, Errc::not_confirmed);
   EXPECT_TRUE(StationStore::held_out(refusal.index));
   EXPECT_GT(refusal.value, refusal.limit);
+  EXPECT_EQ(s.step(0.0), Outcome::rejected) << "a level, until the next start";
+  s.start();
+  EXPECT_EQ(s.step(0.0), Outcome::none);
+}
+
+/// Residuals that no single station would be blamed for, but all together.
+TEST(Recalibration, TheResidualsTogetherMustBeExplained) {
+  Shadow s(6, 13);
+  s.start();
+  s.bend = [](int entry, int i, double r) { return r + (i % 2 == entry / 2 % 2 ? 2.2e-3 : -2.2e-3); };
+  EXPECT_EQ(s.roam(24), Outcome::rejected);
+  const Error refusal = s.fit->progress(s.array).last_refusal;
+  EXPECT_EQ(refusal.code, Errc::poor_fit);
+  EXPECT_EQ(refusal.index, -1);
+  EXPECT_LT(refusal.value, refusal.limit) << "a probability";
 }
 
 TEST(Recalibration, AHeldOutStationIsJudgedByTheNormToo) {
@@ -162,6 +180,11 @@ TEST(Recalibration, AStepIsAtMostOneIteration) {
   s.start();
   for (int k = 0; k < 14; ++k) s.offer(plumb_test::random_direction(s.noise));
   std::uint32_t before = 0;
+  s.step(0.0);
+  ASSERT_EQ(s.fit->progress(s.array).phase, RecalibrationPhase::fitting);
+  const std::uint32_t entries = s.fit->store().entries();
+  for (int k = 0; k < 4; ++k) s.offer(plumb_test::random_direction(s.noise));
+  EXPECT_EQ(s.fit->store().entries(), entries) << "a fit is made from one set of stations";
   Outcome outcome = Outcome::none;
   int steps = 0;
   for (; steps < 60 && outcome == Outcome::none; ++steps) {
