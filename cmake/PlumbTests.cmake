@@ -41,7 +41,7 @@ plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} LIBR
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
-    ROOMS scenario study io report cli recordings
+    ROOMS scenario study io report cli recordings docs
     LIBRARIES plumb_report plumb_io plumb_study plumb_scenario plumb_24)
   if(TARGET plumb_host_tests AND TARGET plumb_tool)
     add_dependencies(plumb_host_tests plumb_tool)
