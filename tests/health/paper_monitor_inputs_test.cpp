@@ -149,6 +149,13 @@ TEST(PaperMonitor, AnotherGravityIsTheNewMeasure) {
   EXPECT_FALSE(rig.monitor->set_gravity({kNan, 1e-4, GravityModel::value}).has_value());
   ASSERT_TRUE(rig.monitor->set_gravity({kG0_mps2, 1e-4, GravityModel::value}).has_value());
   EXPECT_EQ(rig.tour(4).state, HealthState::nominal);
+  rig.stick(2, 0.0);
+  rig.tour(3);
+  ASSERT_EQ(rig.monitor->verdict().state, HealthState::suspect);
+  ASSERT_TRUE(rig.monitor->set_gravity({1.0001 * kG0_mps2, 1e-4, GravityModel::value}).has_value());
+  rig.tour(3);
+  EXPECT_TRUE(rig.ever_excluded.empty()) << "errors against two gravities are not pooled";
+  EXPECT_EQ(rig.tour(1).excluded, SensorSet::of(2));
 }
 
 TEST(PaperMonitor, AGivenDeltaFIsTheLimit) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "health/paper_rig.hpp"
@@ -83,6 +84,7 @@ TEST(PaperMonitor, OneAttitudeIsThePapersLeast) {
   EXPECT_EQ(v.transition.event, HealthEvent::culprit);
   EXPECT_EQ(v.transition.from, HealthState::nominal);
   EXPECT_EQ(v.excluded, SensorSet::of(0));
+  EXPECT_LT(std::fabs(v.norm_error_mps2), 2e-3 * kG0_mps2) << "the vector is already without it";
 }
 
 TEST(PaperMonitor, Steps4To8OneFaultOfFourLeavesThree) {
