@@ -55,8 +55,25 @@ TEST(PaperMonitor, AChannelThatDropsMostOfItsSamplesIsLost) {
   rig.prove();
   int count = 0;
   rig.distort = [&count](int i, double r) { return i == 3 && ++count % 3 != 0 ? kNan : r; };
-  rig.tour(4);
+  EXPECT_EQ(rig.tour(1).validity, Validity::held) << "a block with a third of the samples is no evidence";
+  rig.tour(3);
   EXPECT_EQ(rig.monitor->verdict().absent, SensorSet::of(3));
+}
+
+TEST(PaperMonitor, AnAlarmIsNotLostBehindALostChannel) {
+  PaperRig rig(5);
+  rig.prove();
+  rig.stick(3, 3.0 * kG0_mps2);
+  for (int k = 0; k < 32; ++k) {
+    Sample s = rig.sample(direction_at(40, 200));
+    if (k >= 29) s.raw[0] = kNan;  // confirmed with the last sample of the block
+    rig.step(s);
+  }
+  EXPECT_EQ(rig.monitor->verdict().transition.event, HealthEvent::channel_lost);
+  EXPECT_EQ(rig.monitor->verdict().state, HealthState::isolated);
+  rig.step(rig.sample(direction_at(40, 200)));
+  EXPECT_EQ(rig.monitor->verdict().transition.event, HealthEvent::alarm);
+  EXPECT_EQ(rig.monitor->verdict().state, HealthState::suspect);
 }
 
 TEST(PaperMonitor, AHugeValueIsAFaultLikeAnyOther) {

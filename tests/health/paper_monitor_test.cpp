@@ -171,12 +171,14 @@ TEST(PaperMonitor, AnAlarmEndsARecalibration) {
   PaperRig rig(6);
   rig.prove();
   rig.stick(5, 0.3 * kG0_mps2);
-  rig.tour(7);
+  rig.tour(8);
   ASSERT_EQ(rig.monitor->verdict().state, HealthState::recalibrating);
-  rig.stick(4, 0.0);
+  rig.stick(4, 3.0 * kG0_mps2);
   rig.tour(1);
   EXPECT_EQ(rig.monitor->verdict().state, HealthState::suspect);
-  rig.tour(3);
+  rig.tour(2);
+  EXPECT_EQ(rig.monitor->verdict().excluded, SensorSet::of(5));
+  rig.tour(1);
   EXPECT_EQ(rig.monitor->verdict().excluded, SensorSet::of(4).with(5)) << "the pool holds its own attitudes alone";
   EXPECT_FALSE(rig.monitor->rest().sound());
 }
@@ -232,7 +234,23 @@ TEST(PaperMonitor, ThreeSensorsThatFailTheGateHaveNobodyToBlame) {
   rig.tour(4);
   EXPECT_EQ(rig.monitor->verdict().state, HealthState::suspect);
   EXPECT_TRUE(rig.ever_excluded.empty());
+  EXPECT_EQ(rig.monitor->finding().triples, 0) << "there is no other group to ask";
+  EXPECT_FALSE(rig.monitor->verdict().wants_rotation);
   EXPECT_EQ(rig.tour(8).state, HealthState::failed);
+}
+
+TEST(PaperMonitor, WhereASensorIsCriticalTheAlarmComesBeforeTheCulprit) {
+  AxisList axes{};
+  axes[0] = {1.0, 0.0, 0.0};
+  axes[1] = {0.0, 1.0, 0.0};
+  axes[2] = {0.6, 0.8, 0.0};
+  axes[3] = {0.8, -0.6, 0.0};
+  axes[4] = {0.0, 0.0, 1.0};
+  PaperRig rig(calibration_test::datasheet_of(axes, 5, paper_test::kSigma_mps2), 1, 1);
+  EXPECT_EQ(rig.prove().state, HealthState::degraded_3_sensor) << "nobody replaces the one along z";
+  rig.stick(0, kG0_mps2);
+  EXPECT_EQ(rig.stay(direction_at(60, 50)).state, HealthState::suspect);
+  EXPECT_EQ(rig.stay(direction_at(60, 50)).excluded, SensorSet::of(0));
 }
 
 TEST(PaperMonitorLimit, AtOneAttitudeAHealthySensorIsBlamedForTwoThatAgree) {
@@ -249,7 +267,7 @@ TEST(PaperMonitorLimit, AtOneAttitudeAHealthySensorIsBlamedForTwoThatAgree) {
 }
 
 TEST(PaperMonitor, ASuspicionEndsOnlyWhenThePoolIsBelowTheLimitToo) {
-  PaperRig rig(4, 20);
+  PaperRig rig(4);
   rig.prove();
   rig.distort = [](int i, double r) { return i == 3 ? r + 0.5 * kG0_mps2 : r; };
   const double first = rig.stay(direction_at(20, 0)).mae_all_mps2;
@@ -262,6 +280,33 @@ TEST(PaperMonitor, ASuspicionEndsOnlyWhenThePoolIsBelowTheLimitToo) {
     EXPECT_EQ(rig.stay(direction_at(20, 0)).state, k < diluted + 2 ? HealthState::suspect : HealthState::nominal) << k;
   }
   EXPECT_TRUE(rig.ever_excluded.empty());
+  EXPECT_EQ(rig.monitor->verdict().stations_on_record, 1);
+  EXPECT_EQ(rig.tour(3).stations_on_record, 0) << "three clean attitudes, and the episode is forgotten";
+}
+
+TEST(PaperMonitor, APoolBeginsAnewWithEverySuspicion) {
+  PaperRig rig(4);
+  rig.prove();
+  rig.distort = [](int i, double r) { return i == 3 ? r + 0.5 * kG0_mps2 : r; };
+  rig.stay(direction_at(20, 0));
+  rig.distort = [](int, double r) { return r; };
+  rig.stay(direction_at(20, 0), 20);
+  ASSERT_EQ(rig.monitor->verdict().state, HealthState::nominal);
+  rig.stick(0, -kG0_mps2);
+  for (const double toolface_deg : {0.0, 60.0, 120.0}) rig.stay(direction_at(70, toolface_deg));
+  EXPECT_TRUE(rig.ever_excluded.empty()) << "the attitude of the old suspicion does not count";
+  EXPECT_EQ(rig.stay(direction_at(70, 180)).excluded, SensorSet::of(0));
+}
+
+TEST(PaperMonitor, ASensorThatShakesDoesNotFeignAttitudes) {
+  PaperRig rig(4);
+  rig.prove();
+  calibration_test::Noise noise(9);
+  rig.distort = [&noise](int i, double r) { return i == 2 ? noise.within(1.4 * kG0_mps2) : r; };
+  rig.stay(direction_at(50, 120), 60);
+  EXPECT_EQ(rig.monitor->verdict().state, HealthState::suspect);
+  EXPECT_EQ(rig.monitor->verdict().restless, SensorSet::of(2));
+  EXPECT_EQ(rig.monitor->finding().triples, 0) << "sixty blocks at one attitude";
 }
 
 }  // namespace
