@@ -149,7 +149,6 @@ void PaperMonitor::collect(const Sample& sample, GateResult& gate) noexcept {
   kept = Kept{};
   kept.temperature_degc = last_temperature_degc_;
   for (int i = 0; i < array_.size(); ++i) {
-    if (!in_service_.has(i)) continue;  // what the others say is not even kept
     const auto a = static_cast<size_t>(i);
     const double reach = kReadingClamp_mps2 * std::fabs(model_.scale_at(i, last_temperature_degc_));
     kept.raw[a] = std::fmin(std::fmax(sample.raw[a], -reach), reach);

@@ -60,7 +60,6 @@ SensorSet PaperMonitor::act(Action::Bits actions) noexcept {
     excluded_ = excluded_ - named;
     absent_ = absent_ - named;
     in_service_ = in_service_ | named;
-    refused_ = SensorSet{};
     forget_episode();
   }
   if ((actions & Action::start_fit) != 0) restart_pool();  // the store is for the stations of the fit now

@@ -20,21 +20,6 @@ static_assert(kFirstTry >= kPaperRank);
 /// Clean blocks must come from so many attitudes before a suspicion without an alarm ends.
 constexpr int kProvingAttitudes = 2;
 
-/// Whether every fitted sensor lies as near to its datasheet as an initial fit would have to.
-bool plausible(const PaperFit& fit, const Datasheet& datasheet) noexcept {
-  const FitOptions bounds;
-  for (int i = 0; i < datasheet.size; ++i) {
-    if (!fit.used.has(i)) continue;
-    const auto a = static_cast<size_t>(i);
-    const DatasheetSensor& sheet = datasheet.sensor[a];
-    const double scale = fit.model.sensor[a].scale[0] / sheet.coefficients.scale[0];
-    const double bias_mps2 = fit.model.sensor[a].bias[0] - sheet.coefficients.bias[0];
-    if (!(scale > 0.0) || !(std::fmax(scale, 1.0 / scale) - 1.0 <= bounds.max_scale_change)) return false;
-    if (!(std::fabs(bias_mps2) <= bounds.max_bias_sigmas * sheet.prior.bias_mps2)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 /// False where too few samples were complete, or no finite vector came of them: no evidence.
@@ -158,11 +143,9 @@ void PaperMonitor::count_clean(bool clean, bool over) noexcept {
 }
 
 bool PaperMonitor::fit_rest() noexcept {
-  const Expected<void> fitted = paper_calibrate(datasheet_, gravity_, stations_.data(), attitudes_.size(), in_service_,
-                                                PaperOptions{}, candidate_);
-  if (!fitted || !candidate_.sound() || !plausible(candidate_, datasheet_)) return false;
-  // e_g of eq (7) is 2 G times the error of the length: the root of E_g says what eq (15) would.
-  return std::sqrt(candidate_.cost) / (2.0 * gravity_.g_mps2) < delta_f_mps2_;
+  return paper_calibrate(datasheet_, gravity_, stations_.data(), attitudes_.size(), in_service_, PaperOptions{},
+                         candidate_) &&
+         may_replace(candidate_, datasheet_, gravity_.g_mps2, delta_f_mps2_);
 }
 
 /// Step 10: whether it is due, and its stations.

@@ -34,6 +34,22 @@ Vec3 paper_vector_in_use(const PaperFits& fits, const std::array<double, kCapaci
   return paper_vector(fits.nominal, fit, raw, temperature_degc, in_use);
 }
 
+bool may_replace(const PaperFit& fit, const Datasheet& datasheet, double g_mps2, double delta_f_mps2) noexcept {
+  const FitOptions bounds;
+  if (!fit.sound()) return false;
+  for (int i = 0; i < datasheet.size; ++i) {
+    if (!fit.used.has(i)) continue;
+    const auto a = static_cast<size_t>(i);
+    const DatasheetSensor& sheet = datasheet.sensor[a];
+    const double scale = fit.model.sensor[a].scale[0] / sheet.coefficients.scale[0];
+    const double bias_mps2 = fit.model.sensor[a].bias[0] - sheet.coefficients.bias[0];
+    if (!(scale > 0.0) || !(std::fmax(scale, 1.0 / scale) - 1.0 <= bounds.max_scale_change)) return false;
+    if (!(std::fabs(bias_mps2) <= bounds.max_bias_sigmas * sheet.prior.bias_mps2)) return false;
+  }
+  // e_g of eq (7) is 2 G times the error of the length: the root of E_g says what eq (15) would.
+  return std::sqrt(fit.cost) / (2.0 * g_mps2) < delta_f_mps2;
+}
+
 void PaperRule::add(const PaperFits& fits, double g_mps2, const std::array<double, kCapacity>& raw,
                     double temperature_degc, SensorSet in_use) noexcept {
   all_.add(norm(paper_vector_in_use(fits, raw, temperature_degc, in_use)) - g_mps2);

@@ -32,9 +32,11 @@ class PaperRig {
   using Distort = std::function<double(int sensor, double reading_mps2)>;
 
   explicit PaperRig(int n, int isolation_stations = 4, std::uint64_t seed = 1)
+      : PaperRig(sheet_of(n), isolation_stations, seed) {}
+  PaperRig(const plumb::Datasheet& datasheet, int isolation_stations, std::uint64_t seed)
       : setup(std::make_unique<plumb::PaperSetup>()),
         monitor(std::make_unique<plumb::PaperMonitor>()),
-        sheet(sheet_of(n)),
+        sheet(datasheet),
         noise_(seed) {
     distort = [](int, double reading) { return reading; };
     truth_ = calibration_test::draw_truth(sheet, noise_);

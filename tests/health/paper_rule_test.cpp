@@ -157,6 +157,36 @@ TEST(PaperRule, NothingThatAnExcludedSensorSaysGetsIn) {
   }
 }
 
+TEST(PaperRule, AFitInFlightTakesOverOnlyWithinItsBounds) {
+  const Bench bench(tool_of(4));
+  const PaperFit good = bench.calibration->all;
+  const auto takes_over = [&bench](const PaperFit& fit) {
+    return may_replace(fit, bench.sheet, kG, kPaperDeltaF_mps2);
+  };
+  EXPECT_TRUE(takes_over(good));
+  PaperFit fit = good;
+  fit.rank = 8;
+  EXPECT_FALSE(takes_over(fit));
+  fit = good;
+  fit.converged = false;
+  EXPECT_FALSE(takes_over(fit));
+  fit = good;
+  fit.model.sensor[1].bias[0] += 8.1 * bench.sheet.sensor[1].prior.bias_mps2;
+  EXPECT_FALSE(takes_over(fit));
+  fit.used = fit.used.without(1);
+  EXPECT_TRUE(takes_over(fit)) << "a sensor that the fit does not use does not count";
+  for (const double factor : {1.26, 1.0 / 1.26, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    fit = good;
+    fit.model.sensor[2].scale[0] *= factor;
+    EXPECT_FALSE(takes_over(fit)) << factor;
+  }
+  fit = good;
+  fit.cost = std::pow(2.0 * kG * 1.01 * kPaperDeltaF_mps2, 2.0);
+  EXPECT_FALSE(takes_over(fit));
+  fit.cost = std::pow(2.0 * kG * 0.99 * kPaperDeltaF_mps2, 2.0);
+  EXPECT_TRUE(takes_over(fit));
+}
+
 /// The sums are exact, so the order of the samples cannot matter.
 RC_GTEST_PROP(PaperRuleLaw, TheOrderOfTheSamplesDoesNotMatter, ()) {
   const int n = *rc::gen::inRange(3, std::min(6, kCapacity) + 1);

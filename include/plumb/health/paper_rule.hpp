@@ -42,6 +42,10 @@ struct PaperFits {
 Vec3 paper_vector_in_use(const PaperFits& fits, const std::array<double, kCapacity>& raw, double temperature_degc,
                          SensorSet in_use) noexcept;
 
+/// Whether a fit made in flight may take over (step 10): sound, every scale and bias as near to the datasheet as an
+/// initial fit must stay (FitOptions), and the length of gravity within delta_F over its stations.
+bool may_replace(const PaperFit& fit, const Datasheet& datasheet, double g_mps2, double delta_f_mps2) noexcept;
+
 /// What the paper's rule says of the pooled samples.
 struct PaperFinding {
   bool detected = false;      ///< MAE of the sensors in use >= delta_F, eq (15)
