@@ -24,6 +24,7 @@ struct Options {
   LogSpec log{"-", io::BadRowPolicy::stop};
   std::string events;
   std::string verdicts;
+  std::vector<std::string> host;
   bool every_sample = false;
   bool json = false;
 };
@@ -42,6 +43,8 @@ constexpr const char* kNotes =
     "  tail -n +1 -f run.csv | plumb monitor --array tool.toml --calibration cal.json --log - --json\n\n"
     "Units: time in s, inclination in deg (0 = tool axis z points down). `statistic` and `limit` share a unit:\n"
     "standard deviations for parity and norm, m/s^2 for mae; an alarm is statistic > limit.\n"
+    "--host plays the host of an instrument: \"61s reset a2,a4 key 0x706c756d62\" asks at t = 61 s for a reset that\n"
+    "returns a2 and a4 to service, with the reset_key of the array file. A wrong key is refused, and said so.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 
@@ -140,6 +143,18 @@ std::string summary_json(const MonitorRun& run, const SensorArray& sensors, cons
   return nlohmann::ordered_json{{"summary", std::move(s)}}.dump() + "\n";
 }
 
+/// What became of --host, where it did not become what was asked for.
+void tell_refusals(const scenario::Host& host, const SensorArray& sensors) {
+  for (const scenario::Host::Answer& answer : host.answers()) {
+    if (answer.refusal == Errc::ok) continue;
+    print_error(fmt::format("plumb: --host \"{}\" was refused: {}. Remedy: {}.\n",
+                            scenario::to_text(answer.request, sensors), describe(answer.refusal),
+                            remedy(answer.refusal)));
+  }
+  if (host.waiting() > 0)
+    print_error(fmt::format("plumb: the log ended before the last {} of the --host requests.\n", host.waiting()));
+}
+
 io::ExitCode run(const Options& options) {
   const std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
   const std::vector<NamedFile> to_read = {
@@ -158,14 +173,22 @@ io::ExitCode run(const Options& options) {
         array->path, array->monitor.window));
   }
   const SensorArray& sensors = (*monitor)->array();
+  std::vector<scenario::HostRequest> requests;
+  for (const std::string& text : options.host) {
+    const tl::expected<scenario::HostRequest, std::string> request = scenario::parse_host_request(text, sensors);
+    if (!request) return report(io::FileError{"--host", 0, "", request.error(), "", io::ExitCode::usage});
+    requests.push_back(*request);
+  }
+  scenario::Host host(std::move(requests));
   Outputs outputs;
   const io::FileExpected<void> opened = open_outputs(options, *array, sensors, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
-  const io::FileExpected<MonitorRun> done = run_monitor(**monitor, *array, options.log, outputs.sinks);
+  const io::FileExpected<MonitorRun> done = run_monitor(**monitor, *array, options.log, outputs.sinks, host);
   if (!done) return report(done.error());
   const io::FileExpected<void> kept = commit(outputs);
   if (!kept) return report(kept.error());
+  tell_refusals(host, sensors);
   if (options.json) {
     print_now(summary_json(*done, sensors, array->output_frame));
   } else if (outputs.table) {
@@ -203,6 +226,10 @@ Command add_monitor(CLI::App& tool) {
   app->add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
       ->type_name("V.jsonl");
   app->add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
+  app->add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
+      ->type_name("REQUEST")
+      ->expected(1)
+      ->take_all();
   add_bad_row_option(*app, options->log.on_bad_row);
   app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
   app->footer(kNotes + exit_codes_help());

@@ -167,7 +167,7 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFil
 }
 
 io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::ArrayFile& array, const LogSpec& log,
-                                         const std::vector<VerdictSink*>& sinks) {
+                                         const std::vector<VerdictSink*>& sinks, scenario::Host& host) {
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
@@ -176,6 +176,7 @@ io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::Array
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    host.before(sample.time_s, monitor);
     const Verdict& verdict = monitor.step(sample);
     ++run.samples;
     if (verdict.tick) ++run.blocks;

@@ -13,6 +13,7 @@
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/scenario/host_request.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -102,10 +103,10 @@ struct MonitorRun {
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration& calibration);
 
-/// Steps all samples of the log through the monitor. An error of the log is returned in `stop`, an error
-/// of a sink (a file that cannot be written) as the error.
+/// Steps all samples of the log through the monitor; `host` asks of it what it has to ask. An error of the log is
+/// returned in `stop`, an error of a sink (a file that cannot be written) as the error.
 io::FileExpected<MonitorRun> run_monitor(HealthMonitor& monitor, const io::ArrayFile& array, const LogSpec& log,
-                                         const std::vector<VerdictSink*>& sinks);
+                                         const std::vector<VerdictSink*>& sinks, scenario::Host& host);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI
