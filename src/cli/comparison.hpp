@@ -1,7 +1,6 @@
-/// Plumb's answer beside the plain one, block by block: what the demo's plot shows.
+/// Plumb's answer beside the plain one, block by block: what the pictures of the drills show.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "pipeline.hpp"
@@ -21,11 +20,11 @@ class ComparisonSink : public VerdictSink {
 
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   const report::Timeline& timeline() const noexcept { return timeline_; }
-  /// Time of the first row with a sensor in fault; beyond the end where there is none.
-  double fault_s() const noexcept { return fault_s_; }
 
  private:
   Readings mean_of_window() const;
+  void note_phase(const Sample& sample, const Verdict& verdict, SensorSet faulty);
+  report::TimelinePoint point_of(const Verdict& verdict, const scenario::Truth& truth) const;
 
   const io::ArrayFile& array_;
   const Calibration& calibration_;
@@ -33,7 +32,6 @@ class ComparisonSink : public VerdictSink {
   LeastSquares all_;
   std::vector<Readings> window_;  ///< ring of the last block's readings
   std::size_t row_ = 0;
-  double fault_s_ = std::numeric_limits<double>::infinity();
   report::Timeline timeline_;
 };
 

@@ -300,6 +300,7 @@ io::FileExpected<void> add_pictures(const DemoContext& context, const std::vecto
     if (!picture) return tl::unexpected<io::FileError>(picture.error());
     chapter.pictures.push_back(*std::move(picture));
     chapter.files.push_back({std::string(name) + ".svg", title});
+    chapter.files.push_back({std::string(name) + ".gp", "draws it"});
     return {};
   };
   for (const Figure& f : kFigures) {
@@ -343,6 +344,7 @@ io::FileExpected<DemoSection> demo_calibration(const DemoContext& context) {
   report::Chapter& chapter = out.chapter;
   chapter.id = "calibration";
   chapter.title = "2 Calibration: Figs 4 to 10 of the paper";
+  chapter.gist = "The paper's method and plumb's fit, iteration by iteration, against the truth.";
   chapter.text = {
       "The tool is held still at 48 random attitudes of which nobody knows the angles; the length of gravity is all "
       "that is given. "

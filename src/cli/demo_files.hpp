@@ -1,4 +1,4 @@
-/// What the demo writes before plumb sees anything: the array file and the two logs.
+/// Logs played from scenarios, and the truth behind them in the frame in which plumb answers.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,6 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
-
-/// The array file of the paper's tool, as a person would write it.
-std::string paper_array_toml(const Datasheet& datasheet, double gravity_mps2);
 
 /// Plays the scenario into a log; returns what was really the case at every row.
 io::FileExpected<std::vector<scenario::Truth>> write_log(const std::string& path, const io::ArrayFile& array,

@@ -134,6 +134,7 @@ io::FileExpected<DemoSection> demo_geometry(const DemoContext& context) {
   DemoSection out;
   out.chapter.id = "geometry";
   out.chapter.title = "1 The geometry";
+  out.chapter.gist = "Which axes the paper's tool has, and what they can and cannot find.";
   out.chapter.text = {
       "Four accelerometers measure along four skewed axes: three on a cone about the axis of the tool, the fourth "
       "along "

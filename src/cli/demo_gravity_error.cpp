@@ -126,6 +126,7 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
   DemoSection out;
   out.chapter.id = "gravity-error";
   out.chapter.title = "3 What calibration leaves: Fig 11 of the paper";
+  out.chapter.gist = "How far off the length of gravity is at fresh attitudes, before and after.";
   out.chapter.text = {
       fmt::format("{} fresh attitudes that no fit has seen, one sample at each. How far is the length of the vector "
                   "off, computed from all four "
@@ -133,7 +134,8 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
                   study->combination.front().own_mps2.size())};
   out.chapter.pictures.push_back(*std::move(picture));
   out.chapter.tables = {table_of(*study)};
-  out.chapter.files = {{kCsv, "the errors"}, {"fig11_gravity_error.svg", "the picture"}};
+  out.chapter.files = {
+      {kCsv, "the errors"}, {"fig11_gravity_error.svg", "the picture"}, {"fig11_gravity_error.gp", "draws it"}};
   out.facts = facts_of(*study);
   const GravityErrors& all = study->combination.front();
   out.console = fmt::format(

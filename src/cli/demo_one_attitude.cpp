@@ -227,6 +227,7 @@ io::FileExpected<void> add_one_attitude(const DemoContext& context, const study:
   chapter.tables.push_back(table_of(lines));
   chapter.files.push_back({"one_attitude.csv", "counts at one attitude"});
   chapter.files.push_back({"one_attitude.svg", "the picture of them"});
+  chapter.files.push_back({"one_attitude.gp", "draws it"});
   section.facts["one_attitude"] = facts_of(studies);
   const AnswerCount paper = studies.front().paper.faulty();
   const AnswerCount own = studies.front().own.faulty();

@@ -17,19 +17,6 @@ std::string path_of(const std::string& directory, const std::string& name) {
   return (std::filesystem::path(directory) / name).string();
 }
 
-/// gnuplot gives markers, filters and canvas the same ids in every picture; on one page they would collide.
-std::string with_own_ids(std::string svg, const std::string& name) {
-  for (const std::string id : {"gp", "greybox", "textbox", "gnuplot_canvas"}) {
-    for (const std::string before : {"id='", "id=\"", "href='#", "href=\"#", "url(#"}) {
-      const std::string mark = before + id;
-      const std::string own = before + name + "_" + id;
-      for (std::size_t at = svg.find(mark); at != std::string::npos; at = svg.find(mark, at + own.size()))
-        svg.replace(at, mark.size(), own);
-    }
-  }
-  return svg;
-}
-
 }  // namespace
 
 std::string plot_head(const std::string& name, int width, int height) {
@@ -54,7 +41,7 @@ io::FileExpected<report::Picture> draw(const std::string& directory, const std::
   }
   const io::FileExpected<std::string> svg = io::read_file(path_of(directory, name + ".svg"));
   if (!svg) return tl::unexpected<io::FileError>(svg.error());
-  out.svg = with_own_ids(report::inline_svg(*svg), name);
+  out.svg = report::inline_svg(*svg);
   return out;
 }
 

@@ -4,190 +4,338 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "plumb/core/units.hpp"
+#include "plumb/io/scenario_file.hpp"
 #include "plumb/report/words.hpp"
-#include "tool.hpp"
+#include "plumb/scenario/fault_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-using report::ErrorSummary;
+using report::Timeline;
+using report::TimelinePhase;
 using report::TimelineRow;
 
 std::string degrees(double deg) { return fmt::format("{:.2g}°", deg); }
 
-/// First row at or after `from_s` that fits; null where there is none.
-template <class Fits>
-const TimelineRow* first_row(const report::Timeline& timeline, double from_s, Fits fits) {
-  for (const TimelineRow& row : timeline.rows) {
-    if (row.time_s >= from_s && fits(row)) return &row;
+std::string at(double time_s) { return fmt::format("At {:.2f} s", time_s); }
+
+SensorSet faulty_at(const Timeline& timeline, double time_s) {
+  SensorSet faulty;
+  for (const TimelinePhase& phase : timeline.phases) {
+    if (phase.from_s <= time_s) faulty = phase.faulty;
   }
-  return nullptr;
+  return faulty;
 }
 
-/// The moments of the run that the story is about.
-struct Moments {
-  const TimelineRow* trusted;   ///< first state of trust after power-on
-  const TimelineRow* noticed;   ///< first suspicion after the fault
-  const TimelineRow* excluded;  ///< first exclusion after the fault
-};
-
-Moments moments_of(const DemoFacts& facts) {
-  const auto in_trust = [](const TimelineRow& row) { return row.state == HealthState::nominal; };
-  const auto suspicious = [](const TimelineRow& row) { return row.state == HealthState::suspect; };
-  const auto excluding = [](const TimelineRow& row) { return row.cause == Cause::isolated_fault; };
-  return {first_row(facts.timeline, facts.timeline.begin_s, in_trust),
-          first_row(facts.timeline, facts.fault_s, suspicious), first_row(facts.timeline, facts.fault_s, excluding)};
+std::string state_and_output(const TimelineRow& row) {
+  const bool stays = row.event != HealthEvent::none && row.from == row.state;
+  return fmt::format("The state {} {}, the output {}.", stays ? "stays" : "is", to_string(row.state),
+                     to_string(row.validity));
 }
 
-/// Worst errors after the fault, among the points that plumb vouched for (or not).
-ErrorSummary after_fault(const DemoFacts& facts, bool vouched) {
-  report::Timeline after;
-  for (const report::TimelinePoint& p : facts.timeline.points) {
-    if (p.time_s >= facts.fault_s) after.points.push_back(p);
+/// ", 0.35 s after the fault": after the last one that began on one of these sensors; on any, where none is named.
+std::string after_fault(const DrillRecord& record, const TimelineRow& row) {
+  double begin_s = -1.0;
+  for (const FaultRecord& fault : record.faults) {
+    const bool concerned = row.named.empty() || row.named.has(fault.fault.sensor);
+    if (concerned && fault.begin_s <= row.time_s) begin_s = std::max(begin_s, fault.begin_s);
   }
-  if (!vouched) return report::errors_where(after, Validity::unconfirmed);
-  const ErrorSummary valid = report::errors_where(after, Validity::valid);
-  const ErrorSummary degraded = report::errors_where(after, Validity::degraded);
-  return {valid.points + degraded.points, std::max(valid.worst_plumb_deg, degraded.worst_plumb_deg),
-          std::max(valid.worst_plain_deg, degraded.worst_plain_deg)};
+  return begin_s < 0.0 ? "" : fmt::format(", {:.2f} s after the fault", row.time_s - begin_s);
 }
 
-double worst_plain_deg(const DemoFacts& facts) {
-  double worst = 0.0;
-  for (const report::TimelinePoint& p : facts.timeline.points) {
-    if (p.time_s >= facts.fault_s) worst = std::max(worst, std::fabs(p.inclination_plain_deg - p.inclination_true_deg));
-  }
-  return worst;
+std::string is_it_right(const DrillRecord& record, const TimelineRow& row) {
+  const SensorSet wronged = row.named - faulty_at(record.timeline, row.time_s);
+  if (wronged.empty()) return row.named.size() == 1 ? "It is really at fault. " : "They are really at fault. ";
+  return fmt::format("That is wrong: {} is sound. ", report::sensor_names(wronged, record.array.array));
 }
 
-std::string isolation_sentence(const DemoFacts& facts, const Moments& m) {
-  const std::string dead = report::sensor_names(facts.dead, facts.array.array);
-  if (m.excluded == nullptr) {
-    return fmt::format(
-        "By the end of the run plumb has not excluded anybody: more than one explanation is left, and it does not "
-        "guess. Its "
-        "output stays {}.",
-        to_string(facts.last.validity));
+std::string exclusion_sentence(const DrillRecord& record, const TimelineRow& row) {
+  std::string why = "only one explanation is left";
+  if (row.grade == Grade::strict) {
+    why += fmt::format(", confirmed at {} stations in different directions", record.array.monitor.isolation_stations);
   }
-  const bool right = facts.last.excluded == facts.dead;
-  std::string out = fmt::format(
-      "At {:.2f} s, {:.2f} s after the fault, only one explanation is left, confirmed at {} stations in different "
-      "directions: {} is excluded",
-      m.excluded->time_s, m.excluded->time_s - facts.fault_s, facts.array.monitor.isolation_stations,
-      m.excluded->sensors);
-  return out +
-         (right ? ", the sensor that really died." : fmt::format(". That is wrong: the sensor that died is {}.", dead));
+  return fmt::format("{}{}, {}: {} is excluded. {}{}", at(row.time_s), after_fault(record, row), why, row.sensors,
+                     is_it_right(record, row), state_and_output(row));
 }
 
-std::vector<std::string> story_of(const DemoFacts& facts, const Moments& m) {
-  std::vector<std::string> out;
-  out.push_back(
-      "At power-on plumb trusts nobody. The state is suspect and the output unconfirmed, until every sensor has been "
-      "seen to "
-      "follow the tool through several attitudes" +
-      (m.trusted != nullptr ? fmt::format(". At {:.2f} s trust is earned: nominal.", m.trusted->time_s)
-                            : std::string(", which did not happen in this run.")));
-  out.push_back(fmt::format(
-      "At {:.2f} s the output of {} goes dead: it stands at 0 V. In the log it looks like a sensor that lies level.",
-      facts.fault_s, report::sensor_names(facts.dead, facts.array.array)));
-  if (m.noticed != nullptr) {
-    out.push_back(
-        fmt::format("At {:.2f} s, with the first quiet block after it, plumb raises the alarm: the statistic is "
-                    "{:.4g}, its limit {:.4g}. "
-                    "It cannot know yet which sensor is wrong, so it names nobody and calls its output unconfirmed.",
-                    m.noticed->time_s, m.noticed->statistic, m.noticed->limit));
-  } else {
-    out.push_back("plumb has not raised an alarm after it.");
-  }
-  const ErrorSummary unsure = after_fault(facts, false);
-  if (unsure.points > 0) {
-    out.push_back(fmt::format(
-        "While it is unconfirmed the inclination is wrong by up to {}: no better than without plumb. The difference is "
-        "that it says so.",
-        degrees(unsure.worst_plumb_deg)));
-  }
-  out.push_back(isolation_sentence(facts, m));
-  const ErrorSummary sure = after_fault(facts, true);
-  if (sure.points > 0) {
-    out.push_back(
-        fmt::format("From then on the inclination is within {} of the truth; without plumb it is wrong by up to {}. "
-                    "The state at the "
-                    "end is {}: {}.",
-                    degrees(sure.worst_plumb_deg), degrees(sure.worst_plain_deg), to_string(facts.last.state),
-                    report::meaning(facts.last.state)));
-  }
-  return out;
-}
-
-std::vector<report::RunPage::Figure> figures_of(const DemoFacts& facts, const Moments& m) {
-  std::vector<report::RunPage::Figure> out;
-  const auto after = [&facts](const TimelineRow* row) {
-    return row == nullptr ? std::string("not in this run") : fmt::format("{:.2f} s", row->time_s - facts.fault_s);
-  };
-  out.push_back({after(m.noticed), "from the fault to the alarm"});
-  out.push_back({after(m.excluded), "from the fault to the exclusion of " +
-                                        (m.excluded == nullptr ? std::string("a sensor") : m.excluded->sensors)});
-  out.push_back({degrees(worst_plain_deg(facts)), "worst inclination error after the fault, without plumb"});
-  const ErrorSummary sure = after_fault(facts, true);
-  out.push_back(
-      {sure.points > 0 ? degrees(sure.worst_plumb_deg) : "none", "worst error that plumb vouched for after the fault"});
-  return out;
-}
-
-std::string calibration_sentence(const DemoFacts& facts) {
-  const FitReport& r = facts.fit.report;
+std::string trust_sentence(const TimelineRow& row) {
   return fmt::format(
-      "From {} still attitudes, with gravity as the only reference: {} of {} parameters are determined (the other {} "
-      "are a common "
-      "rotation of all axes, which the nominal axes fix). What is left: {:.3f} mg rms in the length of gravity, {:.3f} "
-      "mg rms "
-      "in parity.",
-      facts.fit.stations.size(), r.rank, r.parameters, r.parameters - r.rank, r.norm_rms_mps2 / (1e-3 * kG0_mps2),
-      r.parity_rms_mps2 / (1e-3 * kG0_mps2));
+      "{} trust is earned: block after block agrees within its limits, at attitudes that have moved "
+      "every sensor in service. {}",
+      at(row.time_s), state_and_output(row));
+}
+
+std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
+  const std::string when = at(row.time_s);
+  switch (row.event) {
+    case HealthEvent::none:
+      return "At power-on plumb trusts nobody: every sensor must first be seen to follow the tool. " +
+             state_and_output(row);
+    case HealthEvent::clean_block: return trust_sentence(row);
+    case HealthEvent::alarm:
+      return fmt::format("{}{}, the alarm: {} (statistic {:.4g}, limit {:.4g}). Nobody is accused yet. {}", when,
+                         after_fault(record, row), row.explanation, row.statistic, row.limit, state_and_output(row));
+    case HealthEvent::set_aside:
+      return fmt::format(
+          "{}{}, {} is set aside at once: the others agree without it, whatever gravity is. This can "
+          "still be taken back. {}{}",
+          when, after_fault(record, row), row.sensors, is_it_right(record, row), state_and_output(row));
+    case HealthEvent::culprit: return exclusion_sentence(record, row);
+    case HealthEvent::patience_over:
+      return fmt::format(
+          "{} patience is over: {} stations in different directions, no answer, and no bound on the "
+          "error. {} Only the host can undo that.",
+          when, record.array.monitor.patience, state_and_output(row));
+    case HealthEvent::reset:
+      return fmt::format("{} the monitor starts again with {} back in service; trust must be earned anew. {}", when,
+                         row.sensors, state_and_output(row));
+    case HealthEvent::recalibrate:
+      return fmt::format(
+          "{} recalibration begins: stations are collected, while the coefficients in force stay in use. {}", when,
+          state_and_output(row));
+    case HealthEvent::fit_accepted:
+      return fmt::format("{} the new coefficients are accepted, and must prove themselves. {}", when,
+                         state_and_output(row));
+    case HealthEvent::fit_rejected:
+      return fmt::format("{} the new coefficients are refused; the old ones stay. {}", when, state_and_output(row));
+    case HealthEvent::probation_passed:
+      return fmt::format(
+          "{} {} has agreed with the others at {} stations in different directions and is back in "
+          "service. {}",
+          when, row.sensors, record.array.monitor.probation_stations, state_and_output(row));
+    default: break;
+  }
+  return fmt::format("{}: {}{}. {}", when, row.explanation, row.named.empty() ? "" : " (" + row.sensors + ")",
+                     state_and_output(row));
+}
+
+std::string answer_sentence(const DrillRecord& record, const scenario::Host::Answer& answer) {
+  const std::string asked =
+      fmt::format("{} the host asks for {}", at(answer.time_s), scenario::describe(answer.request, record.array.array));
+  if (answer.refusal == Errc::ok) return asked + ". The request is granted.";
+  return fmt::format("{}. It is refused: {}. Nothing changes.", asked, describe(answer.refusal));
+}
+
+/// What motion did, and that it did nothing else.
+std::string motion_sentence(const DrillRecord& record) {
+  int stretches = 0, changes = 0;
+  bool before = false;
+  for (const TimelinePhase& phase : record.timeline.phases) {
+    if (phase.moving && !before) ++stretches;
+    before = phase.moving;
+  }
+  for (const TimelineRow& row : record.timeline.rows) {
+    for (std::size_t k = 0; k < record.timeline.phases.size(); ++k) {
+      const TimelinePhase& phase = record.timeline.phases[k];
+      if (phase.moving && phase.from_s == row.time_s && row.event != HealthEvent::none) ++changes;
+    }
+  }
+  return fmt::format(
+      "{} times the tool moves on, shaken with {:.2g} g0 rms. Motion is no evidence: the last answer is held, and the "
+      "state {}.",
+      stretches, record.scenario.vibration_mps2 / kG0_mps2,
+      changes == 0 ? "never changed while it lasted" : fmt::format("changed {} times while it lasted", changes));
+}
+
+std::string sum_sentence(const Timeline& timeline) {
+  const DrillFigures f = figures_of(timeline);
+  return fmt::format(
+      "Over the whole run: in the {} of {} quiet blocks that plumb vouched for, the inclination was within {} of the "
+      "truth; where it said unconfirmed, it was off by up to {}. Without plumb it was off by up to {}, and nothing "
+      "said "
+      "so. The bound that plumb publishes was kept in {} of {} blocks that had one.",
+      f.vouched, f.blocks, degrees(f.vouched_deg), degrees(f.unconfirmed_deg), degrees(f.plain_deg), f.kept, f.bounded);
+}
+
+const TimelineRow* first_row(const Timeline& timeline, HealthEvent event, double from_s) {
+  const auto found = std::find_if(timeline.rows.begin(), timeline.rows.end(), [event, from_s](const TimelineRow& row) {
+    return row.event == event && row.time_s >= from_s;
+  });
+  return found == timeline.rows.end() ? nullptr : &*found;
+}
+
+/// Figures that are not known are null, not a word that a program would have to know.
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json change_json(const TimelineRow& row) {
+  nlohmann::ordered_json out;
+  out["time_s"] = row.time_s;
+  out["from"] = to_string(row.from);
+  out["to"] = to_string(row.state);
+  out["event"] = to_string(row.event);
+  out["cause"] = to_string(row.cause);
+  out["grade"] = to_string(row.grade);
+  out["sensors"] = row.sensors;
+  out["output"] = to_string(row.validity);
+  out["statistic"] = row.statistic;
+  out["limit"] = row.limit;
+  return out;
 }
 
 }  // namespace
 
-report::RunPage demo_page(const DemoFacts& facts) {
-  const Moments m = moments_of(facts);
-  report::RunPage page;
-  page.title = "plumb demo: one of four accelerometers dies";
-  page.lead = fmt::format(
-      "A simulated drilling tool with four accelerometers surveys {:.0f} s of a well. Sensor {} dies on the way. "
-      "plumb, which is "
-      "told nothing of it, watches.",
-      facts.timeline.end_s - facts.timeline.begin_s, report::sensor_names(facts.dead, facts.array.array));
-  page.figures = figures_of(facts, m);
-  page.story = story_of(facts, m);
-  page.rows = facts.timeline.rows;
-  page.calibration = calibration_sentence(facts);
-  for (const SensorFigures& f : sensor_figures(facts.fit, facts.array)) {
-    page.sensors.push_back({f.id, fmt::format("{:.3f} ± {:.3f}", f.bias_mg, f.bias_sigma_mg),
-                            fmt::format("{:.6f}", f.scale), fmt::format("{:.3f}", f.axis_shift_deg),
-                            fmt::format("{:.3f}", f.e_cal_mg), fmt::format("{:.3f}", f.residual_rms_mg)});
+std::vector<FaultRecord> fault_records(const std::vector<scenario::Fault>& faults, const Timeline& timeline) {
+  std::vector<FaultRecord> out;
+  for (const scenario::Fault& fault : faults) {
+    FaultRecord record{fault, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    for (const TimelinePhase& phase : timeline.phases) {
+      const bool now = phase.faulty.has(fault.sensor);
+      if (now && !std::isfinite(record.begin_s)) record.begin_s = phase.from_s;
+      if (!now && std::isfinite(record.begin_s) && !std::isfinite(record.end_s)) record.end_s = phase.from_s;
+    }
+    if (std::isfinite(record.begin_s)) out.push_back(record);
   }
-  page.commands = {"plumb geometry array.toml",
-                   "plumb calibrate --array array.toml --log calibration.csv --out calibration.json",
-                   "plumb monitor --array array.toml --calibration calibration.json --log drilling.csv \\",
-                   "    --events events.jsonl --verdicts verdicts.jsonl"};
-  page.files = {{"array.toml", "the array: axes, scales and noise as a datasheet gives them"},
-                {"calibration.csv", "the log of the calibration stand, 48 attitudes of 2 s at 100 Hz, in volts"},
-                {"drilling.csv", "the log of the drilling run, in volts"},
-                {"calibration.json", "what plumb found out about the sensors"},
-                {"events.jsonl", "one line per change of state"},
-                {"verdicts.jsonl", "one line per quiet block: state, statistic, limit, sensors, vector, bound"},
-                {"timeline.csv", "what the picture shows, the truth included"},
-                {"timeline.svg", "the picture; timeline.gp is the gnuplot program that drew it"}};
-  page.footer = fmt::format(
-      "plumb {}, seed {}: the same seed gives the same bytes. `plumb demo --seed 2` draws another tool, other noise "
-      "and other "
-      "attitudes.",
-      kVersion, facts.seed);
-  return page;
+  return out;
+}
+
+std::vector<report::TimelineMark> marks_of(const DrillRecord& record) {
+  const scenario::FaultContext context = io::fault_context(record.array);
+  std::vector<report::TimelineMark> out;
+  for (const FaultRecord& fault : record.faults) {
+    out.push_back({fault.begin_s, scenario::describe_effect(fault.fault, context)});
+    const std::string id = report::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
+    if (std::isfinite(fault.end_s)) out.push_back({fault.end_s, id + " is sound again"});
+  }
+  for (const scenario::Host::Answer& answer : record.answers) {
+    out.push_back(
+        {answer.time_s, std::string(to_string(answer.request.kind)) + (answer.refusal == Errc::ok ? "" : " refused")});
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const report::TimelineMark& a, const report::TimelineMark& b) { return a.time_s < b.time_s; });
+  return out;
+}
+
+DrillFigures figures_of(const Timeline& timeline) {
+  DrillFigures f;
+  for (const report::TimelinePoint& p : timeline.points) {
+    const double plumb_deg = std::fabs(p.inclination_plumb_deg - p.inclination_true_deg);
+    ++f.blocks;
+    f.plain_deg = std::max(f.plain_deg, std::fabs(p.inclination_plain_deg - p.inclination_true_deg));
+    if (p.validity == Validity::valid || p.validity == Validity::degraded) {
+      ++f.vouched;
+      f.vouched_deg = std::max(f.vouched_deg, plumb_deg);
+    }
+    if (p.validity == Validity::unconfirmed) f.unconfirmed_deg = std::max(f.unconfirmed_deg, plumb_deg);
+    if (!std::isfinite(p.protection_level_deg)) continue;
+    ++f.bounded;
+    if (plumb_deg <= p.protection_level_deg) ++f.kept;
+  }
+  return f;
+}
+
+std::vector<report::Figure> key_figures(const DrillRecord& record) {
+  std::vector<report::Figure> out;
+  const DrillFigures f = figures_of(record.timeline);
+  if (!record.faults.empty()) {
+    const double fault_s = record.faults.front().begin_s;
+    const TimelineRow* alarm = first_row(record.timeline, HealthEvent::alarm, fault_s);
+    const TimelineRow* aside = first_row(record.timeline, HealthEvent::set_aside, fault_s);
+    if (alarm == nullptr || (aside != nullptr && aside->time_s < alarm->time_s)) alarm = aside;
+    const TimelineRow* excluded = first_row(record.timeline, HealthEvent::culprit, fault_s);
+    const auto after = [fault_s](const TimelineRow* row) {
+      return row == nullptr ? std::string("never") : fmt::format("{:.2f} s", row->time_s - fault_s);
+    };
+    out.push_back({after(alarm), "from the first fault to the alarm"});
+    out.push_back({after(excluded), "from the first fault to the exclusion of " +
+                                        (excluded == nullptr ? std::string("a sensor") : excluded->sensors)});
+  }
+  out.push_back({degrees(f.plain_deg), "worst inclination error without plumb"});
+  out.push_back({degrees(f.vouched_deg), "worst error that plumb vouched for"});
+  return out;
+}
+
+std::vector<std::string> story_of(const DrillRecord& record) {
+  std::vector<std::pair<double, std::string>> items;
+  const scenario::FaultContext context = io::fault_context(record.array);
+  for (const FaultRecord& fault : record.faults) {
+    items.emplace_back(fault.begin_s, fmt::format("{} a sensor fails: {}. plumb is told nothing of it.",
+                                                  at(fault.begin_s), scenario::describe_effect(fault.fault, context)));
+    const std::string id = report::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
+    if (std::isfinite(fault.end_s))
+      items.emplace_back(fault.end_s,
+                         fmt::format("{} {} is sound again. plumb is not told that either.", at(fault.end_s), id));
+  }
+  for (const scenario::Host::Answer& answer : record.answers) {
+    items.emplace_back(answer.time_s, answer_sentence(record, answer));
+  }
+  for (const TimelineRow& row : record.timeline.rows) items.emplace_back(row.time_s, change_sentence(record, row));
+  std::stable_sort(items.begin(), items.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> out;
+  for (const auto& [time_s, sentence] : items) {
+    out.push_back(sentence);
+    if (out.size() == 1) out.push_back(motion_sentence(record));
+  }
+  out.push_back(sum_sentence(record.timeline));
+  return out;
+}
+
+report::Table changes_table(const Timeline& timeline) {
+  report::Table table;
+  table.title = "Every change";
+  table.head = {"time, s", "state", "cause", "sensor", "statistic", "limit", "inclination, deg", "output", "in words"};
+  table.state_column = 1;
+  for (const TimelineRow& row : timeline.rows) {
+    const bool tested = row.limit > 0.0;
+    table.rows.push_back({fmt::format("{:.2f}", row.time_s), to_string(row.state), to_string(row.cause), row.sensors,
+                          tested ? fmt::format("{:.4g}", row.statistic) : "–",
+                          tested ? fmt::format("{:.4g}", row.limit) : "–",
+                          row.has_inclination ? fmt::format("{:.2f}", row.inclination_deg) : "–",
+                          to_string(row.validity), row.explanation});
+  }
+  table.note =
+      "An alarm is a statistic above its limit; both are in standard deviations of the noise (for cause mae: in m/s²). "
+      "The limit carries the noise and what the calibration and gravity are not sure of.";
+  return table;
+}
+
+report::Table states_table() {
+  report::Table table;
+  table.title = "What the states mean";
+  table.head = {"state", "meaning"};
+  table.state_column = 0;
+  for (int k = 0; k < kStateCount; ++k) {
+    const auto state = static_cast<HealthState>(k);
+    table.rows.push_back({to_string(state), report::meaning(state)});
+  }
+  return table;
+}
+
+nlohmann::ordered_json facts_of(const DrillRecord& record) {
+  nlohmann::ordered_json out;
+  const DrillFigures f = figures_of(record.timeline);
+  out["sensors"] = record.timeline.sensors;
+  out["duration_s"] = record.timeline.end_s - record.timeline.begin_s;
+  out["blocks"] = f.blocks;
+  out["blocks_vouched"] = f.vouched;
+  out["worst_inclination_error_vouched_deg"] = f.vouched_deg;
+  out["worst_inclination_error_unconfirmed_deg"] = f.unconfirmed_deg;
+  out["worst_inclination_error_without_plumb_deg"] = f.plain_deg;
+  out["blocks_bounded"] = f.bounded;
+  out["blocks_within_bound"] = f.kept;
+  const scenario::FaultContext context = io::fault_context(record.array);
+  out["faults"] = nlohmann::ordered_json::array();
+  for (const FaultRecord& fault : record.faults) {
+    out["faults"].push_back({{"fault", scenario::to_text(fault.fault, context)},
+                             {"begin_s", fault.begin_s},
+                             {"end_s", number(fault.end_s)}});
+  }
+  out["host"] = nlohmann::ordered_json::array();
+  for (const scenario::Host::Answer& answer : record.answers) {
+    const bool granted = answer.refusal == Errc::ok;
+    out["host"].push_back({{"time_s", answer.time_s},
+                           {"request", scenario::to_text(answer.request, record.array.array)},
+                           {"refused", granted ? nlohmann::ordered_json() : describe(answer.refusal)}});
+  }
+  out["changes"] = nlohmann::ordered_json::array();
+  for (const TimelineRow& row : record.timeline.rows) out["changes"].push_back(change_json(row));
+  return out;
 }
 
 }  // namespace cli

@@ -1,27 +1,58 @@
-/// The demo's page: what happened, told from the records alone, so that it holds for every seed.
+/// What a drill has to say for itself: everything is told from its records alone, so that it holds for every seed.
 #pragma once
 
-#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
-#include "fit_summary.hpp"
-#include "plumb/report/page.hpp"
+#include "plumb/io/array_file.hpp"
+#include "plumb/report/chapter.hpp"
 #include "plumb/report/timeline.hpp"
+#include "plumb/scenario/host_request.hpp"
+#include "plumb/scenario/scenario.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 
-struct DemoFacts {
-  std::uint64_t seed;
-  const io::ArrayFile& array;
-  const CalibrationRun& fit;
-  const report::Timeline& timeline;
-  const Verdict& last;
-  SensorSet dead;  ///< what really died
-  double fault_s;  ///< and when
+/// A fault as the truth behind the log shows it.
+struct FaultRecord {
+  scenario::Fault fault;
+  double begin_s = 0.0;
+  double end_s = 0.0;  ///< infinite: it lasts
 };
 
-report::RunPage demo_page(const DemoFacts& facts);
+struct DrillRecord {
+  const io::ArrayFile& array;
+  scenario::Scenario scenario;
+  std::vector<FaultRecord> faults;
+  std::vector<scenario::Host::Answer> answers;
+  report::Timeline timeline;
+};
+
+/// When the faults of the scenario came and went, as the phases of the timeline have it.
+std::vector<FaultRecord> fault_records(const std::vector<scenario::Fault>& faults, const report::Timeline& timeline);
+
+/// Faults and requests of the host, to be marked in the picture.
+std::vector<report::TimelineMark> marks_of(const DrillRecord& record);
+
+/// How far off the answers were, and whether the bound was kept. Angles in deg.
+struct DrillFigures {
+  int blocks = 0;
+  int vouched = 0;               ///< blocks with valid or degraded output
+  double vouched_deg = 0.0;      ///< worst inclination error in them
+  double unconfirmed_deg = 0.0;  ///< worst error of what plumb called unconfirmed
+  double plain_deg = 0.0;        ///< worst error without plumb
+  int bounded = 0;               ///< blocks for which plumb gave a bound
+  int kept = 0;                  ///< those in which it was kept
+};
+DrillFigures figures_of(const report::Timeline& timeline);
+
+std::vector<report::Figure> key_figures(const DrillRecord& record);
+std::vector<std::string> story_of(const DrillRecord& record);
+report::Table changes_table(const report::Timeline& timeline);
+report::Table states_table();
+nlohmann::ordered_json facts_of(const DrillRecord& record);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

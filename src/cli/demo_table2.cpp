@@ -161,6 +161,7 @@ io::FileExpected<DemoSection> demo_table2(const DemoContext& context) {
   report::Chapter& chapter = out.chapter;
   chapter.id = "table2";
   chapter.title = "4 Faults: Table 2 of the paper";
+  chapter.gist = "The paper's fault table, and the same faults at a single attitude.";
   chapter.text = {
       fmt::format(
           "The paper's 23 experiments: no fault, each sensor at 0 V, −3 V, +3 V and at random, and all pairs at "
@@ -183,7 +184,7 @@ io::FileExpected<DemoSection> demo_table2(const DemoContext& context) {
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
   chapter.pictures.push_back(*std::move(picture));
   chapter.tables.push_back(table_of(*study));
-  chapter.files = {{"table2.csv", "the table"}, {"table2.svg", "the picture of it"}};
+  chapter.files = {{"table2.csv", "the table"}, {"table2.svg", "the picture of it"}, {"table2.gp", "draws it"}};
   out.facts = facts_of(*study, *others);
   out.console = fmt::format(
       "4 Table 2: {} of 23 verdicts as printed ({} attitudes pooled); all 23 with {} of {} other tools; plumb excludes "

@@ -118,7 +118,9 @@ Command add_inject(CLI::App& tool) {
       ->type_name("FAULT")
       ->expected(1)
       ->take_all();
-  app->add_option("--seed", options->seed, "of the random kinds of fault, 1 by default")->type_name("N");
+  app->add_option("--seed", options->seed, "of the random kinds of fault, 1 by default")
+      ->check(seed_refusal)
+      ->type_name("N");
   app->add_option("--out", options->out, "the log to write; `-` = standard output")->required()->type_name("OUT.csv|-");
   add_bad_row_option(*app, options->on_bad_row);
   app->footer(kNotes + exit_codes_help());

@@ -25,6 +25,7 @@ struct Options {
   LogSpec log{"-", io::BadRowPolicy::stop};
   std::string events;
   std::string verdicts;
+  std::vector<std::string> host;
   bool every_sample = false;
   bool json = false;
 };
@@ -47,6 +48,9 @@ constexpr const char* kNotes =
     "one limit delta_f (0.05 g0) for the length of gravity by all sensors and then by every three of them. No bound "
     "on\n"
     "the error. The calibration must hold the paper's own fits (plumb calibrate --paper).\n"
+    "--host plays the host of an instrument: \"61s reset a2,a4 key 0x706c756d62\" asks at t = 61 s for a reset that\n"
+    "returns a2 and a4 to service, with the reset_key of the array file; \"36s recalibrate\" for new biases and\n"
+    "scales. What the monitor refuses is said on standard error.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 
@@ -164,18 +168,38 @@ std::string summary_json(const MonitorRun& run, const SensorArray& sensors, cons
   return nlohmann::ordered_json{{"summary", std::move(s)}}.dump() + "\n";
 }
 
+/// What became of --host, where it did not become what was asked for.
+void tell_refusals(const scenario::Host& host, const SensorArray& sensors) {
+  for (const scenario::Host::Answer& answer : host.answers()) {
+    if (answer.refusal == Errc::ok) continue;
+    print_error(fmt::format("plumb: --host \"{}\" was refused: {}. Remedy: {}.\n",
+                            scenario::to_text(answer.request, sensors), describe(answer.refusal),
+                            remedy(answer.refusal)));
+  }
+  if (host.waiting() > 0)
+    print_error(fmt::format("plumb: the log ended before the last {} of the --host requests.\n", host.waiting()));
+}
+
 /// The run itself, with either monitor.
 template <class Monitor>
 io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& monitor) {
   const SensorArray& sensors = monitor.array();
+  std::vector<scenario::HostRequest> requests;
+  for (const std::string& text : options.host) {
+    const tl::expected<scenario::HostRequest, std::string> request = scenario::parse_host_request(text, sensors);
+    if (!request) return report(io::FileError{"--host", 0, "", request.error(), "", io::ExitCode::usage});
+    requests.push_back(*request);
+  }
+  scenario::Host host(std::move(requests));
   Outputs outputs;
   const io::FileExpected<void> opened = open_outputs(options, array, sensors, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
-  const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, options.log, outputs.sinks);
+  const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, options.log, outputs.sinks, host);
   if (!done) return report(done.error());
   const io::FileExpected<void> kept = commit(outputs);
   if (!kept) return report(kept.error());
+  tell_refusals(host, sensors);
   if (options.json) {
     print_now(summary_json(*done, sensors, array.output_frame));
   } else if (outputs.table) {
@@ -236,6 +260,10 @@ Command add_monitor(CLI::App& tool) {
   app->add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
       ->type_name("V.jsonl");
   app->add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
+  app->add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
+      ->type_name("REQUEST")
+      ->expected(1)
+      ->take_all();
   add_bad_row_option(*app, options->log.on_bad_row);
   app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
   app->footer(kNotes + exit_codes_help());

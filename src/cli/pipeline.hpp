@@ -15,6 +15,7 @@
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/scenario/host_request.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -122,15 +123,18 @@ struct Watch {
   const Verdict& now;  ///< the monitor's verdict
 };
 
-/// Steps all samples of the log through the monitor. An error of the log is returned in `stop`, an error
-/// of a sink (a file that cannot be written) as the error.
+/// Steps all samples of the log through the monitor; `run_monitor` lets `host` ask of it what it has to ask. An error
+/// of the log is returned in `stop`, an error of a sink (a file that cannot be written) as the error.
 io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
                                        const std::vector<VerdictSink*>& sinks);
 
 template <class Monitor>
 io::FileExpected<MonitorRun> run_monitor(Monitor& monitor, const io::ArrayFile& array, const LogSpec& log,
-                                         const std::vector<VerdictSink*>& sinks) {
-  const auto step = [&monitor](const Sample& sample) -> const Verdict& { return monitor.step(sample); };
+                                         const std::vector<VerdictSink*>& sinks, scenario::Host& host) {
+  const auto step = [&monitor, &host](const Sample& sample) -> const Verdict& {
+    host.before(sample.time_s, monitor);
+    return monitor.step(sample);
+  };
   return run_watch({step, monitor.verdict()}, array, log, sinks);
 }
 

@@ -278,9 +278,7 @@ Command add_simulate(CLI::App& tool) {
       ->required()
       ->type_name("SCENARIO.toml");
   app->add_option("--seed", options->seed, "of noise, attitudes and faults, in the place of the scenario's own")
-      ->check([](const std::string& text) {  // CLI11 alone takes -1 for 2^64 - 1
-        return std::string(text.find('-') == std::string::npos ? "" : "must be a whole number from 0 up");
-      })
+      ->check(seed_refusal)
       ->type_name("N");
   app->add_option("--out", options->out, "the log to write; `-` = standard output, the default")
       ->type_name("LOG.csv|-");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <charconv>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -31,6 +32,13 @@ std::string exit_codes_help() {
          "  4  the calibration was not accepted (the report says why and what to record next)\n"
          "  5  the monitor ended in the state `failed`\n"
          "  6  a verification did not pass\n";
+}
+
+std::string seed_refusal(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole ? "" : "must be a whole number from 0 to 2^64 - 1";
 }
 
 void add_bad_row_option(CLI::App& app, io::BadRowPolicy& policy) {

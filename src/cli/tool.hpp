@@ -41,6 +41,9 @@ Command add_demo(CLI::App& tool);
 
 /// The exit codes for the end of every --help.
 std::string exit_codes_help();
+/// For `check` of a --seed: empty where the text is a whole number that fits. CLI11 alone takes -1, and 2^64, for 2^64
+/// - 1.
+std::string seed_refusal(const std::string& text);
 /// --on-bad-row skip|stop
 void add_bad_row_option(CLI::App& app, io::BadRowPolicy& policy);
 

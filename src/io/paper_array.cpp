@@ -1,12 +1,13 @@
-// The array file of the paper's tool. A text rather than a generator: it is meant to be read.
+// The array files of the tools in the scenario library. Texts that are meant to be read: only the axes are filled in.
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/scenario/library.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 namespace {
 
-constexpr const char* kHead =
+constexpr const char* kPaperHead =
     R"(# The paper's tool: three accelerometers on a cone about the tool axis z, the fourth along z.
 # Only what a datasheet says. What the sensors really do is found by `plumb calibrate`.
 #   plumb geometry examples/paper_tool.toml
@@ -15,6 +16,17 @@ constexpr const char* kHead =
 #   plumb simulate examples/drilling.toml |
 #     plumb monitor --array examples/paper_tool.toml --calibration cal.json --log -
 name = "paper-tetrahedron"
+
+[gravity]
+model = "value"          # or "normal" with latitude, elevation and depth
+value = ")";
+
+constexpr const char* kHexadHead =
+    R"(# Six accelerometers of the paper's kind, normal to the faces of a dodecahedron: up to three faults can be isolated.
+#   plumb geometry examples/hexad_tool.toml
+#   plumb simulate examples/hexad_stand.toml --out stand.csv
+#   plumb calibrate --array examples/hexad_tool.toml --log stand.csv --out cal.json
+name = "hexad"
 
 [gravity]
 model = "value"          # or "normal" with latitude, elevation and depth
@@ -39,25 +51,30 @@ resolution = "152.587890625 uV"    # 16 bits over +-5 V
 prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
 )";
 
-struct IdAndAxis {
-  const char* id;
-  const char* axis;
-};
+/// "0.0" rather than "0": the axis reads as numbers.
+std::string component(double value) {
+  const std::string text = shortest(value == 0.0 ? 0.0 : value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
 
-// Eq (16) to the last bit, so that the file holds the tool of `scenario::paper_datasheet` itself.
-constexpr IdAndAxis kSensors[] = {{"a1", "[0.9428090415820635, 0.0, 0.3333333333333333]"},
-                                  {"a2", "[-0.47140452079103173, 0.8164965809277259, 0.3333333333333333]"},
-                                  {"a3", "[-0.47140452079103173, -0.8164965809277259, 0.3333333333333333]"},
-                                  {"a4", "[0.0, 0.0, 1.0]"}};
+std::string array_text(const char* head, const Datasheet& datasheet, double gravity_mps2) {
+  std::string out = head + shortest(gravity_mps2) + kInput;
+  for (int i = 0; i < datasheet.size; ++i) {
+    const SensorRow& row = datasheet.sensor[static_cast<std::size_t>(i)].row;
+    out += std::string("\n[[sensor]]\nid = \"") + row.id.data() + "\"\naxis = [" + component(row.axis[0]) + ", " +
+           component(row.axis[1]) + ", " + component(row.axis[2]) + "]" + kRest;
+  }
+  return out;
+}
 
 }  // namespace
 
 std::string paper_array_text(double gravity_mps2) {
-  std::string out = kHead + shortest(gravity_mps2) + kInput;
-  for (const IdAndAxis& sensor : kSensors) {
-    out += std::string("\n[[sensor]]\nid = \"") + sensor.id + "\"\naxis = " + sensor.axis + kRest;
-  }
-  return out;
+  return array_text(kPaperHead, scenario::paper_datasheet(), gravity_mps2);
+}
+
+std::string hexad_array_text(double gravity_mps2) {
+  return array_text(kHexadHead, scenario::hexad_datasheet(), gravity_mps2);
 }
 
 }  // namespace io

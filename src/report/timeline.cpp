@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
@@ -23,6 +26,37 @@ void add_cell(std::string& out, double value) {
   if (std::isfinite(value)) io::append_shortest(out, value);
 }
 
+constexpr double kMilliG0_mps2 = 1e-3 * kG0_mps2;
+
+constexpr std::array kColumns = {"t_s",
+                                 "state",
+                                 "output",
+                                 "cause",
+                                 "in_service",
+                                 "set_aside",
+                                 "excluded",
+                                 "absent",
+                                 "statistic",
+                                 "limit",
+                                 "statistic_over_limit",
+                                 "inclination_true_deg",
+                                 "inclination_plumb_deg",
+                                 "inclination_plain_deg",
+                                 "error_plumb_deg",
+                                 "error_plain_deg",
+                                 "g_error_plumb_mg0",
+                                 "g_error_plain_mg0",
+                                 "protection_level_deg"};
+
+/// "a1 a3": no comma, so that it is one cell.
+std::string ids(SensorSet set, const Timeline& timeline) {
+  std::string out;
+  for (std::size_t i = 0; i < timeline.sensors.size(); ++i) {
+    if (set.has(static_cast<int>(i))) out += (out.empty() ? "" : " ") + timeline.sensors[i];
+  }
+  return out;
+}
+
 }  // namespace
 
 bool inclination_of(const Vec3& gravity_mps2, const Mat3& frame, double& inclination_deg) {
@@ -37,7 +71,7 @@ TimelineRow power_on_row(double time_s, HealthState state) {
   row.state = state;
   row.cause = Cause::power_on;
   row.sensors = "-";
-  row.explanation = explain(Cause::power_on, state);
+  row.explanation = explain(Cause::power_on);
   return row;
 }
 
@@ -45,11 +79,15 @@ TimelineRow row_of(const Verdict& verdict, const SensorArray& array, const Mat3&
   TimelineRow row;
   const TransitionRecord& record = verdict.transition;
   row.time_s = record.time_s;
+  row.from = record.from;
   row.state = record.to;
+  row.event = record.event;
+  row.grade = record.grade;
   row.validity = verdict.validity;
   row.cause = record.cause;
+  row.named = record.sensors;
   row.sensors = sensor_names(record.sensors, array);
-  row.explanation = explain(record.cause, record.to);
+  row.explanation = explain(record.cause, record.grade);
   row.statistic = record.statistic;
   row.limit = record.limit;
   row.has_inclination = inclination_of(verdict.gravity_mps2, frame, row.inclination_deg);
@@ -72,18 +110,25 @@ std::string table_line(const TimelineRow& row) {
       row.has_inclination ? fmt::format("{:.3f}", row.inclination_deg) : "-", to_string(row.validity), row.explanation);
 }
 
+int timeline_column(const char* name) {
+  const auto* const found =
+      std::find_if(kColumns.begin(), kColumns.end(), [name](const char* column) { return !std::strcmp(column, name); });
+  return static_cast<int>(found - kColumns.begin()) + 1;
+}
+
 std::string timeline_csv(const Timeline& timeline) {
-  std::string out =
-      "t_s,state,output,cause,sensors_in_service,statistic,limit,statistic_over_limit,inclination_true_deg,"
-      "inclination_plumb_deg,inclination_plain_deg,error_plumb_deg,error_plain_deg,protection_level_deg\n";
+  std::string out;
+  for (const char* column : kColumns) out += (out.empty() ? "" : ",") + std::string(column);
+  out += '\n';
   for (const TimelinePoint& p : timeline.points) {
     io::append_shortest(out, p.time_s);
-    out += fmt::format(",{},{},{},{}", to_string(p.state), to_string(p.validity), to_string(p.cause),
-                       p.sensors_in_service);
+    out += fmt::format(",{},{},{}", to_string(p.state), to_string(p.validity), to_string(p.cause));
+    for (const SensorSet set : {p.in_service, p.set_aside, p.excluded, p.absent}) out += "," + ids(set, timeline);
     for (const double value :
          {p.statistic, p.limit, p.limit > 0.0 ? p.statistic / p.limit : std::nan(""), p.inclination_true_deg,
           p.inclination_plumb_deg, p.inclination_plain_deg, p.inclination_plumb_deg - p.inclination_true_deg,
-          p.inclination_plain_deg - p.inclination_true_deg, p.protection_level_deg}) {
+          p.inclination_plain_deg - p.inclination_true_deg, p.norm_error_plumb_mps2 / kMilliG0_mps2,
+          p.norm_error_plain_mps2 / kMilliG0_mps2, p.protection_level_deg}) {
       add_cell(out, value);
     }
     out += '\n';

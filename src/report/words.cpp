@@ -14,7 +14,7 @@ std::string sensor_names(SensorSet set, const SensorArray& array, const char* no
   return out.empty() ? none : out;
 }
 
-std::string explain(Cause cause, HealthState state) {
+std::string explain(Cause cause, Grade grade) {
   switch (cause) {
     case Cause::none: return "no reason on record";
     case Cause::power_on: return "just switched on: trust must be earned at several attitudes";
@@ -24,8 +24,8 @@ std::string explain(Cause cause, HealthState state) {
     case Cause::reference: return "the sensors agree, but not on the length of gravity: nobody is accused";
     case Cause::moving: return "the tool moves: evidence is suspended";
     case Cause::isolated_fault:
-      return state == HealthState::suspect ? "the sensor named is set aside, the rest must prove itself"
-                                           : "one explanation is left: the sensor named is faulty and excluded";
+      return grade == Grade::parity ? "the sensor named is set aside, the rest must prove itself"
+                                    : "one explanation is left: the sensor named is faulty and excluded";
     case Cause::contradiction: return "no explanation is left";
     case Cause::channel_lost: return "a channel delivers no usable value any more";
     case Cause::channel_back: return "a lost channel delivers again; it is not used yet";

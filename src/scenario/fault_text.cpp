@@ -292,12 +292,16 @@ std::string to_text(const Fault& fault, const FaultContext& context) {
   return text;
 }
 
+std::string describe_effect(const Fault& fault, const FaultContext& context) {
+  return id_of(context, fault.sensor) + " " + happening(fault, context);
+}
+
 std::string describe(const Fault& fault, const FaultContext& context) {
   static constexpr const char* kFrom[] = {"t = ", "row ", "station "};
   static constexpr const char* kUnit[] = {"", " rows", " stations"};
   const auto clock = static_cast<std::size_t>(fault.clock);
-  std::string text = id_of(context, fault.sensor) + " " + happening(fault, context) + " from " + kFrom[clock] +
-                     when_text(fault.clock, fault.onset, true) + " on";
+  std::string text =
+      describe_effect(fault, context) + " from " + kFrom[clock] + when_text(fault.clock, fault.onset, true) + " on";
   if (std::isfinite(fault.duration)) {
     text += ", for " + when_text(fault.clock, fault.duration, true) + kUnit[clock];
   }

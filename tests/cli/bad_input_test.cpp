@@ -11,7 +11,7 @@ Outcome geometry_of(const std::string& array_text) {
   return run(where, {"geometry", "array.toml"});
 }
 
-std::string good_array() { return read_text(demo() / "array.toml"); }
+std::string good_array() { return read_text(example_files() / "array.toml"); }
 
 void refused(const Outcome& outcome, int code, const std::vector<std::string>& words) {
   EXPECT_EQ(outcome.code, code) << outcome.out << outcome.err;
@@ -39,17 +39,17 @@ TEST(BadArrayFile, UnitUnknown) {
 }
 
 TEST(BadArrayFile, NumberWithoutUnitIsRefused) {
-  refused(geometry_of(with(good_array(), "noise = \"0.2 mg\"", "noise = \"0.2\"")), 3,
+  refused(geometry_of(with(good_array(), "noise = \"200 ug0\"", "noise = \"200\"")), 3,
           {"array.toml:", "sensor[1].noise"});
 }
 
 TEST(BadArrayFile, BareGIsRefused) {
-  refused(geometry_of(with(good_array(), "noise = \"0.2 mg\"", "noise = \"0.0002 g\"")), 3,
+  refused(geometry_of(with(good_array(), "noise = \"200 ug0\"", "noise = \"0.0002 g\"")), 3,
           {"array.toml:", "sensor[1].noise", "g0"});
 }
 
 TEST(BadArrayFile, AxisNotUnit) {
-  refused(geometry_of(with(good_array(), "axis = [0, 0, 1]", "axis = [0, 0, 1.02]")), 3,
+  refused(geometry_of(with(good_array(), "axis = [0.0, 0.0, 1.0]", "axis = [0.0, 0.0, 1.02]")), 3,
           {"array.toml:", "sensor[4].axis", "1.02 long", "Remedy: divide it by its length"});
 }
 
@@ -256,10 +256,11 @@ TEST(BadCommandLine, FaultThatCannotBeReadIsExplained) {
 
 TEST(SameFile, AnOutputThatIsAnInputIsRefusedAndTheInputKept) {
   const Directory where;
-  const std::string array = read_text(demo() / "array.toml"), log = read_text(demo() / "drilling.csv");
+  const std::string array = read_text(example_files() / "array.toml"),
+                    log = read_text(example_files() / "drilling.csv");
   write_text(where / "array.toml", array);
   write_text(where / "log.csv", log);
-  write_text(where / "cal.json", read_text(demo() / "calibration.json"));
+  write_text(where / "cal.json", read_text(example_files() / "calibration.json"));
   refused(run(where,
               {"inject", "--array", "array.toml", "--log", "log.csv", "--fault", "a2:last@3s", "--out", "./log.csv"}),
           2, {"log.csv", "--out", "--log"});

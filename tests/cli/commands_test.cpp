@@ -110,6 +110,35 @@ TEST(Monitor, VerdictsPerBlockOrPerSample) {
   EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 4100);
 }
 
+TEST(Monitor, TheHostsResetNeedsItsKey) {
+  const Workshop where;
+  ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:bias=50mg0@15s",
+                        "--out", "two.csv"})
+                .code,
+            0);
+  const std::vector<std::string> two = kMonitor + std::vector<std::string>{"--log", "two.csv"};
+  const Outcome wrong = run(where, two + std::vector<std::string>{"--host", "40s reset a1 key 5"});
+  EXPECT_EQ(wrong.code, 5) << wrong.out;
+  EXPECT_TRUE(says(wrong.err, {"--host \"40s reset a1 key 0x5\" was refused", "key does not match", "Remedy: "}));
+  const Outcome right = run(where, two + std::vector<std::string>{"--host", "40s reset a1 key 0x706c756d62"});
+  EXPECT_EQ(right.code, 0) << right.out << right.err;
+  EXPECT_TRUE(says(right.out, {"failed", "suspect", "host_request", "a1"}));
+  EXPECT_TRUE(right.err.empty()) << right.err;
+  const Outcome late = run(where, two + std::vector<std::string>{"--host", "1h reset a1 key 5"});
+  EXPECT_TRUE(says(late.err, {"ended before", "--host"}));
+  const Outcome unread = run(where, two + std::vector<std::string>{"--host", "40s reset a7 key 5"});
+  EXPECT_EQ(unread.code, 2);
+  EXPECT_TRUE(says(unread.err, {"--host", "no sensor 'a7'", "Remedy: "}));
+}
+
+TEST(Inject, RefusesASeedThatIsNoSeed) {
+  const Workshop where;
+  const Outcome outcome = run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault",
+                                      "a2:random=-3V..3V@20s", "--seed", "-1", "--out", "x.csv"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(says(outcome.err, {"--seed", "whole number from 0 to 2^64 - 1"}));
+}
+
 TEST(Monitor, TwoFaultsAmongFourEndInFailedWithCodeFive) {
   const Workshop where;
   ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:bias=50mg0@15s",

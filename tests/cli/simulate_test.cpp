@@ -63,7 +63,7 @@ TEST(Simulate, PipeIntoTheMonitorFindsTheFault) {
                                                    "a1, a3, a4", "excluded    a2"}));
 }
 
-TEST(Simulate, DemoCalibrationFitsTheSameTool) {
+TEST(Simulate, CalibrationOfTheExamplesFitsTheToolOfTheirSeed) {
   const Workshop where;
   where.put("scenario.toml", kShortest);
   ASSERT_EQ(run(where, {"simulate", "scenario.toml", "--out", "log.csv"}).code, 0);
@@ -175,7 +175,7 @@ TEST(Simulate, BadInputIsExplained) {
       {{"simulate"}, 2, {"scenario is required", "plumb simulate --help"}},
       {{"simulate", "good.toml", "more.toml"}, 2, {"\"more.toml\" is not expected"}},
       {{"simulate", "good.toml", "--sead", "1"}, 2, {"Did you mean \"--seed\"?"}},
-      {{"simulate", "good.toml", "--seed", "-1"}, 2, {"--seed", "whole number from 0 up"}},
+      {{"simulate", "good.toml", "--seed", "-1"}, 2, {"--seed", "whole number from 0 to 2^64 - 1"}},
       {{"simulate", "nowhere.toml"}, 3, {"nowhere.toml", "No such file", "Remedy: "}},
       {{"simulate", "bad.toml"}, 3, {"bad.toml:4: attitude.dwel", "did you mean \"dwell\"?"}},
       {{"simulate", "named.toml", "--array-out", "a.toml"}, 2, {"--array-out", "paper_tool.toml", "Remedy: use that"}},

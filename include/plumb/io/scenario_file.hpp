@@ -35,6 +35,8 @@ FileExpected<void> write_scenario(const std::string& path, const ScenarioFile& f
 /// The array file of the paper's tool (`scenario::paper_datasheet`), as a person would write it: volts,
 /// columns t_s and station.
 std::string paper_array_text(double gravity_mps2);
+/// The same for the tool of six sensors (`scenario::hexad_datasheet`).
+std::string hexad_array_text(double gravity_mps2);
 
 /// What the text of a fault is read against, for the log that this array file describes.
 scenario::FaultContext fault_context(const ArrayFile& array);

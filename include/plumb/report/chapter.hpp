@@ -22,6 +22,7 @@ struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
   std::string note;
+  int state_column = -1;  ///< its cells are names of states, shown in their colours
 };
 
 struct FileLink {
@@ -29,13 +30,23 @@ struct FileLink {
   std::string what;
 };
 
+/// One of the few numbers that matter.
+struct Figure {
+  std::string value, label;
+};
+
+/// Shown in this order: text, figures, story, pictures, tables, commands, files.
 struct Chapter {
-  std::string id;     ///< anchor
+  std::string id;     ///< anchor, of letters, digits, '-' and '_'
   std::string title;  ///< "4 Table 2 of the paper"
   std::vector<std::string> text;
   std::vector<Picture> pictures;
   std::vector<Table> tables;
   std::vector<FileLink> files;
+  std::string gist;  ///< one line for the index
+  std::vector<Figure> figures;
+  std::vector<std::string> story;     ///< what happened, a sentence each
+  std::vector<std::string> commands;  ///< that redo the chapter by hand
 };
 
 }  // namespace report

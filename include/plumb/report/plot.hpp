@@ -1,18 +1,14 @@
-/// The picture of a monitored run, drawn by gnuplot (a program that must be installed at run time).
+/// Pictures are drawn by gnuplot (a program that must be installed at run time) and stand inside pages as SVG.
 #pragma once
 
 #include <string>
 
+#include "plumb/health/state.hpp"
 #include "plumb/io/file_error.hpp"
-#include "plumb/report/timeline.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
-
-/// The gnuplot program that draws `csv` (as written by `timeline_csv`) into `svg`; both are names
-/// without a directory, so that the script runs wherever the three files lie together.
-std::string timeline_script(const Timeline& timeline, const std::string& csv, const std::string& svg);
 
 /// Runs `gnuplot script` inside `directory`. Where gnuplot is not installed the error names it, and the
 /// package to install.

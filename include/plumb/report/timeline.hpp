@@ -1,4 +1,5 @@
-/// What a monitored run looked like: rows (one per change) and points (one per quiet block).
+/// What a monitored run looked like: rows (one per change), points (one per quiet block) and phases (stretches in which
+/// nothing that a lane of the picture shows has changed).
 #pragma once
 
 #include <string>
@@ -14,10 +15,14 @@ namespace report {
 /// One change of state or of the sets of sensors, ready to be shown.
 struct TimelineRow {
   double time_s = 0.0;
+  HealthState from = HealthState::suspect;
   HealthState state = HealthState::suspect;
+  HealthEvent event = HealthEvent::none;
+  Grade grade = Grade::none;  ///< of an exclusion
   Validity validity = Validity::invalid;
   Cause cause = Cause::none;
-  std::string sensors;      ///< ids that the event names, or "-"
+  SensorSet named;          ///< sensors that the event names
+  std::string sensors;      ///< their ids that the event names, or "-"
   std::string explanation;  ///< plain words
   double statistic = 0.0;   ///< of the block that decided; limit 0 = no test took part
   double limit = 0.0;
@@ -37,19 +42,32 @@ bool inclination_of(const Vec3& gravity_mps2, const Mat3& frame, double& inclina
 std::string table_header();
 std::string table_line(const TimelineRow& row);
 
-/// One quiet block. Angles in deg; NaN = not known.
+/// One quiet block. NaN = not known.
 struct TimelinePoint {
   double time_s = 0.0;
   HealthState state = HealthState::suspect;
   Validity validity = Validity::invalid;
   Cause cause = Cause::none;
-  int sensors_in_service = 0;
+  SensorSet in_service, set_aside, excluded, absent;
   double statistic = 0.0;
   double limit = 0.0;
   double inclination_true_deg = 0.0;
   double inclination_plumb_deg = 0.0;
   double inclination_plain_deg = 0.0;  ///< least squares over all sensors, nobody watched
+  double norm_error_plumb_mps2 = 0.0;  ///< |g| - G
+  double norm_error_plain_mps2 = 0.0;
   double protection_level_deg = 0.0;
+};
+
+/// From its time up to that of the next one.
+struct TimelinePhase {
+  double from_s = 0.0;
+  HealthState state = HealthState::suspect;
+  Validity validity = Validity::invalid;
+  Cause cause = Cause::none;
+  bool moving = false;
+  SensorSet in_service, set_aside, excluded, absent;
+  SensorSet faulty;  ///< what is really in fault, which the monitor is not told
 };
 
 /// Something that the run is known to hold, to be marked in the plot ("a2 dies").
@@ -59,8 +77,10 @@ struct TimelineMark {
 };
 
 struct Timeline {
+  std::vector<std::string> sensors;  ///< ids
   std::vector<TimelineRow> rows;
-  std::vector<TimelineMark> marks;
+  std::vector<TimelinePhase> phases;
+  std::vector<TimelineMark> marks;  ///< in order of time
   std::vector<TimelinePoint> points;
   double begin_s = 0.0;
   double end_s = 0.0;
@@ -68,6 +88,9 @@ struct Timeline {
 
 /// The points as CSV, the header row included.
 std::string timeline_csv(const Timeline& timeline);
+
+/// Where the points stand in that CSV, for programs that draw it: the first column is 1.
+int timeline_column(const char* name);
 
 /// Largest inclination errors over the points of one validity.
 struct ErrorSummary {

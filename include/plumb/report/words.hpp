@@ -13,8 +13,8 @@ namespace report {
 /// "a1, a3", or `none` for the empty set.
 std::string sensor_names(SensorSet set, const SensorArray& array, const char* none = "-");
 
-/// Why the monitor says what it says, for someone who has not read the manual. `state` is the state it led to.
-std::string explain(Cause cause, HealthState state);
+/// Why the monitor says what it says, for someone who has not read the manual. `grade` is that of an exclusion.
+std::string explain(Cause cause, Grade grade = Grade::none);
 
 /// What a state means, in one sentence.
 const char* meaning(HealthState state) noexcept;

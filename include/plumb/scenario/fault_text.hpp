@@ -43,6 +43,9 @@ tl::expected<Fault, std::string> parse_fault(std::string_view text, const FaultC
 /// the unit of the log.
 std::string to_text(const Fault& fault, const FaultContext& context);
 
+/// "a2 stands at 0 V".
+std::string describe_effect(const Fault& fault, const FaultContext& context);
+
 /// "a2 stands at 0 V from t = 12 s on".
 std::string describe(const Fault& fault, const FaultContext& context);
 

@@ -1,5 +1,5 @@
-/// Ready scenarios: the paper's tool, its calibration and a short drilling run. Used by the demo, the
-/// tests and the benches alike, so that all of them speak of the same tool.
+/// Ready scenarios: the paper's tool and one of six sensors, their calibration, a short drilling run and two drills.
+/// Used by the demo, the tests and the benches alike, so that all of them speak of the same tools.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "plumb/core/config.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/scenario/fault.hpp"
+#include "plumb/scenario/host_request.hpp"
 #include "plumb/scenario/scenario.hpp"
 #include "plumb/scenario/truth.hpp"
 
@@ -29,6 +30,11 @@ Datasheet paper_datasheet() noexcept;
 /// A tool of that datasheet with bias U(+-0.02 g0), scale U(+-2 %), axes tilted U(+-2 deg) about two axes.
 Tool paper_tool(std::uint64_t seed) noexcept;
 
+/// Six sensors, a1 .. a6, normal to the faces of a dodecahedron, otherwise like those of the paper's tool.
+Datasheet hexad_datasheet() noexcept;
+/// Drawn as the paper's tool is.
+Tool hexad_tool(std::uint64_t seed) noexcept;
+
 /// Calibration on a stand: `stations` random attitudes of 2 s at 100 Hz, tagged, motion not recorded.
 Scenario calibration_run(const Tool& tool, std::uint64_t seed, int stations = 48);
 
@@ -39,6 +45,20 @@ Scenario drilling_run(const Tool& tool, std::uint64_t seed, std::vector<Fault> f
 
 /// The output of `sensor` stands at 0 V from `station` on (the demo: a2, index 1, at station 6).
 Fault dead_at_station(int sensor, int station) noexcept;
+
+/// A run that leads the monitor through its states, and what the host asks of it on the way.
+struct Drill {
+  Scenario scenario;
+  std::vector<HostRequest> requests;  ///< in order of time
+};
+
+/// For the paper's tool; thirty stations. a2 dies at station 6 and is sound again at station 21; a3 stands at 3 V from
+/// station 12 on. At station 22 the host asks for a reset that names a2, first with a wrong key.
+Drill drill_a(const Tool& tool, std::uint64_t seed);
+
+/// For the tool of six sensors; forty-four stations. a2 reads 50 mg0 too much from station 6 to station 25; the host
+/// asks for a recalibration at station 13; a5 dies at station 30.
+Drill drill_b(const Tool& tool, std::uint64_t seed);
 
 }  // namespace scenario
 }  // namespace PLUMB_ABI
