@@ -26,6 +26,8 @@ const char* describe(Errc code) noexcept {
     case Errc::not_calibrated: return "no calibration has been accepted";
     case Errc::wrong_key: return "the reset key does not match";
     case Errc::not_invertible: return "the cross-axis matrix is singular";
+    case Errc::wrong_state: return "the monitor does not take this request in its present state";
+    case Errc::not_confirmed: return "a station that was held out of the fit contradicts it";
   }
   return "unknown error code";
 }
@@ -52,6 +54,8 @@ const char* remedy(Errc code) noexcept {
     case Errc::not_calibrated: return "run a calibration or load an accepted one";
     case Errc::wrong_key: return "use the reset key of the configuration";
     case Errc::not_invertible: return "correct the misalignment terms: two sensors are given the same axis";
+    case Errc::wrong_state: return "ask again when the monitor has settled, no alarm on record";
+    case Errc::not_confirmed: return "look for a sensor that changed while the stations were collected, then collect anew";
   }
   return "report this code as a defect of plumb";
 }

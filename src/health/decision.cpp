@@ -94,12 +94,19 @@ SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
   }
   if ((actions & (Action::mark_absent | Action::mark_back)) != 0) named = move_channels(actions);
   if ((actions & (Action::reinstate | Action::rearm)) != 0) named = return_to_service(actions);
+  if ((actions & (Action::start_fit | Action::discard_fit | Action::restart_fit | Action::adopt_fit)) != 0) {
+    const SensorSet fitted = serve_fit(actions);
+    if (named.empty()) named = fitted;
+  }
   if ((actions & Action::exhausted) != 0) exhausted_ = true;
   if ((actions & Action::unproven) != 0) {
     unproven_ = true;
     have_predictions_ = false;
   }
-  if (before != in_service_) clean_run_ = 0;
+  if (before != in_service_) {
+    clean_run_ = 0;
+    recalibration_.forget();  // its stations were those of other sensors
+  }
   const bool posed_changed = posed_before != (in_service_ | set_aside_);
   if (posed_changed) {
     // The question is another one now: what was answered, and over how many stations, does not carry over.
@@ -113,8 +120,8 @@ SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
 
 Cause HealthMonitor::cause_of(HealthEvent event) const noexcept {
   switch (event) {
-    case HealthEvent::reset:
-    case HealthEvent::recalibrate: return Cause::host_request;
+    case HealthEvent::reset: return Cause::host_request;
+    case HealthEvent::recalibrate: return recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;
     case HealthEvent::channel_lost: return Cause::channel_lost;
     case HealthEvent::channel_back: return Cause::channel_back;
     case HealthEvent::culprit:
@@ -155,9 +162,11 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   facts.size = size_class_;
   facts.unproven = unproven_;
   facts.earned = clean_run_ >= config_.clean_blocks && !unproven_;
+  facts.base_suspect = base_ == Mode::suspect;
   facts.protection_within = unbounded_run_ < config_.clean_blocks;
   facts.calibrated = true;
   mode_ = resolve(from, cell.target, facts);
+  follow_suspicion(event, from);
 
   const bool changed =
       mode_ != from || sets[0] != in_service_ || sets[1] != set_aside_ || sets[2] != excluded_ || sets[3] != absent_;
@@ -174,6 +183,12 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   record.sensors = named;
   record.statistic = verdict_.statistic;
   record.limit = verdict_.limit;
+  if (event == HealthEvent::fit_rejected) {
+    const Error refusal = recalibration_.progress(array_).last_refusal;
+    record.statistic = refusal.value;
+    record.limit = refusal.limit;
+  }
+  if (event == HealthEvent::recalibrate) recalibration_asked_ = recalibration_due_ = false;
   return event;
 }
 

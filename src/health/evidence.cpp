@@ -257,13 +257,28 @@ HealthMonitor::EventMask HealthMonitor::raise_block_events(const BlockView& view
   if (view.kind == Kind::alarm) {
     const bool refuted = asserted_left_ == 0;  // "no more faults", and here is one
     if (refuted) asserted_left_ = -1;
-    raised |= bit(answer_.contradiction || refuted ? HealthEvent::contradiction : HealthEvent::alarm);
+    const HealthEvent event = answer_.contradiction || refuted ? HealthEvent::contradiction : HealthEvent::alarm;
+    if (!expected(event)) raised |= bit(event);
   }
-  if (view.kind == Kind::reference) raised |= bit(HealthEvent::reference);
+  if (view.kind == Kind::reference && !expected(HealthEvent::reference)) raised |= bit(HealthEvent::reference);
   if (view.kind == Kind::clean) raised |= bit(HealthEvent::clean_block);
   if (!on_probation_.empty() && probation_.size() >= config_.probation_stations)
     raised |= bit(HealthEvent::probation_passed);
   return raised;
+}
+
+/// What the store of recalibration makes of a block. A block that speaks against the tool takes the last station back.
+void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept {
+  using Kind = BlockView::Kind;
+  constexpr EventMask kRefuting = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) |
+                                  bit(HealthEvent::reference) | bit(HealthEvent::culprit) | bit(HealthEvent::set_aside);
+  const bool outside = mode_ == Mode::suspect || mode_ == Mode::failed || mode_ == Mode::initial;
+  if (outside || (raised & kRefuting) != 0) {
+    recalibration_.drop_last();
+    return;
+  }
+  if (view.kind == Kind::none || view.kind == Kind::soft || !raw.complete().contains(in_service_)) return;
+  recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 
 HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
@@ -272,6 +287,8 @@ HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2);
   block_usable_ = block_.usable();
   block_.clear();
+  const RawBlock raw = raw_;
+  raw_.clear();
   verdict_.restless = judged.restless;
   moving_ = !judged.quiet;
   partial_ = !block_usable_.contains(in_service_);
@@ -314,6 +331,7 @@ HealthMonitor::EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   unbounded_run_ = bounded ? 0 : unbounded_run_ + (unbounded_run_ < config_.clean_blocks ? 1 : 0);
   examine_probation(evidence_, view);
   const EventMask raised = raise_block_events(view);
+  collect(view, raw, raised);
   publish_vector();
   return raised;
 }

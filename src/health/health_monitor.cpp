@@ -110,6 +110,12 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   last_grade_ = Grade::none;
   gate_.configure(n, setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
+  raw_.clear();
+  recalibration_.configure(model_, {config_.drift_bias_mps2, config_.drift_scale}, config_.station_angle_rad);
+  base_ = Mode::suspect;
+  suspicion_ = Cause::none;
+  recalibration_asked_ = recalibration_due_ = three_sensor_fit_ = false;
+  store_g_mps2_ = gravity_.g_mps2;
   mae_.configure(array_.triple_count(), config_.window);
   isolation_ = Isolation{};
   isolation_.pose(array_, in_service_);
@@ -138,6 +144,11 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
                      gravity.sigma_mps2 >= 0.0;
   if (!sound) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
   gravity_ = gravity;
+  // Stations under one gravity and stations under another do not make one fit.
+  if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {
+    recalibration_.forget();
+    store_g_mps2_ = gravity.g_mps2;
+  }
   // What died under the other gravity may have died of it.
   isolation_.clear();
   answer_ = IsolationAnswer{};
@@ -206,6 +217,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   if (gap || gate.gap) {
     verdict_.cause = Cause::gap;
     block_.clear();
+    raw_.clear();
     mae_.clear();
     station_.clear();
   }
@@ -224,6 +236,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
     if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
     block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
+    raw_.add(sample.raw, gate.usable, last_temperature_degc_);
     verdict_.accepted = true;
     ticked = block_.size() >= config_.window;
     if (ticked) {
@@ -233,6 +246,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     if (!((gate_.lost() & array_.all()) - absent_).empty()) raised |= bit(HealthEvent::channel_lost);
     if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
   }
+  raised |= advance_recalibration(sample.time_s);
   // What a block said is a level: a channel event that ranks before it must not make it unsaid.
   constexpr EventMask kKept = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
   raised |= pending_;
@@ -257,9 +271,10 @@ void HealthMonitor::note_silent_channels() noexcept {
 Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
   if (moving_ || last_time_s_ - evidence_time_s_ > config_.max_age_s) return Validity::held;
-  if (mode_ == Mode::suspect || mode_ == Mode::recalibrating || temperature_out_ || partial_)
-    return Validity::unconfirmed;
-  return mode_ == Mode::degraded ? Validity::degraded : Validity::valid;
+  const Mode mode = published_mode();
+  if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
+  if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
+  return mode == Mode::degraded ? Validity::degraded : Validity::valid;
 }
 
 void HealthMonitor::publish_vector() noexcept {
@@ -293,7 +308,8 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
                                            (mode_ == Mode::initial ? Qualifier::initial_calibration : 0) |
                                            (!set_aside_.empty() ? Qualifier::provisional : 0) |
                                            (exhausted_ ? Qualifier::exhausted : 0) |
-                                           (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0));
+                                           (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
+                                           (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0));
   v.configured = array_.all();
   v.in_service = in_service_;
   v.set_aside = set_aside_;
@@ -308,12 +324,15 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.parity_grade = isolation_.parity_grade();
   v.live_hypotheses = live_;
   v.stations_on_record = episode_.stations.size();
-  v.wants_rotation = mode_ == Mode::suspect && (unproven_ || (episode_.open && !answer_.contradiction));
+  v.recalibration = recalibration_.progress(array_);
+  v.recalibration.wanted_direction = times(frame_, v.recalibration.wanted_direction);
+  v.wants_rotation = (mode_ == Mode::suspect && (unproven_ || (episode_.open && !answer_.contradiction))) ||
+                     (mode_ == Mode::recalibrating && v.recalibration.stations_wanted > 0);
   v.mae_all_mps2 = mae_.all_mps2();
   v.validity = validity();
   v.age_s = have_evidence_ ? last_time_s_ - evidence_time_s_ : 0.0;
   v.protection_available = scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
-                           mode_ != Mode::degraded;
+                           published_mode() != Mode::degraded;
   v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
   v.alert =
       !v.protection_available || v.protection_level_rad > config_.alert_limit_rad || v.validity != Validity::valid;

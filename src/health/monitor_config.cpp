@@ -39,6 +39,9 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {0, 0, 0},  // reset_key: any
       {c.temperature_min_degc, -1e9, 1e9},
       {c.temperature_max_degc, -1e9, 1e9},
+      {0, 0, 0},  // recalibrate_after_exclusion: either
+      {c.drift_bias_mps2, 1e-6, 10},
+      {c.drift_scale, 1e-7, 0.1},
   };
   int index = 0;
   for (const Range& f : fields) {

@@ -30,6 +30,8 @@ enum class Errc : std::uint8_t {
   not_calibrated,       ///< no accepted calibration
   wrong_key,            ///< reset key does not match
   not_invertible,       ///< cross-axis matrix of eq (3) is singular
+  wrong_state,          ///< the state machine does not take this request now: value = state (HealthState)
+  not_confirmed,        ///< a station held out of the fit contradicts it: index = station, value = statistic
 };
 
 struct Error {

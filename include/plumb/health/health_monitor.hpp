@@ -13,6 +13,7 @@
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/monitor_config.hpp"
+#include "plumb/health/recalibration.hpp"
 #include "plumb/health/transition_table.hpp"
 #include "plumb/health/verdict.hpp"
 
@@ -48,10 +49,17 @@ class HealthMonitor {
   /// Error: wrong_key. Ignored in any other state (design, section 5).
   Expected<void> reset(std::uint64_t key, SensorSet sensors) noexcept;
 
+  /// Asks for new biases and scales of the sensors in service (design, section 5): taken at the next step. Error:
+  /// wrong_state (value = HealthState) unless the monitor is nominal, isolated or degraded with no alarm on record, or
+  /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare.
+  Expected<void> request_recalibration() noexcept;
+
   /// Another length of gravity (depth has changed). Error: out_of_range.
   Expected<void> set_gravity(const GravityReference& gravity) noexcept;
 
   const SensorArray& array() const noexcept { return array_; }
+  const SensorModel& model() const noexcept { return model_; }
+  const Recalibration& recalibration() const noexcept { return recalibration_; }
   const MonitorConfig& config() const noexcept { return config_; }
   const ChannelMonitor& channels() const noexcept { return gate_; }
   const CombinationMae& mae() const noexcept { return mae_; }
@@ -83,6 +91,16 @@ class HealthMonitor {
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockEvidence& evidence, const BlockView& view) noexcept;
   void rescan() noexcept;
+  void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
+
+  // recalibrating.cpp: the shadow fit
+  bool may_recalibrate() const noexcept;
+  bool expected(HealthEvent event) const noexcept;
+  EventMask advance_recalibration(double time_s) noexcept;
+  SensorSet serve_fit(Action::Bits actions) noexcept;
+  void adopt() noexcept;
+  void follow_suspicion(HealthEvent event, Mode from) noexcept;
+  Mode published_mode() const noexcept { return mode_ == Mode::recalibrating ? base_ : mode_; }
 
   // decision.cpp: one event
   HealthEvent decide(EventMask raised, double time_s) noexcept;  // the event that was taken
@@ -136,9 +154,16 @@ class HealthMonitor {
   bool reset_pending_ = false;
   Grade last_grade_ = Grade::none;
 
+  Mode base_ = Mode::suspect;      ///< what recalibrating was entered from
+  Cause suspicion_ = Cause::none;  ///< the last block event that keeps the monitor in suspect
+  bool recalibration_asked_ = false, recalibration_due_ = false;  ///< by the host; by the policy, after an exclusion
+  bool three_sensor_fit_ = false;
+  double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
+
   // Evidence.
   ChannelMonitor gate_;
   BlockAccumulator block_;
+  RawBlock raw_;  ///< the same samples before the sensor model
   CombinationMae mae_;
   Isolation isolation_;
   Episode episode_;
@@ -148,6 +173,7 @@ class HealthMonitor {
   IsolationAnswer answer_;
   FaultSetScan scan_;
   SensorSet clipped_, not_finite_;
+  Recalibration recalibration_;
   Verdict verdict_;
 };
 

@@ -36,6 +36,12 @@ struct MonitorConfig {
   std::uint64_t reset_key = 0x706c756d62ULL;        ///< what `reset` must be called with
   double temperature_min_degc = -1e9;               ///< calibrated span; beyond it by > 5 degC output is unconfirmed
   double temperature_max_degc = 1e9;
+  bool recalibrate_after_exclusion = false;  ///< estimate biases and scales anew once the survivors are trusted
+  /// How far a bias and a scale factor may have drifted since the commissioning calibration, 1 sigma: the prior of a
+  /// recalibration, and the unit of its bounds. Defaults: the yearly repeatability of a borehole servo accelerometer
+  /// with margin. MEMS need more.
+  double drift_bias_mps2 = 2e-3 * kG0_mps2;
+  double drift_scale = 5e-4;
 };
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.

@@ -69,6 +69,8 @@ struct Qualifier {
   static constexpr std::uint8_t provisional = 8;
   static constexpr std::uint8_t no_redundancy = 16;
   static constexpr std::uint8_t exhausted = 32;
+  static constexpr std::uint8_t three_sensor_fit =
+      64;  ///< the coefficients in force come from a fit that none could check
 };
 
 /// Grade of an exclusion (design, section 4).

@@ -6,6 +6,7 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/health/recalibration_progress.hpp"
 #include "plumb/health/state.hpp"
 
 namespace plumb {
@@ -55,6 +56,8 @@ struct Verdict {
   int live_hypotheses = 0;      ///< voting sets still alive in this episode
   int stations_on_record = 0;   ///< excited stations of this episode
   bool wants_rotation = false;  ///< another attitude would help
+
+  RecalibrationProgress recalibration;  ///< `wanted_direction` in the output frame
 
   // Figures of the paper: sliding MAE over the window (eq 14), m/s^2.
   double mae_all_mps2 = 0.0;    ///< of the sensors in service

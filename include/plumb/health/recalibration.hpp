@@ -1,0 +1,106 @@
+/// In-flight recalibration: biases and scales of the sensors in service are estimated anew in the shadow of
+/// the calibration in force; axes and temperature coefficients are held. Axes stay those of the commissioning
+/// calibration because gravity cannot tell a common turn of the axes from none: a fit that is free to turn them
+/// launders a shifted mount, one with frozen axes shows it in the parity residual (design, section 5).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/calibration/calibration.hpp"
+#include "plumb/detection/set_test.hpp"
+#include "plumb/health/recalibration_progress.hpp"
+#include "plumb/health/station_store.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// How far a sensor may have drifted since it was calibrated, 1 sigma.
+struct DriftSigmas {
+  double bias_mps2 = 2e-3 * kG0_mps2;
+  double scale = 5e-4;  ///< relative
+};
+
+class Recalibration {
+ public:
+  /// What the fit is made and judged with: the calibration in force.
+  struct InForce {
+    const SensorModel& model;
+    const SensorArray& array;
+    const GravityReference& gravity;
+    const TestLimits& limits;
+  };
+  enum class Outcome : std::uint8_t { none, accepted, rejected };
+
+  /// Bounds on a change in units of the drift sigma: against the calibration in force, against the commissioning
+  /// one (else small accepted steps would add up without limit), and per hour since the last adoption, of which
+  /// an adoption may always use a quarter.
+  static constexpr double kLastSigmas = 3.0;
+  static constexpr double kCommissioningSigmas = 5.0;
+  static constexpr double kSigmasPerHour = 1.0;
+  static constexpr double kLeastHours = 0.25;
+  static constexpr int kHeldOutNeeded = 2;
+
+  /// Remembers the commissioning calibration. Empties everything.
+  void configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad) noexcept;
+
+  // ---- The store
+  /// A block that was clean, of a station that has just begun or goes on. Ignored while a fit runs over the store.
+  void add_block(const StationMean& block, bool station_begins) noexcept;
+  void drop_last() noexcept { store_.drop_last(); }
+  void forget() noexcept;  ///< every station, and the fit over them
+  const StationStore& store() const noexcept { return store_; }
+
+  // ---- The fit
+  void start(SensorSet sensors) noexcept;
+  void stop() noexcept;  ///< discards the fit and every station: none is tried twice
+  /// At most one Calibrator iteration, or one judgement. `accepted` is repeated until `apply` or `stop`, `rejected`
+  /// until the next `start`.
+  Outcome step(const InForce& in_force, double time_s) noexcept;
+  /// Writes the accepted fit into model and array, both those that were in force when it was made: coefficients of the
+  /// fitted sensors, and the uncertainty that the fit and the held axes leave. Stops.
+  void apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s) noexcept;
+
+  SensorSet sensors() const noexcept { return sensors_; }
+  RecalibrationProgress progress(const SensorArray& array) const noexcept;
+  std::uint32_t iterations() const noexcept { return iterations_; }  ///< of all fits since `configure`
+  /// Stations to be entered before a fit over n sensors is tried, those held out among them.
+  static int stations_needed(int n) noexcept;
+
+ private:
+  struct ReadingError {
+    double noise_mps2_sq = 0.0, total_mps2_sq = 0.0;
+  };
+  using Stations = std::array<Station, StationStore::kMax>;
+
+  int fit_stations(Stations& out) const noexcept;
+  ReadingError reading_error(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
+  Datasheet datasheet(const InForce& in_force) const noexcept;
+  bool uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
+                          SensorSet& lacking) const noexcept;
+  bool ready(const InForce& in_force) noexcept;
+  Outcome judge(const InForce& in_force, double time_s) noexcept;
+  Error read_fit(const InForce& in_force) noexcept;
+  Error check_bounds(const SensorModel& model, double time_s) const noexcept;
+  Error check_stations(const InForce& in_force) const noexcept;
+  void write_coefficients(SensorModel& model) const noexcept;
+  Vec3 wanted_direction(const SensorArray& array) const noexcept;
+
+  StationStore store_;
+  DriftSigmas drift_;
+  std::array<double, kCapacity> commissioned_scale_{}, commissioned_bias_mps2_{};
+  std::array<double, kCapacity> length_{};      ///< fitted: new scale over the one in force
+  std::array<double, kCapacity> shift_mps2_{};  ///< fitted: what is added to the bias, before the new scale
+  double inflation_ = 1.0;                      ///< of the fit's covariance: chi^2 per degree of freedom, at least 1
+  double adopted_s_ = 0.0;
+  bool adopted_ = false;
+  bool untried_ = false;  ///< the store has changed since the last fit
+  RecalibrationPhase phase_ = RecalibrationPhase::idle;
+  SensorSet sensors_, lacking_;
+  std::uint32_t iterations_ = 0;
+  Error refusal_;
+  Calibrator calibrator_{Datasheet{}, GravityReference{}, FitOptions{}};
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

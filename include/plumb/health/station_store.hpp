@@ -1,0 +1,80 @@
+/// What recalibration remembers of the run: raw channel means at up to 24 attitudes, entered one station
+/// late, so that an alarm can still take back the last one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/sample.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/core/vec3.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Raw means of one block or of one station.
+struct StationMean {
+  std::array<double, kCapacity> raw{};
+  Vec3 direction{};  ///< of gravity, unit vector in the tool frame, by the calibration in force
+  double temperature_degc = 0.0;
+  double samples = 0.0;  ///< N behind the means; 0 = nothing here
+};
+
+/// Collects the raw values of one block.
+class RawBlock {
+ public:
+  void clear() noexcept { *this = RawBlock{}; }
+  void add(const std::array<double, kCapacity>& raw, SensorSet usable, double temperature_degc) noexcept;
+  /// Channels that delivered every sample of the block: the others have no mean at its temperature.
+  SensorSet complete() const noexcept { return complete_; }
+  StationMean mean(SensorSet of, const Vec3& direction, double samples) const noexcept;
+
+ private:
+  std::array<double, kCapacity> sum_{};
+  SensorSet complete_;
+  double temperature_sum_ = 0.0;
+  int size_ = 0;
+};
+
+class StationStore {
+ public:
+  static constexpr int kMax = 24;
+  /// Every fourth station is held out of the fit.
+  static constexpr int kHeldOutStride = 4;
+  /// Blocks of one station are pooled while the tool stands within this angle: the mean over it is shorter than
+  /// gravity by less than 0.4 ppm.
+  static constexpr double kPoolAngle_rad = rad_from_deg(0.1);
+
+  /// Two stations nearer than this are one attitude: the later one takes the place of the earlier.
+  explicit StationStore(double same_attitude_rad = rad_from_deg(2.0)) noexcept : same_rad_(same_attitude_rad) {}
+
+  /// A block of the station at hand.
+  void add_block(const StationMean& block) noexcept;
+  /// The tool has moved on: the station before the last one is entered, the last one waits.
+  void end_station() noexcept;
+  /// Takes back what has not been entered: the station at hand and the one before it.
+  void drop_last() noexcept;
+  void clear() noexcept;
+
+  int size() const noexcept { return size_; }
+  const StationMean& station(int k) const noexcept { return station_[static_cast<std::size_t>(k)]; }
+  /// A replaced station leaves its part to its successor, so that the share of both stays.
+  static constexpr bool held_out(int k) noexcept { return k % kHeldOutStride == kHeldOutStride - 1; }
+  int held_out_count() const noexcept { return size_ / kHeldOutStride; }
+  int fit_count() const noexcept { return size_ - held_out_count(); }
+  /// Changes with every entry.
+  std::uint32_t entries() const noexcept { return entries_; }
+
+ private:
+  void enter(const StationMean& mean) noexcept;
+  int crowded_slot(int nearest, double nearest_cosine) const noexcept;
+
+  std::array<StationMean, kMax> station_{};
+  StationMean current_, waiting_;
+  double same_rad_;
+  int size_ = 0;
+  std::uint32_t entries_ = 0;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

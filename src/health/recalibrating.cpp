@@ -1,0 +1,105 @@
+// Recalibration in the monitor: who may ask for it, what it is fed, what adopting it empties.
+#include "plumb/health/health_monitor.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+bool HealthMonitor::may_recalibrate() const noexcept {
+  if (!configured_ || !set_aside_.empty()) return false;
+  switch (mode_) {
+    case Mode::nominal:
+    case Mode::isolated:
+    case Mode::degraded: return !episode_.open && !unproven_;
+    case Mode::suspect:
+      // A fit of three sensors never clears an alarm: nothing but the fit itself would vouch for it.
+      if (size_class_ == SizeClass::critical) return false;
+      return suspicion_ == Cause::contradiction || (suspicion_ == Cause::reference && !episode_.open);
+    case Mode::recalibrating:
+    case Mode::initial:
+    case Mode::failed: return false;
+  }
+  return false;
+}
+
+Expected<void> HealthMonitor::request_recalibration() noexcept {
+  if (!may_recalibrate()) return fail(Errc::wrong_state, -1, static_cast<double>(state_of(mode_)));
+  recalibration_asked_ = true;
+  return {};
+}
+
+/// The condition for which the host asked is no news while the fit that may end it is being made; all else aborts it.
+bool HealthMonitor::expected(HealthEvent event) const noexcept {
+  return mode_ == Mode::recalibrating && base_ == Mode::suspect && suspicion_ == cause_of(event) &&
+         (event == HealthEvent::reference || event == HealthEvent::contradiction);
+}
+
+HealthMonitor::EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
+  EventMask raised = 0;
+  if (mode_ == Mode::recalibrating) {
+    switch (recalibration_.step({model_, array_, gravity_, limits_}, time_s)) {
+      case Recalibration::Outcome::accepted: raised |= bit(HealthEvent::fit_accepted); break;
+      case Recalibration::Outcome::rejected: raised |= bit(HealthEvent::fit_rejected); break;
+      case Recalibration::Outcome::none: break;
+    }
+  }
+  const bool due = recalibration_due_ && mode_ == Mode::isolated && clean_run_ >= config_.clean_blocks;
+  if ((recalibration_asked_ || due) && may_recalibrate()) raised |= bit(HealthEvent::recalibrate);
+  return raised;
+}
+
+SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
+  if ((actions & Action::start_fit) != 0) {
+    base_ = mode_;
+    recalibration_.start(in_service_);
+    return in_service_;
+  }
+  if ((actions & Action::adopt_fit) != 0) {
+    const SensorSet fitted = recalibration_.sensors();
+    adopt();
+    return fitted;
+  }
+  if ((actions & Action::discard_fit) != 0) recalibration_.stop();
+  if ((actions & Action::restart_fit) != 0) recalibration_.forget();
+  return {};
+}
+
+/// What was seen through the old coefficients says nothing about the new ones.
+void HealthMonitor::adopt() noexcept {
+  recalibration_.apply(model_, array_, gravity_, last_time_s_);
+  three_sensor_fit_ = size_class_ == SizeClass::critical;
+  forget_episode();
+  block_.clear();
+  raw_.clear();
+  mae_.clear();
+  station_.clear();
+  scan_ = FaultSetScan{};
+  have_evidence_ = false;
+  probation_.clear();
+  on_probation_ = SensorSet{};
+  clean_run_ = unbounded_run_ = 0;
+  drift_rad_ = 0.0;
+  sets_changed();
+}
+
+void HealthMonitor::follow_suspicion(HealthEvent event, Mode from) noexcept {
+  switch (event) {
+    case HealthEvent::alarm:
+    case HealthEvent::contradiction:
+    case HealthEvent::reference:
+    case HealthEvent::set_aside:
+    case HealthEvent::channel_lost:
+    case HealthEvent::fit_accepted: suspicion_ = cause_of(event); break;
+    case HealthEvent::culprit:
+      suspicion_ = Cause::none;
+      recalibration_due_ = config_.recalibrate_after_exclusion;
+      break;
+    default: break;
+  }
+  if (mode_ != Mode::suspect && mode_ != Mode::recalibrating) suspicion_ = Cause::none;
+  // Once per exclusion, and only while there are sensors to spare; a request does not outlive the state that took it.
+  if (mode_ == Mode::nominal || mode_ == Mode::degraded || mode_ == Mode::failed) recalibration_due_ = false;
+  if (mode_ != from && event != HealthEvent::recalibrate) recalibration_asked_ = false;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,161 @@
+// The order of events of a recalibration: collect, fit one iteration a step, judge, hand over.
+#include "plumb/health/recalibration.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+static_assert(std::is_trivially_copyable<Recalibration>::value, "a snapshot is an assignment");
+
+namespace {
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Stations beyond those that determine the parameters, so that the residuals can contradict the fit.
+constexpr int kSpareStations = 4;
+
+}  // namespace
+
+const char* to_string(RecalibrationPhase phase) noexcept {
+  switch (phase) {
+    case RecalibrationPhase::idle: return "idle";
+    case RecalibrationPhase::collecting: return "collecting";
+    case RecalibrationPhase::fitting: return "fitting";
+    case RecalibrationPhase::accepted: return "accepted";
+  }
+  return "?";
+}
+
+void Recalibration::configure(const SensorModel& commissioning, const DriftSigmas& drift,
+                              double same_attitude_rad) noexcept {
+  store_ = StationStore(same_attitude_rad);
+  drift_ = drift;
+  for (int i = 0; i < kCapacity; ++i) {
+    commissioned_scale_[at(i)] = commissioning.sensor[at(i)].scale[0];
+    commissioned_bias_mps2_[at(i)] = commissioning.sensor[at(i)].bias[0];
+  }
+  adopted_ = false;
+  adopted_s_ = 0.0;
+  iterations_ = 0;
+  refusal_ = Error{};
+  stop();
+}
+
+void Recalibration::add_block(const StationMean& block, bool station_begins) noexcept {
+  if (phase_ == RecalibrationPhase::fitting || phase_ == RecalibrationPhase::accepted) return;
+  const std::uint32_t before = store_.entries();
+  if (station_begins) store_.end_station();
+  store_.add_block(block);
+  untried_ = untried_ || store_.entries() != before;
+}
+
+void Recalibration::forget() noexcept {
+  store_.clear();
+  lacking_ = SensorSet{};
+  untried_ = false;
+  if (phase_ != RecalibrationPhase::idle) phase_ = RecalibrationPhase::collecting;
+}
+
+void Recalibration::start(SensorSet sensors) noexcept {
+  sensors_ = sensors;
+  lacking_ = SensorSet{};
+  refusal_ = Error{};
+  untried_ = true;
+  phase_ = RecalibrationPhase::collecting;
+}
+
+void Recalibration::stop() noexcept {
+  forget();
+  phase_ = RecalibrationPhase::idle;
+}
+
+int Recalibration::stations_needed(int n) noexcept {
+  // A station tells n - 2 figures, two parameters a sensor are asked for.
+  const int rows = n > 3 ? n - 2 : 1;
+  const int fitted = (2 * n + rows - 1) / rows + kSpareStations;
+  int needed = kHeldOutNeeded * StationStore::kHeldOutStride;
+  while (needed < StationStore::kMax && needed - needed / StationStore::kHeldOutStride < fitted) ++needed;
+  return needed;
+}
+
+Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_s) noexcept {
+  switch (phase_) {
+    // A refusal is a level, too: an event that ranks before it must not leave a recalibration without a fit.
+    case RecalibrationPhase::idle: return refusal_.code == Errc::ok ? Outcome::none : Outcome::rejected;
+    case RecalibrationPhase::accepted: return Outcome::accepted;
+    case RecalibrationPhase::collecting:
+      if (untried_ && store_.size() >= stations_needed(sensors_.size()) && ready(in_force)) {
+        FitOptions options;
+        options.require_full_rank = false;  // of the axes nothing is asked
+        options.estimate_misfit = false;    // what the fit cannot explain is a reason to refuse it
+        calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options);
+        phase_ = RecalibrationPhase::fitting;
+      }
+      return Outcome::none;
+    case RecalibrationPhase::fitting: break;
+  }
+  if (calibrator_.done()) return judge(in_force, time_s);
+  Stations stations;
+  calibrator_.iterate(stations.data(), fit_stations(stations));
+  ++iterations_;
+  return Outcome::none;
+}
+
+void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityReference& gravity,
+                          double time_s) noexcept {
+  if (phase_ != RecalibrationPhase::accepted) return;
+  RowUncertainty uncertainty;
+  SensorSet lacking;
+  if (uncertainty_of_fit(array, gravity, uncertainty, lacking)) array.set_uncertainty(uncertainty);
+  write_coefficients(model);
+  adopted_ = true;
+  adopted_s_ = time_s;
+  stop();
+}
+
+/// The attitude that is farthest from all on record, among those along the axes in question and the faces,
+/// edges and corners of a cube: enough of them for any number of stations that is asked for.
+Vec3 Recalibration::wanted_direction(const SensorArray& array) const noexcept {
+  const SensorSet asked = lacking_.empty() ? sensors_ : lacking_;
+  Vec3 best{};
+  double least = 2.0;
+  const auto offer = [&](const Vec3& candidate) {
+    double nearest = -1.0;  // cosine
+    // Those held out count: a second visit to such an attitude would be held out again.
+    for (int k = 0; k < store_.size(); ++k) nearest = std::fmax(nearest, dot(candidate, store_.station(k).direction));
+    if (nearest < least) {
+      least = nearest;
+      best = candidate;
+    }
+  };
+  for (int i = 0; i < array.size(); ++i) {
+    if (!asked.has(i)) continue;
+    offer(array.axis(i));
+    offer(scaled(array.axis(i), -1.0));
+  }
+  for (int k = 0; k < 27; ++k) {
+    const Vec3 corner = {k % 3 - 1.0, k / 3 % 3 - 1.0, k / 9 - 1.0};
+    const double length = norm(corner);
+    if (length > 0.0) offer(scaled(corner, 1.0 / length));
+  }
+  return best;
+}
+
+RecalibrationProgress Recalibration::progress(const SensorArray& array) const noexcept {
+  RecalibrationProgress out;
+  out.phase = phase_;
+  out.stations = store_.fit_count();
+  out.held_out = store_.held_out_count();
+  out.last_refusal = refusal_;
+  if (phase_ != RecalibrationPhase::collecting) return out;
+  const int missing = stations_needed(sensors_.size()) - store_.size();
+  out.lacking = lacking_;
+  out.stations_wanted = missing > 0 ? missing : lacking_.empty() ? 0 : 1;
+  if (out.stations_wanted > 0) out.wanted_direction = wanted_direction(array);
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,229 @@
+// The shadow fit: what it is made from, and what it must show before it is believed.
+#include <cmath>
+
+#include "plumb/health/held_axis.hpp"
+#include "plumb/health/recalibration.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+namespace {
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Bias and scale of a sensor are observed where the stations, not the drift sigma, give at least this share.
+constexpr double kLeastDataShare = 0.75;
+/// How seldom the residuals of a good fit may be so large. A refusal costs time only.
+constexpr double kLeastProbability = 1e-4;
+
+}  // namespace
+
+int Recalibration::fit_stations(Stations& out) const noexcept {
+  int count = 0;
+  for (int k = 0; k < store_.size(); ++k) {
+    if (StationStore::held_out(k)) continue;
+    Station& station = out[at(count++)];
+    station.delivered = SensorSet::first(sensors_.size());
+    station.temperature_degc = store_.station(k).temperature_degc;
+    station.count = 1;  // the noise of a row of the datasheet is that of a station here
+    // The fit knows the fitted sensors only, in the order of the array.
+    int row = 0;
+    for (int i = 0; i < kCapacity; ++i) {
+      if (sensors_.has(i)) station.mean[at(row++)] = store_.station(k).raw[at(i)];
+    }
+  }
+  return count;
+}
+
+/// 1 sigma of a station's reading that biases and scales cannot explain: noise and misfit, drawn anew at every station,
+/// and what the held axis leaves. All stations weigh as the shortest: more noise is feigned than there is, at the
+/// others.
+Recalibration::ReadingError Recalibration::reading_error(const SensorArray& array, const GravityReference& gravity,
+                                                         int i) const noexcept {
+  double samples = 0.0;
+  for (int k = 0; k < store_.size(); ++k) {
+    const double n = store_.station(k).samples;
+    if (samples == 0.0 || n < samples) samples = n;
+  }
+  const Vec3& h = array.axis(i);
+  const RowUncertainty& u = array.uncertainty();
+  double across = 0.0;  // trace of (1 - hh') C (1 - hh')
+  for (int p = 0; p < 3; ++p) {
+    for (int q = 0; q < 3; ++q) {
+      const int a = 4 * i + (p > q ? p : q), b = 4 * i + (p > q ? q : p);
+      across += ((p == q ? 1.0 : 0.0) - h[at(p)] * h[at(q)]) * u.covariance[at(a * (a + 1) / 2 + b)];
+    }
+  }
+  const double misfit = u.misfit_mps2[at(i)];
+  const double sigma = array.sigma_mps2(i);
+  const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of gravity over the sphere
+  ReadingError out;
+  out.noise_mps2_sq = sigma * sigma / std::fmax(samples, 1.0) + misfit * misfit;
+  out.total_mps2_sq = out.noise_mps2_sq + std::fmax(across, 0.0) * mean_square;
+  return out;
+}
+
+Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
+  Datasheet out;
+  out.reads = in_force.model.reads;
+  for (int i = 0; i < in_force.array.size(); ++i) {
+    if (!sensors_.has(i)) continue;
+    DatasheetSensor& sensor = out.sensor[at(out.size++)];
+    sensor.row = in_force.array.row(i);
+    sensor.row.sigma_mps2 = std::sqrt(reading_error(in_force.array, in_force.gravity, i).total_mps2_sq);
+    sensor.coefficients = in_force.model.sensor[at(i)];
+    sensor.prior = {drift_.bias_mps2, drift_.scale, 0.0};
+  }
+  return out;
+}
+
+bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
+                                       SensorSet& lacking) const noexcept {
+  std::array<Vec3, StationStore::kMax> direction{};
+  HeldAxisFit fit;
+  fit.sensors = sensors_;
+  fit.direction = direction.data();
+  fit.inflation = inflation_;
+  for (int k = 0; k < store_.size(); ++k) {
+    if (!StationStore::held_out(k)) direction[at(fit.count++)] = store_.station(k).direction;
+  }
+  fit.noise_share = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!sensors_.has(i)) continue;
+    const ReadingError error = reading_error(array, gravity, i);
+    fit.sigma_mps2[at(i)] = std::sqrt(error.total_mps2_sq);
+    fit.noise_share = std::fmax(fit.noise_share, error.noise_mps2_sq / error.total_mps2_sq);
+    fit.prior[at(i)] = {drift_.bias_mps2, drift_.scale, 0.0};
+  }
+  std::array<double, kCapacity> data_share{};
+  if (!held_axis_uncertainty(array, gravity, fit, out, data_share)) return false;
+  lacking = SensorSet{};
+  for (int i = 0; i < array.size(); ++i) {
+    if (sensors_.has(i) && !(data_share[at(i)] >= kLeastDataShare)) lacking = lacking.with(i);
+  }
+  return true;
+}
+
+/// Do the attitudes on record tell bias from scale for every sensor? If not, which sensors ask for others.
+bool Recalibration::ready(const InForce& in_force) noexcept {
+  untried_ = false;
+  inflation_ = 1.0;
+  RowUncertainty uncertainty;
+  return uncertainty_of_fit(in_force.array, in_force.gravity, uncertainty, lacking_) && lacking_.empty();
+}
+
+/// Takes the fitted figures over; `ok` where the fit itself is sound.
+Error Recalibration::read_fit(const InForce& in_force) noexcept {
+  Stations stations;
+  const int count = fit_stations(stations);
+  const Expected<Calibration> fit = calibrator_.finish(stations.data(), count);
+  const int needed = 2 * sensors_.size();
+  if (!fit) {
+    Error error = fit.error();
+    error.index = -1;  // counted among the fitted sensors only
+    return error;
+  }
+  const FitReport& report = fit->report;
+  if (report.rank < needed) {
+    return Error{Errc::unobservable, -1, static_cast<double>(report.rank), static_cast<double>(needed)};
+  }
+  const double per_freedom = report.degrees_of_freedom > 0 ? report.chi2 / report.degrees_of_freedom : 0.0;
+  inflation_ = std::fmax(1.0, per_freedom);
+  int row = 0;
+  for (int i = 0; i < kCapacity; ++i) {
+    if (!sensors_.has(i)) continue;
+    const SensorCoefficients& old = in_force.model.sensor[at(i)];
+    const SensorCoefficients& fitted = fit->model.sensor[at(row++)];
+    length_[at(i)] = fitted.scale[0] / old.scale[0];
+    shift_mps2_[at(i)] = fitted.bias[0] * length_[at(i)] - old.bias[0];
+  }
+  if (!(report.p_value >= kLeastProbability)) {
+    return Error{Errc::poor_fit, -1, report.p_value, kLeastProbability};
+  }
+  return Error{};
+}
+
+void Recalibration::write_coefficients(SensorModel& model) const noexcept {
+  for (int i = 0; i < model.size; ++i) {
+    if (!sensors_.has(i)) continue;
+    SensorCoefficients& c = model.sensor[at(i)];
+    c.bias[0] += shift_mps2_[at(i)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      c.scale[k] *= length_[at(i)];
+      c.bias[k] /= length_[at(i)];
+    }
+  }
+}
+
+/// Bounds on the change of bias and scale, each in its drift sigma.
+Error Recalibration::check_bounds(const SensorModel& model, double time_s) const noexcept {
+  SensorModel next = model;
+  write_coefficients(next);
+  double last = kLastSigmas;
+  if (adopted_) {
+    const double hours = (time_s - adopted_s_) / 3600.0;
+    last = std::fmin(last, kSigmasPerHour * std::fmax(hours, kLeastHours));
+  }
+  for (int i = 0; i < model.size; ++i) {
+    if (!sensors_.has(i)) continue;
+    const SensorCoefficients& to = next.sensor[at(i)];
+    const SensorCoefficients& from = model.sensor[at(i)];
+    const double since_last = std::fmax(std::fabs(to.scale[0] / from.scale[0] - 1.0) / drift_.scale,
+                                        std::fabs(to.bias[0] - from.bias[0]) / drift_.bias_mps2);
+    const double since_commissioning =
+        std::fmax(std::fabs(to.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_.scale,
+                  std::fabs(to.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_.bias_mps2);
+    if (!(since_last <= last)) return Error{Errc::implausible, i, since_last, last};
+    if (!(since_commissioning <= kCommissioningSigmas)) {
+      return Error{Errc::implausible, i, since_commissioning, kCommissioningSigmas};
+    }
+  }
+  return Error{};
+}
+
+/// Every station against the new calibration, by the tests and limits of the monitor: those of the fit, and those
+/// that were held out of it (property S20).
+Error Recalibration::check_stations(const InForce& in_force) const noexcept {
+  SensorModel model = in_force.model;
+  SensorArray array = in_force.array;
+  RowUncertainty uncertainty;
+  SensorSet lacking;
+  if (!uncertainty_of_fit(in_force.array, in_force.gravity, uncertainty, lacking)) return Error{Errc::diverged, -1};
+  array.set_uncertainty(uncertainty);
+  write_coefficients(model);
+  int proofs = 0;
+  for (int k = 0; k < store_.size(); ++k) {
+    const StationMean& station = store_.station(k);
+    BlockEvidence evidence;
+    evidence.mean_mps2 = model.apply(station.raw, station.temperature_degc, sensors_);
+    evidence.usable = sensors_;
+    evidence.samples = station.samples;
+    const SetTest test = test_set(array, in_force.gravity, in_force.limits, evidence, sensors_);
+    const bool held_out = StationStore::held_out(k);
+    const Errc code = held_out ? Errc::not_confirmed : Errc::poor_fit;
+    if (!test.tested) return Error{code, k};
+    const double parity_limit = test.parity_rows > 0 ? test.parity_alarm_limit(in_force.limits) : 0.0;
+    if (!(test.parity <= parity_limit)) return Error{code, k, test.parity, parity_limit};
+    const double norm_limit = test.norm_alarm_limit(in_force.limits);
+    if (!(std::fabs(test.norm) <= norm_limit)) return Error{code, k, std::fabs(test.norm), norm_limit};
+    if (held_out) ++proofs;
+  }
+  if (proofs < kHeldOutNeeded) return Error{Errc::too_few_stations, -1, 1.0 * proofs, 1.0 * kHeldOutNeeded};
+  return Error{};
+}
+
+Recalibration::Outcome Recalibration::judge(const InForce& in_force, double time_s) noexcept {
+  Error error = read_fit(in_force);
+  if (error.code == Errc::ok) error = check_bounds(in_force.model, time_s);
+  if (error.code == Errc::ok) error = check_stations(in_force);
+  if (error.code == Errc::ok) {
+    phase_ = RecalibrationPhase::accepted;
+    return Outcome::accepted;
+  }
+  stop();  // nor are its stations tried again
+  refusal_ = error;
+  return Outcome::rejected;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,107 @@
+#include "plumb/health/held_axis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "recalibration_support.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::Noise;
+using plumb_test::Shadow;
+
+/// Over many tools whose axes are wrong by what their calibration admits, any combination of readings is as wrong as
+/// the uncertainty says, in variance. Without the held axes' part in the fitted figures it would be far off.
+TEST(HeldAxis, TheUncertaintyIsThatOfTheErrors) {
+  for (int n : {3, 4, std::min(6, kCapacity)}) {
+    double squared = 0.0;
+    int figures = 0;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+      Shadow s(n, seed);
+      s.gravity.sigma_mps2 = 0.0;
+      s.drift_sigmas.scale = 5e-3;
+      s.fit->configure(s.model, s.drift_sigmas, rad_from_deg(2.0));
+      plumb_test::leave_uncertainty(s.array, 1e-4 * kG0_mps2, 5e-4);
+      s.bend_axes(5e-4);
+      s.drift(5e-4 * kG0_mps2, 1e-4);
+      s.start();
+      if (s.roam(24) != Recalibration::Outcome::accepted) continue;
+      s.fit->apply(s.model, s.array, s.gravity, 0.0);
+      for (int k = 0; k < 8; ++k) {
+        const Vec3 g = scaled(plumb_test::random_direction(s.noise), kG0_mps2);
+        std::array<double, kCapacity> c{};
+        for (double& weight : c) weight = s.noise.normal();
+        double error = 0.0, variance = 0.0;
+        for (int i = 0; i < n; ++i) {
+          error += c[static_cast<std::size_t>(i)] * s.reading_error(i, g);
+          for (int j = 0; j < n; ++j) {
+            variance +=
+                c[static_cast<std::size_t>(i)] * c[static_cast<std::size_t>(j)] * s.array.uncertainty().at(i, j, g);
+          }
+        }
+        squared += error * error / variance;
+        ++figures;
+      }
+    }
+    EXPECT_GT(figures, 1000) << n;
+    EXPECT_GT(squared / figures, 0.7) << n;
+    EXPECT_LT(squared / figures, 1.15) << n;
+  }
+}
+
+/// Sensors that were not fitted keep what they had, and so does every axis across itself.
+TEST(HeldAxis, WhatWasNotFittedIsKept) {
+  Shadow s(5, 3);
+  HeldAxisFit fit;
+  fit.sensors = s.array.all().without(1);
+  std::array<Vec3, 12> directions{};
+  for (Vec3& u : directions) u = plumb_test::random_direction(s.noise);
+  fit.direction = directions.data();
+  fit.count = 12;
+  fit.sigma_mps2.fill(1e-3);
+  fit.prior.fill({0.02, 5e-4, 0.0});
+  RowUncertainty out;
+  std::array<double, kCapacity> share{};
+  ASSERT_TRUE(held_axis_uncertainty(s.array, s.gravity, fit, out, share));
+  const RowUncertainty& old = s.array.uncertainty();
+  const Vec3 g = scaled(plumb_test::random_direction(s.noise), kG0_mps2);
+  EXPECT_NEAR(out.at(1, 1, g), old.at(1, 1, g), 1e-15);
+  EXPECT_EQ(share[1], 0.0);
+  EXPECT_GT(share[0], 0.9);
+  for (int i : {0, 2, 3, 4}) {
+    const Vec3 across = scaled(cross(s.array.axis(i), Vec3{0.3, 0.2, 0.9}), kG0_mps2);
+    double before = 0.0, after = 0.0;
+    for (int p = 0; p < 3; ++p) {
+      for (int q = 0; q < 3; ++q) {
+        const int a = 4 * i + std::max(p, q), b = 4 * i + std::min(p, q);
+        const auto at = static_cast<std::size_t>(a * (a + 1) / 2 + b);
+        const double w = across[static_cast<std::size_t>(p)] * across[static_cast<std::size_t>(q)];
+        before += w * old.covariance[at];
+        after += w * out.covariance[at];
+      }
+    }
+    EXPECT_NEAR(after, before, 1e-12 * before);
+  }
+}
+
+TEST(HeldAxis, WithoutStationsThePriorStays) {
+  Shadow s(4, 4);
+  HeldAxisFit fit;
+  fit.sensors = s.array.all();
+  fit.sigma_mps2.fill(1e-3);
+  fit.prior.fill({0.02, 5e-4, 0.0});
+  RowUncertainty out;
+  std::array<double, kCapacity> share{};
+  ASSERT_TRUE(held_axis_uncertainty(s.array, s.gravity, fit, out, share));
+  EXPECT_NEAR(share[0], 0.0, 1e-12);
+  const Vec3 nowhere{};
+  EXPECT_NEAR(out.at(0, 0, nowhere), 0.02 * 0.02, 1e-12) << "a bias is as unsure as the drift";
+  fit.prior.fill({0.02, std::numeric_limits<double>::quiet_NaN(), 0.0});
+  EXPECT_FALSE(held_axis_uncertainty(s.array, s.gravity, fit, out, share));
+}
+
+}  // namespace
