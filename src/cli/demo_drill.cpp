@@ -245,11 +245,15 @@ io::FileExpected<DemoSection> demo_drill_b(const DemoContext& context) {
   DrillPlan plan;
   plan.id = "drill_b";
   plan.title = "6 Drill B: six sensors";
-  plan.gist = "With six sensors a fault costs nothing but the sensor; one that recovers is taken back.";
+  plan.gist = "A fault, a recalibration in flight, a second fault; the sensor that recovers is taken back.";
   plan.text = {
       "A tool of six such sensors, normal to the faces of a dodecahedron, surveys a longer stretch. With sensors to "
-      "spare plumb sets an accused one aside at once, proves the rest, and stays usable throughout. A sensor that is "
-      "sound again is taken back only after it has agreed with the others for long enough."};
+      "spare plumb sets an accused one aside at once, proves the rest and stays usable. A sensor that is sound again "
+      "is "
+      "taken back only after it has agreed with the others for long enough.",
+      "In between the host asks for a recalibration: biases and scales are estimated anew from the survey stations, in "
+      "the shadow of the coefficients in use. Nothing has drifted here, so the fresh ones can at best be as good as "
+      "those from the stand; what is shown is that they must pass their tests, and that trust has to be earned anew."};
   plan.tool = scenario::hexad_tool(context.seed);
   plan.drill = scenario::drill_b(plan.tool, context.seed);
   plan.array_text = io::hexad_array_text(plan.drill.scenario.gravity_mps2);

@@ -95,8 +95,9 @@ std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
       return fmt::format("{} the monitor starts again with {} back in service; trust must be earned anew. {}", when,
                          row.sensors, state_and_output(row));
     case HealthEvent::recalibrate:
-      return fmt::format("{} recalibration begins: stations are collected, while the old coefficients stay in use. {}",
-                         when, state_and_output(row));
+      return fmt::format(
+          "{} recalibration begins: stations are collected, while the coefficients in force stay in use. {}", when,
+          state_and_output(row));
     case HealthEvent::fit_accepted:
       return fmt::format("{} the new coefficients are accepted, and must prove themselves. {}", when,
                          state_and_output(row));

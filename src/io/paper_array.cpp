@@ -22,7 +22,7 @@ model = "value"          # or "normal" with latitude, elevation and depth
 value = ")";
 
 constexpr const char* kHexadHead =
-    R"(# Six accelerometers of the paper's kind, normal to the faces of a dodecahedron: any three faults can be isolated.
+    R"(# Six accelerometers of the paper's kind, normal to the faces of a dodecahedron: up to three faults can be isolated.
 #   plumb geometry examples/hexad_tool.toml
 #   plumb simulate examples/hexad_stand.toml --out stand.csv
 #   plumb calibrate --array examples/hexad_tool.toml --log stand.csv --out cal.json

@@ -319,7 +319,7 @@ std::string timeline_script(const Timeline& timeline, const std::string& csv, co
          "set xlabel 'time, s' offset 0,0.4\nset format x '%g'\nset logscale y\nunset offsets\nset yrange [0.0005:*]\n"
          "least(x) = abs(x) > 0.0005 ? abs(x) : 0.0005\n";
   out += errors(csv, "error_plain_deg", "error_plumb_deg") + ", " +
-         points(csv, column("protection_level_deg"), "pt 11 ps 0.5 lc rgb bound", "bound by plumb") + "\n";
+         points(csv, column("protection_level_deg"), "pt 11 ps 0.5 lc rgb bound", "bound") + "\n";
   return out + "unset multiplot\nunset output\n";
 }
 

@@ -57,6 +57,18 @@ tl::expected<std::uint64_t, std::string> read_key(Text text) {
   return refuse(quoted(text) + " is no key. Remedy: give a whole number below 2^64");
 }
 
+/// SENSORS key KEY
+tl::expected<void, std::string> read_reset(Text& text, const SensorArray& array, HostRequest& out) {
+  const auto sensors = read_sensors(take_word(text), array);
+  if (!sensors) return tl::unexpected<std::string>(sensors.error());
+  out.sensors = *sensors;
+  if (take_word(text) != "key") return refuse("a reset needs its key. Remedy: end with key and the number");
+  const auto key = read_key(take_word(text));
+  if (!key) return tl::unexpected<std::string>(key.error());
+  out.key = *key;
+  return {};
+}
+
 std::string ids_of(SensorSet sensors, const SensorArray& array, const char* between) {
   std::string out;
   for (int i = 0; i < array.size(); ++i) {
@@ -73,34 +85,38 @@ tl::expected<HostRequest, std::string> parse_host_request(Text text, const Senso
   if (!time_s) return refuse(time_s.error() + " and put it first");
   request.time_s = *time_s;
   const Text verb = take_word(text);
-  if (verb != "reset") return refuse("a host cannot ask for " + quoted(verb) + ". Remedy: write reset");
-  const auto sensors = read_sensors(take_word(text), array);
-  if (!sensors) return tl::unexpected<std::string>(sensors.error());
-  request.sensors = *sensors;
-  if (take_word(text) != "key") return refuse("a reset needs its key. Remedy: end with key and the number");
-  const auto key = read_key(take_word(text));
-  if (!key) return tl::unexpected<std::string>(key.error());
-  request.key = *key;
-  if (const Text rest = take_word(text); !rest.empty())
-    return refuse(quoted(rest) + " is too much. Remedy: leave it out");
+  if (verb == "reset") {
+    const tl::expected<void, std::string> done = read_reset(text, array, request);
+    if (!done) return tl::unexpected<std::string>(done.error());
+  } else if (verb == "recalibrate") {
+    request.kind = HostRequest::Kind::recalibrate;
+  } else {
+    return refuse("a host cannot ask for " + quoted(verb) + ". Remedy: write reset or recalibrate");
+  }
+  const Text rest = take_word(text);
+  if (!rest.empty()) return refuse(quoted(rest) + " is too much. Remedy: leave it out");
   return request;
 }
 
 const char* to_string(HostRequest::Kind kind) noexcept {
   switch (kind) {
     case HostRequest::Kind::reset: return "reset";
+    case HostRequest::Kind::recalibrate: return "recalibrate";
   }
   return "?";
 }
 
 std::string to_text(const HostRequest& request, const SensorArray& array) {
+  const std::string out = quantity_text(request.time_s, time_units()) + " " + to_string(request.kind);
+  if (request.kind == HostRequest::Kind::recalibrate) return out;
   char digits[17];
   const auto [end, error] = std::to_chars(digits, digits + sizeof digits, request.key, 16);
-  return quantity_text(request.time_s, time_units()) + " " + to_string(request.kind) + " " +
-         ids_of(request.sensors, array, ",") + " key 0x" + std::string(digits, error == std::errc() ? end : digits);
+  return out + " " + ids_of(request.sensors, array, ",") + " key 0x" +
+         std::string(digits, error == std::errc() ? end : digits);
 }
 
 std::string describe(const HostRequest& request, const SensorArray& array) {
+  if (request.kind == HostRequest::Kind::recalibrate) return "a recalibration";
   return "a reset that returns " + ids_of(request.sensors, array, ", ") + " to service";
 }
 
@@ -112,7 +128,8 @@ Host::Host(std::vector<HostRequest> requests) : requests_(std::move(requests)) {
 void Host::before(double time_s, HealthMonitor& monitor) {
   while (waiting() > 0 && requests_[answers_.size()].time_s <= time_s) {
     const HostRequest& request = requests_[answers_.size()];
-    const Expected<void> done = monitor.reset(request.key, request.sensors);
+    const bool reset = request.kind == HostRequest::Kind::reset;
+    const Expected<void> done = reset ? monitor.reset(request.key, request.sensors) : monitor.request_recalibration();
     answers_.push_back({time_s, request, done ? Errc::ok : done.error().code});
   }
 }

@@ -112,6 +112,10 @@ Drill drill_b(const Tool& tool, std::uint64_t seed) {
   Fault offset = stuck(1, 0.05 * kG0_mps2, 6, 20);
   offset.kind = FaultKind::bias_step;
   drill.scenario.faults = {offset, stuck(4, 0.0, 30, kForGood)};
+  HostRequest recalibrate;
+  recalibrate.time_s = 36.5;
+  recalibrate.kind = HostRequest::Kind::recalibrate;
+  drill.requests = {recalibrate};
   return drill;
 }
 

@@ -86,8 +86,9 @@ void states_come_in_order(const json& sections) {
             (std::vector<std::string>{"suspect", "nominal", "suspect", "degraded a2", "suspect", "failed", "suspect a2",
                                       "suspect a3", "degraded"}));
   EXPECT_EQ(changes_of(sections["drill_b"]),
-            (std::vector<std::string>{"suspect", "nominal", "suspect a2", "isolated", "isolated a2", "suspect a5",
-                                      "isolated", "isolated a5", "isolated a2"}));
+            (std::vector<std::string>{"suspect", "nominal", "suspect a2", "isolated", "isolated a2",
+                                      "recalibrating a1, a3, a4, a5, a6", "suspect a1, a3, a4, a5, a6", "isolated",
+                                      "suspect a5", "isolated", "isolated a5", "isolated a2"}));
   const json& host = sections["drill_a"]["host"];
   ASSERT_EQ(host.size(), 2U);
   EXPECT_EQ(host[0]["refused"], "the reset key does not match");
@@ -137,7 +138,8 @@ void page_tells_what_happened(const std::string& page) {
                           "a3 stands at 3 V", "patience is over", "It is refused: the reset key does not match",
                           "The request is granted", "a3 is excluded", "kept in", "plumb simulate stand.toml"}));
   EXPECT_TRUE(says(page, {"id=\"drill_b\"", "a2 reads 50 mg0 too much", "a2 is set aside at once", "a2 is excluded",
-                          "a5 is excluded", "a2 has agreed with the others"}));
+                          "recalibration begins", "new coefficients are accepted", "a5 is excluded",
+                          "a2 has agreed with the others"}));
 }
 
 /// No name inside a picture may be there twice: the page is one document.

@@ -63,7 +63,7 @@ TEST(Simulate, PipeIntoTheMonitorFindsTheFault) {
                                                    "a1, a3, a4", "excluded    a2"}));
 }
 
-TEST(Simulate, DemoCalibrationFitsTheSameTool) {
+TEST(Simulate, CalibrationOfTheExamplesFitsTheToolOfTheirSeed) {
   const Workshop where;
   where.put("scenario.toml", kShortest);
   ASSERT_EQ(run(where, {"simulate", "scenario.toml", "--out", "log.csv"}).code, 0);

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <limits>
+#include <tuple>
 
 #include "io_test_support.hpp"
 #include "plumb/io/output_file.hpp"
@@ -102,14 +103,32 @@ TEST(ScenarioFile, ShortestFileHasTheDefaultsOfTheLibrary) {
   expect_same(file.scenario, expected);
 }
 
-TEST(ScenarioFile, PaperArrayIsTheToolOfTheLibraryAndTheExample) {
-  const std::string text = paper_array_text(kG0_mps2);
-  const ArrayFile array = array_of(text);
-  expect_same_tool(perfect_tool(array.datasheet), perfect_tool(paper_datasheet()));
-  EXPECT_EQ(array.gravity.g_mps2, kG0_mps2);
-  const auto example = read_file(std::string(PLUMB_SOURCE_DIR) + "/examples/paper_tool.toml");
-  ASSERT_TRUE(example);
-  EXPECT_EQ(*example, text) << "renew it: plumb simulate X.toml --array-out examples/paper_tool.toml";
+TEST(ScenarioFile, ArraysOfTheLibraryAreTheirToolsAndTheExamples) {
+  const std::string examples = std::string(PLUMB_SOURCE_DIR) + "/examples/";
+  const std::tuple<const char*, std::string, Datasheet> tools[] = {
+      {"paper_tool.toml", paper_array_text(kG0_mps2), paper_datasheet()},
+      {"hexad_tool.toml", hexad_array_text(kG0_mps2), hexad_datasheet()}};
+  for (const auto& [name, text, datasheet] : tools) {
+    const ArrayFile array = array_of(text);
+    expect_same_tool(perfect_tool(array.datasheet), perfect_tool(datasheet));
+    EXPECT_EQ(array.gravity.g_mps2, kG0_mps2);
+    const auto example = read_file(examples + name);
+    ASSERT_TRUE(example);
+    EXPECT_EQ(*example, text) << "renew it: `plumb demo` writes it as array.toml of a drill";
+  }
+}
+
+TEST(ScenarioFile, DrillsOfTheExamplesAreThoseOfTheLibrary) {
+  const Tool four = paper_tool(1), six = hexad_tool(1);
+  const std::pair<const char*, Scenario> drills[] = {{"drill_a.toml", drill_a(four, 1).scenario},
+                                                     {"drill_b.toml", drill_b(six, 1).scenario}};
+  for (const auto& [name, scenario] : drills) {
+    const auto file = read_scenario(std::string(PLUMB_SOURCE_DIR) + "/examples/" + name);
+    ASSERT_TRUE(file) << file.error().text();
+    Scenario expected = scenario;
+    expected.seed = file->scenario.seed;  // of the noise: the library derives it
+    expect_same(file->scenario, expected);
+  }
 }
 
 TEST(ScenarioFile, ReadsEveryKey) {

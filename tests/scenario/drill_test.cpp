@@ -108,7 +108,7 @@ TEST(Drill, AGoesThroughFailedAndComesBackWithWhatHasRecovered) {
   }
 }
 
-TEST(Drill, BIsolatesTwoFaultsAndReinstatesTheSensorThatRecovered) {
+TEST(Drill, BIsolatesRecalibratesIsolatesAgainAndReinstatesWhatHasRecovered) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const Tool tool = hexad_tool(seed);
     const Played played = play(tool, seed, drill_b(tool, seed));
@@ -117,6 +117,9 @@ TEST(Drill, BIsolatesTwoFaultsAndReinstatesTheSensorThatRecovered) {
               "set_aside a2 -> suspect\n"
               "clean_block -> isolated\n"
               "culprit a2 -> isolated\n"
+              "recalibrate a1 a3 a4 a5 a6 -> recalibrating\n"
+              "fit_accepted a1 a3 a4 a5 a6 -> suspect\n"
+              "clean_block -> isolated\n"
               "set_aside a5 -> suspect\n"
               "clean_block -> isolated\n"
               "culprit a5 -> isolated\n"

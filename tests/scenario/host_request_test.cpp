@@ -29,6 +29,15 @@ TEST(HostRequest, ReadsAReset) {
   EXPECT_EQ(describe(*request, tetrahedron()), "a reset that returns a2, a4 to service");
 }
 
+TEST(HostRequest, ReadsARecalibration) {
+  const auto request = parse_host_request("36.5s recalibrate", tetrahedron());
+  ASSERT_TRUE(request) << request.error();
+  EXPECT_EQ(request->kind, HostRequest::Kind::recalibrate);
+  EXPECT_EQ(request->time_s, 36.5);
+  EXPECT_EQ(to_text(*request, tetrahedron()), "36.5s recalibrate");
+  EXPECT_EQ(describe(*request, tetrahedron()), "a recalibration");
+}
+
 TEST(HostRequest, RefusalsSayWhatAndHow) {
   const SensorArray array = tetrahedron();
   const std::pair<const char*, const char*> bad[] = {{"", "does not begin with a number"},
@@ -44,7 +53,8 @@ TEST(HostRequest, RefusalsSayWhatAndHow) {
                                                      {"60s reset a2 key -1", "'-1' is no key"},
                                                      {"60s reset a2 key 0x", "'0x' is no key"},
                                                      {"60s reset a2 key 18446744073709551616", "is no key"},
-                                                     {"60s reset a2 key 1 2", "'2' is too much"}};
+                                                     {"60s reset a2 key 1 2", "'2' is too much"},
+                                                     {"60s recalibrate a2", "'a2' is too much"}};
   for (const auto& [text, what] : bad) {
     const auto request = parse_host_request(text, array);
     ASSERT_FALSE(request) << text;
@@ -75,15 +85,20 @@ TEST(Host, AsksInOrderOfTimeAndKeepsTheAnswers) {
   ASSERT_TRUE(monitor->configure(*setup));
   const std::uint64_t key = MonitorConfig().reset_key;
   const auto reset = HostRequest::Kind::reset;
-  Host host({{2.0, reset, SensorSet::of(0), key}, {1.0, reset, SensorSet::of(1), key + 1}, {9.0, reset, {}, key}});
+  const auto recalibrate = HostRequest::Kind::recalibrate;
+  Host host({{2.0, reset, SensorSet::of(0), key},
+             {1.0, reset, SensorSet::of(1), key + 1},
+             {9.0, reset, {}, key},
+             {2.5, recalibrate, {}, 0}});
   host.before(0.5, *monitor);
   EXPECT_TRUE(host.answers().empty());
   host.before(2.5, *monitor);
-  ASSERT_EQ(host.answers().size(), 2U);
+  ASSERT_EQ(host.answers().size(), 3U);
   EXPECT_EQ(host.answers()[0].request.time_s, 1.0);
   EXPECT_EQ(host.answers()[0].refusal, Errc::wrong_key);
   EXPECT_EQ(host.answers()[1].refusal, Errc::ok);
   EXPECT_EQ(host.answers()[1].time_s, 2.5);
+  EXPECT_EQ(host.answers()[2].refusal, Errc::wrong_state) << "an unproven monitor has nothing to recalibrate from";
   EXPECT_EQ(host.waiting(), 1U);
 }
 

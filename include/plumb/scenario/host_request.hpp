@@ -1,6 +1,7 @@
 /// What a host asks of a running monitor, at a given time: the part of a run that no log holds.
 ///
 ///   TIME reset SENSORS key KEY        60.5s reset a2,a4 key 0x706c756d62
+///   TIME recalibrate                  36.5s recalibrate
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ inline namespace PLUMB_ABI {
 namespace scenario {
 
 struct HostRequest {
-  enum class Kind : std::uint8_t { reset };
+  enum class Kind : std::uint8_t { reset, recalibrate };
   double time_s = 0.0;  ///< made before the first sample that is not earlier
   Kind kind = Kind::reset;
   SensorSet sensors;      ///< of a reset: to return to service
@@ -31,7 +32,7 @@ tl::expected<HostRequest, std::string> parse_host_request(std::string_view text,
 /// The inverse: parses back to the identical value.
 std::string to_text(const HostRequest& request, const SensorArray& array);
 
-/// "a reset that returns a2 to service", for a sentence.
+/// "a reset that returns a2 to service", "a recalibration", for a sentence.
 std::string describe(const HostRequest& request, const SensorArray& array);
 
 /// Makes each request at its time and keeps the answers.

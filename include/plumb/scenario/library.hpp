@@ -56,7 +56,8 @@ struct Drill {
 /// station 12 on. At station 22 the host asks for a reset that names a2, first with a wrong key.
 Drill drill_a(const Tool& tool, std::uint64_t seed);
 
-/// For the tool of six sensors. a2 reads 50 mg0 too much from station 6 to station 25; a5 dies at station 30.
+/// For the tool of six sensors; forty-four stations. a2 reads 50 mg0 too much from station 6 to station 25; the host
+/// asks for a recalibration at station 13; a5 dies at station 30.
 Drill drill_b(const Tool& tool, std::uint64_t seed);
 
 }  // namespace scenario
