@@ -16,7 +16,7 @@ constexpr const char* kAbout =
     "gravity, watches it sample by sample, says which sensors may be believed, and which way is down.";
 constexpr const char* kNotes =
     "Start here:\n"
-    "  plumb demo                     simulates a tool whose sensor dies; needs no file\n"
+    "  plumb demo                     a tour on simulated tools whose sensors fail; needs no file\n"
     "  plumb COMMAND --help           what a command does, with an example\n\n";
 
 std::string without_dashes(const std::string& option) {

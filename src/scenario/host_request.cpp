@@ -130,7 +130,10 @@ void Host::before(double time_s, HealthMonitor& monitor) {
     const HostRequest& request = requests_[answers_.size()];
     const bool reset = request.kind == HostRequest::Kind::reset;
     const Expected<void> done = reset ? monitor.reset(request.key, request.sensors) : monitor.request_recalibration();
-    answers_.push_back({time_s, request, done ? Errc::ok : done.error().code});
+    Errc refusal = done ? Errc::ok : done.error().code;
+    // The monitor ignores such a reset without a word; whoever asked for it is told.
+    if (reset && done && monitor.verdict().state != HealthState::failed) refusal = Errc::wrong_state;
+    answers_.push_back({time_s, request, refusal});
   }
 }
 
