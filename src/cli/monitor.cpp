@@ -9,6 +9,7 @@
 #include "pipeline.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
+#include "plumb/navigation/tilt.hpp"
 #include "plumb/report/timeline.hpp"
 #include "plumb/report/words.hpp"
 #include "tool.hpp"
@@ -110,6 +111,24 @@ io::FileExpected<void> commit(Outputs& out) {
   return done;
 }
 
+/// What a recalibration is at, or why the last one was refused; empty where there was none.
+std::string recalibration_text(const Verdict& v, const SensorArray& sensors, const Mat3& frame) {
+  const RecalibrationProgress& p = v.recalibration;
+  if (v.state != HealthState::recalibrating) {
+    return p.last_refusal.code == Errc::ok ? ""
+                                           : fmt::format("recalibrate refused: {}\n", describe(p.last_refusal.code));
+  }
+  std::string out = fmt::format("recalibrate {}: {} stations, {} held out", to_string(p.phase), p.stations, p.held_out);
+  if (p.stations_wanted > 0) {
+    const Tilt tilt = tilt_of(io::in_frame(frame, p.wanted_direction), Mat3{});
+    out += fmt::format(", {} more wanted, best at inclination {:.0f} deg", p.stations_wanted,
+                       deg_from_rad(tilt.inclination_rad));
+    if (tilt.toolface_valid) out += fmt::format(", toolface {:.0f} deg", deg_from_rad(tilt.toolface_rad));
+  }
+  if (!p.lacking.empty()) out += fmt::format("; too little change along {}", report::sensor_names(p.lacking, sensors));
+  return out + "\n";
+}
+
 std::string summary_text(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame) {
   const Verdict& v = run.last;
   std::string out = fmt::format("\nstate       {}: {}\n", to_string(v.state), report::meaning(v.state));
@@ -120,6 +139,7 @@ std::string summary_text(const MonitorRun& run, const SensorArray& sensors, cons
   out += fmt::format("excluded    {}\n", report::sensor_names(v.excluded, sensors));
   if (!v.set_aside.empty()) out += fmt::format("set aside   {}\n", report::sensor_names(v.set_aside, sensors));
   if (!v.absent.empty()) out += fmt::format("absent      {}\n", report::sensor_names(v.absent, sensors));
+  out += recalibration_text(v, sensors, frame);
   double inclination_deg = 0.0;
   const bool known = report::inclination_of(v.gravity_mps2, frame, inclination_deg);
   out += fmt::format("inclination {}, {} ({})\n", known ? fmt::format("{:.3f} deg", inclination_deg) : "not known",

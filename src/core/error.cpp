@@ -55,7 +55,8 @@ const char* remedy(Errc code) noexcept {
     case Errc::wrong_key: return "use the reset key of the configuration";
     case Errc::not_invertible: return "correct the misalignment terms: two sensors are given the same axis";
     case Errc::wrong_state: return "ask again when the monitor has settled, no alarm on record";
-    case Errc::not_confirmed: return "look for a sensor that changed while the stations were collected, then collect anew";
+    case Errc::not_confirmed:
+      return "look for a sensor that changed while the stations were collected, then collect anew";
   }
   return "report this code as a defect of plumb";
 }

@@ -194,6 +194,13 @@ Readings HealthMonitor::readings_of(const Sample& sample, GateResult& gate) cons
   return y;
 }
 
+void HealthMonitor::empty_windows() noexcept {
+  block_.clear();
+  raw_.clear();
+  mae_.clear();
+  station_.clear();
+}
+
 const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.transition = TransitionRecord{};
   verdict_.tick = false;
@@ -216,10 +223,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   GateResult gate = gate_.gate(sample);
   if (gap || gate.gap) {
     verdict_.cause = Cause::gap;
-    block_.clear();
-    raw_.clear();
-    mae_.clear();
-    station_.clear();
+    empty_windows();
   }
   bool ticked = false;
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;

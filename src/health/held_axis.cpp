@@ -79,7 +79,7 @@ bool solve(const HeldAxisFit& fit, Sums& sums) noexcept {
 }
 
 /// Old errors that make up the new one of a parameter, dense over the 4n of the array.
-using Line = std::array<double, 4 * kCapacity>;
+using Line = std::array<double, std::size_t{4} * kCapacity>;
 
 /// Row of T for component p (0..2 axis, 3 bias) of sensor s; `i` its place among the fitted ones, -1 for none.
 Line line_of(const SensorArray& array, const Sums& sums, int s, int i, int p) noexcept {

@@ -68,10 +68,7 @@ void HealthMonitor::adopt() noexcept {
   recalibration_.apply(model_, array_, gravity_, last_time_s_);
   three_sensor_fit_ = size_class_ == SizeClass::critical;
   forget_episode();
-  block_.clear();
-  raw_.clear();
-  mae_.clear();
-  station_.clear();
+  empty_windows();
   scan_ = FaultSetScan{};
   have_evidence_ = false;
   probation_.clear();

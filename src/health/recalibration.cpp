@@ -136,7 +136,8 @@ Vec3 Recalibration::wanted_direction(const SensorArray& array) const noexcept {
     offer(scaled(array.axis(i), -1.0));
   }
   for (int k = 0; k < 27; ++k) {
-    const Vec3 corner = {k % 3 - 1.0, k / 3 % 3 - 1.0, k / 9 - 1.0};
+    const int x = k % 3 - 1, y = k / 3 % 3 - 1, z = k / 9 - 1;
+    const Vec3 corner = {1.0 * x, 1.0 * y, 1.0 * z};
     const double length = norm(corner);
     if (length > 0.0) offer(scaled(corner, 1.0 / length));
   }

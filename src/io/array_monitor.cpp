@@ -36,7 +36,10 @@ const std::vector<std::string>& known_keys() {
                                                  "fault_prior",
                                                  "reset_key",
                                                  "temperature_min",
-                                                 "temperature_max"};
+                                                 "temperature_max",
+                                                 "recalibrate",
+                                                 "drift_bias",
+                                                 "drift_scale"};
   return names;
 }
 
@@ -79,12 +82,15 @@ MonitorConfig filled(const TomlTable& table) {
   config.reset_key = static_cast<std::uint64_t>(key);
   config.temperature_min_degc = table.quantity(Quantity::temperature, "temperature_min", config.temperature_min_degc);
   config.temperature_max_degc = table.quantity(Quantity::temperature, "temperature_max", config.temperature_max_degc);
+  config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
+  config.drift_bias_mps2 = table.quantity(Quantity::acceleration, "drift_bias", config.drift_bias_mps2);
+  config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
   return config;
 }
 
 /// Unit in which MonitorConfig holds the field of a key, for messages.
 const char* unit_of(const std::string& key) noexcept {
-  if (key == "delta_f") return " m/s^2";
+  if (key == "delta_f" || key == "drift_bias") return " m/s^2";
   if (key == "max_gap" || key == "max_age") return " s";
   if (key == "station_angle" || key == "excitation_angle" || key == "alert_limit") return " rad";
   if (key == "temperature_min" || key == "temperature_max") return " degC";

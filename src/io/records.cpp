@@ -60,6 +60,15 @@ class Object {
     name(key);
     out_ += value ? "true" : "false";
   }
+  void nothing(const char* key) {
+    name(key);
+    out_ += "null";
+  }
+  /// A member that is an object itself; to be closed before the next member.
+  Object object(const char* key) {
+    name(key);
+    return Object(out_);
+  }
   /// `value` needs no escapes: one of plumb's own words.
   void word(const char* key, const char* value) {
     name(key);
@@ -102,12 +111,12 @@ class Object {
     out_ += ']';
   }
   void qualifiers(const char* key, std::uint8_t bits) {
-    static constexpr const char* kNames[] = {"unproven",    "moving",        "initial_calibration",
-                                             "provisional", "no_redundancy", "exhausted"};
+    static constexpr const char* kNames[] = {"unproven",      "moving",    "initial_calibration", "provisional",
+                                             "no_redundancy", "exhausted", "three_sensor_fit"};
     name(key);
     out_ += '[';
     bool first = true;
-    for (unsigned k = 0; k < 6; ++k) {
+    for (unsigned k = 0; k < 7; ++k) {
       if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
       if (!first) out_ += ',';
       first = false;
@@ -142,6 +151,29 @@ void append_masks(Object& object, const Verdict& v, const SensorArray& array) {
   object.sensors("restless", v.restless, array);
   object.sensors("not_finite", v.not_finite, array);
   object.fewest_faults("fewest_faults", v, array.size());
+}
+
+/// null unless a fit is being made or one was refused.
+void append_recalibration(Object& object, const Verdict& v, const SensorArray& array, const Mat3& frame) {
+  const RecalibrationProgress& p = v.recalibration;
+  const bool refused = p.last_refusal.code != Errc::ok;
+  if (v.state != HealthState::recalibrating && !refused) {
+    object.nothing("recalibration");
+    return;
+  }
+  Object inner = object.object("recalibration");
+  inner.word("phase", to_string(p.phase));
+  inner.whole("stations", p.stations);
+  inner.whole("held_out", p.held_out);
+  inner.whole("stations_wanted", p.stations_wanted);
+  inner.sensors("lacking", p.lacking, array);
+  inner.numbers("wanted_direction", in_frame(frame, p.wanted_direction));
+  if (refused) {
+    inner.word("refused", describe(p.last_refusal.code));
+  } else {
+    inner.nothing("refused");
+  }
+  inner.close();
 }
 
 void append_vector(Object& object, const Verdict& v, const Mat3& frame) {
@@ -249,6 +281,7 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.whole("live_hypotheses", v.live_hypotheses);
   object.whole("stations_on_record", v.stations_on_record);
   object.flag("wants_rotation", v.wants_rotation);
+  append_recalibration(object, v, array, frame);
   object.number("mae_all_mps2", v.mae_all_mps2);
   object.number("mae_worst_mps2", v.mae_worst_mps2);
   object.number("mae_worst_limit_mps2", v.mae_worst_limit_mps2);

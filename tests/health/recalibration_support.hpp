@@ -1,6 +1,9 @@
-/// A recalibration fed by hand: true axes, biases and scales that differ from what the calibration in force says.
+/// For tests of recalibration: one fed by hand, and one inside a monitor.
+/// what the calibration in force says.
 #pragma once
 
+#include <algorithm>
+#include <cstring>
 #include <functional>
 #include <memory>
 
@@ -20,6 +23,7 @@ inline void leave_uncertainty(plumb::SensorArray& array, double bias_mps2 = 1e-4
   array.set_uncertainty(u);
 }
 
+/// Fed by hand: true axes, biases and scales that differ from what the calibration in force says.
 struct Shadow {
   explicit Shadow(int n, std::uint64_t seed)
       : noise(seed),
@@ -119,5 +123,60 @@ struct Shadow {
   int offered = 0;
   std::unique_ptr<plumb::Recalibration> fit = std::make_unique<plumb::Recalibration>();
 };
+
+/// A tool whose biases have moved since it was calibrated, by what its calibration leaves room for.
+struct Tool {
+  explicit Tool(const plumb::SensorArray& array, plumb::MonitorConfig config = {}, std::uint64_t seed = 1)
+      : rig(array, config, seed), directions(seed + 100) {
+    leave_uncertainty(rig.setup.array);
+    rig.restart();
+    rig.distort = [this](int i, double r, int k) { return fault(i, r + bias[static_cast<std::size_t>(i)], k); };
+  }
+  explicit Tool(int n, plumb::MonitorConfig config = {}, std::uint64_t seed = 1)
+      : Tool(n == 4 ? tetrahedron() : cone_array(n), config, seed) {}
+
+  void drift(double size_mps2) {
+    for (double& b : bias) b = size_mps2 * (2.0 * directions.uniform() - 1.0);
+  }
+  void visit(int stations, double g_mps2 = plumb::kG0_mps2) {
+    for (int k = 0; k < stations; ++k) rig.stay(random_direction(directions), 2, g_mps2);
+  }
+  /// Proven, asked and taken.
+  void begin() {
+    rig.prove();
+    ASSERT_TRUE(rig.monitor.request_recalibration().has_value());
+    rig.stay(direction_at(70, 70));
+    ASSERT_EQ(state(), plumb::HealthState::recalibrating);
+  }
+  plumb::HealthState state() const { return rig.monitor.verdict().state; }
+  double bias_error(plumb::SensorSet set) const {
+    double sum = 0.0;
+    for (int i = 0; i < rig.setup.array.size(); ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      const double e = rig.monitor.model().sensor[a].bias[0] - bias[a];
+      if (set.has(i)) sum += e * e;
+    }
+    return std::sqrt(sum / set.size());
+  }
+  int count(plumb::HealthEvent event) const {
+    return static_cast<int>(std::count_if(rig.records.begin(), rig.records.end(),
+                                          [event](const plumb::TransitionRecord& r) { return r.event == event; }));
+  }
+  bool calibration_untouched() const {
+    return std::memcmp(&rig.monitor.model(), &rig.setup.model, sizeof(plumb::SensorModel)) == 0 &&
+           std::memcmp(&rig.monitor.array(), &rig.setup.array, sizeof(plumb::SensorArray)) == 0;
+  }
+
+  Rig rig;
+  Noise directions;
+  std::array<double, plumb::kCapacity> bias{};
+  Rig::Distort fault = [](int, double r, int) { return r; };
+};
+
+inline plumb::MonitorConfig after_exclusion() {
+  plumb::MonitorConfig config;
+  config.recalibrate_after_exclusion = true;
+  return config;
+}
 
 }  // namespace plumb_test

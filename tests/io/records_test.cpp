@@ -95,6 +95,7 @@ TEST(Records, VerdictCarriesEverything) {
                           "live_hypotheses",
                           "stations_on_record",
                           "wants_rotation",
+                          "recalibration",
                           "mae_all_mps2",
                           "mae_worst_mps2",
                           "mae_worst_limit_mps2",
@@ -111,6 +112,42 @@ TEST(Records, VerdictCarriesEverything) {
                           "toolface_sigma_deg"}) {
     EXPECT_TRUE(object.contains(key)) << key;
   }
+}
+
+TEST(Records, RecalibrationIsAnObjectWhileItGoesOnOrWasRefused) {
+  const ArrayFile file = array_of();
+  Verdict v = some_verdict();
+  EXPECT_TRUE(Json::parse(verdict_json(v, file.array))["recalibration"].is_null());
+  v.state = HealthState::recalibrating;
+  v.recalibration.phase = RecalibrationPhase::collecting;
+  v.recalibration.stations = 5;
+  v.recalibration.held_out = 1;
+  v.recalibration.stations_wanted = 4;
+  v.recalibration.lacking = SensorSet::of(1);
+  v.recalibration.wanted_direction = {0.0, 1.0, 0.0};
+  const Mat3 turned = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+  const Json object = Json::parse(verdict_json(v, file.array, turned))["recalibration"];
+  std::string keys;
+  for (const auto& item : object.items()) keys += item.key() + " ";
+  EXPECT_EQ(keys, "phase stations held_out stations_wanted lacking wanted_direction refused ");
+  EXPECT_EQ(object["phase"], "collecting");
+  EXPECT_EQ(object["stations"], 5);
+  EXPECT_EQ(object["held_out"], 1);
+  EXPECT_EQ(object["stations_wanted"], 4);
+  EXPECT_EQ(object["lacking"], Json({"A2"}));
+  EXPECT_EQ(object["wanted_direction"], Json({0.0, 0.0, 1.0})) << "in the output frame";
+  EXPECT_TRUE(object["refused"].is_null());
+  v.state = HealthState::isolated;
+  v.recalibration.last_refusal.code = Errc::not_confirmed;
+  EXPECT_EQ(Json::parse(verdict_json(v, file.array))["recalibration"]["refused"], describe(Errc::not_confirmed));
+}
+
+TEST(Records, EveryQualifierHasItsName) {
+  Verdict v;
+  v.qualifiers = 127;
+  const Json object = Json::parse(verdict_json(v, array_of().array));
+  EXPECT_EQ(object["qualifiers"], Json({"unproven", "moving", "initial_calibration", "provisional", "no_redundancy",
+                                        "exhausted", "three_sensor_fit"}));
 }
 
 TEST(Records, NoVectorNoAngles) {

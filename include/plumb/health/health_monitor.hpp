@@ -74,6 +74,7 @@ class HealthMonitor {
   // health_monitor.cpp: the flow of one step
   bool admit(const Sample& sample, bool& gap) noexcept;
   Readings readings_of(const Sample& sample, GateResult& gate) const noexcept;
+  void empty_windows() noexcept;
   void publish(const Sample& sample, bool tick) noexcept;
   void note_silent_channels() noexcept;
   Validity validity() const noexcept;

@@ -1,0 +1,166 @@
+// Who may ask for a recalibration, and what it may not be used for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "recalibration_support.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::after_exclusion;
+using plumb_test::direction_at;
+using plumb_test::Tool;
+
+TEST(Recalibrating, WhoMayAskAndWhen) {
+  EXPECT_EQ(HealthMonitor().request_recalibration().error().code, Errc::wrong_state) << "not configured";
+  Tool tool(4);
+  EXPECT_EQ(tool.rig.monitor.request_recalibration().error().code, Errc::wrong_state) << "unproven";
+  tool.rig.prove();
+  EXPECT_TRUE(tool.rig.monitor.request_recalibration().has_value()) << "nominal";
+  Tool accused(4);
+  accused.rig.prove();
+  accused.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  accused.rig.stay(direction_at(45, 200));
+  const Expected<void> refused = accused.rig.monitor.request_recalibration();
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Errc::wrong_state);
+  EXPECT_EQ(refused.error().value, static_cast<double>(HealthState::suspect));
+  accused.visit(8);
+  ASSERT_EQ(accused.state(), HealthState::degraded_3_sensor);
+  EXPECT_TRUE(accused.rig.monitor.request_recalibration().has_value()) << "degraded: host only";
+  Tool lost(4);
+  lost.rig.prove();
+  lost.fault = [](int i, double r, int) { return i < 2 ? std::numeric_limits<double>::quiet_NaN() : r; };
+  lost.rig.stay(direction_at(60, 10));
+  ASSERT_EQ(lost.state(), HealthState::failed);
+  EXPECT_EQ(lost.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
+}
+
+TEST(Recalibrating, ARequestDoesNotOutliveTheStateThatTookIt) {
+  Tool tool(4);
+  tool.rig.prove();
+  // The alarm's block ends with the very sample at which the request would be served.
+  tool.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  const Vec3 u = direction_at(45, 200);
+  for (int k = 0; k < 31; ++k) tool.rig.step(tool.rig.sample(u, kG0_mps2));
+  ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
+  tool.rig.step(tool.rig.sample(u, kG0_mps2));
+  EXPECT_EQ(tool.state(), HealthState::suspect);
+  tool.fault = [](int, double r, int) { return r; };
+  tool.visit(20);
+  EXPECT_EQ(tool.count(HealthEvent::recalibrate), 0);
+}
+
+/// A three-sensor fit has nobody to check it: whatever it says, the output stays unconfirmed.
+TEST(Recalibrating, ThreeSensorsStayUnconfirmedAfterTheirFit) {
+  Tool tool(4);
+  tool.drift(1e-3);
+  tool.rig.prove();
+  tool.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  tool.visit(8);
+  ASSERT_EQ(tool.state(), HealthState::degraded_3_sensor);
+  ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
+  tool.visit(1);
+  EXPECT_EQ(tool.state(), HealthState::recalibrating);
+  EXPECT_EQ(tool.rig.monitor.verdict().validity, Validity::degraded) << "as the state it came from";
+  EXPECT_FALSE(tool.rig.monitor.verdict().protection_available);
+  for (int k = 0; k < 40 && tool.count(HealthEvent::fit_accepted) == 0; ++k) tool.visit(1);
+  ASSERT_EQ(tool.count(HealthEvent::fit_accepted), 1);
+  tool.visit(12);
+  EXPECT_EQ(tool.state(), HealthState::degraded_3_sensor);
+  EXPECT_EQ(tool.rig.monitor.verdict().validity, Validity::unconfirmed);
+  EXPECT_TRUE(tool.rig.monitor.verdict().qualifiers & Qualifier::three_sensor_fit);
+}
+
+/// Common drift (heat): parity is silent, the length is off, nobody is accused. The host may ask; the fit mends it.
+TEST(Recalibrating, CommonDriftIsMendedOnRequestAndUnconfirmedMeanwhile) {
+  Tool tool(6, {}, 3);
+  tool.rig.prove();
+  tool.bias.fill(2.5e-2);
+  for (int k = 0; k < 10 && tool.state() == HealthState::nominal; ++k) tool.visit(1);
+  ASSERT_EQ(tool.state(), HealthState::suspect);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::reference);
+  ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
+  for (int k = 0; k < 30 && tool.count(HealthEvent::fit_accepted) == 0; ++k) {
+    tool.visit(1);
+    EXPECT_NE(tool.rig.monitor.verdict().validity, Validity::valid);
+  }
+  ASSERT_EQ(tool.count(HealthEvent::fit_accepted), 1);
+  tool.visit(8);
+  EXPECT_EQ(tool.state(), HealthState::nominal);
+  EXPECT_LT(tool.bias_error(SensorSet::first(6)), 2e-3);
+  EXPECT_TRUE(tool.rig.ever_blamed.empty());
+}
+
+TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
+  Tool tool(6, {}, 4);
+  tool.rig.prove();
+  for (int k = 0; k < 10 && tool.state() == HealthState::nominal; ++k) tool.visit(1, kG0_mps2 * 1.003);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::reference);
+  ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
+  tool.visit(30, kG0_mps2 * 1.003);
+  EXPECT_EQ(tool.count(HealthEvent::fit_accepted), 0);
+  EXPECT_EQ(tool.count(HealthEvent::fit_rejected), 1);
+  EXPECT_EQ(tool.state(), HealthState::suspect) << "back to where it came from";
+  EXPECT_TRUE(tool.calibration_untouched());
+}
+
+/// A sensor that goes on drifting is followed only as far as the bound against the commissioning calibration.
+TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
+  MonitorConfig config;
+  config.drift_bias_mps2 = 2e-3;
+  config.drift_scale = 1e-4;
+  Tool tool(6, config, 6);
+  plumb_test::leave_uncertainty(tool.rig.setup.array, 5e-4, 1e-5);
+  tool.rig.restart();
+  tool.rig.prove();
+  tool.fault = [](int i, double r, int k) { return i == 2 ? r + 4e-7 * k : r; };
+  double farthest = 0.0;
+  for (int k = 0; k < 900 && tool.rig.ever_blamed.empty(); ++k) {
+    tool.rig.monitor.request_recalibration();
+    tool.visit(1);
+    farthest = std::max(farthest, std::fabs(tool.rig.monitor.model().sensor[2].bias[0]));
+    const Verdict& v = tool.rig.monitor.verdict();
+    EXPECT_TRUE(v.protection_available || v.validity != Validity::valid);
+  }
+  EXPECT_LE(farthest, Recalibration::kCommissioningSigmas * config.drift_bias_mps2);
+  EXPECT_GT(tool.count(HealthEvent::fit_accepted) + tool.count(HealthEvent::fit_rejected), 0);
+  EXPECT_EQ(tool.rig.ever_blamed, SensorSet::of(2)) << "in the end it is convicted, and it alone";
+}
+
+TEST(Recalibrating, OtherGravityOtherStations) {
+  Tool tool(6);
+  tool.rig.prove();
+  tool.visit(8);
+  ASSERT_GT(tool.rig.monitor.recalibration().store().size(), 0);
+  GravityReference same = tool.rig.setup.gravity;
+  same.g_mps2 += 0.5 * same.sigma_mps2;
+  ASSERT_TRUE(tool.rig.monitor.set_gravity(same).has_value());
+  EXPECT_GT(tool.rig.monitor.recalibration().store().size(), 0);
+  same.g_mps2 += 0.7 * same.sigma_mps2;  // small steps add up
+  ASSERT_TRUE(tool.rig.monitor.set_gravity(same).has_value());
+  EXPECT_EQ(tool.rig.monitor.recalibration().store().size(), 0);
+}
+
+TEST(Recalibrating, AStepIsAtMostOneIterationAndStationsTakenBeforeTheRequestCount) {
+  Tool tool(6);
+  tool.rig.prove();
+  tool.visit(14);
+  ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
+  std::uint32_t before = 0;
+  int steps = 0;
+  for (; steps < 40 && tool.count(HealthEvent::fit_accepted) == 0; ++steps) {
+    tool.rig.step(tool.rig.sample(direction_at(50, 50), kG0_mps2));
+    const std::uint32_t now = tool.rig.monitor.recalibration().iterations();
+    EXPECT_LE(now, before + 1U);
+    before = now;
+  }
+  EXPECT_EQ(tool.count(HealthEvent::fit_accepted), 1);
+  EXPECT_GE(steps, 3);
+}
+
+}  // namespace
