@@ -1,6 +1,6 @@
 # cmake --install: headers, libraries, tool, licence, and the package plumb for find_package(plumb CONFIG).
 #   find_package(plumb CONFIG)                  -> plumb::plumb (8 sensors), plumb::plumb_4, _8, _16, _24
-#   find_package(plumb CONFIG COMPONENTS host)  -> plumb::scenario, plumb::io, plumb::report as well
+#   find_package(plumb CONFIG COMPONENTS host)  -> plumb::scenario, plumb::study, plumb::io, plumb::report as well
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
@@ -12,7 +12,7 @@ install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
 set(rooms ${PLUMB_CORE_ROOMS})
 
 set(PLUMB_INSTALLED_HOST FALSE)
-foreach(name IN ITEMS scenario io report)
+foreach(name IN ITEMS scenario study io report)
   if(TARGET plumb_${name})
     install(TARGETS plumb_${name} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     list(APPEND rooms ${name})

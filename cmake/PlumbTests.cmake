@@ -41,8 +41,8 @@ plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} LIBR
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
-    ROOMS scenario io report cli recordings
-    LIBRARIES plumb_report plumb_io plumb_scenario plumb_24)
+    ROOMS scenario study io report cli recordings
+    LIBRARIES plumb_report plumb_io plumb_study plumb_scenario plumb_24)
   if(TARGET plumb_host_tests AND TARGET plumb_tool)
     add_dependencies(plumb_host_tests plumb_tool)
     target_compile_definitions(plumb_host_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")

@@ -60,6 +60,10 @@ Calibrator::Calibrator(const Datasheet& datasheet, const GravityReference& gravi
   if (!acceptable(datasheet_, gravity_)) stop_ = StopReason::not_finite;
 }
 
+fit::Parameters Calibrator::parameters() const noexcept {
+  return fit::natural(datasheet_, fit::prior_roots(datasheet_), theta_);
+}
+
 /// Eq (12), with the prior sigma as floor: a bias near zero has no relative accuracy. A common rotation does
 /// not count: no station sees it, the prior draws it in slowly where it pulls hard, and `finish` settles it.
 bool Calibrator::settled(const fit::Parameters& natural) const noexcept {

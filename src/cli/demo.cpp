@@ -23,8 +23,7 @@ struct Options {
 
 /// In the order of the page.
 constexpr io::FileExpected<DemoSection> (*kSections[])(const DemoContext&) = {
-    demo_drill_a,
-    demo_drill_b,
+    demo_geometry, demo_calibration, demo_gravity_error, demo_table2, demo_drill_a, demo_drill_b,
 };
 
 constexpr const char* kAbout =

@@ -7,12 +7,12 @@
 
 #include "comparison.hpp"
 #include "demo_files.hpp"
+#include "demo_picture.hpp"
 #include "demo_section.hpp"
 #include "demo_story.hpp"
 #include "fit_summary.hpp"
 #include "pipeline.hpp"
 #include "plumb/io/scenario_file.hpp"
-#include "plumb/report/plot.hpp"
 #include "plumb/report/timeline_plot.hpp"
 #include "plumb/report/words.hpp"
 #include "plumb/scenario/library.hpp"
@@ -44,12 +44,11 @@ class DrillSection {
       : plan_(std::move(plan)), out_(std::filesystem::path(context.out) / plan_.id), seed_(context.seed) {}
 
   io::FileExpected<DemoSection> run() {
-    for (const auto step : {&DrillSection::write_logs, &DrillSection::calibrate_tool, &DrillSection::monitor_tool,
-                            &DrillSection::write_timeline}) {
+    for (const auto step : {&DrillSection::write_logs, &DrillSection::calibrate_tool, &DrillSection::monitor_tool}) {
       const io::FileExpected<void> done = (this->*step)();
       if (!done) return passed_on(done);
     }
-    io::FileExpected<report::Picture> picture = draw();
+    io::FileExpected<report::Picture> picture = draw_timeline();
     if (!picture) return passed_on(picture);
     return section(*std::move(picture));
   }
@@ -133,31 +132,17 @@ class DrillSection {
     return verdicts_file.commit();
   }
 
-  io::FileExpected<void> write_timeline() {
-    io::FileExpected<void> written = io::write_file(path("timeline.csv"), report::timeline_csv(record_->timeline));
-    if (!written) return written;
-    return io::write_file(path("timeline.gp"),
-                          report::timeline_script(record_->timeline, "timeline.csv", "timeline.svg"));
-  }
-
-  io::FileExpected<report::Picture> draw() const {
-    report::Picture picture;
-    picture.title = "The run in one picture";
-    picture.caption =
-        "Every dot is one block of samples taken while the tool stands still; the gaps are the moves between stations. "
-        "Without plumb: the plain least-squares answer of all sensors with the same calibration. Amber dots are "
-        "answers "
-        "that plumb itself calls unconfirmed; in failed it gives none. Inclination is that of the array's own frame: "
-        "gravity cannot tell how the array as a whole sits in its housing.";
-    const io::FileExpected<void> drawn = report::run_gnuplot(out_.string(), "timeline.gp");
-    if (!drawn) {
-      picture.missing = drawn.error().text();
-      return picture;
-    }
-    const io::FileExpected<std::string> svg = io::read_file(path("timeline.svg"));
-    if (!svg) return passed_on(svg);
-    picture.svg = report::inline_svg(*svg);
-    return picture;
+  io::FileExpected<report::Picture> draw_timeline() const {
+    const io::FileExpected<void> written =
+        io::write_file(path("timeline.csv"), report::timeline_csv(record_->timeline));
+    if (!written) return passed_on(written);
+    return draw(
+        out_.string(), "timeline", report::timeline_script(record_->timeline, "timeline.csv", "timeline.svg"),
+        "The run in one picture",
+        "Every dot is one block of samples taken while the tool stands still; the gaps are the moves between "
+        "stations. Without plumb: the plain least-squares answer of all sensors with the same calibration. Amber "
+        "dots are answers that plumb itself calls unconfirmed; in failed it gives none. Inclination is that of "
+        "the array's own frame: gravity cannot tell how the array as a whole sits in its housing.");
   }
 
   std::vector<std::string> commands() const {

@@ -33,6 +33,7 @@ p { margin: .5rem 0; max-width: 50rem; }
 .note { color: var(--soft); font-size: .9rem; }
 nav { position: sticky; top: 0; z-index: 1; background: var(--page); border-bottom: 1px solid var(--line); }
 nav div { max-width: 70rem; margin: 0 auto; padding: .5rem 1rem; display: flex; gap: .3rem 1.2rem; overflow-x: auto; white-space: nowrap; font-size: .92rem; }
+@media (min-width: 48rem) { html { scroll-padding-top: 5rem; } nav div { flex-wrap: wrap; } }
 nav a, .index a { text-decoration: none; }
 nav a:hover, .index a:hover b { text-decoration: underline; }
 .index { display: grid; grid-template-columns: repeat(auto-fit, minmax(16rem, 1fr)); gap: .8rem; margin: 1.4rem 0; }

@@ -13,7 +13,7 @@ using namespace plumb_test;
 using nlohmann::json;
 
 /// The sections, in the order of the page.
-const std::vector<std::string> kSections = {"drill_a", "drill_b"};
+const std::vector<std::string> kSections = {"geometry", "calibration", "gravity-error", "table2", "drill_a", "drill_b"};
 const std::vector<std::string> kDrillFiles = {"array.toml",   "stand.toml", "calibration.csv", "calibration.json",
                                               "drill.toml",   "drill.csv",  "events.jsonl",    "verdicts.jsonl",
                                               "timeline.csv", "timeline.gp"};

@@ -83,6 +83,8 @@ class Calibrator {
   bool done() const noexcept { return stop_ != StopReason::none; }
   int iterations() const noexcept { return iterations_; }
   double cost() const noexcept { return cost_; }
+  /// Where the fit stands: per sensor W and b [m/s^2], in the frame it has drifted to (`finish` turns it back).
+  std::array<double, kFitParameters> parameters() const noexcept;
 
   /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`,
   /// too_few_stations, diverged (not finite, or not converged), unobservable (value = rank, limit =

@@ -1,0 +1,61 @@
+#include "demo_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "plumb/io/output_file.hpp"
+#include "plumb/report/plot.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+std::string path_of(const std::string& directory, const std::string& name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+}  // namespace
+
+std::string plot_head(const std::string& name, int width, int height) {
+  return fmt::format(
+      "# Draws {0}.svg. Run: gnuplot {0}.gp\n"
+      "set terminal svg size {1},{2} dynamic font 'sans-serif,15' name '{0}' linewidth 1.2\nset output '{0}.svg'\n"
+      "set datafile separator ','\nset datafile missing ''\nset border lw 0.7\nset tics scale 0.6\n",
+      name, width, height);
+}
+
+io::FileExpected<report::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
+                                       std::string title, std::string caption) {
+  report::Picture out;
+  out.title = std::move(title);
+  out.caption = std::move(caption);
+  const io::FileExpected<void> written = write_into(directory, name + ".gp", script);
+  if (!written) return tl::unexpected<io::FileError>(written.error());
+  const io::FileExpected<void> drawn = report::run_gnuplot(directory, name + ".gp");
+  if (!drawn) {
+    out.missing = drawn.error().text();
+    return out;
+  }
+  const io::FileExpected<std::string> svg = io::read_file(path_of(directory, name + ".svg"));
+  if (!svg) return tl::unexpected<io::FileError>(svg.error());
+  out.svg = report::inline_svg(*svg);
+  return out;
+}
+
+io::FileExpected<void> write_into(const std::string& directory, const std::string& name, const std::string& text) {
+  return io::write_file(path_of(directory, name), text);
+}
+
+tl::unexpected<io::FileError> study_failed(const std::string& why) {
+  return tl::unexpected<io::FileError>(
+      io::FileError{"plumb demo", 0, "", why, "report this as a bug of plumb", io::ExitCode::other});
+}
+
+std::string csv_line(const std::vector<std::string>& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

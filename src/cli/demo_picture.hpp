@@ -1,0 +1,39 @@
+/// Pictures and files of the demo's sections.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plumb/io/file_error.hpp"
+#include "plumb/report/chapter.hpp"
+#include "plumb/study/survey.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// Colours that are readable on white and on black: of sensors a1 to a4, and of the two methods.
+inline constexpr const char* kSensorColour[] = {"#d0553c", "#2f78b7", "#c98a00", "#2c8f57"};
+inline constexpr const char* kPaperColour = "#d0553c";
+inline constexpr const char* kOwnColour = "#2f78b7";
+inline constexpr const char* kDatasheetColour = "#8a8a8a";
+
+/// Head of a gnuplot program: terminal, output NAME.svg, separator, thin frame.
+std::string plot_head(const std::string& name, int width, int height);
+
+/// Writes NAME.gp into `directory`, draws it with gnuplot and reads NAME.svg for inlining. Where gnuplot is missing or
+/// fails the picture says so; only a file that cannot be written or read is an error.
+io::FileExpected<report::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
+                                       std::string title, std::string caption);
+
+io::FileExpected<void> write_into(const std::string& directory, const std::string& name, const std::string& text);
+
+/// A study that refused: nothing that a user did, or could mend.
+tl::unexpected<io::FileError> study_failed(const std::string& why);
+
+/// The given columns joined by commas, with a newline.
+std::string csv_line(const std::vector<std::string>& cells);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb
