@@ -26,6 +26,7 @@ const char* describe(Errc code) noexcept {
     case Errc::not_calibrated: return "no calibration has been accepted";
     case Errc::wrong_key: return "the reset key does not match";
     case Errc::not_invertible: return "the cross-axis matrix is singular";
+    case Errc::not_unique: return "more sensors than the paper's parameters are unique for";
   }
   return "unknown error code";
 }
@@ -52,6 +53,7 @@ const char* remedy(Errc code) noexcept {
     case Errc::not_calibrated: return "run a calibration or load an accepted one";
     case Errc::wrong_key: return "use the reset key of the configuration";
     case Errc::not_invertible: return "correct the misalignment terms: two sensors are given the same axis";
+    case Errc::not_unique: return "use the common-frame form: axis, scale and bias of each sensor";
   }
   return "report this code as a defect of plumb";
 }

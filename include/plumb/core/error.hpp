@@ -30,6 +30,7 @@ enum class Errc : std::uint8_t {
   not_calibrated,       ///< no accepted calibration
   wrong_key,            ///< reset key does not match
   not_invertible,       ///< cross-axis matrix of eq (3) is singular
+  not_unique,           ///< many parameter sets say the same: value = sensors, limit = most that give one set
 };
 
 struct Error {
