@@ -15,6 +15,9 @@ struct Options {
   std::string array;
   LogSpec log;
   std::string out;
+  HoldOutChoice hold_out;
+  std::string plots;
+  bool suggest = false;
   bool json = false;
   bool verbose = false;
 };
@@ -23,7 +26,8 @@ constexpr const char* kAbout =
     "Estimate what every sensor really does (bias, scale, direction) from a log in which the tool is held\n"
     "still at many attitudes. Gravity is the only reference. plumb finds the still stretches by itself, or\n"
     "takes every row as one where the array file says rows = \"stations\". The calibration file is written\n"
-    "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible.";
+    "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible, and\n"
+    "stations that were held out predicted as well as the fit claims.";
 constexpr const char* kNotes =
     "Example:\n"
     "  plumb calibrate --array tool.toml --log calibration.csv --out calibration.json\n\n"
@@ -39,9 +43,9 @@ io::ExitCode run(const Options& options) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   watch_interrupts();
-  const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log);
+  const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log, options.hold_out);
   if (!fit) return report(fit.error());
-  print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, options.verbose));
+  print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, {options.verbose, options.suggest}));
   if (!fit->accepted) {
     const Refusal refusal = refusal_of(*fit, *array);
     print_error("plumb: the calibration was not accepted: " + refusal.reason + ". " + options.out +
@@ -71,8 +75,18 @@ Command add_calibrate(CLI::App& tool) {
       ->type_name("LOG.csv");
   app->add_option("--out", options->out, "the calibration file to write")->required()->type_name("CAL.json");
   add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_option_function<std::string>(
+         "--hold-out",
+         [options](const std::string& text) {
+           const std::string wrong = read_hold_out(text, options->hold_out);
+           if (!wrong.empty()) throw CLI::ValidationError("--hold-out", wrong);
+         },
+         "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
+         "default 4 folds, below 16 stations one at a time")
+      ->type_name("K|FRACTION|one|none");
+  app->add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
   app->add_flag("--json", options->json, "the report as JSON, for machines");
-  app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times");
+  app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");
   app->footer(kNotes + exit_codes_help());
   return {app, kAbout, [options] { return run(*options); }};
 }

@@ -96,7 +96,7 @@ class Demo {
     io::FileExpected<CalibrationRun> fit = run_calibration(*array_, log);
     if (!fit) return tl::unexpected<io::FileError>(fit.error());
     fit_ = *std::move(fit);
-    print(fmt::format("plumb demo, seed {}\n\n", seed_) + fit_text(fit_, *array_, false) + "\n");
+    print(fmt::format("plumb demo, seed {}\n\n", seed_) + fit_text(fit_, *array_) + "\n");
     if (!fit_.accepted) return {};
     return save_calibration(path("calibration.json"), fit_, *array_, log.path);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fit_study.hpp"
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/io/array_file.hpp"
@@ -30,12 +31,19 @@ struct CalibrationRun {
   io::LogStatistics log;
   bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
   FitReport report;
+  FitStudy study;
   Error refusal;                          ///< why it was not accepted
+  Concern concern = Concern::none;        ///< what exactly, where the code alone does not say
+  std::vector<std::string> log_findings;  ///< why no still stretch was found; empty where there were some
+
+  /// Of the fit whose figures are shown: a fit that was refused early has only part of them in `report`.
+  const FitReport& told() const { return study.shown ? study.shown->report : report; }
   std::unique_ptr<Calibration> accepted;  ///< null where it was not
 };
 
-/// Reads the log, finds the stations (or takes the rows as stations) and fits.
-io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log);
+/// Reads the log, finds the stations (or takes the rows as stations), fits, and judges the fit.
+io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
+                                                 const HoldOutChoice& hold_out = {});
 
 /// Writes the accepted calibration with its provenance.
 io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
