@@ -69,14 +69,15 @@ Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, con
                 const HoldOut& held_out, const OddSensor& odd, const AcceptanceLimits& limits) noexcept {
   const Judgement earth = judge_gravity(gravity);
   if (earth.error.code != Errc::ok) return earth;
+  // Before the rest: what one sensor spoils shows everywhere.
+  const Judgement alone = judge_odd_sensor(datasheet, odd, limits);
+  if (alone.error.code != Errc::ok) return alone;
   const CommonScale common = common_scale(datasheet, calibration);
   if (std::fabs(common.prior_sigmas) > limits.max_common_scale_sigmas &&
       std::fabs(common.mean) > kTogether * common.scatter) {
     const double bound = limits.max_common_scale_sigmas * common.mean / common.prior_sigmas;
     return refuse(Concern::common_scale, Errc::implausible, -1, common.mean, bound);
   }
-  const Judgement alone = judge_odd_sensor(datasheet, odd, limits);
-  if (alone.error.code != Errc::ok) return alone;
   const double parity = calibration.report.parity_rms_mps2;
   if (!(parity <= limits.max_parity_rms_mps2)) {
     return refuse(Concern::parity, Errc::poor_fit, -1, parity, limits.max_parity_rms_mps2);

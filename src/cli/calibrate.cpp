@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "fit_pictures.hpp"
 #include "fit_summary.hpp"
 #include "pipeline.hpp"
 #include "tool.hpp"
@@ -36,6 +37,17 @@ constexpr const char* kNotes =
     "Record at least 12 attitudes spread over all directions, 10 s each; 24 to 48 are better.\n"
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
+/// The pictures, where asked for. Without gnuplot the rest is done all the same.
+io::FileExpected<void> draw(const Options& options, const CalibrationRun& fit, const io::ArrayFile& array) {
+  if (options.plots.empty()) return {};
+  std::string missing;
+  const io::FileExpected<std::vector<std::string>> names = draw_fit(options.plots, fit, array, missing);
+  if (!names) return tl::unexpected<io::FileError>(names.error());
+  if (!missing.empty()) print_error("plumb: " + missing + "\n");
+  if (!options.json) print("written to " + options.plots + ": " + listed(*names) + "\n");
+  return {};
+}
+
 io::ExitCode run(const Options& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
@@ -46,6 +58,8 @@ io::ExitCode run(const Options& options) {
   const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log, options.hold_out);
   if (!fit) return report(fit.error());
   print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, {options.verbose, options.suggest}));
+  const io::FileExpected<void> drawn = draw(options, *fit, *array);
+  if (!drawn) return report(drawn.error());
   if (!fit->accepted) {
     const Refusal refusal = refusal_of(*fit, *array);
     print_error("plumb: the calibration was not accepted: " + refusal.reason + ". " + options.out +
@@ -84,6 +98,9 @@ Command add_calibrate(CLI::App& tool) {
          "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
          "default 4 folds, below 16 stations one at a time")
       ->type_name("K|FRACTION|one|none");
+  app->add_option("--plots", options->plots,
+                  "draw residuals, parameters, convergence and attitudes into this directory (needs gnuplot)")
+      ->type_name("DIR");
   app->add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
   app->add_flag("--json", options->json, "the report as JSON, for machines");
   app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");

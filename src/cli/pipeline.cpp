@@ -81,9 +81,10 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   const bool named = judged.error.code != Errc::ok;
   if (!fit) {
     run.refusal = fit.error();
-    // A set of stations that determines too little accuses nobody.
+    // Stations that determine too little say nothing of values; that one sensor contradicts itself they do say.
     const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable;
-    if (!named || (judged.concern != Concern::gravity && too_little)) return;
+    const bool stands = judged.concern == Concern::gravity || judged.concern == Concern::odd_sensor;
+    if (!named || (too_little && !stands)) return;
   } else if (!named) {
     run.accepted = std::make_unique<Calibration>(*fit);
     return;
