@@ -175,7 +175,7 @@ std::string attitude_section(const CalibrationRun& run, const io::ArrayFile& arr
   std::string out = "\nattitudes\n";
   if (c.attitudes > 0) {
     out += line("inclinations",
-                fmt::format("{} distinct ones, from {:.0f} to {:.0f} deg, in {} stations", c.inclinations,
+                fmt::format("{} distinct, from {:.0f} to {:.0f} deg, in {} stations", c.inclinations,
                             deg_from_rad(c.inclination_min_rad), deg_from_rad(c.inclination_max_rad), c.attitudes));
   }
   if (run.told().rank > 0)

@@ -86,7 +86,7 @@ TEST(CalibrateReport, SaysEveryFigureOfAGoodFit) {
                                  "e_cal",
                                  "eqs (1)-(3)",
                                  "m_i1",
-                                 "distinct ones",
+                                 "distinct",
                                  "excitation",
                                  "lacking",
                                  "nothing",
