@@ -46,7 +46,7 @@ void take(const StationPrediction& p, int station, Tally& tally, HoldOut& out) n
   }
 }
 
-/// Of a fit that does not settle: worse than any that does.
+/// Of a fit that does not settle, or not within the physical bounds: worse than any that does.
 constexpr double kUnsettled = 1e300;
 
 /// Chi^2 per degree of freedom without sensor i; infinite where the rest cannot be judged.
@@ -59,7 +59,9 @@ double unrest_without(const Datasheet& datasheet, const GravityReference& gravit
   FitReport report;
   misfit_mps2 = 0.0;
   const Expected<Calibration> fitted = calibrate(datasheet, gravity, scratch, count, options, &report);
-  if (!fitted && fitted.error().code == Errc::diverged) return kUnsettled;
+  // Nor does a fit that bends a sensor beyond all bounds explain anything: it does so to make up for the culprit.
+  const bool settled = fitted || (fitted.error().code != Errc::diverged && fitted.error().code != Errc::implausible);
+  if (!settled) return kUnsettled;
   if (!fitted || report.degrees_of_freedom < kOddFreedom) return std::numeric_limits<double>::infinity();
   misfit_mps2 = report.misfit_mps2;
   return report.chi2 / report.degrees_of_freedom;
@@ -150,16 +152,18 @@ OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity
                      const FitOptions& options, Station* scratch) noexcept {
   OddSensor out;
   if (stations == nullptr || scratch == nullptr) return out;
-  const FitOptions lenient = without_limits(options);
   FitReport all;
-  const Expected<Calibration> fitted = calibrate(datasheet, gravity, stations, count, lenient, &all);
+  const Expected<Calibration> fitted = calibrate(datasheet, gravity, stations, count, without_limits(options), &all);
+  FitOptions plausible = options;
+  plausible.require_full_rank = false;
+  plausible.max_norm_rms_mps2 = std::numeric_limits<double>::infinity();
   if (!fitted && fitted.error().code != Errc::diverged) return out;
   out.with_mps2 = fitted ? all.misfit_mps2 : std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), next = least;
   int best = -1;
   for (int i = 0; i < datasheet.size; ++i) {
     double misfit_mps2 = 0.0;
-    const double unrest = unrest_without(datasheet, gravity, stations, count, lenient, i, scratch, misfit_mps2);
+    const double unrest = unrest_without(datasheet, gravity, stations, count, plausible, i, scratch, misfit_mps2);
     if (unrest < least) {
       next = least;
       least = unrest;

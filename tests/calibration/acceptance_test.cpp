@@ -125,6 +125,18 @@ TEST(Acceptance, ASensorThatChangesDuringTheRecordingIsNamed) {
   }
 }
 
+TEST(Acceptance, ADeadSensorNeverAccusesAHealthyOne) {
+  // Without a healthy sensor the dead one can be bent to fit the rest: that is no explanation.
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    for (int sensor = 0; sensor < 4; ++sensor) {
+      Bench dead(seed);
+      for (plumb::Station& s : dead.stations) s.mean[at(sensor)] = 1e-5 * dead.noise.normal();
+      dead.run();
+      EXPECT_TRUE(dead.odd.sensor == sensor || dead.odd.sensor == -1) << "seed " << seed << ", sensor " << sensor;
+    }
+  }
+}
+
 TEST(Acceptance, WhatIsSmallBesideTheDatasheetIsToldNotRefused) {
   Bench b(1, 48, 0.1 * kSigma);
   for (plumb::Station& s : b.stations) s.count = 100;

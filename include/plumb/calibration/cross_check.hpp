@@ -55,7 +55,7 @@ struct OddSensor {
 
 /// Leaves out one sensor after the other. A sensor stands out if chi^2 per degree of freedom without it is at most
 /// kOddRatio of the least without any other, with at least kOddFreedom degrees of freedom left; a fit that does not
-/// settle is the worst. n fits; `scratch` holds
+/// settle within the physical bounds of `options` is the worst. n fits; `scratch` holds
 /// `count` stations.
 inline constexpr double kOddRatio = 0.1;
 inline constexpr int kOddFreedom = 4;
