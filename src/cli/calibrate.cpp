@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "fit_pictures.hpp"
 #include "fit_summary.hpp"
 #include "pipeline.hpp"
 #include "tool.hpp"
@@ -15,7 +16,9 @@ struct Options {
   std::string array;
   LogSpec log;
   std::string out;
-  bool paper = false;
+  CalibrationChoice choice;
+  std::string plots;
+  bool suggest = false;
   bool json = false;
   bool verbose = false;
 };
@@ -24,7 +27,8 @@ constexpr const char* kAbout =
     "Estimate what every sensor really does (bias, scale, direction) from a log in which the tool is held\n"
     "still at many attitudes. Gravity is the only reference. plumb finds the still stretches by itself, or\n"
     "takes every row as one where the array file says rows = \"stations\". The calibration file is written\n"
-    "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible.";
+    "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible, and\n"
+    "stations that were held out predicted as well as the fit claims.";
 constexpr const char* kNotes =
     "Example:\n"
     "  plumb calibrate --array tool.toml --log calibration.csv --out calibration.json\n\n"
@@ -35,6 +39,17 @@ constexpr const char* kNotes =
     "mode = \"paper\"; up to 8 sensors. An array file with that mode implies it.\n"
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
+/// The pictures, where asked for. Without gnuplot the rest is done all the same.
+io::FileExpected<void> draw(const Options& options, const CalibrationRun& fit, const io::ArrayFile& array) {
+  if (options.plots.empty()) return {};
+  std::string missing;
+  const io::FileExpected<std::vector<std::string>> names = draw_fit(options.plots, fit, array, missing);
+  if (!names) return tl::unexpected<io::FileError>(names.error());
+  if (!missing.empty()) print_error("plumb: " + missing + "\n");
+  if (!options.json) print("written to " + options.plots + ": " + listed(*names) + "\n");
+  return {};
+}
+
 io::ExitCode run(const Options& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
@@ -42,11 +57,13 @@ io::ExitCode run(const Options& options) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   watch_interrupts();
-  const bool by_paper = options.paper || array->monitor.mode == MonitorMode::paper;
-  const io::FileExpected<CalibrationRun> fit =
-      run_calibration(*array, options.log, by_paper ? WithPaperFits::yes : WithPaperFits::no);
+  CalibrationChoice choice = options.choice;
+  choice.paper_fits = choice.paper_fits || array->monitor.mode == MonitorMode::paper;
+  const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log, choice);
   if (!fit) return report(fit.error());
-  print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, options.verbose));
+  print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, {options.verbose, options.suggest}));
+  const io::FileExpected<void> drawn = draw(options, *fit, *array);
+  if (!drawn) return report(drawn.error());
   if (!fit->accepted) {
     const Refusal refusal = refusal_of(*fit, *array);
     print_error("plumb: the calibration was not accepted: " + refusal.reason + ". " + options.out +
@@ -54,7 +71,7 @@ io::ExitCode run(const Options& options) {
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
   if (fit->paper_refusal.code != Errc::ok) {
-    const Refusal refusal = paper_refusal_of(*fit, *array);
+    const Refusal refusal = paper_refusal_of(*fit);
     print_error("plumb: the fit by the paper's method is of no use: " + refusal.reason + ". " + options.out +
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
@@ -82,9 +99,22 @@ Command add_calibrate(CLI::App& tool) {
       ->type_name("LOG.csv");
   app->add_option("--out", options->out, "the calibration file to write")->required()->type_name("CAL.json");
   add_bad_row_option(*app, options->log.on_bad_row);
-  app->add_flag("--paper", options->paper, "the paper's own fits too, kept in the calibration file");
+  app->add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
+  app->add_option_function<std::string>(
+         "--hold-out",
+         [options](const std::string& text) {
+           const std::string wrong = read_hold_out(text, options->choice.hold_out);
+           if (!wrong.empty()) throw CLI::ValidationError("--hold-out", wrong);
+         },
+         "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
+         "default 4 folds, below 16 stations one at a time")
+      ->type_name("K|FRACTION|one|none");
+  app->add_option("--plots", options->plots,
+                  "draw residuals, parameters, convergence and attitudes into this directory (needs gnuplot)")
+      ->type_name("DIR");
+  app->add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
   app->add_flag("--json", options->json, "the report as JSON, for machines");
-  app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times");
+  app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");
   app->footer(kNotes + exit_codes_help());
   return {app, kAbout, [options] { return run(*options); }};
 }

@@ -1,45 +1,45 @@
-/// A fit in words and figures: one source for the text, the JSON and the page.
+/// A fit in figures: one source for the text, the JSON, the page and the pictures.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fit_words.hpp"
 #include "pipeline.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 
-/// One sensor of a fit. Bias, scale and axis are known only where the fit was accepted.
+/// One sensor of a fit; nothing is known where no fit converged. Shares: 1 = from data, 0 = from the datasheet.
 struct SensorFigures {
   std::string id;
+  bool known = false;
   double bias_mg = 0.0;  ///< mg0
   double bias_sigma_mg = 0.0;
-  double scale = 0.0;           ///< log unit per g0
-  double scale_change = 0.0;    ///< relative to the datasheet
+  double bias_share = 0.0;
+  double scale = 0.0;         ///< log unit per g0
+  double scale_change = 0.0;  ///< relative to the datasheet
+  double scale_sigma = 0.0;   ///< relative
+  double scale_share = 0.0;
   double axis_shift_deg = 0.0;  ///< against the nominal axis
-  double data_share = 0.0;      ///< least of its four parameters: 1 = from data, 0 = from the datasheet
+  double axis_sigma_deg = 0.0;  ///< about each of the two directions across it
+  double axis_share = 0.0;
+  double data_share = 0.0;  ///< least of its parameters
   double e_cal_mg = 0.0;
   double residual_rms_mg = 0.0;
 };
 std::vector<SensorFigures> sensor_figures(const CalibrationRun& run, const io::ArrayFile& array);
 
-/// The directions in parameter space that the stations cannot see, in words.
-std::vector<std::string> unobservable(const FitReport& report, const io::ArrayFile& array);
-
-/// Attitudes that would tell most, as "inclination 90 deg, toolface 180 deg": those farthest from what has
-/// been recorded.
-std::vector<std::string> attitudes_to_record(const CalibrationRun& run, const io::ArrayFile& array, int count);
-
-/// Why the fit was refused, and what to do about it.
-struct Refusal {
-  std::string reason;
-  std::string next;
+/// A station whose readings the fit to the others does not predict.
+struct OddStation {
+  int number = 0;  ///< as counted in the report, from 1
+  double sigmas = 0.0;
 };
-Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
-
-/// The same for the fits by the paper's method.
-Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
+/// Beyond `kOddStation_sigmas`, the worst first.
+inline constexpr double kOddStation_sigmas = 4.0;
+std::vector<OddStation> odd_stations(const CalibrationRun& run);
 
 /// One fit by the paper's method.
 struct PaperFigures {
@@ -53,8 +53,12 @@ struct PaperFigures {
 };
 std::vector<PaperFigures> paper_figures(const PaperCalibration& paper, const io::ArrayFile& array);
 
-/// The report as text and as JSON.
-std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, bool with_stations);
+/// The report as text and as JSON. `suggest`: with the attitudes to record next even where the fit is accepted.
+struct ReportParts {
+  bool stations = false;
+  bool suggest = false;
+};
+std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts = {});
 std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array);
 
 }  // namespace cli

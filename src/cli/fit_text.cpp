@@ -1,7 +1,7 @@
-// The report of a fit as text for people and as JSON for machines.
+// The report of a fit as a table for people.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <cmath>
 
 #include "fit_summary.hpp"
 #include "plumb/core/units.hpp"
@@ -11,53 +11,166 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-constexpr double kMilliG0_mps2 = 1e-3 * kG0_mps2;
+constexpr std::size_t kOddStationsListed = 5;
+/// Rounding.
+constexpr double kNoExcitation = 1e-9;
+constexpr std::size_t kTextWidth = 116;
+constexpr std::size_t kLabelWidth = 20;
+
+double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+/// "  label   text", the text wrapped at blanks and indented below itself.
+std::string line(const std::string& label, const std::string& text) {
+  std::string out = fmt::format("{:<{}}", "  " + label, kLabelWidth);
+  std::size_t column = kLabelWidth;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    std::size_t end = text.find(' ', begin);
+    if (end == std::string::npos) end = text.size();
+    const std::size_t width = end - begin;
+    if (column > kLabelWidth && column + 1 + width > kTextWidth) {
+      out += "\n" + std::string(kLabelWidth, ' ');
+      column = kLabelWidth;
+    } else if (column > kLabelWidth) {
+      out += ' ';
+      ++column;
+    }
+    out.append(text, begin, width);
+    column += width;
+    begin = end + 1;
+  }
+  return out + "\n";
+}
+
+std::string lines(const std::string& label, const std::vector<std::string>& texts) {
+  std::string out;
+  for (std::size_t k = 0; k < texts.size(); ++k) out += line(k == 0 ? label : "", texts[k]);
+  return out;
+}
 
 std::string stations_text(const CalibrationRun& run) {
-  std::string out =
-      fmt::format("\n  {:>7}  {:>12} {:>12}  {:>8}  {:>11}\n", "station", "begin s", "end s", "samples", "temperature");
-  int number = 0;
-  for (const Station& s : run.stations) {
-    out += fmt::format("  {:>7}  {:>12.3f} {:>12.3f}  {:>8}  {:>6.1f} degC\n", ++number, s.begin_s, s.end_s, s.count,
-                       s.temperature_degc);
+  std::string out = fmt::format("\n  {:>7}  {:>12} {:>12}  {:>8}  {:>11}  {:>9} {:>9} {:>9}\n", "station", "begin s",
+                                "end s", "samples", "temperature", "norm mg0", "incl. deg", "held out");
+  for (std::size_t k = 0; k < run.stations.size(); ++k) {
+    const Station& s = run.stations[k];
+    const Vec3& u = run.study.attitudes[k].direction;
+    const bool fitted = k < run.study.residuals.size();
+    const bool predicted = k < run.study.predicted.size() && run.study.predicted[k].judged;
+    out += fmt::format(
+        "  {:>7}  {:>12.3f} {:>12.3f}  {:>8}  {:>6.1f} degC  {:>9} {:>9} {:>9}\n", k + 1, s.begin_s, s.end_s, s.count,
+        s.temperature_degc, fitted ? fmt::format("{:+.3f}", in_mg0(run.study.residuals[k].norm_error_mps2)) : "-",
+        norm(u) > 0.0 ? fmt::format("{:.1f}", deg_from_rad(std::atan2(std::hypot(u[0], u[1]), u[2]))) : "-",
+        predicted ? fmt::format("{:.2f} s", run.study.predicted[k].sigmas) : "-");
   }
+  return out + "  held out: how far the fit to the other stations misses this one, in sigmas that it claims\n";
+}
+
+std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  const FitReport& r = run.told();
+  std::string out = "\nfit\n";
+  const bool judged = r.rank > 0;
+  out += line("stop", fmt::format("{} after {} iterations", to_string(run.report.stop), run.report.iterations));
+  if (!judged) {
+    return out + line("rank", "not known: there is no fit to these stations");
+  }
+  std::string rank = fmt::format("{} of {} parameters seen by the data", r.rank, r.parameters);
+  if (r.gauge > 0) {
+    rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show and the nominal axes fix",
+                        r.gauge);
+  }
+  out += line("rank", rank);
+  const std::vector<std::string> unseen = unobservable(run, array);
+  out += unseen.empty() ? line("not determined", "nothing") : lines("not determined", unseen);
+  out +=
+      line("condition", fmt::format("{:.3g} of the observable part, in prior sigmas (below 30 is good)", r.condition));
   return out;
 }
 
-std::string sensors_text(const CalibrationRun& run, const io::ArrayFile& array) {
-  const bool known = run.accepted != nullptr;
-  std::string out = fmt::format("\n  {:<15} {:>10} {:>8} {:>14} {:>9} {:>10} {:>9} {:>9} {:>9}\n", "sensor", "bias",
-                                "sigma", "scale", "change", "axis shift", "e_cal", "residual", "from data");
-  out += fmt::format("  {:<15} {:>10} {:>8} {:>14} {:>9} {:>10} {:>9} {:>9} {:>9}\n", "", "mg0", "mg0",
-                     array.input.unit.name + "/g0", "%", "deg", "mg0", "mg0 rms", "%");
+std::string residual_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  if (!run.study.shown) return "";
+  const FitReport& r = run.told();
+  std::string out = "\nresiduals\n";
+  out += line("length of gravity", fmt::format("{:.3f} mg0 rms", in_mg0(r.norm_rms_mps2)));
+  out += line("parity", r.parameters > 12 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
+                                          : std::string("none: three sensors do not check one another"));
+  out += line("beyond the noise", fmt::format("{:.3f} mg0", in_mg0(r.misfit_mps2)));
+  out += line("chi^2", fmt::format("{:.4g} for {} degrees of freedom, p = {:.3g}: {}", r.chi2, r.degrees_of_freedom,
+                                   r.p_value, p_value_words(r)));
+  const HoldOut& h = run.study.held_out;
+  if (h.judged > 0) {
+    std::string words =
+        fmt::format("norm {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.norm_rms_mps2), in_mg0(h.norm_max_mps2));
+    if (r.parameters > 12) {
+      words +=
+          fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.parity_rms_mps2), in_mg0(h.parity_max_mps2));
+    }
+    words += fmt::format("; {:.2f} times what the fit claims; {} of {} stations, each predicted by a fit without it",
+                         h.sigmas, h.judged, run.stations.size());
+    if (h.not_judged > 0) words += fmt::format("; {} not, the rest being too few without them", h.not_judged);
+    out += line("held out", words);
+  } else {
+    out += line("held out", h.not_judged > 0
+                                ? "not possible: without a part of the stations the rest determines too little"
+                                : "not asked for");
+  }
+  std::vector<std::string> odd;
+  for (const OddStation& s : odd_stations(run)) {
+    if (odd.size() < kOddStationsListed) odd.push_back(fmt::format("station {} ({:.1f} sigma)", s.number, s.sigmas));
+  }
+  if (!odd.empty()) out += line("stand out", listed(odd));
+  if (run.study.odd.sensor >= 0) {
+    out += line("stands out",
+                id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
+  }
+  out += line("common scale", common_scale_words(run));
+  return out;
+}
+
+std::string sensors_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  const auto row = [](const auto&... cells) {
+    return fmt::format("  {:<15} {:>10} {:>8} {:>5} {:>13} {:>8} {:>7} {:>5} {:>8} {:>7} {:>5} {:>8} {:>8}\n",
+                       cells...);
+  };
+  std::string out = "\n" + row("sensor", "bias", "sigma", "data", "scale", "change", "sigma", "data", "axis", "sigma",
+                               "data", "e_cal", "residual");
+  out += row("", "mg0", "mg0", "%", array.input.unit.name + "/g0", "%", "%", "%", "deg", "deg", "%", "mg0", "mg0 rms");
   for (const SensorFigures& f : sensor_figures(run, array)) {
-    const auto figure = [known](const char* format, double value) {
-      return known ? fmt::format(fmt::runtime(format), value) : std::string("-");
+    const auto figure = [&f](const char* format, double value) {
+      return f.known ? fmt::format(fmt::runtime(format), value) : std::string("-");
     };
-    out += fmt::format("  {:<15} {:>10} {:>8.3f} {:>14} {:>9} {:>10} {:>9.3f} {:>9.3f} {:>9.1f}\n", f.id,
-                       figure("{:.3f}", f.bias_mg), f.bias_sigma_mg, figure("{:.7g}", f.scale),
-                       figure("{:+.3f}", 100.0 * f.scale_change), figure("{:.3f}", f.axis_shift_deg), f.e_cal_mg,
-                       f.residual_rms_mg, 100.0 * f.data_share);
+    out += row(
+        f.id, figure("{:.3f}", f.bias_mg), figure("{:.3f}", f.bias_sigma_mg), figure("{:.0f}", 100.0 * f.bias_share),
+        figure("{:.7g}", f.scale), figure("{:+.3f}", 100.0 * f.scale_change), figure("{:.4f}", 100.0 * f.scale_sigma),
+        figure("{:.0f}", 100.0 * f.scale_share), figure("{:.3f}", f.axis_shift_deg), figure("{:.4f}", f.axis_sigma_deg),
+        figure("{:.0f}", 100.0 * f.axis_share), figure("{:.3f}", f.e_cal_mg), figure("{:.3f}", f.residual_rms_mg));
   }
   return out +
-         "  e_cal: what calibration leaves in a reading (1 sigma). from data: how much of the least known of the "
-         "sensor's four\n"
-         "  parameters comes from the log rather than from the datasheet.\n";
+         "  data: how much of a value comes from the log (100 %) rather than from the datasheet (0 %). axis: turned "
+         "against the\n  nominal one. e_cal: what calibration leaves in a reading (1 sigma).\n";
 }
 
-std::string gaps_text(const CalibrationRun& run, const io::ArrayFile& array) {
-  std::string out;
-  if (run.report.gauge > 0) {
-    out +=
-        "\nnot seen by gravity, and no loss: a common rotation of all axes about x, y and z (the nominal axes of the "
-        "array\nfile fix it)\n";
+std::string paper_parameters_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  if (!run.study.shown) return "";
+  if (!run.study.paper) return "\n" + line("eqs (1)-(3)", paper_words(run.study.paper.error(), array));
+  const SensorModel& model = *run.study.paper;
+  std::string out =
+      fmt::format("\n  {:<15} {:>10} {:>14}", "eqs (1)-(3)", "B, mg0", "SF, " + array.input.unit.name + "/g0");
+  for (int k = 0; k < model.size; ++k) out += fmt::format(" {:>11}", "m_i" + std::to_string(k + 1));
+  out += "\n";
+  for (int i = 0; i < model.size; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    out += fmt::format("  {:<15} {:>10.3f} {:>14.7g}", id_of(array, i), in_mg0(model.sensor[a].bias[0]),
+                       model.sensor[a].scale[0] * kG0_mps2);
+    for (int k = 0; k < model.size; ++k) {
+      out += i == k ? fmt::format(" {:>11}", "-")
+                    : fmt::format(" {:>+11.6f}", model.misalignment[static_cast<std::size_t>(i * kCapacity + k)]);
+    }
+    out += "\n";
   }
-  for (const std::string& line : unobservable(run.report, array))
-    out += "not determined by these stations: " + line + "\n";
   return out;
 }
 
-std::string paper_text(const PaperCalibration& paper, const io::ArrayFile& array) {
+std::string paper_fits_section(const PaperCalibration& paper, const io::ArrayFile& array) {
   std::string out = fmt::format("\n  {:<20} {:<16} {:>10} {:>6} {:>12} {:>12} {:>12}\n", "the paper's fit of", "",
                                 "iterations", "rank", "E_g before", "E_g after", "|g| error");
   out += fmt::format("  {:<20} {:<16} {:>10} {:>6} {:>12} {:>12} {:>12}\n", "", "", "", "", "(m/s^2)^4", "(m/s^2)^4",
@@ -72,99 +185,43 @@ std::string paper_text(const PaperCalibration& paper, const io::ArrayFile& array
   return out;
 }
 
-nlohmann::ordered_json paper_json(const PaperCalibration& paper, const io::ArrayFile& array) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const PaperFigures& f : paper_figures(paper, array)) {
-    out.push_back({{"sensors", f.sensors},
-                   {"sound", f.sound},
-                   {"stop", f.outcome},
-                   {"iterations", f.iterations},
-                   {"rank", f.rank},
-                   {"start_cost_m4ps8", f.start_cost},
-                   {"cost_m4ps8", f.cost},
-                   {"length_error_rms_mps2", f.length_error_mg * kMilliG0_mps2}});
+std::string attitude_section(const CalibrationRun& run, const io::ArrayFile& array, bool suggest) {
+  const Coverage& c = run.study.coverage;
+  std::string out = "\nattitudes\n";
+  if (c.attitudes > 0) {
+    out += line("inclinations",
+                fmt::format("{} distinct, from {:.0f} to {:.0f} deg, in {} stations", c.inclinations,
+                            deg_from_rad(c.inclination_min_rad), deg_from_rad(c.inclination_max_rad), c.attitudes));
   }
-  return out;
+  if (run.told().rank > 0)
+    out += line("excitation", fmt::format("{:.3g} (evenly spread = 1, below 0.05 is poor)",
+                                          run.told().excitation < kNoExcitation ? 0.0 : run.told().excitation));
+  const std::vector<std::string> lacking = coverage_words(run, array);
+  out += lacking.empty() ? line("lacking", "nothing") : lines("lacking", lacking);
+  if (!suggest || run.study.next.empty()) return out;
+  std::vector<std::string> next;
+  for (const PlannedAttitude& attitude : run.study.next) next.push_back(attitude_words(attitude));
+  return out + lines("record next", next);
 }
 
 }  // namespace
 
-std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, bool with_stations) {
-  const FitReport& r = run.report;
+std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts) {
   std::string out = fmt::format("array       {} ({} sensors), gravity {:.6f} m/s^2 ({})\n", array.name,
                                 array.array.size(), array.gravity.g_mps2, to_string(array.gravity.model));
   out += fmt::format("log         {} rows used, {} bad rows skipped, {} stations\n", run.log.rows, run.log.rows_bad,
                      run.stations.size());
-  if (with_stations) out += stations_text(run) + "\n";
-  out +=
-      fmt::format("fit         {} in {} iterations; {} of {} parameters seen by the data ({} are a common rotation)\n",
-                  to_string(r.stop), r.iterations, r.rank, r.parameters, r.gauge);
-  out +=
-      fmt::format("residuals   length of gravity {:.3f} mg0 rms, parity {:.3f} mg0 rms, beyond the noise {:.3f} mg0\n",
-                  r.norm_rms_mps2 / kMilliG0_mps2, r.parity_rms_mps2 / kMilliG0_mps2, r.misfit_mps2 / kMilliG0_mps2);
-  out += fmt::format(
-      "check       chi^2 {:.4g} for {} degrees of freedom (p = {:.3g}), condition {:.3g}, excitation {:.3g} (evenly "
-      "spread = 1)\n",
-      r.chi2, r.degrees_of_freedom, r.p_value, r.condition, r.excitation);
-  out += sensors_text(run, array) + gaps_text(run, array);
-  if (run.paper) out += paper_text(*run.paper, array);
+  if (parts.stations) out += stations_text(run);
+  out += fit_section(run, array) + residual_section(run, array) + sensors_section(run, array) +
+         paper_parameters_section(run, array);
+  if (run.paper) out += paper_fits_section(*run.paper, array);
+  const bool too_little = run.refusal.code == Errc::too_few_stations || run.refusal.code == Errc::unobservable;
+  out += attitude_section(run, array, parts.suggest || (too_little && run.log_findings.empty()));
   if (run.interrupted) out += "\ninterrupted: the fit uses the stations up to then\n";
   if (run.accepted) return out + "\naccepted\n";
   const Refusal refusal = refusal_of(run, array);
+  if (run.study.shown) out += "\nthe values above are those of the refused fit; none was written\n";
   return out + "\nNOT ACCEPTED: " + refusal.reason + "\nwhat to do:   " + refusal.next + "\n";
-}
-
-std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
-  using Json = nlohmann::ordered_json;
-  const FitReport& r = run.report;
-  Json out;
-  out["array"] = array.name;
-  out["accepted"] = run.accepted != nullptr;
-  if (!run.accepted) {
-    const Refusal refusal = refusal_of(run, array);
-    out["refusal"] = {{"reason", refusal.reason}, {"next", refusal.next}};
-  }
-  out["interrupted"] = run.interrupted;
-  out["rows"] = run.log.rows;
-  out["rows_bad"] = run.log.rows_bad;
-  Json stations = Json::array();
-  for (const Station& s : run.stations) {
-    stations.push_back(
-        {{"begin_s", s.begin_s}, {"end_s", s.end_s}, {"samples", s.count}, {"temperature_degc", s.temperature_degc}});
-  }
-  out["stations"] = std::move(stations);
-  out["fit"] = {{"stop", to_string(r.stop)},
-                {"iterations", r.iterations},
-                {"parameters", r.parameters},
-                {"rank", r.rank},
-                {"gauge", r.gauge},
-                {"norm_rms_mps2", r.norm_rms_mps2},
-                {"parity_rms_mps2", r.parity_rms_mps2},
-                {"misfit_mps2", r.misfit_mps2},
-                {"chi2", r.chi2},
-                {"degrees_of_freedom", r.degrees_of_freedom},
-                {"p_value", r.p_value},
-                {"condition", r.condition},
-                {"excitation", r.excitation}};
-  out["unobservable"] = unobservable(r, array);
-  Json sensors = Json::array();
-  for (const SensorFigures& f : sensor_figures(run, array)) {
-    Json one;
-    one["id"] = f.id;
-    const auto known = [&run](double value) { return run.accepted ? Json(value) : Json(); };
-    one["bias_mps2"] = known(f.bias_mg * kMilliG0_mps2);
-    one["bias_sigma_mps2"] = f.bias_sigma_mg * kMilliG0_mps2;
-    one["scale_per_g0"] = known(f.scale);
-    one["scale_change"] = known(f.scale_change);
-    one["axis_shift_deg"] = known(f.axis_shift_deg);
-    one["e_cal_mps2"] = f.e_cal_mg * kMilliG0_mps2;
-    one["residual_rms_mps2"] = f.residual_rms_mg * kMilliG0_mps2;
-    one["data_share"] = f.data_share;
-    sensors.push_back(std::move(one));
-  }
-  out["sensors"] = std::move(sensors);
-  if (run.paper) out["paper"] = paper_json(*run.paper, array);
-  return out.dump(2) + "\n";
 }
 
 }  // namespace cli

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "log_diagnosis.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/io/records.hpp"
 #include "tool.hpp"
@@ -38,7 +39,7 @@ Station station_of_row(const Sample& sample, SensorSet usable) {
 class StationCollector {
  public:
   explicit StationCollector(const io::ArrayFile& array)
-      : rows_(array.input.rows), model_(array.datasheet.model()), size_(array.datasheet.size) {
+      : rows_(array.input.rows), model_(array.datasheet.model()), size_(array.datasheet.size), diagnosis_(array) {
     StationFinder::Settings settings;
     settings.station_angle_rad = array.monitor.station_angle_rad;
     settings.max_gap_s = array.monitor.max_gap_s;
@@ -53,23 +54,44 @@ class StationCollector {
       return;
     }
     const Readings y = model_.apply(sample.raw, sample.temperature_degc, usable);
+    diagnosis_.add(sample, y, usable);
     Station finished;
     if (finder_->add(sample, y, usable, finished)) stations_.push_back(finished);
   }
 
-  std::vector<Station> finish() {
+  void finish(CalibrationRun& run) {
     Station finished;
     if (finder_ && finder_->finish(finished)) stations_.push_back(finished);
-    return std::move(stations_);
+    if (finder_ && stations_.empty()) run.log_findings = diagnosis_.findings();
+    run.stations = std::move(stations_);
   }
 
  private:
   io::RowKind rows_;
   SensorModel model_;
   int size_;
+  LogDiagnosis diagnosis_;
   std::unique_ptr<StationFinder> finder_;
   std::vector<Station> stations_;
 };
+
+/// What refuses the fit: gravity before all, then what the fit itself says, unless the study has a better name for it.
+void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
+  const Judgement& judged = run.study.judgement;
+  const bool named = judged.error.code != Errc::ok;
+  if (!fit) {
+    run.refusal = fit.error();
+    // Stations that determine too little say nothing of values; that one sensor contradicts itself they do say.
+    const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable;
+    const bool stands = judged.concern == Concern::gravity || judged.concern == Concern::odd_sensor;
+    if (!named || (too_little && !stands)) return;
+  } else if (!named) {
+    run.accepted = std::make_unique<Calibration>(*fit);
+    return;
+  }
+  run.refusal = judged.error;
+  run.concern = judged.concern;
+}
 
 io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool live) {
   line += '\n';
@@ -127,8 +149,8 @@ tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::Array
 }  // namespace
 
 io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
-                                                 WithPaperFits with_paper) {
-  if (with_paper == WithPaperFits::yes && array.array.size() > kPaperCapacity) {
+                                                 const CalibrationChoice& choice) {
+  if (choice.paper_fits && array.array.size() > kPaperCapacity) {
     const std::string sensors = std::to_string(array.array.size());
     return tl::unexpected<io::FileError>(
         io::FileError{array.path, 0, "",
@@ -153,16 +175,13 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   }
   CalibrationRun run;
   run.interrupted = interrupted();
-  run.stations = collector.finish();
+  collector.finish(run);
   run.log = reader->statistics();
-  Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
-                                        static_cast<int>(run.stations.size()), FitOptions{}, &run.report);
-  if (fit) {
-    run.accepted = std::make_unique<Calibration>(*fit);
-    if (with_paper == WithPaperFits::yes) fit_by_paper(array, run);
-  } else {
-    run.refusal = fit.error();
-  }
+  const Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
+                                              static_cast<int>(run.stations.size()), FitOptions{}, &run.report);
+  run.study = study_fit(array, run.stations, fit, run.report, choice.hold_out);
+  settle(run, fit);
+  if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
   return run;
 }
 

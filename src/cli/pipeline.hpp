@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fit_study.hpp"
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/health/paper_monitor.hpp"
@@ -33,19 +34,29 @@ struct CalibrationRun {
   io::LogStatistics log;
   bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
   FitReport report;
+  FitStudy study;
   Error refusal;                          ///< why it was not accepted
+  Concern concern = Concern::none;        ///< what exactly, where the code alone does not say
+  std::vector<std::string> log_findings;  ///< why no still stretch was found; empty where there were some
   std::unique_ptr<Calibration> accepted;  ///< null where it was not
   /// The paper's own fits, where they were asked for and plumb's was accepted; null where they could not be made.
   std::unique_ptr<PaperCalibration> paper;
   Error paper_refusal;  ///< why there are none, or why nothing can be monitored with them
+
+  /// Of the fit whose figures are shown: a fit that was refused early has only part of them in `report`.
+  const FitReport& told() const { return study.shown ? study.shown->report : report; }
 };
 
-enum class WithPaperFits : bool { no, yes };
+/// What a calibration is to be, beyond its log.
+struct CalibrationChoice {
+  HoldOutChoice hold_out;
+  bool paper_fits = false;  ///< the paper's own fits too
+};
 
-/// Reads the log, finds the stations (or takes the rows as stations) and fits. Refuses to make the paper's fits for
-/// more than kPaperCapacity sensors before it reads anything.
+/// Reads the log, finds the stations (or takes the rows as stations), fits, and judges the fit. Refuses to make the
+/// paper's fits for more than kPaperCapacity sensors before it reads anything.
 io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
-                                                 WithPaperFits with_paper = WithPaperFits::no);
+                                                 const CalibrationChoice& choice = {});
 
 /// Writes the accepted calibration with its provenance.
 io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,

@@ -29,6 +29,7 @@ const char* describe(Errc code) noexcept {
     case Errc::wrong_mode: return "the mode of the settings is that of the other monitor";
     case Errc::wrong_state: return "the monitor does not take this request in its present state";
     case Errc::not_confirmed: return "a station that was held out of the fit contradicts it";
+    case Errc::not_unique: return "more sensors than the paper's parameters are unique for";
   }
   return "unknown error code";
 }
@@ -59,6 +60,7 @@ const char* remedy(Errc code) noexcept {
     case Errc::wrong_state: return "ask again when the monitor has settled, no alarm on record";
     case Errc::not_confirmed:
       return "look for a sensor that changed while the stations were collected, then collect anew";
+    case Errc::not_unique: return "use the common-frame form: axis, scale and bias of each sensor";
   }
   return "report this code as a defect of plumb";
 }

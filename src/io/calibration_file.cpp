@@ -154,6 +154,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
                         {"plumb_version", context.plumb_version}};
   root["report"] = from_report(calibration.report, n);
   root["sensors"] = from_sensors(calibration);
+  root["paper_parameters"] = from_paper_parameters(array.array, calibration);
   const auto& mixing = calibration.model.misalignment;
   if (std::any_of(mixing.begin(), mixing.end(), [](double m) { return m != 0.0; })) {
     root["misalignment"] = from_misalignment(calibration.model, n);

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "plumb/calibration/calibration.hpp"
 #include "plumb/calibration/paper_calibration.hpp"
-#include "plumb/calibration/sensor_model.hpp"
 #include "plumb/core/config.hpp"
 
 namespace plumb {
@@ -33,7 +33,11 @@ Json from_array(const Array& values, std::size_t count) {
   return out;
 }
 
-/// The section `paper`; sensors are named as in the array.
+/// The section `paper_parameters`: B, SF and m_ij of eqs (1)-(3), or `why_not`. Derived: the reader takes the
+/// common-frame form.
+Json from_paper_parameters(const SensorArray& nominal, const Calibration& calibration);
+
+/// The section `paper`, the paper's own fits; sensors are named as in the array.
 Json from_paper(const PaperCalibration& paper, const SensorArray& array);
 
 }  // namespace io

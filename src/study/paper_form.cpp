@@ -2,7 +2,8 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <cmath>
+
+#include "plumb/calibration/paper_parameters.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -12,8 +13,6 @@ namespace {
 using std::size_t;
 
 size_t at(int i) noexcept { return static_cast<size_t>(i); }
-
-constexpr double kSingular = 1e-6;
 
 Eigen::Vector3d vector_of(const Vec3& v) noexcept { return {v[0], v[1], v[2]}; }
 
@@ -70,42 +69,29 @@ CommonFrame frame_of(const scenario::Tool& tool) noexcept {
 
 std::optional<PaperParameters> paper_form(const Datasheet& datasheet, const CommonFrame& frame,
                                           SensorSet used) noexcept {
-  const int n = used.size();
-  if ((n != 3 && n != 4) || !SensorSet::first(datasheet.size).contains(used)) return std::nullopt;
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> fitted(n, 3);
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> nominal(n, 3);
-  PaperParameters out{};
-  int row = 0;
+  if (!SensorSet::first(datasheet.size).contains(used)) return std::nullopt;
+  std::array<SensorRow, kCapacity> nominal{}, fitted{};
+  SensorModel common;
   for (int i = 0; i < datasheet.size; ++i) {
     if (!used.has(i)) continue;
-    fitted.row(row) = vector_of(frame.axis[at(i)]).transpose();
-    nominal.row(row) = vector_of(datasheet.sensor[at(i)].row.axis).transpose();
-    out[bias_index(row)] = frame.bias_mps2[at(i)];
-    out[scale_index(n, row)] = frame.scale[at(i)];
-    ++row;
+    const size_t row = at(common.size++);
+    nominal[row] = fitted[row] = datasheet.sensor[at(i)].row;
+    fitted[row].axis = frame.axis[at(i)];
+    common.sensor[row].scale = {frame.scale[at(i)]};
+    common.sensor[row].bias = {frame.bias_mps2[at(i)]};
   }
-  if (n == 3) {
-    const Eigen::Matrix3d axes = fitted;
-    if (!(std::abs(axes.determinant()) > kSingular)) return std::nullopt;
-    const Eigen::Matrix3d map = Eigen::Matrix3d(nominal) * axes.inverse();  // I - M times the scale taken up
-    for (int j = 0; j < 3; ++j) {
-      out[bias_index(j)] *= map(j, j);
-      out[scale_index(3, j)] /= map(j, j);
-      for (int i = 0; i < 3; ++i) {
-        if (i != j) out[misalignment_index(3, i, j)] = -map(i, j) / map(j, j);
-      }
-    }
-    return out;
-  }
-  for (int i = 0; i < 4; ++i) {
-    Eigen::Matrix3d others;
-    for (int k = 0, column = 0; k < 4; ++k) {
-      if (k != i) others.col(column++) = fitted.row(k).transpose();
-    }
-    if (!(std::abs(others.determinant()) > kSingular)) return std::nullopt;
-    const Eigen::Vector3d m = others.inverse() * (fitted.row(i) - nominal.row(i)).transpose();
-    for (int k = 0, column = 0; k < 4; ++k) {
-      if (k != i) out[misalignment_index(4, i, k)] = m[column++];
+  const int n = common.size;
+  const Expected<SensorArray> along = SensorArray::make(nominal.data(), n);
+  const Expected<SensorArray> really = SensorArray::make(fitted.data(), n);
+  if (!along || !really) return std::nullopt;
+  const Expected<SensorModel> form = plumb::paper_form(*along, *really, common);
+  if (!form) return std::nullopt;
+  PaperParameters out{};
+  for (int i = 0; i < n; ++i) {
+    out[bias_index(i)] = form->sensor[at(i)].bias[0];
+    out[scale_index(n, i)] = form->sensor[at(i)].scale[0];
+    for (int j = 0; j < n; ++j) {
+      if (i != j) out[misalignment_index(n, i, j)] = form->misalignment[at(i * kCapacity + j)];
     }
   }
   return out;

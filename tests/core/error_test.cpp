@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-constexpr int kLast = static_cast<int>(Errc::not_confirmed);
+constexpr int kLast = static_cast<int>(Errc::not_unique);
 
 TEST(ErrorText, EveryCodeHasATextOfItsOwn) {
   std::set<std::string> described;

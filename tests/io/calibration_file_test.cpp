@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "io_test_support.hpp"
@@ -127,6 +128,25 @@ TEST(CalibrationFile, KeepsContext) {
   EXPECT_EQ(file->array_name, "four on a tool");
   EXPECT_EQ(file->calibration.report.stop, StopReason::converged);
   EXPECT_EQ(file->calibration.report.stations, 48);
+}
+
+TEST(CalibrationFile, HoldsThePapersParametersOrSaysWhyNot) {
+  const ArrayFile array = array_of(changed("[0.6, 0.0, 0.8]", "[0.6, 0.48, 0.64]"));
+  const auto calibration = calibration_of(array, &third);
+  const auto root = nlohmann::json::parse(calibration_json(*calibration, array, context_of(array)));
+  const auto& sensors = root["paper_parameters"]["sensors"];
+  ASSERT_EQ(sensors.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    // Axes as nominal, so no misalignment, and SF and B are those of the sensor.
+    EXPECT_EQ(sensors[i]["id"], array.array.row(static_cast<int>(i)).id.data());
+    EXPECT_EQ(sensors[i]["SF_per_mps2"], root["sensors"][i]["scale"]);
+    EXPECT_EQ(sensors[i]["B_mps2"], root["sensors"][i]["bias_mps2"]);
+    for (const auto& m : sensors[i]["m"]) EXPECT_EQ(m, 0.0);
+  }
+  const std::string fifth = "[[sensor]]\nid = \"fifth\"\naxis = [0, 0.6, 0.8]\nscale = \"3 V/g0\"\nnoise = \"1 mg0\"\n";
+  const ArrayFile five = array_of(std::string(kArrayText) + fifth);
+  const auto none = nlohmann::json::parse(calibration_json(*calibration_of(five, &third), five, context_of(five)));
+  EXPECT_NE(none["paper_parameters"]["why_not"].get<std::string>().find("unique"), std::string::npos);
 }
 
 TEST(CalibrationFile, WhiteSpaceMayChange) {

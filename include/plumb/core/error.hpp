@@ -33,6 +33,7 @@ enum class Errc : std::uint8_t {
   wrong_mode,           ///< mode "paper" was given to HealthMonitor, or "plumb" to PaperMonitor
   wrong_state,          ///< the state machine does not take this request now: value = state (HealthState)
   not_confirmed,        ///< a station held out of the fit contradicts it: index = station, value = statistic
+  not_unique,           ///< many parameter sets say the same: value = sensors, limit = most that give one set
 };
 
 struct Error {

@@ -26,10 +26,8 @@ CommonFrame frame_of(const Datasheet& datasheet, const std::array<double, kFitPa
 /// gravity cannot tell how the array as a whole sits in its housing.
 CommonFrame frame_of(const scenario::Tool& tool) noexcept;
 
-/// The parameters of the sensor model, in the order of `PaperParameters`, that turn the raw values of the sensors
-/// `used` into accelerations along the nominal axes (calibration note 8). Three sensors: the row scale of I - M is
-/// taken up by the scale factors. Four: one set of misalignments does it, and the scale factors and biases stay.
-/// Nothing for any other number, or where the axes have rank < 3.
+/// `plumb::paper_form` (calibration/paper_parameters.hpp) of the sensors `used` by themselves, in the order of
+/// `PaperParameters`. Nothing for any number but 3 and 4, or where it refuses.
 std::optional<PaperParameters> paper_form(const Datasheet& datasheet, const CommonFrame& frame,
                                           SensorSet used) noexcept;
 

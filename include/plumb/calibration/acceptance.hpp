@@ -1,0 +1,62 @@
+/// Convergence is not acceptance: whether a fit may be adopted, judged on rank and residual (the fit itself), held-out
+/// stations, physical bounds, and on what a wrong gravity or a faulty sensor in the set would look like. The bounds
+/// leave room for real tools, whose residuals exceed pure noise: that excess is estimated and carried (misfit).
+#pragma once
+
+#include <cstdint>
+
+#include "plumb/calibration/cross_check.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// The part of all scale changes that the sensors share, which is all that a wrong length of gravity or a wrong unit
+/// does to a calibration (the direction is not affected).
+struct CommonScale {
+  double mean = 0.0;          ///< relative to the datasheet, mean over the sensors
+  double scatter = 0.0;       ///< standard deviation of the single changes about it
+  double prior_sigmas = 0.0;  ///< mean over the rms prior of the scales; 0 where that is zero
+};
+CommonScale common_scale(const Datasheet& datasheet, const Calibration& calibration) noexcept;
+
+/// Where the length of gravity lies on Earth, from mountain tops to ten kilometres of borehole, with margin.
+inline constexpr double kEarthGravityMin_mps2 = 9.74;
+inline constexpr double kEarthGravityMax_mps2 = 9.87;
+
+struct AcceptanceLimits {
+  double max_common_scale_sigmas = 2.0;    ///< of the datasheet prior of one scale: implausible beyond
+  double told_common_scale_sigmas = 0.45;  ///< told beyond it, 1 % where the prior is 2 %
+  double max_parity_rms_mps2 = 0.05;
+  double max_hold_out_mps2 = 0.05;   ///< norm or parity rms of stations not used
+  double max_hold_out_sigmas = 3.0;  ///< rms of what was predicted, in sigmas that the fit claims
+  /// A sensor that stands out is refused where the misfit that it causes exceeds this part of its bias prior, or this
+  /// many sigmas of a sample, whichever is less.
+  double odd_bias_share = 0.05;
+  double odd_sample_sigmas = 3.0;
+};
+
+/// What exactly was refused, beside the code.
+enum class Concern : std::uint8_t { none, gravity, common_scale, odd_sensor, parity, hold_out, hold_out_claim };
+const char* to_string(Concern concern) noexcept;
+
+struct Judgement {
+  Error error;  ///< ok: accepted
+  Concern concern = Concern::none;
+};
+
+/// Judges what `calibrate` let pass. `held_out.judged` = 0 means that no station was held out: not judged by it.
+/// Errors: implausible (gravity: value = g; common scale: value = mean change, limit = the bound on it; index -1) and
+/// poor_fit (odd sensor: index = sensor, value = misfit with it, limit = what is allowed; parity, hold-out: index -1).
+Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, const Calibration& calibration,
+                const HoldOut& held_out, const OddSensor& odd, const AcceptanceLimits& limits = {}) noexcept;
+
+/// The sensor that stands out, on its own: for a fit that did not settle.
+Judgement judge_odd_sensor(const Datasheet& datasheet, const OddSensor& odd,
+                           const AcceptanceLimits& limits = {}) noexcept;
+
+/// Before any fit: a length of gravity that is not the Earth's. Calibrating against it would put the error into every
+/// scale factor.
+Judgement judge_gravity(const GravityReference& gravity) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

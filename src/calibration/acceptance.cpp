@@ -1,0 +1,97 @@
+#include "plumb/calibration/acceptance.hpp"
+
+#include <cmath>
+
+#include "fit_internal.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+using fit::at;
+
+constexpr double kTogether = 2.0;
+
+Judgement refuse(Concern concern, Errc code, int index, double value, double limit) noexcept {
+  return {Error{code, index, value, limit}, concern};
+}
+
+}  // namespace
+
+const char* to_string(Concern concern) noexcept {
+  switch (concern) {
+    case Concern::none: return "none";
+    case Concern::gravity: return "gravity";
+    case Concern::common_scale: return "common_scale";
+    case Concern::odd_sensor: return "odd_sensor";
+    case Concern::parity: return "parity";
+    case Concern::hold_out: return "hold_out";
+    case Concern::hold_out_claim: return "hold_out_claim";
+  }
+  return "unknown";
+}
+
+CommonScale common_scale(const Datasheet& datasheet, const Calibration& calibration) noexcept {
+  CommonScale out;
+  const int n = datasheet.size < kCapacity ? datasheet.size : kCapacity;
+  if (n < 1) return out;
+  double squares = 0.0, prior = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const DatasheetSensor& s = datasheet.sensor[at(i)];
+    const double change = calibration.model.sensor[at(i)].scale[0] / s.coefficients.scale[0] - 1.0;
+    out.mean += change / n;
+    squares += change * change / n;
+    prior += s.prior.scale * s.prior.scale / n;
+  }
+  out.scatter = std::sqrt(std::fmax(squares - out.mean * out.mean, 0.0));
+  if (prior > 0.0) out.prior_sigmas = out.mean / std::sqrt(prior);
+  return out;
+}
+
+Judgement judge_gravity(const GravityReference& gravity) noexcept {
+  const double g = gravity.g_mps2;
+  // Written so that a NaN is refused too.
+  if (!(g >= kEarthGravityMin_mps2)) return refuse(Concern::gravity, Errc::implausible, -1, g, kEarthGravityMin_mps2);
+  if (!(g <= kEarthGravityMax_mps2)) return refuse(Concern::gravity, Errc::implausible, -1, g, kEarthGravityMax_mps2);
+  return {};
+}
+
+Judgement judge_odd_sensor(const Datasheet& datasheet, const OddSensor& odd, const AcceptanceLimits& limits) noexcept {
+  if (odd.sensor < 0 || odd.sensor >= datasheet.size) return {};
+  const DatasheetSensor& s = datasheet.sensor[at(odd.sensor)];
+  const double allowed =
+      std::fmin(limits.odd_bias_share * s.prior.bias_mps2, limits.odd_sample_sigmas * s.row.sigma_mps2);
+  if (!(odd.with_mps2 > allowed)) return {};
+  return refuse(Concern::odd_sensor, Errc::poor_fit, odd.sensor, odd.with_mps2, allowed);
+}
+
+Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, const Calibration& calibration,
+                const HoldOut& held_out, const OddSensor& odd, const AcceptanceLimits& limits) noexcept {
+  const Judgement earth = judge_gravity(gravity);
+  if (earth.error.code != Errc::ok) return earth;
+  // Before the rest: what one sensor spoils shows everywhere.
+  const Judgement alone = judge_odd_sensor(datasheet, odd, limits);
+  if (alone.error.code != Errc::ok) return alone;
+  const CommonScale common = common_scale(datasheet, calibration);
+  if (std::fabs(common.prior_sigmas) > limits.max_common_scale_sigmas &&
+      std::fabs(common.mean) > kTogether * common.scatter) {
+    const double bound = limits.max_common_scale_sigmas * common.mean / common.prior_sigmas;
+    return refuse(Concern::common_scale, Errc::implausible, -1, common.mean, bound);
+  }
+  const double parity = calibration.report.parity_rms_mps2;
+  if (!(parity <= limits.max_parity_rms_mps2)) {
+    return refuse(Concern::parity, Errc::poor_fit, -1, parity, limits.max_parity_rms_mps2);
+  }
+  if (held_out.judged == 0) return {};
+  const double missed = std::fmax(held_out.norm_rms_mps2, held_out.parity_rms_mps2);
+  if (!(missed <= limits.max_hold_out_mps2)) {
+    return refuse(Concern::hold_out, Errc::poor_fit, -1, missed, limits.max_hold_out_mps2);
+  }
+  if (!(held_out.sigmas <= limits.max_hold_out_sigmas)) {
+    return refuse(Concern::hold_out_claim, Errc::poor_fit, -1, held_out.sigmas, limits.max_hold_out_sigmas);
+  }
+  return {};
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,195 @@
+// The report of a fit as JSON for machines. A figure that is not known is null, never 0.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fit_summary.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMilliG0_mps2 = 1e-3 * kG0_mps2;
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json stations_json(const CalibrationRun& run) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < run.stations.size(); ++k) {
+    const Station& s = run.stations[k];
+    Json one = {
+        {"begin_s", s.begin_s}, {"end_s", s.end_s}, {"samples", s.count}, {"temperature_degc", s.temperature_degc}};
+    const Vec3& u = run.study.attitudes[k].direction;
+    one["down"] = norm(u) > 0.0 ? Json(u) : Json();
+    const bool fitted = k < run.study.residuals.size();
+    one["norm_error_mps2"] = fitted ? finite(run.study.residuals[k].norm_error_mps2) : Json();
+    one["held_out"] = Json();
+    if (k < run.study.predicted.size() && run.study.predicted[k].judged) {
+      const StationPrediction& p = run.study.predicted[k];
+      one["held_out"] = {{"norm_error_mps2", p.norm_error_mps2},
+                         {"parity_rms_mps2", p.parity_rms_mps2},
+                         {"sigmas", p.sigmas},
+                         {"stands_out", p.sigmas > kOddStation_sigmas}};
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+Json fit_object(const CalibrationRun& run) {
+  const FitReport& r = run.told();
+  const auto known = [&run](Json value) { return run.study.shown ? value : Json(); };
+  Json cost = Json::array();
+  for (const double c : run.study.cost) cost.push_back(c);
+  return {{"stop", to_string(run.report.stop)},
+          {"iterations", run.report.iterations},
+          {"cost", std::move(cost)},
+          {"parameters", r.parameters},
+          {"rank", known(r.rank)},
+          {"gauge", known(r.gauge)},
+          {"norm_rms_mps2", known(r.norm_rms_mps2)},
+          {"parity_rms_mps2", known(r.parity_rms_mps2)},
+          {"misfit_mps2", known(r.misfit_mps2)},
+          {"chi2", known(r.chi2)},
+          {"degrees_of_freedom", known(r.degrees_of_freedom)},
+          {"p_value", known(r.p_value)},
+          {"p_value_means", known(p_value_words(r))},
+          {"condition", known(r.condition)},
+          {"excitation", known(r.excitation)}};
+}
+
+Json hold_out_json(const CalibrationRun& run) {
+  const HoldOut& h = run.study.held_out;
+  if (h.judged == 0) return {};
+  return {{"folds", run.study.plan.folds},
+          {"rounds", run.study.plan.rounds},
+          {"judged", h.judged},
+          {"not_judged", h.not_judged},
+          {"norm_rms_mps2", h.norm_rms_mps2},
+          {"norm_max_mps2", h.norm_max_mps2},
+          {"parity_rms_mps2", h.parity_rms_mps2},
+          {"parity_max_mps2", h.parity_max_mps2},
+          {"sigmas", h.sigmas},
+          {"worst_station", h.worst + 1}};
+}
+
+Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  Json out = Json::array();
+  for (const SensorFigures& f : sensor_figures(run, array)) {
+    const auto known = [&f](double value) { return f.known ? finite(value) : Json(); };
+    out.push_back({{"id", f.id},
+                   {"bias_mps2", known(f.bias_mg * kMilliG0_mps2)},
+                   {"bias_sigma_mps2", known(f.bias_sigma_mg * kMilliG0_mps2)},
+                   {"bias_data_share", known(f.bias_share)},
+                   {"scale_per_g0", known(f.scale)},
+                   {"scale_change", known(f.scale_change)},
+                   {"scale_sigma", known(f.scale_sigma)},
+                   {"scale_data_share", known(f.scale_share)},
+                   {"axis_shift_deg", known(f.axis_shift_deg)},
+                   {"axis_sigma_deg", known(f.axis_sigma_deg)},
+                   {"axis_data_share", known(f.axis_share)},
+                   {"e_cal_mps2", known(f.e_cal_mg * kMilliG0_mps2)},
+                   {"residual_rms_mps2", known(f.residual_rms_mg * kMilliG0_mps2)},
+                   {"data_share", known(f.data_share)}});
+  }
+  return out;
+}
+
+Json paper_parameters_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  if (!run.study.paper) return {{"why_not", paper_words(run.study.paper.error(), array)}};
+  const SensorModel& model = *run.study.paper;
+  Json out = Json::array();
+  for (int i = 0; i < model.size; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    Json row = Json::array();
+    for (int k = 0; k < model.size; ++k) row.push_back(model.misalignment[static_cast<std::size_t>(i * kCapacity + k)]);
+    out.push_back({{"id", id_of(array, i)},
+                   {"B_mps2", model.sensor[a].bias[0]},
+                   {"SF_per_mps2", model.sensor[a].scale[0]},
+                   {"m", std::move(row)}});
+  }
+  return {{"sensors", std::move(out)}};
+}
+
+Json paper_fits_json(const PaperCalibration& paper, const io::ArrayFile& array) {
+  Json out = Json::array();
+  for (const PaperFigures& f : paper_figures(paper, array)) {
+    out.push_back({{"sensors", f.sensors},
+                   {"sound", f.sound},
+                   {"stop", f.outcome},
+                   {"iterations", f.iterations},
+                   {"rank", f.rank},
+                   {"start_cost_m4ps8", f.start_cost},
+                   {"cost_m4ps8", f.cost},
+                   {"length_error_rms_mps2", f.length_error_mg * kMilliG0_mps2}});
+  }
+  return out;
+}
+
+Json attitudes_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Coverage& c = run.study.coverage;
+  Json ranges = Json::array(), next = Json::array();
+  for (int i = 0; i < array.array.size() && c.attitudes > 0; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    ranges.push_back({{"id", id_of(array, i)}, {"lowest_g", c.lowest[a]}, {"highest_g", c.highest[a]}});
+  }
+  for (const PlannedAttitude& p : run.study.next) {
+    next.push_back({{"inclination_deg", deg_from_rad(p.inclination_rad)},
+                    {"toolface_deg", deg_from_rad(p.toolface_rad)},
+                    {"down", p.direction},
+                    {"gain", p.gain},
+                    {"words", attitude_words(p)}});
+  }
+  return {{"recorded", c.attitudes},
+          {"inclinations", c.inclinations},
+          {"inclination_min_deg", deg_from_rad(c.inclination_min_rad)},
+          {"inclination_max_deg", deg_from_rad(c.inclination_max_rad)},
+          {"ranges", std::move(ranges)},
+          {"lacking", coverage_words(run, array)},
+          {"record_next", std::move(next)}};
+}
+
+}  // namespace
+
+std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  Json out;
+  out["array"] = array.name;
+  out["gravity_mps2"] = array.gravity.g_mps2;
+  out["accepted"] = run.accepted != nullptr;
+  if (!run.accepted) {
+    const Refusal refusal = refusal_of(run, array);
+    out["refusal"] = {{"reason", refusal.reason}, {"concern", to_string(run.concern)}, {"next", refusal.next}};
+  }
+  out["interrupted"] = run.interrupted;
+  out["rows"] = run.log.rows;
+  out["rows_bad"] = run.log.rows_bad;
+  out["log_findings"] = run.log_findings;
+  out["stations"] = stations_json(run);
+  out["fit"] = fit_object(run);
+  out["unobservable"] = unobservable(run, array);
+  out["hold_out"] = hold_out_json(run);
+  out["common_scale"] = run.study.shown ? Json{{"mean", run.study.common_scale.mean},
+                                               {"scatter", run.study.common_scale.scatter},
+                                               {"prior_sigmas", run.study.common_scale.prior_sigmas}}
+                                        : Json();
+  out["odd_sensor"] = Json();
+  if (run.study.odd_sought) {
+    const OddSensor& odd = run.study.odd;
+    out["odd_sensor"] = {{"id", odd.sensor >= 0 ? Json(id_of(array, odd.sensor)) : Json()},
+                         {"misfit_with_mps2", odd.with_mps2},
+                         {"misfit_without_mps2", odd.without_mps2},
+                         {"ratio", odd.ratio}};
+  }
+  out["sensors"] = sensors_json(run, array);
+  out["paper_parameters"] = paper_parameters_json(run, array);
+  if (run.paper) out["paper"] = paper_fits_json(*run.paper, array);
+  out["attitudes"] = attitudes_json(run, array);
+  return out.dump(2) + "\n";
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,77 @@
+#include "fit_pictures.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "fit_summary.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/report/fit_plot.hpp"
+#include "plumb/report/plot.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+report::FitPictures pictures_of(const CalibrationRun& run, const io::ArrayFile& array) {
+  report::FitPictures out;
+  for (std::size_t k = 0; k < run.study.attitudes.size(); ++k) {
+    if (!(norm(run.study.attitudes[k].direction) > 0.0)) continue;
+    report::FitPictures::Station s;
+    s.down = run.study.attitudes[k].direction;
+    if (k < run.study.residuals.size()) {
+      s.norm_mg0 = in_mg0(run.study.residuals[k].norm_error_mps2);
+      for (int i = 0; i < array.array.size(); ++i)
+        s.residual_mg0.push_back(in_mg0(run.study.residuals[k].residual_mps2[static_cast<std::size_t>(i)]));
+    }
+    if (k < run.study.predicted.size() && run.study.predicted[k].judged) {
+      s.held_out_mg0 = in_mg0(run.study.predicted[k].norm_error_mps2);
+      s.stands_out = run.study.predicted[k].sigmas > kOddStation_sigmas;
+    }
+    out.stations.push_back(std::move(s));
+  }
+  for (const SensorFigures& f : sensor_figures(run, array)) {
+    const DatasheetSensor& nominal = array.datasheet.sensor[out.sensors.size()];
+    out.sensors.push_back(
+        {f.id,
+         {f.bias_mg - in_mg0(nominal.coefficients.bias[0]), f.bias_sigma_mg, in_mg0(nominal.prior.bias_mps2)},
+         {100.0 * f.scale_change, 100.0 * f.scale_sigma, 100.0 * nominal.prior.scale},
+         {f.axis_shift_deg, f.axis_sigma_deg, deg_from_rad(nominal.prior.axis_rad)}});
+  }
+  out.cost = run.study.cost;
+  for (const PlannedAttitude& p : run.study.next) out.proposed_down.push_back(p.direction);
+  return out;
+}
+
+}  // namespace
+
+io::FileExpected<std::vector<std::string>> draw_fit(const std::string& directory, const CalibrationRun& run,
+                                                    const io::ArrayFile& array, std::string& missing) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    return tl::unexpected<io::FileError>(io::FileError{directory, 0, "--plots",
+                                                       "cannot create the directory: " + error.message(),
+                                                       "choose another directory", io::ExitCode::other});
+  }
+  const report::FitPictures pictures = pictures_of(run, array);
+  std::vector<std::string> written;
+  for (const report::PlotFile& file : report::fit_plot_files(pictures)) {
+    const io::FileExpected<void> done =
+        io::write_file((std::filesystem::path(directory) / file.name).string(), file.text);
+    if (!done) return tl::unexpected<io::FileError>(done.error());
+    written.push_back(file.name);
+  }
+  const io::FileExpected<void> drawn = report::run_gnuplot(directory, report::kFitScript);
+  if (!drawn) {
+    missing = drawn.error().text();
+    return written;
+  }
+  return report::fit_picture_names(pictures);
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

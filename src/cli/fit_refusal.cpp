@@ -1,0 +1,226 @@
+// Why a fit was refused, by name and figure, and what to do about it.
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "fit_words.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+std::string joined(const std::vector<std::string>& parts, const char* between) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : between) + part;
+  return out;
+}
+
+double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+std::string more_attitudes(const CalibrationRun& run) {
+  std::vector<std::string> words;
+  for (const PlannedAttitude& attitude : run.study.next) {
+    if (words.size() < 3) words.push_back(attitude_words(attitude));
+  }
+  if (words.empty()) return "hold the tool still at attitudes it has not had yet";
+  return "hold the tool still at attitudes it has not had yet, for example: " + joined(words, "; ");
+}
+
+/// With nothing at rest in the log, other attitudes are no advice.
+Refusal no_stations(const CalibrationRun& run) {
+  return {fmt::format("no still stretch was found in {} rows", run.log.rows),
+          "check the array file against the log: " + joined(run.log_findings, ". Also ")};
+}
+
+std::string worst_sensor(const CalibrationRun& run, const io::ArrayFile& array) {
+  int worst = 0;
+  for (int i = 1; i < array.array.size(); ++i) {
+    if (run.report.residual_rms_mps2[static_cast<std::size_t>(i)] >
+        run.report.residual_rms_mps2[static_cast<std::size_t>(worst)])
+      worst = i;
+  }
+  return id_of(array, worst);
+}
+
+/// Angle of the axis of sensor i from its nominal one once the others lie on theirs as well as one rotation or mirror
+/// allows, and the largest angle among those others.
+struct AxisShift {
+  double own_rad = 0.0;
+  double others_rad = 0.0;
+};
+
+AxisShift axis_shift(const SensorArray& fitted, const SensorArray& nominal, int i) {
+  Eigen::Matrix3d profile = Eigen::Matrix3d::Zero();  // of Wahba's problem
+  for (int k = 0; k < nominal.size(); ++k) {
+    if (k == i) continue;
+    profile += Eigen::Vector3d(nominal.axis(k).data()) * Eigen::Vector3d(fitted.axis(k).data()).transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(profile, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // Mirrors too: to gravity a tool and its mirror image are the same, and a sensor of the wrong sign may lead to it.
+  const Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+  AxisShift out;
+  for (int k = 0; k < nominal.size(); ++k) {
+    const Eigen::Vector3d turned = turn * Eigen::Vector3d(fitted.axis(k).data());
+    const double angle = angle_between_rad({turned[0], turned[1], turned[2]}, nominal.axis(k));
+    if (k == i) out.own_rad = angle;
+    if (k != i) out.others_rad = std::fmax(out.others_rad, angle);
+  }
+  return out;
+}
+
+/// The sensor without which the axes of all others fit theirs best; -1 with three sensors, whose axes always tell only
+/// of each other.
+int odd_axis(const SensorArray& fitted, const SensorArray& nominal) {
+  int best = -1;
+  for (int i = 0; i < nominal.size() && nominal.size() > 3; ++i) {
+    if (best < 0 || axis_shift(fitted, nominal, i).others_rad < axis_shift(fitted, nominal, best).others_rad) best = i;
+  }
+  return best;
+}
+
+/// The value that is farthest beyond its bound. One sensor that is far off turns the axes of all others a little, so
+/// the first one beyond its bound need not be the culprit.
+std::string worst_value(const CalibrationRun& run, const io::ArrayFile& array) {
+  if (!run.study.shown) return "";
+  const FitOptions bound;
+  const int odd = odd_axis(run.study.shown->array, array.array);
+  double most = 1.0;
+  std::string out;
+  const auto take = [&most, &out](double excess, std::string words) {
+    if (!(excess > most)) return;
+    most = excess;
+    out = std::move(words);
+  };
+  for (int i = 0; i < array.array.size(); ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    const SensorCoefficients& now = run.study.shown->model.sensor[a];
+    const SensorCoefficients& then = array.datasheet.sensor[a].coefficients;
+    const double ratio = now.scale[0] / then.scale[0];
+    const double shift_rad = i == odd  ? axis_shift(run.study.shown->array, array.array, i).own_rad
+                             : odd < 0 ? angle_between_rad(run.study.shown->array.axis(i), array.array.axis(i))
+                                       : 0.0;
+    const double bias_mps2 = now.bias[0] * ratio - then.bias[0];
+    const double bias_bound = bound.max_bias_sigmas * array.datasheet.sensor[a].prior.bias_mps2;
+    const std::string id = id_of(array, i);
+    take((std::fmax(ratio, 1.0 / ratio) - 1.0) / bound.max_scale_change,
+         fmt::format("the scale of {} came out as {:.3g} times its datasheet value (within {:.0f} % is allowed)", id,
+                     ratio, 100.0 * bound.max_scale_change));
+    take(shift_rad / bound.max_axis_change_rad,
+         fmt::format("the axis of {} came out {:.0f} deg from its nominal one (at most {:.0f})", id,
+                     deg_from_rad(shift_rad), deg_from_rad(bound.max_axis_change_rad)));
+    take(std::fabs(bias_mps2) / bias_bound,
+         fmt::format("the bias of {} came out {:.4g} mg0 from its datasheet value (at most {:.4g}, 8 times its prior)",
+                     id, in_mg0(bias_mps2), in_mg0(bias_bound)));
+  }
+  return out;
+}
+
+Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Error& e = run.refusal;
+  switch (run.concern) {
+    case Concern::gravity:
+      return {fmt::format("gravity {:.5g} m/s^2 is {} than anywhere on Earth ({:.2f} to {:.2f} m/s^2)", e.value,
+                          e.value < e.limit ? "less" : "more", kEarthGravityMin_mps2, kEarthGravityMax_mps2),
+              "correct [gravity] in the array file (unit, latitude, depth); every scale factor would take the error"};
+    case Concern::common_scale:
+      return {fmt::format("all scale factors moved together by {:+.2f} %, more than {:.2f} % (twice the `prior` of one "
+                          "sensor)",
+                          100.0 * e.value, 100.0 * e.limit),
+              "check [gravity], `unit` and `scale`: a wrong one does just this; if all sensors really are so, state "
+              "their `scale` as it is or widen `prior`"};
+    default: break;
+  }
+  const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "a sensor";
+  const std::string worst = worst_value(run, array);
+  return {worst.empty() ? fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor,
+                                      e.value, e.limit)
+                        : worst + ", which is physically implausible",
+          "check the channel, the sign of its axis and its scale in the array file; if all is right, the sensor is "
+          "faulty: leave it out"};
+}
+
+Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Error& e = run.refusal;
+  const std::string record = "make sure that the tool was still at every station, then record again";
+  switch (run.concern) {
+    case Concern::odd_sensor: {
+      const std::string sensor = id_of(array, e.index);
+      return {
+          fmt::format("{} is faulty or wrongly described: {} (allowed {:.3g} mg0)", sensor,
+                      odd_sensor_words(run.study.odd), in_mg0(e.limit)),
+          "look at the channel of " + sensor + " in the log; leave the sensor out or replace it, then record again"};
+    }
+    case Concern::parity:
+      return {fmt::format("the sensors contradict one another by {:.3g} mg0 rms (allowed {:.3g})", in_mg0(e.value),
+                          in_mg0(e.limit)),
+              "look at " + worst_sensor(run, array) + ", whose residual is the largest; " + record};
+    case Concern::hold_out:
+      return {fmt::format("stations that were held out of the fit are missed by {:.3g} mg0 rms (allowed {:.3g})",
+                          in_mg0(e.value), in_mg0(e.limit)),
+              "look at station " + std::to_string(run.study.held_out.worst + 1) + ", the worst one; " + record};
+    case Concern::hold_out_claim:
+      return {fmt::format("stations that were held out are missed by {:.1f} times what the fit claims (allowed {:.1f})",
+                          e.value, e.limit),
+              "look at station " + std::to_string(run.study.held_out.worst + 1) + ", the worst one; " + record};
+    default: break;
+  }
+  return {fmt::format("the residual is too large ({:.4g} m/s^2, allowed {:.4g})", e.value, e.limit),
+          "look at " + worst_sensor(run, array) + ", whose residual is the largest; check [gravity], and " + record};
+}
+
+Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
+  const std::vector<std::string> absent = absent_words(run, array);
+  if (!absent.empty()) return {"the fit did not settle: " + joined(absent, "; "), "look at the channel in the log"};
+  return {"the fit did not settle",
+          "check axes, scales and `reads` in the array file against the log; then " + more_attitudes(run)};
+}
+
+}  // namespace
+
+Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Error& e = run.refusal;
+  switch (e.code) {
+    case Errc::too_few_stations:
+      if (!run.log_findings.empty()) return no_stations(run);
+      return {fmt::format("{} stations were found, {} are needed", run.stations.size(), e.limit), more_attitudes(run)};
+    case Errc::unobservable:
+      return {fmt::format(
+                  "the stations determine {} of the {} parameters that they must (the report names what is missing)",
+                  e.value, e.limit),
+              more_attitudes(run)};
+    case Errc::implausible: return implausible(run, array);
+    case Errc::poor_fit: return poor_fit(run, array);
+    case Errc::diverged: return did_not_settle(run, array);
+    default: {
+      const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "";
+      const io::FileError words = io::from_error(e);
+      return {words.what + (sensor.empty() ? "" : " (sensor " + sensor + ")"), words.remedy};
+    }
+  }
+}
+
+Refusal paper_refusal_of(const CalibrationRun& run) {
+  const Error& e = run.paper_refusal;
+  const std::string without = ", or calibrate without --paper and mode = \"paper\"";
+  switch (e.code) {
+    case Errc::diverged: return {"it did not converge", "check axes and scales in the array file" + without};
+    case Errc::unobservable:
+      return {fmt::format("the stations show {} of the {} directions that the length of gravity can show", e.value,
+                          e.limit),
+              more_attitudes(run) + without};
+    case Errc::too_few_stations:
+      return {fmt::format("{} stations have all sensors, {} are needed", e.value, e.limit),
+              more_attitudes(run) + without};
+    default: {
+      const io::FileError words = io::from_error(e);
+      return {words.what, words.remedy + without};
+    }
+  }
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

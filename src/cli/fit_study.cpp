@@ -1,0 +1,156 @@
+#include "fit_study.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "plumb/array/geometry.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+/// Below so many stations every one is held out alone: a quarter would be missed too much.
+constexpr int kFewStations = 16;
+constexpr int kDefaultFolds = 4;
+/// Residuals that noise explains with at least this probability accuse no sensor.
+constexpr double kOddPValue = 1e-6;
+/// Samples behind a proposed station where none is recorded yet: 10 s at 100 Hz.
+constexpr double kDefaultSamples = 1000.0;
+constexpr int kMostIterations = 10000;
+
+HoldOutPlan plan_of(const HoldOutChoice& choice, int stations) {
+  HoldOutPlan plan;
+  plan.folds = choice.folds > 0 ? choice.folds : kDefaultFolds;
+  if (choice.all || (choice.folds == 0 && stations < kFewStations)) plan.folds = std::max(stations, 2);
+  plan.folds = std::min(plan.folds, std::max(stations, 2));
+  plan.rounds = choice.once ? 1 : plan.folds;
+  return plan;
+}
+
+/// Directions by the fit where there is one, else by the datasheet.
+void find_attitudes(const io::ArrayFile& array, const std::vector<Station>& stations, FitStudy& out) {
+  const SensorModel nominal = array.datasheet.model();
+  for (const Station& station : stations) {
+    SeenAttitude seen{Vec3{}, station.delivered & array.array.all(), static_cast<double>(station.count)};
+    Vec3 x{};
+    if (out.shown) {
+      out.residuals.push_back(station_residual(*out.shown, array.gravity, station));
+      x = out.residuals.back().gravity_mps2;
+    } else {
+      const LeastSquares map = least_squares(array.array, seen.delivered);
+      if (map.valid) x = map.estimate(nominal.apply(station.mean, station.temperature_degc, seen.delivered));
+    }
+    const double length = norm(x);
+    if (length > 0.0 && std::isfinite(length)) seen.direction = scaled(x, 1.0 / length);
+    out.attitudes.push_back(seen);
+  }
+}
+
+void plan_next(const io::ArrayFile& array, FitStudy& out) {
+  auto planner = std::make_unique<StationPlanner>(array.datasheet, array.gravity.g_mps2);
+  double samples = 0.0;
+  int usable = 0;
+  for (const SeenAttitude& seen : out.attitudes) {
+    if (!planner->add(seen)) continue;
+    samples += seen.samples;
+    ++usable;
+  }
+  out.next.resize(kPlanned);
+  const int planned = planner->plan(usable > 0 ? samples / usable : kDefaultSamples, kPlanned, out.next.data());
+  out.next.resize(static_cast<std::size_t>(planned));
+}
+
+/// The fit once more, step by step: `calibrate` keeps no history.
+std::vector<double> convergence(const io::ArrayFile& array, const std::vector<Station>& stations) {
+  std::vector<double> cost;
+  auto calibrator = std::make_unique<Calibrator>(array.datasheet, array.gravity, FitOptions{});
+  for (int k = 0; k < kMostIterations && !calibrator->done(); ++k) {
+    calibrator->iterate(stations.data(), static_cast<int>(stations.size()));
+    if (std::isfinite(calibrator->cost())) cost.push_back(calibrator->cost());
+  }
+  return cost;
+}
+
+void cross_check(const io::ArrayFile& array, const std::vector<Station>& stations, const FitReport& report,
+                 const HoldOutChoice& choice, FitStudy& out) {
+  std::vector<Station> scratch(stations.size());
+  const int count = static_cast<int>(stations.size());
+  out.plan = plan_of(choice, count);
+  if (!choice.none && out.shown) {
+    out.predicted.resize(stations.size());
+    out.held_out = hold_out(array.datasheet, array.gravity, stations.data(), count, out.plan, FitOptions{},
+                            scratch.data(), out.predicted.data());
+    if (out.held_out.judged == 0) out.predicted.clear();
+  }
+  const bool unsettled = !out.shown && report.stop != StopReason::none && report.stop != StopReason::converged;
+  out.odd_sought = unsettled || (out.shown && report.degrees_of_freedom > 0 && report.p_value < kOddPValue);
+  if (out.odd_sought) {
+    out.odd = odd_sensor(array.datasheet, array.gravity, stations.data(), count, FitOptions{}, scratch.data());
+  }
+}
+
+}  // namespace
+
+std::string read_hold_out(const std::string& text, HoldOutChoice& choice) {
+  choice = HoldOutChoice{};
+  if (text == "none") {
+    choice.none = true;
+    return "";
+  }
+  if (text == "one") {
+    choice.all = true;
+    return "";
+  }
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec == std::errc{} && read.ptr == end) {
+    if (value > 0.0 && value <= 0.5) {
+      choice.folds = static_cast<int>(std::lround(1.0 / value));
+      choice.once = true;
+      return "";
+    }
+    if (value >= 2.0 && value <= 10000.0 && value == std::floor(value)) {
+      choice.folds = static_cast<int>(value);
+      return "";
+    }
+  }
+  return "\"" + text +
+         "\" is neither a number of folds (2 or more), nor a fraction of the stations (up to 0.5), nor `one` (each "
+         "station alone), nor `none`";
+}
+
+FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
+                   const FitReport& report, const HoldOutChoice& choice) {
+  FitStudy out;
+  const int count = static_cast<int>(stations.size());
+  if (fit) {
+    out.shown = std::make_unique<Calibration>(*fit);
+  } else if (fit.error().code != Errc::diverged) {
+    // What was refused is shown too: the figures are why.
+    const Expected<Calibration> refused =
+        calibrate(array.datasheet, array.gravity, stations.data(), count, without_limits(FitOptions{}));
+    if (refused) out.shown = std::make_unique<Calibration>(*refused);
+  }
+  find_attitudes(array, stations, out);
+  out.coverage = coverage_of(array.datasheet, out.attitudes.data(), count);
+  plan_next(array, out);
+  out.null_count = null_combinations(array.datasheet, out.shown ? out.shown->report : report, *out.nulls);
+  out.cost = convergence(array, stations);
+  cross_check(array, stations, report, choice, out);
+  out.judgement = judge_gravity(array.gravity);
+  if (!out.shown) {
+    if (out.judgement.error.code == Errc::ok) out.judgement = judge_odd_sensor(array.datasheet, out.odd);
+    return out;
+  }
+  out.common_scale = common_scale(array.datasheet, *out.shown);
+  out.paper = paper_form(array.array, out.shown->array, out.shown->model);
+  out.judgement = judge(array.datasheet, array.gravity, *out.shown, out.held_out, out.odd);
+  return out;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

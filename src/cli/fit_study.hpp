@@ -1,0 +1,57 @@
+/// Everything that is said about a fit beside the fit: held-out stations, sensors left out, coverage, what to record
+/// next, the paper's parameters, how it converged. One source for the text, the JSON and the pictures.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/calibration/acceptance.hpp"
+#include "plumb/calibration/null_directions.hpp"
+#include "plumb/calibration/observability.hpp"
+#include "plumb/calibration/paper_parameters.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// How the stations are held out of the fits that predict them.
+struct HoldOutChoice {
+  int folds = 0;      ///< 0: 4 folds, or leave-one-out below 16 stations
+  bool once = false;  ///< only the first fold is held out (a fraction of the stations)
+  bool all = false;   ///< leave-one-out
+  bool none = false;  ///< nothing is held out
+};
+/// "8" (folds), "0.25" (fraction, once), "one" (leave-one-out) or "none"; the reason where the text is none of these.
+std::string read_hold_out(const std::string& text, HoldOutChoice& choice);
+
+struct FitStudy {
+  std::unique_ptr<Calibration> shown;  ///< accepted, or what was refused; null where nothing converged
+  Judgement judgement;                 ///< of `judge`; code ok where it was not reached or all is well
+  CommonScale common_scale;
+  HoldOutPlan plan;
+  HoldOut held_out;
+  std::vector<StationPrediction> predicted;  ///< by station; empty: none held out
+  bool odd_sought = false;
+  OddSensor odd;
+  std::vector<SeenAttitude> attitudes;     ///< by station; direction 0 where unknown
+  std::vector<StationResidual> residuals;  ///< by station; empty where nothing converged
+  Coverage coverage;
+  std::vector<PlannedAttitude> next;
+  std::unique_ptr<NullCombinations> nulls = std::make_unique<NullCombinations>();
+  int null_count = 0;
+  Expected<SensorModel> paper = fail(Errc::not_calibrated);
+  std::vector<double> cost;  ///< of the fit, by iteration
+};
+
+/// Attitudes that are proposed.
+inline constexpr int kPlanned = 6;
+
+/// `fit` is what `calibrate` returned for the stations with default options, `report` what it wrote.
+FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
+                   const FitReport& report, const HoldOutChoice& choice);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,55 @@
+/// What a fit says, in sentences: null directions, p-values, coverage, attitudes to record.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+std::string id_of(const io::ArrayFile& array, int i);
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& names);
+
+/// "bias of a3 against scale of a3", "axis of a2 about x".
+std::string null_words(const NullCombination& combination, const io::ArrayFile& array);
+
+/// The directions in parameter space that the stations cannot see, one phrase each.
+std::vector<std::string> unobservable(const CalibrationRun& run, const io::ArrayFile& array);
+
+/// "inclination 90 deg, toolface 180 deg (down along 0.0, 1.0, 0.0)".
+std::string attitude_words(const PlannedAttitude& attitude);
+
+/// What the p-value means, in one sentence.
+std::string p_value_words(const FitReport& report);
+
+/// What the attitudes lack, one sentence each; empty where nothing does.
+std::vector<std::string> coverage_words(const CalibrationRun& run, const io::ArrayFile& array);
+
+/// Sensors that most stations are without, one sentence each.
+std::vector<std::string> absent_words(const CalibrationRun& run, const io::ArrayFile& array);
+
+/// What all scale factors have in common, and what that may mean; empty where there is no fit to show.
+std::string common_scale_words(const CalibrationRun& run);
+
+/// "with it 4.5 mg0 remain beyond the noise, without it 0.01 mg0".
+std::string odd_sensor_words(const OddSensor& odd);
+
+/// Why there is no form of the paper's parameters, and what to use instead.
+std::string paper_words(const Error& error, const io::ArrayFile& array);
+
+/// Why the fit was refused, and what to do about it.
+struct Refusal {
+  std::string reason;
+  std::string next;
+};
+Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
+/// The same for the fits by the paper's method.
+Refusal paper_refusal_of(const CalibrationRun& run);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,133 @@
+#include "log_diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+constexpr int kBlock = 32;
+constexpr std::size_t kMostBlocks = 4096;
+/// The quietest tenth of the blocks is taken for the tool at rest.
+constexpr double kQuietest = 0.1;
+/// Scatter within this factor of the declared noise is as declared; the search for stations allows about twice.
+constexpr double kNoiseFactor = 1.5;
+constexpr double kLengthFactor = 1.2;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+}  // namespace
+
+void LogDiagnosis::add(const Sample& sample, const Readings& y_mps2, SensorSet usable) {
+  ++rows_;
+  if (length_mps2_.size() >= kMostBlocks) return;
+  if (in_block_ == 0) {
+    begin_s_ = sample.time_s;
+    usable_ = usable;
+    origin_ = y_mps2;
+    sum_ = {};
+    square_ = {};
+  }
+  usable_ = usable_ & usable;
+  for (int i = 0; i < array_->array.size(); ++i) {
+    if (!usable_.has(i)) continue;
+    const double d = y_mps2[at(i)] - origin_[at(i)];
+    sum_[at(i)] += d;
+    square_[at(i)] += d * d;
+  }
+  last_s_ = sample.time_s;
+  if (++in_block_ == kBlock) end_block();
+}
+
+void LogDiagnosis::end_block() {
+  Readings mean{};
+  for (int i = 0; i < array_->array.size(); ++i) {
+    if (!usable_.has(i)) continue;
+    mean[at(i)] = origin_[at(i)] + sum_[at(i)] / kBlock;
+    const double variance = (square_[at(i)] - sum_[at(i)] * sum_[at(i)] / kBlock) / (kBlock - 1);
+    scatter_mps2_[at(i)].push_back(std::sqrt(std::fmax(variance, 0.0)));
+  }
+  const LeastSquares map = least_squares(array_->array, usable_);
+  if (map.valid) length_mps2_.push_back(norm(map.estimate(mean)));
+  step_s_.push_back((last_s_ - begin_s_) / (kBlock - 1));
+  in_block_ = 0;
+}
+
+void LogDiagnosis::judge_noise(std::vector<std::string>& out) const {
+  int worst = -1;
+  double most = kNoiseFactor, quietest_mps2 = 0.0;
+  int loud = 0;
+  for (int i = 0; i < array_->array.size(); ++i) {
+    const double quiet_mps2 = quantile(scatter_mps2_[at(i)], kQuietest);
+    const double factor = quiet_mps2 / array_->array.sigma_mps2(i);
+    if (factor > kNoiseFactor) ++loud;
+    if (!(factor > most)) continue;
+    most = factor;
+    worst = i;
+    quietest_mps2 = quiet_mps2;
+  }
+  if (worst < 0) return;
+  out.push_back(fmt::format(
+      "`noise`: even in the quietest tenth of the log {} scatters by {:.3g} mg0, {:.3g} times the {:.3g} mg0 "
+      "declared{}. If the tool was at rest then, declare the noise as it is",
+      array_->array.row(worst).id.data(), in_mg0(quietest_mps2), most, in_mg0(array_->array.sigma_mps2(worst)),
+      loud > 1 ? fmt::format(" ({} of {} sensors exceed theirs)", loud, array_->array.size()) : ""));
+}
+
+void LogDiagnosis::judge_length(std::vector<std::string>& out) const {
+  const double factor = quantile(length_mps2_, 0.5) / array_->gravity.g_mps2;
+  if (length_mps2_.empty() || (factor > 1.0 / kLengthFactor && factor < kLengthFactor)) return;
+  out.push_back(
+      fmt::format("`unit` and `scale`: the vector is {:.3g} times as long as gravity (median), so the numbers "
+                  "of the log are not in the unit or not of the scale that the array file states",
+                  factor));
+}
+
+void LogDiagnosis::judge_time(std::vector<std::string>& out) const {
+  const double step_s = quantile(step_s_, 0.5);
+  if (step_s_.empty() || !(step_s > array_->monitor.max_gap_s)) return;
+  out.push_back(fmt::format(
+      "`time`: rows are {:.3g} s apart and `max_gap` is {:.3g} s, so every row begins anew. Is the time column "
+      "in milliseconds or samples? Name its unit, or give `rate`; if the rows are means of attitudes, set "
+      "rows = \"stations\"",
+      step_s, array_->monitor.max_gap_s));
+}
+
+std::vector<std::string> LogDiagnosis::findings() const {
+  std::vector<std::string> out;
+  if (rows_ < 4 * kBlock) {
+    out.push_back(
+        fmt::format("the log has {} rows; a station needs at least {} at rest. If the rows are means of "
+                    "attitudes, set rows = \"stations\"",
+                    rows_, 4 * kBlock));
+  }
+  judge_length(out);
+  judge_time(out);
+  judge_noise(out);
+  if (out.empty()) {
+    out.push_back(
+        "noise, unit and time column look as declared, so the tool did not rest: hold it still for 10 s at each "
+        "attitude, and check that `station` tags do not change from row to row");
+  }
+  return out;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,66 @@
+/// The files behind the pictures of a fit: complete, and only for what there is to draw.
+#include "plumb/report/fit_plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace plumb;
+
+report::FitPictures pictures() {
+  report::FitPictures p;
+  p.sensors = {{"a1", {1.0, 0.1, 20.0}, {0.5, 0.01, 2.0}, {0.3, 0.02, 1.0}},
+               {"odd, 'id'", {-1.0, 0.1, 20.0}, {0.5, 0.01, 2.0}, {0.3, 0.02, 1.0}}};
+  p.stations = {{{0.0, 0.0, 1.0}, 0.25, 0.5, {0.1, -0.1}, false},
+                {{0.0, 1.0, 0.0}, -0.25, std::nullopt, {0.2, -0.2}, true}};
+  p.cost = {1000.0, 10.0};
+  p.proposed_down = {{1.0, 0.0, 0.0}};
+  return p;
+}
+
+std::string text_of(const report::FitPictures& p, const std::string& name) {
+  for (const report::PlotFile& file : report::fit_plot_files(p)) {
+    if (file.name == name) return file.text;
+  }
+  return "";
+}
+
+TEST(FitPlot, DataHoldEveryStationAndSensor) {
+  EXPECT_EQ(text_of(pictures(), "fit-stations.csv"),
+            "station,norm_mg0,held_out_mg0,stands_out,x,y,z,a1,odd___id_\n1,0.25,0.5,0,0,0,1,0.1,-0.1\n"
+            "2,-0.25,,1,0,1,0,0.2,-0.2\n");
+  EXPECT_EQ(
+      text_of(pictures(), "fit-parameters.csv"),
+      "row,id,bias_mg0,sigma,prior,scale_pct,sigma,prior,axis_deg,sigma,prior\n1,a1,1,0.1,20,0.5,0.01,2,0.3,0.02,1\n"
+      "2,odd___id_,-1,0.1,20,0.5,0.01,2,0.3,0.02,1\n");
+  EXPECT_EQ(text_of(pictures(), "fit-cost.csv"), "iteration,cost\n1,1000\n2,10\n");
+  EXPECT_EQ(text_of(pictures(), "fit-next.csv"), "x,y,z\n1,0,0\n");
+}
+
+TEST(FitPlot, TheScriptDrawsEveryPictureNamed) {
+  const report::FitPictures p = pictures();
+  const std::vector<std::string> names = report::fit_picture_names(p);
+  EXPECT_EQ(names.size(), 4U);
+  const std::string script = text_of(p, report::kFitScript);
+  for (const std::string& name : names) EXPECT_NE(script.find("set output '" + name + "'"), std::string::npos) << name;
+  EXPECT_NE(script.find("stands out"), std::string::npos);
+}
+
+TEST(FitPlot, LeavesOutWhatIsNotKnown) {
+  report::FitPictures p = pictures();
+  for (auto& s : p.stations) {
+    s.residual_mg0.clear();
+    s.stands_out = false;
+  }
+  p.cost.clear();
+  p.proposed_down.clear();
+  EXPECT_EQ(report::fit_picture_names(p), std::vector<std::string>{"fit-attitudes.svg"});
+  EXPECT_EQ(text_of(p, report::kFitScript).find("stands out"), std::string::npos);
+  EXPECT_EQ(text_of(p, "fit-next.csv"), "");
+  p.stations.clear();
+  EXPECT_TRUE(report::fit_picture_names(p).empty());
+}
+
+}  // namespace
