@@ -34,5 +34,6 @@ if command -v coqc >/dev/null && [[ -d "$(coqc -where)/user-contrib/Gappa" ]]; t
   (cd "$work" && timeout 600 coqc -q generated.v >coq.log 2>&1) || { cat "$work/coq.log" >&2; echo "$1: Coq does not accept gappa's proof" >&2; exit 1; }
   figure="by gappa, checked by Coq"
 fi
-printf 'proved\t%s\t%s <= %s, %s\t%s\n' "$(basename "$1" .g)" "$name" "$literal" "$figure" \
+printf 'proved\t%s\t%s = %s, %s\t%s\n' "$(basename "$1" .g)" "$name" "$literal" "$figure" \
   "$(awk -v a="$begin" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }')"
+printf 'figure: %s <= %.4g\n' "${name##*_}" "$literal"

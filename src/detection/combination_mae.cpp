@@ -7,7 +7,9 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-double squared_length(const std::array<double, 6>& q, double a, double b, double c) noexcept {
+double squared_length(const std::array<double, 6>& form, double a_mps2, double b_mps2, double c_mps2) noexcept {
+  const auto& q = form;
+  const double a = a_mps2, b = b_mps2, c = c_mps2;
   return q[0] * a * a + q[1] * b * b + q[2] * c * c + q[3] * a * b + q[4] * a * c + q[5] * b * c;
 }
 
