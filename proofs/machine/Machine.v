@@ -115,9 +115,9 @@ Theorem L2_earned_trust_ends_suspect c f :
   earned f = true -> goes M_suspect E_clean_block c f <> M_suspect.
 Proof. destruct f as [s u r b w]. simpl. intros ->. destruct s; discriminate. Qed.
 
-(* L6 (its part in the table): from failed the operator's reset leads to suspect or to a first calibration, never straight
+(* From failed the operator's reset leads to suspect or to a first calibration, never straight
    into service, as long as the sensors named have rank. *)
-Theorem L6_reset_leads_out c f :
+Theorem reset_leads_out c f :
   goes M_failed E_reset c f =
   match size_left f with S_rank_lost => M_failed | _ => if c then M_suspect else M_recalibrating_initial end.
 Proof. destruct f as [s u r b w]. destruct s, c; reflexivity. Qed.

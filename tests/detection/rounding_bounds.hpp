@@ -1,5 +1,5 @@
 /// Bounds on the rounding of the detection kernel, each proved for all inputs in its range; the proof names the same
-/// number (proofs/check_constants.sh compares). The tests hold the compiled code against them.
+/// number (proofs/check_consistency.sh compares). The tests hold the compiled code against them.
 #pragma once
 
 namespace plumb_test {
