@@ -1,4 +1,4 @@
-(* Rounding of the six-term form, the kernel of every triple's length (src/detection/combination_mae.cpp):
+(* Rounding of the six-term form, the kernel of every triple's length (squared_length in combination_mae.hpp):
      q0*a*a + q1*b*b + q2*c*c + q3*a*b + q4*a*c + q5*b*c,  scalar, left to right, no fused multiply-add.
    binary64 as Flocq has it: 53 bits, smallest exponent -1074, round to nearest even. Overflow is not modelled: a form whose
    terms stay below 1e300 is far from it. Tested on the code with the same bound:

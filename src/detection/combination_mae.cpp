@@ -7,12 +7,6 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-double squared_length(const std::array<double, 6>& form, double a_mps2, double b_mps2, double c_mps2) noexcept {
-  const auto& q = form;
-  const double a = a_mps2, b = b_mps2, c = c_mps2;
-  return q[0] * a * a + q[1] * b * b + q[2] * c * c + q[3] * a * b + q[4] * a * c + q[5] * b * c;
-}
-
 std::int32_t to_mae_units(double error_mps2) noexcept {
   const double units = std::fabs(error_mps2) / kMaeUnit_mps2;
   // Written so that a NaN takes the clamp: no comparison with it is true.

@@ -27,9 +27,14 @@ struct Exact {
   long double size = 0.0L;
 };
 
-Exact exact_form(const Form& q, long double a, long double b, long double c) {
+constexpr long double wide(double value) { return static_cast<long double>(value); }
+
+Exact exact_form(const Form& q, double a, double b, double c) {
+  const std::array<std::array<double, 3>, 6> factors = {
+      {{q[0], a, a}, {q[1], b, b}, {q[2], c, c}, {q[3], a, b}, {q[4], a, c}, {q[5], b, c}}};
   Exact out;
-  for (const long double term : {q[0] * a * a, q[1] * b * b, q[2] * c * c, q[3] * a * b, q[4] * a * c, q[5] * b * c}) {
+  for (const auto& f : factors) {
+    const long double term = wide(f[0]) * wide(f[1]) * wide(f[2]);
     out.value += term;
     out.size += std::fabs(term);
   }
@@ -81,8 +86,10 @@ RC_GTEST_PROP(RoundingLaw, FormIsWithinItsProvedBound, ()) {
   const double b = any_number();
   const double c = any_number();
   const Exact exact = exact_form(q, a, b, c);
-  const long double bound = (plumb_test::kFormError_u + kReferenceError_u) * kU * exact.size + 7000.0L * 0x1p-1074L / 2;
-  RC_ASSERT(std::fabs(squared_length(q, a, b, c) - exact.value) <= bound);
+  const long double bound =
+      (wide(plumb_test::kFormError_u) + kReferenceError_u) * kU * exact.size + 7000.0L * 0x1p-1075L;
+  const long double error = std::fabs(wide(squared_length(q, a, b, c)) - exact.value);
+  RC_ASSERT(error <= bound);
 }
 
 TEST(Rounding, TheProvedBoundOfTheFormIsNotIdle) {
@@ -95,19 +102,20 @@ TEST(Rounding, TheProvedBoundOfTheFormIsNotIdle) {
     const double b = noise.normal();
     const double c = noise.normal();
     const Exact exact = exact_form(q, a, b, c);
-    worst_u = std::max(worst_u, std::fabs(squared_length(q, a, b, c) - exact.value) / (kU * exact.size));
+    worst_u = std::max(worst_u, std::fabs(wide(squared_length(q, a, b, c)) - exact.value) / (kU * exact.size));
   }
   EXPECT_GT(worst_u, 1.5L);  // random numbers come within a factor of five of the worst case
-  EXPECT_LT(worst_u, plumb_test::kFormError_u);
+  EXPECT_LT(worst_u, wide(plumb_test::kFormError_u));
 }
 
 void expect_unit_conversion(double error) {
-  const long double units = std::fabs(static_cast<long double>(error)) / kMaeUnit_mps2;
-  if (units > kMaeClamp - 1) {
+  const long double units = std::fabs(wide(error)) / wide(kMaeUnit_mps2);
+  if (units > static_cast<long double>(kMaeClamp - 1)) {
     EXPECT_GE(to_mae_units(error), kMaeClamp - 1) << error;
     return;
   }
-  EXPECT_LE(std::fabs(to_mae_units(error) - units), plumb_test::kUnitsError_units) << error;
+  EXPECT_LE(std::fabs(static_cast<long double>(to_mae_units(error)) - units), wide(plumb_test::kUnitsError_units))
+      << error;
   EXPECT_EQ(to_mae_units(error), to_mae_units(-error));
 }
 
@@ -135,12 +143,13 @@ RC_GTEST_PROP(RoundingLaw, SampleInTheWindowIsWithinItsProvedBound, ()) {
     if (!triple.votes) continue;
     const auto& s = triple.sensors;
     const Exact square = exact_form(triple.form, y[s[0]], y[s[1]], y[s[2]]);
-    RC_ASSERT(std::fabs(squared_length(triple.form, y[s[0]], y[s[1]], y[s[2]]) - square.value) <=
-              plumb_test::kFormErrorInRange_m2ps4 + kReferenceError_u * kU * square.size);
+    const double computed = squared_length(triple.form, y[s[0]], y[s[1]], y[s[2]]);
+    const long double form_error = std::fabs(wide(computed) - square.value);
+    RC_ASSERT(form_error <= wide(plumb_test::kFormErrorInRange_m2ps4) + kReferenceError_u * kU * square.size);
     if (!(square.value >= 16.0L && square.value <= 90000.0L)) continue;
-    const long double units = std::fabs(std::sqrt(square.value) - g_mps2) / kMaeUnit_mps2;
-    RC_ASSERT(std::fabs(static_cast<long double>(mae->triple_sum(k)) - units) <=
-              plumb_test::kSampleError_units + kReferenceError_u);
+    const long double units = std::fabs(std::sqrt(square.value) - wide(g_mps2)) / wide(kMaeUnit_mps2);
+    const long double sample_error = std::fabs(static_cast<long double>(mae->triple_sum(k)) - units);
+    RC_ASSERT(sample_error <= wide(plumb_test::kSampleError_units) + kReferenceError_u);
   }
 }
 
