@@ -93,11 +93,42 @@ Theorem S9_readmission m e :
   (does m e A_return_named_sensors -> e = E_reset /\ m = M_failed).
 Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
 
-(* S17 (its part in the table): alarm, contradiction and reference never leave the monitor in a mode whose output is
-   published as valid or degraded. *)
+(* What an event says is done wherever the event is taken up: the lost channel is marked, the culprit excluded, the accused
+   set aside, the returning channel marked, the accepted fit adopted. (S2 rests on it: what is out stays out.) *)
+Theorem S2_events_do_what_they_say m e :
+  kind_of m e = K_taken ->
+  (e = E_channel_lost -> does m e A_mark_absent) /\ (e = E_culprit -> does m e A_exclude) /\
+  (e = E_set_aside -> does m e A_set_aside) /\ (e = E_channel_back -> does m e A_mark_as_back) /\
+  (e = E_fit_accepted -> does m e A_adopt_fit) /\ (e = E_recalibrate -> does m e A_start_fit) /\
+  (e = E_reset -> does m e A_return_named_sensors /\ does m e A_unproven).
+Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
+
+(* They are taken up: no mode overlooks a lost or a returning channel. *)
+Theorem S4_channel_events_count m e :
+  e = E_channel_lost \/ e = E_channel_back -> kind_of m e = K_taken.
+Proof. revert m e. every_cell. Qed.
+
+(* Nothing moves the machine but events that may: none happened, a channel that is merely back, a reset out of place. *)
+Theorem bystanders_move_nothing m e c f :
+  e = E_none \/ e = E_channel_back \/ (e = E_reset /\ m <> M_failed) -> goes m e c f = m.
+Proof. revert m e. every_cell. Qed.
+
+(* Recalibration in flight begins on request only, with a fit started; the first calibration is entered by a reset only. *)
+Theorem recalibration_begins_on_request m e c f :
+  goes m e c f <> m ->
+  (goes m e c f = M_recalibrating -> e = E_recalibrate /\ does m e A_start_fit) /\
+  (goes m e c f = M_recalibrating_initial -> e = E_reset /\ m = M_failed /\ c = false).
+Proof. revert m e. every_cell; every_fact. Qed.
+Theorem a_request_taken_recalibrates m c f :
+  kind_of m E_recalibrate = K_taken -> goes m E_recalibrate c f = M_recalibrating.
+Proof. destruct m; unfold kind_of, goes; simpl; intros; settle. Qed.
+
+(* S17 (its part in the table): alarm, contradiction, reference and a sensor set aside never leave the monitor in a mode
+   whose output is published as valid or degraded, nor in recalibration in flight, which publishes as before. *)
 Definition publishes (m : mode) : Prop := m = M_nominal \/ m = M_isolated \/ m = M_degraded.
 Theorem S17_doubt_is_not_published m e c f :
-  e = E_alarm \/ e = E_contradiction \/ e = E_reference -> ~ publishes (goes m e c f).
+  e = E_alarm \/ e = E_contradiction \/ e = E_reference \/ (e = E_set_aside /\ kind_of m e = K_taken) ->
+  ~ publishes (goes m e c f) /\ goes m e c f <> M_recalibrating.
 Proof. unfold publishes. revert m e. every_cell; every_fact. Qed.
 
 (* Trust is earned: out of suspect the ways into service are clean blocks that earned it, or a culprit taken out. *)
