@@ -2,6 +2,7 @@
 #include <sys/ioctl.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tool_runner.hpp"
@@ -249,6 +250,21 @@ TEST(Model, ThreeFormatsOfOneTable) {
         cell["mode"] != "failed" || cell["event"] == "reset" || cell["leads_to"] == nlohmann::json({"failed"});
     EXPECT_TRUE(latched) << cell;
   }
+}
+
+TEST(Model, EveryTargetSaysWhatItDependsOn) {
+  const Directory where;
+  const auto json = nlohmann::json::parse(run(where, {"model", "--format", "json"}).out);
+  std::map<std::string, std::vector<nlohmann::json>> rows;
+  for (const auto& row : json["targets"]) rows[row["target"]].push_back(row);
+  const auto& patience = rows["stay while PL <= AL, else failed"];
+  ASSERT_EQ(patience.size(), 2U);
+  EXPECT_EQ(patience[0]["when"], nlohmann::json({{"PL <= AL", false}}));
+  EXPECT_EQ(patience[0]["to"], "failed");
+  EXPECT_EQ(patience[1]["to"], "stay");
+  EXPECT_EQ(rows["by size"].size(), 4U);
+  EXPECT_EQ(rows["by size when earned"].size(), 8U);
+  for (const auto& cell : json["cells"]) EXPECT_TRUE(rows.count(cell["target"]) == 1) << cell;
 }
 
 TEST(Output, FullDiskIsNotSuccess) {
