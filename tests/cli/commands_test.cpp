@@ -17,6 +17,7 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
   return a;
 }
 
+// Verifies: REQ-175
 TEST(Help, EveryCommandSaysWhatItDoesAndItsExitCodes) {
   const Directory where;
   const Outcome top = run(where, {"--help"});
@@ -110,6 +111,7 @@ TEST(Monitor, VerdictsPerBlockOrPerSample) {
   EXPECT_EQ(std::count(samples.begin(), samples.end(), '\n'), 4100);
 }
 
+// Negative: REQ-175
 TEST(Monitor, TwoFaultsAmongFourEndInFailedWithCodeFive) {
   const Workshop where;
   ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:bias=50mg0@15s",

@@ -130,6 +130,7 @@ TEST(ArrayFileRefuses, MissingKeys) {
   expect_refused("[input]\nreads = \"gravity\"\n", 0, "gravity", {"is missing", "latitude"});
 }
 
+// Negative: REQ-171
 TEST(ArrayFileRefuses, WrongTypesAndUnits) {
   expect_refused(changed("window = 16", "window = \"16\""), 7, "monitor.window", {"a string", "whole number"});
   expect_refused(changed("delta_f = \"0.05 g0\"", "delta_f = 0.05"), 8, "monitor.delta_f",
@@ -215,6 +216,7 @@ TEST(ArrayFile, GravityModels) {
   expect_refused(changed(value, "model = \"normal\"\n"), 2, "gravity.latitude", {"is missing"});
 }
 
+// Negative: REQ-170
 TEST(ArrayFileRefuses, WhatTheMonitorRefuses) {
   expect_refused(changed("window = 16", "mode = \"paper\""), 7, "monitor.mode", {"not available", "delta_f"});
   expect_refused(changed("\"1 deg\"", "\"200 deg\""), 9, "monitor.alert_limit", {"3.49066 rad", "at most 3.14159 rad"});
