@@ -10,6 +10,12 @@ namespace {
 
 using namespace plumb;
 
+using Wide = long double;
+
+Wide cubic(const std::array<double, 4>& c, Wide t) {
+  return Wide{c[0]} + t * (Wide{c[1]} + t * (Wide{c[2]} + t * Wide{c[3]}));
+}
+
 double drawn(double low, double high) {
   const int step = *rc::gen::inRange(0, 1000001);
   return low + (high - low) * step * 1e-6;
@@ -38,18 +44,18 @@ RC_GTEST_PROP(RequirementSensorModel, AgreesWithExtendedPrecision, ()) {
     }
   }
   const Readings got = model.apply(raw, temperature, SensorSet::first(4));
-  std::array<long double, 4> single{};
+  std::array<Wide, 4> single{};
   for (std::size_t i = 0; i < 4; ++i) {
     const SensorCoefficients& c = model.sensor[i];
-    const long double t = static_cast<long double>(temperature) - c.reference_degc;
-    const long double scale = c.scale[0] + t * (c.scale[1] + t * (c.scale[2] + t * c.scale[3]));  // eq (1)
-    const long double bias = c.bias[0] + t * (c.bias[1] + t * (c.bias[2] + t * c.bias[3]));       // eq (2)
-    single[i] = raw[i] / scale - bias;
+    const Wide t = Wide{temperature} - Wide{c.reference_degc};
+    single[i] = Wide{raw[i]} / cubic(c.scale, t) - cubic(c.bias, t);  // eqs (1), (2)
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    long double sum = single[i];  // eq (3): A_i = V_i/SF*_i - B*_i - sum m_ik A_k of the single readings
-    for (std::size_t k = 0; k < 4; ++k) sum -= model.misalignment[i * kCapacity + k] * single[k];
-    RC_ASSERT(std::fabs(static_cast<double>(got[i] - sum)) <= 1e-12 * (1.0 + std::fabs(static_cast<double>(sum))));
+    Wide sum = single[i];  // eq (3) over the single readings
+    for (std::size_t k = 0; k < 4; ++k) sum -= Wide{model.misalignment[i * kCapacity + k]} * single[k];
+    const auto error = static_cast<double>(Wide{got[i]} - sum);
+    const auto size = static_cast<double>(sum);
+    RC_ASSERT(std::fabs(error) <= 1e-12 * (1.0 + std::fabs(size)));
   }
 }
 

@@ -68,6 +68,7 @@ TEST(SensorModel, ChannelsThatDidNotDeliverEnterNothing) {
   EXPECT_EQ(a[2], 4.0);
 }
 
+// Negative: REQ-036
 TEST(SensorModel, WithoutCrossTermsABrokenChannelLeaksNowhere) {
   const plumb::SensorModel m = worked_example();
   std::array<double, plumb::kCapacity> raw{};

@@ -72,7 +72,7 @@ TEST(RequirementGivenDeltaF, IsTheLimitOfEveryTriple) {
   EXPECT_EQ(v.statistic, v.mae_worst_mps2);
 }
 
-// Negative: REQ-053
+// Negative: REQ-052, REQ-053
 TEST(RequirementGivenDeltaF, DoesNotBlindParity) {
   MonitorConfig config;
   config.delta_f_mps2 = 0.05 * kG0_mps2;
@@ -206,9 +206,10 @@ TEST(RequirementGravityBetweenSteps, NonsenseIsRefusedAndChangesNothing) {
     EXPECT_EQ(refused.error().code, Errc::out_of_range);
   }
   for (int k = 0; k < 64; ++k) {
-    const Sample s = rig.sample(direction_at(50, 3.0 * k), kG0_mps2);
+    const Sample s = rig.sample(direction_at(50, 90.0 * (k / 32)), kG0_mps2);
     const Verdict& v = rig.monitor.step(s);
     const Verdict& w = twin->step(s);
+    EXPECT_EQ(v.tick, k % 32 == 31);
     EXPECT_EQ(v.statistic, w.statistic);
     EXPECT_EQ(v.norm_error_mps2, w.norm_error_mps2);
     EXPECT_EQ(v.state, w.state);

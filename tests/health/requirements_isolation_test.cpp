@@ -14,6 +14,19 @@ using plumb_test::direction_at;
 using plumb_test::Noise;
 using plumb_test::Rig;
 
+// Verifies: REQ-071
+TEST(RequirementStrict, TheAnswerMustHoldAtFourStations) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 2 ? r + 1.5 : r; };
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(rig.stay(direction_at(45 + 10 * k, 200 + 60 * k), 3).excluded.empty()) << "station " << k + 1;
+    EXPECT_EQ(rig.monitor.verdict().live_hypotheses, 1) << "although the answer is unique";
+  }
+  EXPECT_EQ(rig.stay(direction_at(75, 20)).excluded, SensorSet::of(2));
+  EXPECT_EQ(rig.monitor.verdict().grade, Grade::strict);
+}
+
 // Negative: REQ-071
 TEST(RequirementStrict, ThreeSurvivorsNeedTwoStationsEvenWhereOneIsConfigured) {
   MonitorConfig config;
@@ -88,29 +101,25 @@ TEST(RequirementIsolation, OneFaultIsExcludedWithinEightStations) {
   EXPECT_EQ(wrong, 0);
 }
 
-/// A tool of six whose sensor 4 is off by 0.4 m/s^2 while `broken`.
-Rig six_with_a_liar(bool& broken) {
-  Rig rig(plumb_test::cone_array(6));
-  rig.prove();
-  rig.distort = [&broken](int i, double r, int) { return i == 4 && broken ? r + 0.4 : r; };
-  return rig;
-}
-
 // Negative: REQ-099
 TEST(RequirementProbation, WhoIsConvictedAfterAReturnStaysOut) {
-  bool broken = true;
-  Rig rig = six_with_a_liar(broken);
-  Noise noise(12);
-  for (int k = 0; k < 8; ++k) rig.stay(plumb_test::random_direction(noise));
-  ASSERT_EQ(rig.monitor.verdict().excluded, SensorSet::of(4));
-  broken = false;
-  for (int k = 0; k < 20; ++k) rig.stay(plumb_test::random_direction(noise));
-  ASSERT_EQ(rig.monitor.verdict().state, HealthState::nominal) << "the first return";
-  broken = true;
-  for (int k = 0; k < 10; ++k) rig.stay(plumb_test::random_direction(noise));
-  broken = false;
-  for (int k = 0; k < 60; ++k) {
-    EXPECT_FALSE(rig.stay(plumb_test::random_direction(noise)).in_service.has(4)) << k;
+  for (const int n : {4, 6}) {  // by the strict grade, and by the parity grade
+    Rig rig(n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n));
+    rig.prove();
+    bool broken = true;
+    rig.distort = [&broken](int i, double r, int) { return i == 3 && broken ? r + 0.4 : r; };
+    Noise noise(12);
+    for (int k = 0; k < 8; ++k) rig.stay(plumb_test::random_direction(noise));
+    ASSERT_EQ(rig.monitor.verdict().excluded, SensorSet::of(3)) << n;
+    broken = false;
+    for (int k = 0; k < 20; ++k) rig.stay(plumb_test::random_direction(noise));
+    ASSERT_EQ(rig.monitor.verdict().state, HealthState::nominal) << "the first return, of " << n;
+    broken = true;
+    for (int k = 0; k < 10; ++k) rig.stay(plumb_test::random_direction(noise));
+    broken = false;
+    for (int k = 0; k < 60; ++k) {
+      EXPECT_FALSE(rig.stay(plumb_test::random_direction(noise)).in_service.has(3)) << k << " of " << n;
+    }
   }
 }
 
