@@ -12,8 +12,10 @@ using namespace plumb;
 
 using Wide = long double;
 
+Wide wide(double value) { return static_cast<Wide>(value); }
+
 Wide cubic(const std::array<double, 4>& c, Wide t) {
-  return Wide{c[0]} + t * (Wide{c[1]} + t * (Wide{c[2]} + t * Wide{c[3]}));
+  return wide(c[0]) + t * (wide(c[1]) + t * (wide(c[2]) + t * wide(c[3])));
 }
 
 double drawn(double low, double high) {
@@ -47,13 +49,13 @@ RC_GTEST_PROP(RequirementSensorModel, AgreesWithExtendedPrecision, ()) {
   std::array<Wide, 4> single{};
   for (std::size_t i = 0; i < 4; ++i) {
     const SensorCoefficients& c = model.sensor[i];
-    const Wide t = Wide{temperature} - Wide{c.reference_degc};
-    single[i] = Wide{raw[i]} / cubic(c.scale, t) - cubic(c.bias, t);  // eqs (1), (2)
+    const Wide t = wide(temperature) - wide(c.reference_degc);
+    single[i] = wide(raw[i]) / cubic(c.scale, t) - cubic(c.bias, t);  // eqs (1), (2)
   }
   for (std::size_t i = 0; i < 4; ++i) {
     Wide sum = single[i];  // eq (3) over the single readings
-    for (std::size_t k = 0; k < 4; ++k) sum -= Wide{model.misalignment[i * kCapacity + k]} * single[k];
-    const auto error = static_cast<double>(Wide{got[i]} - sum);
+    for (std::size_t k = 0; k < 4; ++k) sum -= wide(model.misalignment[i * kCapacity + k]) * single[k];
+    const auto error = static_cast<double>(wide(got[i]) - sum);
     const auto size = static_cast<double>(sum);
     RC_ASSERT(std::fabs(error) <= 1e-12 * (1.0 + std::fabs(size)));
   }
