@@ -18,6 +18,7 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
   return a;
 }
 
+// Verifies: REQ-175
 TEST(Help, EveryCommandSaysWhatItDoesAndItsExitCodes) {
   const Directory where;
   const Outcome top = run(where, {"--help"});
@@ -140,6 +141,7 @@ TEST(Inject, RefusesASeedThatIsNoSeed) {
   EXPECT_TRUE(says(outcome.err, {"--seed", "whole number from 0 to 2^64 - 1"}));
 }
 
+// Negative: REQ-175
 TEST(Monitor, TwoFaultsAmongFourEndInFailedWithCodeFive) {
   const Workshop where;
   ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:bias=50mg0@15s",
