@@ -9,6 +9,8 @@
 #include "plumb/detection/isolation.hpp"
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-074
+
 namespace {
 
 using namespace plumb;

@@ -13,6 +13,8 @@
 #include "plumb/detection/combination_mae.hpp"
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-051
+
 namespace {
 
 using namespace plumb;

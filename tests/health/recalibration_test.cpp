@@ -8,6 +8,8 @@
 
 #include "recalibration_support.hpp"
 
+// Serves: REQ-130
+
 namespace {
 
 using namespace plumb;
@@ -15,6 +17,7 @@ using plumb_test::Noise;
 using plumb_test::Shadow;
 using Outcome = Recalibration::Outcome;
 
+// Verifies: REQ-130
 TEST(Recalibration, FindsTheBiasesAndScalesAndLeavesAxesAndTemperatureAlone) {
   for (int n = 3; n <= kCapacity; ++n) {
     Shadow s(n, 10 + static_cast<std::uint64_t>(n));
@@ -38,6 +41,7 @@ TEST(Recalibration, FindsTheBiasesAndScalesAndLeavesAxesAndTemperatureAlone) {
 }
 
 /// Safety note 11: a fit that may turn the axes hides a shifted mount; this one must not.
+// Negative: REQ-130
 TEST(Recalibration, AShiftedMountIsRefusedNotLaundered) {
   for (int n = 3; n <= std::min(6, kCapacity); ++n) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -53,6 +57,7 @@ TEST(Recalibration, AShiftedMountIsRefusedNotLaundered) {
   }
 }
 
+// Negative: REQ-131
 TEST(Recalibration, AHeldOutStationThatDisagreesRefuses) {
   Shadow s(6, 3);
   s.start();
