@@ -27,15 +27,46 @@ function(plumb_compile_check name)
   set_tests_properties(${name} PROPERTIES LABELS compile TIMEOUT 300)
 endfunction()
 
+# Verifies: REQ-164
 plumb_compile_check(compile.config_works SOURCE include_config.cpp)
+# Negative: REQ-164
 plumb_compile_check(compile.fast_math_is_refused
   SOURCE include_config.cpp OPTIONS -ffast-math MUST_FAIL_WITH "plumb refuses -ffast-math")
+# Negative: REQ-164
 plumb_compile_check(compile.capacity_of_5_is_refused
   SOURCE include_config.cpp DEFINES PLUMB_CAPACITY=5 MUST_FAIL_WITH "PLUMB_CAPACITY is 4, 8, 16 or 24")
 
+# The state of a monitor, in bytes; the last of the three shows that the check can fail.
+# Verifies: REQ-165
+plumb_compile_check(compile.monitor_of_4_is_small
+  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=4 LIMIT_KIB=24)
+# Verifies: REQ-165
+plumb_compile_check(compile.monitor_of_8_is_small
+  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=8 LIMIT_KIB=64)
+# Negative: REQ-165
+plumb_compile_check(compile.monitor_beyond_its_size_is_refused
+  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=8 LIMIT_KIB=1 MUST_FAIL_WITH "larger than the requirement allows")
+
 file(GLOB array_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/array/*.cpp")
 if(array_sources)
+  # Verifies: REQ-164
   plumb_compile_check(compile.same_capacity_links SOURCE uses_array.cpp DEFINES PLUMB_CAPACITY=8 LINK plumb_8)
+  # Negative: REQ-164
   plumb_compile_check(compile.other_capacity_does_not_link
     SOURCE uses_array.cpp DEFINES PLUMB_CAPACITY=4 LINK plumb_8 MUST_FAIL_WITH "undefined.*cap4::make_id")
+endif()
+
+# --- What the core libraries refer to: heap, exceptions, run-time types. Unoptimised code refers to branches that never
+# run, so only the build that ships is looked at; the decoy shows that the check can fail.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  # Verifies: REQ-160
+  add_test(NAME symbols.core_has_no_heap COMMAND bash "${PROJECT_SOURCE_DIR}/scripts/check_symbols" "${PROJECT_BINARY_DIR}")
+  add_library(plumb_decoy STATIC "${PROJECT_SOURCE_DIR}/tests/compile/uses_heap.cpp")
+  set_target_properties(plumb_decoy PROPERTIES
+    OUTPUT_NAME plumb_8 ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/decoy")
+  # Negative: REQ-160
+  add_test(NAME symbols.a_heap_is_found COMMAND bash "${PROJECT_SOURCE_DIR}/scripts/check_symbols" "${CMAKE_CURRENT_BINARY_DIR}/decoy")
+  set_tests_properties(symbols.core_has_no_heap PROPERTIES LABELS compile TIMEOUT 120)
+  set_tests_properties(symbols.a_heap_is_found PROPERTIES LABELS compile TIMEOUT 120
+    PASS_REGULAR_EXPRESSION "libplumb_8.a refers to:.*operator new")
 endif()

@@ -1,5 +1,5 @@
 # Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels: core, host, compile,
-# proof.
+# proof, trace.
 
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
@@ -37,6 +37,7 @@ endfunction()
 include(GoogleTest)
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} LIBRARIES plumb_8)
+plumb_test_executable(plumb_trace_tests LABEL trace ROOMS trace)  # requirements and tests name each other
 
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
@@ -62,10 +63,27 @@ add_test(NAME example.guide_quotes_it
   COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/guide.md | grep -Fxv -f examples/embed/monitor_loop.cpp"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
-# --- Proofs: every proofs/*.smt2 carries its expected answers; see proofs/check.sh. ------------------------
+# --- Proofs: each script exits with 77 where its tool is absent (scripts/assure installs them all). --------
+# plumb_proof(NAME SCRIPT argument...)
+function(plumb_proof name script)
+  add_test(NAME proof.${name} COMMAND bash "${PROJECT_SOURCE_DIR}/proofs/${script}" ${ARGN})
+  set_tests_properties(proof.${name} PROPERTIES LABELS proof SKIP_RETURN_CODE 77 TIMEOUT 900)
+endfunction()
+
 file(GLOB proofs CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/proofs/*.smt2")
 foreach(proof IN LISTS proofs)
   get_filename_component(name "${proof}" NAME_WE)
-  add_test(NAME proof.${name} COMMAND bash "${PROJECT_SOURCE_DIR}/proofs/check.sh" "${proof}")
-  set_tests_properties(proof.${name} PROPERTIES LABELS proof SKIP_RETURN_CODE 77 TIMEOUT 600)
+  plumb_proof(${name} check.sh "${proof}")
 endforeach()
+file(GLOB proofs CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/proofs/*.g")
+foreach(proof IN LISTS proofs)
+  get_filename_component(name "${proof}" NAME_WE)
+  plumb_proof(rounding_of_${name} check_gappa.sh "${proof}")
+endforeach()
+plumb_proof(consistency check_consistency.sh)
+plumb_proof(gaps_are_refused check_coq.sh --self-test)
+plumb_proof(theorems check_coq.sh "${PROJECT_SOURCE_DIR}/proofs/coq")
+plumb_proof(rounding check_coq.sh "${PROJECT_SOURCE_DIR}/proofs/rounding")
+if(TARGET plumb_tool)
+  plumb_proof(machine check_coq.sh "${PROJECT_SOURCE_DIR}/proofs/machine" "$<TARGET_FILE:plumb_tool>")
+endif()

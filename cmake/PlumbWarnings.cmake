@@ -13,7 +13,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=
 endif()
 
 # plumb_compile_settings(TARGET): C++17 without extensions, warnings as errors, no fused multiply-add
-# contraction (results must not depend on the compiler's choice of instructions).
+# contraction (results must not depend on the compiler's choice of instructions, and the rounding that proofs/ bounds
+# is that of separate multiplications and additions).
 function(plumb_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES

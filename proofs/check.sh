@@ -16,6 +16,7 @@ if [[ -z "$expected" || "$(grep -c . <<<"$expected")" -ne "$questions" ]]; then
   exit 1
 fi
 
+begin="$(date +%s.%N)"
 output="$(z3 -smt2 -T:300 "$1" 2>&1)" || true
 if grep -qE '^\(error|^unsupported' <<<"$output"; then
   echo "$1: z3 did not understand the file:" >&2
@@ -28,4 +29,6 @@ if [[ "$answers" != "$expected" ]]; then
   paste -d'|' <(echo "$expected") <(echo "$answers") >&2
   exit 1
 fi
-echo "$1: $questions answers as expected"
+printf 'proved\t%s\t%d answers as expected\t%s\n' "$(basename "$1" .smt2)" "$questions" \
+  "$(awk -v a="$begin" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }')"
+echo "figure: $questions answers as expected"

@@ -1,6 +1,7 @@
 ; Facts about the paper's four axes (eq 16), for every gravity vector and every fault, decided by z3 over
 ; the reals with sqrt(2) and sqrt(6) as exact algebraic numbers. Each query is asked in the negative:
 ; "unsat" means that no counter-example exists. Sensor i reads h_i . g.
+; Verifies: REQ-052
 (set-logic QF_NRA)
 (declare-const r2 Real)
 (declare-const r6 Real)

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -120,23 +121,66 @@ std::string markdown() {
   return out;
 }
 
+constexpr std::array<const char*, 4> kSizes = {"rank lost", "critical", "all configured", "reduced"};
+constexpr std::array<const char*, 5> kYesNoFacts = {"unproven", "earned", "from suspect", "PL <= AL", "calibrated"};
+static_assert(sizeof(TargetFacts) == 1 + kYesNoFacts.size(), "a fact was added to the table: name it here and below");
+
+/// A situation is a number: the size class in bits 0-1, then one bit per yes-or-no fact.
+constexpr unsigned kSituations = 4U << kYesNoFacts.size();
+
+TargetFacts facts_of(unsigned situation) {
+  TargetFacts facts;
+  facts.size = static_cast<SizeClass>(situation & 3U);
+  facts.unproven = (situation & 4U) != 0;
+  facts.earned = (situation & 8U) != 0;
+  facts.base_suspect = (situation & 16U) != 0;
+  facts.protection_within = (situation & 32U) != 0;
+  facts.calibrated = (situation & 64U) != 0;
+  return facts;
+}
+
 /// Every mode that a cell can lead to, over all facts that its target may depend on.
 std::set<Mode> destinations(Mode from, const Cell& cell) {
   std::set<Mode> out;
-  for (const SizeClass size :
-       {SizeClass::rank_lost, SizeClass::critical, SizeClass::all_configured, SizeClass::reduced}) {
-    for (unsigned bits = 0; bits < 32; ++bits) {
-      TargetFacts facts;
-      facts.size = size;
-      facts.unproven = (bits & 1U) != 0;
-      facts.earned = (bits & 2U) != 0;
-      facts.base_suspect = (bits & 4U) != 0;
-      facts.protection_within = (bits & 8U) != 0;
-      facts.calibrated = (bits & 16U) != 0;
-      out.insert(resolve(from, cell.target, facts));
+  for (unsigned s = 0; s < kSituations; ++s) out.insert(resolve(from, cell.target, facts_of(s)));
+  return out;
+}
+
+/// Where a target leads in a situation; "stay" where that is the mode it came from.
+std::string outcome(Target target, unsigned situation) {
+  const Mode one = resolve(Mode::nominal, target, facts_of(situation));
+  const Mode other = resolve(Mode::suspect, target, facts_of(situation));
+  return one == other ? to_string(one) : "stay";
+}
+
+/// Whether the facts in `bits` make a difference to a target in any situation.
+bool depends_on(Target target, unsigned bits) {
+  for (unsigned s = 0; s < kSituations; ++s) {
+    for (unsigned value = 0; value < kSituations; ++value) {
+      if (outcome(target, s) != outcome(target, (s & ~bits) | (value & bits))) return true;
     }
   }
-  return out;
+  return false;
+}
+
+/// The rows of one target: every combination of the facts that it depends on, and where it then leads.
+nlohmann::ordered_json resolution(Target target) {
+  using Json = nlohmann::ordered_json;
+  unsigned relevant = depends_on(target, 3U) ? 3U : 0U;
+  for (std::size_t k = 0; k < kYesNoFacts.size(); ++k) {
+    if (depends_on(target, 4U << k)) relevant |= 4U << k;
+  }
+  Json rows = Json::array();
+  for (unsigned s = 0; s < kSituations; ++s) {
+    if ((s & ~relevant) != 0) continue;
+    Json when = Json::object();
+    if ((relevant & 3U) != 0) when["size"] = kSizes[s & 3U];
+    for (std::size_t k = 0; k < kYesNoFacts.size(); ++k) {
+      if ((relevant & (4U << k)) != 0) when[kYesNoFacts[k]] = (s & (4U << k)) != 0;
+    }
+    rows.push_back({{"target", to_string(target)}, {"when", std::move(when)}, {"to", outcome(target, s)}});
+  }
+  return rows;
 }
 
 std::string dot() {
@@ -200,6 +244,11 @@ std::string json() {
     }
   }
   out["cells"] = std::move(cells);
+  Json targets = Json::array();
+  for (int t = 0; t <= static_cast<int>(Target::failed); ++t) {
+    for (Json& row : resolution(static_cast<Target>(t))) targets.push_back(std::move(row));
+  }
+  out["targets"] = std::move(targets);
   return out.dump(2) + "\n";
 }
 

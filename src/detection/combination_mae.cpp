@@ -53,10 +53,8 @@ void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, Senso
     const Triple& triple = array.triple(k);
     std::int32_t value = -1;
     if (usable.has(triple.sensors[0]) && usable.has(triple.sensors[1]) && usable.has(triple.sensors[2])) {
-      const double a = y_mps2[triple.sensors[0]], b = y_mps2[triple.sensors[1]], c = y_mps2[triple.sensors[2]];
-      const auto& q = triple.form;
       const double square =
-          q[0] * a * a + q[1] * b * b + q[2] * c * c + q[3] * a * b + q[4] * a * c + q[5] * b * c;  // eqs 22-25
+          squared_length(triple.form, y_mps2[triple.sensors[0]], y_mps2[triple.sensors[1]], y_mps2[triple.sensors[2]]);
       value = to_mae_units(std::sqrt(square < 0.0 ? 0.0 : square) - g_mps2);  // a NaN goes through to the clamp
     }
     replace(ring_[row + static_cast<size_t>(k)], value, sum_[static_cast<size_t>(k)], count_[static_cast<size_t>(k)]);

@@ -77,6 +77,7 @@ TEST(LeastSquaresOf, TooFewSensorsIsNotValid) {
   EXPECT_FALSE(least_squares(SensorArray(), SensorSet(~0U)).valid);
 }
 
+// Negative: REQ-126
 TEST(LeastSquaresOf, ASensorNotInUseCannotPoisonTheEstimate) {
   Readings y{};
   y[0] = 3.0;
@@ -89,6 +90,7 @@ TEST(LeastSquaresOf, ASensorNotInUseCannotPoisonTheEstimate) {
   EXPECT_NEAR(x[2], 9.0, 1e-14);
 }
 
+// Negative: REQ-004
 TEST(LeastSquaresOf, WeighsByTheSigmas) {
   // Two sensors along x: the estimate is the mean weighted with 1/sigma^2.
   const Vec3 axes[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
@@ -178,6 +180,7 @@ TEST(Merit, AConeHidesACommonBiasFromParity) {
   EXPECT_NEAR(figures_of_merit(built(axes.data(), 4)).common_bias_visibility, 1.0, 1e-15);
 }
 
+// Verifies: REQ-006
 TEST(Coplanarity, OfKTriadsIsTwoK) {
   if constexpr (kCapacity >= 6) {
     for (int k = 2; 3 * k <= kCapacity; ++k) {
@@ -191,6 +194,7 @@ TEST(Coplanarity, OfKTriadsIsTwoK) {
   }
 }
 
+// Negative: REQ-006
 TEST(Coplanarity, CountsAnAxisWithinTheToleranceOnly) {
   const auto c_at = [](double sine) {
     const double d = std::sqrt(0.5 * (1 - sine * sine));
@@ -223,9 +227,10 @@ TEST(Critical, TheOnlyAxisOutOfAPlane) {
   EXPECT_EQ(critical_sensors(array, array.all()), SensorSet::of(3));
 }
 
+// Verifies: REQ-004
 RC_GTEST_PROP(GeometryLaw, ResidualOfLeastSquaresIsOrthogonalToTheAxes, ()) {
   const SensorArray array = any_array();
-  const Readings y = any_readings(115.0);  // |y| up to 200 m/s^2 for three sensors (REQ-003)
+  const Readings y = any_readings(115.0);  // |y| up to 200 m/s^2 for three sensors
   const LeastSquares fit = least_squares(array, array.all());
   RC_ASSERT(fit.valid);
   const Vec3 x = fit.estimate(y);
@@ -316,6 +321,7 @@ RC_GTEST_PROP(GeometryLaw, ParityRowsAreOrthonormalInWhitenedUnits, ()) {
   }
 }
 
+// Verifies: REQ-006
 RC_GTEST_PROP(GeometryLaw, FewerSensorsNeverShowAHigherGradeOrALargerPlane, ()) {
   const SensorArray array = any_array(4);
   const int lost = *rc::gen::inRange(3, array.size());  // the first three keep rank 3

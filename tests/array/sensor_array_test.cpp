@@ -35,6 +35,7 @@ TEST(SensorArray, EmptyArrayIsAPlaceholder) {
   EXPECT_TRUE(array.all().empty());
 }
 
+// Verifies: REQ-001
 TEST(SensorArray, KeepsRowsAndEnumeratesTriplesOfEq13) {
   const Expected<SensorArray> array = make(tetrahedron_rows());
   ASSERT_TRUE(array.has_value());
@@ -95,6 +96,7 @@ TEST(SensorArray, ACoplanarTripleAmongOthersIsSingularAndDoesNotVote) {
   EXPECT_TRUE(array.triple(array.triple_index(0, 1, 3)).votes);
 }
 
+// Verifies: REQ-005
 TEST(SensorArray, NearSingularTripleHasAFormButNoVote) {
   const double d = 0.04;
   const Vec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, std::sqrt(1.0 - d * d), d}};
@@ -104,6 +106,7 @@ TEST(SensorArray, NearSingularTripleHasAFormButNoVote) {
   EXPECT_LT(array.triple(0).condition, 100.0);
 }
 
+// Verifies: REQ-001
 TEST(SensorArray, ParallelAxesAreAllowed) {
   if constexpr (kCapacity >= 8) {
     const Vec3 axes[6] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -120,6 +123,7 @@ void expect_refused(const std::vector<SensorRow>& rows, Errc code, int index) {
   EXPECT_EQ(array.error().index, index);
 }
 
+// Negative: REQ-001
 TEST(SensorArrayRefuses, TooFewAndTooMany) {
   std::vector<SensorRow> rows = tetrahedron_rows();
   rows.resize(2);
@@ -133,6 +137,7 @@ TEST(SensorArrayRefuses, TooFewAndTooMany) {
   EXPECT_EQ(make(many).error().limit, kCapacity);
 }
 
+// Negative: REQ-001
 TEST(SensorArrayRefuses, AnAxisOffUnitLengthByMoreThanTheTolerance) {
   for (const double excess : {2e-6, -2e-6, 1.0, -1.0}) {
     std::vector<SensorRow> rows = tetrahedron_rows();
@@ -148,6 +153,7 @@ TEST(SensorArrayRefuses, AnAxisOffUnitLengthByMoreThanTheTolerance) {
   }
 }
 
+// Negative: REQ-001
 TEST(SensorArrayRefuses, CoplanarAxes) {
   const double d = std::sqrt(0.5);
   const Vec3 axes[4] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {d, d, 0.0}, {-d, d, 0.0}};
@@ -157,6 +163,7 @@ TEST(SensorArrayRefuses, CoplanarAxes) {
   expect_refused(rows_of(barely, 3), Errc::axes_rank_deficient, -1);
 }
 
+// Negative: REQ-001
 TEST(SensorArrayRefuses, DuplicateAndEmptyIds) {
   std::vector<SensorRow> rows = tetrahedron_rows();
   rows[3].id = rows[1].id;
@@ -169,6 +176,7 @@ TEST(SensorArrayRefuses, DuplicateAndEmptyIds) {
   expect_refused(rows, Errc::duplicate_id, 3);
 }
 
+// Negative: REQ-001
 TEST(SensorArrayRefuses, NumbersThatAreNone) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -182,6 +190,7 @@ TEST(SensorArrayRefuses, NumbersThatAreNone) {
   }
 }
 
+// Negative: REQ-001
 TEST(SensorArrayRefuses, ASigmaThatIsNotPositive) {
   for (const double bad : {0.0, -0.0, -1.0, std::numeric_limits<double>::denorm_min()}) {
     std::vector<SensorRow> rows = tetrahedron_rows();

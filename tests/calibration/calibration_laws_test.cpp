@@ -47,6 +47,7 @@ plumb::Expected<plumb::Calibration> fit(const Scene& s) {
   return plumb::calibrate(s.sheet, standard_gravity(), s.stations.data(), static_cast<int>(s.stations.size()));
 }
 
+// Verifies: REQ-032
 RC_GTEST_PROP(CalibrationLaws, EveryArrayOfRankThreeIsFoundAgain, ()) {
   const Scene scene = drawn_scene(kSigma);
   const auto c = fit(scene);
@@ -59,6 +60,7 @@ RC_GTEST_PROP(CalibrationLaws, EveryArrayOfRankThreeIsFoundAgain, ()) {
   RC_ASSERT(c->report.norm_rms_mps2 <= 20.0 * kSigma);
 }
 
+// Verifies: REQ-036
 RC_GTEST_PROP(CalibrationLaws, TheResultIsACommonFrameModel, ()) {
   const auto c = fit(drawn_scene(kSigma));
   RC_ASSERT(c.has_value());
@@ -86,6 +88,7 @@ RC_GTEST_PROP(CalibrationLaws, OrderOfStationsDoesNotMatter, ()) {
   }
 }
 
+// Verifies: REQ-034
 RC_GTEST_PROP(CalibrationLaws, AnyReadingsAtAllComeBackAsAValue, ()) {
   Scene scene = drawn_scene(kSigma);
   const int victim = *rc::gen::inRange(0, 40);

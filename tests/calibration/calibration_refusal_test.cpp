@@ -52,6 +52,7 @@ TEST(CalibrationRefusal, TooFewStations) {
   EXPECT_EQ(null.error().code, plumb::Errc::too_few_stations);
 }
 
+// Negative: REQ-034
 TEST(CalibrationRefusal, NumbersThatAreNone) {
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity(), -1e308, 1e308}) {
     Bench b;
@@ -70,6 +71,7 @@ TEST(CalibrationRefusal, NumbersThatAreNone) {
   EXPECT_EQ(prior.refusal(), plumb::Errc::diverged);
 }
 
+// Negative: REQ-030
 TEST(CalibrationRefusal, AllAttitudesTheSame) {
   Bench b;
   for (plumb::Station& s : b.stations) s = station_at(b.sheet, b.truth, rolled(30.0, 10.0), b.noise, kSigma);
@@ -95,6 +97,7 @@ TEST(CalibrationRefusal, GravityFarOff) {
   }
 }
 
+// Negative: REQ-034
 TEST(CalibrationRefusal, ParametersBeyondTheirPhysicalBounds) {
   Bench scale;
   scale.options.max_scale_change = 1e-4;
@@ -107,6 +110,7 @@ TEST(CalibrationRefusal, ParametersBeyondTheirPhysicalBounds) {
   EXPECT_EQ(bias.refusal(), plumb::Errc::implausible);
 }
 
+// Verifies: REQ-034
 TEST(CalibrationRefusal, NormBeyondItsBound) {
   Bench b;
   b.options.max_norm_rms_mps2 = 1e-4;

@@ -41,6 +41,7 @@ plumb::FitOptions any_rank() {
   return o;
 }
 
+// Verifies: REQ-032
 TEST(Calibrator, PaperToolReachesTheAcceptanceBar) {
   constexpr int kRuns = 300;
   double tilt = 0.0, parity = 0.0, bias = 0.0, observable = 0.0, chi2 = 0.0, freedom = 0.0;
@@ -103,6 +104,7 @@ TEST(Calibrator, ConvergesFromTenTimesTheUsualErrors) {
   tell("mean_iterations_at_10x", iterations);
 }
 
+// Negative: REQ-032
 TEST(Calibrator, ParametersLieWithinFourSigma) {
   for (int n : {3, 4, plumb::kCapacity}) {
     plumb::AxisList axes{};
@@ -146,6 +148,7 @@ TEST(Calibrator, GravityUncertaintyIsACommonScaleThatEveryNormSeesAndNoParity) {
   }
 }
 
+// Verifies: REQ-030
 TEST(Calibrator, TriadHasRankNine) {
   plumb::AxisList axes{};
   const int n = plumb::orthogonal_triad(axes);
@@ -175,6 +178,8 @@ TEST(Calibrator, ManyTriadsShareOneFrame) {
   EXPECT_LE(sphere_error(d, truth, *c).tilt_rad, 3e-4);
 }
 
+// Verifies: REQ-030
+// Negative: REQ-038
 TEST(Calibrator, OneCircleOfRollsHasRankEight) {
   Noise noise(9);
   const plumb::Datasheet d = paper_tool(kSigma);
@@ -223,6 +228,7 @@ TEST(Calibrator, RanksOfStationSetsAsMeasured) {
   }
 }
 
+// Verifies: REQ-038
 TEST(Calibrator, DataShareTellsDataFromDatasheet) {
   // Nothing but vertical stations: z of the axial sensor is measured, its other components are not.
   Noise noise(12);
@@ -239,6 +245,7 @@ TEST(Calibrator, DataShareTellsDataFromDatasheet) {
   EXPECT_LT(report.data_share[12], 0.2);
 }
 
+// Negative: REQ-036
 TEST(Calibrator, ResultLiesOnTheDatasheetAxes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Noise noise(seed);
@@ -252,6 +259,7 @@ TEST(Calibrator, ResultLiesOnTheDatasheetAxes) {
   }
 }
 
+// Negative: REQ-010
 TEST(Calibrator, ReadingsOfEitherSenseGiveTheSameAxes) {
   Noise one(5), two(5);
   const plumb::Datasheet down = paper_tool(kSigma), up = paper_tool(kSigma, plumb::Reads::specific_force);

@@ -22,6 +22,7 @@ plumb::SensorModel worked_example() {
   return m;
 }
 
+// Negative: REQ-003
 TEST(SensorModel, ScaleAndBiasAreCubicInTemperature) {
   const plumb::SensorModel m = worked_example();
   // t = 10: 2 + 1 + 1 + 1 = 5 and 0.5 - 0.2 + 0.3 - 0.4 = 0.2.
@@ -34,6 +35,7 @@ TEST(SensorModel, ScaleAndBiasAreCubicInTemperature) {
   EXPECT_EQ(m.bias_at(0, 20.0), 0.5);
 }
 
+// Negative: REQ-003
 TEST(SensorModel, AppliesCrossAxisTermsOfEquationThree) {
   plumb::SensorModel m = worked_example();
   m.misalignment[0 * plumb::kCapacity + 1] = 0.1;
@@ -66,6 +68,7 @@ TEST(SensorModel, ChannelsThatDidNotDeliverEnterNothing) {
   EXPECT_EQ(a[2], 4.0);
 }
 
+// Negative: REQ-036
 TEST(SensorModel, WithoutCrossTermsABrokenChannelLeaksNowhere) {
   const plumb::SensorModel m = worked_example();
   std::array<double, plumb::kCapacity> raw{};

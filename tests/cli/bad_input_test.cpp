@@ -156,6 +156,7 @@ TEST(BadLog, BadRowsAreSkippedWhereAskedFor) {
   EXPECT_TRUE(says(outcome.out, {"9599 rows used, 1 bad rows skipped", "accepted"}));
 }
 
+// Negative: REQ-175
 TEST(BadLog, TooFewStationsAreNotAccepted) {
   const Workshop where;
   const std::string log = where.text("calibration.csv");

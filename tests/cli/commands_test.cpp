@@ -2,6 +2,7 @@
 #include <sys/ioctl.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tool_runner.hpp"
@@ -17,6 +18,7 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
   return a;
 }
 
+// Verifies: REQ-175
 TEST(Help, EveryCommandSaysWhatItDoesAndItsExitCodes) {
   const Directory where;
   const Outcome top = run(where, {"--help"});
@@ -139,6 +141,7 @@ TEST(Inject, RefusesASeedThatIsNoSeed) {
   EXPECT_TRUE(says(outcome.err, {"--seed", "whole number from 0 to 2^64 - 1"}));
 }
 
+// Negative: REQ-175
 TEST(Monitor, TwoFaultsAmongFourEndInFailedWithCodeFive) {
   const Workshop where;
   ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:bias=50mg0@15s",
@@ -249,6 +252,21 @@ TEST(Model, ThreeFormatsOfOneTable) {
         cell["mode"] != "failed" || cell["event"] == "reset" || cell["leads_to"] == nlohmann::json({"failed"});
     EXPECT_TRUE(latched) << cell;
   }
+}
+
+TEST(Model, EveryTargetSaysWhatItDependsOn) {
+  const Directory where;
+  const auto json = nlohmann::json::parse(run(where, {"model", "--format", "json"}).out);
+  std::map<std::string, std::vector<nlohmann::json>> rows;
+  for (const auto& row : json["targets"]) rows[row["target"]].push_back(row);
+  const auto& patience = rows["stay while PL <= AL, else failed"];
+  ASSERT_EQ(patience.size(), 2U);
+  EXPECT_EQ(patience[0]["when"], nlohmann::json({{"PL <= AL", false}}));
+  EXPECT_EQ(patience[0]["to"], "failed");
+  EXPECT_EQ(patience[1]["to"], "stay");
+  EXPECT_EQ(rows["by size"].size(), 4U);
+  EXPECT_EQ(rows["by size when earned"].size(), 8U);
+  for (const auto& cell : json["cells"]) EXPECT_TRUE(rows.count(cell["target"]) == 1) << cell;
 }
 
 TEST(Output, FullDiskIsNotSuccess) {

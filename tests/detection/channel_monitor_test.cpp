@@ -23,6 +23,8 @@ ChannelMonitor monitor_of_four(double full_scale = 5.0) {
   return gate;
 }
 
+// Verifies: REQ-144
+// Negative: REQ-140
 TEST(ChannelGate, SortsChannelsByWhatTheyDelivered) {
   ChannelMonitor gate = monitor_of_four();
   Sample s = full_sample();
@@ -37,6 +39,7 @@ TEST(ChannelGate, SortsChannelsByWhatTheyDelivered) {
   EXPECT_FALSE(r.gap);
 }
 
+// Verifies: REQ-144
 TEST(ChannelGate, UnknownFullScaleNeverClips) {
   ChannelMonitor gate = monitor_of_four(0.0);
   Sample s = full_sample();
@@ -44,6 +47,7 @@ TEST(ChannelGate, UnknownFullScaleNeverClips) {
   EXPECT_TRUE(gate.gate(s).clipped.empty());
 }
 
+// Verifies: REQ-141
 TEST(ChannelGate, LossIsConfirmedAndSoIsReturn) {
   ChannelMonitor gate = monitor_of_four();
   Sample bad = full_sample();
@@ -63,6 +67,7 @@ TEST(ChannelGate, LossIsConfirmedAndSoIsReturn) {
   EXPECT_TRUE(gate.back().empty());
 }
 
+// Negative: REQ-141
 TEST(ChannelGate, AGlitchBetweenGoodSamplesNeverAddsUp) {
   ChannelMonitor gate = monitor_of_four();
   Sample bad = full_sample();
@@ -75,6 +80,7 @@ TEST(ChannelGate, AGlitchBetweenGoodSamplesNeverAddsUp) {
   EXPECT_EQ(gate.counters(2).missing, 100U);
 }
 
+// Verifies: REQ-141
 TEST(ChannelGate, ASilentBusIsAGapAndLosesNobody) {
   ChannelMonitor gate = monitor_of_four();
   Sample silent = full_sample();

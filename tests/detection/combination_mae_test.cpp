@@ -20,6 +20,7 @@ double length_by_inverse(const SensorArray& array, int k, const Readings& y) {
   return norm(times(triple_map(array, k), {y[s[0]], y[s[1]], y[s[2]]}));
 }
 
+// Verifies: REQ-051
 TEST(CombinationMae, EqualsDirectEvaluationOfEquations26To29) {
   const SensorArray array = plumb_test::tetrahedron();
   auto mae = std::make_unique<CombinationMae>();
@@ -46,6 +47,7 @@ TEST(CombinationMae, EqualsDirectEvaluationOfEquations26To29) {
   EXPECT_NEAR(mae->all_mps2(), sum / 8.0, kMaeUnit_mps2);
 }
 
+// Negative: REQ-051
 TEST(CombinationMae, HugeAndNonFiniteErrorsTakeTheClampAndLeaveNoTrace) {
   EXPECT_EQ(to_mae_units(std::numeric_limits<double>::quiet_NaN()), kMaeClamp);
   EXPECT_EQ(to_mae_units(std::numeric_limits<double>::infinity()), kMaeClamp);
@@ -67,6 +69,7 @@ TEST(CombinationMae, HugeAndNonFiniteErrorsTakeTheClampAndLeaveNoTrace) {
 }
 
 /// The window sum after any history equals a fresh sum over the ring, bit for bit.
+// Verifies: REQ-051
 RC_GTEST_PROP(CombinationMaeLaw, WindowSumIsExactWhateverCameBefore, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   const int window = *rc::gen::inRange(1, kWindowCapacity + 1);
@@ -103,6 +106,7 @@ RC_GTEST_PROP(CombinationMaeLaw, WindowSumIsExactWhateverCameBefore, ()) {
   for (int k = 0; k < array->triple_count(); ++k) RC_ASSERT(mae->triple_sum(k) == mae->fresh_triple_sum(k));
 }
 
+// Verifies: REQ-051
 TEST(CombinationMae, ATripleWithAMissingMemberUsesItsOwnCount) {
   const SensorArray array = plumb_test::tetrahedron();
   auto mae = std::make_unique<CombinationMae>();

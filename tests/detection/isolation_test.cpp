@@ -38,6 +38,7 @@ struct Case {
   }
 };
 
+// Verifies: REQ-006
 TEST(Isolation, GradesOfNamedArrays) {
   Case tetra(plumb_test::tetrahedron(), 1);
   EXPECT_EQ(tetra.isolation.strict_grade(), 1);
@@ -49,6 +50,7 @@ TEST(Isolation, GradesOfNamedArrays) {
   EXPECT_EQ(cone.isolation.voting(), 35);
 }
 
+// Verifies: REQ-072
 TEST(Isolation, OneStationConvictsTheFaultOfAFiveSensorConeByParityAlone) {
   Case c(plumb_test::cone_array(5, kSigma), 7);
   std::array<double, kCapacity> fault{};
@@ -58,6 +60,7 @@ TEST(Isolation, OneStationConvictsTheFaultOfAFiveSensorConeByParityAlone) {
   EXPECT_FALSE(answer.full_alive);
 }
 
+// Negative: REQ-070
 TEST(Isolation, MirrorAtEveryStationNeverConvictsTheInnocentAtTheStrictGrade) {
   Case c(plumb_test::tetrahedron(kSigma), 11);
   const Mat3 map = triple_map(c.array, c.array.triple_index(0, 1, 3));
@@ -72,6 +75,7 @@ TEST(Isolation, MirrorAtEveryStationNeverConvictsTheInnocentAtTheStrictGrade) {
   EXPECT_GE(c.isolation.live(), 2) << "truth {2,3,4} and mirror {1,2,4} both explain everything";
 }
 
+// Negative: REQ-103
 TEST(Isolation, MoreStationsAtOneAttitudeDoNotResolveAnotherAttitudeDoes) {
   Case c(plumb_test::tetrahedron(kSigma), 13);
   const Mat3 map = triple_map(c.array, c.array.triple_index(0, 1, 3));
@@ -87,6 +91,7 @@ TEST(Isolation, MoreStationsAtOneAttitudeDoNotResolveAnotherAttitudeDoes) {
   EXPECT_EQ(answer.strict, SensorSet::of(0));
 }
 
+// Verifies: REQ-061
 TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
   for (int n = 5; n <= kCapacity; ++n) {
     Case c(plumb_test::cone_array(n, kSigma), 17);
@@ -106,6 +111,7 @@ TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
 /// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
 /// Counter-example: four of mikoff5's z axes with three coplanar pass parity whatever the fourth reads;
 /// taken literally, its fault would void the norm for ever. Only sets whose members are all checked may.
+// Negative: REQ-061
 TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
   AxisList axes{};
   const Vec3 raw[5] = {
@@ -132,6 +138,7 @@ TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
 
 /// T5: with at most m_strict faulty sensors, whatever they read, no healthy one is convicted, at any
 /// station of the episode; gravity error within three sigmas included.
+// Verifies: REQ-070, REQ-074
 RC_GTEST_PROP(IsolationLaw, NeverConvictsASensorHealthyThroughout, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const bool axial = *rc::gen::arbitrary<bool>();
@@ -164,6 +171,7 @@ RC_GTEST_PROP(IsolationLaw, NeverConvictsASensorHealthyThroughout, ()) {
   }
 }
 
+// Verifies: REQ-075
 TEST(Isolation, LosingAChannelProjectsTheHypotheses) {
   Case c(plumb_test::cone_array(6, kSigma), 23);
   std::array<double, kCapacity> fault{};
@@ -177,6 +185,8 @@ TEST(Isolation, LosingAChannelProjectsTheHypotheses) {
   EXPECT_EQ(c.isolation.live(), 20) << "a sensor that joins poses a new question";
 }
 
+// Verifies: REQ-070
+// Negative: REQ-121
 TEST(Isolation, ScanNamesTheFewestFaults) {
   Case c(plumb_test::cone_array(6, kSigma), 29);
   std::array<double, kCapacity> fault{};

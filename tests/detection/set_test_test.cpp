@@ -25,6 +25,7 @@ BlockEvidence exact_block(const SensorArray& array, const Vec3& direction, doubl
   return block;
 }
 
+// Verifies: REQ-052
 TEST(SetTest, ParityOfTheTetrahedronIsHalfTheFault) {
   const double sigma = 0.002;
   const SensorArray array = plumb_test::tetrahedron(sigma);
@@ -38,6 +39,7 @@ TEST(SetTest, ParityOfTheTetrahedronIsHalfTheFault) {
   EXPECT_NEAR(t.least_leverage, 0.25, 1e-12);
 }
 
+// Negative: REQ-052
 TEST(SetTest, MirrorOfTheoremT1PassesATripleExactly) {
   const SensorArray array = plumb_test::tetrahedron();
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
@@ -57,6 +59,7 @@ TEST(SetTest, MirrorOfTheoremT1PassesATripleExactly) {
   EXPECT_FALSE(test_set(array, kGravity, limits, block, array.all()).parity_alive(limits)) << "parity can";
 }
 
+// Verifies: REQ-070
 TEST(SetTest, UntestedSetsAreAlive) {
   const SensorArray array = plumb_test::tetrahedron();
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
@@ -70,6 +73,7 @@ TEST(SetTest, UntestedSetsAreAlive) {
 }
 
 /// Safety note 1: an error of the gravity reference within three of its sigmas kills nothing.
+// Verifies: REQ-022
 RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   const SensorArray array = plumb_test::cone_array(n);
@@ -86,6 +90,7 @@ RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {
 }
 
 /// ... and an error of the calibration within k_c of its covariance kills nothing either.
+// Verifies: REQ-056
 RC_GTEST_PROP(SetTestLaw, CalibrationErrorWithinItsBoundKillsNoSet, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   SensorArray array = plumb_test::cone_array(n);
@@ -123,6 +128,7 @@ RC_GTEST_PROP(SetTestLaw, CalibrationErrorWithinItsBoundKillsNoSet, ()) {
   }
 }
 
+// Verifies: REQ-052
 TEST(SetTest, HealthyFullSetExceedsItsAlarmLimitAtTheRequestedRate) {
   // 200 000 blocks at 1e-3: expected 200 +- 4.5 sigma.
   const double sigma = 0.01;

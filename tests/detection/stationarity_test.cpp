@@ -32,6 +32,7 @@ BlockAccumulator fill(const SensorArray& array, Noise& noise, const Vec3& vibrat
   return block;
 }
 
+// Verifies: REQ-058
 TEST(Stationarity, QuietIsQuiet) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const double factor = restless_factor(4, 32, 1e-6);
@@ -43,6 +44,7 @@ TEST(Stationarity, QuietIsQuiet) {
   }
 }
 
+// Verifies: REQ-058
 TEST(Stationarity, ChannelScatterAndMeanAreThoseOfTheSamples) {
   BlockAccumulator block;
   Readings y{};
@@ -56,6 +58,7 @@ TEST(Stationarity, ChannelScatterAndMeanAreThoseOfTheSamples) {
   EXPECT_NEAR(block.covariance(0, 1), -14.0 / 3.0, 1e-12);
 }
 
+// Verifies: REQ-141
 TEST(Stationarity, AChannelCountsWhileItDeliversHalfItsSamples) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   BlockAccumulator block;
@@ -72,6 +75,7 @@ TEST(Stationarity, AChannelCountsWhileItDeliversHalfItsSamples) {
   EXPECT_DOUBLE_EQ(block.samples(array.all().without(2)), 5.0) << "as noisy as the scarcest channel";
 }
 
+// Verifies: REQ-056
 TEST(Stationarity, AnUnweightedMeanIsAsNoisyAsItsScarcestSamples) {
   BlockAccumulator block;
   Readings y{};
@@ -80,6 +84,7 @@ TEST(Stationarity, AnUnweightedMeanIsAsNoisyAsItsScarcestSamples) {
   EXPECT_NEAR(block.samples(SensorSet::first(4)), 4.0 / 1.001, 1e-12);
 }
 
+// Negative: REQ-058
 TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {
   // Safety note 12: purely axial vibration shakes sensor 4 of the paper's tool three times as much as
   // the others; a rule that looked at single channels would blame the innocent.
@@ -97,6 +102,7 @@ TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {
   EXPECT_GT(moving, 2800);
 }
 
+// Verifies: REQ-058
 TEST(Stationarity, AShakingChannelInAQuietToolIsNamed) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const double factor = restless_factor(4, 32, 1e-6);
@@ -108,6 +114,7 @@ TEST(Stationarity, AShakingChannelInAQuietToolIsNamed) {
   }
 }
 
+// Verifies: REQ-058
 TEST(Stationarity, AnExcludedChannelCannotStopTheEvidence) {
   const SensorArray array = plumb_test::cone_array(5, kSigma);
   const double factor = restless_factor(5, 32, 1e-6);
@@ -118,6 +125,7 @@ TEST(Stationarity, AnExcludedChannelCannotStopTheEvidence) {
   EXPECT_TRUE(j.restless.empty());
 }
 
+// Verifies: REQ-039
 TEST(StationFinder, FindsQuietStretchesBetweenMotionAndKeepsTheirMeans) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   StationFinder finder(array, kG0_mps2, {});
@@ -159,6 +167,7 @@ TEST(StationFinder, FindsQuietStretchesBetweenMotionAndKeepsTheirMeans) {
   }
 }
 
+// Negative: REQ-039
 TEST(StationFinder, TagsSeparateStationsWithoutMotion) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   StationFinder finder(array, kG0_mps2, {});

@@ -34,13 +34,15 @@ NormalGravityInput any_input() {
   return in;
 }
 
-TEST(NormalGravity, EquatorAndPoleOfReq008) {
+// Verifies: REQ-020
+TEST(NormalGravity, EquatorAndPole) {
   EXPECT_NEAR(normal_gravity(at_latitude(0))->g_mps2, 9.7803253359, 1e-8);
   EXPECT_NEAR(normal_gravity(at_latitude(90))->g_mps2, 9.8321849379, 1e-8);
   EXPECT_NEAR(normal_gravity(at_latitude(-90))->g_mps2, 9.8321849379, 1e-8);
 }
 
-TEST(NormalGravity, FiveKilometresOfRockOfReq008) {
+// Negative: REQ-020
+TEST(NormalGravity, FiveKilometresOfRock) {
   NormalGravityInput in = at_latitude(45, 5000);
   const double surface = normal_gravity(at_latitude(45))->g_mps2;
   EXPECT_NEAR(normal_gravity(in)->g_mps2 - surface, 4.249e-3, 5e-6);
@@ -67,6 +69,7 @@ TEST(NormalGravity, FreeAirOfARigAtTwoThousandMetres) {
   EXPECT_NEAR(change / kG0_mps2, -0.63e-3, 5e-6);
 }
 
+// Verifies: REQ-022
 TEST(NormalGravity, CarriesSigmaAndModel) {
   EXPECT_DOUBLE_EQ(normal_gravity(at_latitude(45))->sigma_mps2, 0.15e-3 * 9.80665);
   EXPECT_EQ(normal_gravity(at_latitude(45))->model, GravityModel::normal);
@@ -83,7 +86,8 @@ void expect_refused(const Change& change, Errc code, int index) {
   EXPECT_EQ(g.error().index, index);
 }
 
-TEST(NormalGravity, RefusesWhatReq010Names) {
+// Verifies: REQ-023
+TEST(NormalGravity, RefusesWhatIsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const auto each = [&](double low, double high, int index, auto set) {
@@ -107,6 +111,7 @@ TEST(NormalGravity, RefusesWhatReq010Names) {
   EXPECT_TRUE(normal_gravity(unused).has_value()) << "layers beyond layer_count are not read";
 }
 
+// Verifies: REQ-021
 TEST(PaperGravity, IsEqs8And9) {
   // Eq (8) written out in degrees of the check: sin^2 45 = 1/2, sin^2 90 = 1.
   EXPECT_NEAR(paper_gravity(45, 0)->g_mps2, 9.780327 * (1.0 + 0.0026512 - 0.0000058), 1e-9);
@@ -124,6 +129,7 @@ TEST(PaperGravity, RefusesBadInput) {
   EXPECT_EQ(paper_gravity(45, 0, -1).error().index, 5);
 }
 
+// Negative: REQ-023
 TEST(GivenGravity, AcceptsItsRangeOnly) {
   EXPECT_EQ(given_gravity(9.5, 0.0)->g_mps2, 9.5);
   EXPECT_EQ(given_gravity(10.2, 0.1)->sigma_mps2, 0.1);

@@ -13,6 +13,7 @@ using plumb_test::direction_at;
 using plumb_test::Noise;
 using plumb_test::Rig;
 
+// Negative: REQ-094
 TEST(Attack, AnUnconfiguredMonitorAlerts) {
   auto monitor = std::make_unique<HealthMonitor>();
   EXPECT_TRUE(monitor->verdict().alert);
@@ -20,6 +21,7 @@ TEST(Attack, AnUnconfiguredMonitorAlerts) {
   EXPECT_EQ(monitor->verdict().validity, Validity::invalid);
 }
 
+// Negative: REQ-074
 TEST(Attack, SwayWithinAStationConvictsNobodyHealthy) {
   // Blocks up to 2 deg apart are one station; a mean over them would be shorter than gravity. Colluding faults.
   for (int n = 4; n <= std::min(6, kCapacity); ++n) {
@@ -39,6 +41,7 @@ TEST(Attack, SwayWithinAStationConvictsNobodyHealthy) {
   }
 }
 
+// Verifies: REQ-052
 TEST(Attack, UnequalCountsDoNotMakeAHealthyToolAlarm) {
   MonitorConfig config;
   config.window = 2;
@@ -55,6 +58,7 @@ TEST(Attack, UnequalCountsDoNotMakeAHealthyToolAlarm) {
   EXPECT_TRUE(rig.ever_blamed.empty());
 }
 
+// Negative: REQ-092
 TEST(Attack, LosingAnExcludedChannelDoesNotFail) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -68,6 +72,7 @@ TEST(Attack, LosingAnExcludedChannelDoesNotFail) {
   EXPECT_EQ(rig.monitor.verdict().absent, SensorSet::of(2));
 }
 
+// Verifies: REQ-141
 TEST(Attack, ADropoutPerBlockDoesNotBlindTheTests) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -78,6 +83,8 @@ TEST(Attack, ADropoutPerBlockDoesNotBlindTheTests) {
   EXPECT_EQ(rig.stay(direction_at(45, 200)).state, HealthState::suspect) << "parity still has all four";
 }
 
+// Verifies: REQ-141
+// Negative: REQ-120
 TEST(Attack, AMostlySilentChannelIsLostAndMeanwhileNothingIsValid) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -88,6 +95,7 @@ TEST(Attack, AMostlySilentChannelIsLostAndMeanwhileNothingIsValid) {
   EXPECT_EQ(rig.stay(direction_at(45, 200), 4).absent, SensorSet::of(0));
 }
 
+// Negative: REQ-091
 TEST(Attack, AChannelEventDoesNotSwallowTheAlarm) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
@@ -103,6 +111,7 @@ TEST(Attack, AChannelEventDoesNotSwallowTheAlarm) {
   EXPECT_LE(valid, 1);
 }
 
+// Negative: REQ-146
 TEST(Attack, OneWildTimeStampDoesNotBlockForEver) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -113,6 +122,7 @@ TEST(Attack, OneWildTimeStampDoesNotBlockForEver) {
   EXPECT_EQ(rig.monitor.verdict().validity, Validity::valid) << "the new time base was accepted as a gap";
 }
 
+// Negative: REQ-170
 TEST(Attack, SigmasTooFarApartAreRefused) {
   Rig rig(plumb_test::cone_array(4));
   std::array<SensorRow, kCapacity> rows{};
@@ -126,6 +136,7 @@ TEST(Attack, SigmasTooFarApartAreRefused) {
   EXPECT_EQ(refused.error().index, 0);
 }
 
+// Verifies: REQ-097
 TEST(Attack, GravityOffByWhatItsSigmaAllowsDoesNotLockTrustOut) {
   for (int n : {4, 6}) {
     Rig rig(n == 4 ? plumb_test::tetrahedron(1e-4 * kG0_mps2) : plumb_test::cone_array(n, 1e-4 * kG0_mps2));
@@ -136,6 +147,7 @@ TEST(Attack, GravityOffByWhatItsSigmaAllowsDoesNotLockTrustOut) {
   }
 }
 
+// Negative: REQ-064
 TEST(Attack, OneHotSampleTaintsItsBlock) {
   MonitorConfig config;
   config.temperature_max_degc = 100.0;

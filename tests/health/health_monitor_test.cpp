@@ -14,6 +14,7 @@ using namespace plumb;
 using plumb_test::direction_at;
 using plumb_test::Rig;
 
+// Verifies: REQ-093
 TEST(HealthMonitor, PowersOnUnprovenAndEarnsTrustOnlyByChangingAttitude) {
   Rig rig(plumb_test::tetrahedron());
   EXPECT_EQ(rig.stay(direction_at(40, 30), 20).state, HealthState::suspect)
@@ -28,6 +29,7 @@ TEST(HealthMonitor, PowersOnUnprovenAndEarnsTrustOnlyByChangingAttitude) {
   EXPECT_LT(angle_between_rad(v.gravity_mps2, direction_at(100, 340)), 1e-3);
 }
 
+// Verifies: REQ-094
 TEST(HealthMonitor, NothingIsSaidBeforeTheFirstBlock) {
   Rig rig(plumb_test::tetrahedron());
   const Verdict& v = rig.step(rig.sample(direction_at(30, 0), kG0_mps2));
@@ -35,6 +37,7 @@ TEST(HealthMonitor, NothingIsSaidBeforeTheFirstBlock) {
   EXPECT_TRUE(v.alert);
 }
 
+// Verifies: REQ-071, REQ-122
 TEST(HealthMonitor, AStuckSensorOfFourIsExcludedAfterFourAttitudesAndLeavesDegraded) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -57,6 +60,7 @@ TEST(HealthMonitor, AStuckSensorOfFourIsExcludedAfterFourAttitudesAndLeavesDegra
   EXPECT_EQ(rig.ever_blamed, SensorSet::of(2));
 }
 
+// Verifies: REQ-072
 TEST(HealthMonitor, SevenSensorsSetTheFaultAsideAtOnceAndStayUsable) {
   Rig rig(plumb_test::cone_array(7));
   rig.prove();
@@ -78,6 +82,7 @@ TEST(HealthMonitor, SevenSensorsSetTheFaultAsideAtOnceAndStayUsable) {
   EXPECT_EQ(rig.ever_blamed, SensorSet::of(5));
 }
 
+// Verifies: REQ-073
 TEST(HealthMonitor, AnAssertedSingleFaultIsLatchedAtOneStation) {
   MonitorConfig config;
   config.asserted_faults = 1;
@@ -89,6 +94,7 @@ TEST(HealthMonitor, AnAssertedSingleFaultIsLatchedAtOneStation) {
   EXPECT_EQ(v.grade, Grade::asserted);
 }
 
+// Verifies: REQ-059
 TEST(HealthMonitor, MotionIsHeldAndBlamesNobody) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -102,6 +108,7 @@ TEST(HealthMonitor, MotionIsHeldAndBlamesNobody) {
   EXPECT_EQ(rig.stay(direction_at(100, 340)).validity, Validity::valid);
 }
 
+// Verifies: REQ-060
 TEST(HealthMonitor, WrongGravityIsReferenceAndNeverABlameNorAFailure) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
@@ -112,6 +119,7 @@ TEST(HealthMonitor, WrongGravityIsReferenceAndNeverABlameNorAFailure) {
   EXPECT_TRUE(rig.ever_blamed.empty());
 }
 
+// Verifies: REQ-092
 TEST(HealthMonitor, ALostChannelIsAbsentAndTwoOfFourFail) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -127,6 +135,7 @@ TEST(HealthMonitor, ALostChannelIsAbsentAndTwoOfFourFail) {
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "latched";
 }
 
+// Verifies: REQ-095
 TEST(HealthMonitor, OnlyTheKeyLeavesFailedAndTrustIsEarnedAgain) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -146,6 +155,8 @@ TEST(HealthMonitor, OnlyTheKeyLeavesFailedAndTrustIsEarnedAgain) {
   EXPECT_EQ(rig.prove().state, HealthState::nominal);
 }
 
+// Verifies: REQ-098
+// Negative: REQ-060
 TEST(HealthMonitor, ThreeSensorsWithAPersistentNormViolationFailAfterPatience) {
   AxisList axes{};
   Rig rig(plumb_test::make_array(axes, orthogonal_triad(axes), 2e-4 * kG0_mps2));
@@ -158,6 +169,7 @@ TEST(HealthMonitor, ThreeSensorsWithAPersistentNormViolationFailAfterPatience) {
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed);
 }
 
+// Verifies: REQ-099
 TEST(HealthMonitor, ARecoveredSensorReturnsOnlyByProbation) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
@@ -176,6 +188,7 @@ TEST(HealthMonitor, ARecoveredSensorReturnsOnlyByProbation) {
   EXPECT_EQ(rig.records.back().event, HealthEvent::probation_passed);
 }
 
+// Verifies: REQ-146
 TEST(HealthMonitor, RefusedTimesChangeNothingButHoldTheOutput) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -193,6 +206,8 @@ TEST(HealthMonitor, RefusedTimesChangeNothingButHoldTheOutput) {
   EXPECT_EQ(rig.stay(direction_at(100, 340)).validity, Validity::valid);
 }
 
+// Verifies: REQ-141
+// Negative: REQ-120
 TEST(HealthMonitor, WithoutAQuietBlockForTAgeNothingIsValid) {
   MonitorConfig config;
   config.max_age_s = 2.0;
@@ -208,6 +223,7 @@ TEST(HealthMonitor, WithoutAQuietBlockForTAgeNothingIsValid) {
   EXPECT_EQ(rig.monitor.verdict().validity, Validity::held);
 }
 
+// Verifies: REQ-064
 TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
   MonitorConfig config;
   config.temperature_min_degc = 0.0;
@@ -224,6 +240,7 @@ TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
   EXPECT_TRUE(rig.ever_blamed.empty());
 }
 
+// Verifies: REQ-170
 TEST(HealthMonitor, RefusesWhatItCannotWatch) {
   Rig rig(plumb_test::tetrahedron());
   auto monitor = std::make_unique<HealthMonitor>();

@@ -8,6 +8,8 @@
 
 #include "recalibration_support.hpp"
 
+// Serves: REQ-130
+
 namespace {
 
 using namespace plumb;

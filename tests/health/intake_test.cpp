@@ -7,6 +7,8 @@
 
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-146
+
 namespace {
 
 using namespace plumb;

@@ -62,6 +62,7 @@ bool finite(const Verdict& v) {
 
 /// S4, S11, S3, S17: total over raw inputs; the sets partition; nothing finite is lost; suspect, moving
 /// and failed are never valid.
+// Verifies: REQ-101, REQ-120, REQ-140
 RC_GTEST_PROP(MonitorLaw, IsTotalAndPartitionsTheSensorsOverAnyInput, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
@@ -87,6 +88,7 @@ RC_GTEST_PROP(MonitorLaw, IsTotalAndPartitionsTheSensorsOverAnyInput, ()) {
 }
 
 /// Replay is exact, and a snapshot (an assignment) is transparent.
+// Verifies: REQ-162
 RC_GTEST_PROP(MonitorLaw, ReplayIsBitIdenticalAndASnapshotIsTransparent, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
@@ -107,6 +109,7 @@ RC_GTEST_PROP(MonitorLaw, ReplayIsBitIdenticalAndASnapshotIsTransparent, ()) {
 }
 
 /// S1 for one faulty sensor of any kind, S2 afterwards: what the excluded one says no longer matters.
+// Verifies: REQ-074, REQ-121, REQ-126
 RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
@@ -161,6 +164,7 @@ RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
 }
 
 /// S7: motion of any strength and direction never excludes and never fails a healthy tool.
+// Negative: REQ-059
 RC_GTEST_PROP(MonitorLaw, VibrationNeverExcludesNorFails, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());

@@ -8,6 +8,8 @@
 
 #include "health/paper_rig.hpp"
 
+// Serves: REQ-190
+
 namespace {
 
 using namespace plumb;

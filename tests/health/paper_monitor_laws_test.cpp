@@ -9,6 +9,8 @@
 
 #include "health/paper_rig.hpp"
 
+// Serves: REQ-190
+
 namespace {
 
 using namespace plumb;

@@ -8,6 +8,8 @@
 
 #include "health/paper_rig.hpp"
 
+// Serves: REQ-190
+
 namespace {
 
 using namespace plumb;
@@ -41,6 +43,7 @@ TEST(PaperMonitor, Step2TheGateReadsTheLengthOfGravityByAllSensors) {
   EXPECT_EQ(rig.monitor->finding().triples, 0);
 }
 
+// Negative: REQ-190
 TEST(PaperMonitor, ParityIsShownAndDecidesNothing) {
   PaperRig rig(4);
   rig.prove();

@@ -10,6 +10,8 @@
 
 #include "health/paper_support.hpp"
 
+// Serves: REQ-190
+
 namespace {
 
 using namespace plumb;
@@ -79,6 +81,7 @@ TEST(PaperRule, OneFaultAmongFourLeavesTheTripleOfTheOthers) {
   }
 }
 
+// Verifies: REQ-190
 TEST(PaperRule, TheUnionOfPassingTriplesIsCorrectAndTheRestIsOut) {
   Bench bench(tool_of(6));
   Noise noise(3);

@@ -9,6 +9,8 @@
 
 #include "recalibration_support.hpp"
 
+// Serves: REQ-130
+
 namespace {
 
 using namespace plumb;
@@ -35,7 +37,7 @@ TEST(Recalibrating, ReplayIsExactThroughFitAndAdoption) {
     }
   }
   EXPECT_EQ(tool.count(HealthEvent::fit_accepted), 1);
-  EXPECT_EQ(std::memcmp(&tool.rig.monitor.model(), &copy->model(), sizeof(SensorModel)), 0);
+  EXPECT_TRUE(plumb_test::same_model(tool.rig.monitor.model(), copy->model()));
 }
 
 /// S1, S13, S17 with drift, faults and recalibration all at once.

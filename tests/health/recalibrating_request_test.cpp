@@ -8,6 +8,8 @@
 
 #include "recalibration_support.hpp"
 
+// Serves: REQ-130
+
 namespace {
 
 using namespace plumb;
@@ -15,6 +17,7 @@ using plumb_test::after_exclusion;
 using plumb_test::direction_at;
 using plumb_test::Tool;
 
+// Verifies: REQ-134
 TEST(Recalibrating, WhoMayAskAndWhen) {
   EXPECT_EQ(HealthMonitor().request_recalibration().error().code, Errc::wrong_state) << "not configured";
   Tool tool(4);

@@ -8,6 +8,8 @@
 
 #include "recalibration_support.hpp"
 
+// Serves: REQ-130
+
 namespace {
 
 using namespace plumb;
@@ -66,6 +68,7 @@ TEST(Recalibrating, ByDefaultNobodyRecalibratesUnasked) {
   EXPECT_TRUE(tool.calibration_untouched());
 }
 
+// Negative: REQ-134
 TEST(Recalibrating, DriftAloneStartsNothing) {
   Tool tool(6, after_exclusion());
   tool.rig.prove();
@@ -74,6 +77,7 @@ TEST(Recalibrating, DriftAloneStartsNothing) {
   EXPECT_EQ(tool.count(HealthEvent::recalibrate), 0);
 }
 
+// Verifies: REQ-133
 TEST(Recalibrating, AdoptionMustBeEarnedAnew) {
   Tool tool(6);
   tool.drift(2e-3);
@@ -97,6 +101,7 @@ TEST(Recalibrating, AdoptionMustBeEarnedAnew) {
 }
 
 /// S8: while the fit is made, what is published is that of a monitor that makes none, bit for bit.
+// Negative: REQ-132
 TEST(Recalibrating, NoShadowValueReachesAnOutput) {
   Tool tool(6, after_exclusion(), 5);
   tool.drift(2e-3);
@@ -126,6 +131,7 @@ TEST(Recalibrating, NoShadowValueReachesAnOutput) {
 }
 
 /// S16 and S8: an alarm aborts; the calibration stays bit for bit, and no later step adopts what was aborted.
+// Verifies: REQ-132
 TEST(Recalibrating, AnAlarmAbortsAndChangesNothing) {
   Tool tool(4);
   tool.drift(2e-3);
@@ -234,6 +240,7 @@ TEST(Recalibrating, MotionNeitherAbortsNorCollects) {
   EXPECT_EQ(tool.rig.monitor.recalibration().store().size(), before);
 }
 
+// Negative: REQ-133
 TEST(Recalibrating, ARefusedFitLeavesEverythingAndSaysWhy) {
   MonitorConfig config;
   config.drift_bias_mps2 = 3e-4;  // the drift of this tool is far more than its datasheet admits

@@ -1,9 +1,7 @@
 /// For tests of recalibration: one fed by hand, and one inside a monitor.
-/// what the calibration in force says.
 #pragma once
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <memory>
 
@@ -124,6 +122,16 @@ struct Shadow {
   std::unique_ptr<plumb::Recalibration> fit = std::make_unique<plumb::Recalibration>();
 };
 
+/// Every figure bit for bit; not by memory, which holds padding too.
+inline bool same_model(const plumb::SensorModel& a, const plumb::SensorModel& b) {
+  bool same = a.size == b.size && a.reads == b.reads && a.misalignment == b.misalignment;
+  for (std::size_t i = 0; i < plumb::kCapacity; ++i) {
+    same = same && a.sensor[i].scale == b.sensor[i].scale && a.sensor[i].bias == b.sensor[i].bias &&
+           a.sensor[i].reference_degc == b.sensor[i].reference_degc;
+  }
+  return same;
+}
+
 /// A tool whose biases have moved since it was calibrated, by what its calibration leaves room for.
 struct Tool {
   explicit Tool(const plumb::SensorArray& array, plumb::MonitorConfig config = {}, std::uint64_t seed = 1)
@@ -162,9 +170,16 @@ struct Tool {
     return static_cast<int>(std::count_if(rig.records.begin(), rig.records.end(),
                                           [event](const plumb::TransitionRecord& r) { return r.event == event; }));
   }
+  /// Every figure bit for bit.
   bool calibration_untouched() const {
-    return std::memcmp(&rig.monitor.model(), &rig.setup.model, sizeof(plumb::SensorModel)) == 0 &&
-           std::memcmp(&rig.monitor.array(), &rig.setup.array, sizeof(plumb::SensorArray)) == 0;
+    bool same = same_model(rig.monitor.model(), rig.setup.model);
+    const plumb::SensorArray& array = rig.monitor.array();
+    same = same && array.size() == rig.setup.array.size();
+    for (int i = 0; i < array.size(); ++i) {
+      same = same && array.axis(i) == rig.setup.array.axis(i) && array.sigma_mps2(i) == rig.setup.array.sigma_mps2(i);
+    }
+    return same && array.uncertainty().covariance == rig.setup.array.uncertainty().covariance &&
+           array.uncertainty().misfit_mps2 == rig.setup.array.uncertainty().misfit_mps2;
   }
 
   Rig rig;

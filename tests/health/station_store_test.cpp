@@ -7,6 +7,8 @@
 
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-131
+
 namespace {
 
 using namespace plumb;
@@ -48,6 +50,7 @@ TEST(StationStore, AnAlarmTakesBackTheLastStationAndTheOneAtHand) {
   EXPECT_EQ(store.station(2).raw[0], 9.0) << "stations 2 and 3 are gone";
 }
 
+// Verifies: REQ-131
 TEST(StationStore, EveryFourthIsHeldOut) {
   StationStore store;
   for (int k = 0; k < 14; ++k) visit(store, direction_at(10.0 * k, 0), k);

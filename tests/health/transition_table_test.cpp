@@ -12,6 +12,7 @@ namespace {
 
 using namespace plumb;
 
+// Negative: REQ-090
 TEST(TransitionTable, EveryEventOfEveryModeIsWritten) {
   int cells = 0;
   for (int m = 0; m < kModeCount; ++m) {
@@ -26,6 +27,7 @@ TEST(TransitionTable, EveryEventOfEveryModeIsWritten) {
   EXPECT_EQ(cells, 7 * 15);
 }
 
+// Negative: REQ-095
 TEST(TransitionTable, FailedIsLeftByResetAlone) {
   TargetFacts best;
   best.size = SizeClass::all_configured;
@@ -37,6 +39,7 @@ TEST(TransitionTable, FailedIsLeftByResetAlone) {
   }
 }
 
+// Verifies: REQ-095
 TEST(TransitionTable, ResetRearmsByWhatIsThere) {
   const Target target = cell_of(Mode::failed, HealthEvent::reset).target;
   TargetFacts facts;
@@ -49,6 +52,7 @@ TEST(TransitionTable, ResetRearmsByWhatIsThere) {
   EXPECT_EQ(resolve(Mode::failed, target, facts), Mode::initial);
 }
 
+// Verifies: REQ-092
 TEST(TransitionTable, BySizeFollowsTheDesign) {
   EXPECT_EQ(mode_by_size(SizeClass::rank_lost), Mode::failed);
   EXPECT_EQ(mode_by_size(SizeClass::critical), Mode::degraded);
@@ -56,6 +60,7 @@ TEST(TransitionTable, BySizeFollowsTheDesign) {
   EXPECT_EQ(mode_by_size(SizeClass::reduced), Mode::isolated);
 }
 
+// Negative: REQ-098
 TEST(TransitionTable, PatienceFailsOnlyBeyondTheAlertLimit) {
   TargetFacts facts;
   facts.size = SizeClass::all_configured;
@@ -65,6 +70,7 @@ TEST(TransitionTable, PatienceFailsOnlyBeyondTheAlertLimit) {
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::suspect);
 }
 
+// Verifies: REQ-092
 TEST(TransitionTable, UnprovenSuspectExcludesButStays) {
   TargetFacts facts;
   facts.size = SizeClass::reduced;
@@ -99,6 +105,7 @@ std::map<std::string, std::string> specification() {
   return cells;
 }
 
+// Verifies: REQ-090
 TEST(TransitionTable, AgreesWithTheHandWrittenSpecificationCellByCell) {
   const auto spec = specification();
   ASSERT_EQ(spec.size(), 7U * 14U) << "model/state_table.txt must hold every cell but those of 'none'";

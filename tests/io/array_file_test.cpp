@@ -131,6 +131,7 @@ TEST(ArrayFileRefuses, MissingKeys) {
   expect_refused("[input]\nreads = \"gravity\"\n", 0, "gravity", {"is missing", "latitude"});
 }
 
+// Negative: REQ-171
 TEST(ArrayFileRefuses, WrongTypesAndUnits) {
   expect_refused(changed("window = 16", "window = \"16\""), 7, "monitor.window", {"a string", "whole number"});
   expect_refused(changed("delta_f = \"0.05 g0\"", "delta_f = 0.05"), 8, "monitor.delta_f",
@@ -243,6 +244,7 @@ TEST(ArrayFile, RecalibrationIsAskedForInTheMonitorTable) {
   expect_refused(changed("window = 16", "drift_scale = \"20 %\""), 7, "monitor.drift_scale", {"at most 0.1"});
 }
 
+// Negative: REQ-170
 TEST(ArrayFileRefuses, WhatTheMonitorRefuses) {
   expect_refused(changed("window = 16", "mode = \"papr\""), 7, "monitor.mode", {"papr", "paper"});
   expect_refused(changed("\"1 deg\"", "\"200 deg\""), 9, "monitor.alert_limit", {"3.49066 rad", "at most 3.14159 rad"});

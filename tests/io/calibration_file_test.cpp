@@ -169,6 +169,7 @@ TEST(CalibrationFileRefuses, UnreadableAndTruncated) {
   expect_refusal(refusal_of(std::string(1000, '[') + std::string(1000, ']')), 0, "", {"nested too deeply"});
 }
 
+// Negative: REQ-037
 TEST(CalibrationFileRefuses, Edited) {
   const std::string json = good_json();
   const std::string edited = changed("\"g_mps2\": 9.81", "\"g_mps2\": 9.82", json);
@@ -178,6 +179,7 @@ TEST(CalibrationFileRefuses, Edited) {
                  {"edited"});
 }
 
+// Negative: REQ-037
 TEST(CalibrationFileRefuses, OtherSchemasAndVersions) {
   const std::string json = good_json();
   expect_refusal(refusal_of(changed("plumb-calibration", "plumb-report", json)), 2, "schema",
@@ -187,6 +189,7 @@ TEST(CalibrationFileRefuses, OtherSchemasAndVersions) {
                  {"is 2", "reads version 1"});
 }
 
+// Negative: REQ-037
 TEST(CalibrationFileRefuses, AnotherArrayByWhatDiffers) {
   const std::string json = good_json();
   const auto refusal = [&json](const std::string& from, const std::string& to) {
@@ -226,6 +229,7 @@ bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
+// Verifies: REQ-037
 RC_GTEST_PROP(CalibrationFileLaw, EveryDoubleComesBackBitForBit, ()) {
   static const ArrayFile array = array_of();
   const auto in = calibration_of(array, &any_double);

@@ -70,6 +70,7 @@ TEST(LogReader, OrderOfColumnsQuotesCrlfBlankLinesAndByteOrderMarkDoNotMatter) {
   EXPECT_EQ(log.samples[1].raw[2], 7.0);
 }
 
+// Negative: REQ-174
 TEST(LogReader, MissingAndNotFiniteCellsAreFactsNotBadRows) {
   const LogContent log = content_of(kHeader + "0,,nan,NaN,4\n1,1,inf,3,-Inf\n2,1, ,3,1e999\n");
   ASSERT_EQ(log.samples.size(), 3U);
@@ -142,6 +143,7 @@ TEST(LogReaderRefuses, MissingColumnsByName) {
   expect_bad("0,1,2,3,4\n1,1,2,3,4\n", 1, "", {"first row holds numbers", "t_s,a1_v"});
 }
 
+// Verifies: REQ-174
 TEST(LogReaderRefuses, BadRowsByLineAndColumn) {
   expect_bad(kHeader + "0,1,2,3,4\n1,1,2,abc,4\n", 3, "a3_v (column 4)",
              {"\"abc\" is not a number", "--on-bad-row skip"});
@@ -166,6 +168,7 @@ TEST(LogReaderRefuses, BadTagsCountsAndTemperatures) {
   expect_bad(header + "0,1,1,,1,2,3,4\n", 2, "T (column 4)", {"no temperature yet"}, array);
 }
 
+// Verifies: REQ-174
 TEST(LogReader, SkipsAndCountsBadRows) {
   std::string csv = kHeader + "0,1,2,3,4\n";
   for (int k = 0; k < 30; ++k) csv += "x,1,2,3,4\n";

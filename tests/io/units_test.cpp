@@ -36,6 +36,7 @@ const RawUnit kCount = *parse_raw_unit("count");
 const RawUnit kMps2 = *parse_raw_unit("m/s^2");
 const RawUnit kG = *parse_raw_unit("g0");
 
+// Verifies: REQ-171
 TEST(Units, ConvertsToSi) {
   EXPECT_DOUBLE_EQ(si(Quantity::acceleration, "12 mg"), 12e-3 * 9.80665);
   EXPECT_DOUBLE_EQ(si(Quantity::acceleration, "12mg0"), 12e-3 * 9.80665);
@@ -54,6 +55,7 @@ TEST(Units, ConvertsToSi) {
   EXPECT_EQ(si(Quantity::ratio, "0.5"), 0.5);
 }
 
+// Negative: REQ-171
 TEST(Units, RefusesWhatIsAmbiguousMissingOrUnknown) {
   const std::string bare = refusal(parse_quantity(Quantity::acceleration, "1 g"));
   expect_part(bare, "bare \"g\"");
@@ -118,6 +120,7 @@ TEST(Units, RawUnitRefusesBareG) {
   expect_part(near.error().text(), "did you mean \"count\"?");
 }
 
+// Verifies: REQ-171
 RC_GTEST_PROP(UnitsLaw, TextInAnyUnitReadsBackWithinTwoUlp, ()) {
   const double mantissa = static_cast<double>(*rc::gen::inRange<std::int64_t>(-1000000000, 1000000001));
   const double value = std::ldexp(mantissa, *rc::gen::inRange(-60, 30));

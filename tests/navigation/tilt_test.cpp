@@ -51,6 +51,7 @@ TEST(Tilt, CardinalAttitudes) {
   EXPECT_DOUBLE_EQ(tilt_of({kG, 0, 0}, kWhite).toolface_rad, 1.5 * kPi);
 }
 
+// Negative: REQ-008
 TEST(Tilt, ToolfaceIsValidBeyondThreeDegreesOnly) {
   EXPECT_FALSE(tilt_of(gravity_at(rad_from_deg(2.999), 1.0), kWhite).toolface_valid);
   EXPECT_TRUE(tilt_of(gravity_at(rad_from_deg(3.001), 1.0), kWhite).toolface_valid);
@@ -97,6 +98,7 @@ TEST(Tilt, ACovarianceThatIsNoneGivesTheSigmaOfNothingKnown) {
   EXPECT_TRUE(t.inclination_valid);
 }
 
+// Verifies: REQ-008
 RC_GTEST_PROP(TiltLaw, AnglesAreReproducedAtEveryAttitudeAndLength, ()) {
   const double inclination = any_inclination();
   const double toolface = any_toolface();
@@ -109,6 +111,7 @@ RC_GTEST_PROP(TiltLaw, AnglesAreReproducedAtEveryAttitudeAndLength, ()) {
   }
 }
 
+// Verifies: REQ-008
 RC_GTEST_PROP(TiltLaw, AnyBitPatternGivesAnglesInRange, ()) {
   const auto any = [] {
     const auto special = rc::gen::elementOf(std::vector<double>{0.0, -0.0, 5e-324, -5e-324, 1e308, -1e308,

@@ -44,6 +44,7 @@ std::vector<Fault> many_faults() {
           make(FaultKind::random_level, 3, 20.0, -3.0, 3.0), make(FaultKind::stuck_last, 3, 22.0, 0.0)};
 }
 
+// Verifies: REQ-180
 TEST(Simulator, SameScenarioSameBits) {
   const Scenario scenario = drilling_run(paper_tool(5), 5, many_faults());
   Simulator one = simulator(scenario);
@@ -63,6 +64,7 @@ TEST(Simulator, SameScenarioSameBits) {
   EXPECT_TRUE(same(a, two.at(0)));
 }
 
+// Verifies: REQ-180
 TEST(Simulator, EverySampleIsAFunctionOfItsRow) {
   const Simulator run = simulator(drilling_run(paper_tool(5), 5, many_faults()));
   std::vector<Sample> forward;
@@ -89,6 +91,7 @@ TEST(Simulator, FaultsInASimulationAreThoseInjectedIntoItsLog) {
   }
 }
 
+// Negative: REQ-180
 TEST(Simulator, SeedsTellRunsApartAndFaultsDoNotDisturbTheRest) {
   const Tool tool = paper_tool(1);
   Simulator one = simulator(drilling_run(tool, 1));

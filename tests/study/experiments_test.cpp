@@ -16,6 +16,7 @@ using plumb::SensorSet;
 constexpr double kLimit_g = plumb::kPaperDeltaF_mps2 / plumb::kG0_mps2;
 const SensorSet kTriple[4] = {SensorSet(7U), SensorSet(11U), SensorSet(13U), SensorSet(14U)};
 
+// Negative: REQ-191
 TEST(Table2AsPrinted, FollowsFromItsOwnRule) {
   int singles = 0, pairs = 0;
   for (std::size_t e = 0; e < kTable2.size(); ++e) {

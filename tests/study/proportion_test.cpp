@@ -10,6 +10,7 @@ namespace {
 using plumb::study::proportion;
 using plumb::study::Proportion;
 
+// Verifies: REQ-181
 TEST(Proportion, KnownIntervals) {
   // No success of n: the upper bound is 1 - (alpha/2)^(1/n).
   const Proportion none = proportion(0, 50);
@@ -24,6 +25,7 @@ TEST(Proportion, KnownIntervals) {
   EXPECT_GT(wider.high, half.high);
 }
 
+// Negative: REQ-181
 TEST(Proportion, NonsenseIsTamed) {
   EXPECT_EQ(proportion(7, 5).count, 5U);
   const Proportion empty = proportion(0, 0);

@@ -28,6 +28,7 @@ struct Extremes {
   }
 };
 
+// Verifies: REQ-191
 TEST(Table2Study, SameVerdictsAsPrintedForEverySeed) {
   Extremes extremes;
   int runs = 0, equal = 0;
