@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "fit_internal.hpp"
+#include "plumb/numeric/cholesky.hpp"
 #include "plumb/numeric/symmetric_eigen.hpp"
+#include "plumb/numeric/symmetric_eigenvalues.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -22,19 +24,28 @@ constexpr double kFeigned = 10.0;
 /// temperatures add beyond 4n is far smaller, and far from the nine directions that count.
 constexpr int kFactorColumns = 4 * kPaperCapacity;
 
+/// The nine directions are found by subspace iteration where the tenth is this much weaker (in squares, over the
+/// ninth): two steps from the first nine pivots then leave 1e-10. By all eigenvectors elsewhere.
+constexpr double kFarBelow = 1e-4;
+constexpr double kTooUneven = 1e-8;  ///< ninth over first pivot, in squares: the nine themselves are near rounding
+constexpr int kSubspaceSteps = 2;
+
 /// All that the iteration needs; the large part of the stack that `paper_calibrate` uses.
 struct Workspace {
-  int size = 0;                                                                   ///< parameters
-  std::array<double, std::size_t{kPaperParameters} * kPaperParameters> matrix{};  ///< row-major, stride `size`
-  std::array<double, std::size_t{kPaperParameters} * kFactorColumns> factor{};    ///< stride kFactorColumns
-  std::array<double, std::size_t{kFactorColumns} * kFactorColumns> gram{};        ///< stride `columns`
-  std::array<double, std::size_t{kFactorColumns} * kFactorColumns> vectors{};     ///< the same
-  std::array<double, kFactorColumns> values{};                                    ///< ascending
+  int size = 0;    ///< parameters
+  int stride = 0;  ///< of the matrix, row-major
+  std::array<double, std::size_t{kPaperParameters} * kPaperParameters> matrix;
+  std::array<double, std::size_t{kPaperParameters} * kFactorColumns> factor;  ///< stride kFactorColumns
+  std::array<double, std::size_t{kFactorColumns} * kFactorColumns> gram;      ///< stride `columns`
+  std::array<double, std::size_t{kFactorColumns} * kFactorColumns> vectors;   ///< the same
+  std::array<double, kFactorColumns> values{};                                ///< ascending
   int columns = 0;
+  std::array<double, kFactorColumns> pivot{};  ///< squares of what was left at each
+  double rest = 0.0;                           ///< trace of what the first nine columns leave
   PaperParameters gradient{};
   PaperParameters step{};
 
-  double& entry(int i, int j) noexcept { return matrix[at(i * size + j)]; }
+  double& entry(int i, int j) noexcept { return matrix[at(i * stride + j)]; }
   double& root(int i, int j) noexcept { return factor[at(i * kFactorColumns + j)]; }
 };
 
@@ -44,14 +55,13 @@ struct Problem {
   int count;
 };
 
-enum class Curvature : std::uint8_t { gauss_newton, full };
-
-/// Half the gradient of the sum of squares, and half its Hessian (lower triangle), with or without the second
-/// derivatives of the error.
-void assemble(const Problem& problem, const PaperParameters& theta, Curvature curvature, Workspace& work) noexcept {
+/// Half the gradient of the sum of squares, and half its Hessian (lower triangle), second derivatives of the error
+/// included.
+void assemble_full(const Problem& problem, const PaperParameters& theta, Workspace& work) noexcept {
   work.size = problem.error.parameters();
+  work.stride = work.size;
   work.gradient.fill(0.0);
-  work.matrix.fill(0.0);
+  for (int k = 0; k < work.size * work.size; ++k) work.matrix[at(k)] = 0.0;
   PaperParameters slope;
   for (int s = 0; s < problem.count; ++s) {
     if (!problem.error.usable(problem.stations[s])) continue;
@@ -60,15 +70,22 @@ void assemble(const Problem& problem, const PaperParameters& theta, Curvature cu
       work.gradient[at(a)] += e * slope[at(a)];
       for (int b = 0; b <= a; ++b) work.entry(a, b) += slope[at(a)] * slope[at(b)];
     }
-    if (curvature == Curvature::full) problem.error.add_curvature(theta, problem.stations[s], e, work.matrix.data());
+    problem.error.add_curvature(theta, problem.stations[s], e, work.matrix.data());
   }
 }
 
-void scale(const PaperParameters& by, Workspace& work) noexcept {
+/// The same without second derivatives, in prior units. Returns the cost.
+double assemble(const Problem& problem, const PaperParameters& theta, Workspace& work) noexcept {
+  work.size = problem.error.parameters();
+  work.stride = (work.size + 3) / 4 * 4;
+  const double cost = problem.error.gauss_newton(theta, problem.stations, problem.count, work.matrix.data(),
+                                                 work.stride, work.gradient);
+  const PaperParameters& by = problem.error.prior();
   for (int a = 0; a < work.size; ++a) {
     work.gradient[at(a)] *= by[at(a)];
     for (int b = 0; b <= a; ++b) work.entry(a, b) *= by[at(a)] * by[at(b)];
   }
+  return cost;
 }
 
 /// matrix = factor factor' by Cholesky with diagonal pivots, as far as there is anything left to factor.
@@ -77,8 +94,12 @@ void factorise(Workspace& work) noexcept {
   double first = 0.0;
   for (int k = 0; k < work.size; ++k) left[at(k)] = work.entry(k, k);
   const int most = work.size < kFactorColumns ? work.size : kFactorColumns;
+  work.rest = 0.0;
   for (work.columns = 0; work.columns < most; ++work.columns) {
     const int c = work.columns;
+    if (c == kPaperRank) {
+      for (int k = 0; k < work.size; ++k) work.rest += left[at(k)];
+    }
     int pivot = 0;
     for (int k = 1; k < work.size; ++k) {
       if (left[at(k)] > left[at(pivot)]) pivot = k;
@@ -86,6 +107,7 @@ void factorise(Workspace& work) noexcept {
     if (c == 0) first = left[at(pivot)];
     // Written so that a NaN ends it too.
     if (!(left[at(pivot)] > std::numeric_limits<double>::epsilon() * first)) return;
+    work.pivot[at(c)] = left[at(pivot)];
     const double length = std::sqrt(left[at(pivot)]);
     for (int k = 0; k < work.size; ++k) {
       double sum = k > pivot ? work.entry(k, pivot) : work.entry(pivot, k);
@@ -97,33 +119,92 @@ void factorise(Workspace& work) noexcept {
   }
 }
 
-/// Eigenvalues of J'J that are not zero, those of factor' factor, and the eigenvectors of the latter. False where there
-/// are none or they are not finite.
-bool decompose(const Problem& problem, const PaperParameters& theta, Workspace& work) noexcept {
-  assemble(problem, theta, Curvature::gauss_newton, work);
-  scale(problem.error.prior(), work);
-  factorise(work);
+/// factor' factor, whose eigenvalues are those of J'J that are not zero.
+void set_gram(Workspace& work) noexcept {
   const int r = work.columns;
   for (int a = 0; a < r; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      double sum = 0.0;
-      for (int k = 0; k < work.size; ++k) sum += work.root(k, a) * work.root(k, b);
-      work.gram[at(a * r + b)] = sum;
-      work.gram[at(b * r + a)] = sum;
+    for (int b = 0; b <= a; ++b) work.gram[at(a * r + b)] = 0.0;
+  }
+  for (int k = 0; k < work.size; ++k) {
+    for (int a = 0; a < r; ++a) {
+      const double own = work.root(k, a);
+      for (int b = 0; b <= a; ++b) work.gram[at(a * r + b)] += own * work.root(k, b);
     }
   }
-  return r > 0 && symmetric_eigen(work.gram.data(), r, r, work.values.data(), work.vectors.data());
+  for (int a = 0; a < r; ++a) {
+    for (int b = 0; b < a; ++b) work.gram[at(b * r + a)] = work.gram[at(a * r + b)];
+  }
 }
 
-/// Eigenvectors of J'J are factor y / sqrt(value), so that the step is -factor y (y' factor' gradient) / value^2.
-bool minimum_norm_step(const Problem& problem, const PaperParameters& theta, Workspace& work) noexcept {
-  if (!decompose(problem, theta, work)) return false;
+using Column = std::array<double, kFactorColumns>;
+using Nine = std::array<Column, kPaperRank>;
+
+double inner(const Column& a, const Column& b, int r) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < r; ++k) sum += a[at(k)] * b[at(k)];
+  return sum;
+}
+
+/// gram times y.
+Column times_gram(const Workspace& work, const Column& y) noexcept {
   const int r = work.columns;
-  std::array<double, kFactorColumns> slope{};
-  for (int c = 0; c < r; ++c) {
-    for (int k = 0; k < work.size; ++k) slope[at(c)] += work.root(k, c) * work.gradient[at(k)];
+  Column out{};
+  for (int k = 0; k < r; ++k) {
+    for (int a = 0; a < r; ++a) out[at(a)] += work.gram[at(k * r + a)] * y[at(k)];
   }
-  std::array<double, kFactorColumns> along{};
+  return out;
+}
+
+/// The nine strongest directions from the nine pivots, orthonormal; false where that would be slow.
+bool strongest(const Workspace& work, Nine& y) noexcept {
+  const int r = work.columns;
+  if (r < kPaperRank || !(work.rest <= kFarBelow * work.pivot[kPaperRank - 1])) return false;
+  if (!(work.pivot[kPaperRank - 1] > kTooUneven * work.pivot[0])) return false;
+  for (int c = 0; c < kPaperRank; ++c) {
+    y[at(c)].fill(0.0);
+    y[at(c)][at(c)] = 1.0;
+  }
+  for (int step = 0; step < kSubspaceSteps; ++step) {
+    for (int c = 0; c < kPaperRank; ++c) {
+      y[at(c)] = times_gram(work, y[at(c)]);
+      for (int b = 0; b < c; ++b) {
+        const double shared = inner(y[at(b)], y[at(c)], r);
+        for (int k = 0; k < r; ++k) y[at(c)][at(k)] -= shared * y[at(b)][at(k)];
+      }
+      const double length = std::sqrt(inner(y[at(c)], y[at(c)], r));
+      if (!(length > 0.0)) return false;
+      for (int k = 0; k < r; ++k) y[at(c)][at(k)] /= length;
+    }
+  }
+  return true;
+}
+
+/// Y (Y' gram^2 Y)^-1 Y' slope, Y the nine strongest directions.
+bool along_strongest(const Workspace& work, const Column& slope, Column& along) noexcept {
+  Nine y, image;
+  if (!strongest(work, y)) return false;
+  const int r = work.columns;
+  std::array<double, std::size_t{kPaperRank} * kPaperRank> matrix;
+  std::array<double, kPaperRank> share;
+  for (int a = 0; a < kPaperRank; ++a) {
+    image[at(a)] = times_gram(work, y[at(a)]);
+    share[at(a)] = inner(y[at(a)], slope, r);
+    for (int b = 0; b <= a; ++b) matrix[at(a * kPaperRank + b)] = inner(image[at(a)], image[at(b)], r);
+  }
+  if (!cholesky_factor(matrix.data(), kPaperRank, kPaperRank)) return false;
+  cholesky_solve(matrix.data(), kPaperRank, kPaperRank, share.data());
+  along.fill(0.0);
+  for (int a = 0; a < kPaperRank; ++a) {
+    for (int c = 0; c < r; ++c) along[at(c)] += y[at(a)][at(c)] * share[at(a)];
+  }
+  return true;
+}
+
+/// The same by all eigenvectors; destroys the Gram matrix.
+bool along_eigenvectors(Workspace& work, const Column& slope, Column& along) noexcept {
+  const int r = work.columns;
+  if (!symmetric_eigen(work.gram.data(), r, r, work.values.data(), work.vectors.data())) return false;
+  along.fill(0.0);
   for (int v = r - 1; v >= 0 && v >= r - kPaperRank; --v) {
     const double value = work.values[at(v)];
     if (!(value > kRounding * kRounding * work.values[at(r - 1)])) break;
@@ -131,6 +212,21 @@ bool minimum_norm_step(const Problem& problem, const PaperParameters& theta, Wor
     for (int c = 0; c < r; ++c) share += work.vectors[at(c * r + v)] * slope[at(c)];
     for (int c = 0; c < r; ++c) along[at(c)] += work.vectors[at(c * r + v)] * (share / value / value);
   }
+  return true;
+}
+
+/// From the matrix and gradient of `assemble`. Eigenvectors of J'J are factor y / sqrt(value), so that the step is
+/// -factor y (y' factor' gradient) / value^2.
+bool minimum_norm_step(const Problem& problem, Workspace& work) noexcept {
+  factorise(work);
+  const int r = work.columns;
+  if (r == 0) return false;
+  set_gram(work);
+  Column slope{}, along;
+  for (int k = 0; k < work.size; ++k) {
+    for (int c = 0; c < r; ++c) slope[at(c)] += work.root(k, c) * work.gradient[at(k)];
+  }
+  if (!along_strongest(work, slope, along) && !along_eigenvectors(work, slope, along)) return false;
   for (int k = 0; k < work.size; ++k) {
     double sum = 0.0;
     for (int c = 0; c < r; ++c) sum -= work.root(k, c) * along[at(c)];
@@ -141,7 +237,7 @@ bool minimum_norm_step(const Problem& problem, const PaperParameters& theta, Wor
 
 /// The matrix, filled from its lower triangle, is eliminated with row pivots; no other safeguard.
 bool plain_inverse_step(const Problem& problem, const PaperParameters& theta, Workspace& work) noexcept {
-  assemble(problem, theta, Curvature::full, work);
+  assemble_full(problem, theta, work);
   const int n = work.size;
   for (int a = 0; a < n; ++a) {
     work.step[at(a)] = -work.gradient[at(a)];
@@ -233,31 +329,38 @@ double relative_noise(const Datasheet& datasheet, const Problem& problem, double
   return terms > 0 ? std::sqrt(sum / terms) / g_mps2 : 0.0;
 }
 
-int rank_at(const Problem& problem, const PaperParameters& theta, double noise, Workspace& work) noexcept {
-  if (!decompose(problem, theta, work)) return 0;
+/// From the matrix of `assemble`.
+int rank_of(double noise, Workspace& work) noexcept {
+  factorise(work);
+  const int r = work.columns;
+  if (r == 0) return 0;
+  set_gram(work);
+  if (!symmetric_eigenvalues(work.gram.data(), r, r, work.values.data())) return 0;
   const double floor = std::fmax(kRounding, kFeigned * noise);
   int rank = 0;
-  for (int v = 0; v < work.columns; ++v) {
-    if (work.values[at(v)] > floor * floor * work.values[at(work.columns - 1)]) ++rank;
+  for (int v = 0; v < r; ++v) {
+    if (work.values[at(v)] > floor * floor * work.values[at(r - 1)]) ++rank;
   }
   return rank;
 }
 
-/// From the start to the stop; fills what `out` says of the way and leaves `theta` at the end.
+/// From the start to the stop; fills what `out` says of the way and leaves `theta` at the end, with the matrix and
+/// gradient of `assemble` there.
 void iterate(const Problem& problem, const PaperOptions& options, Workspace& work, PaperParameters& theta,
              PaperFit& out, PaperTrace* trace) noexcept {
   const int size = problem.error.parameters();
-  out.cost = problem.error.cost(theta, problem.stations, problem.count);
+  out.cost = assemble(problem, theta, work);
   note(theta, out.cost, 0.0, trace);
   while (out.stop == StopReason::none) {
-    const bool solved = options.step == PaperStep::minimum_norm ? minimum_norm_step(problem, theta, work)
+    const bool solved = options.step == PaperStep::minimum_norm ? minimum_norm_step(problem, work)
                                                                 : plain_inverse_step(problem, theta, work);
     PaperParameters next = theta;
     for (int k = 0; k < size; ++k) next[at(k)] += options.damping * work.step[at(k)];
-    const double cost = solved ? problem.error.cost(next, problem.stations, problem.count) : 0.0;
+    const double cost = solved ? assemble(problem, next, work) : 0.0;
     const double change = change_between(next, theta, problem.error.prior(), size);
     if (!solved || !std::isfinite(cost) || !std::isfinite(change)) {
       out.stop = StopReason::not_finite;
+      assemble(problem, theta, work);
       break;
     }
     theta = next;
@@ -292,7 +395,7 @@ Expected<void> paper_calibrate(const Datasheet& datasheet, const GravityReferenc
   Workspace work;
   PaperParameters theta = error->start();
   iterate(problem, options, work, theta, out, trace);
-  out.rank = rank_at(problem, theta, relative_noise(datasheet, problem, gravity.g_mps2), work);
+  out.rank = rank_of(relative_noise(datasheet, problem, gravity.g_mps2), work);
   error->store(theta, out.model);
   return {};
 }

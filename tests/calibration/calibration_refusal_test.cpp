@@ -83,7 +83,10 @@ TEST(CalibrationRefusal, ScaleOfTheWrongSignOrZero) {
   EXPECT_NE(negative.refusal(), plumb::Errc::ok);
   Bench zero;
   zero.sheet.sensor[0].coefficients.scale = {};
-  EXPECT_EQ(zero.refusal(), plumb::Errc::diverged);
+  const auto c = zero.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error().code, plumb::Errc::not_finite);
+  EXPECT_EQ(c.error().index, 0);
 }
 
 TEST(CalibrationRefusal, GravityFarOff) {
@@ -119,6 +122,7 @@ TEST(CalibrationRefusal, NormBeyondItsBound) {
 TEST(CalibrationRefusal, ConvergenceNotReached) {
   Bench b;
   b.options.max_iterations = 2;
+  b.options.start = plumb::FitStart::datasheet;
   EXPECT_EQ(b.refusal(), plumb::Errc::diverged);
   EXPECT_EQ(b.report.stop, plumb::StopReason::iteration_limit);
   EXPECT_EQ(b.report.iterations, 2);
