@@ -153,7 +153,7 @@ Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, 
   if (options_.require_full_rank && r.rank < needed) {
     return Error{Errc::unobservable, -1, static_cast<double>(r.rank), static_cast<double>(needed)};
   }
-  const Error error = fit::implausible(datasheet_, options_, fitted.theta);
+  const Error error = fit::implausible(datasheet_, problem.roll, options_, fitted.theta);
   if (error.code != Errc::ok) return error;
   const double most = options_.max_outlier_share * (r.stations + r.outliers);
   if (static_cast<double>(r.outliers) > most) {
@@ -186,10 +186,14 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   fit::Fitted fitted;
   if (!describe(problem, fitted, r)) return fail(Errc::diverged, -1, cost_);
   Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, normal_.data(), r);
-  if (stop_ != StopReason::converged) return fail(Errc::diverged, -1, cost_);
-  const Error error = judge(problem, fitted, r);
-  if (error.code != Errc::ok) return tl::unexpected<Error>(error);
-  return out;
+  Error error = judge(problem, fitted, r);
+  if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
+  if (error.code == Errc::ok) return out;
+  if (error.code != Errc::unobservable) {
+    const Error twins = fit::twin_channels(problem);
+    if (twins.code != Errc::ok) error = twins;
+  }
+  return tl::unexpected<Error>(error);
 }
 
 }  // namespace PLUMB_ABI

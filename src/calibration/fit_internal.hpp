@@ -91,16 +91,16 @@ struct Roll {
 /// Where the outliers were told from the rest: a station is out where its residual there, with that misfit, is beyond
 /// the limit. Kept as parameters rather than as a list, so that any number of stations is screened alike.
 struct Screen {
-  Parameters theta;
+  Parameters theta{};
   double misfit_variance = 0.0;
 };
 
 /// What is fixed during one fit.
 struct Problem {
   const Datasheet& datasheet;
-  double g_mps2;
-  const Station* stations;
-  int count;
+  double g_mps2 = 0.0;
+  const Station* stations = nullptr;
+  int count = 0;
   Roll roll;
   const Screen* screen = nullptr;
 };
@@ -168,8 +168,8 @@ bool closed_form(const Problem& problem, Parameters& theta) noexcept;
 void turn_all(const Vec3& turn, int n, Parameters& theta) noexcept;
 
 /// Rotates theta so that its axes lie as near to the datasheet's as one rotation allows (Wahba); about the roll axis
-/// alone where roll groups have settled the other two.
-void turn_to_datasheet(const Datasheet& datasheet, const Roll& roll, Parameters& theta) noexcept;
+/// alone where roll groups have settled the other two. The sensor `left_out`, if any, has no say.
+void turn_to_datasheet(const Datasheet& datasheet, const Roll& roll, Parameters& theta, int left_out = -1) noexcept;
 
 /// Rotates theta so that its axes cost the prior least, by at most so many steps, none of which goes uphill. All priors
 /// must be above zero.

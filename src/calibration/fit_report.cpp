@@ -8,6 +8,8 @@ inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 struct Deviation {
   double scale = 0.0;  ///< relative to the datasheet, the larger of the two ratios
   double axis_rad = 0.0;
@@ -19,6 +21,29 @@ Deviation deviation_of(const Datasheet& datasheet, const Parameters& theta, int 
   const double ratio = norm(w);
   return {std::fmax(ratio, 1.0 / ratio) - 1.0, angle_between_rad(w, datasheet.sensor[at(i)].row.axis),
           theta[at(4 * i + 3)]};
+}
+
+/// The parameter furthest beyond its bound, in bounds.
+Error furthest_off(const Datasheet& datasheet, const FitOptions& options, const Parameters& theta,
+                   int left_out) noexcept {
+  Error worst;
+  double most = 1.0;
+  for (int i = 0; i < datasheet.size; ++i) {
+    if (i == left_out) continue;
+    const Deviation d = deviation_of(datasheet, theta, i);
+    const std::array<double, 3> value = {d.scale, d.axis_rad, std::fabs(d.bias_mps2)};
+    const std::array<double, 3> limit = {options.max_scale_change, options.max_axis_change_rad,
+                                         options.max_bias_sigmas * datasheet.sensor[at(i)].prior.bias_mps2};
+    for (std::size_t k = 0; k < 3; ++k) {
+      // A value that is no number is beyond every bound, and so is any but 0 beyond a bound of 0.
+      const double ratio = value[k] <= limit[k] ? 0.0 : limit[k] > 0.0 ? value[k] / limit[k] : kInfinity;
+      if (!(ratio <= most)) {
+        worst = Error{Errc::implausible, i, k == 2 ? d.bias_mps2 : value[k], limit[k]};
+        most = std::isnan(ratio) ? kInfinity : ratio;
+      }
+    }
+  }
+  return worst;
 }
 
 }  // namespace
@@ -97,18 +122,46 @@ void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitR
   report.common_scale_sigma = std::sqrt(variance);
 }
 
-/// Written so that a NaN is beyond every bound.
-Error implausible(const Datasheet& datasheet, const FitOptions& options, const Parameters& theta) noexcept {
-  for (int i = 0; i < datasheet.size; ++i) {
-    const Deviation d = deviation_of(datasheet, theta, i);
-    const double bias_limit = options.max_bias_sigmas * datasheet.sensor[at(i)].prior.bias_mps2;
-    if (!(d.scale <= options.max_scale_change)) {
-      return Error{Errc::implausible, i, d.scale, options.max_scale_change};
+Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
+                  const Parameters& theta) noexcept {
+  const Error worst = furthest_off(datasheet, options, theta, -1);
+  if (worst.code == Errc::ok || roll.used) return worst;
+  // One axis that is far off (a sign, a swapped channel) turns the frame of all, or mirrors it, which gravity does not
+  // show. Leave each out in turn: where the others then fit, it is the one.
+  for (int k = 0; k < 2 * datasheet.size; ++k) {
+    const int i = k / 2;
+    Parameters turned = theta;
+    for (int p = 0; p < 4 * datasheet.size && k % 2 == 1; ++p) turned[at(p)] *= p % 4 == 3 ? 1.0 : -1.0;
+    turn_to_datasheet(datasheet, roll, turned, i);
+    if (furthest_off(datasheet, options, turned, i).code != Errc::ok) continue;
+    const Error alone = furthest_off(datasheet, options, turned, -1);
+    if (alone.code != Errc::ok) return alone;
+  }
+  return worst;
+}
+
+Error twin_channels(const Problem& problem) noexcept {
+  constexpr double kAlike = 8.0;      // standard deviations of a difference
+  constexpr double kParallel = 0.98;  // such axes may read alike
+  const Datasheet& datasheet = problem.datasheet;
+  const Parameters nominal = datasheet_parameters(datasheet);
+  for (int i = 1; i < datasheet.size; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const SensorRow& a = datasheet.sensor[at(i)].row;
+      const SensorRow& b = datasheet.sensor[at(j)].row;
+      if (std::fabs(dot(a.axis, b.axis)) > kParallel) continue;
+      const double limit = kAlike * std::sqrt(a.sigma_mps2 * a.sigma_mps2 + b.sigma_mps2 * b.sigma_mps2);
+      StationSolver solver(problem, nominal, 0.0);
+      double first = 0.0, most = 0.0;
+      int seen = 0;
+      for (int s = 0; s < problem.count && most <= limit; ++s) {
+        if (solver.read(problem.stations[s]) != Loaded::used || solver.rows != datasheet.size) continue;
+        const double difference = solver.reading[at(i)] - solver.reading[at(j)];
+        if (seen++ == 0) first = difference;
+        most = std::fmax(most, std::fabs(difference - first));
+      }
+      if (seen >= 2 && most <= limit) return Error{Errc::implausible, i, most, limit};
     }
-    if (!(d.axis_rad <= options.max_axis_change_rad)) {
-      return Error{Errc::implausible, i, d.axis_rad, options.max_axis_change_rad};
-    }
-    if (!(std::fabs(d.bias_mps2) <= bias_limit)) return Error{Errc::implausible, i, d.bias_mps2, bias_limit};
   }
   return Error{};
 }

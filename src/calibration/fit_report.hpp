@@ -23,8 +23,14 @@ void note_outliers(const Problem& problem, FitReport& report) noexcept;
 int most_blamed(const Problem& problem) noexcept;
 void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitReport& report) noexcept;
 
-/// First parameter beyond its physical bound, or ok.
-Error implausible(const Datasheet& datasheet, const FitOptions& options, const Parameters& theta) noexcept;
+/// The parameter that is furthest beyond its physical bound, or ok; that of the one sensor without which all is well,
+/// where there is one.
+Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
+                  const Parameters& theta) noexcept;
+
+/// Two channels that read alike at every station although their axes differ: implausible, index = the later one. For
+/// fits that failed: at a single attitude healthy sensors may do so too.
+Error twin_channels(const Problem& problem) noexcept;
 
 }  // namespace fit
 }  // namespace PLUMB_ABI

@@ -118,15 +118,16 @@ void FitTally::write(int n, FitReport& report) const noexcept {
   report.parity_rms_mps2 = root_mean(squared_parity_, rows_ - 3 * stations_);
   report.excitation = 0.0;
   if (stations_ == 0) return;
-  std::array<double, std::size_t{kHarmonics} * kHarmonics> gram;
+  constexpr int kStride = 12;
+  std::array<double, std::size_t{kHarmonics} * kStride> gram{};
   for (int i = 0; i < kHarmonics; ++i) {
     for (int j = 0; j <= i; ++j) {
-      gram[at(i * kHarmonics + j)] = gram_[at(i * kHarmonics + j)] / stations_;
-      gram[at(j * kHarmonics + i)] = gram[at(i * kHarmonics + j)];
+      gram[at(i * kStride + j)] = gram_[at(i * kHarmonics + j)] / stations_;
+      gram[at(j * kStride + i)] = gram[at(i * kStride + j)];
     }
   }
-  std::array<double, kHarmonics> values;
-  if (symmetric_eigenvalues(gram.data(), kHarmonics, kHarmonics, values.data())) {
+  std::array<double, kHarmonics> values{};
+  if (symmetric_eigenvalues(gram.data(), kHarmonics, kStride, values.data())) {
     report.excitation = std::fmax(values[0], 0.0);
   }
 }

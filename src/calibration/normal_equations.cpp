@@ -132,8 +132,7 @@ void note_station(const StationSolver& s, double pull, Sums& sums) noexcept {
   ++sums.stations;
   sums.rows += s.rows;
   sums.chi2 += pull * s.chi2;
-  const double limit = outlier_limit(s.freedom());
-  sums.worst = std::fmax(sums.worst, s.chi2 / (limit * limit));
+  if (s.chi2 > sums.worst * s.limit_squared) sums.worst = s.chi2 / s.limit_squared;
   for (int k = 0; k < s.rows; ++k) {
     const double projected = s.projected(k);
     sums.weighted_chi2 += projected * projected;

@@ -42,8 +42,8 @@ Error check_sensor(const DatasheetSensor& s, int i) noexcept {
 
 /// What the error and its derivatives have in common at one station.
 struct PaperError::Point {
-  std::array<double, kPaperCapacity> slope;    ///< minus the derivative of the reading by SF
-  std::array<double, kPaperCapacity> reading;  ///< before the misalignment
+  std::array<double, kPaperCapacity> slope{};    ///< minus the derivative of the reading by SF
+  std::array<double, kPaperCapacity> reading{};  ///< before the misalignment
   Vec3 x{};
   bool finite = true;
 };
@@ -123,7 +123,7 @@ PaperError::Point PaperError::point(const PaperParameters& at, const Columns& co
 /// Of |x|^2, in the order of the parameters.
 void PaperError::derivatives(const Point& p, const Columns& column, PaperParameters& gradient) const noexcept {
   const Vec3 w = scaled(p.x, -2.0);
-  double* m = gradient.data() + 2 * n_;
+  double* m = gradient.data() + fit::at(2 * n_);
   for (int i = 0; i < n_; ++i) {
     const double along = dot(column[fit::at(i)], w), row = dot(map_[fit::at(i)], w);
     gradient[fit::at(i)] = along;
@@ -165,7 +165,7 @@ double PaperError::gauss_newton(const PaperParameters& at, const Station* statio
     // Four columns at a time, over the diagonal to the end of the four.
     for (int a = 0; a < size; ++a) {
       const double own = slope[fit::at(a)];
-      double* row = matrix + a * stride;
+      double* row = matrix + fit::at(a * stride);
       for (int b = 0; b <= a; b += 4) Four::Map(row + b) += own * Four::Map(slope.data() + b);
     }
     sum += e * e;

@@ -139,7 +139,7 @@ void turn_all(const Vec3& turn, int n, Parameters& theta) noexcept {
   }
 }
 
-void turn_to_datasheet(const Datasheet& datasheet, const Roll& roll, Parameters& theta) noexcept {
+void turn_to_datasheet(const Datasheet& datasheet, const Roll& roll, Parameters& theta, int left_out) noexcept {
   const int n = datasheet.size;
   if (roll.used) {
     const Vec3 turn = scaled(roll.axis, best_turn_about(datasheet, roll.axis, theta));
@@ -150,6 +150,7 @@ void turn_to_datasheet(const Datasheet& datasheet, const Roll& roll, Parameters&
     Symmetric3 inertia{};
     Vec3 torque{};
     for (int i = 0; i < n; ++i) {
+      if (i == left_out) continue;
       const Vec3 w = row_of(theta, i);
       const Vec3 u = scaled(w, 1.0 / norm(w));
       add_inertia(inertia, u);

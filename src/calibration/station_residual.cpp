@@ -15,7 +15,7 @@ StationResidual station_residual(const Calibration& calibration, const GravityRe
   // The calibrated array as a datasheet of its own, whose readings are m/s^2 already.
   Datasheet sheet;
   sheet.size = n;
-  const double count = static_cast<double>(station.count);
+  const auto count = static_cast<double>(station.count);
   for (int i = 0; i < n; ++i) {
     SensorRow& row = sheet.sensor[at(i)].row;
     row = calibration.array.row(i);

@@ -54,7 +54,7 @@ int usable_stations(const Problem& problem) noexcept {
 }
 
 StationSolver::StationSolver(const Problem& problem, const Parameters& theta, double misfit_variance) noexcept
-    : problem_(problem), theta_(theta), misfit_variance_(misfit_variance) {
+    : problem_(problem), theta_(theta), misfit_variance_(misfit_variance), inverse_g_(1.0 / problem.g_mps2) {
   for (int i = 0; i < problem.datasheet.size; ++i) {
     if (problem.datasheet.sensor[at(i)].full_scale_raw > 0.0) clips_ = true;
   }
@@ -78,6 +78,7 @@ void StationSolver::set_rows(SensorSet delivered, std::uint32_t count) noexcept 
     row[k] = row_of(theta_, i);
     add_outer(h, row[k], weight[k]);
   }
+  limit_squared = outlier_limit(freedom()) * outlier_limit(freedom());
   const double determinant = det(h);
   const double inverse = determinant > 0.0 ? 1.0 / determinant : 0.0;
   spread = adjugate(h);
@@ -105,17 +106,20 @@ void StationSolver::set_temperature(double temperature_degc) noexcept {
   }
 }
 
-/// Minimises (x - G u)' A^-1 (x - G u) over the unit vectors u, from the direction of x.
+/// Minimises (x - G u)' A^-1 (x - G u) over the unit vectors u, from the direction of x. Every step is tangent to the
+/// sphere: its square is all that lengthens u.
 void StationSolver::find_direction() noexcept {
-  const double g = problem_.g_mps2;
   Vec3 u = scaled(estimate, 1.0 / norm(estimate));
+  const Vec3 target = scaled(estimate, inverse_g_);
   for (int step = 0; step < kDirectionSteps; ++step) {
     const Vec3 a = times(spread, u);
-    const Vec3 off = minus(scaled(estimate, 1.0 / g), u);
+    const Vec3 off = minus(target, u);
     const Vec3 tangent = minus(off, scaled(a, dot(u, off) / dot(u, a)));
-    const Vec3 moved = plus(u, tangent);
-    u = scaled(moved, 1.0 / norm(moved));
-    if (!(dot(tangent, tangent) > kDirectionStop)) break;
+    const double square = dot(tangent, tangent);
+    const bool last = !(square > kDirectionStop);
+    // The root, as a series where that is exact.
+    u = scaled(plus(u, tangent), last ? 1.0 - square * (0.5 - 0.375 * square) : 1.0 / std::sqrt(1.0 + square));
+    if (last) break;
   }
   direction = u;
 }
@@ -177,8 +181,7 @@ Screening::Screening(const Problem& problem) noexcept
 
 bool Screening::out(const Station& station) noexcept {
   if (!active_ || solver.solve(station) != Loaded::used) return false;
-  const double limit = outlier_limit(solver.freedom());
-  return solver.chi2 > limit * limit;
+  return solver.chi2 > solver.limit_squared;
 }
 
 }  // namespace fit

@@ -33,6 +33,7 @@ class StationSolver {
   std::array<double, kCapacity> weight{};   ///< 1 / variance of the mean
   std::array<Vec3, kCapacity> row{};        ///< W_i
   Symmetric3 spread{};                      ///< A
+  double limit_squared = 0.0;               ///< of chi^2: an outlier beyond it
   std::array<double, kCapacity> reading{};  ///< r - b [m/s^2], by row
   Vec3 estimate{};                          ///< x
 
@@ -65,6 +66,7 @@ class StationSolver {
   const Problem& problem_;
   const Parameters& theta_;
   double misfit_variance_;
+  double inverse_g_;
   bool clips_ = false;  ///< some full scale is known
   SensorSet delivered_;
   std::uint32_t count_ = 0;  ///< 0: nothing is kept yet

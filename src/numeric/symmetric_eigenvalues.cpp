@@ -1,5 +1,6 @@
 #include "plumb/numeric/symmetric_eigenvalues.hpp"
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,47 +12,62 @@ namespace {
 
 constexpr int kMaxSize = 4 * kCapacity;
 constexpr int kMaxSteps = 60;  // for one eigenvalue; fewer than two are usual
-using Column = std::array<double, kMaxSize>;
+using Column = std::array<double, kMaxSize + 4>;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
+/// Largest magnitude; not finite where an entry is not.
 double largest_of(const double* a, int n, int stride) noexcept {
-  double largest = 0.0;
+  double largest = 0.0, sum = 0.0;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       const double entry = std::fabs(a[i * stride + j]);
-      if (!std::isfinite(entry)) return entry;
       largest = entry > largest ? entry : largest;
+      sum += entry - entry;  // 0, or NaN for ever
     }
   }
-  return largest;
+  return largest + sum;
+}
+
+using Four = Eigen::Array4d;
+
+/// Columns below `i` in whole fours where the rows are long enough: what lies beyond is not read again.
+int padded(int i, int stride) noexcept {
+  const int fours = (i + 3) / 4 * 4;
+  return fours <= stride ? fours : i / 4 * 4;
+}
+
+/// to += factor * from over `i` entries, and up to three more.
+void add_row(double* to, const double* from, double factor, int i, int fours) noexcept {
+  for (int j = 0; j < fours; j += 4) Four::Map(to + j) += factor * Four::Map(from + j);
+  for (int j = fours; j < i; ++j) to[j] += factor * from[j];
 }
 
 /// Reflects row and column i of the leading block to (0, .., 0, e). Returns e.
 double reflect(double* a, int i, int stride) noexcept {
-  double* u = a + at(i * stride);
+  const double* given = a + at(i * stride);
   double square = 0.0;
-  for (int k = 0; k + 1 < i; ++k) square += u[k] * u[k];
-  const double last = u[i - 1];
+  for (int k = 0; k + 1 < i; ++k) square += given[k] * given[k];
+  const double last = given[i - 1];
   if (square == 0.0) return last;
   const double e = -std::copysign(std::sqrt(square + last * last), last);
-  u[i - 1] = last - e;
+  Column u, p;
+  for (int k = 0; k < i + 3; ++k) {
+    u[at(k)] = k < i ? given[k] : 0.0;
+    p[at(k)] = 0.0;
+  }
+  u[at(i - 1)] = last - e;
   const double h = 1.0 / (e * (e - last));  // 2 / u'u
   // A - u q' - q u' with p = A u h, q = p - u (u'p h / 2): by rows, so that nothing waits for a sum.
-  Column p;
-  for (int j = 0; j < i; ++j) p[at(j)] = 0.0;
-  for (int k = 0; k < i; ++k) {
-    const double* row = a + at(k * stride);
-    const double factor = u[k] * h;
-    for (int j = 0; j < i; ++j) p[at(j)] += factor * row[j];
-  }
+  const int fours = padded(i, stride);
+  for (int k = 0; k < i; ++k) add_row(p.data(), a + at(k * stride), u[at(k)] * h, i, fours);
   double along = 0.0;
-  for (int j = 0; j < i; ++j) along += u[j] * p[at(j)];
-  for (int j = 0; j < i; ++j) p[at(j)] -= 0.5 * h * along * u[j];
+  for (int j = 0; j < i; ++j) along += u[at(j)] * p[at(j)];
+  add_row(p.data(), u.data(), -0.5 * h * along, i, padded(i, kMaxSize));
   for (int k = 0; k < i; ++k) {
     double* row = a + at(k * stride);
-    const double by_p = u[k], by_u = p[at(k)];
-    for (int j = 0; j < i; ++j) row[j] -= by_p * p[at(j)] + by_u * u[j];
+    add_row(row, p.data(), -u[at(k)], i, fours);
+    add_row(row, u.data(), -p[at(k)], i, fours);
   }
   return e;
 }
@@ -71,12 +87,13 @@ void ql_step(Column& d, Column& e2, int n, int l, int m, double tiny, double& sh
   for (int i = m - 1; i >= l; --i) {
     const double p = g * h;
     const double r = p + e2[at(i)];
+    const double inverse = 1.0 / r;
     e2[at(i + 1)] = s * r;
-    s = e2[at(i)] / r;
+    s = e2[at(i)] * inverse;
     d[at(i + 1)] = h + s * (h + d[at(i)]);
     g = d[at(i)] - e2[at(i)] / g;
     if (g == 0.0) g = tiny;
-    h = g * p / r;
+    h = g * (p * inverse);
   }
   e2[at(l)] = s * g * h;
   d[at(l)] = h;
@@ -112,14 +129,15 @@ bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcep
   if (a == nullptr || values == nullptr || n < 1 || n > kMaxSize || stride < n) return false;
   const double largest = largest_of(a, n, stride);
   if (!std::isfinite(largest)) return false;
-  // A power of two changes no digit, and keeps every square inside the range of a double.
-  constexpr int kExponent = 1000;
+  // Where squares might leave the range of a double: a power of two changes no digit.
+  constexpr int kMild = 400, kExponent = 1000;
   const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-  const double down = std::ldexp(1.0, exponent > kExponent    ? -kExponent
-                                      : exponent < -kExponent ? kExponent
-                                                              : -exponent);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) a[i * stride + j] *= down;
+  double down = 1.0;
+  if (exponent > kMild || exponent < -kMild) {
+    down = std::ldexp(1.0, exponent > kExponent ? -kExponent : exponent < -kExponent ? kExponent : -exponent);
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) a[i * stride + j] *= down;
+    }
   }
   Column d, e2;
   for (int i = n - 1; i > 0; --i) {

@@ -185,6 +185,37 @@ TEST(Outliers, AreListedInOrderWithTheirSensor) {
   }
 }
 
+TEST(Outliers, StepByStepTheSameBits) {
+  for (const plumb::FitStart start : {plumb::FitStart::automatic, plumb::FitStart::datasheet}) {
+    Noise noise(44);
+    const plumb::Datasheet d = tool_of(4);
+    const Truth truth = draw_truth(d, noise);
+    std::vector<plumb::Station> stations = random_stations(d, truth, 48, noise, kSigma);
+    spike(stations, 4, 0.1, noise);
+    plumb::FitOptions o;
+    o.start = start;
+    const auto whole = fit(d, stations, o);
+    plumb::Calibrator calibrator(d, standard_gravity(), o);
+    int calls = 0;
+    while (!calibrator.done()) {
+      calibrator.iterate(stations.data(), 48);
+      ++calls;
+    }
+    // The closed form is the work of one call of its own.
+    EXPECT_EQ(calls, calibrator.iterations() + (start == plumb::FitStart::automatic ? 1 : 0));
+    const auto stepped = calibrator.finish(stations.data(), 48), again = calibrator.finish(stations.data(), 48);
+    ASSERT_TRUE(whole.has_value() && stepped.has_value() && again.has_value());
+    EXPECT_GE(whole->report.outliers, 1);
+    EXPECT_EQ(whole->report.outliers, again->report.outliers);
+    EXPECT_EQ(whole->report.sigma, stepped->report.sigma);
+    EXPECT_EQ(whole->report.sigma, again->report.sigma);
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_EQ(whole->array.axis(i), stepped->array.axis(i));
+      EXPECT_EQ(whole->model.sensor[at(i)].bias, stepped->model.sensor[at(i)].bias);
+    }
+  }
+}
+
 TEST(FaultySensor, NoisyThroughoutIsRefusedByName) {
   for (int sensor = 0; sensor < 4; ++sensor) {
     for (const double noise_g0 : {0.005, 0.02, 0.1}) {
