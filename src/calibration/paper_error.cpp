@@ -40,6 +40,19 @@ Error check_sensor(const DatasheetSensor& s, int i) noexcept {
 
 }  // namespace
 
+/// What all stations have in common.
+struct PaperError::Prepared {
+  std::array<Vec3, kPaperCapacity> column{};     ///< of map (I - m)
+  std::array<double, kPaperCapacity> ratio{};    ///< SF over the nominal one
+  std::array<double, kPaperCapacity> inverse{};  ///< 1 / SF
+  std::array<double, kPaperCapacity> bias{};
+  bool finite = true;
+  double temperature_degc = 0.0;
+  bool tempered = false;
+  std::array<double, kPaperCapacity> gain{};   ///< 1 / SF* at that temperature; NaN where SF* is 0
+  std::array<double, kPaperCapacity> drift{};  ///< B*
+};
+
 /// What the error and its derivatives have in common at one station.
 struct PaperError::Point {
   std::array<double, kPaperCapacity> slope{};    ///< minus the derivative of the reading by SF
@@ -88,44 +101,61 @@ Expected<PaperError> PaperError::make(const Datasheet& datasheet, const GravityR
   return out;
 }
 
-PaperError::Columns PaperError::columns(const PaperParameters& at) const noexcept {
-  Columns out;
+PaperError::Prepared PaperError::prepare(const PaperParameters& at) const noexcept {
+  Prepared out;
   for (int j = 0; j < n_; ++j) {
     Vec3 column = map_[fit::at(j)];
     for (int i = 0; i < n_; ++i) {
       if (i != j) column = minus(column, scaled(map_[fit::at(i)], at[fit::at(misalignment(i, j))]));
     }
-    out[fit::at(j)] = column;
+    const double factor = at[fit::at(n_ + j)];
+    out.finite = out.finite && factor != 0.0;
+    out.column[fit::at(j)] = column;
+    out.ratio[fit::at(j)] = factor / nominal_[fit::at(j)].scale[0];
+    out.inverse[fit::at(j)] = out.finite ? 1.0 / factor : 0.0;
+    out.bias[fit::at(j)] = at[fit::at(j)];
   }
   return out;
 }
 
-PaperError::Point PaperError::point(const PaperParameters& at, const Columns& column,
-                                    const Station& station) const noexcept {
-  Point p;
+/// Kept from one station to the next of the same temperature.
+void PaperError::temper(double temperature_degc, Prepared& prepared) const noexcept {
+  prepared.temperature_degc = temperature_degc;
+  prepared.tempered = true;
   for (int i = 0; i < n_; ++i) {
     const SensorCoefficients& c = nominal_[fit::at(i)];
-    const double t = station.temperature_degc - c.reference_degc;
-    const double factor = at[fit::at(n_ + i)];
-    const double scale = fit::cubic(c.scale, t) * (factor / c.scale[0]);
-    if (scale == 0.0 || factor == 0.0) {
-      p.finite = false;
-      return p;
-    }
-    const double direct = station.mean[fit::at(sensor_[fit::at(i)])] / scale;
-    p.slope[fit::at(i)] = direct / factor;
-    p.reading[fit::at(i)] = direct - at[fit::at(i)] - (fit::cubic(c.bias, t) - c.bias[0]);
-    p.x = plus(p.x, scaled(column[fit::at(i)], p.reading[fit::at(i)]));
+    const double t = temperature_degc - c.reference_degc;
+    const double scale = fit::cubic(c.scale, t) * prepared.ratio[fit::at(i)];
+    prepared.gain[fit::at(i)] = scale != 0.0 ? 1.0 / scale : kNan;
+    prepared.drift[fit::at(i)] = prepared.bias[fit::at(i)] + (fit::cubic(c.bias, t) - c.bias[0]);
   }
+}
+
+PaperError::Point PaperError::point(Prepared& prepared, const Station& station) const noexcept {
+  if (!prepared.tempered || prepared.temperature_degc != station.temperature_degc) {
+    temper(station.temperature_degc, prepared);
+  }
+  Point p;
+  p.finite = prepared.finite;
+  Vec3 x{};
+  for (int i = 0; i < n_; ++i) {
+    const double gain = prepared.gain[fit::at(i)];
+    p.finite = p.finite && !std::isnan(gain);
+    const double direct = station.mean[fit::at(sensor_[fit::at(i)])] * gain;
+    p.slope[fit::at(i)] = direct * prepared.inverse[fit::at(i)];
+    p.reading[fit::at(i)] = direct - prepared.drift[fit::at(i)];
+    x = plus(x, scaled(prepared.column[fit::at(i)], p.reading[fit::at(i)]));
+  }
+  p.x = x;
   return p;
 }
 
 /// Of |x|^2, in the order of the parameters.
-void PaperError::derivatives(const Point& p, const Columns& column, PaperParameters& gradient) const noexcept {
+void PaperError::derivatives(const Point& p, const Prepared& prepared, PaperParameters& gradient) const noexcept {
   const Vec3 w = scaled(p.x, -2.0);
   double* m = gradient.data() + fit::at(2 * n_);
   for (int i = 0; i < n_; ++i) {
-    const double along = dot(column[fit::at(i)], w), row = dot(map_[fit::at(i)], w);
+    const double along = dot(prepared.column[fit::at(i)], w), row = dot(map_[fit::at(i)], w);
     gradient[fit::at(i)] = along;
     gradient[fit::at(n_ + i)] = along * p.slope[fit::at(i)];
     for (int j = 0; j < n_; ++j) {
@@ -136,11 +166,11 @@ void PaperError::derivatives(const Point& p, const Columns& column, PaperParamet
 
 double PaperError::operator()(const PaperParameters& at, const Station& station,
                               PaperParameters* gradient) const noexcept {
-  const Columns column = columns(at);
-  const Point p = point(at, column, station);
+  Prepared prepared = prepare(at);
+  const Point p = point(prepared, station);
   if (gradient != nullptr) {
     gradient->fill(0.0);
-    if (p.finite) derivatives(p, column, *gradient);
+    if (p.finite) derivatives(p, prepared, *gradient);
   }
   return p.finite ? dot(p.x, p.x) - g_squared_ : kNan;
 }
@@ -152,15 +182,15 @@ double PaperError::gauss_newton(const PaperParameters& at, const Station* statio
   for (int k = 0; k < size * stride; ++k) matrix[k] = 0.0;
   gradient.fill(0.0);
   PaperParameters slope{};
-  const Columns column = columns(at);
+  Prepared prepared = prepare(at);
   double sum = 0.0;
   int used = 0;
   for (int s = 0; s < (stations == nullptr ? 0 : count); ++s) {
     if (!usable(stations[s])) continue;
-    const Point p = point(at, column, stations[s]);
+    const Point p = point(prepared, stations[s]);
     if (!p.finite) return kNan;
     const double e = dot(p.x, p.x) - g_squared_;
-    derivatives(p, column, slope);
+    derivatives(p, prepared, slope);
     for (int a = 0; a < size; a += 4) Four::Map(gradient.data() + a) += e * Four::Map(slope.data() + a);
     // Four columns at a time, over the diagonal to the end of the four.
     for (int a = 0; a < size; ++a) {
@@ -176,15 +206,15 @@ double PaperError::gauss_newton(const PaperParameters& at, const Station* statio
 
 void PaperError::add_curvature(const PaperParameters& at, const Station& station, double weight,
                                double* matrix) const noexcept {
-  const Columns column = columns(at);
-  const Point p = point(at, column, station);
+  Prepared prepared = prepare(at);
+  const Point p = point(prepared, station);
   if (!p.finite) return;
   const int count = parameters();
   // Derivatives of x, in the order of the parameters.
   std::array<Vec3, kPaperParameters> d{};
   for (int i = 0; i < n_; ++i) {
-    d[fit::at(i)] = scaled(column[fit::at(i)], -1.0);
-    d[fit::at(n_ + i)] = scaled(column[fit::at(i)], -p.slope[fit::at(i)]);
+    d[fit::at(i)] = scaled(prepared.column[fit::at(i)], -1.0);
+    d[fit::at(n_ + i)] = scaled(prepared.column[fit::at(i)], -p.slope[fit::at(i)]);
     for (int j = 0; j < n_; ++j) {
       if (j != i) d[fit::at(misalignment(i, j))] = scaled(map_[fit::at(i)], -p.reading[fit::at(j)]);
     }
@@ -197,7 +227,7 @@ void PaperError::add_curvature(const PaperParameters& at, const Station& station
   for (int j = 0; j < n_; ++j) {
     const double slope = p.slope[fit::at(j)];
     const int scale = n_ + j;
-    matrix[scale * count + scale] += 2.0 * dot(w, column[fit::at(j)]) * slope / at[fit::at(scale)];
+    matrix[scale * count + scale] += 2.0 * dot(w, prepared.column[fit::at(j)]) * slope / at[fit::at(scale)];
     for (int i = 0; i < n_; ++i) {
       if (i == j) continue;
       const int m = misalignment(i, j);
@@ -209,12 +239,12 @@ void PaperError::add_curvature(const PaperParameters& at, const Station& station
 }
 
 double PaperError::cost(const PaperParameters& at, const Station* stations, int count) const noexcept {
-  const Columns column = columns(at);
+  Prepared prepared = prepare(at);
   double sum = 0.0;
   int used = 0;
   for (int k = 0; k < (stations == nullptr ? 0 : count); ++k) {
     if (!usable(stations[k])) continue;
-    const Point p = point(at, column, stations[k]);
+    const Point p = point(prepared, stations[k]);
     const double error = p.finite ? dot(p.x, p.x) - g_squared_ : kNan;
     sum += error * error;
     ++used;

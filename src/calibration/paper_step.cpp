@@ -17,11 +17,13 @@ constexpr double kRounding = 1e-6;
 /// Noise feigns singular values relative to the largest of about its own size relative to gravity: 1 to 3 times that
 /// for four to eight sensors.
 constexpr double kFeigned = 10.0;
-/// The nine directions are found by subspace iteration where the tenth is this much weaker (in squares, over the
-/// ninth): two steps from the first nine pivots then leave 1e-10. By all eigenvectors elsewhere.
+/// The nine directions are found by subspace iteration from the nine first pivots where the tenth is so much weaker (in
+/// squares, over the ninth): in one step, or in two. By all eigenvectors elsewhere.
+constexpr double kVeryFarBelow = 1e-6;
 constexpr double kFarBelow = 1e-4;
-constexpr double kTooUneven = 1e-8;  ///< ninth over first pivot, in squares: the nine themselves are near rounding
-constexpr int kSubspaceSteps = 2;
+constexpr double kNothing = 1e-12;   ///< or there is no tenth
+constexpr double kEven = 1e-2;       ///< ninth over first pivot, in squares: their products need no care
+constexpr double kTooUneven = 1e-8;  ///< the nine themselves are near rounding
 
 /// Half the gradient of the sum of squares, and half its Hessian (lower triangle), second derivatives of the error
 /// included.
@@ -53,6 +55,7 @@ void factorise(Workspace& work) noexcept {
     const int c = work.columns;
     if (c == kPaperRank) {
       for (int k = 0; k < work.size; ++k) work.rest += left[at(k)];
+      if (!(work.rest > kNothing * work.pivot[kPaperRank - 1])) return;
     }
     int pivot = 0;
     for (int k = 1; k < work.size; ++k) {
@@ -109,26 +112,27 @@ Column times_gram(const Workspace& work, const Column& y) noexcept {
   return out;
 }
 
-/// The nine strongest directions from the nine pivots, orthonormal; false where that would be slow.
+/// The nine strongest directions from the nine pivots; false where that would be slow. The tenth fades by `rest` over
+/// the ninth pivot a step, from the root of that; 1e-9 is to be left. The first step is the Gram matrix itself.
 bool strongest(const Workspace& work, Nine& y) noexcept {
   const int r = work.columns;
-  if (r < kPaperRank || !(work.rest <= kFarBelow * work.pivot[kPaperRank - 1])) return false;
-  if (!(work.pivot[kPaperRank - 1] > kTooUneven * work.pivot[0])) return false;
+  if (r < kPaperRank) return false;
+  const double ninth = work.pivot[kPaperRank - 1];
+  if (!(work.rest <= kFarBelow * ninth) || !(ninth > kTooUneven * work.pivot[0])) return false;
   for (int c = 0; c < kPaperRank; ++c) {
-    y[at(c)].fill(0.0);
-    y[at(c)][at(c)] = 1.0;
+    for (int k = 0; k < r; ++k) y[at(c)][at(k)] = work.gram[at(c * r + k)];
   }
-  for (int step = 0; step < kSubspaceSteps; ++step) {
-    for (int c = 0; c < kPaperRank; ++c) {
-      y[at(c)] = times_gram(work, y[at(c)]);
-      for (int b = 0; b < c; ++b) {
-        const double shared = inner(y[at(b)], y[at(c)], r);
-        for (int k = 0; k < r; ++k) y[at(c)][at(k)] -= shared * y[at(b)][at(k)];
-      }
-      const double length = std::sqrt(inner(y[at(c)], y[at(c)], r));
-      if (!(length > 0.0)) return false;
-      for (int k = 0; k < r; ++k) y[at(c)][at(k)] /= length;
+  const bool again = work.rest > kVeryFarBelow * ninth;
+  for (int c = 0; c < kPaperRank && again; ++c) y[at(c)] = times_gram(work, y[at(c)]);
+  if (!again && ninth > kEven * work.pivot[0]) return true;
+  for (int c = 0; c < kPaperRank; ++c) {
+    for (int b = 0; b < c; ++b) {
+      const double shared = inner(y[at(b)], y[at(c)], r);
+      for (int k = 0; k < r; ++k) y[at(c)][at(k)] -= shared * y[at(b)][at(k)];
     }
+    const double length = std::sqrt(inner(y[at(c)], y[at(c)], r));
+    if (!(length > 0.0)) return false;
+    for (int k = 0; k < r; ++k) y[at(c)][at(k)] /= length;
   }
   return true;
 }
@@ -151,6 +155,18 @@ bool along_strongest(const Workspace& work, const Column& slope, Column& along) 
   for (int a = 0; a < kPaperRank; ++a) {
     for (int c = 0; c < r; ++c) along[at(c)] += y[at(a)][at(c)] * share[at(a)];
   }
+  return true;
+}
+
+/// gram^-2 slope where the nine columns are all there is.
+bool along_nine(const Workspace& work, const Column& slope, Column& along) noexcept {
+  if (work.columns != kPaperRank || !(work.pivot[kPaperRank - 1] > kTooUneven * work.pivot[0])) return false;
+  std::array<double, std::size_t{kPaperRank} * kPaperRank> matrix{};
+  for (std::size_t k = 0; k < matrix.size(); ++k) matrix[k] = work.gram[k];
+  if (!cholesky_factor(matrix.data(), kPaperRank, kPaperRank)) return false;
+  along = slope;
+  cholesky_solve(matrix.data(), kPaperRank, kPaperRank, along.data());
+  cholesky_solve(matrix.data(), kPaperRank, kPaperRank, along.data());
   return true;
 }
 
@@ -195,7 +211,10 @@ bool minimum_norm_step(const Problem& problem, Workspace& work) noexcept {
   for (int k = 0; k < work.size; ++k) {
     for (int c = 0; c < r; ++c) slope[at(c)] += work.root(k, c) * work.gradient[at(k)];
   }
-  if (!along_strongest(work, slope, along) && !along_eigenvectors(work, slope, along)) return false;
+  if (!along_nine(work, slope, along) && !along_strongest(work, slope, along) &&
+      !along_eigenvectors(work, slope, along)) {
+    return false;
+  }
   for (int k = 0; k < work.size; ++k) {
     double sum = 0.0;
     for (int c = 0; c < r; ++c) sum -= work.root(k, c) * along[at(c)];

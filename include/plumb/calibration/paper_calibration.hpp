@@ -73,10 +73,11 @@ class PaperError {
 
  private:
   struct Point;
-  using Columns = std::array<Vec3, kPaperCapacity>;  ///< of map (I - m)
-  Columns columns(const PaperParameters& at) const noexcept;
-  Point point(const PaperParameters& at, const Columns& column, const Station& station) const noexcept;
-  void derivatives(const Point& p, const Columns& column, PaperParameters& gradient) const noexcept;
+  struct Prepared;
+  Prepared prepare(const PaperParameters& at) const noexcept;
+  void temper(double temperature_degc, Prepared& prepared) const noexcept;
+  Point point(Prepared& prepared, const Station& station) const noexcept;
+  void derivatives(const Point& p, const Prepared& prepared, PaperParameters& gradient) const noexcept;
   int misalignment(int i, int j) const noexcept { return 2 * n_ + i * (n_ - 1) + (j < i ? j : j - 1); }
 
   int n_ = 0;
