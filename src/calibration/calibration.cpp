@@ -1,7 +1,7 @@
 /// From converged parameters to an accepted calibration, or to the reason why not.
 #include <cmath>
 
-#include "fit_internal.hpp"
+#include "fit_report.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -18,67 +18,6 @@ constexpr double kFeignedInformation = 4.0;
 /// The nine harmonics of gravity that the length sees need nine directions.
 constexpr int kStationsForFullRank = 9;
 constexpr int kStationsAtLeast = 3;
-
-struct Deviation {
-  double scale = 0.0;  ///< relative to the datasheet, the larger of the two ratios
-  double axis_rad = 0.0;
-  double bias_mps2 = 0.0;
-};
-
-Deviation deviation_of(const Datasheet& datasheet, const fit::Parameters& theta, int i) noexcept {
-  const Vec3 w = fit::row_of(theta, i);
-  const double ratio = norm(w);
-  return {std::fmax(ratio, 1.0 / ratio) - 1.0, angle_between_rad(w, datasheet.sensor[at(i)].row.axis),
-          theta[at(4 * i + 3)]};
-}
-
-void note_temperature_span(const fit::Problem& problem, FitReport& report) noexcept {
-  bool any = false;
-  for (int k = 0; k < problem.count; ++k) {
-    const double t = problem.stations[k].temperature_degc;
-    if (problem.stations[k].count == 0 || !std::isfinite(t)) continue;
-    if (!any || t < report.temperature_min_degc) report.temperature_min_degc = t;
-    if (!any || t > report.temperature_max_degc) report.temperature_max_degc = t;
-    any = true;
-  }
-}
-
-/// First parameter beyond its physical bound; written so that a NaN is beyond every bound.
-Error implausible(const Datasheet& datasheet, const FitOptions& options, const fit::Parameters& theta) noexcept {
-  for (int i = 0; i < datasheet.size; ++i) {
-    const Deviation d = deviation_of(datasheet, theta, i);
-    const double bias_limit = options.max_bias_sigmas * datasheet.sensor[at(i)].prior.bias_mps2;
-    if (!(d.scale <= options.max_scale_change)) {
-      return Error{Errc::implausible, i, d.scale, options.max_scale_change};
-    }
-    if (!(d.axis_rad <= options.max_axis_change_rad)) {
-      return Error{Errc::implausible, i, d.axis_rad, options.max_axis_change_rad};
-    }
-    if (!(std::fabs(d.bias_mps2) <= bias_limit)) return Error{Errc::implausible, i, d.bias_mps2, bias_limit};
-  }
-  return Error{};
-}
-
-/// Everything but rank and stations, which are judged first.
-Error judge(const Datasheet& datasheet, const FitOptions& options, const fit::Parameters& theta,
-            const FitReport& report) noexcept {
-  const int needed = report.parameters - 3;
-  if (options.require_full_rank && report.rank < needed) {
-    return Error{Errc::unobservable, -1, static_cast<double>(report.rank), static_cast<double>(needed)};
-  }
-  const Error error = implausible(datasheet, options, theta);
-  if (error.code != Errc::ok) return error;
-  if (!(report.norm_rms_mps2 <= options.max_norm_rms_mps2)) {
-    return Error{Errc::poor_fit, -1, report.norm_rms_mps2, options.max_norm_rms_mps2};
-  }
-  return Error{};
-}
-
-void set_chi2(const fit::ResidualSummary& summary, FitReport& report) noexcept {
-  report.degrees_of_freedom = summary.rows - 2 * report.stations - report.rank;
-  report.p_value = 1.0;
-  if (report.degrees_of_freedom >= 1) report.p_value = chi2_tail(report.chi2, report.degrees_of_freedom);
-}
 
 /// SF_i = |W_i| SF0_i and B_i = (B0_i + b_i) / |W_i| in the sense in which the sensor counts.
 SensorCoefficients recalibrated(const SensorCoefficients& nominal, double length, double bias_mps2) noexcept {
@@ -151,45 +90,110 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
 
 }  // namespace fit
 
+/// What is wrong before any fit; the report gets what the stations alone tell.
+Error Calibrator::refused(const Station* stations, int count, FitReport& report) const noexcept {
+  if (!fit::plainly_sound(datasheet_)) {
+    const Expected<SensorArray> nominal = datasheet_.array();
+    if (!nominal) return nominal.error();
+  }
+  for (int i = 0; i < datasheet_.size; ++i) {
+    const double scale = datasheet_.sensor[at(i)].coefficients.scale[0];
+    if (scale == 0.0 || !std::isfinite(scale)) return Error{Errc::not_finite, i, scale, 0.0};
+  }
+  if (!fit::unit_axis(options_.roll_axis)) return Error{Errc::out_of_range, 0, norm(options_.roll_axis), 1.0};
+  const fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
+  report.roll_groups = problem.roll.groups;
+  if (problem.roll.groups > kMaxRollGroups) {
+    return Error{Errc::out_of_range, 1, static_cast<double>(problem.roll.groups), kMaxRollGroups};
+  }
+  report.stations = fit::usable_stations(problem);
+  fit::note_stations(problem, report);
+  const int needed = options_.require_full_rank ? kStationsForFullRank : kStationsAtLeast;
+  if (report.stations < needed) {
+    return Error{Errc::too_few_stations, -1, static_cast<double>(report.stations), static_cast<double>(needed)};
+  }
+  if (stop_ == StopReason::not_finite) return Error{Errc::diverged, bad_station_, cost_, 0.0};
+  return Error{};
+}
+
+/// Fills the report and `fitted`, covariance in `normal_`; false where something is not finite.
+bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitReport& r) noexcept {
+  const fit::PriorRoots roots = fit::prior_roots(datasheet_);
+  fitted.theta = fit::natural(datasheet_, roots, theta_);
+  fit::turn_to_datasheet(datasheet_, problem.roll, fitted.theta);
+  fit::note_outliers(problem, r);
+  fit::note_common_scale(datasheet_, fitted.theta, r);
+  fit::Parameters gradient;
+  fit::RollSums roll;
+  // Chi^2 is told against the datasheet's noise alone, with the directions that this noise would choose.
+  const double variance = misfit_mps2_ * misfit_mps2_;
+  if (variance > 0.0) {
+    r.chi2 = fit::accumulate(problem, fitted.theta, 0.0, fit::Loss::squares, scratch_.data(), gradient, roll).chi2;
+  }
+  const fit::Sums sums = fit::accumulate(problem, fitted.theta, variance, fit::Loss::squares, scratch_.data(), gradient,
+                                         roll, &fitted.tally);
+  if (!(variance > 0.0)) r.chi2 = sums.chi2;
+  if (!sums.finite || !std::isfinite(r.chi2)) return false;
+  fitted.tally.write(datasheet_.size, r);
+  fit::expand(scratch_.data(), roll, roots, datasheet_.size, normal_.data());
+  const double floor = std::fmax(kRankTolerance, kFeignedInformation * fitted.tally.direction_variance());
+  if (!fit::analyse(datasheet_, problem.roll, roots, fitted.theta, floor, normal_.data(), scratch_.data(), r)) {
+    return false;
+  }
+  r.degrees_of_freedom = sums.rows - 2 * r.stations - r.rank;
+  r.p_value = r.degrees_of_freedom >= 1 ? chi2_tail(r.chi2, r.degrees_of_freedom) : 1.0;
+  if (!options_.estimate_misfit && r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
+    fit::inflate(r.chi2 / r.degrees_of_freedom, r.parameters, normal_.data(), r);
+  }
+  return true;
+}
+
+Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, const FitReport& r) const noexcept {
+  const int needed = r.parameters - (problem.roll.used ? 1 : 3);
+  if (options_.require_full_rank && r.rank < needed) {
+    return Error{Errc::unobservable, -1, static_cast<double>(r.rank), static_cast<double>(needed)};
+  }
+  const Error error = fit::implausible(datasheet_, problem.roll, options_, fitted.theta);
+  if (error.code != Errc::ok) return error;
+  const double most = options_.max_outlier_share * (r.stations + r.outliers);
+  if (static_cast<double>(r.outliers) > most) {
+    return Error{Errc::poor_fit, fit::most_blamed(problem), static_cast<double>(r.outliers), most};
+  }
+  double excess = 0.0;
+  const int loudest = fitted.tally.loudest(datasheet_.size, r.degrees_of_freedom, excess);
+  const bool singled_out = excess > options_.max_sensor_excess;
+  if (!(r.norm_rms_mps2 <= options_.max_norm_rms_mps2)) {
+    return Error{Errc::poor_fit, singled_out ? loudest : -1, r.norm_rms_mps2, options_.max_norm_rms_mps2};
+  }
+  if (singled_out) return Error{Errc::poor_fit, loudest, excess, options_.max_sensor_excess};
+  return Error{};
+}
+
 Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) noexcept {
   FitReport own;
   FitReport& r = report != nullptr ? *report : own;
   r = FitReport{};
   r.parameters = 4 * datasheet_.size;
   r.iterations = iterations_;
+  r.start = started_;
   r.stop = stop_;
   r.misfit_mps2 = misfit_mps2_;
-  const Expected<SensorArray> nominal = datasheet_.array();
-  if (!nominal) return tl::unexpected<Error>(nominal.error());
-  const fit::Problem problem = {datasheet_, gravity_.g_mps2, stations, stations == nullptr ? 0 : count};
-  r.stations = fit::usable_stations(problem);
-  note_temperature_span(problem, r);
-  const int needed = options_.require_full_rank ? kStationsForFullRank : kStationsAtLeast;
-  if (r.stations < needed) return fail(Errc::too_few_stations, -1, r.stations, needed);
-  if (stop_ == StopReason::not_finite) return fail(Errc::diverged, -1, cost_);
-
-  const fit::PriorRoots roots = fit::prior_roots(datasheet_);
-  fit::Parameters theta = fit::natural(datasheet_, roots, theta_);
-  fit::turn_to_datasheet(datasheet_, theta);
-  const fit::ResidualSummary summary = fit::describe_residuals(problem, theta, r);
-  fit::Parameters gradient;
-  const double variance = misfit_mps2_ * misfit_mps2_;
-  const fit::Sums sums = fit::accumulate(problem, theta, variance, scratch_.data(), gradient);
-  if (!summary.finite || !sums.finite) return fail(Errc::diverged, -1, cost_);
-  fit::expand(scratch_.data(), roots, datasheet_.size, normal_.data());
-  const double floor = std::fmax(kRankTolerance, kFeignedInformation * summary.direction_variance);
-  if (!fit::analyse(datasheet_, roots, theta, floor, normal_.data(), scratch_.data(), r)) {
-    return fail(Errc::diverged, -1, cost_);
+  const Error wrong = refused(stations, count, r);
+  if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  if (phase_ == Phase::screened) problem.screen = &screen;
+  fit::Fitted fitted;
+  if (!describe(problem, fitted, r)) return fail(Errc::diverged, -1, cost_);
+  Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, normal_.data(), r);
+  Error error = judge(problem, fitted, r);
+  if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
+  if (error.code == Errc::ok) return out;
+  if (error.code != Errc::unobservable) {
+    const Error twins = fit::twin_channels(problem);
+    if (twins.code != Errc::ok) error = twins;
   }
-  set_chi2(summary, r);
-  if (!options_.estimate_misfit && r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
-    fit::inflate(r.chi2 / r.degrees_of_freedom, r.parameters, normal_.data(), r);
-  }
-  Expected<Calibration> out = fit::compose(datasheet_, gravity_, theta, normal_.data(), r);
-  if (stop_ != StopReason::converged) return fail(Errc::diverged, -1, cost_);
-  const Error error = judge(datasheet_, options_, theta, r);
-  if (error.code != Errc::ok) return tl::unexpected<Error>(error);
-  return out;
+  return tl::unexpected<Error>(error);
 }
 
 }  // namespace PLUMB_ABI

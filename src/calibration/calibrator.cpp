@@ -20,8 +20,19 @@ constexpr double kCostTolerance = 1e-9;
 constexpr int kPatience = 4;
 /// A frozen parameter that is zero has neither size nor prior to measure its rounding by.
 constexpr double kFrozenFloor = 1e-9;
+constexpr int kPriorTurns = 3;  ///< an iteration
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMaxDamping = 1e9;
+
+/// While outliers are looked for a step of this size, in prior sigmas, is the end: the set counts, not the digits.
+constexpr double kLooselySettled = 1e-4;
+constexpr double kMisfitSettled = 0.05;
+constexpr int kHuberSteps = 30;
+constexpr int kTukeySteps = 20;
+/// While Huber still carries what the outliers did to the fit, the median of the residuals is too high.
+constexpr double kFirstShare = 0.49;
+/// Fewer degrees of freedom have no median to speak of.
+constexpr int kScreenFreedom = 6;
 
 bool acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept {
   if (datasheet.size < 3 || datasheet.size > kCapacity) return false;
@@ -32,6 +43,15 @@ bool acceptable(const Datasheet& datasheet, const GravityReference& gravity) noe
     // Zero is allowed: it freezes the parameter.
     if (!(s.prior.bias_mps2 >= 0.0) || !(s.prior.scale >= 0.0) || !(s.prior.axis_rad >= 0.0)) return false;
     if (!std::isfinite(s.prior.bias_mps2 + s.prior.scale + s.prior.axis_rad)) return false;
+  }
+  return true;
+}
+
+/// A frozen parameter stays at its nominal value, which the closed form knows nothing of.
+bool all_free(const Datasheet& datasheet) noexcept {
+  for (int i = 0; i < datasheet.size; ++i) {
+    const Prior& prior = datasheet.sensor[at(i)].prior;
+    if (!(prior.bias_mps2 > 0.0 && prior.scale > 0.0 && prior.axis_rad > 0.0)) return false;
   }
   return true;
 }
@@ -55,6 +75,26 @@ const char* to_string(StopReason reason) noexcept {
   return "unknown";
 }
 
+const char* to_string(FitStart start) noexcept {
+  switch (start) {
+    case FitStart::automatic: return "automatic";
+    case FitStart::datasheet: return "datasheet";
+    case FitStart::closed_form: return "closed form";
+  }
+  return "unknown";
+}
+
+bool fit::unit_axis(const Vec3& axis) noexcept { return std::fabs(norm(axis) - 1.0) <= kAxisLengthTolerance; }
+
+fit::Problem fit::problem_of(const Datasheet& datasheet, double g_mps2, const FitOptions& options,
+                             const Station* stations, int count) noexcept {
+  Problem problem = {datasheet, g_mps2, stations, stations == nullptr ? 0 : count, {}, nullptr};
+  problem.roll.axis = options.roll_axis;
+  problem.roll.wobble_rad = options.roll_wobble_rad;
+  problem.roll.used = has_roll_groups(problem, problem.roll.groups) && unit_axis(options.roll_axis);
+  return problem;
+}
+
 Calibrator::Calibrator(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options) noexcept
     : datasheet_(datasheet), gravity_(gravity), options_(options) {
   if (!acceptable(datasheet_, gravity_)) stop_ = StopReason::not_finite;
@@ -66,10 +106,10 @@ fit::Parameters Calibrator::parameters() const noexcept {
 
 /// Eq (12), with the prior sigma as floor: a bias near zero has no relative accuracy. A common rotation does
 /// not count: no station sees it, the prior draws it in slowly where it pulls hard, and `finish` settles it.
-bool Calibrator::settled(const fit::Parameters& natural) const noexcept {
+bool Calibrator::settled(const fit::Problem& problem, const fit::Parameters& natural, double relative) const noexcept {
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
   fit::Parameters moved = fit::times_roots(roots, datasheet_.size, step_);
-  fit::remove_rotation(natural, datasheet_.size, moved);
+  fit::remove_rotation(natural, datasheet_.size, problem.roll, moved);
   for (int i = 0; i < datasheet_.size; ++i) {
     const fit::PriorRoot& root = roots[at(i)];
     const Vec3 x = {root.axes[0], root.axes[1], root.axes[2]};
@@ -79,7 +119,7 @@ bool Calibrator::settled(const fit::Parameters& natural) const noexcept {
     for (int p = 0; p < 4; ++p) {
       const std::size_t k = at(4 * i + p);
       const double floor = std::fmax(std::fmax(std::fabs(natural[k]), sigma[at(p)]), kFrozenFloor);
-      if (!(std::fabs(moved[k]) <= options_.stop_relative * floor)) return false;
+      if (!(std::fabs(moved[k]) <= relative * floor)) return false;
     }
   }
   return true;
@@ -107,50 +147,138 @@ bool Calibrator::misfit_changed(double chi2, double weighted_chi2, int rows, int
   return true;
 }
 
-void Calibrator::iterate(const Station* stations, int count) noexcept {
-  if (done()) return;
-  const int n = datasheet_.size;
-  const int n4 = 4 * n;
-  const fit::Problem problem = {datasheet_, gravity_.g_mps2, stations, stations == nullptr ? 0 : count};
-  const fit::PriorRoots roots = fit::prior_roots(datasheet_);
-  const double variance = misfit_mps2_ * misfit_mps2_;
-  fit::Parameters rhs;
-  fit::Parameters natural = fit::natural(datasheet_, roots, theta_);
-  fit::Sums sums = fit::accumulate(problem, natural, variance, scratch_.data(), rhs);
-  double cost = sums.chi2 + squared_length(theta_, n4);
-  const bool finite = sums.finite && std::isfinite(cost);
+/// Takes a cost for the best so far, or counts the rises; false where it is time to go back and damp.
+bool Calibrator::goes_down(double cost, bool finite) noexcept {
   if (fresh_ ? !finite : !(finite && cost <= cost_ + kCostTolerance * (1.0 + cost_))) {
     ++rises_;
-  } else {
-    rises_ = 0;
-    cost_ = cost;
-    best_ = theta_;
-    damping_ = damping_ > kFirstDamping ? 0.1 * damping_ : 0.0;
+    return finite && rises_ <= kPatience;
   }
+  rises_ = 0;
+  cost_ = cost;
+  best_ = theta_;
+  damping_ = damping_ > kFirstDamping ? 0.1 * damping_ : 0.0;
+  return true;
+}
+
+void Calibrator::find_start(const Station* stations, int count) noexcept {
+  phase_ = Phase::squares;
+  if (options_.start == FitStart::datasheet || !all_free(datasheet_)) return;
+  fit::Parameters natural;
+  if (!fit::closed_form(fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count), natural)) return;
+  theta_ = fit::prior_units(datasheet_, natural);
+  started_ = FitStart::closed_form;
+}
+
+/// Sets the weights of one step that looks for outliers. True where they have come to rest.
+bool Calibrator::weigh(const fit::Problem& problem, const fit::Parameters& natural) noexcept {
+  const double before = misfit_mps2_ * misfit_mps2_;
+  const double share = phase_ == Phase::huber ? kFirstShare : 1.0;
+  const double variance = fit::median_misfit(problem, natural, before, freedom_, share);
+  misfit_mps2_ = std::sqrt(variance);
+  ++robust_steps_;
+  fresh_ = true;  // another cost: nothing to compare with
+  return std::fabs(variance - before) <= kMisfitSettled * variance;
+}
+
+/// After a step: whether the phase is over, and what comes next. True where the whole fit is.
+bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& natural, const fit::Sums& sums,
+                         bool weights_settled) noexcept {
+  const bool loosely = settled(problem, natural, kLooselySettled);
+  if (phase_ == Phase::huber || phase_ == Phase::tukey) {
+    const int most = phase_ == Phase::huber ? kHuberSteps : kHuberSteps + kTukeySteps;
+    if (!(loosely && weights_settled) && robust_steps_ < most) return false;
+    if (phase_ == Phase::huber) {
+      phase_ = Phase::tukey;
+      robust_steps_ = kHuberSteps;
+      return false;
+    }
+    screen_ = fit::natural(datasheet_, fit::prior_roots(datasheet_), theta_);
+    screen_misfit_mps2_ = misfit_mps2_;
+    misfit_mps2_ = 0.0;
+    fresh_ = true;
+    phase_ = Phase::screened;
+    return false;
+  }
+  if (phase_ == Phase::squares && !looked_ && options_.reject_outliers && loosely && sums.worst > 1.0) {
+    looked_ = true;
+    freedom_ = sums.rows - 2 * sums.stations - (4 * datasheet_.size - 3);
+    if (freedom_ >= kScreenFreedom && fit::stands_out(problem, natural, freedom_)) {
+      phase_ = Phase::huber;
+      return false;
+    }
+  }
+  return settled(problem, natural, options_.stop_relative) &&
+         !misfit_changed(sums.chi2, sums.weighted_chi2, sums.rows, sums.stations);
+}
+
+/// Solves the normal equations, whose blocks are in `scratch_`, and moves.
+bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& natural, const fit::Parameters& rhs,
+                           const fit::RollSums& roll) noexcept {
+  const int n = datasheet_.size;
+  const int n4 = 4 * n;
+  const fit::PriorRoots roots = fit::prior_roots(datasheet_);
+  fit::expand(scratch_.data(), roll, roots, n, normal_.data());
+  for (int k = 0; k < n4; ++k) normal_[at(k * n4 + k)] = (normal_[at(k * n4 + k)] + 1.0) * (1.0 + damping_);
+  step_ = fit::times_roots(roots, n, rhs);
+  for (int k = 0; k < n4; ++k) step_[at(k)] -= theta_[at(k)];
+  if (!cholesky_factor(normal_.data(), n4, n4)) return false;
+  cholesky_solve(normal_.data(), n4, n4, step_.data());
+  if (all_free(datasheet_)) {
+    // A common rotation costs the data nothing, but only as a rotation: taken along its tangent it would stretch. Where
+    // the data do not see it, the prior alone has it.
+    fit::Parameters change = fit::times_roots(roots, n, step_);
+    const Vec3 turn = fit::remove_rotation(natural, n, problem.roll, change);
+    fit::Parameters moved = natural;
+    for (int k = 0; k < n4; ++k) moved[at(k)] += change[at(k)];
+    if (problem.roll.used) {
+      fit::turn_all(turn, n, moved);
+    } else {
+      fit::turn_to_prior(datasheet_, kPriorTurns, moved);
+    }
+    theta_ = fit::prior_units(datasheet_, moved);
+  } else {
+    for (int k = 0; k < n4; ++k) theta_[at(k)] += step_[at(k)];
+  }
+  return true;
+}
+
+void Calibrator::iterate(const Station* stations, int count) noexcept {
+  if (done()) return;
+  if (phase_ == Phase::start) {
+    find_start(stations, count);
+    if (started_ == FitStart::closed_form) return;
+  }
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  if (phase_ == Phase::screened) problem.screen = &screen;
+  const fit::PriorRoots roots = fit::prior_roots(datasheet_);
+  fit::Parameters rhs, natural = fit::natural(datasheet_, roots, theta_);
+  const bool looking = phase_ == Phase::huber || phase_ == Phase::tukey;
+  const bool weights_settled = !looking || weigh(problem, natural);
+  const fit::Loss loss = !looking ? fit::Loss::squares : phase_ == Phase::huber ? fit::Loss::huber : fit::Loss::tukey;
+  const double variance = misfit_mps2_ * misfit_mps2_;
+  fit::RollSums roll;
+  fit::Sums sums = fit::accumulate(problem, natural, variance, loss, scratch_.data(), rhs, roll);
+  const double cost = sums.chi2 + squared_length(theta_, 4 * datasheet_.size);
+  const bool finite = sums.finite && std::isfinite(cost);
+  const bool down = goes_down(cost, finite);
   if (fresh_ && !finite) {
     stop_ = StopReason::not_finite;
-  } else if (!finite || rises_ > kPatience) {
+    bad_station_ = sums.bad_station;
+  } else if (!down) {
     theta_ = best_;
     rises_ = 0;
     damping_ = damping_ > 0.0 ? 10.0 * damping_ : kFirstDamping;
     natural = fit::natural(datasheet_, roots, theta_);
-    sums = fit::accumulate(problem, natural, variance, scratch_.data(), rhs);
+    sums = fit::accumulate(problem, natural, variance, loss, scratch_.data(), rhs, roll);
     if (damping_ > kMaxDamping) stop_ = StopReason::no_descent;
   }
   fresh_ = false;
   ++iterations_;
   if (done()) return;
-  fit::expand(scratch_.data(), roots, n, normal_.data());
-  for (int k = 0; k < n4; ++k) normal_[at(k * n4 + k)] = (normal_[at(k * n4 + k)] + 1.0) * (1.0 + damping_);
-  step_ = fit::times_roots(roots, n, rhs);
-  for (int k = 0; k < n4; ++k) step_[at(k)] -= theta_[at(k)];
-  if (!cholesky_factor(normal_.data(), n4, n4)) {
+  if (!step_from(problem, natural, rhs, roll)) {
     stop_ = StopReason::not_finite;
-    return;
-  }
-  cholesky_solve(normal_.data(), n4, n4, step_.data());
-  for (int k = 0; k < n4; ++k) theta_[at(k)] += step_[at(k)];
-  if (damping_ < 1.0 && settled(natural) && !misfit_changed(sums.chi2, sums.weighted_chi2, sums.rows, sums.stations)) {
+  } else if (damping_ < 1.0 && advance(problem, natural, sums, weights_settled)) {
     stop_ = StopReason::converged;
   } else if (iterations_ >= options_.max_iterations) {
     stop_ = StopReason::iteration_limit;

@@ -76,6 +76,8 @@ FitOptions without_limits(FitOptions options) noexcept {
   options.max_scale_change = infinite;
   options.max_axis_change_rad = infinite;
   options.max_bias_sigmas = infinite;
+  options.max_outlier_share = infinite;
+  options.max_sensor_excess = infinite;
   return options;
 }
 
@@ -153,10 +155,14 @@ OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity
   OddSensor out;
   if (stations == nullptr || scratch == nullptr) return out;
   FitReport all;
-  const Expected<Calibration> fitted = calibrate(datasheet, gravity, stations, count, without_limits(options), &all);
-  FitOptions plausible = options;
-  plausible.require_full_rank = false;
-  plausible.max_norm_rms_mps2 = std::numeric_limits<double>::infinity();
+  // What a fit sets aside is what tells the sensors apart here.
+  FitOptions lenient = without_limits(options);
+  lenient.reject_outliers = false;
+  const Expected<Calibration> fitted = calibrate(datasheet, gravity, stations, count, lenient, &all);
+  FitOptions plausible = lenient;
+  plausible.max_scale_change = options.max_scale_change;
+  plausible.max_axis_change_rad = options.max_axis_change_rad;
+  plausible.max_bias_sigmas = options.max_bias_sigmas;
   if (!fitted && fitted.error().code != Errc::diverged) return out;
   out.with_mps2 = fitted ? all.misfit_mps2 : std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity(), next = least;

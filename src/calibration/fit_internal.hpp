@@ -71,85 +71,123 @@ PriorRoots prior_roots(const Datasheet& datasheet) noexcept;
 Parameters times_roots(const PriorRoots& roots, int n, const Parameters& v) noexcept;
 /// Datasheet + S x.
 Parameters natural(const Datasheet& datasheet, const PriorRoots& roots, const Parameters& x) noexcept;
+/// The datasheet's own W and b.
+Parameters datasheet_parameters(const Datasheet& datasheet) noexcept;
+/// The x that `natural` takes to theta; no prior sigma may be zero.
+Parameters prior_units(const Datasheet& datasheet, const Parameters& theta) noexcept;
 inline Vec3 row_of(const Parameters& theta, int i) noexcept {
   return {theta[at(4 * i)], theta[at(4 * i + 1)], theta[at(4 * i + 2)]};
 }
 
+/// Rows of stations that share an inclination while the tool rolls about `axis`. `used` is what the stations make of
+/// it: some group has two stations or more.
+struct Roll {
+  Vec3 axis{0.0, 0.0, 1.0};
+  double wobble_rad = 0.0;
+  bool used = false;
+  int groups = 0;  ///< beyond kMaxRollGroups: too many
+};
+
+/// Where the outliers were told from the rest: a station is out where its residual there, with that misfit, is beyond
+/// the limit. Kept as parameters rather than as a list, so that any number of stations is screened alike.
+struct Screen {
+  Parameters theta{};
+  double misfit_variance = 0.0;
+};
+
 /// What is fixed during one fit.
 struct Problem {
   const Datasheet& datasheet;
-  double g_mps2;
-  const Station* stations;
-  int count;
+  double g_mps2 = 0.0;
+  const Station* stations = nullptr;
+  int count = 0;
+  Roll roll;
+  const Screen* screen = nullptr;
 };
-
-/// The rows that one station contributes.
-struct StationRows {
-  int rows = 0;
-  std::array<int, kCapacity> sensor{};      ///< ascending
-  std::array<double, kCapacity> reading{};  ///< r [m/s^2]
-  std::array<double, kCapacity> weight{};   ///< 1 / variance of the mean
-};
-
-/// The direction of gravity that explains a station best, and what is left.
-struct StationFit {
-  bool finite = false;
-  Vec3 gravity{};                            ///< of length G
-  Vec3 estimate{};                           ///< unconstrained least squares
-  std::array<double, kCapacity> residual{};  ///< r - W g - b, by row
-  std::array<double, kCapacity> tangent1{};  ///< weighted images of two tangent directions of the sphere,
-  std::array<double, kCapacity> tangent2{};  ///< orthonormal in the whitened space
-  double direction_variance = 0.0;           ///< of the fitted direction [rad^2], both tangents together
-  double chi2 = 0.0;
-};
-
-enum class Loaded : std::uint8_t { used, skipped, not_finite };
-
-/// Working readings and weights of a station. Skipped: no samples, or fewer than three independent rows.
-Loaded load_rows(const Datasheet& datasheet, const Station& station, double misfit_variance,
-                 StationRows& rows) noexcept;
-int usable_stations(const Problem& problem) noexcept;
-bool independent(const Datasheet& datasheet, SensorSet delivered) noexcept;
-void fit_station(const StationRows& rows, const Parameters& theta, double g_mps2, StationFit& out) noexcept;
+Problem problem_of(const Datasheet& datasheet, double g_mps2, const FitOptions& options, const Station* stations,
+                   int count) noexcept;
+bool unit_axis(const Vec3& axis) noexcept;
 
 /// Ten products z z' of z = (g, 1): xx xy xz x yy yz y zz z 1.
 inline constexpr int kMomentCount = 10;
+
+/// How much a station counts, by its residual.
+enum class Loss : std::uint8_t { squares, huber, tukey };
+
+/// Sums over the stations of one roll group, for the mean inclination that belongs to the group alone.
+struct RollGroup {
+  std::uint32_t tag = 0;
+  int stations = 0;
+  double origin = 0.0;  ///< component of gravity along the axis at the first station [m/s^2]: levels count from it
+  double weight = 0.0;
+  double level = 0.0;   ///< sum of weight times level
+  double square = 0.0;  ///< sum of weight times squared level
+  double growth = 0.0;  ///< sum of weight times the derivative of the variance by the misfit's
+  Parameters slope{};   ///< sum of weight times gradient
+};
+struct RollSums {
+  int groups = 0;
+  std::array<RollGroup, kMaxRollGroups> group;  ///< the first `groups` are set
+};
+
 /// Sums over the stations; `blocks` holds kMomentCount numbers a pair of sensors (i, j <= i).
 struct Sums {
   int stations = 0;
   int rows = 0;
+  int bad_station = -1;  ///< the first one that is not finite
   bool finite = true;
-  double chi2 = 0.0;
+  double chi2 = 0.0;           ///< of the stations, and of the inclinations within their groups
   double weighted_chi2 = 0.0;  ///< sum of weight^2 residual^2, for the moment estimate of the misfit
+  double worst = 0.0;          ///< largest residual of a station over its outlier limit, squared
 };
-Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_variance, double* blocks,
-                Parameters& rhs) noexcept;
+class FitTally;
+/// `tally`, where given, sees every station that is used.
+Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_variance, Loss loss, double* blocks,
+                Parameters& rhs, RollSums& roll, FitTally* tally = nullptr) noexcept;
 /// S N S in prior units from the blocks; lower triangle, row-major with stride 4n.
-void expand(const double* blocks, const PriorRoots& roots, int n, double* information) noexcept;
+void expand(const double* blocks, const RollSums& roll, const PriorRoots& roots, int n, double* information) noexcept;
 
-/// Rotates theta so that its axes lie as near to the datasheet's as one rotation allows (Wahba).
-void turn_to_datasheet(const Datasheet& datasheet, Parameters& theta) noexcept;
+/// What the noise beyond the datasheet's would have to be for half of the stations to lie below the median that noise
+/// alone would have, from a guess at it; times `share`. `freedom` is that of the whole fit. Robust, and a start only:
+/// it has a tenth of the precision of the moment estimate. [(m/s^2)^2]
+double median_misfit(const Problem& problem, const Parameters& theta, double misfit_variance, int freedom,
+                     double share) noexcept;
 
-/// Takes the best common rotation (dW_i = W_i x e) out of a small change of the parameters.
-void remove_rotation(const Parameters& theta, int n, Parameters& change) noexcept;
+/// Whether some residual of a least-squares fit is so far above the median that it may be an outlier: noise of any size
+/// alone seldom looks so. An outlier pulls the fit, hence a part of the limit only.
+bool stands_out(const Problem& problem, const Parameters& theta, int freedom) noexcept;
+
+/// Whether any two usable stations share a roll group; `groups` counts those that do. At most kMaxRollGroups are used.
+bool has_roll_groups(const Problem& problem, int& groups) noexcept;
+
+/// W and b from the stations alone, in the frame that the prior likes best; false where they do not determine it, or
+/// where the datasheet is too far off. Incomplete stations are left aside. All priors must be above zero.
+bool closed_form(const Problem& problem, Parameters& theta) noexcept;
+
+/// Rotates all W by the vector `turn` (axis times angle).
+void turn_all(const Vec3& turn, int n, Parameters& theta) noexcept;
+
+/// Rotates theta so that its axes lie as near to the datasheet's as one rotation allows (Wahba); about the roll axis
+/// alone where roll groups have settled the other two. The sensor `left_out`, if any, has no say.
+void turn_to_datasheet(const Datasheet& datasheet, const Roll& roll, Parameters& theta, int left_out = -1) noexcept;
+
+/// Rotates theta so that its axes cost the prior least, by at most so many steps, none of which goes uphill. All priors
+/// must be above zero.
+void turn_to_prior(const Datasheet& datasheet, int steps, Parameters& theta) noexcept;
+
+/// Takes the best common rotation (dW_i = W_i x e; about the roll axis alone where roll groups see the others) out of a
+/// small change of the parameters. Returns the turn (axis times angle) that it amounted to.
+Vec3 remove_rotation(const Parameters& theta, int n, const Roll& roll, Parameters& change) noexcept;
 
 /// Rank, condition, null directions, sigmas and shares, from the information (prior units, lower triangle;
 /// destroyed). Eigenvalues below `floor` times the largest count as zero. Leaves the posterior covariance
 /// in natural units, gauge removed, in `information` (both triangles). False where the eigenvalues could
 /// not be had.
-bool analyse(const Datasheet& datasheet, const PriorRoots& roots, const Parameters& theta, double floor,
-             double* information, double* scratch, FitReport& report) noexcept;
+bool analyse(const Datasheet& datasheet, const Roll& roll, const PriorRoots& roots, const Parameters& theta,
+             double floor, double* information, double* scratch, FitReport& report) noexcept;
 
 /// Multiplies the covariance and the sigmas: for residuals larger than the noise, unless a misfit says so.
 void inflate(double factor, int n4, double* covariance, FitReport& report) noexcept;
-
-/// Residuals, norm, parity, chi^2, excitation into the report.
-struct ResidualSummary {
-  bool finite = false;
-  int rows = 0;
-  double direction_variance = 0.0;  ///< of a fitted direction, mean over the stations [rad^2]
-};
-ResidualSummary describe_residuals(const Problem& problem, const Parameters& theta, FitReport& report) noexcept;
 
 /// Calibrated model, axes and uncertainty from the fitted parameters and their covariance (stride 4n);
 /// completes the report with e_cal.

@@ -6,6 +6,7 @@
 #include "fit_internal.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/numeric/cholesky.hpp"
+#include "station_solver.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -1,4 +1,5 @@
 /// The paper's error of one station and its derivatives.
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
@@ -39,29 +40,25 @@ Error check_sensor(const DatasheetSensor& s, int i) noexcept {
 
 }  // namespace
 
+/// What all stations have in common.
+struct PaperError::Prepared {
+  std::array<Vec3, kPaperCapacity> column{};     ///< of map (I - m)
+  std::array<double, kPaperCapacity> ratio{};    ///< SF over the nominal one
+  std::array<double, kPaperCapacity> inverse{};  ///< 1 / SF
+  std::array<double, kPaperCapacity> bias{};
+  bool finite = true;
+  double temperature_degc = 0.0;
+  bool tempered = false;
+  std::array<double, kPaperCapacity> gain{};   ///< 1 / SF* at that temperature; NaN where SF* is 0
+  std::array<double, kPaperCapacity> drift{};  ///< B*
+};
+
 /// What the error and its derivatives have in common at one station.
 struct PaperError::Point {
-  std::array<double, kPaperCapacity> direct{};   ///< V / SF*
-  std::array<double, kPaperCapacity> slope{};    ///< -d(direct)/dSF
+  std::array<double, kPaperCapacity> slope{};    ///< minus the derivative of the reading by SF
   std::array<double, kPaperCapacity> reading{};  ///< before the misalignment
-  std::array<Vec3, kPaperCapacity> column{};     ///< of map (I - m)
   Vec3 x{};
   bool finite = true;
-
-  /// Derivatives of x, in the order of the parameters.
-  std::array<Vec3, kPaperParameters> derivatives(const PaperError& error) const noexcept {
-    std::array<Vec3, kPaperParameters> d{};
-    const int n = error.n_;
-    for (int i = 0; i < n; ++i) {
-      d[fit::at(i)] = scaled(column[fit::at(i)], -1.0);
-      d[fit::at(n + i)] = scaled(column[fit::at(i)], -slope[fit::at(i)]);
-      for (int j = 0; j < n; ++j) {
-        if (j == i) continue;
-        d[fit::at(error.misalignment(i, j))] = scaled(error.map_[fit::at(i)], -reading[fit::at(j)]);
-      }
-    }
-    return d;
-  }
 };
 
 Expected<PaperError> PaperError::make(const Datasheet& datasheet, const GravityReference& gravity,
@@ -104,49 +101,124 @@ Expected<PaperError> PaperError::make(const Datasheet& datasheet, const GravityR
   return out;
 }
 
-PaperError::Point PaperError::point(const PaperParameters& at, const Station& station) const noexcept {
-  Point p;
-  for (int i = 0; i < n_; ++i) {
-    const SensorCoefficients& c = nominal_[fit::at(i)];
-    const double t = station.temperature_degc - c.reference_degc;
-    const double factor = at[fit::at(n_ + i)];
-    const double scale = fit::cubic(c.scale, t) * (factor / c.scale[0]);
-    if (scale == 0.0 || factor == 0.0) {
-      p.finite = false;
-      return p;
-    }
-    p.direct[fit::at(i)] = station.mean[fit::at(sensor_[fit::at(i)])] / scale;
-    p.slope[fit::at(i)] = p.direct[fit::at(i)] / factor;
-    p.reading[fit::at(i)] = p.direct[fit::at(i)] - at[fit::at(i)] - (fit::cubic(c.bias, t) - c.bias[0]);
-  }
+PaperError::Prepared PaperError::prepare(const PaperParameters& at) const noexcept {
+  Prepared out;
   for (int j = 0; j < n_; ++j) {
     Vec3 column = map_[fit::at(j)];
     for (int i = 0; i < n_; ++i) {
       if (i != j) column = minus(column, scaled(map_[fit::at(i)], at[fit::at(misalignment(i, j))]));
     }
-    p.column[fit::at(j)] = column;
-    p.x = plus(p.x, scaled(column, p.reading[fit::at(j)]));
+    const double factor = at[fit::at(n_ + j)];
+    out.finite = out.finite && factor != 0.0;
+    out.column[fit::at(j)] = column;
+    out.ratio[fit::at(j)] = factor / nominal_[fit::at(j)].scale[0];
+    out.inverse[fit::at(j)] = out.finite ? 1.0 / factor : 0.0;
+    out.bias[fit::at(j)] = at[fit::at(j)];
   }
+  return out;
+}
+
+/// Kept from one station to the next of the same temperature.
+void PaperError::temper(double temperature_degc, Prepared& prepared) const noexcept {
+  prepared.temperature_degc = temperature_degc;
+  prepared.tempered = true;
+  for (int i = 0; i < n_; ++i) {
+    const SensorCoefficients& c = nominal_[fit::at(i)];
+    const double t = temperature_degc - c.reference_degc;
+    const double scale = fit::cubic(c.scale, t) * prepared.ratio[fit::at(i)];
+    prepared.gain[fit::at(i)] = scale != 0.0 ? 1.0 / scale : kNan;
+    prepared.drift[fit::at(i)] = prepared.bias[fit::at(i)] + (fit::cubic(c.bias, t) - c.bias[0]);
+  }
+}
+
+PaperError::Point PaperError::point(Prepared& prepared, const Station& station) const noexcept {
+  if (!prepared.tempered || prepared.temperature_degc != station.temperature_degc) {
+    temper(station.temperature_degc, prepared);
+  }
+  Point p;
+  p.finite = prepared.finite;
+  Vec3 x{};
+  for (int i = 0; i < n_; ++i) {
+    const double gain = prepared.gain[fit::at(i)];
+    p.finite = p.finite && !std::isnan(gain);
+    const double direct = station.mean[fit::at(sensor_[fit::at(i)])] * gain;
+    p.slope[fit::at(i)] = direct * prepared.inverse[fit::at(i)];
+    p.reading[fit::at(i)] = direct - prepared.drift[fit::at(i)];
+    x = plus(x, scaled(prepared.column[fit::at(i)], p.reading[fit::at(i)]));
+  }
+  p.x = x;
   return p;
+}
+
+/// Of |x|^2, in the order of the parameters.
+void PaperError::derivatives(const Point& p, const Prepared& prepared, PaperParameters& gradient) const noexcept {
+  const Vec3 w = scaled(p.x, -2.0);
+  double* m = gradient.data() + fit::at(2 * n_);
+  for (int i = 0; i < n_; ++i) {
+    const double along = dot(prepared.column[fit::at(i)], w), row = dot(map_[fit::at(i)], w);
+    gradient[fit::at(i)] = along;
+    gradient[fit::at(n_ + i)] = along * p.slope[fit::at(i)];
+    for (int j = 0; j < n_; ++j) {
+      if (j != i) *m++ = row * p.reading[fit::at(j)];
+    }
+  }
 }
 
 double PaperError::operator()(const PaperParameters& at, const Station& station,
                               PaperParameters* gradient) const noexcept {
-  const Point p = point(at, station);
+  Prepared prepared = prepare(at);
+  const Point p = point(prepared, station);
   if (gradient != nullptr) {
     gradient->fill(0.0);
-    const std::array<Vec3, kPaperParameters> d = p.derivatives(*this);
-    for (int k = 0; k < parameters(); ++k) (*gradient)[fit::at(k)] = 2.0 * dot(d[fit::at(k)], p.x);
+    if (p.finite) derivatives(p, prepared, *gradient);
   }
   return p.finite ? dot(p.x, p.x) - g_squared_ : kNan;
 }
 
+double PaperError::gauss_newton(const PaperParameters& at, const Station* stations, int count, double* matrix,
+                                int stride, PaperParameters& gradient) const noexcept {
+  using Four = Eigen::Array4d;
+  const int size = parameters();
+  for (int k = 0; k < size * stride; ++k) matrix[k] = 0.0;
+  gradient.fill(0.0);
+  PaperParameters slope{};
+  Prepared prepared = prepare(at);
+  double sum = 0.0;
+  int used = 0;
+  for (int s = 0; s < (stations == nullptr ? 0 : count); ++s) {
+    if (!usable(stations[s])) continue;
+    const Point p = point(prepared, stations[s]);
+    if (!p.finite) return kNan;
+    const double e = dot(p.x, p.x) - g_squared_;
+    derivatives(p, prepared, slope);
+    for (int a = 0; a < size; a += 4) Four::Map(gradient.data() + a) += e * Four::Map(slope.data() + a);
+    // Four columns at a time, over the diagonal to the end of the four.
+    for (int a = 0; a < size; ++a) {
+      const double own = slope[fit::at(a)];
+      double* row = matrix + fit::at(a * stride);
+      for (int b = 0; b <= a; b += 4) Four::Map(row + b) += own * Four::Map(slope.data() + b);
+    }
+    sum += e * e;
+    ++used;
+  }
+  return used > 0 ? sum / used : kNan;
+}
+
 void PaperError::add_curvature(const PaperParameters& at, const Station& station, double weight,
                                double* matrix) const noexcept {
-  const Point p = point(at, station);
+  Prepared prepared = prepare(at);
+  const Point p = point(prepared, station);
   if (!p.finite) return;
   const int count = parameters();
-  const std::array<Vec3, kPaperParameters> d = p.derivatives(*this);
+  // Derivatives of x, in the order of the parameters.
+  std::array<Vec3, kPaperParameters> d{};
+  for (int i = 0; i < n_; ++i) {
+    d[fit::at(i)] = scaled(prepared.column[fit::at(i)], -1.0);
+    d[fit::at(n_ + i)] = scaled(prepared.column[fit::at(i)], -p.slope[fit::at(i)]);
+    for (int j = 0; j < n_; ++j) {
+      if (j != i) d[fit::at(misalignment(i, j))] = scaled(map_[fit::at(i)], -p.reading[fit::at(j)]);
+    }
+  }
   for (int a = 0; a < count; ++a) {
     for (int b = 0; b <= a; ++b) matrix[a * count + b] += 2.0 * weight * dot(d[fit::at(a)], d[fit::at(b)]);
   }
@@ -155,7 +227,7 @@ void PaperError::add_curvature(const PaperParameters& at, const Station& station
   for (int j = 0; j < n_; ++j) {
     const double slope = p.slope[fit::at(j)];
     const int scale = n_ + j;
-    matrix[scale * count + scale] += 2.0 * dot(w, p.column[fit::at(j)]) * slope / at[fit::at(scale)];
+    matrix[scale * count + scale] += 2.0 * dot(w, prepared.column[fit::at(j)]) * slope / at[fit::at(scale)];
     for (int i = 0; i < n_; ++i) {
       if (i == j) continue;
       const int m = misalignment(i, j);
@@ -167,11 +239,13 @@ void PaperError::add_curvature(const PaperParameters& at, const Station& station
 }
 
 double PaperError::cost(const PaperParameters& at, const Station* stations, int count) const noexcept {
+  Prepared prepared = prepare(at);
   double sum = 0.0;
   int used = 0;
   for (int k = 0; k < (stations == nullptr ? 0 : count); ++k) {
     if (!usable(stations[k])) continue;
-    const double error = (*this)(at, stations[k]);
+    const Point p = point(prepared, stations[k]);
+    const double error = p.finite ? dot(p.x, p.x) - g_squared_ : kNan;
     sum += error * error;
     ++used;
   }

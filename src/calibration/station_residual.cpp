@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "fit_internal.hpp"
+#include "station_solver.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -12,27 +12,26 @@ StationResidual station_residual(const Calibration& calibration, const GravityRe
   const int n = calibration.array.size();
   const SensorSet delivered = station.delivered & calibration.array.all();
   if (station.count == 0 || rank_of(calibration.array, delivered) < 3) return out;
-  const Readings reading = calibration.model.apply(station.mean, station.temperature_degc, delivered);
-  fit::StationRows rows;
-  fit::Parameters theta;
+  // The calibrated array as a datasheet of its own, whose readings are m/s^2 already.
+  Datasheet sheet;
+  sheet.size = n;
+  const auto count = static_cast<double>(station.count);
   for (int i = 0; i < n; ++i) {
-    const Vec3& axis = calibration.array.axis(i);
-    for (int p = 0; p < 3; ++p) theta[at(4 * i + p)] = axis[at(p)];
-    theta[at(4 * i + 3)] = 0.0;
-    if (!delivered.has(i)) continue;
-    const double sigma = calibration.array.sigma_mps2(i);
+    SensorRow& row = sheet.sensor[at(i)].row;
+    row = calibration.array.row(i);
     const double misfit = calibration.array.uncertainty().misfit_mps2[at(i)];
-    const std::size_t k = at(rows.rows++);
-    rows.sensor[k] = i;
-    rows.reading[k] = reading[at(i)];
-    rows.weight[k] = 1.0 / (sigma * sigma / static_cast<double>(station.count) + misfit * misfit);
+    row.sigma_mps2 = std::sqrt(row.sigma_mps2 * row.sigma_mps2 + count * misfit * misfit);
   }
-  fit::StationFit fitted;
-  fit::fit_station(rows, theta, gravity.g_mps2, fitted);
-  if (!fitted.finite) return out;
-  out.gravity_mps2 = fitted.gravity;
-  out.norm_error_mps2 = norm(fitted.estimate) - gravity.g_mps2;
-  for (int k = 0; k < rows.rows; ++k) out.residual_mps2[at(rows.sensor[at(k)])] = fitted.residual[at(k)];
+  Station readings = station;
+  readings.mean = calibration.model.apply(station.mean, station.temperature_degc, delivered);
+  readings.delivered = delivered;
+  const fit::Problem problem = {sheet, gravity.g_mps2, &readings, 1, {}, nullptr};
+  const fit::Parameters theta = fit::datasheet_parameters(sheet);
+  fit::StationSolver solver(problem, theta, 0.0);
+  if (solver.solve(readings) != fit::Loaded::used) return out;
+  out.gravity_mps2 = solver.gravity;
+  out.norm_error_mps2 = norm(solver.estimate) - gravity.g_mps2;
+  for (int k = 0; k < solver.rows; ++k) out.residual_mps2[at(solver.sensor[at(k)])] = solver.residual(k);
   return out;
 }
 

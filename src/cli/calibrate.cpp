@@ -109,6 +109,9 @@ Command add_calibrate(CLI::App& tool) {
          "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
          "default 4 folds, below 16 stations one at a time")
       ->type_name("K|FRACTION|one|none");
+  app->add_flag_callback(
+      "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
+      "plain least squares: do not set stations aside whose residuals are not noise");
   app->add_option("--plots", options->plots,
                   "draw residuals, parameters, convergence and attitudes into this directory (needs gnuplot)")
       ->type_name("DIR");

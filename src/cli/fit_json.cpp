@@ -1,4 +1,5 @@
 // The report of a fit as JSON for machines. A figure that is not known is null, never 0.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -44,7 +45,8 @@ Json fit_object(const CalibrationRun& run) {
   const auto known = [&run](Json value) { return run.study.shown ? value : Json(); };
   Json cost = Json::array();
   for (const double c : run.study.cost) cost.push_back(c);
-  return {{"stop", to_string(run.report.stop)},
+  return {{"start", to_string(run.report.start)},
+          {"stop", to_string(run.report.stop)},
           {"iterations", run.report.iterations},
           {"cost", std::move(cost)},
           {"parameters", r.parameters},
@@ -74,6 +76,29 @@ Json hold_out_json(const CalibrationRun& run) {
           {"parity_max_mps2", h.parity_max_mps2},
           {"sigmas", h.sigmas},
           {"worst_station", h.worst + 1}};
+}
+
+/// Stations that the fit set aside; the report lists the first kMaxOutliers.
+Json outliers_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  const FitReport& r = run.told();
+  Json listed = Json::array();
+  for (int k = 0; k < std::min(r.outliers, kMaxOutliers); ++k) {
+    const Outlier& o = r.outlier[static_cast<std::size_t>(k)];
+    listed.push_back({{"station", o.station + 1},
+                      {"sigmas", finite(o.standardised)},
+                      {"sensor", o.sensor >= 0 ? Json(id_of(array, o.sensor)) : Json()},
+                      {"share", o.sensor >= 0 ? finite(o.share) : Json()}});
+  }
+  return {{"count", r.outliers}, {"listed", std::move(listed)}};
+}
+
+Json clipped_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  const FitReport& r = run.told();
+  Json sensors = Json::array();
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (r.clipped_sensors.has(i)) sensors.push_back(id_of(array, i));
+  }
+  return {{"readings", r.clipped}, {"sensors", std::move(sensors)}};
 }
 
 Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -169,6 +194,8 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["log_findings"] = run.log_findings;
   out["stations"] = stations_json(run);
   out["fit"] = fit_object(run);
+  out["outliers"] = outliers_json(run, array);
+  out["at_full_scale"] = clipped_json(run, array);
   out["unobservable"] = unobservable(run, array);
   out["hold_out"] = hold_out_json(run);
   out["common_scale"] = run.study.shown ? Json{{"mean", run.study.common_scale.mean},

@@ -85,7 +85,7 @@ int odd_axis(const SensorArray& fitted, const SensorArray& nominal) {
 /// the first one beyond its bound need not be the culprit.
 std::string worst_value(const CalibrationRun& run, const io::ArrayFile& array) {
   if (!run.study.shown) return "";
-  const FitOptions bound;
+  const FitOptions& bound = run.options;
   const int odd = odd_axis(run.study.shown->array, array.array);
   double most = 1.0;
   std::string out;
@@ -166,6 +166,20 @@ Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
                           e.value, e.limit),
               "look at station " + std::to_string(run.study.held_out.worst + 1) + ", the worst one; " + record};
     default: break;
+  }
+  const FitReport& r = run.report;
+  const double most = run.options.max_outlier_share * (r.stations + r.outliers);
+  const std::string channel = e.index >= 0 ? "look at the channel of " + id_of(array, e.index) + " in the log; " : "";
+  if (static_cast<double>(r.outliers) > most) {
+    return {fmt::format("{} of {} stations contradict the others (at most {:.0f} may be set aside){}", r.outliers,
+                        r.stations + r.outliers, std::floor(most),
+                        e.index >= 0 ? ", most of them by the reading of " + id_of(array, e.index) : ""),
+            channel + record};
+  }
+  if (e.index >= 0 && r.norm_rms_mps2 <= run.options.max_norm_rms_mps2) {
+    return {fmt::format("the residuals of {} are {:.1f} times those of the other sensors (allowed {:.1f})",
+                        id_of(array, e.index), e.value, e.limit),
+            channel + record};
   }
   return {fmt::format("the residual is too large ({:.4g} m/s^2, allowed {:.4g})", e.value, e.limit),
           "look at " + worst_sensor(run, array) + ", whose residual is the largest; check [gravity], and " + record};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 #include "plumb/array/geometry.hpp"
 
@@ -27,6 +28,12 @@ HoldOutPlan plan_of(const HoldOutChoice& choice, int stations) {
   plan.folds = std::min(plan.folds, std::max(stations, 2));
   plan.rounds = choice.once ? 1 : plan.folds;
   return plan;
+}
+
+std::vector<Station> chosen(const std::vector<Station>& stations, const std::vector<int>& which) {
+  std::vector<Station> out;
+  for (const int k : which) out.push_back(stations[static_cast<std::size_t>(k)]);
+  return out;
 }
 
 /// Directions by the fit where there is one, else by the datasheet.
@@ -63,32 +70,63 @@ void plan_next(const io::ArrayFile& array, FitStudy& out) {
 }
 
 /// The fit once more, step by step: `calibrate` keeps no history.
-std::vector<double> convergence(const io::ArrayFile& array, const std::vector<Station>& stations) {
+std::vector<double> convergence(const io::ArrayFile& array, const std::vector<Station>& stations,
+                                const FitOptions& options) {
   std::vector<double> cost;
-  auto calibrator = std::make_unique<Calibrator>(array.datasheet, array.gravity, FitOptions{});
+  auto calibrator = std::make_unique<Calibrator>(array.datasheet, array.gravity, options);
   for (int k = 0; k < kMostIterations && !calibrator->done(); ++k) {
     calibrator->iterate(stations.data(), static_cast<int>(stations.size()));
-    if (std::isfinite(calibrator->cost())) cost.push_back(calibrator->cost());
+    const bool started = calibrator->iterations() > 0;  // the first call may only find where to start
+    if (started && std::isfinite(calibrator->cost())) cost.push_back(calibrator->cost());
   }
   return cost;
 }
 
-void cross_check(const io::ArrayFile& array, const std::vector<Station>& stations, const FitReport& report,
-                 const HoldOutChoice& choice, FitStudy& out) {
+/// Stations without the outliers of an accepted fit. A report keeps only so many of them, so that the rest may have to
+/// be asked again.
+std::vector<int> kept_by(const Expected<Calibration>& fit, const io::ArrayFile& array,
+                         const std::vector<Station>& stations, const FitOptions& options) {
+  std::vector<int> kept(stations.size());
+  std::iota(kept.begin(), kept.end(), 0);
+  if (!fit) return kept;
+  FitReport report = fit->report;
+  while (report.outliers > 0) {
+    const int listed = std::min(report.outliers, kMaxOutliers);
+    for (int k = listed - 1; k >= 0; --k)
+      kept.erase(kept.begin() + report.outlier[static_cast<std::size_t>(k)].station);
+    if (report.outliers == listed) break;
+    const std::vector<Station> rest = chosen(stations, kept);
+    report = FitReport{};
+    calibrate(array.datasheet, array.gravity, rest.data(), static_cast<int>(rest.size()), without_limits(options),
+              &report);
+  }
+  return kept;
+}
+
+/// What an accepted fit has set aside is neither predicted nor held against a sensor.
+void cross_check(const io::ArrayFile& array, const std::vector<Station>& all, const Expected<Calibration>& fit,
+                 const FitReport& report, const FitOptions& options, const HoldOutChoice& choice, FitStudy& out) {
+  out.kept = kept_by(fit, array, all, options);
+  const std::vector<Station> stations = chosen(all, out.kept);
   std::vector<Station> scratch(stations.size());
   const int count = static_cast<int>(stations.size());
   out.plan = plan_of(choice, count);
   if (!choice.none && out.shown) {
-    out.predicted.resize(stations.size());
-    out.held_out = hold_out(array.datasheet, array.gravity, stations.data(), count, out.plan, FitOptions{},
-                            scratch.data(), out.predicted.data());
-    if (out.held_out.judged == 0) out.predicted.clear();
+    std::vector<StationPrediction> predicted(stations.size());
+    out.held_out = hold_out(array.datasheet, array.gravity, stations.data(), count, out.plan, options, scratch.data(),
+                            predicted.data());
+    if (out.held_out.judged > 0) {
+      out.held_out.worst = out.kept[static_cast<std::size_t>(out.held_out.worst)];
+      out.predicted.resize(all.size());
+      for (std::size_t k = 0; k < predicted.size(); ++k)
+        out.predicted[static_cast<std::size_t>(out.kept[k])] = predicted[k];
+    }
   }
   const bool unsettled = !out.shown && report.stop != StopReason::none && report.stop != StopReason::converged;
-  out.odd_sought = unsettled || (out.shown && report.degrees_of_freedom > 0 && report.p_value < kOddPValue);
-  if (out.odd_sought) {
-    out.odd = odd_sensor(array.datasheet, array.gravity, stations.data(), count, FitOptions{}, scratch.data());
-  }
+  const bool poor = !fit && fit.error().code == Errc::poor_fit;
+  out.odd_sought = unsettled || poor || (out.shown && report.degrees_of_freedom > 0 && report.p_value < kOddPValue);
+  if (out.odd_sought)
+    out.odd = odd_sensor(array.datasheet, array.gravity, stations.data(), count, options, scratch.data());
 }
 
 }  // namespace
@@ -123,7 +161,7 @@ std::string read_hold_out(const std::string& text, HoldOutChoice& choice) {
 }
 
 FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
-                   const FitReport& report, const HoldOutChoice& choice) {
+                   const FitReport& report, const FitOptions& options, const HoldOutChoice& choice) {
   FitStudy out;
   const int count = static_cast<int>(stations.size());
   if (fit) {
@@ -131,15 +169,15 @@ FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stati
   } else if (fit.error().code != Errc::diverged) {
     // What was refused is shown too: the figures are why.
     const Expected<Calibration> refused =
-        calibrate(array.datasheet, array.gravity, stations.data(), count, without_limits(FitOptions{}));
+        calibrate(array.datasheet, array.gravity, stations.data(), count, without_limits(options));
     if (refused) out.shown = std::make_unique<Calibration>(*refused);
   }
   find_attitudes(array, stations, out);
   out.coverage = coverage_of(array.datasheet, out.attitudes.data(), count);
   plan_next(array, out);
   out.null_count = null_combinations(array.datasheet, out.shown ? out.shown->report : report, *out.nulls);
-  out.cost = convergence(array, stations);
-  cross_check(array, stations, report, choice, out);
+  out.cost = convergence(array, stations, options);
+  cross_check(array, stations, fit, report, options, choice, out);
   out.judgement = judge_gravity(array.gravity);
   if (!out.shown) {
     if (out.judgement.error.code == Errc::ok) out.judgement = judge_odd_sensor(array.datasheet, out.odd);

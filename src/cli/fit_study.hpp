@@ -32,7 +32,8 @@ struct FitStudy {
   CommonScale common_scale;
   HoldOutPlan plan;
   HoldOut held_out;
-  std::vector<StationPrediction> predicted;  ///< by station; empty: none held out
+  std::vector<StationPrediction> predicted;  ///< by station; empty: none held out; outliers are not judged
+  std::vector<int> kept;                     ///< stations that an accepted fit did not set aside; else all
   bool odd_sought = false;
   OddSensor odd;
   std::vector<SeenAttitude> attitudes;     ///< by station; direction 0 where unknown
@@ -48,9 +49,9 @@ struct FitStudy {
 /// Attitudes that are proposed.
 inline constexpr int kPlanned = 6;
 
-/// `fit` is what `calibrate` returned for the stations with default options, `report` what it wrote.
+/// `fit` is what `calibrate` returned for the stations with `options`, `report` what it wrote.
 FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
-                   const FitReport& report, const HoldOutChoice& choice);
+                   const FitReport& report, const FitOptions& options, const HoldOutChoice& choice);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -1,10 +1,12 @@
 // The report of a fit as a table for people.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fit_summary.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/report/words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -55,21 +57,30 @@ std::string stations_text(const CalibrationRun& run) {
     const Station& s = run.stations[k];
     const Vec3& u = run.study.attitudes[k].direction;
     const bool fitted = k < run.study.residuals.size();
+    const std::vector<int>& used = run.study.kept;
+    const bool kept = std::binary_search(used.begin(), used.end(), static_cast<int>(k));
     const bool predicted = k < run.study.predicted.size() && run.study.predicted[k].judged;
     out += fmt::format(
         "  {:>7}  {:>12.3f} {:>12.3f}  {:>8}  {:>6.1f} degC  {:>9} {:>9} {:>9}\n", k + 1, s.begin_s, s.end_s, s.count,
         s.temperature_degc, fitted ? fmt::format("{:+.3f}", in_mg0(run.study.residuals[k].norm_error_mps2)) : "-",
         norm(u) > 0.0 ? fmt::format("{:.1f}", deg_from_rad(std::atan2(std::hypot(u[0], u[1]), u[2]))) : "-",
-        predicted ? fmt::format("{:.2f} s", run.study.predicted[k].sigmas) : "-");
+        !kept       ? "aside"
+        : predicted ? fmt::format("{:.2f} s", run.study.predicted[k].sigmas)
+                    : "-");
   }
   return out + "  held out: how far the fit to the other stations misses this one, in sigmas that it claims\n";
+}
+
+std::string clipped_names(const FitReport& report, const io::ArrayFile& array) {
+  return report::sensor_names(report.clipped_sensors, array.array);
 }
 
 std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
   const FitReport& r = run.told();
   std::string out = "\nfit\n";
   const bool judged = r.rank > 0;
-  out += line("stop", fmt::format("{} after {} iterations", to_string(run.report.stop), run.report.iterations));
+  out += line("stop", fmt::format("{} after {} iterations, from the {}", to_string(run.report.stop),
+                                  run.report.iterations, to_string(run.report.start)));
   if (!judged) {
     return out + line("rank", "not known: there is no fit to these stations");
   }
@@ -105,7 +116,7 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
           fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.parity_rms_mps2), in_mg0(h.parity_max_mps2));
     }
     words += fmt::format("; {:.2f} times what the fit claims; {} of {} stations, each predicted by a fit without it",
-                         h.sigmas, h.judged, run.stations.size());
+                         h.sigmas, h.judged, run.study.kept.size());
     if (h.not_judged > 0) words += fmt::format("; {} not, the rest being too few without them", h.not_judged);
     out += line("held out", words);
   } else {
@@ -118,6 +129,10 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
     if (odd.size() < kOddStationsListed) odd.push_back(fmt::format("station {} ({:.1f} sigma)", s.number, s.sigmas));
   }
   if (!odd.empty()) out += line("stand out", listed(odd));
+  const std::vector<std::string> outliers = outlier_words(run, array);
+  if (!outliers.empty()) out += line("set aside", listed(outliers) + "; the values come from the other stations");
+  if (r.clipped > 0)
+    out += line("at full scale", fmt::format("{} readings of {}, not used", r.clipped, clipped_names(r, array)));
   if (run.study.odd.sensor >= 0) {
     out += line("stands out",
                 id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");

@@ -232,6 +232,20 @@ std::string common_scale_words(const CalibrationRun& run) {
   return out;
 }
 
+std::vector<std::string> outlier_words(const CalibrationRun& run, const io::ArrayFile& array) {
+  std::vector<std::string> out;
+  const FitReport& r = run.told();
+  const int listed = std::min(r.outliers, kMaxOutliers);
+  for (int k = 0; k < listed; ++k) {
+    const Outlier& o = r.outlier[static_cast<std::size_t>(k)];
+    const std::string whose =
+        o.sensor >= 0 ? fmt::format(", {:.0f} % of it by {}", 100.0 * o.share, id_of(array, o.sensor)) : "";
+    out.push_back(fmt::format("station {} ({:.1f} sigma{})", o.station + 1, o.standardised, whose));
+  }
+  if (r.outliers > listed) out.push_back(fmt::format("{} more", r.outliers - listed));
+  return out;
+}
+
 std::string odd_sensor_words(const OddSensor& odd) {
   const auto in_mg0 = [](double mps2) { return 1e3 * g0_from_mps2(mps2); };
   // A fit that runs away may end with any number.

@@ -35,6 +35,9 @@ std::vector<std::string> absent_words(const CalibrationRun& run, const io::Array
 /// What all scale factors have in common, and what that may mean; empty where there is no fit to show.
 std::string common_scale_words(const CalibrationRun& run);
 
+/// Stations that the fit set aside: "station 7 (31.2 sigma, 98 % of it by a2)", and how many more.
+std::vector<std::string> outlier_words(const CalibrationRun& run, const io::ArrayFile& array);
+
 /// "with it 4.5 mg0 remain beyond the noise, without it 0.01 mg0".
 std::string odd_sensor_words(const OddSensor& odd);
 

@@ -177,9 +177,10 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   run.interrupted = interrupted();
   collector.finish(run);
   run.log = reader->statistics();
+  run.options = choice.fit;
   const Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
-                                              static_cast<int>(run.stations.size()), FitOptions{}, &run.report);
-  run.study = study_fit(array, run.stations, fit, run.report, choice.hold_out);
+                                              static_cast<int>(run.stations.size()), run.options, &run.report);
+  run.study = study_fit(array, run.stations, fit, run.report, run.options, choice.hold_out);
   settle(run, fit);
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
   return run;

@@ -33,6 +33,7 @@ struct CalibrationRun {
   std::vector<Station> stations;
   io::LogStatistics log;
   bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
+  FitOptions options;
   FitReport report;
   FitStudy study;
   Error refusal;                          ///< why it was not accepted
@@ -50,6 +51,7 @@ struct CalibrationRun {
 /// What a calibration is to be, beyond its log.
 struct CalibrationChoice {
   HoldOutChoice hold_out;
+  FitOptions fit;
   bool paper_fits = false;  ///< the paper's own fits too
 };
 

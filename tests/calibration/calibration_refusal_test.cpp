@@ -85,7 +85,10 @@ TEST(CalibrationRefusal, ScaleOfTheWrongSignOrZero) {
   EXPECT_NE(negative.refusal(), plumb::Errc::ok);
   Bench zero;
   zero.sheet.sensor[0].coefficients.scale = {};
-  EXPECT_EQ(zero.refusal(), plumb::Errc::diverged);
+  const auto c = zero.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error().code, plumb::Errc::not_finite);
+  EXPECT_EQ(c.error().index, 0);
 }
 
 TEST(CalibrationRefusal, GravityFarOff) {
@@ -123,12 +126,110 @@ TEST(CalibrationRefusal, NormBeyondItsBound) {
 TEST(CalibrationRefusal, ConvergenceNotReached) {
   Bench b;
   b.options.max_iterations = 2;
+  b.options.start = plumb::FitStart::datasheet;
   EXPECT_EQ(b.refusal(), plumb::Errc::diverged);
   EXPECT_EQ(b.report.stop, plumb::StopReason::iteration_limit);
   EXPECT_EQ(b.report.iterations, 2);
   Bench unused;
   plumb::Calibrator calibrator(unused.sheet, unused.gravity, {});
   EXPECT_FALSE(calibrator.finish(unused.stations.data(), 48).has_value());
+}
+
+TEST(CalibrationRefusal, ANumberThatIsNoneNamesItsStation) {
+  for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity(), -1e308, 1e308}) {
+    for (const plumb::FitStart start : {plumb::FitStart::automatic, plumb::FitStart::datasheet}) {
+      Bench b;
+      b.options.start = start;
+      b.stations[7].mean[2] = poison;
+      const auto c = b.run();
+      ASSERT_FALSE(c.has_value());
+      EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::diverged, 7, 0.0, 0.0})) << poison;
+    }
+  }
+  for (int sensor = 0; sensor < 4; ++sensor) {
+    for (const double scale : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+      Bench b;
+      b.sheet.sensor[at(sensor)].coefficients.scale[0] = scale;
+      const auto c = b.run();
+      ASSERT_FALSE(c.has_value());
+      EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::not_finite, sensor, 0.0, 0.0})) << scale;
+    }
+  }
+}
+
+TEST(CalibrationRefusal, AScaleOfTheWrongSignNamesItsSensor) {
+  for (int sensor = 0; sensor < 4; ++sensor) {
+    Bench b;
+    for (double& c : b.sheet.sensor[at(sensor)].coefficients.scale) c = -c;
+    const auto c = b.run();
+    ASSERT_FALSE(c.has_value()) << sensor;
+    EXPECT_TRUE(c.error().code == plumb::Errc::implausible || c.error().code == plumb::Errc::poor_fit);
+    EXPECT_EQ(c.error().index, sensor);
+  }
+}
+
+TEST(CalibrationRefusal, FewerPositionsThanUnknowns) {
+  Bench b;
+  b.stations.resize(8);
+  EXPECT_EQ(b.refusal(), plumb::Errc::too_few_stations);
+  Bench triad;  // nine positions hold nine unknowns of three sensors, but not where one is there twice
+  plumb::AxisList axes{};
+  triad.sheet = datasheet_of(axes, plumb::orthogonal_triad(axes), kSigma);
+  triad.sheet = datasheet_of(axes, 3, kSigma);
+  triad.truth = draw_truth(triad.sheet, triad.noise);
+  triad.stations = random_stations(triad.sheet, triad.truth, 9, triad.noise, kSigma);
+  triad.stations[8] = triad.stations[0];
+  EXPECT_EQ(triad.refusal(), plumb::Errc::unobservable);
+  EXPECT_EQ(triad.report.rank, 8);
+}
+
+TEST(CalibrationRefusal, TwoChannelsOfOneSensor) {
+  Bench b;  // both columns of the log hold the same sensor, the datasheet has it along two axes
+  for (plumb::Station& s : b.stations) s.mean[1] = s.mean[0];
+  const auto c = b.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error().code, plumb::Errc::implausible);
+  EXPECT_TRUE(c.error().index == 0 || c.error().index == 1);
+  Bench twin;  // a triad with two axes alike spans a plane
+  plumb::AxisList axes{};
+  plumb::orthogonal_triad(axes);
+  axes[1] = axes[0];
+  twin.sheet = datasheet_of(axes, 3, kSigma);
+  EXPECT_EQ(twin.refusal(), plumb::Errc::axes_rank_deficient);
+}
+
+TEST(CalibrationRefusal, SaturatedReadingsAreLeftOutAndCounted) {
+  Bench b;
+  const double full_scale = 2.8;  // of 3 V/g0: clipped where a sensor points along gravity
+  for (int i = 0; i < 4; ++i) b.sheet.sensor[at(i)].full_scale_raw = full_scale;
+  int clipped = 0;
+  for (plumb::Station& s : b.stations) {
+    for (int i = 0; i < 4; ++i) {
+      if (std::fabs(s.mean[at(i)]) < full_scale) continue;
+      s.mean[at(i)] = std::copysign(full_scale, s.mean[at(i)]);
+      ++clipped;
+    }
+  }
+  ASSERT_GE(clipped, 4);
+  const auto c = b.run();
+  ASSERT_TRUE(c.has_value());
+  EXPECT_EQ(b.report.clipped, clipped);
+  EXPECT_EQ(b.report.clipped_sensors, plumb::SensorSet(15U));
+  EXPECT_LE(sphere_error(b.sheet, b.truth, *c).tilt_rad, 4e-4);
+  EXPECT_GT(b.report.p_value, 1e-4);
+}
+
+TEST(CalibrationRefusal, GravityOffByOnePercentIsACommonScale) {
+  Bench b;
+  b.truth = Truth{};
+  for (int i = 0; i < 4; ++i) b.truth.w[at(i)] = b.sheet.sensor[at(i)].row.axis;
+  b.stations = random_stations(b.sheet, b.truth, 48, b.noise, kSigma);
+  ASSERT_TRUE(b.run().has_value());
+  EXPECT_NEAR(b.report.common_scale, 0.0, 1e-4);
+  EXPECT_NEAR(b.report.common_scale_sigma, 0.0115 / 2.0, 1e-9);
+  b.gravity.g_mps2 *= 1.01;
+  ASSERT_TRUE(b.run().has_value());
+  EXPECT_NEAR(b.report.common_scale, 1.0 / 1.01 - 1.0, 2e-4);
 }
 
 TEST(CalibrationRefusal, DatasheetThatIsNoArray) {

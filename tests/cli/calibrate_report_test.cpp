@@ -207,12 +207,40 @@ TEST(CalibrateRefuses, TheFaultySensorByName) {
   }
 }
 
-TEST(CalibrateReport, TellsOfASensorThatStandsOutALittle) {
+TEST(CalibrateRefuses, ASensorThatStandsOutALittleAgainstTheOthers) {
   const Workshop where;
   inject(where, "a3:bias=0.5mg0@60s");
   const Outcome outcome = calibrate(where);
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.code, 4);
   EXPECT_TRUE(says(outcome.out, {"times what the declared noise", "stands out", "a3: with it"}));
+  EXPECT_TRUE(says(outcome.err, {"the residuals of a3 are", "times those of the other sensors (allowed 3.0)"}));
+}
+
+TEST(CalibrateReport, NamesTheStationThatItSetsAside) {
+  const Workshop where;
+  inject(where, "a2:bias=50mg0@60s+10s");
+  const Outcome outcome = calibrate(where);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"set aside", "station ", "of it by a2", "the values come from the other stations"}));
+  const Outcome told = calibrate(where, {"--json"});
+  const auto json = nlohmann::json::parse(told.out);
+  const auto count = json["outliers"]["count"].get<std::size_t>();
+  EXPECT_GE(count, 1U);
+  EXPECT_LE(count, 3U);
+  ASSERT_EQ(json["outliers"]["listed"].size(), count);
+  EXPECT_EQ(json["outliers"]["listed"][0]["sensor"], "a2");
+  const auto& first = json["stations"][json["outliers"]["listed"][0]["station"].get<std::size_t>() - 1];
+  EXPECT_LE(first["begin_s"].get<double>(), 70.0);
+  EXPECT_GE(first["end_s"].get<double>(), 60.0);
+  EXPECT_EQ(json["hold_out"]["judged"].get<std::size_t>() + count, json["stations"].size());
+}
+
+TEST(KeepOutliersOption, LetsThemSpoilTheFit) {
+  const Workshop where;
+  inject(where, "a2:bias=50mg0@60s+10s");
+  const Outcome outcome = calibrate(where, {"--keep-outliers"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_EQ(outcome.out.find("set aside"), std::string::npos) << outcome.out;
 }
 
 TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {

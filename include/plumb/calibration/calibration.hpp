@@ -16,6 +16,15 @@ inline namespace PLUMB_ABI {
 enum class StopReason : std::uint8_t { none, converged, iteration_limit, no_descent, not_finite };
 const char* to_string(StopReason reason) noexcept;
 
+/// Where a fit starts. Both ways end at the same place where the data have full rank; the closed form needs fewer
+/// iterations, and arrives from errors many times those of a datasheet.
+enum class FitStart : std::uint8_t {
+  automatic,   ///< closed form where it exists, else the datasheet
+  datasheet,   ///< the nominal values
+  closed_form  ///< as `automatic`; the report says what it was
+};
+const char* to_string(FitStart start) noexcept;
+
 /// Parameters of the fit: per sensor W_x, W_y, W_z (dimensionless, in the tool frame) and b [m/s^2].
 inline constexpr int kFitParameters = 4 * kCapacity;
 
@@ -25,11 +34,23 @@ struct NullDirection {
 };
 inline constexpr int kMaxNullDirections = 16;
 
+/// Stations with one roll group tag each (`Station::roll_group`) that a fit can tell apart.
+inline constexpr int kMaxRollGroups = 16;
+
+/// A station that the fit left out, because its residual is not noise.
+struct Outlier {
+  int station = -1;
+  double standardised = 0.0;  ///< length of its residual in standard deviations, n - 2 dimensions together
+  int sensor = -1;            ///< whose reading explains most of it; -1 with three sensors, where all do equally
+  double share = 0.0;         ///< of the squared residual that goes without that reading
+};
+inline constexpr int kMaxOutliers = 16;
+
 struct FitReport {
-  int stations = 0;
+  int stations = 0;         ///< used: outliers left out
   int parameters = 0;       ///< 4n
   int rank = 0;             ///< of the prior-scaled information of the data alone
-  int gauge = 0;            ///< of the missing rank: common rotations (3 for a norm-and-parity fit)
+  int gauge = 0;            ///< of the missing rank: common rotations (3, or 1 where roll groups see the others)
   int null_directions = 0;  ///< number beyond the gauge; at most kMaxNullDirections are kept
   std::array<NullDirection, kMaxNullDirections> null_direction{};
   double condition = 0.0;  ///< of the observable block, in prior units: ratio of its extreme singular values
@@ -49,6 +70,18 @@ struct FitReport {
   double excitation = 0.0;            ///< least eigenvalue of the Gram matrix of the 9 harmonics, uniform sphere = 1
   double temperature_min_degc = 0.0;  ///< span of the stations: beyond it by > 5 degC a monitor confirms nothing
   double temperature_max_degc = 0.0;
+  int outliers = 0;  ///< stations left out; at most kMaxOutliers are kept, in order
+  std::array<Outlier, kMaxOutliers> outlier{};
+  int clipped = 0;            ///< readings at or beyond the full scale, left out
+  SensorSet clipped_sensors;  ///< whose they were
+  int roll_groups = 0;        ///< groups of stations that share an inclination
+  /// Part of the stations' squared residuals, in the weights of the fit, that goes without a sensor's readings; for
+  /// healthy sensors all alike, about 1 / (n - 2). 0 with three sensors.
+  std::array<double, kCapacity> residual_share{};
+  /// Mean of |W_i| - 1 over the sensors: a length of gravity that is off by as much looks just the same.
+  double common_scale = 0.0;
+  double common_scale_sigma = 0.0;       ///< of what the datasheet expects of it
+  FitStart start = FitStart::datasheet;  ///< where it really started
   int iterations = 0;
   StopReason stop = StopReason::none;
 };
@@ -62,18 +95,36 @@ struct Calibration {
 };
 
 struct FitOptions {
-  int max_iterations = 50;
+  int max_iterations = 100;           ///< those that look for outliers included
   double stop_relative = 1.5e-6;      ///< the paper's stop rule, with the prior sigma as absolute floor
   double max_norm_rms_mps2 = 0.05;    ///< poor_fit beyond it
   double max_scale_change = 0.25;     ///< implausible beyond it: max(SF/SF0, SF0/SF) - 1
   double max_axis_change_rad = 0.26;  ///< implausible beyond it (15 deg)
   double max_bias_sigmas = 8.0;       ///< implausible beyond it, in prior sigmas
-  bool require_full_rank = true;      ///< unobservable where rank < 4n - 3 (n >= 4), 9 (n = 3)
+  bool require_full_rank = true;      ///< unobservable where rank < 4n - 3 (4n - 1 with roll groups)
   bool estimate_misfit = true;
+  FitStart start = FitStart::automatic;
+  /// Huber, then Tukey, then least squares without the stations that Tukey leaves beyond six sigma (4.685 with three
+  /// sensors). Where no residual is beyond that against the datasheet's noise, nothing is done and nothing changes:
+  /// clean data pay nothing for it, and so it is on.
+  bool reject_outliers = true;
+  double max_outlier_share = 0.25;  ///< of the stations; poor_fit beyond it: that is a fault, not an outlier
+  /// Of one sensor's residuals over those of the others, rms; poor_fit beyond it. Needs four sensors and some twenty
+  /// stations. However noisy a sensor, it drags the fit of the others along, so that the ratio stays near 4.
+  double max_sensor_excess = 3.0;
+  Vec3 roll_axis{0.0, 0.0, 1.0};  ///< about which stations of one `Station::roll_group` are rolled; unit, tool frame
+  double roll_wobble_rad = 0.0;   ///< 1 sigma by which the inclination differs from roll to roll
 };
 
+namespace fit {
+struct Problem;
+struct Sums;
+struct RollSums;
+struct Fitted;
+}  // namespace fit
+
 /// One bounded Gauss-Newton iteration per call, no heap: the host tool runs it to the end, a monitor
-/// may drive it step by step.
+/// may drive it step by step. The first call finds the start instead, where that is the closed form.
 class Calibrator {
  public:
   Calibrator(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options) noexcept;
@@ -86,31 +137,56 @@ class Calibrator {
   /// Where the fit stands: per sensor W and b [m/s^2], in the frame it has drifted to (`finish` turns it back).
   std::array<double, kFitParameters> parameters() const noexcept;
 
-  /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`,
-  /// too_few_stations, diverged (not finite, or not converged), unobservable (value = rank, limit =
-  /// rank needed), implausible (index = sensor), poor_fit. `report`, where given, is filled as far as
-  /// the stations allow. May be called again.
+  /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`; not_finite
+  /// (index = sensor: scale factor 0 or no number); out_of_range (index 0: roll axis not of unit length, 1: more than
+  /// kMaxRollGroups roll groups); too_few_stations; diverged (not finite: index = station where one is to blame; or not
+  /// converged); unobservable (value = rank, limit = rank needed); implausible (index = sensor); poor_fit (index =
+  /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
+  /// called again.
   Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) noexcept;
 
  private:
-  bool settled(const std::array<double, kFitParameters>& natural) const noexcept;
+  /// What the iterations are at: plain least squares; the two losses that find the outliers; least squares without.
+  enum class Phase : std::uint8_t { start, squares, huber, tukey, screened };
+
+  void find_start(const Station* stations, int count) noexcept;
+  bool weigh(const fit::Problem& problem, const std::array<double, kFitParameters>& natural) noexcept;
+  bool step_from(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
+                 const std::array<double, kFitParameters>& rhs, const fit::RollSums& roll) noexcept;
+  bool goes_down(double cost, bool finite) noexcept;
+  bool settled(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
+               double relative) const noexcept;
   bool misfit_changed(double chi2, double weighted_chi2, int rows, int stations) noexcept;
+  bool advance(const fit::Problem& problem, const std::array<double, kFitParameters>& natural, const fit::Sums& sums,
+               bool weights_settled) noexcept;
+
+  Error refused(const Station* stations, int count, FitReport& report) const noexcept;
+  bool describe(const fit::Problem& problem, fit::Fitted& fitted, FitReport& report) noexcept;
+  Error judge(const fit::Problem& problem, const fit::Fitted& fitted, const FitReport& report) const noexcept;
 
   Datasheet datasheet_;
   GravityReference gravity_;
   FitOptions options_;
-  std::array<double, kFitParameters> theta_{};  ///< deviation from the datasheet in units of the prior
-  std::array<double, kFitParameters> step_{};   ///< the last step, same units
-  std::array<double, kFitParameters> best_{};   ///< where the cost was lowest, same units
+  std::array<double, kFitParameters> theta_{};   ///< deviation from the datasheet in units of the prior
+  std::array<double, kFitParameters> step_{};    ///< the last step, same units
+  std::array<double, kFitParameters> best_{};    ///< where the cost was lowest, same units
+  std::array<double, kFitParameters> screen_{};  ///< W and b by which the outliers were told from the rest
   std::array<double, std::size_t{kFitParameters} * kFitParameters> normal_{};
   std::array<double, std::size_t{kFitParameters} * kFitParameters> scratch_{};
   double cost_ = 0.0;
   double damping_ = 0.0;  ///< Levenberg-Marquardt, relative to the diagonal; 0 unless the cost rose
   double misfit_mps2_ = 0.0;
+  double screen_misfit_mps2_ = 0.0;  ///< the noise beyond the datasheet's that went with it
   int misfit_rounds_ = 0;
+  int robust_steps_ = 0;
+  int freedom_ = 0;      ///< of the fit, where outliers are looked for
+  bool looked_ = false;  ///< for outliers
   int iterations_ = 0;
-  int rises_ = 0;      ///< iterations since the cost was lowest
+  int rises_ = 0;  ///< iterations since the cost was lowest
+  int bad_station_ = -1;
   bool fresh_ = true;  ///< no cost yet to compare with: at the start and after a change of weights
+  Phase phase_ = Phase::start;
+  FitStart started_ = FitStart::datasheet;
   StopReason stop_ = StopReason::none;
 };
 

@@ -55,8 +55,8 @@ struct OddSensor {
 
 /// Leaves out one sensor after the other. A sensor stands out if chi^2 per degree of freedom without it is at most
 /// kOddRatio of the least without any other, with at least kOddFreedom degrees of freedom left; a fit that does not
-/// settle within the physical bounds of `options` is the worst. n fits; `scratch` holds
-/// `count` stations.
+/// settle within the physical bounds of `options` is the worst. No station is set aside as an outlier: leave those out
+/// that must not speak. n fits; `scratch` holds `count` stations.
 inline constexpr double kOddRatio = 0.1;
 inline constexpr int kOddFreedom = 4;
 OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations, int count,

@@ -59,6 +59,12 @@ class PaperError {
   /// `parameters()` columns.
   void add_curvature(const PaperParameters& at, const Station& station, double weight, double* matrix) const noexcept;
 
+  /// Half the gradient of the sum of squares and its Gauss-Newton matrix over the usable stations: lower triangle,
+  /// row-major with leading dimension `stride`, a multiple of four that is at least `parameters()`; what lies above the
+  /// diagonal is not to be read. Returns `cost`, to rounding.
+  double gauss_newton(const PaperParameters& at, const Station* stations, int count, double* matrix, int stride,
+                      PaperParameters& gradient) const noexcept;
+
   /// E_g of eq (10) [(m/s^2)^4]: mean square of the error over the usable stations; NaN where there are none.
   double cost(const PaperParameters& at, const Station* stations, int count) const noexcept;
 
@@ -67,7 +73,11 @@ class PaperError {
 
  private:
   struct Point;
-  Point point(const PaperParameters& at, const Station& station) const noexcept;
+  struct Prepared;
+  Prepared prepare(const PaperParameters& at) const noexcept;
+  void temper(double temperature_degc, Prepared& prepared) const noexcept;
+  Point point(Prepared& prepared, const Station& station) const noexcept;
+  void derivatives(const Point& p, const Prepared& prepared, PaperParameters& gradient) const noexcept;
   int misalignment(int i, int j) const noexcept { return 2 * n_ + i * (n_ - 1) + (j < i ? j : j - 1); }
 
   int n_ = 0;

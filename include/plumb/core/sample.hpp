@@ -31,6 +31,8 @@ struct Station {
   std::uint32_t tag = 0;
   double begin_s = 0.0;
   double end_s = 0.0;
+  /// Stations of one group differ by a roll of the tool about its own axis alone: they share an inclination. 0 = none.
+  std::uint32_t roll_group = 0;
 };
 
 }  // namespace PLUMB_ABI

@@ -1,0 +1,37 @@
+/// What the report says beside the fit itself. Private to the calibration room.
+#pragma once
+
+#include "fit_tally.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace fit {
+
+struct Fitted {
+  Parameters theta{};
+  FitTally tally;
+};
+
+/// True where `Datasheet::array` is sure to accept; cheaper, for it builds no triples.
+bool plainly_sound(const Datasheet& datasheet) noexcept;
+
+/// Temperatures and clipped readings.
+void note_stations(const Problem& problem, FitReport& report) noexcept;
+/// The stations that the screen leaves out.
+void note_outliers(const Problem& problem, FitReport& report) noexcept;
+/// The sensor to which most of the outliers point; -1 where none does.
+int most_blamed(const Problem& problem) noexcept;
+void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitReport& report) noexcept;
+
+/// The parameter that is furthest beyond its physical bound, or ok; that of the one sensor without which all is well,
+/// where there is one.
+Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
+                  const Parameters& theta) noexcept;
+
+/// Two channels that read alike at every station although their axes differ: implausible, index = the later one. For
+/// fits that failed: at a single attitude healthy sensors may do so too.
+Error twin_channels(const Problem& problem) noexcept;
+
+}  // namespace fit
+}  // namespace PLUMB_ABI
+}  // namespace plumb

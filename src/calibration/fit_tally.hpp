@@ -1,0 +1,44 @@
+/// The figures of the report that are sums over the stations. Private to the calibration room.
+#pragma once
+
+#include "station_solver.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace fit {
+
+/// The length of gravity sees the parameters through the spherical harmonics of degree 0 to 2 alone.
+inline constexpr int kHarmonics = 9;
+
+class FitTally {
+ public:
+  void add(const StationSolver& station, double g_mps2) noexcept;
+  void write(int n, FitReport& report) const noexcept;
+  /// Of a fitted direction, mean over the stations [rad^2].
+  double direction_variance() const noexcept { return stations_ > 0 ? direction_variance_ / stations_ : 0.0; }
+  /// Sensor whose residuals are most above those of the others, and by what factor (rms); -1 where none can be told
+  /// from the rest.
+  int loudest(int n, int freedom, double& excess) const noexcept;
+
+ private:
+  void add_harmonics(const Vec3& direction) noexcept;
+
+  std::array<double, kCapacity> squared_residual_{};
+  std::array<int, kCapacity> seen_{};
+  std::array<double, kCapacity> explained_{};  ///< of chi^2, by leaving the sensor out
+  std::array<double, kCapacity> alone_{};      ///< stations at which that can be told
+  double squared_norm_ = 0.0;
+  double squared_parity_ = 0.0;
+  double chi2_ = 0.0;
+  double direction_variance_ = 0.0;
+  int stations_ = 0;
+  int rows_ = 0;
+  std::array<double, std::size_t{kHarmonics} * kHarmonics> gram_{};  ///< lower triangle
+};
+
+/// Sensor whose reading explains most of a station's residual, and how much of it; -1 with three readings.
+int blamed(const StationSolver& station, double& share) noexcept;
+
+}  // namespace fit
+}  // namespace PLUMB_ABI
+}  // namespace plumb
