@@ -299,8 +299,7 @@ io::FileExpected<void> add_pictures(const DemoContext& context, const std::vecto
     io::FileExpected<report::Picture> picture = draw(context.out, name, script, title, caption);
     if (!picture) return tl::unexpected<io::FileError>(picture.error());
     chapter.pictures.push_back(*std::move(picture));
-    chapter.files.push_back({std::string(name) + ".svg", title});
-    chapter.files.push_back({std::string(name) + ".gp", "draws it"});
+    link_drawn(chapter, name, title);
     return {};
   };
   for (const Figure& f : kFigures) {

@@ -169,9 +169,7 @@ class DrillSection {
             {at + "drill.csv", "its log, in volts"},
             {at + "events.jsonl", "one line per change of state"},
             {at + "verdicts.jsonl", "one line per quiet block: state, statistic, limit, sensors, vector, bound"},
-            {at + "timeline.csv", "what the picture shows, the truth included"},
-            {at + "timeline.gp", "the gnuplot program that draws it"},
-            {at + "timeline.svg", "the picture, where gnuplot is installed"}};
+            {at + "timeline.csv", "what the picture shows, the truth included"}};
   }
 
   DemoSection section(report::Picture picture) const {
@@ -186,6 +184,7 @@ class DrillSection {
     out.chapter.tables = {changes_table(record_->timeline), states_table()};
     out.chapter.commands = commands();
     out.chapter.files = files();
+    link_drawn(out.chapter, plan_.id + "/timeline", "the picture");
     out.facts = facts_of(*record_);
     out.facts["commands"] = out.chapter.commands;
     const DrillFigures f = figures_of(record_->timeline);

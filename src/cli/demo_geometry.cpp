@@ -149,7 +149,7 @@ io::FileExpected<DemoSection> demo_geometry(const DemoContext& context) {
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
   out.chapter.pictures.push_back(*std::move(picture));
   out.chapter.tables = {axes_table(*array), merit_table(f), triple_table(*array)};
-  out.chapter.files = {{"geometry.svg", "the axes"}, {"geometry.gp", "draws them"}};
+  link_drawn(out.chapter, "geometry", "the axes");
   out.facts = facts_of(*array, f);
   out.console = fmt::format(
       "1 geometry: 4 axes, noise gain {:.3f}, nearest axes {:.1f} deg apart, every |det| of a triple >= {:.3f}\n",

@@ -134,8 +134,8 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
                   study->combination.front().own_mps2.size())};
   out.chapter.pictures.push_back(*std::move(picture));
   out.chapter.tables = {table_of(*study)};
-  out.chapter.files = {
-      {kCsv, "the errors"}, {"fig11_gravity_error.svg", "the picture"}, {"fig11_gravity_error.gp", "draws it"}};
+  out.chapter.files = {{kCsv, "the errors"}};
+  link_drawn(out.chapter, "fig11_gravity_error", "the picture");
   out.facts = facts_of(*study);
   const GravityErrors& all = study->combination.front();
   out.console = fmt::format(

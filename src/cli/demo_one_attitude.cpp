@@ -226,8 +226,7 @@ io::FileExpected<void> add_one_attitude(const DemoContext& context, const study:
   chapter.pictures.push_back(*std::move(picture));
   chapter.tables.push_back(table_of(lines));
   chapter.files.push_back({"one_attitude.csv", "counts at one attitude"});
-  chapter.files.push_back({"one_attitude.svg", "the picture of them"});
-  chapter.files.push_back({"one_attitude.gp", "draws it"});
+  link_drawn(chapter, "one_attitude", "the picture of them");
   section.facts["one_attitude"] = facts_of(studies);
   const AnswerCount paper = studies.front().paper.faulty();
   const AnswerCount own = studies.front().own.faulty();

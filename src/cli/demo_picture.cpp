@@ -45,6 +45,11 @@ io::FileExpected<report::Picture> draw(const std::string& directory, const std::
   return out;
 }
 
+void link_drawn(report::Chapter& chapter, const std::string& name, const std::string& shows) {
+  if (!chapter.pictures.back().svg.empty()) chapter.files.push_back({name + ".svg", shows});
+  chapter.files.push_back({name + ".gp", "the gnuplot program that draws it"});
+}
+
 io::FileExpected<void> write_into(const std::string& directory, const std::string& name, const std::string& text) {
   return io::write_file(path_of(directory, name), text);
 }

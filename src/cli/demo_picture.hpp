@@ -26,6 +26,10 @@ std::string plot_head(const std::string& name, int width, int height);
 io::FileExpected<report::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
                                        std::string title, std::string caption);
 
+/// Links the files that `draw` wrote for the chapter's last picture: NAME.svg only where there is one, and NAME.gp.
+/// `name` is relative to the page.
+void link_drawn(report::Chapter& chapter, const std::string& name, const std::string& shows);
+
 io::FileExpected<void> write_into(const std::string& directory, const std::string& name, const std::string& text);
 
 /// A study that refused: nothing that a user did, or could mend.

@@ -184,7 +184,8 @@ io::FileExpected<DemoSection> demo_table2(const DemoContext& context) {
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
   chapter.pictures.push_back(*std::move(picture));
   chapter.tables.push_back(table_of(*study));
-  chapter.files = {{"table2.csv", "the table"}, {"table2.svg", "the picture of it"}, {"table2.gp", "draws it"}};
+  chapter.files = {{"table2.csv", "the table"}};
+  link_drawn(chapter, "table2", "the picture of it");
   out.facts = facts_of(*study, *others);
   out.console = fmt::format(
       "4 Table 2: {} of 23 verdicts as printed ({} attitudes pooled); all 23 with {} of {} other tools; plumb excludes "

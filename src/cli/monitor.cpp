@@ -50,7 +50,8 @@ constexpr const char* kNotes =
     "the error. The calibration must hold the paper's own fits (plumb calibrate --paper).\n"
     "--host plays the host of an instrument: \"61s reset a2,a4 key 0x706c756d62\" asks at t = 61 s for a reset that\n"
     "returns a2 and a4 to service, with the reset_key of the array file; \"36s recalibrate\" for new biases and\n"
-    "scales. What the monitor refuses is said on standard error.\n"
+    "scales. A time before the first row, a negative one too, counts as asked for before that row.\n"
+    "What the monitor refuses is said on standard error.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 

@@ -65,7 +65,7 @@ SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
 
 /// What was seen through the old coefficients says nothing about the new ones.
 void HealthMonitor::adopt() noexcept {
-  recalibration_.apply(model_, array_, gravity_, clock_.last_s());
+  recalibration_.apply(model_, array_, gravity_, clock_.last_s(), base_ == Mode::suspect);
   three_sensor_fit_ = size_class_ == SizeClass::critical;
   forget_episode();
   empty_windows();

@@ -103,12 +103,15 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
   return Outcome::none;
 }
 
-void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityReference& gravity,
-                          double time_s) noexcept {
+void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,
+                          bool doubted) noexcept {
   if (phase_ != RecalibrationPhase::accepted) return;
   RowUncertainty uncertainty;
   SensorSet lacking;
-  if (uncertainty_of_fit(array, gravity, uncertainty, lacking)) array.set_uncertainty(uncertainty);
+  const bool known = uncertainty_of_fit(array, gravity, uncertainty, lacking);
+  if (!known) uncertainty = array.uncertainty();
+  if (doubted) add_whole_change(array, uncertainty);
+  if (known || doubted) array.set_uncertainty(uncertainty);
   write_coefficients(model);
   adopted_ = true;
   adopted_s_ = time_s;

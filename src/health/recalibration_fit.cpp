@@ -155,6 +155,20 @@ void Recalibration::write_coefficients(SensorModel& model) const noexcept {
   }
 }
 
+/// If the old coefficients were right after all, the new ones err by exactly the change: scale along the axis, and
+/// bias.
+void Recalibration::add_whole_change(const SensorArray& array, RowUncertainty& uncertainty) const noexcept {
+  std::array<double, std::size_t{4} * kCapacity> change{};
+  for (int i = 0; i < array.size(); ++i) {
+    if (!sensors_.has(i)) continue;
+    for (int p = 0; p < 3; ++p) change[at(4 * i + p)] = (length_[at(i)] - 1.0) * array.axis(i)[at(p)];
+    change[at(4 * i + 3)] = shift_mps2_[at(i)];
+  }
+  for (int a = 0; a < 4 * array.size(); ++a) {
+    for (int b = 0; b <= a; ++b) uncertainty.covariance[at(a * (a + 1) / 2 + b)] += change[at(a)] * change[at(b)];
+  }
+}
+
 /// Bounds on the change of bias and scale, each in its drift sigma.
 Error Recalibration::check_bounds(const SensorModel& model, double time_s) const noexcept {
   SensorModel next = model;

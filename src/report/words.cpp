@@ -4,6 +4,19 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
 
+namespace {
+
+const char* about_calibration(HealthEvent event) {
+  switch (event) {
+    case HealthEvent::recalibrate: return "the sensors in service are being calibrated anew";
+    case HealthEvent::fit_accepted: return "the new calibration is accepted: trust must be earned with it";
+    case HealthEvent::fit_rejected: return "the new calibration is refused: the old one stays in force";
+    default: return "about a new calibration";
+  }
+}
+
+}  // namespace
+
 std::string sensor_names(SensorSet set, const SensorArray& array, const char* none) {
   std::string out;
   for (int i = 0; i < array.size(); ++i) {
@@ -14,7 +27,7 @@ std::string sensor_names(SensorSet set, const SensorArray& array, const char* no
   return out.empty() ? none : out;
 }
 
-std::string explain(Cause cause, Grade grade) {
+std::string explain(Cause cause, Grade grade, HealthEvent event) {
   switch (cause) {
     case Cause::none: return "no reason on record";
     case Cause::power_on: return "just switched on: trust must be earned at several attitudes";
@@ -31,7 +44,7 @@ std::string explain(Cause cause, Grade grade) {
     case Cause::channel_back: return "a lost channel delivers again; it is not used yet";
     case Cause::temperature: return "outside the calibrated temperature span";
     case Cause::patience: return "enough stations seen, and still no answer";
-    case Cause::calibration: return "a calibration was judged";
+    case Cause::calibration: return about_calibration(event);
     case Cause::probation: return "an excluded sensor has agreed with the others for long enough";
     case Cause::host_request: return "asked for by the operator";
     case Cause::time_fault: return "time did not increase: the sample was refused";

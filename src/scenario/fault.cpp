@@ -9,6 +9,8 @@ namespace {
 
 /// Rows and stations are whole numbers that a double holds exactly.
 constexpr double kMaxCount = 9007199254740992.0;
+/// Far above anything real, and no product with a scale, a factor or the time of a log overflows.
+constexpr double kMaxSize = 1e12;
 
 double now_of(const Fault& fault, const Moment& now) noexcept {
   switch (fault.clock) {
@@ -44,6 +46,11 @@ tl::expected<void, std::string> check(const Fault& fault, int sensors) {
   }
   if (!std::isfinite(fault.magnitude) || !std::isfinite(fault.upper)) {
     return refuse("the size of the fault is not a finite number. Remedy: give a finite number with its unit");
+  }
+  if (std::abs(fault.magnitude) > kMaxSize || std::abs(fault.upper) > kMaxSize) {
+    return refuse(
+        "the size of the fault is beyond 1e12 (levels in the log's unit, bias in m/s^2, drift in m/s^2 per "
+        "s). Remedy: give a smaller size");
   }
   const bool counted = fault.clock != Clock::time;
   if (counted ? !whole(fault.onset) : !std::isfinite(fault.onset)) {

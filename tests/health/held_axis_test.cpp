@@ -32,7 +32,7 @@ TEST(HeldAxis, TheUncertaintyIsThatOfTheErrors) {
       s.drift(5e-4 * kG0_mps2, 1e-4);
       s.start();
       if (s.roam(24) != Recalibration::Outcome::accepted) continue;
-      s.fit->apply(s.model, s.array, s.gravity, 0.0);
+      s.fit->apply(s.model, s.array, s.gravity, 0.0, false);
       for (int k = 0; k < 8; ++k) {
         const Vec3 g = scaled(plumb_test::random_direction(s.noise), kG0_mps2);
         std::array<double, kCapacity> c{};

@@ -151,6 +151,37 @@ TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
 }
 
 /// A sensor that goes on drifting is followed only as far as the bound against the commissioning calibration.
+/// Seven sensors on a cone, attitudes within 60 deg of its axis: a common bias along it looks like another length of
+/// gravity. A host that asks for a fit under that suspicion gets one, and must not get a false bound with it.
+TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
+  MonitorConfig config;
+  config.drift_bias_mps2 = 1e-2 * kG0_mps2;
+  const double g = kG0_mps2 * (1.0 - 2.2e-3);
+  int adopted = 0;
+  int vouched = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Tool tool(7, config, seed);
+    tool.rig.prove();
+    for (int k = 0; k < 60; ++k) {
+      const double inclination_deg = 60.0 * tool.directions.uniform();
+      const double toolface_deg = 360.0 * tool.directions.uniform();
+      const Vec3 down = plumb_test::direction_at(inclination_deg, toolface_deg);
+      tool.rig.stay(down, 2, g);
+      if (tool.rig.monitor.recalibration().progress(tool.rig.monitor.array()).phase == RecalibrationPhase::idle &&
+          adopted < static_cast<int>(seed)) {
+        (void)tool.rig.monitor.request_recalibration();
+      }
+      if (tool.count(HealthEvent::fit_accepted) > 0) adopted = static_cast<int>(seed);
+      const Verdict& v = tool.rig.monitor.verdict();
+      if (v.validity != Validity::valid || !v.protection_available) continue;
+      if (tool.count(HealthEvent::fit_accepted) > 0) ++vouched;
+      EXPECT_LE(angle_between_rad(v.gravity_mps2, down), v.protection_level_rad) << "seed " << seed << " station " << k;
+    }
+  }
+  EXPECT_GT(adopted, 0);
+  EXPECT_GT(vouched, 0);
+}
+
 TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
   MonitorConfig config;
   config.drift_bias_mps2 = 2e-3;

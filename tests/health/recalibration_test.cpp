@@ -25,7 +25,7 @@ TEST(Recalibration, FindsTheBiasesAndScalesAndLeavesAxesAndTemperatureAlone) {
     s.start();
     ASSERT_EQ(s.roam(24), Outcome::accepted) << n << " " << describe(s.fit->progress(s.array).last_refusal.code);
     const SensorArray before = s.array;
-    s.fit->apply(s.model, s.array, s.gravity, 100.0);
+    s.fit->apply(s.model, s.array, s.gravity, 100.0, false);
     for (int i = 0; i < n; ++i) {
       const SensorCoefficients& c = s.model.sensor[static_cast<std::size_t>(i)];
       EXPECT_NEAR(c.bias[0], s.bias_at(i), 3e-3) << n << " " << i;
@@ -127,7 +127,7 @@ TEST(Recalibration, ManySmallStepsDoNotAddUpBeyondTheBoundAgainstCommissioning) 
     const Outcome outcome = s.roam(24, time_s);
     refused = refused || outcome == Outcome::rejected;
     if (outcome != Outcome::accepted) continue;
-    s.fit->apply(s.model, s.array, s.gravity, time_s);
+    s.fit->apply(s.model, s.array, s.gravity, time_s, false);
     farthest = std::fmax(farthest, std::fabs(s.model.sensor[1].bias[0]));
   }
   EXPECT_TRUE(refused);
@@ -140,7 +140,7 @@ TEST(Recalibration, TheBoundPerHourStopsAFastSecondStep) {
     Shadow s(6, 8);
     s.start();
     ASSERT_EQ(s.roam(24, 1000.0), Outcome::accepted);
-    s.fit->apply(s.model, s.array, s.gravity, 1000.0);
+    s.fit->apply(s.model, s.array, s.gravity, 1000.0, false);
     s.drifted_bias[3] = 0.6 * s.drift_sigmas.bias_mps2;
     s.start();
     EXPECT_EQ(s.roam(24, 1000.0 + wait_s), wait_s < 3600.0 ? Outcome::rejected : Outcome::accepted);
@@ -221,7 +221,7 @@ TEST(Recalibration, SensorsOutOfServiceAreNeitherReadNorWritten) {
     s->used = s->array.all().without(4);
     s->start();
     ASSERT_EQ(s->roam(24), Outcome::accepted);
-    s->fit->apply(s->model, s->array, s->gravity, 0.0);
+    s->fit->apply(s->model, s->array, s->gravity, 0.0, false);
   }
   EXPECT_TRUE(plumb_test::same_model(a.model, b.model));
   EXPECT_EQ(a.model.sensor[4].bias[0], 0.0);
@@ -247,7 +247,7 @@ RC_GTEST_PROP(RecalibrationLaw, AcceptedFitsAreWithinTheirStatedUncertainty, ())
     RC_ASSERT(code == Errc::implausible || code == Errc::poor_fit || code == Errc::not_confirmed);
     return;
   }
-  s.fit->apply(s.model, s.array, s.gravity, 0.0);
+  s.fit->apply(s.model, s.array, s.gravity, 0.0, false);
   for (int k = 0; k < 40; ++k) {
     const Vec3 g = scaled(plumb_test::random_direction(s.noise), s.gravity.g_mps2);
     for (int i = 0; i < n; ++i) {

@@ -108,6 +108,9 @@ TEST(Fault, NonsenseIsRefusedWithARemedy) {
   add([](Fault& f) { f.sensor = 4; });
   add([](Fault& f) { f.sensor = -1; });
   add([&](Fault& f) { f.magnitude = nan; });
+  add([](Fault& f) { f.magnitude = -1.1e12; });
+  add([](Fault& f) { f.kind = FaultKind::drift, f.magnitude = 1e306; });
+  add([](Fault& f) { f.kind = FaultKind::random_range, f.upper = 1.1e12; });
   add([&](Fault& f) { f.onset = nan; });
   add([](Fault& f) { f.onset = kInfinity; });
   add([](Fault& f) { f.duration = 0.0; });
@@ -126,6 +129,7 @@ TEST(Fault, NonsenseIsRefusedWithARemedy) {
     EXPECT_NE(checked.error().find("Remedy: "), std::string::npos) << checked.error();
   }
   EXPECT_TRUE(check(make(FaultKind::stuck_level, 0.0), 4));
+  EXPECT_TRUE(check(make(FaultKind::drift, -1e12), 4));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ inline constexpr double kMaeUnit_mps2 = 9.80665 / 67108864.0;
 /// Largest error that is kept; larger ones (and non-finite ones) count as this, about 31.9 g0.
 inline constexpr std::int32_t kMaeClamp = 2140000000;
 
-/// Squared length of the vector that three readings make, by the six coefficients of their triple (eqs 22-25):
+/// Squared length of the vector that three readings make, by the six coefficients of their triple:
 /// q0 a a + q1 b b + q2 c c + q3 a b + q4 a c + q5 b c, evaluated left to right in double. Its rounding error is
 /// proved (proofs/rounding, proofs/form.g) for exactly this order without fused multiply-add (-ffp-contract=off),
 /// so it stays a scalar expression. May be negative by that error. [(m/s^2)^2]

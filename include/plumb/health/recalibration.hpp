@@ -58,8 +58,11 @@ class Recalibration {
   /// until the next `start`.
   Outcome step(const InForce& in_force, double time_s) noexcept;
   /// Writes the accepted fit into model and array, both those that were in force when it was made: coefficients of the
-  /// fitted sensors, and the uncertainty that the fit and the held axes leave. Stops.
-  void apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s) noexcept;
+  /// fitted sensors, and the uncertainty that the fit and the held axes leave. `doubted`: the fit was asked for because
+  /// the length of gravity was off, and the sensors need not be to blame; then the whole change counts as one more
+  /// uncertainty, of 1 sigma, so that limits and protection level cover both readings of it. Stops.
+  void apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,
+             bool doubted) noexcept;
 
   SensorSet sensors() const noexcept { return sensors_; }
   RecalibrationProgress progress(const SensorArray& array) const noexcept;
@@ -84,6 +87,7 @@ class Recalibration {
   Error check_bounds(const SensorModel& model, double time_s) const noexcept;
   Error check_stations(const InForce& in_force) const noexcept;
   void write_coefficients(SensorModel& model) const noexcept;
+  void add_whole_change(const SensorArray& array, RowUncertainty& uncertainty) const noexcept;
   Vec3 wanted_direction(const SensorArray& array) const noexcept;
 
   StationStore store_;

@@ -13,8 +13,9 @@ namespace report {
 /// "a1, a3", or `none` for the empty set.
 std::string sensor_names(SensorSet set, const SensorArray& array, const char* none = "-");
 
-/// Why the monitor says what it says, for someone who has not read the manual. `grade` is that of an exclusion.
-std::string explain(Cause cause, Grade grade = Grade::none);
+/// Why the monitor says what it says, for someone who has not read the manual. `grade` is that of an exclusion; `event`
+/// tells what became of a calibration.
+std::string explain(Cause cause, Grade grade = Grade::none, HealthEvent event = HealthEvent::none);
 
 /// What a state means, in one sentence.
 const char* meaning(HealthState state) noexcept;

@@ -50,8 +50,8 @@ struct Fault {
   friend bool operator!=(const Fault& a, const Fault& b) noexcept { return !(a == b); }
 };
 
-/// Refuses, with a remedy, a fault that makes no sense for an array of `sensors` sensors: not finite,
-/// unknown sensor, row or station below 1 or not whole, duration not positive, empty range, scale 0.
+/// Refuses, with a remedy, a fault that makes no sense for an array of `sensors` sensors: not finite
+/// or beyond 1e12, unknown sensor, row or station below 1 or not whole, duration not positive, empty range, scale 0.
 tl::expected<void, std::string> check(const Fault& fault, int sensors);
 
 /// Where in the log we are.

@@ -1,0 +1,28 @@
+#include "plumb/report/words.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plumb {
+namespace report {
+namespace {
+
+std::string about(HealthEvent event) { return explain(Cause::calibration, Grade::none, event); }
+
+TEST(Words, SayWhatBecameOfACalibration) {
+  EXPECT_NE(about(HealthEvent::fit_accepted).find("accepted"), std::string::npos);
+  EXPECT_NE(about(HealthEvent::fit_rejected).find("refused"), std::string::npos);
+  EXPECT_NE(about(HealthEvent::recalibrate).find("are being calibrated"), std::string::npos);
+  for (const HealthEvent other : {HealthEvent::none, HealthEvent::alarm}) {
+    EXPECT_EQ(about(other).find("accepted"), std::string::npos);
+    EXPECT_EQ(about(other).find("refused"), std::string::npos);
+  }
+}
+
+TEST(Words, TellAnExclusionFromASettingAside) {
+  EXPECT_NE(explain(Cause::isolated_fault, Grade::parity).find("set aside"), std::string::npos);
+  EXPECT_NE(explain(Cause::isolated_fault, Grade::strict).find("excluded"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace report
+}  // namespace plumb
