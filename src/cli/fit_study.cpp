@@ -30,12 +30,6 @@ HoldOutPlan plan_of(const HoldOutChoice& choice, int stations) {
   return plan;
 }
 
-std::vector<Station> chosen(const std::vector<Station>& stations, const std::vector<int>& which) {
-  std::vector<Station> out;
-  for (const int k : which) out.push_back(stations[static_cast<std::size_t>(k)]);
-  return out;
-}
-
 /// Directions by the fit where there is one, else by the datasheet.
 void find_attitudes(const io::ArrayFile& array, const std::vector<Station>& stations, FitStudy& out) {
   const SensorModel nominal = array.datasheet.model();
@@ -130,6 +124,12 @@ void cross_check(const io::ArrayFile& array, const std::vector<Station>& all, co
 }
 
 }  // namespace
+
+std::vector<Station> chosen(const std::vector<Station>& stations, const std::vector<int>& which) {
+  std::vector<Station> out;
+  for (const int k : which) out.push_back(stations[static_cast<std::size_t>(k)]);
+  return out;
+}
 
 std::string read_hold_out(const std::string& text, HoldOutChoice& choice) {
   choice = HoldOutChoice{};

@@ -46,6 +46,9 @@ struct FitStudy {
   std::vector<double> cost;  ///< of the fit, by iteration
 };
 
+/// Those of the stations whose index is listed.
+std::vector<Station> chosen(const std::vector<Station>& stations, const std::vector<int>& which);
+
 /// Attitudes that are proposed.
 inline constexpr int kPlanned = 6;
 

@@ -100,11 +100,12 @@ io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool li
   return done;
 }
 
-/// The paper's fits beside the accepted one. Of no use where that of all sensors is not sound.
+/// The paper's fits beside the accepted one, to the same stations. Of no use where that of all sensors is not sound.
 void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
+  const std::vector<Station> stations = chosen(run.stations, run.study.kept);
   auto paper = std::make_unique<PaperCalibration>();
-  const Expected<void> done = paper_calibrate_all(array.datasheet, array.gravity, run.stations.data(),
-                                                  static_cast<int>(run.stations.size()), PaperOptions{}, *paper);
+  const Expected<void> done = paper_calibrate_all(array.datasheet, array.gravity, stations.data(),
+                                                  static_cast<int>(stations.size()), PaperOptions{}, *paper);
   if (!done) {
     run.paper_refusal = done.error();
     return;

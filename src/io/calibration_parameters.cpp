@@ -14,8 +14,12 @@ Json from_paper_parameters(const SensorArray& nominal, const Calibration& calibr
   for (int i = 0; i < form->size; ++i) {
     const SensorCoefficients& c = form->sensor[static_cast<std::size_t>(i)];
     Json row = Json::array();
-    for (int k = 0; k < form->size; ++k) row.push_back(form->misalignment[static_cast<std::size_t>(i * kCapacity + k)]);
-    sensors.push_back({{"id", nominal.row(i).id.data()}, {"B_mps2", c.bias}, {"SF_per_mps2", c.scale}, {"m", row}});
+    for (int k = 0; k < form->size; ++k)
+      row.push_back(from_double(form->misalignment[static_cast<std::size_t>(i * kCapacity + k)]));
+    sensors.push_back({{"id", nominal.row(i).id.data()},
+                       {"B_mps2", from_array(c.bias, 4)},
+                       {"SF_per_mps2", from_array(c.scale, 4)},
+                       {"m", row}});
   }
   return {{"equations", "(I - M)(V/SF - B) = H g, nominal H, powers of T - reference_degc"},
           {"sensors", std::move(sensors)}};

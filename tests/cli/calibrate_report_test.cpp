@@ -222,16 +222,17 @@ TEST(CalibrateReport, NamesTheStationThatItSetsAside) {
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, {"set aside", "station ", "of it by a2", "the values come from the other stations"}));
-  const Outcome told = calibrate(where, {"--json"});
-  const auto json = nlohmann::json::parse(told.out);
+  const nlohmann::json json = report_of(where, {"--paper"});
+  EXPECT_TRUE(json["paper"][0]["sound"]) << "the paper's fits get the same stations";
   const auto count = json["outliers"]["count"].get<std::size_t>();
   EXPECT_GE(count, 1U);
-  EXPECT_LE(count, 3U);
   ASSERT_EQ(json["outliers"]["listed"].size(), count);
-  EXPECT_EQ(json["outliers"]["listed"][0]["sensor"], "a2");
-  const auto& first = json["stations"][json["outliers"]["listed"][0]["station"].get<std::size_t>() - 1];
-  EXPECT_LE(first["begin_s"].get<double>(), 70.0);
-  EXPECT_GE(first["end_s"].get<double>(), 60.0);
+  for (const auto& outlier : json["outliers"]["listed"]) {
+    EXPECT_EQ(outlier["sensor"], "a2");
+    const auto& station = json["stations"][outlier["station"].get<std::size_t>() - 1];
+    EXPECT_LE(station["begin_s"].get<double>(), 70.0);
+    EXPECT_GE(station["end_s"].get<double>(), 60.0);
+  }
   EXPECT_EQ(json["hold_out"]["judged"].get<std::size_t>() + count, json["stations"].size());
 }
 
