@@ -1,4 +1,5 @@
-// Simulated calibrations for the benchmarks, for whatever capacity the including file is compiled with.
+// Simulated calibrations for the benchmarks, for whatever capacity the including file is compiled with (which is why
+// the capacity is in the namespace: the same program holds this file twice).
 #pragma once
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "plumb/core/units.hpp"
 
 namespace plumb_bench {
+inline namespace PLUMB_ABI {
 
 /// splitmix64 and Box-Muller.
 class Noise {
@@ -89,4 +91,5 @@ inline Problem problem_of(int n, int count, std::uint64_t seed) {
   return p;
 }
 
+}  // namespace PLUMB_ABI
 }  // namespace plumb_bench

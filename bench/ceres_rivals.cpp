@@ -11,6 +11,7 @@
 #include "plumb/calibration/paper_calibration.hpp"
 
 namespace plumb_bench {
+inline namespace PLUMB_ABI {
 namespace {
 
 using plumb::Vec3;
@@ -313,4 +314,5 @@ double ceres_paper_triple(const Problem& problem) { return paper_by_ceres<3>(pro
 double tiny_paper(const Problem& problem) { return paper_by_tiny<4>(problem); }
 double tiny_paper_triple(const Problem& problem) { return paper_by_tiny<3>(problem); }
 
+}  // namespace PLUMB_ABI
 }  // namespace plumb_bench

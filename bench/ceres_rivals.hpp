@@ -5,6 +5,7 @@
 #include "calibration_bench.hpp"
 
 namespace plumb_bench {
+inline namespace PLUMB_ABI {
 
 /// Forward model: W, b and one unit vector a station, Schur complement, derivatives by hand.
 double ceres_forward(const Problem& problem);
@@ -17,4 +18,5 @@ double ceres_paper_triple(const Problem& problem);
 double tiny_paper(const Problem& problem);
 double tiny_paper_triple(const Problem& problem);
 
+}  // namespace PLUMB_ABI
 }  // namespace plumb_bench

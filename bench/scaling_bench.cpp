@@ -16,15 +16,7 @@ void BM_FitByAttitudes(benchmark::State& state) {
   }
   state.SetComplexityN(count);
 }
-BENCHMARK(BM_FitByAttitudes)
-    ->Arg(12)
-    ->Arg(24)
-    ->Arg(48)
-    ->Arg(100)
-    ->Arg(250)
-    ->Arg(500)
-    ->Arg(1000)
-    ->Complexity([](benchmark::IterationCount n) { return static_cast<double>(n); });
+BENCHMARK(BM_FitByAttitudes)->Arg(12)->Arg(24)->Arg(48)->Arg(100)->Arg(250)->Arg(500)->Arg(1000)->Complexity();
 
 void BM_FitBySensors(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));

@@ -36,10 +36,16 @@ Error furthest_off(const Datasheet& datasheet, const FitOptions& options, const 
                                          options.max_bias_sigmas * datasheet.sensor[at(i)].prior.bias_mps2};
     for (std::size_t k = 0; k < 3; ++k) {
       // A value that is no number is beyond every bound, and so is any but 0 beyond a bound of 0.
-      const double ratio = value[k] <= limit[k] ? 0.0 : limit[k] > 0.0 ? value[k] / limit[k] : kInfinity;
+      double ratio = kInfinity;
+      if (value[k] <= limit[k]) {
+        ratio = 0.0;
+      } else if (limit[k] > 0.0) {
+        ratio = value[k] / limit[k];
+      }
       if (!(ratio <= most)) {
-        worst = Error{Errc::implausible, i, k == 2 ? d.bias_mps2 : value[k], limit[k]};
-        most = std::isnan(ratio) ? kInfinity : ratio;
+        worst = Error{Errc::implausible, i, value[k], limit[k]};
+        most = ratio;
+        if (std::isnan(ratio)) most = kInfinity;
       }
     }
   }
