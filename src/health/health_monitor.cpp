@@ -86,6 +86,14 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
 
+  power_on(setup);
+  configured_ = true;
+  publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
+  return {};
+}
+
+/// Everything that is remembered, as it stands before the first sample.
+void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   mode_ = Mode::suspect;
   in_service_ = array_.all();
   set_aside_ = excluded_ = absent_ = readmitted_ = banned_ = SensorSet{};
@@ -104,7 +112,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   probation_.clear();
   on_probation_ = reset_sensors_ = clipped_ = not_finite_ = SensorSet{};
   last_grade_ = Grade::none;
-  gate_.configure(n, setup.full_scale_raw, config_.missing_confirm);
+  gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
   recalibration_.configure(model_, {config_.drift_bias_mps2, config_.drift_scale}, config_.station_angle_rad);
@@ -123,9 +131,6 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   scan_ = FaultSetScan{};
   size_class_ = classify();
   live_ = isolation_.live();
-  configured_ = true;
-  publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
-  return {};
 }
 
 Expected<void> HealthMonitor::reset(std::uint64_t key, SensorSet sensors) noexcept {

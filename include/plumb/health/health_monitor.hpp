@@ -74,6 +74,7 @@ class HealthMonitor {
   struct BlockView;  // what one quiet block said
 
   // health_monitor.cpp: the flow of one step
+  void power_on(const MonitorSetup& setup) noexcept;
   void empty_windows() noexcept;
   void publish(const Sample& sample, bool tick) noexcept;
   Validity validity() const noexcept;
