@@ -263,6 +263,9 @@ TEST(PaperRuleLimit, AtOneAttitudeAFaultOfHalfGravityIsMissed) {
   for (int k = 0; k < 32; ++k) bench.add(y, bench.array.all());
   const PaperFinding f = bench.finding(bench.array.all());
   EXPECT_FALSE(f.detected) << "MAE " << f.mae_all_mps2;
+  EXPECT_LT(f.passing, f.triples) << "the triples would show it";
+  EXPECT_FALSE((bench.array.all() - f.correct).empty()) << "and name who it is";
+  EXPECT_TRUE(f.isolated.empty()) << "but the shut gate keeps everybody in (step 6 follows step 5)";
   EXPECT_GT(angle_between_rad(map.estimate(y), g), 0.3) << "and the direction is far off";
 }
 
