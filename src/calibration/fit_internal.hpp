@@ -95,6 +95,15 @@ struct Screen {
   double misfit_variance = 0.0;
 };
 
+/// Whether datasheet and gravity have numbers that a fit can start from. A prior sigma of zero is allowed: it freezes
+/// the parameter.
+bool acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept;
+/// Whether nothing is frozen. A frozen parameter stays at its nominal value, which the closed form knows nothing of.
+bool all_free(const Datasheet& datasheet) noexcept;
+/// Whether a step (natural units, common rotation taken out) is below so much of each value, or of its prior sigma.
+bool small_step(const PriorRoots& roots, int n, const Parameters& natural, const Parameters& moved,
+                double relative) noexcept;
+
 /// What is fixed during one fit.
 struct Problem {
   const Datasheet& datasheet;

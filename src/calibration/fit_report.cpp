@@ -146,6 +146,24 @@ Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions
   return worst;
 }
 
+Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
+                    const FitReport& r) noexcept {
+  const Error error = implausible(problem.datasheet, problem.roll, options, fitted.theta);
+  if (error.code != Errc::ok) return error;
+  const double most = options.max_outlier_share * (r.stations + r.outliers);
+  if (static_cast<double>(r.outliers) > most) {
+    return Error{Errc::poor_fit, most_blamed(problem), static_cast<double>(r.outliers), most};
+  }
+  double excess = 0.0;
+  const int loudest = fitted.tally.loudest(problem.datasheet.size, r.degrees_of_freedom, excess);
+  const bool singled_out = excess > options.max_sensor_excess;
+  if (!(r.norm_rms_mps2 <= options.max_norm_rms_mps2)) {
+    return Error{Errc::poor_fit, singled_out ? loudest : -1, r.norm_rms_mps2, options.max_norm_rms_mps2};
+  }
+  if (singled_out) return Error{Errc::poor_fit, loudest, excess, options.max_sensor_excess};
+  return Error{};
+}
+
 Error twin_channels(const Problem& problem) noexcept {
   constexpr double kAlike = 8.0;      // standard deviations of a difference
   constexpr double kParallel = 0.98;  // such axes may read alike

@@ -15,6 +15,13 @@ struct Fitted {
 /// True where `Datasheet::array` is sure to accept; cheaper, for it builds no triples.
 bool plainly_sound(const Datasheet& datasheet) noexcept;
 
+/// What is wrong before any fit; the report gets what the stations alone tell.
+Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
+                    const Station* stations, int count, FitReport& report) noexcept;
+
+/// Eigenvalues of the information below this part of the largest count as zero.
+double rank_floor(const FitTally& tally) noexcept;
+
 /// Temperatures and clipped readings.
 void note_stations(const Problem& problem, FitReport& report) noexcept;
 /// The stations that the screen leaves out.
@@ -27,6 +34,10 @@ void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitR
 /// where there is one.
 Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
                   const Parameters& theta) noexcept;
+
+/// A fit of full rank, judged by its own figures.
+Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
+                    const FitReport& report) noexcept;
 
 /// Two channels that read alike at every station although their axes differ: implausible, index = the later one. For
 /// fits that failed: at a single attitude healthy sensors may do so too.

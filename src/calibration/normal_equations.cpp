@@ -25,20 +25,6 @@ Moments moments_of(const Vec3& g, double weight) noexcept {
   return out;
 }
 
-/// Weight of a station whose residual has this squared length.
-double pull_of(Loss loss, double chi2, int freedom) noexcept {
-  if (loss == Loss::huber) {
-    const double limit = huber_limit(freedom);
-    return chi2 > limit * limit ? limit / std::sqrt(chi2) : 1.0;
-  }
-  if (loss == Loss::tukey) {
-    const double limit = outlier_limit(freedom);
-    const double rest = 1.0 - chi2 / (limit * limit);
-    return rest > 0.0 ? rest * rest : 0.0;
-  }
-  return 1.0;
-}
-
 /// Inclination, in its own standard deviations, at which a roll row has lost half of its weight.
 constexpr double kStationary = 10.0;
 
@@ -125,17 +111,6 @@ void finish_rolls(const RollSums& roll, int n, Sums& sums, Parameters& rhs) noex
     sums.chi2 += chi2;
     sums.weighted_chi2 += chi2 * group.growth / static_cast<double>(group.stations);
     sums.rows += group.stations - 1;
-  }
-}
-
-void note_station(const StationSolver& s, double pull, Sums& sums) noexcept {
-  ++sums.stations;
-  sums.rows += s.rows;
-  sums.chi2 += pull * s.chi2;
-  if (s.chi2 > sums.worst * s.limit_squared) sums.worst = s.chi2 / s.limit_squared;
-  for (int k = 0; k < s.rows; ++k) {
-    const double projected = s.projected(k);
-    sums.weighted_chi2 += projected * projected;
   }
 }
 

@@ -30,6 +30,7 @@ const char* describe(Errc code) noexcept {
     case Errc::wrong_state: return "the monitor does not take this request in its present state";
     case Errc::not_confirmed: return "a station that was held out of the fit contradicts it";
     case Errc::not_unique: return "more sensors than the paper's parameters are unique for";
+    case Errc::too_few_levels: return "too few temperatures for polynomials of this order";
   }
   return "unknown error code";
 }
@@ -61,6 +62,7 @@ const char* remedy(Errc code) noexcept {
     case Errc::not_confirmed:
       return "look for a sensor that changed while the stations were collected, then collect anew";
     case Errc::not_unique: return "use the common-frame form: axis, scale and bias of each sensor";
+    case Errc::too_few_levels: return "record the attitudes at more temperatures, or fit a lower order";
   }
   return "report this code as a defect of plumb";
 }
