@@ -14,12 +14,12 @@ void times_prior(const Joint& joint, double* v, int step) noexcept {
   const int per = joint.per_sensor();
   for (int i = 0; i < joint.sensors(); ++i) {
     double* const own = v + at(per * i) * at(step);
-    const Vec3 w = times(joint.roots[at(i)].axes, Vec3{own[0], own[step], own[2 * step]});
-    for (int p = 0; p < 3; ++p) own[p * step] = w[at(p)];
-    own[3 * step] *= joint.roots[at(i)].bias;
+    const Vec3 w = times(joint.roots[at(i)].axes, Vec3{own[0], own[at(step)], own[at(2 * step)]});
+    for (int p = 0; p < 3; ++p) own[at(p * step)] = w[at(p)];
+    own[at(3 * step)] *= joint.roots[at(i)].bias;
     for (int j = 1; j <= joint.order; ++j) {
-      own[(2 + 2 * j) * step] *= joint.scale_sigma[at(i)][at(j)];
-      own[(3 + 2 * j) * step] *= joint.bias_sigma[at(i)][at(j)];
+      own[at((2 + 2 * j) * step)] *= joint.scale_sigma[at(i)][at(j)];
+      own[at((3 + 2 * j) * step)] *= joint.bias_sigma[at(i)][at(j)];
     }
   }
 }
@@ -29,11 +29,11 @@ void without_rotation(const Joint& joint, const Parameters& theta, double* v, in
   const int per = joint.per_sensor();
   Parameters change{};
   for (int i = 0; i < joint.sensors(); ++i) {
-    for (int p = 0; p < 3; ++p) change[at(4 * i + p)] = v[(per * i + p) * step];
+    for (int p = 0; p < 3; ++p) change[at(4 * i + p)] = v[at((per * i + p) * step)];
   }
   remove_rotation(theta, joint.sensors(), Roll{}, change);
   for (int i = 0; i < joint.sensors(); ++i) {
-    for (int p = 0; p < 3; ++p) v[(per * i + p) * step] = change[at(4 * i + p)];
+    for (int p = 0; p < 3; ++p) v[at((per * i + p) * step)] = change[at(4 * i + p)];
   }
 }
 

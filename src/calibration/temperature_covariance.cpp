@@ -26,11 +26,11 @@ struct Action {
 
   /// Row p of the map times the vector of one sensor's parameters, entry k at v[k * step].
   double apply(int p, const double* v, int step) const noexcept {
-    double out = v[p * step];
+    double out = v[at(p * step)];
     const double by_scale = (p < 3 ? w[at(p)] : offset) / scale;
     for (int j = 1; j <= order; ++j) {
-      out += by_scale * t[at(j)] * v[(2 + 2 * j) * step];
-      if (p == 3) out += t[at(j)] * v[(3 + 2 * j) * step];
+      out += by_scale * t[at(j)] * v[at((2 + 2 * j) * step)];
+      if (p == 3) out += t[at(j)] * v[at((3 + 2 * j) * step)];
     }
     return out;
   }
@@ -133,7 +133,7 @@ void note_forecast(const Joint& joint, const JointState& state, double g_mps2, d
     for (int i = 0; i < n; ++i) {
       double variance = misfit_mps2 * misfit_mps2;
       for (int p = 0; p < 4; ++p) {
-        variance += c[(4 * i + p) * (4 * n + 1)] * (p < 3 ? g_mps2 * g_mps2 / 3.0 : 1.0);
+        variance += c[at((4 * i + p) * (4 * n + 1))] * (p < 3 ? g_mps2 * g_mps2 / 3.0 : 1.0);
       }
       const double sigma = std::sqrt(std::fmax(variance, 0.0)) / norm(row_of(state.theta, i));
       if (!(sigma > out.reading_mps2)) continue;

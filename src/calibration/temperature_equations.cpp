@@ -36,7 +36,7 @@ void add_station(const Joint& joint, const JointState& state, const StationSolve
                  double pull, double* information, JointVector& rhs) noexcept {
   const int per = joint.per_sensor(), size = joint.parameters();
   const Cubic t = chebyshev_values(joint.use_degc.scaled(temperature_degc));
-  std::array<Columns, kCapacity> z;
+  std::array<Columns, kCapacity> z{};
   for (int k = 0; k < s.rows; ++k) {
     const int i = s.sensor[at(k)];
     z[at(k)] = columns_of(joint, state, i, s.gravity, t);

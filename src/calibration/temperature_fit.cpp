@@ -16,8 +16,9 @@ using fit::at;
 constexpr int kShapePoints = 14;
 /// A tool whose temperature is told by its inclination this well has no second variable.
 constexpr double kFollows_degc = 0.5 * kLevelsApart_degc;
+constexpr double kFollowsShare = 0.1;
 constexpr int kFollowTerms = 4;
-constexpr int kFollowStations = 9;
+constexpr int kFollowStations = 16;
 
 bool free_terms(const Datasheet& datasheet, int order) noexcept {
   if (!fit::all_free(datasheet)) return false;
@@ -31,12 +32,13 @@ bool free_terms(const Datasheet& datasheet, int order) noexcept {
   return true;
 }
 
-/// Whether a cubic in the inclination (its cosine) says the temperature within a few degC.
+/// Whether a cubic in the inclination (its cosine) says the temperature within a few degC and to a tenth of its
+/// variance.
 bool follows_inclination(const fit::Problem& problem, const fit::Parameters& theta, const Vec3& axis,
                          const ChebyshevSpan& use) noexcept {
   std::array<double, at(kFollowTerms * kFollowTerms)> normal{};
   Cubic rhs{};
-  double square = 0.0;
+  double square = 0.0, sum = 0.0;
   int stations = 0;
   fit::StationSolver solver(problem, theta, 0.0);
   for (int k = 0; k < problem.count; ++k) {
@@ -48,15 +50,17 @@ bool follows_inclination(const fit::Problem& problem, const fit::Parameters& the
       rhs[at(p)] += t[at(p)] * y;
     }
     square += y * y;
+    sum += y;
     ++stations;
   }
   if (stations < kFollowStations) return false;
   for (int p = 0; p < kFollowTerms; ++p) normal[at(p * kFollowTerms + p)] += 1e-9 * stations;
   Cubic solution = rhs;
+  const double spread = square - sum * sum / stations;
   if (!cholesky_factor(normal.data(), kFollowTerms, kFollowTerms)) return false;
   cholesky_solve(normal.data(), kFollowTerms, kFollowTerms, solution.data());
   for (std::size_t p = 0; p < solution.size(); ++p) square -= solution[p] * rhs[p];
-  return square <= kFollows_degc * kFollows_degc * stations;
+  return square <= kFollows_degc * kFollows_degc * stations && square <= kFollowsShare * spread;
 }
 
 /// One fit of one order.
@@ -118,7 +122,10 @@ class Attempt {
     fitted.tally.write(joint.sensors(), report_);
     if (told_.levels.count > 1 && follows_inclination(problem, state.theta, options_.roll_axis, told_.use_degc))
       told_.follows_inclination = true;
-    if (!fit::analyse({joint, state, fit::rank_floor(fitted.tally)}, work_, told_, report_)) return false;
+    const fit::JointAnalysis analysis = {
+        joint,     state,  gravity_.g_mps2, descent.misfit_variance(), fit::rank_floor(fitted.tally),
+        stations_, count_, scratch_};
+    if (!fit::analyse(analysis, work_, told_, report_)) return false;
     report_.rank = told_.rank;
     report_.gauge = told_.gauge;
     report_.condition = told_.condition;

@@ -27,17 +27,17 @@ double sum_of(const Cubic& c, const Cubic& t) noexcept { return c[0] * t[0] + c[
 
 }  // namespace
 
-Joint::Joint(const Datasheet& given, const ChebyshevSpan& use, int k) noexcept
-    : datasheet(given),
+Joint::Joint(const Datasheet& nominal_sheet, const ChebyshevSpan& use, int highest_order) noexcept
+    : datasheet(nominal_sheet),
       use_degc(use),
-      order(k),
-      sign(given.reads == Reads::gravity ? 1.0 : -1.0),
-      sheet(given),
+      order(highest_order),
+      sign(nominal_sheet.reads == Reads::gravity ? 1.0 : -1.0),
+      sheet(nominal_sheet),
       nominal(),
       roots() {
-  nominal.theta = datasheet_parameters(given);
+  nominal.theta = datasheet_parameters(nominal_sheet);
   const double half = use.half_width();
-  for (int i = 0; i < given.size; ++i) {
+  for (int i = 0; i < nominal_sheet.size; ++i) {
     DatasheetSensor& s = sheet.sensor[at(i)];
     const double reference = s.coefficients.reference_degc;
     Cubic scale = chebyshev_from_powers(s.coefficients.scale, use, reference);

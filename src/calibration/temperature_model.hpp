@@ -25,7 +25,7 @@ struct JointState {
 
 /// What is fixed during one fit. Orders above that of the fit stay as the datasheet has them.
 struct Joint {
-  Joint(const Datasheet& datasheet, const ChebyshevSpan& use_degc, int order) noexcept;
+  Joint(const Datasheet& nominal_sheet, const ChebyshevSpan& use, int highest_order) noexcept;
 
   int sensors() const noexcept { return sheet.size; }
   int per_sensor() const noexcept { return 4 + 2 * order; }
@@ -66,9 +66,14 @@ void accumulate(const Joint& joint, const JointState& state, const Problem& redu
 struct JointAnalysis {
   const Joint& joint;
   const JointState& state;
-  double floor = 0.0;  ///< eigenvalues below it times the largest count as zero
+  double g_mps2;
+  double misfit_variance;
+  double floor;  ///< eigenvalues below it times the largest count as zero
+  const Station* stations;
+  int count;
+  Station* scratch;  ///< the stations as reduced by `state`, before and after
 };
-/// Rank, gauge, condition and null directions from the information, which is mirrored and kept. False where the
+/// Rank, gauge, condition and null directions; `work.information` (lower triangle) is kept. False where the
 /// eigenvalues could not be had.
 bool find_rank(const JointAnalysis& analysis, TemperatureWork& work, TemperatureReport& report) noexcept;
 /// The same, and the coefficients with their sigmas. `work.information` is the sum over the stations;

@@ -128,6 +128,7 @@ class NullSearch {
     }
     if (row < 0) return false;
     const double leader = entry(row, column);
+    if (found < kMaxNullDirections) leader_[at(found)] = row;
     for (int k = 0; k < size_; ++k) {
       const double kept = entry(k, found);
       entry(k, found) = entry(k, column) / leader;
@@ -143,7 +144,8 @@ class NullSearch {
   void write(int c, TemperatureNull& out) noexcept {
     out = TemperatureNull{};
     const int per = joint_.per_sensor();
-    double most = 0.0;
+    const int sensor = leader_[at(c)] / per, p = leader_[at(c)] % per;
+    const ParameterKind kind = p % 2 == 0 ? ParameterKind::scale : ParameterKind::bias;
     for (int i = 0; i < joint_.sensors(); ++i) {
       const Vec3 w = {entry(per * i, c), entry(per * i + 1, c), entry(per * i + 2, c)};
       const Vec3& h = joint_.sheet.sensor[at(i)].row.axis;
@@ -156,9 +158,24 @@ class NullSearch {
         insert({ParameterKind::bias, j, i, entry(per * i + 3 + 2 * j, c)}, out);
       }
     }
-    most = std::fabs(out.term[0].amount);
+    const double most = std::fabs(out.term[0].amount);
     while (out.terms > 1 && std::fabs(out.term[at(out.terms - 1)].amount) < kNullTermShare * most) --out.terms;
     for (int k = out.terms; k < kMaxTemperatureTerms; ++k) out.term[at(k)] = TemperatureTerm{};
+    // A component of W alone is neither a scale nor an axis.
+    if (p >= 3) put_first({kind, order_of(p), sensor, 1.0}, out);
+  }
+
+  static void put_first(const TemperatureTerm& leader, TemperatureNull& out) noexcept {
+    int place = 0;
+    while (place < out.terms) {
+      const TemperatureTerm& t = out.term[at(place)];
+      if (t.kind == leader.kind && t.order == leader.order && t.sensor == leader.sensor) break;
+      ++place;
+    }
+    if (place == out.terms && out.terms < kMaxTemperatureTerms) ++out.terms;
+    if (place == kMaxTemperatureTerms) --place;
+    for (int k = place; k > 0; --k) out.term[at(k)] = out.term[at(k - 1)];
+    out.term[0] = leader;
   }
 
   static void insert(const TemperatureTerm& term, TemperatureNull& out) noexcept {
@@ -174,67 +191,37 @@ class NullSearch {
   double* v_;
   int size_;
   int columns_;
+  std::array<int, kMaxNullDirections> leader_{};  ///< row
 };
 
-/// A map of one sensor's parameters, row-major with stride kJointPerSensor.
-using Map = std::array<double, at(kJointPerSensor* kJointPerSensor)>;
-
-/// A matrix entry of the map.
-constexpr std::size_t cell(int p, int q) noexcept { return at(p * kJointPerSensor + q); }
-
-/// From polynomials over `span` in the prior units of order 0 to the parameters of the fit in their own prior units. A
-/// constant change c of s, which is no parameter, is one of W, of all b_j, and of all s_j back.
-Map map_of(const Joint& joint, const JointState& state, int i, const ChebyshevSpan& span) noexcept {
-  Map out{};
-  for (int p = 0; p < 4; ++p) out[cell(p, p)] = 1.0;
-  const DatasheetSensor& s = joint.sheet.sensor[at(i)];
-  const Cubic &scale_sigma = joint.scale_sigma[at(i)], &bias_sigma = joint.bias_sigma[at(i)];
-  const Vec3 w = row_of(state.theta, i);
-  const double along = dot(s.row.axis, w), across = 1.0 / s.prior.axis_rad;
-  const Vec3 stretch = plus(scaled(w, across), scaled(s.row.axis, along * (1.0 / s.prior.scale - across)));
-  for (int j = 1; j <= joint.order; ++j) {
-    Cubic unit{};
-    unit[at(j)] = 1.0;
-    const Cubic powers = powers_from_chebyshev(unit, span, span.middle());
-    const Cubic r = chebyshev_from_powers(powers, joint.use_degc, span.middle());
-    const int scale = 2 + 2 * j, bias = scale + 1;
-    const double change = r[0] * s.prior.scale;
-    for (int p = 0; p < 3; ++p) out[cell(p, scale)] = change * stretch[at(p)];
-    out[cell(3, scale)] = change * (state.theta[at(4 * i + 3)] + state.bias[at(i)][0]) / s.prior.bias_mps2;
-    out[cell(3, bias)] = r[0];
-    for (int k = 1; k <= joint.order; ++k) {
-      const double back = change * state.scale[at(i)][at(k)];
-      out[cell(2 + 2 * k, scale)] = (r[at(k)] * s.prior.scale - back) / scale_sigma[at(k)];
-      out[cell(3 + 2 * k, scale)] = change * state.bias[at(i)][at(k)] / bias_sigma[at(k)];
-      out[cell(3 + 2 * k, bias)] = r[at(k)] * s.prior.bias_mps2 / bias_sigma[at(k)];
+/// The fit in the polynomials by which the rank is judged.
+struct RankBasis {
+  RankBasis(const Joint& fitted, const JointState& at_end, const ChebyshevSpan& span) noexcept
+      : joint(fitted.datasheet, span, fitted.order), state(at_end) {
+    for (int i = 0; i < joint.sensors(); ++i) {
+      const DatasheetSensor& s = joint.sheet.sensor[at(i)];
+      for (int j = 1; j <= joint.order; ++j) {
+        joint.scale_sigma[at(i)][at(j)] = s.prior.scale;
+        joint.bias_sigma[at(i)][at(j)] = s.prior.bias_mps2;
+      }
+      // SF_0 s (W g + b + beta) is to be the same with another SF_0, and s of another mean.
+      const auto translated = [&](const Cubic& c) {
+        return chebyshev_from_powers(powers_from_chebyshev(c, fitted.use_degc, span.middle()), span, span.middle());
+      };
+      Cubic &scale = state.scale[at(i)], &bias = state.bias[at(i)];
+      scale = translated(scale);
+      bias = translated(bias);
+      const double mean = scale[0];
+      const double stretch = mean * fitted.sheet.sensor[at(i)].coefficients.scale[0] / s.coefficients.scale[0];
+      for (double& c : scale) c /= mean;
+      for (double& c : bias) c *= stretch;
+      for (int p = 0; p < 4; ++p) state.theta[at(4 * i + p)] *= stretch;
     }
   }
-  return out;
-}
 
-/// Replaces a vector of one sensor, entries `step` apart, by the transpose of the map times it.
-void times_transpose(const Map& map, int per, double* v, int step) noexcept {
-  std::array<double, kJointPerSensor> out{};
-  for (int p = 0; p < per; ++p) {
-    for (int q = 0; q < per; ++q) out[at(q)] += map[cell(p, q)] * v[p * step];
-  }
-  for (int p = 0; p < per; ++p) v[p * step] = out[at(p)];
-}
-
-/// The information about polynomials over `span`, both triangles, in `work.scratch`.
-void translate(const Joint& joint, const JointState& state, const ChebyshevSpan& span, TemperatureWork& work) noexcept {
-  const int size = joint.parameters(), per = joint.per_sensor();
-  double* const to = work.scratch.data();
-  for (int k = 0; k < size * size; ++k) to[k] = work.information[at(k)];
-  for (int i = 0; i < joint.sensors(); ++i) {
-    const Map map = map_of(joint, state, i, span);
-    for (int k = 0; k < size; ++k) times_transpose(map, per, to + at(k) * at(size) + at(per * i), 1);
-    for (int k = 0; k < size; ++k) times_transpose(map, per, to + at(per * i) * at(size) + at(k), size);
-  }
-  for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < i; ++j) to[j * size + i] = to[i * size + j];
-  }
-}
+  Joint joint;
+  JointState state;
+};
 
 int count_above(const JointVector& values, int size, double floor) noexcept {
   int rank = 0;
@@ -242,41 +229,72 @@ int count_above(const JointVector& values, int size, double floor) noexcept {
   return rank;
 }
 
+void mirror(double* m, int size) noexcept {
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j < i; ++j) m[j * size + i] = m[i * size + j];
+  }
+}
+
+/// Over the span of use, all orders in prior units of the zeroth.
+bool note_condition(const JointAnalysis& a, TemperatureWork& work, TemperatureReport& report) noexcept {
+  const Joint& joint = a.joint;
+  const int size = joint.parameters(), per = joint.per_sensor();
+  JointVector unit{};
+  for (int i = 0; i < joint.sensors(); ++i) {
+    const Prior& prior = joint.sheet.sensor[at(i)].prior;
+    for (int p = 0; p < 4; ++p) unit[at(per * i + p)] = 1.0;
+    for (int j = 1; j <= joint.order; ++j) {
+      unit[at(per * i + 2 + 2 * j)] = prior.scale / joint.scale_sigma[at(i)][at(j)];
+      unit[at(per * i + 3 + 2 * j)] = prior.bias_mps2 / joint.bias_sigma[at(i)][at(j)];
+    }
+  }
+  double* const matrix = work.scratch.data();
+  for (int i = 0; i < size; ++i) {
+    for (int j = 0; j <= i; ++j) matrix[i * size + j] = unit[at(i)] * work.information[at(i * size + j)] * unit[at(j)];
+  }
+  mirror(matrix, size);
+  JointVector values{};
+  if (!symmetric_eigenvalues(matrix, size, size, values.data())) return false;
+  const double least = report.rank > 0 ? values[at(size - report.rank)] : 0.0;
+  report.condition = least > 0.0 ? std::sqrt(values[at(size - 1)] / least) : 0.0;
+  return true;
+}
+
 }  // namespace
 
 bool find_rank(const JointAnalysis& a, TemperatureWork& work, TemperatureReport& report) noexcept {
-  const Joint& joint = a.joint;
-  const int size = joint.parameters();
-  double* const matrix = work.scratch.data();
-  for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < i; ++j) work.information[at(j * size + i)] = work.information[at(i * size + j)];
-  }
   const TemperatureLevels& levels = report.levels;
   const double middle = 0.5 * (levels.lowest_degc + levels.highest_degc);
   const double half = std::fmax(levels.highest_degc - middle, 0.5 * kLevelsApart_degc);
-  translate(joint, a.state, {middle - half, middle + half}, work);
-  const Rotations gauge = gauge_basis(joint, a.state.theta);
+  const RankBasis basis(a.joint, a.state, {middle - half, middle + half});
+  const Joint& joint = basis.joint;
+  const int size = joint.parameters();
+  double* const matrix = work.scratch.data();
+  double* const copy = work.vectors.data();
+  JointSums sums;
+  reduce_all(joint, basis.state, a.stations, a.count, a.scratch);
+  const Problem problem = {joint.sheet, a.g_mps2, a.scratch, a.count, {}, nullptr};
+  accumulate(joint, basis.state, problem, a.misfit_variance, Loss::squares, matrix, sums);
+  reduce_all(a.joint, a.state, a.stations, a.count, a.scratch);
+  mirror(matrix, size);
+  const Rotations gauge = gauge_basis(joint, basis.state.theta);
   Vec3 along{};
   for (int q = 0; q < 3; ++q) along[at(q)] = information_along(matrix, gauge[at(q)], size);
   JointVector values{};
-  if (!symmetric_eigenvalues(matrix, size, size, values.data())) return false;
+  for (int k = 0; k < size * size; ++k) copy[k] = matrix[k];
+  if (!symmetric_eigenvalues(copy, size, size, values.data())) return false;
   report.rank = count_above(values, size, a.floor);
   report.gauge = 0;
   for (int q = 0; q < 3; ++q) report.gauge += along[at(q)] <= a.floor * values[at(size - 1)] ? 1 : 0;
   if (report.gauge > size - report.rank) report.gauge = size - report.rank;
   report.null_directions = size - report.rank - report.gauge;
   if (report.null_directions > 0) {
-    translate(joint, a.state, {middle - half, middle + half}, work);
     if (!symmetric_eigen(matrix, size, size, values.data(), work.vectors.data())) return false;
     NullSearch search(joint, work.vectors.data(), size - report.rank);
     search.without(gauge, report.gauge);
     search.run(report);
   }
-  translate(joint, a.state, joint.use_degc, work);
-  if (!symmetric_eigenvalues(matrix, size, size, values.data())) return false;
-  const double least = report.rank > 0 ? values[at(size - report.rank)] : 0.0;
-  report.condition = least > 0.0 ? std::sqrt(values[at(size - 1)] / least) : 0.0;
-  return true;
+  return note_condition(a, work, report);
 }
 
 }  // namespace fit

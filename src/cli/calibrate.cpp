@@ -5,6 +5,7 @@
 #include "fit_pictures.hpp"
 #include "fit_summary.hpp"
 #include "pipeline.hpp"
+#include "temperature_words.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -109,6 +110,24 @@ Command add_calibrate(CLI::App& tool) {
          "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
          "default 4 folds, below 16 stations one at a time")
       ->type_name("K|FRACTION|one|none");
+  app->add_option_function<std::string>(
+         "--temperature-order",
+         [options](const std::string& text) {
+           const std::string wrong = read_temperature_order(text, options->choice.temperature.order);
+           if (!wrong.empty()) throw CLI::ValidationError("--temperature-order", wrong);
+         },
+         "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
+         "support (the default); 0 takes the coefficients of the array file")
+      ->type_name("auto|0|1|2|3");
+  app->add_option_function<std::string>(
+         "--use-range-degc",
+         [options](const std::string& text) {
+           const std::string wrong = read_use_range(text, options->choice.temperature.use_degc);
+           if (!wrong.empty()) throw CLI::ValidationError("--use-range-degc", wrong);
+         },
+         "temperatures at which the calibration will be used, for the errors to expect there; by default those of the "
+         "stations. A negative one needs the form --use-range-degc=-20,60")
+      ->type_name("LO,HI");
   app->add_flag_callback(
       "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
       "plain least squares: do not set stations aside whose residuals are not noise");

@@ -5,6 +5,7 @@
 
 #include "fit_summary.hpp"
 #include "plumb/core/units.hpp"
+#include "temperature_json.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -197,6 +198,7 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["outliers"] = outliers_json(run, array);
   out["at_full_scale"] = clipped_json(run, array);
   out["unobservable"] = unobservable(run, array);
+  out["temperature"] = temperature_json(run, array);
   out["hold_out"] = hold_out_json(run);
   out["common_scale"] = run.study.shown ? Json{{"mean", run.study.common_scale.mean},
                                                {"scatter", run.study.common_scale.scatter},

@@ -6,6 +6,7 @@
 
 #include "fit_words.hpp"
 #include "plumb/core/units.hpp"
+#include "temperature_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -196,6 +197,7 @@ Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
 
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
+  if (const std::optional<Refusal> temperature = temperature_refusal(run)) return *temperature;
   switch (e.code) {
     case Errc::too_few_stations:
       if (!run.log_findings.empty()) return no_stations(run);

@@ -63,6 +63,21 @@ void plan_next(const io::ArrayFile& array, FitStudy& out) {
   out.next.resize(static_cast<std::size_t>(planned));
 }
 
+/// What was refused is shown too: the figures are why. Of an order that the temperatures do not support, the highest
+/// that they do.
+std::unique_ptr<Calibration> refused_fit(const io::ArrayFile& array, const std::vector<Station>& stations,
+                                         TemperatureOptions options) {
+  const auto work = std::make_unique<TemperatureWork>();
+  std::vector<Station> scratch(stations.size());
+  options.fit = without_limits(options.fit);
+  options.max_order = options.order;
+  options.order = options.order > 0 ? kAutomaticOrder : 0;
+  const Expected<Calibration> refused =
+      calibrate_over_temperature(array.datasheet, array.gravity, stations.data(), static_cast<int>(stations.size()),
+                                 options, scratch.data(), *work);
+  return refused ? std::make_unique<Calibration>(*refused) : nullptr;
+}
+
 /// The fit once more, step by step: `calibrate` keeps no history.
 std::vector<double> convergence(const io::ArrayFile& array, const std::vector<Station>& stations,
                                 const FitOptions& options) {
@@ -98,8 +113,10 @@ std::vector<int> kept_by(const Expected<Calibration>& fit, const io::ArrayFile& 
 }
 
 /// What an accepted fit has set aside is neither predicted nor held against a sensor.
-void cross_check(const io::ArrayFile& array, const std::vector<Station>& all, const Expected<Calibration>& fit,
-                 const FitReport& report, const FitOptions& options, const HoldOutChoice& choice, FitStudy& out) {
+void cross_check(const io::ArrayFile& array, const Datasheet& nominal, const std::vector<Station>& all,
+                 const Expected<Calibration>& fit, const FitReport& report, const TemperatureOptions& over,
+                 const HoldOutChoice& choice, FitStudy& out) {
+  const FitOptions& options = over.fit;
   out.kept = kept_by(fit, array, all, options);
   const std::vector<Station> stations = chosen(all, out.kept);
   std::vector<Station> scratch(stations.size());
@@ -107,8 +124,15 @@ void cross_check(const io::ArrayFile& array, const std::vector<Station>& all, co
   out.plan = plan_of(choice, count);
   if (!choice.none && out.shown) {
     std::vector<StationPrediction> predicted(stations.size());
-    out.held_out = hold_out(array.datasheet, array.gravity, stations.data(), count, out.plan, options, scratch.data(),
-                            predicted.data());
+    if (over.order > 0) {
+      std::vector<Station> more(stations.size());
+      const auto work = std::make_unique<TemperatureWork>();
+      out.held_out = hold_out_over_temperature(nominal, array.gravity, stations.data(), count, out.plan, over,
+                                               scratch.data(), more.data(), *work, predicted.data());
+    } else {
+      out.held_out = hold_out(array.datasheet, array.gravity, stations.data(), count, out.plan, options, scratch.data(),
+                              predicted.data());
+    }
     if (out.held_out.judged > 0) {
       out.held_out.worst = out.kept[static_cast<std::size_t>(out.held_out.worst)];
       out.predicted.resize(all.size());
@@ -161,23 +185,22 @@ std::string read_hold_out(const std::string& text, HoldOutChoice& choice) {
 }
 
 FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
-                   const FitReport& report, const FitOptions& options, const HoldOutChoice& choice) {
+                   const FitReport& report, const TemperatureOptions& options, const HoldOutChoice& choice) {
   FitStudy out;
   const int count = static_cast<int>(stations.size());
   if (fit) {
     out.shown = std::make_unique<Calibration>(*fit);
   } else if (fit.error().code != Errc::diverged) {
-    // What was refused is shown too: the figures are why.
-    const Expected<Calibration> refused =
-        calibrate(array.datasheet, array.gravity, stations.data(), count, without_limits(options));
-    if (refused) out.shown = std::make_unique<Calibration>(*refused);
+    out.shown = refused_fit(array, stations, options);
   }
+  io::ArrayFile drifting = array;
+  if (options.order > 0 && out.shown) drifting.datasheet = with_temperature_of(array.datasheet, *out.shown);
   find_attitudes(array, stations, out);
   out.coverage = coverage_of(array.datasheet, out.attitudes.data(), count);
   plan_next(array, out);
   out.null_count = null_combinations(array.datasheet, out.shown ? out.shown->report : report, *out.nulls);
-  out.cost = convergence(array, stations, options);
-  cross_check(array, stations, fit, report, options, choice, out);
+  out.cost = convergence(drifting, stations, options.fit);
+  cross_check(drifting, array.datasheet, stations, fit, report, options, choice, out);
   out.judgement = judge_gravity(array.gravity);
   if (!out.shown) {
     if (out.judgement.error.code == Errc::ok) out.judgement = judge_odd_sensor(array.datasheet, out.odd);

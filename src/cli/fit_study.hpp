@@ -10,6 +10,7 @@
 #include "plumb/calibration/null_directions.hpp"
 #include "plumb/calibration/observability.hpp"
 #include "plumb/calibration/paper_parameters.hpp"
+#include "plumb/calibration/temperature_fit.hpp"
 #include "plumb/io/array_file.hpp"
 
 namespace plumb {
@@ -52,9 +53,11 @@ std::vector<Station> chosen(const std::vector<Station>& stations, const std::vec
 /// Attitudes that are proposed.
 inline constexpr int kPlanned = 6;
 
-/// `fit` is what `calibrate` returned for the stations with `options`, `report` what it wrote.
+/// `fit` is what `calibrate_over_temperature` returned for the stations with `options`, their order the one that was
+/// fitted, `report` what it wrote. Of a fit over temperature all but the stations held out are studied with the drift
+/// that it found; the fits that predict these find their own.
 FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
-                   const FitReport& report, const FitOptions& options, const HoldOutChoice& choice);
+                   const FitReport& report, const TemperatureOptions& options, const HoldOutChoice& choice);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

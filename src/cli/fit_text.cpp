@@ -7,6 +7,7 @@
 #include "fit_summary.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/words.hpp"
+#include "temperature_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -97,13 +98,19 @@ std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
   return out;
 }
 
+std::string temperature_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  std::string out;
+  for (const TemperatureFact& fact : temperature_facts(run, array)) out += line(fact.label, fact.words);
+  return out.empty() ? out : "\ntemperature\n" + out;
+}
+
 std::string residual_section(const CalibrationRun& run, const io::ArrayFile& array) {
   if (!run.study.shown) return "";
   const FitReport& r = run.told();
   std::string out = "\nresiduals\n";
   out += line("length of gravity", fmt::format("{:.3f} mg0 rms", in_mg0(r.norm_rms_mps2)));
-  out += line("parity", r.parameters > 12 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
-                                          : std::string("none: three sensors do not check one another"));
+  out += line("parity", array.array.size() > 3 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
+                                               : std::string("none: three sensors do not check one another"));
   out += line("beyond the noise", fmt::format("{:.3f} mg0", in_mg0(r.misfit_mps2)));
   out += line("chi^2", fmt::format("{:.4g} for {} degrees of freedom, p = {:.3g}: {}", r.chi2, r.degrees_of_freedom,
                                    r.p_value, p_value_words(r)));
@@ -111,7 +118,7 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
   if (h.judged > 0) {
     std::string words =
         fmt::format("norm {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.norm_rms_mps2), in_mg0(h.norm_max_mps2));
-    if (r.parameters > 12) {
+    if (array.array.size() > 3) {
       words +=
           fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.parity_rms_mps2), in_mg0(h.parity_max_mps2));
     }
@@ -227,8 +234,8 @@ std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, cons
   out += fmt::format("log         {} rows used, {} bad rows skipped, {} stations\n", run.log.rows, run.log.rows_bad,
                      run.stations.size());
   if (parts.stations) out += stations_text(run);
-  out += fit_section(run, array) + residual_section(run, array) + sensors_section(run, array) +
-         paper_parameters_section(run, array);
+  out += fit_section(run, array) + temperature_section(run, array) + residual_section(run, array) +
+         sensors_section(run, array) + temperature_table(run, array) + paper_parameters_section(run, array);
   if (run.paper) out += paper_fits_section(*run.paper, array);
   const bool too_little = run.refusal.code == Errc::too_few_stations || run.refusal.code == Errc::unobservable;
   out += attitude_section(run, array, parts.suggest || (too_little && run.log_findings.empty()));

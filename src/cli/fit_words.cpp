@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "temperature_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -137,6 +138,8 @@ std::vector<std::string> unobservable(const CalibrationRun& run, const io::Array
     out.push_back(null_words((*run.study.nulls)[static_cast<std::size_t>(k)], array));
   if (run.told().null_directions > run.study.null_count)
     out.push_back(fmt::format("and {} more", run.told().null_directions - run.study.null_count));
+  const std::vector<std::string> over_temperature = temperature_unobservable(run, array);
+  out.insert(out.end(), over_temperature.begin(), over_temperature.end());
   return out;
 }
 

@@ -82,7 +82,8 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   if (!fit) {
     run.refusal = fit.error();
     // Stations that determine too little say nothing of values; that one sensor contradicts itself they do say.
-    const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable;
+    const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable ||
+                            fit.error().code == Errc::too_few_levels;
     const bool stands = judged.concern == Concern::gravity || judged.concern == Concern::odd_sensor;
     if (!named || (too_little && !stands)) return;
   } else if (!named) {
@@ -179,9 +180,15 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   collector.finish(run);
   run.log = reader->statistics();
   run.options = choice.fit;
-  const Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
-                                              static_cast<int>(run.stations.size()), run.options, &run.report);
-  run.study = study_fit(array, run.stations, fit, run.report, run.options, choice.hold_out);
+  TemperatureOptions over = choice.temperature;
+  over.fit = choice.fit;
+  const auto work = std::make_unique<TemperatureWork>();
+  std::vector<Station> scratch(run.stations.size());
+  const Expected<Calibration> fit = calibrate_over_temperature(array.datasheet, array.gravity, run.stations.data(),
+                                                               static_cast<int>(run.stations.size()), over,
+                                                               scratch.data(), *work, &run.temperature, &run.report);
+  over.order = run.temperature.order;
+  run.study = study_fit(array, run.stations, fit, run.report, over, choice.hold_out);
   settle(run, fit);
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
   return run;

@@ -35,6 +35,7 @@ struct CalibrationRun {
   bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
   FitOptions options;
   FitReport report;
+  TemperatureReport temperature;  ///< of the fit, whichever order it had
   FitStudy study;
   Error refusal;                          ///< why it was not accepted
   Concern concern = Concern::none;        ///< what exactly, where the code alone does not say
@@ -52,7 +53,8 @@ struct CalibrationRun {
 struct CalibrationChoice {
   HoldOutChoice hold_out;
   FitOptions fit;
-  bool paper_fits = false;  ///< the paper's own fits too
+  TemperatureOptions temperature;  ///< its own `fit` is not looked at
+  bool paper_fits = false;         ///< the paper's own fits too
 };
 
 /// Reads the log, finds the stations (or takes the rows as stations), fits, and judges the fit. Refuses to make the

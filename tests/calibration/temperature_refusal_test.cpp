@@ -47,6 +47,17 @@ TEST(TemperatureRefusal, TooFewLevelsNamesTheMissingOnes) {
   EXPECT_TRUE(fit_of(b.sheet, on_levels(b.truth, {25.0, 60.0, 105.0, 150.0}, b.noise), options_of(3)).made.has_value());
 }
 
+/// However little the noise and however wide the span of use: a polynomial is not determined by rounding.
+TEST(TemperatureRefusal, WithoutNoiseTheRankIsThatOfTheLevels) {
+  Bench b;
+  b.sheet = paper_sheet(1e-6 * plumb::kG0_mps2);
+  for (int levels = 1; levels <= 4; ++levels) {
+    const auto stations = on_levels(b.truth, levels_of(levels, 20.0, 60.0), b.noise, 1e-6 * plumb::kG0_mps2);
+    EXPECT_EQ(fit_of(b.sheet, stations, options_of(3)).report.rank, 5 + 8 * levels) << levels;
+  }
+  EXPECT_LT(fit_of(b.sheet, well(b.truth, b.noise, 1e-6 * plumb::kG0_mps2), options_of(3)).report.rank, 37);
+}
+
 TEST(TemperatureRefusal, TemperaturesTooNearAreOneLevel) {
   Bench b;
   // The rank alone would let four temperatures within 12 degC pass for more than one level.

@@ -71,8 +71,8 @@ struct TemperatureTerm {
 };
 inline constexpr int kMaxTemperatureTerms = 8;
 struct TemperatureNull {
-  int terms = 0;                                             ///< the largest are kept
-  std::array<TemperatureTerm, kMaxTemperatureTerms> term{};  ///< the largest first
+  int terms = 0;                                             ///< the largest are kept, from kNullTermShare up
+  std::array<TemperatureTerm, kMaxTemperatureTerms> term{};  ///< the one by which it is told apart first
 };
 
 /// What the calibration is expected to leave at one temperature, 1 sigma.
