@@ -107,6 +107,29 @@ TEST(ToolTemperature, AnOrderWithoutItsLevelsIsRefusedByName) {
   EXPECT_EQ(told["temperature"]["levels"].size(), 2);
 }
 
+/// A well that is the flatter the deeper and the hotter it is.
+TEST(ToolTemperature, ATemperatureThatFollowsTheInclinationIsRefusedByName) {
+  const Oven where;
+  write_text(where / "well.toml",
+             "name = \"well\"\narray = \"examples/oven_tool.toml\"\nseed = 1\n[truth]\nlaw = \"uniform\"\n"
+             "[attitude]\nlaw = \"drilling-path\"\nstations = 40\ninclination = \"2 deg\"\nbuild = \"2.2 deg\"\n"
+             "dwell = \"1 s\"\nrecord_motion = false\ntag_stations = true\n"
+             "[temperature]\nlaw = \"linear\"\nstart = \"20 degC\"\nrate = \"97 degC/min\"\n");
+  ASSERT_EQ(run(where, {"simulate", "well.toml", "--out", "oven.csv"}).code, 0);
+  const Outcome refused = where.calibrate({"--temperature-order", "3"});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.out, {"rank", "34 of 40", "not determined", "cubic scale of", " against ", "NOT ACCEPTED",
+                                 "follows their inclination", "34 of the 37", "hotter or colder"}));
+  const Json told = where.report({"--temperature-order", "3"});
+  EXPECT_TRUE(told["temperature"]["follows_inclination"]);
+  EXPECT_EQ(told["temperature"]["null_directions"], 3);
+  EXPECT_EQ(told["temperature"]["null"][0][0]["order"], 3);
+  // By itself the tool takes the order that these stations do support, and says why it is no higher.
+  const Outcome lower = where.calibrate();
+  EXPECT_EQ(lower.code, 0) << lower.err;
+  EXPECT_TRUE(says(lower.out, {"21 of 24", "the temperature follows the inclination", "accepted"}));
+}
+
 TEST(ToolTemperature, ARangeFarBeyondTheLevelsIsTold) {
   const Oven where(62.0);
   const Json near = where.report({"--temperature-order", "3"});

@@ -36,6 +36,7 @@ TEST(ArrayFile, ReadsEveryPart) {
   EXPECT_EQ(first.full_scale_raw, 5.0);
   EXPECT_EQ(file.datasheet.sensor[1].prior.axis_rad, Prior().axis_rad) << "defaults where no prior is given";
   EXPECT_DOUBLE_EQ(file.datasheet.sensor[3].prior.scale, 0.02);
+  EXPECT_EQ(file.datasheet.sensor[3].prior.scale_t, Prior().scale_t);
   EXPECT_EQ(file.output_frame, kIdentity3);
 }
 
@@ -189,6 +190,10 @@ TEST(ArrayFileRefuses, ValuesOutOfRange) {
   expect_refused(changed("id = \"A1\"", "id = \"a name far too long\""), 16, "sensor[1].id", {"longer than 15"});
   expect_refused(changed("id = \"A1\"", "id = \" \""), 16, "sensor[1].id", {"is empty"});
   expect_refused(changed("bias = \"20 mg\"", "bias = \"0 mg\""), 41, "sensor[4].prior.bias", {"above zero"});
+  const auto drift = [](const std::string& terms) { return changed("axis = \"2 deg\"", "axis = \"2 deg\", " + terms); };
+  expect_refused(drift("scale_t = [\"-200 ppm/degC\"]"), 41, "sensor[4].prior.scale_t", {"above zero"});
+  expect_refused(drift("bias_t = [\"1 ug0/degC\", \"0 ug0/degC^2\"]"), 41, "sensor[4].prior.bias_t", {"above zero"});
+  expect_refused(drift("bias_t = \"1 ug0/degC\""), 41, "sensor[4].prior.bias_t", {"list of one to three"});
   expect_refused(changed("9.81 m/s^2", "1.62 m/s^2"), 4, "gravity.value", {"1.62"});
   expect_refused(changed("window = 16", "window = 0"), 7, "monitor.window", {"is 0, out of range", "at least 1"});
   expect_refused(changed("window = 16", "window = 16\nfalse_alarm_rate = nan"), 8, "monitor.false_alarm_rate",
