@@ -89,12 +89,13 @@ double ThreeSensorStep::look(const Problem& problem, const PaperParameters& thet
   PaperError::Prepared now = error.prepare(theta);
   if (!now.finite) return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < column_.size(); ++i) {
+    if (now.ratio[i] == 0.0) return std::numeric_limits<double>::quiet_NaN();  // less than the least double
     column_[i] = now.column[i];
     inverse_[i] = now.inverse[i];
     scale_[i] = g_mps2_ / now.ratio[i];
     offset_[i] = drift_[i] / now.ratio[i];
+    shrink_[i] = now.ratio[i] / g_mps2_;
   }
-  const Vec3 from = {1.0 / scale_[0], 1.0 / scale_[1], 1.0 / scale_[2]};
   const double g_squared = error.g_squared_;
   Column slope{};
   double sum = 0.0;
@@ -109,7 +110,7 @@ double ThreeSensorStep::look(const Problem& problem, const PaperParameters& thet
     const auto direct = [&](std::size_t i) { return station.mean[at(error.sensor_[i])] * now.gain[i]; };
     const Vec3 y = {direct(0), direct(1), direct(2)};
     const Vec3 r = minus(y, now_), w = minus(y, offset_);
-    const Vec3 u = {w[0] * from[0], w[1] * from[1], w[2] * from[2]};
+    const Vec3 u = {w[0] * shrink_[0], w[1] * shrink_[1], w[2] * shrink_[2]};
     const Vec3 x = plus(plus(scaled(column_[0], r[0]), scaled(column_[1], r[1])), scaled(column_[2], r[2]));
     const double e = dot(x, x) - g_squared;
     const Vec3 weighted = scaled(u, e);
@@ -140,7 +141,7 @@ void ThreeSensorStep::set_coefficients(const Problem& problem) noexcept {
     const double rest = offset_[at(i)] - now_[at(i)];
     slope[at(i)] = scaled(column_[at(i)], scale_[at(i)]);
     x = plus(x, scaled(column_[at(i)], rest));
-    origin[at(i)] = -rest / scale_[at(i)];
+    origin[at(i)] = -rest * shrink_[at(i)];
   }
   origin_ = monomials(origin);
   const auto along = [&slope, &x](const Vec3& direction) {

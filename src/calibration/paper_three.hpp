@@ -53,6 +53,7 @@ class ThreeSensorStep {
   Vec3 drift_{};      ///< B* at the start [m/s^2]: the readings that the moments are of have it taken off
   Matrix moments_{};  ///< lower triangle; the last row is that of the constant
   Vec3 scale_{};      ///< now, of a reading before its bias over one of the moments [m/s^2]
+  Vec3 shrink_{};     ///< its inverse
   Vec3 offset_{};     ///< its part from drift_ [m/s^2]
   Vec3 now_{};        ///< B* where `look` was
   Vec3 inverse_{};    ///< 1 / SF there
