@@ -8,8 +8,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 /// Eigenvalues below this times the largest are rounding.
 constexpr double kRankTolerance = 1e-10;
 /// Errors of the fitted directions feign information of about their own variance where there is none (one

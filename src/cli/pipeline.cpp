@@ -101,11 +101,14 @@ io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool li
   return done;
 }
 
-/// The paper's fits beside the accepted one, to the same stations. Of no use where that of all sensors is not sound.
+/// The paper's fits beside the accepted one, to the same stations and with the drift over temperature that it found. Of
+/// no use where that of all sensors is not sound.
 void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
   const std::vector<Station> stations = chosen(run.stations, run.study.kept);
   auto paper = std::make_unique<PaperCalibration>();
-  const Expected<void> done = paper_calibrate_all(array.datasheet, array.gravity, stations.data(),
+  const Datasheet datasheet =
+      run.temperature.order > 0 ? with_temperature_of(array.datasheet, *run.accepted) : array.datasheet;
+  const Expected<void> done = paper_calibrate_all(datasheet, array.gravity, stations.data(),
                                                   static_cast<int>(stations.size()), PaperOptions{}, *paper);
   if (!done) {
     run.paper_refusal = done.error();

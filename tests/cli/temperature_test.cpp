@@ -75,6 +75,17 @@ TEST(ToolTemperature, CubicsAreFoundAndWritten) {
   EXPECT_EQ(file["report"]["rank"], 37);
 }
 
+/// The paper's own fits know no temperature: they are made with the drift that plumb found.
+TEST(ToolTemperature, ThePapersFitsTakeTheDrift) {
+  const Oven where;
+  const Json told = where.report({"--paper"});
+  ASSERT_EQ(told["paper"].size(), 5);
+  for (const Json& fit : told["paper"]) {
+    EXPECT_TRUE(fit["sound"]);
+    EXPECT_LT(fit["length_error_rms_mps2"].get<double>(), 1e-3);
+  }
+}
+
 TEST(ToolTemperature, AMonitorUsesItOverTheWholeSpan) {
   const Oven where;
   ASSERT_EQ(where.calibrate().code, 0);

@@ -48,6 +48,7 @@ TEST(ArrayFile, ReadsTemperatureFilterAndFrame) {
       "bias = \"12 mg\"",
       "bias = \"6 mV\"\nbias_t = [\"0.1 mg/degC\", \"2 ug/degC^2\"]\nscale_t = [\"200 ppm/degC\"]\nt_ref = \"30 degC\"",
       text);
+  text = changed("axis = \"2 deg\"", "axis = \"2 deg\", bias_t = [\"50 ug0/degC\", \"3 ug0/degC^2\"]", text);
   text += "[output]\nframe = [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]\n";
   const ArrayFile file = array_of(text);
   const SensorCoefficients& c = file.datasheet.sensor[0].coefficients;
@@ -56,6 +57,10 @@ TEST(ArrayFile, ReadsTemperatureFilterAndFrame) {
   EXPECT_DOUBLE_EQ(c.bias[0], 2e-3 * kG0_mps2);
   EXPECT_DOUBLE_EQ(c.bias[2], 2e-6 * kG0_mps2);
   EXPECT_EQ(c.reference_degc, 30.0);
+  const Prior& drift = file.datasheet.sensor[3].prior;
+  EXPECT_DOUBLE_EQ(drift.bias_t_mps2[0], 50e-6 * kG0_mps2);
+  EXPECT_DOUBLE_EQ(drift.bias_t_mps2[1], 3e-6 * kG0_mps2);
+  EXPECT_EQ(drift.bias_t_mps2[2], Prior().bias_t_mps2[2]);
   EXPECT_DOUBLE_EQ(file.datasheet.sensor[0].full_scale_raw, 5000.0);
   ASSERT_EQ(file.input.where.size(), 2U);
   EXPECT_DOUBLE_EQ(file.input.time_unit_s, 1e-3);
