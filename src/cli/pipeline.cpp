@@ -101,13 +101,28 @@ io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool li
   return done;
 }
 
-/// The paper's fits beside the accepted one, to the same stations and with the drift over temperature that it found. Of
+/// The stations as they would have been at one temperature, by the calibration.
+std::vector<Station> at_one_temperature(std::vector<Station> stations, const Calibration& calibration) {
+  const double degc = calibration.model.sensor[0].reference_degc;
+  for (Station& s : stations) {
+    const Readings y = calibration.model.apply(s.mean, s.temperature_degc, s.delivered);
+    if (const auto raw = calibration.model.raw_from(y, degc)) s.mean = *raw;
+    s.temperature_degc = degc;
+  }
+  return stations;
+}
+
+/// The paper's fits beside the accepted one, to the same stations. They know no temperature: what plumb's fit found of
+/// it is taken out of the stations and put into the model. Of
 /// no use where that of all sensors is not sound.
 void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
-  const std::vector<Station> stations = chosen(run.stations, run.study.kept);
+  std::vector<Station> stations = chosen(run.stations, run.study.kept);
   auto paper = std::make_unique<PaperCalibration>();
-  const Datasheet datasheet =
-      run.temperature.order > 0 ? with_temperature_of(array.datasheet, *run.accepted) : array.datasheet;
+  Datasheet datasheet = array.datasheet;
+  if (run.temperature.order > 0) {
+    datasheet = with_temperature_of(datasheet, *run.accepted);
+    stations = at_one_temperature(std::move(stations), *run.accepted);
+  }
   const Expected<void> done = paper_calibrate_all(datasheet, array.gravity, stations.data(),
                                                   static_cast<int>(stations.size()), PaperOptions{}, *paper);
   if (!done) {
