@@ -110,18 +110,32 @@ class SetAside {
   double sets_ = 0.0;
 };
 
-double protection_level(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
-                        const ErrorBudget& budget, const Thresholds& t) noexcept {
+/// What parity finds of single biases: fills `detectable_mps2` and `gain`.
+void find_detectable(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget,
+                     std::array<SensorThresholds, kCapacity>& sensor) noexcept {
+  const int dof = array.size() - 3;
+  const double systematic = budget.parity_systematic;
+  const double shift = dof < 1 ? kInfinity
+                               : systematic + detectable_shift(budget.limits.parity_alarm[index(dof)] + systematic, dof,
+                                                               settings.missed_detection);
   const LeastSquares fit = least_squares(array, array.all());
+  for (int i = 0; i < array.size(); ++i) {
+    sensor[index(i)].gain = norm(fit.column[index(i)]);
+    sensor[index(i)].detectable_mps2 = shift * unit_bias(array, array.all().without(i), i, settings.samples);
+  }
+}
+
+double protection_level(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
+                        const ErrorBudget& budget, const std::array<SensorThresholds, kCapacity>& sensor) noexcept {
   double bias = 0.0, left = 0.0;
   for (int i = 0; i < array.size(); ++i) {
-    const SensorThresholds& s = t.sensor[index(i)];
+    const SensorThresholds& s = sensor[index(i)];
     const double moved = s.gain * s.detectable_mps2;
     if (moved > bias) bias = moved;
     left += s.gain * budget.calibration_mps2[index(i)];
   }
-  const double noise = normal_tail_quantile(0.5 * settings.integrity_risk) *
-                       std::sqrt(largest_eigenvalue(fit.covariance) / settings.samples);
+  const double largest = largest_eigenvalue(least_squares(array, array.all()).covariance);
+  const double noise = normal_tail_quantile(0.5 * settings.integrity_risk) * std::sqrt(largest / settings.samples);
   const double error = (bias + noise + left) / gravity.g_mps2;
   return error < 1.0 ? std::asin(error) : kPi;
 }
@@ -149,16 +163,25 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
   return out;
 }
 
+double protection_level_rad(const SensorArray& array, const GravityReference& gravity,
+                            const TestSettings& settings) noexcept {
+  if (array.size() < 3) return kPi;
+  std::array<SensorThresholds, kCapacity> sensor{};
+  const ErrorBudget budget = error_budget(array, gravity, settings);
+  find_detectable(array, settings, budget, sensor);
+  return protection_level(array, gravity, settings, budget, sensor);
+}
+
 Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravity,
                          const TestSettings& settings) noexcept {
   Thresholds out;
   const int n = array.size();
+  out.protection_rad = kPi;
   if (n < 3) return out;
   const ErrorBudget budget = error_budget(array, gravity, settings);
-  const int dof = n - 3;
   // A set that passes leaves no residual beyond its limit, and the truth none beyond the budget: together the slack.
   double limit = 0.0;
-  for (int nu = 1; nu <= dof; ++nu) {
+  for (int nu = 1; nu <= n - 3; ++nu) {
     for (const double one : {budget.limits.reject[index(nu)], budget.limits.parity_alarm[index(nu)]})
       limit = one > limit ? one : limit;
   }
@@ -168,20 +191,13 @@ Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravi
                       budget.calibration_mps2[index(i)];
   }
   out.sure = fault_bounds(array, slack);
-  const LeastSquares fit = least_squares(array, array.all());
+  find_detectable(array, settings, budget, out.sensor);
   const SetAside set_aside(array, settings, budget);
-  const double shift = dof < 1 ? kInfinity
-                               : detectable_shift(budget.limits.parity_alarm[index(dof)] + budget.parity_systematic,
-                                                  dof, settings.missed_detection) +
-                                     budget.parity_systematic;
   for (int i = 0; i < n; ++i) {
-    SensorThresholds& s = out.sensor[index(i)];
-    s.gain = norm(fit.column[index(i)]);
-    s.detectable_mps2 = shift * unit_bias(array, array.all().without(i), i, settings.samples);
-    s.set_aside_mps2 = set_aside.of(i);
-    s.sure_detection_mps2 = out.sure.fault[1][index(i)];
+    out.sensor[index(i)].set_aside_mps2 = set_aside.of(i);
+    out.sensor[index(i)].sure_detection_mps2 = out.sure.fault[1][index(i)];
   }
-  out.protection_rad = dof < 1 ? kPi : protection_level(array, gravity, settings, budget, out);
+  out.protection_rad = protection_level(array, gravity, settings, budget, out.sensor);
   return out;
 }
 

@@ -14,7 +14,7 @@ TEST(WiringEffectOf, SwapsOfTheTetrahedron) {
   for (int i = 0; i < 3; ++i) {
     for (int j = i + 1; j < 3; ++j) {
       const WiringEffect effect = wiring_effect(array, Wiring::swapped(i, j));
-      EXPECT_TRUE(effect.unseen(kVisible));
+      EXPECT_TRUE(effect.unseen(kVisible, kVisible));
       EXPECT_TRUE(effect.keeps_z);
       EXPECT_EQ(effect.turn_rad, kPi) << "a mirror image";
     }
@@ -22,24 +22,24 @@ TEST(WiringEffectOf, SwapsOfTheTetrahedron) {
     EXPECT_GT(wiring_effect(array, Wiring::reversed(i)).parity, 0.5);
   }
   const WiringEffect turned = wiring_effect(array, Wiring::cycled(0, 1, 2));
-  EXPECT_TRUE(turned.unseen(kVisible));
+  EXPECT_TRUE(turned.unseen(kVisible, kVisible));
   EXPECT_NEAR(turned.turn_rad, 2.0 * kPi / 3.0, 1e-12);
   EXPECT_TRUE(turned.keeps_z);
-  EXPECT_FALSE(wiring_effect(array, Wiring::cycled(0, 1, 3)).unseen(0.1));
+  EXPECT_FALSE(wiring_effect(array, Wiring::cycled(0, 1, 3)).unseen(0.1, 0.1));
 }
 
 TEST(WiringEffectOf, ATriadHidesAllOfThem) {
   const SensorArray array = built(std::array<Vec3, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}.data(), 3);
   const WiringEffect flipped = wiring_effect(array, Wiring::reversed(2));
-  EXPECT_TRUE(flipped.unseen(kVisible));
+  EXPECT_TRUE(flipped.unseen(kVisible, kVisible));
   EXPECT_FALSE(flipped.keeps_z);
-  EXPECT_TRUE(wiring_effect(array, Wiring::swapped(0, 2)).unseen(kVisible));
-  EXPECT_TRUE(wiring_effect(array, Wiring::swapped_reversed(0, 1)).unseen(kVisible));
+  EXPECT_TRUE(wiring_effect(array, Wiring::swapped(0, 2)).unseen(kVisible, kVisible));
+  EXPECT_TRUE(wiring_effect(array, Wiring::swapped_reversed(0, 1)).unseen(kVisible, kVisible));
 }
 
 TEST(WiringEffectOf, CorrectWiringHasNone) {
   const WiringEffect effect = wiring_effect(tetrahedron(), Wiring::correct());
-  EXPECT_TRUE(effect.unseen(1e-15));
+  EXPECT_TRUE(effect.unseen(1e-15, 1e-15));
   EXPECT_NEAR(effect.turn_rad, 0.0, 1e-9);
   EXPECT_TRUE(effect.keeps_z);
   EXPECT_EQ(wiring_effect(SensorArray(), Wiring::correct()).parity, 0.0);
@@ -75,7 +75,7 @@ RC_GTEST_PROP(WiringLaw, NoAttitudeShowsMoreThanTheEffectSays, ()) {
   const double rounding = 1e-10 * merit.condition * merit.condition;
   RC_ASSERT(std::sqrt(square) <= effect.parity + rounding);
   RC_ASSERT(std::fabs(norm(x) - 1.0) <= effect.length + rounding);
-  if (effect.unseen(1e-9) && merit.condition < 30.0) {
+  if (effect.unseen(1e-9, 1e-9) && merit.condition < 30.0) {
     RC_ASSERT(angle_between_rad(x, g) <= effect.turn_rad + 1e-6);
     if (effect.keeps_z) RC_ASSERT(std::fabs(x[2] - g[2]) <= 1e-6);
   }

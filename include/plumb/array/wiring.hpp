@@ -31,8 +31,10 @@ struct WiringEffect {
   double turn_rad = 0.0;  ///< of the direction, where neither shows: the angle of the turn, pi for a mirror image
   bool keeps_z = false;   ///< the component along z stays as it is, and with it the inclination
 
-  /// Neither test can see what is below `visible` (of the length of gravity).
-  bool unseen(double visible) const noexcept { return parity <= visible && length <= visible; }
+  /// Both are below what their tests can see.
+  bool unseen(double parity_visible, double length_visible) const noexcept {
+    return parity <= parity_visible && length <= length_visible;
+  }
 };
 
 /// All zero where the array has no rank.

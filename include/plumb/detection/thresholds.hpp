@@ -53,6 +53,10 @@ struct Thresholds {
   double protection_rad = 0.0;
 };
 
+/// `Thresholds::protection_rad` alone: cheap enough for a sweep.
+double protection_level_rad(const SensorArray& array, const GravityReference& gravity,
+                            const TestSettings& settings) noexcept;
+
 /// Sensors beyond kStrictCapacity: `set_aside_mps2` for grades up to kScanDepth, as the vote does it.
 Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravity,
                          const TestSettings& settings) noexcept;
