@@ -123,13 +123,16 @@ TEST(GeometryCommand, NearSingularTriplesAreWarnedOfAndRefusedOnRequest) {
 
 TEST(GeometryCommand, IsolationThatNeedsMoreThanFortyErrorsIsWarnedOf) {
   const Directory where;
-  // c = 2, but two axes lie 5 deg apart: without two of the others little is left across them.
-  write_text(where / "flat.toml", file_with({"[0.984807753012, 0, 0.173648177667]", "[0.304321, 0.936617, 0.173648]",
-                                             "[-0.796726, 0.578855, 0.173648]", "[-0.796726, -0.578855, 0.173648]",
-                                             "[0.304321, -0.936617, 0.173648]"}));
+  // c = 2, but three axes lie nearly in one plane: with two of the other sensors in doubt little is left across it.
+  write_text(where / "flat.toml",
+             file_with({"[1, 0, 0]", "[0, 1, 0]", "[0.705345615859, 0.705345615859, 0.070534561586]", "[0, 0, 1]",
+                        "[-0.507673082567, 0.609207699080, 0.609207699080]"}));
   const json out = judged(where, {"flat.toml"});
-  ASSERT_EQ(out["figures_of_merit"]["coplanarity"], 2);
-  EXPECT_TRUE(named(out["warnings"], "weak_isolation") == (out["worst_case"][0]["told_apart_e"].get<double>() > 40.0));
+  EXPECT_EQ(out["figures_of_merit"]["coplanarity"], 2);
+  EXPECT_GT(out["worst_case"][0]["told_apart_e"].get<double>(), 40.0);
+  ASSERT_EQ(out["warnings"].size(), 1U);
+  EXPECT_TRUE(named(out["warnings"], "weak_isolation"));
+  EXPECT_EQ(run(where, {"geometry", "flat.toml", "--check"}).code, 6);
   EXPECT_FALSE(named(judged(where, {"--name", "cone:5"})["warnings"], "weak_isolation"));
 }
 
@@ -157,6 +160,17 @@ TEST(GeometryCommand, DrawsItsPictures) {
   EXPECT_TRUE(says(outcome.out, {"written to pictures: geometry-attitudes.svg, geometry-protection.svg"}));
   EXPECT_TRUE(outcome.err.empty()) << outcome.err;
   EXPECT_NE(read_text(where.path() / "pictures/geometry-attitudes.svg").find("</svg>"), std::string::npos);
+}
+
+/// docs/geometry.md shows the beginning of it.
+TEST(GeometryCommand, PrintsWhatTheDocumentationShows) {
+  const std::string page = read_text(PLUMB_SOURCE_DIR "/docs/geometry.md");
+  const std::size_t begin = page.find("```\npaper-tetrahedron: ") + 4;
+  const std::string sample = page.substr(begin, page.find("\n```", begin) - begin);
+  ASSERT_GT(sample.size(), 1000U);
+  const Directory where;
+  const Outcome outcome = run(where, {"geometry", PLUMB_SOURCE_DIR "/examples/paper_tool.toml"});
+  EXPECT_EQ(outcome.out.substr(0, sample.size()), sample);
 }
 
 TEST(GeometryCommand, RefusesWhatMakesNoSense) {
