@@ -93,8 +93,8 @@ WiringEffect wiring_effect(const SensorArray& array, const Wiring& wiring) noexc
   out.parity = array_detail::singular_values(residual)[0];
   out.length = std::fmax(std::fabs(stretch[0] - 1.0), std::fabs(1.0 - stretch[2]));
   out.turn_rad = turn_of(k);
-  constexpr double kSame = 1e-9;
-  out.keeps_z = norm(minus(row_of(k, 2), {0.0, 0.0, 1.0})) <= kSame;
+  // The component along z that is found is that of gravity along the third row.
+  out.inclination_rad = angle_between_rad(row_of(k, 2), {0.0, 0.0, 1.0});
   return out;
 }
 

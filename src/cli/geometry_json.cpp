@@ -122,8 +122,9 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
                         {"with_these_reversed", bias_json(study.polarity.effect)}};
   Json hidden = Json::array();
   for (const HiddenWiring& h : study.hidden)
-    hidden.push_back(
-        {{"what", h.what}, {"turn_deg", deg_from_rad(h.effect.turn_rad)}, {"inclination_right", h.effect.keeps_z}});
+    hidden.push_back({{"what", h.what},
+                      {"turn_deg", deg_from_rad(h.effect.turn_rad)},
+                      {"inclination_deg", deg_from_rad(h.effect.inclination_rad)}});
   out["hidden_wiring"] = std::move(hidden);
   out["warnings"] = findings_json(study.warnings);
   out["known_limits"] = findings_json(study.limits);

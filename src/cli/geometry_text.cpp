@@ -163,11 +163,12 @@ std::string wiring_text(const GeometryStudy& study) {
       out += fmt::format("  ... and {} more (--json lists all)\n", study.hidden.size() - kMostListed);
       break;
     }
-    const bool mirror = h.effect.turn_rad >= kPi;
+    const double off_deg = deg_from_rad(h.effect.inclination_rad);
     out += fmt::format("  not seen at any attitude: {}; {}, inclination {}\n", h.what,
-                       mirror ? "the vector is mirrored"
-                              : fmt::format("the vector turns by up to {:.0f} deg", deg_from_rad(h.effect.turn_rad)),
-                       h.effect.keeps_z ? "stays right" : "is wrong");
+                       h.effect.turn_rad >= kPi
+                           ? "the vector is mirrored"
+                           : fmt::format("the vector turns by up to {:.0f} deg", deg_from_rad(h.effect.turn_rad)),
+                       off_deg < 0.05 ? "stays right" : fmt::format("off by up to {:.1f} deg", off_deg));
   }
   double nearest = 0.0;
   std::string id;

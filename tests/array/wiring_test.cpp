@@ -15,7 +15,7 @@ TEST(WiringEffectOf, SwapsOfTheTetrahedron) {
     for (int j = i + 1; j < 3; ++j) {
       const WiringEffect effect = wiring_effect(array, Wiring::swapped(i, j));
       EXPECT_TRUE(effect.unseen(kVisible, kVisible));
-      EXPECT_TRUE(effect.keeps_z);
+      EXPECT_NEAR(effect.inclination_rad, 0.0, 1e-9);
       EXPECT_EQ(effect.turn_rad, kPi) << "a mirror image";
     }
     EXPECT_GT(wiring_effect(array, Wiring::swapped(i, 3)).parity, 0.5);
@@ -24,7 +24,7 @@ TEST(WiringEffectOf, SwapsOfTheTetrahedron) {
   const WiringEffect turned = wiring_effect(array, Wiring::cycled(0, 1, 2));
   EXPECT_TRUE(turned.unseen(kVisible, kVisible));
   EXPECT_NEAR(turned.turn_rad, 2.0 * kPi / 3.0, 1e-12);
-  EXPECT_TRUE(turned.keeps_z);
+  EXPECT_NEAR(turned.inclination_rad, 0.0, 1e-9);
   EXPECT_FALSE(wiring_effect(array, Wiring::cycled(0, 1, 3)).unseen(0.1, 0.1));
 }
 
@@ -32,7 +32,7 @@ TEST(WiringEffectOf, ATriadHidesAllOfThem) {
   const SensorArray array = built(std::array<Vec3, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}.data(), 3);
   const WiringEffect flipped = wiring_effect(array, Wiring::reversed(2));
   EXPECT_TRUE(flipped.unseen(kVisible, kVisible));
-  EXPECT_FALSE(flipped.keeps_z);
+  EXPECT_NEAR(flipped.inclination_rad, kPi, 1e-9);
   EXPECT_TRUE(wiring_effect(array, Wiring::swapped(0, 2)).unseen(kVisible, kVisible));
   EXPECT_TRUE(wiring_effect(array, Wiring::swapped_reversed(0, 1)).unseen(kVisible, kVisible));
 }
@@ -41,7 +41,7 @@ TEST(WiringEffectOf, CorrectWiringHasNone) {
   const WiringEffect effect = wiring_effect(tetrahedron(), Wiring::correct());
   EXPECT_TRUE(effect.unseen(1e-15, 1e-15));
   EXPECT_NEAR(effect.turn_rad, 0.0, 1e-9);
-  EXPECT_TRUE(effect.keeps_z);
+  EXPECT_NEAR(effect.inclination_rad, 0.0, 1e-9);
   EXPECT_EQ(wiring_effect(SensorArray(), Wiring::correct()).parity, 0.0);
 }
 
@@ -77,7 +77,8 @@ RC_GTEST_PROP(WiringLaw, NoAttitudeShowsMoreThanTheEffectSays, ()) {
   RC_ASSERT(std::fabs(norm(x) - 1.0) <= effect.length + rounding);
   if (effect.unseen(1e-9, 1e-9) && merit.condition < 30.0) {
     RC_ASSERT(angle_between_rad(x, g) <= effect.turn_rad + 1e-6);
-    if (effect.keeps_z) RC_ASSERT(std::fabs(x[2] - g[2]) <= 1e-6);
+    const double off = angle_between_rad(x, {0.0, 0.0, 1.0}) - angle_between_rad(g, {0.0, 0.0, 1.0});
+    RC_ASSERT(std::fabs(off) <= effect.inclination_rad + 1e-6);
   }
 }
 

@@ -20,7 +20,8 @@ report::GeometryPictures pictures() {
   out.sigma_mg0 = 0.2;
   for (int inclination = 0; inclination <= 180; inclination += 30) {
     for (int toolface = 0; toolface <= 360; toolface += 30)
-      out.map.push_back({1.0 * inclination, 1.0 * toolface, 1.0 + 0.001 * toolface, 0.5, inclination == 0 ? 1 : 0});
+      out.map.push_back({1.0 * inclination, 1.0 * toolface, 1.0 + 0.001 * toolface, 0.5 + 0.001 * inclination,
+                         inclination == 0 ? 1 : 0});
   }
   out.levels = {{0.1, 0.09, 0.02}, {1.0, 0.9, 0.2}};
   return out;

@@ -29,7 +29,7 @@ struct WiringEffect {
   double parity = 0.0;    ///< length of the residual that the sensors leave: they contradict one another
   double length = 0.0;    ///< change of the length of the vector
   double turn_rad = 0.0;  ///< of the direction, where neither shows: the angle of the turn, pi for a mirror image
-  bool keeps_z = false;   ///< the component along z stays as it is, and with it the inclination
+  double inclination_rad = 0.0;  ///< of that, how far the inclination can be off
 
   /// Both are below what their tests can see.
   bool unseen(double parity_visible, double length_visible) const noexcept {
