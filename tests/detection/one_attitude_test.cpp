@@ -108,9 +108,16 @@ RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolatedByTheVote, ())
   const ErrorBudget budget = error_budget(array, truth, settings);
   const OneAttitude one(array, truth, budget);
   const Thresholds t = thresholds_of(array, truth, settings);
-  const int i = *rc::gen::inRange(0, array.size());
-  const double f = drawn(-2.0, 2.0) * kG0_mps2;
   const Vec3 down = drawn_direction();
+  // Anywhere, or close to one of the two errors that a triple cannot see.
+  const int triple = *rc::gen::inRange(0, array.triple_count());
+  const int member = *rc::gen::inRange(0, 3);
+  const bool close = *rc::gen::arbitrary<bool>();
+  const bool mirrored = *rc::gen::arbitrary<bool>();
+  const double away = drawn(-1.0, 1.0);
+  const int i = array.triple(triple).sensors[static_cast<std::size_t>(member)];
+  const double near_one = mirrored ? mirror_error(array, triple, member, scaled(down, kG0_mps2)) : 0.0;
+  const double f = close ? near_one + 0.1 * away * std::fabs(away) * kG0_mps2 : 2.0 * away * kG0_mps2;
   const double reference_error = drawn(-1.0, 1.0) * budget.gravity_mps2;
   BlockEvidence block = exact_block(array, down, settings.samples);
   for (int k = 0; k < array.size(); ++k) {
