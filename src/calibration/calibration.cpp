@@ -18,6 +18,8 @@ constexpr double kFeignedInformation = 4.0;
 /// The nine harmonics of gravity that the length sees need nine directions.
 constexpr int kStationsForFullRank = 9;
 constexpr int kStationsAtLeast = 3;
+/// Residuals that noise alone explains with at least this probability.
+constexpr double kSuspicious = 1e-3;
 
 /// SF_i = |W_i| SF0_i and B_i = (B0_i + b_i) / |W_i| in the sense in which the sensor counts.
 SensorCoefficients recalibrated(const SensorCoefficients& nominal, double length, double bias_mps2) noexcept {
@@ -63,7 +65,7 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
     }
   }
   for (int i = 0; i < n; ++i) {
-    const double misfit = report.misfit_mps2 / length[at(i)];
+    const double misfit = (i == report.loud_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) / length[at(i)];
     uncertainty.misfit_mps2[at(i)] = misfit;
     double variance = misfit * misfit;
     for (int p = 0; p < 4; ++p) {
@@ -101,8 +103,16 @@ Error Calibrator::refused(const Station* stations, int count, FitReport& report)
     if (scale == 0.0 || !std::isfinite(scale)) return Error{Errc::not_finite, i, scale, 0.0};
   }
   if (!fit::unit_axis(options_.roll_axis)) return Error{Errc::out_of_range, 0, norm(options_.roll_axis), 1.0};
+  if (!(options_.roll_wobble_rad >= 0.0) || !std::isfinite(options_.roll_wobble_rad)) {
+    return Error{Errc::out_of_range, 2, options_.roll_wobble_rad, 0.0};
+  }
   const fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
   report.roll_groups = problem.roll.groups;
+  report.lone_rolls = problem.roll.lone;
+  if (problem.roll.used) {
+    report.roll_axis = problem.roll.axis;
+    report.roll_wobble_rad = problem.roll.wobble_rad;
+  }
   if (problem.roll.groups > kMaxRollGroups) {
     return Error{Errc::out_of_range, 1, static_cast<double>(problem.roll.groups), kMaxRollGroups};
   }
@@ -112,6 +122,8 @@ Error Calibrator::refused(const Station* stations, int count, FitReport& report)
   if (report.stations < needed) {
     return Error{Errc::too_few_stations, -1, static_cast<double>(report.stations), static_cast<double>(needed)};
   }
+  const Error same = fit::same_numbers(problem);
+  if (same.code != Errc::ok) return same;
   if (stop_ == StopReason::not_finite) return Error{Errc::diverged, bad_station_, cost_, 0.0};
   return Error{};
 }
@@ -145,6 +157,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   if (!options_.estimate_misfit && r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
     fit::inflate(r.chi2 / r.degrees_of_freedom, r.parameters, normal_.data(), r);
   }
+  if (options_.estimate_misfit) fit::note_loud_sensor(problem, fitted.tally, r, normal_.data());
   return true;
 }
 
@@ -159,14 +172,27 @@ Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, 
   if (static_cast<double>(r.outliers) > most) {
     return Error{Errc::poor_fit, fit::most_blamed(problem), static_cast<double>(r.outliers), most};
   }
+  const Error doubtful = fit::doubtful_screening(datasheet_, r);
+  if (doubtful.code != Errc::ok) return doubtful;
+  const Error noisy = fit::noisy_samples(datasheet_, options_, r);
+  if (noisy.code != Errc::ok) return noisy;
   double excess = 0.0;
-  const int loudest = fitted.tally.loudest(datasheet_.size, r.degrees_of_freedom, excess);
-  const bool singled_out = excess > options_.max_sensor_excess;
+  const int loudest = fitted.tally.loudest(datasheet_.size, fitted.tally.freedom(r), excess);
+  // Among few stations chance alone reaches the bound; what accuses nobody as a whole accuses no sensor.
+  const bool singled_out = excess > options_.max_sensor_excess && r.p_value < kSuspicious;
   if (!(r.norm_rms_mps2 <= options_.max_norm_rms_mps2)) {
     return Error{Errc::poor_fit, singled_out ? loudest : -1, r.norm_rms_mps2, options_.max_norm_rms_mps2};
   }
   if (singled_out) return Error{Errc::poor_fit, loudest, excess, options_.max_sensor_excess};
   return Error{};
+}
+
+bool Calibrator::sets_aside(const Station& station) const noexcept {
+  if (phase_ != Phase::screened) return false;
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, &station, 1);
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  problem.screen = &screen;
+  return fit::Screening(problem).out(station);
 }
 
 Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) noexcept {
@@ -186,6 +212,10 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   fit::Fitted fitted;
   if (!describe(problem, fitted, r)) return fail(Errc::diverged, -1, cost_);
   Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, normal_.data(), r);
+  if (out) {
+    r.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out->array);
+    out->report.inclination_sigma_rad = r.inclination_sigma_rad;
+  }
   Error error = judge(problem, fitted, r);
   if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
   if (error.code == Errc::ok) return out;

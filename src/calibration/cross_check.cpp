@@ -5,6 +5,7 @@
 
 #include "fit_internal.hpp"
 #include "plumb/array/geometry.hpp"
+#include "station_solver.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -134,7 +135,9 @@ HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, co
     }
     const Expected<Calibration> without = calibrate(datasheet, same, scratch, kept, options);
     for (int k = fold; k < count; k += plan.folds) {
-      const StationPrediction p = without ? predict(*without, same, stations[k]) : StationPrediction{};
+      Station asked = stations[k];
+      asked.delivered = fit::usable_channels(datasheet, asked);  // a reading at full scale is none, as in the fit
+      const StationPrediction p = without ? predict(*without, same, asked) : StationPrediction{};
       if (each != nullptr) each[k] = p;
       if (p.judged) {
         take(p, k, tally, out);

@@ -31,6 +31,7 @@ Station station_of_row(const Sample& sample, SensorSet usable) {
   station.temperature_degc = sample.temperature_degc;
   station.count = sample.count;
   station.tag = sample.station;
+  station.roll_group = sample.roll_group;
   station.begin_s = station.end_s = sample.time_s;
   return station;
 }
@@ -84,7 +85,9 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
     // Stations that determine too little say nothing of values; that one sensor contradicts itself they do say.
     const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable;
     const bool stands = judged.concern == Concern::gravity || judged.concern == Concern::odd_sensor;
-    if (!named || (too_little && !stands)) return;
+    // One number that is none spoils a whole sensor; the station that holds it is the better name.
+    const bool one_row = fit.error().code == Errc::diverged && fit.error().index >= 0;
+    if (!named || (too_little && !stands) || (one_row && judged.concern == Concern::odd_sensor)) return;
   } else if (!named) {
     run.accepted = std::make_unique<Calibration>(*fit);
     return;
@@ -179,6 +182,9 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   collector.finish(run);
   run.log = reader->statistics();
   run.options = choice.fit;
+  const Vec3 counted_from = {array.output_frame[6], array.output_frame[7], array.output_frame[8]};
+  const Vec3 axis = choice.roll_axis.value_or(counted_from);
+  run.options.roll_axis = scaled(axis, 1.0 / norm(axis));
   const Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
                                               static_cast<int>(run.stations.size()), run.options, &run.report);
   run.study = study_fit(array, run.stations, fit, run.report, run.options, choice.hold_out);
