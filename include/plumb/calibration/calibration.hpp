@@ -91,8 +91,8 @@ struct FitReport {
   int lone_rolls = 0;         ///< of them those with a single station, which say nothing
   Vec3 roll_axis{};           ///< as the fit took it; zero where no two stations share a group
   double roll_wobble_rad = 0.0;
-  /// 1 sigma of an inclination about `FitOptions::roll_axis` at the stations' own attitudes, as far as calibration goes;
-  /// without roll rows the part of the nominal axes, which no station sees, included.
+  /// 1 sigma of an inclination about `FitOptions::roll_axis` at the stations' own attitudes, as far as calibration
+  /// goes; without roll rows the part of the nominal axes, which no station sees, included.
   double inclination_sigma_rad = 0.0;
   /// The sensor whose residuals exceed those of the others beyond chance where they are no noise (p < `kNoNoise`), by
   /// what factor (rms), and the noise beyond the datasheet's that is its own. All sigmas are widened by its share; -1
@@ -103,7 +103,8 @@ struct FitReport {
   /// Part of the stations' squared residuals, in the weights of the fit, that goes without a sensor's readings; for
   /// healthy sensors all alike, about 1 / (n - 2). 0 with three sensors.
   std::array<double, kCapacity> residual_share{};
-  /// Of one sample about the mean of its station, pooled over the stations that know (`Station::scatter`); 0 where none.
+  /// Of one sample about the mean of its station, pooled over the stations that know (`Station::scatter`); 0 where
+  /// none.
   std::array<double, kCapacity> sample_noise_mps2{};
   CommonScale common_scale;
   FitStart start = FitStart::datasheet;  ///< where it really started
@@ -134,8 +135,9 @@ struct FitOptions {
   /// clean data pay nothing for it, and so it is on.
   bool reject_outliers = true;
   double max_outlier_share = 0.25;  ///< of the stations; poor_fit beyond it: that is a fault, not an outlier
-  /// Of one sensor's residuals over those of the others, rms; poor_fit beyond it, where p < 1e-3. Needs four sensors and
-  /// some twenty stations. However noisy a sensor, it drags the fit of the others along, so that the ratio stays near 4.
+  /// Of one sensor's residuals over those of the others, rms; poor_fit beyond it, where p < 1e-3. Needs four sensors
+  /// and some twenty stations. However noisy a sensor, it drags the fit of the others along, so that the ratio stays
+  /// near 4.
   double max_sensor_excess = 3.0;
   /// Of a sensor's own samples over the declared noise; poor_fit beyond it where the residuals are no noise either
   /// (p < `kNoNoise`). The limits of a monitor are made of the declared noise, and no misfit mends those.
@@ -171,11 +173,10 @@ class Calibrator {
 
   /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`; not_finite
   /// (index = sensor: scale factor 0 or no number); out_of_range (index 0: roll axis not of unit length, 1: more than
-  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite: index = station where one is to blame; or not
-  /// converged); unobservable (value = rank, limit = rank needed); implausible (index = sensor;
-  /// value = limit = 0 where it holds the same numbers as another); poor_fit (index =
-  /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
-  /// called again.
+  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite: index =
+  /// station where one is to blame; or not converged); unobservable (value = rank, limit = rank needed); implausible
+  /// (index = sensor; value = limit = 0 where it holds the same numbers as another); poor_fit (index = sensor where one
+  /// is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be called again.
   Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) noexcept;
 
  private:
