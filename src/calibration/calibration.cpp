@@ -61,7 +61,7 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
     }
   }
   for (int i = 0; i < n; ++i) {
-    const double misfit = report.misfit_mps2 / length[at(i)];
+    const double misfit = (i == report.loud_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) / length[at(i)];
     uncertainty.misfit_mps2[at(i)] = misfit;
     double variance = misfit * misfit;
     for (int p = 0; p < 4; ++p) {
@@ -97,8 +97,16 @@ Error refused_input(const Datasheet& datasheet, const GravityReference& gravity,
     if (scale == 0.0 || !std::isfinite(scale)) return Error{Errc::not_finite, i, scale, 0.0};
   }
   if (!unit_axis(options.roll_axis)) return Error{Errc::out_of_range, 0, norm(options.roll_axis), 1.0};
+  if (!(options.roll_wobble_rad >= 0.0) || !std::isfinite(options.roll_wobble_rad)) {
+    return Error{Errc::out_of_range, 2, options.roll_wobble_rad, 0.0};
+  }
   const Problem problem = problem_of(datasheet, gravity.g_mps2, options, stations, count);
   report.roll_groups = problem.roll.groups;
+  report.lone_rolls = problem.roll.lone;
+  if (problem.roll.used) {
+    report.roll_axis = problem.roll.axis;
+    report.roll_wobble_rad = problem.roll.wobble_rad;
+  }
   if (problem.roll.groups > kMaxRollGroups) {
     return Error{Errc::out_of_range, 1, static_cast<double>(problem.roll.groups), kMaxRollGroups};
   }
@@ -108,7 +116,7 @@ Error refused_input(const Datasheet& datasheet, const GravityReference& gravity,
   if (report.stations < needed) {
     return Error{Errc::too_few_stations, -1, static_cast<double>(report.stations), static_cast<double>(needed)};
   }
-  return Error{};
+  return same_numbers(problem);
 }
 
 double rank_floor(const FitTally& tally) noexcept {
@@ -150,9 +158,13 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   }
   r.degrees_of_freedom = sums.rows - 2 * r.stations - r.rank;
   r.p_value = r.degrees_of_freedom >= 1 ? chi2_tail(r.chi2, r.degrees_of_freedom) : 1.0;
-  if (!options_.estimate_misfit && r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
-    fit::inflate(r.chi2 / r.degrees_of_freedom, r.parameters, normal_.data(), r);
+  double factor = 1.0;
+  if (options_.estimate_misfit) {
+    factor = fit::note_loud_sensor(problem, fitted.tally, r);
+  } else if (r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
+    factor = r.chi2 / r.degrees_of_freedom;
   }
+  fit::inflate(factor, r.parameters, normal_.data(), r);
   return true;
 }
 
@@ -162,6 +174,14 @@ Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, 
     return Error{Errc::unobservable, -1, static_cast<double>(r.rank), static_cast<double>(needed)};
   }
   return fit::judge_figures(problem, options_, fitted, r);
+}
+
+bool Calibrator::sets_aside(const Station& station) const noexcept {
+  if (phase_ != Phase::screened) return false;
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, &station, 1);
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  problem.screen = &screen;
+  return fit::Screening(problem).out(station);
 }
 
 Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) noexcept {
@@ -181,6 +201,10 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   fit::Fitted fitted;
   if (!describe(problem, fitted, r)) return fail(Errc::diverged, -1, cost_);
   Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, normal_.data(), r);
+  if (out) {
+    r.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out->array);
+    out->report.inclination_sigma_rad = r.inclination_sigma_rad;
+  }
   Error error = judge(problem, fitted, r);
   if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
   if (error.code == Errc::ok) return out;

@@ -93,7 +93,8 @@ fit::Problem fit::problem_of(const Datasheet& datasheet, double g_mps2, const Fi
   Problem problem = {datasheet, g_mps2, stations, stations == nullptr ? 0 : count, {}, nullptr};
   problem.roll.axis = options.roll_axis;
   problem.roll.wobble_rad = options.roll_wobble_rad;
-  problem.roll.used = has_roll_groups(problem, problem.roll.groups) && unit_axis(options.roll_axis);
+  find_roll_groups(problem, problem.roll);
+  problem.roll.used = problem.roll.used && unit_axis(options.roll_axis);
   return problem;
 }
 

@@ -5,6 +5,7 @@
 
 #include "fit_internal.hpp"
 #include "plumb/array/geometry.hpp"
+#include "station_solver.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -121,8 +122,8 @@ namespace {
 
 /// `fit_to` makes a calibration of the stations at the front of `scratch`; it is given their number.
 template <class FitTo>
-HoldOut hold_out_of(FitTo fit_to, const GravityReference& gravity, const Station* stations, int count,
-                    const HoldOutPlan& plan, Station* scratch, StationPrediction* each) noexcept {
+HoldOut hold_out_of(FitTo fit_to, const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
+                    int count, const HoldOutPlan& plan, Station* scratch, StationPrediction* each) noexcept {
   HoldOut out;
   if (stations == nullptr || scratch == nullptr || count < 1 || plan.folds < 2) return out;
   if (plan.rounds < 1 || plan.rounds > plan.folds) return out;
@@ -135,7 +136,9 @@ HoldOut hold_out_of(FitTo fit_to, const GravityReference& gravity, const Station
     }
     const Expected<Calibration> without = fit_to(kept);
     for (int k = fold; k < count; k += plan.folds) {
-      const StationPrediction p = without ? predict(*without, gravity, stations[k]) : StationPrediction{};
+      Station asked = stations[k];
+      asked.delivered = fit::usable_channels(datasheet, asked);  // a reading at full scale is none, as in the fit
+      const StationPrediction p = without ? predict(*without, gravity, asked) : StationPrediction{};
       if (each != nullptr) each[k] = p;
       if (p.judged) {
         take(p, k, tally, out);
@@ -159,7 +162,7 @@ HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, co
   // The stations held out saw the same gravity as the others: how well it is known is no part of the prediction.
   const GravityReference same = {gravity.g_mps2, 0.0, gravity.model};
   const auto fit_to = [&](int kept) { return calibrate(datasheet, same, scratch, kept, options); };
-  return hold_out_of(fit_to, same, stations, count, plan, scratch, each);
+  return hold_out_of(fit_to, datasheet, same, stations, count, plan, scratch, each);
 }
 
 HoldOut hold_out_over_temperature(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
@@ -171,7 +174,7 @@ HoldOut hold_out_over_temperature(const Datasheet& datasheet, const GravityRefer
   const auto fit_to = [&](int kept) {
     return calibrate_over_temperature(datasheet, same, scratch, kept, options, more_scratch, work);
   };
-  return hold_out_of(fit_to, same, stations, count, plan, scratch, each);
+  return hold_out_of(fit_to, datasheet, same, stations, count, plan, scratch, each);
 }
 
 OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations, int count,

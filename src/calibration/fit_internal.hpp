@@ -86,6 +86,7 @@ struct Roll {
   double wobble_rad = 0.0;
   bool used = false;
   int groups = 0;  ///< beyond kMaxRollGroups: too many
+  int lone = 0;    ///< groups of one station
 };
 
 /// Where the outliers were told from the rest: a station is out where its residual there, with that misfit, is beyond
@@ -166,8 +167,8 @@ double median_misfit(const Problem& problem, const Parameters& theta, double mis
 /// alone seldom looks so. An outlier pulls the fit, hence a part of the limit only.
 bool stands_out(const Problem& problem, const Parameters& theta, int freedom) noexcept;
 
-/// Whether any two usable stations share a roll group; `groups` counts those that do. At most kMaxRollGroups are used.
-bool has_roll_groups(const Problem& problem, int& groups) noexcept;
+/// Counts the roll groups; `used` where any two stations share one. At most kMaxRollGroups are used.
+void find_roll_groups(const Problem& problem, Roll& roll) noexcept;
 
 /// W and b from the stations alone, in the frame that the prior likes best; false where they do not determine it, or
 /// where the datasheet is too far off. Incomplete stations are left aside. All priors must be above zero.

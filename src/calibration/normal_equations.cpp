@@ -130,11 +130,10 @@ Block times_root(const PriorRoot& root, const Block& b, bool transpose) noexcept
 
 }  // namespace
 
-bool has_roll_groups(const Problem& problem, int& groups) noexcept {
+void find_roll_groups(const Problem& problem, Roll& roll) noexcept {
   std::array<std::uint32_t, kMaxRollGroups> tag{};
   std::array<int, kMaxRollGroups> members{};
-  bool shared = false;
-  groups = 0;
+  int groups = 0;
   for (int s = 0; s < problem.count; ++s) {
     const Station& station = problem.stations[s];
     if (station.roll_group == 0 || station.count == 0) continue;
@@ -148,9 +147,13 @@ bool has_roll_groups(const Problem& problem, int& groups) noexcept {
       ++groups;
       tag[at(k)] = station.roll_group;
     }
-    if (++members[at(k)] > 1) shared = true;
+    ++members[at(k)];
   }
-  return shared;
+  roll.groups = groups;
+  for (int k = 0; k < groups && k < kMaxRollGroups; ++k) {
+    if (members[at(k)] > 1) roll.used = true;
+    if (members[at(k)] == 1) ++roll.lone;
+  }
 }
 
 Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_variance, Loss loss, double* blocks,

@@ -100,6 +100,12 @@ class Attempt {
       return fail(Errc::too_few_levels, -1, told_.levels.count, order + 1);
     }
     Expected<Calibration> out = compose(joint, descent.state(), fitted);
+    if (out) {
+      fit::Problem problem = descent.problem();
+      problem.roll.axis = scaled(options_.roll_axis, 1.0 / norm(options_.roll_axis));
+      report_.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out->array);
+      out->report.inclination_sigma_rad = report_.inclination_sigma_rad;
+    }
     if (descent.stop() != StopReason::converged) return tl::unexpected<Error>(diverged);
     const Error wrong = judge(joint, descent, fitted);
     if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
@@ -132,13 +138,25 @@ class Attempt {
     report_.degrees_of_freedom = sums.sums.rows - 2 * report_.stations - told_.rank;
     const int freedom = report_.degrees_of_freedom;
     report_.p_value = freedom >= 1 ? chi2_tail(report_.chi2, freedom) : 1.0;
-    if (!options_.estimate_misfit && freedom >= 1 && report_.chi2 > freedom) {
-      const double factor = report_.chi2 / freedom;
-      for (int k = 0; k < joint.parameters() * joint.parameters(); ++k) information[k] *= factor;
-      fit::inflate(factor, 0, nullptr, report_);
+    double factor = 1.0;
+    if (options_.estimate_misfit) {
+      factor = fit::note_loud_sensor(problem, fitted.tally, report_);
+    } else if (freedom >= 1 && report_.chi2 > freedom) {
+      factor = report_.chi2 / freedom;
     }
+    widen(factor, joint, information);
     fit::note_forecast(joint, state, gravity_.g_mps2, report_.misfit_mps2, work_, told_);
     return true;
+  }
+
+  /// What the residuals say of the noise widens every sigma alike.
+  void widen(double factor, const fit::Joint& joint, double* covariance) noexcept {
+    for (int k = 0; k < joint.parameters() * joint.parameters(); ++k) covariance[k] *= factor;
+    for (int k = 0; k < 4 * joint.sensors(); ++k) report_.sigma[at(k)] *= std::sqrt(factor);
+    for (int i = 0; i < joint.sensors(); ++i) {
+      for (TemperatureCoefficient& c : told_.sensor[at(i)].scale) c.sigma *= std::sqrt(factor);
+      for (TemperatureCoefficient& c : told_.sensor[at(i)].bias) c.sigma *= std::sqrt(factor);
+    }
   }
 
   Expected<Calibration> compose(const fit::Joint& joint, const fit::JointState& state,
@@ -243,7 +261,11 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
   told.levels = temperature_levels(stations, stations == nullptr ? 0 : count);
   told.use_degc = span_of(options, told.levels);
   const bool automatic = options.order == kAutomaticOrder;
-  const int supported = told.levels.count - 1 < options.max_order ? told.levels.count - 1 : options.max_order;
+  told.rolls = fit::problem_of(datasheet, gravity.g_mps2, options.fit, stations, count).roll.used;
+  if (told.rolls && options.order > 0) return fail(Errc::out_of_range, 5, static_cast<double>(options.order), 0.0);
+  const int supported = told.rolls                                  ? 0
+                        : told.levels.count - 1 < options.max_order ? told.levels.count - 1
+                                                                    : options.max_order;
   for (int order = automatic ? supported : options.order; order > 0; --order) {
     if (!free_terms(datasheet, order)) return fail(Errc::out_of_range, 4);
     FitReport attempt;
@@ -262,7 +284,7 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
     }
   }
   told.order = 0;
-  if (automatic && options.max_order > 0) {
+  if (automatic && options.max_order > 0 && !told.rolls) {
     told.missing = missing_levels(told.levels, told.use_degc, 2, told.missing_degc);
   }
   Expected<Calibration> out = calibrate(datasheet, gravity, stations, count, options.fit, &r);

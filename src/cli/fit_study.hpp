@@ -30,11 +30,11 @@ std::string read_hold_out(const std::string& text, HoldOutChoice& choice);
 struct FitStudy {
   std::unique_ptr<Calibration> shown;  ///< accepted, or what was refused; null where nothing converged
   Judgement judgement;                 ///< of `judge`; code ok where it was not reached or all is well
-  CommonScale common_scale;
   HoldOutPlan plan;
   HoldOut held_out;
   std::vector<StationPrediction> predicted;  ///< by station; empty: none held out; outliers are not judged
   std::vector<int> kept;                     ///< stations that an accepted fit did not set aside; else all
+  std::vector<int> set_aside;                ///< the others
   bool odd_sought = false;
   OddSensor odd;
   std::vector<SeenAttitude> attitudes;     ///< by station; direction 0 where unknown

@@ -15,6 +15,8 @@ namespace cli {
 namespace {
 
 constexpr std::size_t kOddStationsListed = 5;
+/// Over the declared noise; 128 samples tell 1.25 from 1 by 4 sigma.
+constexpr double kToldNoise = 1.25;
 /// Rounding.
 constexpr double kNoExcitation = 1e-9;
 constexpr std::size_t kTextWidth = 116;
@@ -86,11 +88,15 @@ std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
     return out + line("rank", "not known: there is no fit to these stations");
   }
   std::string rank = fmt::format("{} of {} parameters seen by the data", r.rank, r.parameters);
-  if (r.gauge > 0) {
+  if (r.gauge > 1) {
     rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show and the nominal axes fix",
                         r.gauge);
+  } else if (r.gauge == 1) {
+    rank += "; 1 is a rotation of all axes about the roll axis, which gravity cannot show and the nominal axes fix";
   }
   out += line("rank", rank);
+  if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
+  if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
   const std::vector<std::string> unseen = unobservable(run, array);
   out += unseen.empty() ? line("not determined", "nothing") : lines("not determined", unseen);
   out +=
@@ -143,6 +149,11 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
   if (run.study.odd.sensor >= 0) {
     out += line("stands out",
                 id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
+  }
+  if (const std::string loud = loud_words(r, array); !loud.empty()) out += line("stands out", loud);
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (noise_factor(r, array, i) > kToldNoise)
+      out += line("noise", noise_words(r, array, i) + ": declare it as it is, the limits of a monitor are made of it");
   }
   out += line("common scale", common_scale_words(run));
   return out;

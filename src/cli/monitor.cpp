@@ -98,6 +98,9 @@ io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile&
     out.sinks.push_back(
         &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
   }
+  // --events - writes there what --json would.
+  const bool told = options.events == "-";
+  if (options.json && told) return {};
   if (options.json) {
     io::FileExpected<io::OutputFile> file = io::OutputFile::create("-", io::OutputFile::Mode::stream);
     if (!file) return tl::unexpected<io::FileError>(file.error());

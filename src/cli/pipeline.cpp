@@ -31,6 +31,7 @@ Station station_of_row(const Sample& sample, SensorSet usable) {
   station.temperature_degc = sample.temperature_degc;
   station.count = sample.count;
   station.tag = sample.station;
+  station.roll_group = sample.roll_group;
   station.begin_s = station.end_s = sample.time_s;
   return station;
 }
@@ -85,7 +86,9 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
     const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable ||
                             fit.error().code == Errc::too_few_levels;
     const bool stands = judged.concern == Concern::gravity || judged.concern == Concern::odd_sensor;
-    if (!named || (too_little && !stands)) return;
+    // One number that is none spoils a whole sensor; the station that holds it is the better name.
+    const bool one_row = fit.error().code == Errc::diverged && fit.error().index >= 0;
+    if (!named || (too_little && !stands) || (one_row && judged.concern == Concern::odd_sensor)) return;
   } else if (!named) {
     run.accepted = std::make_unique<Calibration>(*fit);
     return;
@@ -198,8 +201,11 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   collector.finish(run);
   run.log = reader->statistics();
   run.options = choice.fit;
+  const Vec3 counted_from = {array.output_frame[6], array.output_frame[7], array.output_frame[8]};
+  const Vec3 axis = choice.roll_axis.value_or(counted_from);
+  run.options.roll_axis = scaled(axis, 1.0 / norm(axis));
   TemperatureOptions over = choice.temperature;
-  over.fit = choice.fit;
+  over.fit = run.options;
   const auto work = std::make_unique<TemperatureWork>();
   std::vector<Station> scratch(run.stations.size());
   const Expected<Calibration> fit = calibrate_over_temperature(array.datasheet, array.gravity, run.stations.data(),

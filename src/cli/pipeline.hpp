@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct CalibrationChoice {
   FitOptions fit;
   TemperatureOptions temperature;  ///< its own `fit` is not looked at
   bool paper_fits = false;         ///< the paper's own fits too
+  /// Of the roll groups; by default the axis from which the array file has inclinations counted in results.
+  std::optional<Vec3> roll_axis;
 };
 
 /// Reads the log, finds the stations (or takes the rows as stations), fits, and judges the fit. Refuses to make the

@@ -126,6 +126,10 @@ std::optional<Refusal> temperature_refusal(const CalibrationRun& run) {
         "add stations near " + degc_words(t.missing_degc.data(), t.missing) +
             ", with six attitudes or more at each; or fit what there is with " + lower};
   }
+  if (run.refusal.code == Errc::out_of_range && run.refusal.index == 5 && t.rolls) {
+    return Refusal{fmt::format("roll groups and a drift of order {:g} are not estimated together", run.refusal.value),
+                   "give --temperature-order 0, or leave `roll_group` out of the array file"};
+  }
   if (run.refusal.code != Errc::unobservable || t.order == 0) return {};
   if (t.follows_inclination) {
     return Refusal{
@@ -148,7 +152,8 @@ std::vector<TemperatureFact> temperature_facts(const CalibrationRun& run, const 
   if (t.levels.count < 2 && t.order == 0) return out;
   out.push_back({"levels", levels_words(t.levels)});
   if (t.order == 0) {
-    out.push_back({"order", "0: the coefficients of the array file hold, none was estimated"});
+    out.push_back({"order", t.rolls ? "0: roll groups and drift are not estimated together"
+                                    : "0: the coefficients of the array file hold, none was estimated"});
   } else {
     out.push_back({"order", fmt::format("{}, scale and bias of every sensor; {} of {} parameters seen by the data",
                                         t.order, t.rank, t.parameters)});

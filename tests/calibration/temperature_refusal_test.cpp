@@ -214,4 +214,21 @@ TEST(TemperatureLevels, AreSortedApartAndCounted) {
   EXPECT_EQ(plumb::temperature_levels(nullptr, 7).count, 0);
 }
 
+/// Roll groups fix a frame of their own, and the fit over temperature keeps that of the datasheet.
+TEST(TemperatureRefusal, RollGroupsStayAtOrderZero) {
+  Bench b;
+  std::vector<plumb::Station> stations = on_levels(b.truth, {25.0, 60.0, 105.0, 150.0}, b.noise);
+  stations[0].roll_group = stations[1].roll_group = 1;
+  const Fit asked = fit_of(b.sheet, stations, options_of(1));
+  ASSERT_FALSE(asked.made.has_value());
+  EXPECT_EQ(asked.made.error(), (plumb::Error{Errc::out_of_range, 5, 0.0, 0.0}));
+  EXPECT_TRUE(asked.report.rolls);
+  const Fit chosen = fit_of(b.sheet, stations, options_of(plumb::kAutomaticOrder));
+  EXPECT_EQ(chosen.report.order, 0);
+  EXPECT_EQ(chosen.report.missing, 0);
+  // One station in a group says nothing of a frame.
+  stations[1].roll_group = 0;
+  EXPECT_FALSE(fit_of(b.sheet, stations, options_of(1)).report.rolls);
+}
+
 }  // namespace

@@ -122,8 +122,7 @@ TEST(ArrayFileRefuses, UnknownKeysWithTheNearestName) {
   expect_refused(changed("[monitor]", "[monitro]"), 6, "monitro", {"did you mean \"monitor\"?"});
   expect_refused(changed("scale = \"2 %\"", "scael = \"2 %\""), 41, "sensor[4].prior.scael",
                  {"did you mean \"scale\"?"});
-  expect_refused(changed("sigma = ", "latitude = \"3 deg\"\nsigma = "), 5, "gravity.latitude",
-                 {"not used by model \"value\""});
+  expect_refused(changed("sigma = ", "layers = []\nsigma = "), 5, "gravity.layers", {"not used by model \"value\""});
 }
 
 TEST(ArrayFileRefuses, MissingKeys) {
@@ -225,6 +224,23 @@ TEST(ArrayFile, GravityModels) {
   EXPECT_NEAR(table.gravity.g_mps2, 9.815, 1e-9);
   expect_refused(changed(value, "latitude = \"95 deg\"\n"), 3, "gravity.latitude", {"95"});
   expect_refused(changed(value, "model = \"normal\"\n"), 2, "gravity.latitude", {"is missing"});
+}
+
+TEST(ArrayFile, AGravityThatIsGivenIsComparedWithThatOfThePlace) {
+  const auto given = [](const std::string& value, const std::string& place) {
+    return changed("value = \"9.81 m/s^2\"\n", "value = \"" + value + " m/s^2\"\n" + place);
+  };
+  const std::string equator = "latitude = \"0 deg\"\n";  // 9.7803 m/s^2; 9.7649 at 5 km
+  EXPECT_EQ(array_of(given("9.79", equator)).gravity.g_mps2, 9.79);
+  EXPECT_EQ(array_of(given("9.7649", equator + "elevation = \"5 km\"\n")).gravity.model, GravityModel::value);
+  for (const char* off : {"9.8781", "9.6825"})
+    expect_refused(given(off, equator), 4, "gravity.value", {"gravity reference off by 1 %", "9.78033", "latitude"});
+  expect_refused(given("9.8625", equator + "elevation = \"5 km\"\n"), 4, "gravity.value", {"off by 1 %"});
+  expect_refused(given("9.81", "depth = \"1 km\"\n"), 5, "gravity.depth", {"without latitude"});
+  const std::string table =
+      "model = \"table\"\nlatitude = \"0 deg\"\ntable = [{depth = \"0 m\", g = \"9.88 m/s^2\"}, {depth = \"2 km\", g = "
+      "\"9.89 m/s^2\"}]\n";
+  expect_refused(changed("model = \"value\"\nvalue = \"9.81 m/s^2\"\n", table), 5, "gravity.table", {"off by 1 %"});
 }
 
 TEST(ArrayFile, PaperModeHasThePapersLimitUnlessAnotherIsGiven) {

@@ -47,7 +47,8 @@ struct TemperatureOptions {
   int max_order = kMaxTemperatureOrder;  ///< of the automatic choice, 0 .. 3
   /// [degC] where the calibration will be used; lowest = highest: the span of the stations.
   ChebyshevSpan use_degc{0.0, 0.0};
-  /// Roll groups do not enter: the frame of a fit over temperature is that of the datasheet.
+  /// Roll groups ask for order 0 (the automatic choice then takes it): over temperature the frame is that of the
+  /// datasheet.
   FitOptions fit;
 };
 
@@ -92,6 +93,7 @@ struct TemperatureReport {
   std::array<double, kMaxTemperatureOrder + 1> missing_degc{};
   /// The temperature of the stations is a function of their inclination, so that the two cannot be told apart.
   bool follows_inclination = false;
+  bool rolls = false;  ///< roll groups are in use: they fix a frame of their own, at order 0 only
 
   int parameters = 0;  ///< (4 + 2 order) n
   int rank = 0;        ///< by the rule of `FitReport`; n = 4: 13 + 8 a level, at most 37 of 40 with cubics
@@ -122,10 +124,10 @@ struct TemperatureWork {
 ///
 /// Errors, in this order: those of `Calibrator::finish`, where they apply; out_of_range (index 2: order or max_order,
 /// 3: the span of use is not finite or narrower than kLevelsApart_degc where an order above 0 is asked for, 4: a prior
-/// is not above 0); too_few_levels (value = levels, limit = order + 1; report.missing_degc says where); unobservable;
-/// implausible (index = sensor: its scale factor leaves the bound at some temperature of the span of use). An automatic
-/// order is refused only where order 0 is. `report` and `fit_report`, where given, are filled as far as the stations
-/// allow, for refused fits too.
+/// is not above 0, 5: an order above 0 beside roll groups); too_few_levels (value = levels, limit = order + 1;
+/// report.missing_degc says where); unobservable; implausible (index = sensor: its scale factor leaves the bound at some
+/// temperature of the span of use). An automatic order is refused only where order 0 is. `report` and `fit_report`,
+/// where given, are filled as far as the stations allow, for refused fits too.
 Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, const GravityReference& gravity,
                                                  const Station* stations, int count, const TemperatureOptions& options,
                                                  Station* scratch, TemperatureWork& work,

@@ -58,7 +58,7 @@ double restless_factor(int n, int size, double rate) noexcept;
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
                            double g_mps2) noexcept;
 
-/// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag or by a
+/// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag, by roll group or by a
 /// change of direction. Serves calibration from continuous logs. The first and the last quiet block of
 /// a stretch are left out: they hold the settling and the onset of motion that noise still covers.
 class StationFinder {
@@ -87,7 +87,7 @@ class StationFinder {
     std::array<double, kCapacity> variance{};  ///< sum of squares while collecting
     SensorSet usable;
     double temperature_degc = 0.0, begin_s = 0.0, end_s = 0.0;
-    std::uint32_t tag = 0, count = 0;
+    std::uint32_t tag = 0, roll_group = 0, count = 0;
     Vec3 direction{};
     bool present = false;
   };
