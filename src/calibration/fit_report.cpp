@@ -117,10 +117,12 @@ void note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& 
   double excess = 0.0;
   const int loudest = tally.loudest(n, freedom, excess);
   if (loudest < 0 || !(report.p_value < kNoNoise)) return;
+  // Whether or not it can be named: the misfit is a mean over the sensors, and the loudest one has more.
+  const double factor = std::fmax(tally.variance_factor(loudest, n, freedom), 1.0);
+  inflate(factor, report.parameters, covariance, report);
   if (!tally.beyond_chance(loudest, freedom, excess)) return;
   report.loud_sensor = loudest;
   report.loud_excess = excess;
-  const double factor = std::fmax(tally.variance_factor(loudest, n, freedom), 1.0);
   const double sigma = problem.datasheet.sensor[at(loudest)].row.sigma_mps2;
   double noise = 0.0;
   int stations = 0;
@@ -132,7 +134,6 @@ void note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& 
   noise /= stations > 0 ? stations : 1;
   const double common = report.misfit_mps2 * report.misfit_mps2;
   report.loud_misfit_mps2 = std::sqrt(factor * (common + noise) - noise);
-  inflate(factor, report.parameters, covariance, report);
 }
 
 /// With three sensors a station has one residual, and the fit can bend towards a few stations that err so that the
