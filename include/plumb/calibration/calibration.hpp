@@ -95,7 +95,7 @@ struct FitReport {
   /// goes; without roll rows the part of the nominal axes, which no station sees, included.
   double inclination_sigma_rad = 0.0;
   /// The sensor whose residuals exceed those of the others beyond chance where they are no noise (p < `kNoNoise`), by
-  /// what factor (rms), and the noise beyond the datasheet's that is its own. All sigmas are widened by its share; -1
+  /// what factor (rms), and the noise beyond the datasheet's that is its own. All sigmas are widened, named or not; -1
   /// where there is none, or where too little is left over to tell.
   int loud_sensor = -1;
   double loud_excess = 1.0;
