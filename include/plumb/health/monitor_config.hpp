@@ -44,6 +44,9 @@ struct MonitorConfig {
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
   int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
+  /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
+  /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
+  double common_drift_mps2 = 1e-4 * kG0_mps2;
 };
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.
