@@ -94,12 +94,15 @@ int Isolation::live() const noexcept {
 }
 
 bool Isolation::has_dead_subset(SensorSet set) const noexcept {
-  bool found = false;
-  if (strict_ < 1) return found;
-  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (set.contains(s) && is_dead(index)) found = true;
-  });
-  return found;
+  std::uint64_t any = 0;
+  for (const std::uint64_t word : dead_) any |= word;
+  if (strict_ < 1 || any == 0) return false;
+  const SensorSet all = SensorSet::first(universe_);
+  int index = 0;
+  for (SensorSet s = SensorSet::first(voting_size_); all.contains(s); s = next_of_same_size(s), ++index) {
+    if (is_dead(index) && set.contains(s)) return true;
+  }
+  return false;
 }
 
 bool Isolation::norm_is_void(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,

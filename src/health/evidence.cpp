@@ -140,16 +140,30 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
   recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 
-EventMask HealthMonitor::tick(const Sample& sample) noexcept {
-  using Kind = BlockView::Kind;
-  const SensorSet posed = in_service_ | set_aside_;
-  const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_);
+/// What is kept of the samples of a block: who delivered, who was calm.
+void HealthMonitor::note_block() noexcept {
   block_usable_ = block_.usable();
   calm_ = SensorSet{};
   for (int i = 0; i < array_.size(); ++i) {
     const double sigma = array_.sigma_mps2(i);
     if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * sigma * sigma) calm_ = calm_.with(i);
   }
+}
+
+void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
+  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
+  if (bounded) {
+    unbounded_run_ = 0;
+  } else if (view.kind != BlockView::Kind::reference && unbounded_run_ < config_.clean_blocks) {
+    ++unbounded_run_;
+  }
+}
+
+EventMask HealthMonitor::tick(const Sample& sample) noexcept {
+  using Kind = BlockView::Kind;
+  const SensorSet posed = in_service_ | set_aside_;
+  const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_);
+  note_block();
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();
@@ -188,12 +202,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   count_doubt(view, voting ? vote(evidence_, view) : view.used.x_mps2);
   count_clean(view);
   rescan();
-  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
-  if (bounded) {
-    unbounded_run_ = 0;
-  } else if (view.kind != Kind::reference && unbounded_run_ < config_.clean_blocks) {
-    ++unbounded_run_;
-  }
+  count_unbounded(view);
   examine_probation(evidence_, view);
   study_reference(view);
   if (view.kind == Kind::clean) trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);

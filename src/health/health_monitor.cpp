@@ -210,6 +210,45 @@ void HealthMonitor::empty_windows() noexcept {
   station_.clear();
 }
 
+/// The sample is refused and the windows stay as they are; what was valid is now only held.
+void HealthMonitor::refuse(const Sample& sample) noexcept {
+  count_up(counters_.time_refused);
+  verdict_.sample = counters_.samples;
+  verdict_.cause = Cause::time_fault;
+  if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
+  verdict_.alert = true;
+  if (reset_pending_) {  // the host's key is served whatever the clock does
+    decide(bit(HealthEvent::reset), clock_.last_s());
+    publish(sample, false);
+    verdict_.cause = Cause::time_fault;
+  }
+}
+
+/// One sample into the block and the windows.
+void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexcept {
+  Readings y = readings_of(model_, sample, last_temperature_degc_, gate);
+  if (rotation_.turning) {
+    const bool modelled = rotation_.rate_known && lever_arms_known_;
+    if (modelled) take_rotation_off(y, gate.usable);
+    const bool still = rotation_.rate_known && norm(rotation_.rate_radps) <= kStillRate_radps;
+    rotation_locked_ = rotation_locked_ || !(modelled || still);
+  }
+  clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
+  not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
+  const double t = sample.temperature_degc;
+  const bool outside = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
+                         t <= config_.temperature_max_degc + kTemperatureMargin_degc);
+  if (outside) count_up(counters_.temperature_out);
+  temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
+  if (std::isfinite(t)) last_temperature_degc_ = t;
+  const bool map_usable = gate.usable.contains(in_service_);
+  mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
+  if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
+  block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
+  raw_.add(sample.raw, gate.usable, last_temperature_degc_);
+  verdict_.accepted = true;
+}
+
 const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.transition = TransitionRecord{};
   verdict_.tick = false;
@@ -219,17 +258,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   count_up(counters_.samples);
   const Arrival arrival = clock_.admit(sample.time_s, config_.max_gap_s);
   if (arrival == Arrival::refused) {
-    // The sample is refused and the windows stay as they are; what was valid is now only held.
-    count_up(counters_.time_refused);
-    verdict_.sample = counters_.samples;
-    verdict_.cause = Cause::time_fault;
-    if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
-    verdict_.alert = true;
-    if (reset_pending_) {  // the host's key is served whatever the clock does
-      decide(bit(HealthEvent::reset), clock_.last_s());
-      publish(sample, false);
-      verdict_.cause = Cause::time_fault;
-    }
+    refuse(sample);
     return verdict_;
   }
   if (arrival == Arrival::new_time_base) {
@@ -245,27 +274,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   bool ticked = false;
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
   if (!gate.gap) {
-    Readings y = readings_of(model_, sample, last_temperature_degc_, gate);
-    if (rotation_.turning) {
-      const bool modelled = rotation_.rate_known && lever_arms_known_;
-      if (modelled) take_rotation_off(y, gate.usable);
-      const bool still = rotation_.rate_known && norm(rotation_.rate_radps) <= kStillRate_radps;
-      rotation_locked_ = rotation_locked_ || !(modelled || still);
-    }
-    clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
-    not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
-    const double t = sample.temperature_degc;
-    const bool outside = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
-                           t <= config_.temperature_max_degc + kTemperatureMargin_degc);
-    if (outside) count_up(counters_.temperature_out);
-    temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
-    if (std::isfinite(t)) last_temperature_degc_ = t;
-    const bool map_usable = gate.usable.contains(in_service_);
-    mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
-    if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
-    block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
-    raw_.add(sample.raw, gate.usable, last_temperature_degc_);
-    verdict_.accepted = true;
+    collect_sample(sample, gate);
     ticked = block_.size() >= config_.window;
     if (ticked) {
       raised |= tick(sample);

@@ -10,6 +10,7 @@ inline namespace PLUMB_ABI {
 namespace {
 
 constexpr int kParameters = 4;  // kappa G, a
+constexpr std::size_t kSquare = 16;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -44,7 +45,7 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   if (size_ < kLeast) return out;
 
   // Least squares with rows (1, u), weighted by the bounds.
-  std::array<double, kParameters * kParameters> m{};
+  std::array<double, kSquare> m{};
   std::array<double, kParameters> p{};
   const auto row = [this](int k, int j) { return j == 0 ? 1.0 : entry_[at(k)].u[at(j - 1)]; };
   for (int k = 0; k < size_; ++k) {

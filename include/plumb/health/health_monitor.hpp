@@ -105,6 +105,8 @@ class HealthMonitor {
   // health_monitor.cpp: the flow of one step
   void power_on(const MonitorSetup& setup) noexcept;
   void empty_windows() noexcept;
+  void refuse(const Sample& sample) noexcept;
+  void collect_sample(const Sample& sample, GateResult& gate) noexcept;
   EventMask allowed(EventMask raised) const noexcept;
   void take_rotation_off(Readings& y, SensorSet usable) const noexcept;
 
@@ -121,6 +123,8 @@ class HealthMonitor {
   double clear_fraction() const noexcept;
   BlockView judge(const BlockEvidence& evidence) const noexcept;
   void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
+  void note_block() noexcept;
+  void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
 
