@@ -31,6 +31,7 @@ const char* describe(Errc code) noexcept {
     case Errc::not_confirmed: return "a station that was held out of the fit contradicts it";
     case Errc::not_unique: return "more sensors than the paper's parameters are unique for";
     case Errc::too_few_levels: return "too few temperatures for polynomials of this order";
+    case Errc::implausible_gravity: return "gravity or its sigma is none that is met near the Earth's surface";
   }
   return "unknown error code";
 }
@@ -63,6 +64,7 @@ const char* remedy(Errc code) noexcept {
       return "look for a sensor that changed while the stations were collected, then collect anew";
     case Errc::not_unique: return "use the common-frame form: axis, scale and bias of each sensor";
     case Errc::too_few_levels: return "record the attitudes at more temperatures, or fit a lower order";
+    case Errc::implausible_gravity: return "give 9.5 to 10.2 m/s^2 with a sigma of 0 to 0.1 m/s^2";
   }
   return "report this code as a defect of plumb";
 }

@@ -10,7 +10,7 @@
 namespace plumb {
 namespace {
 
-constexpr int kLast = static_cast<int>(Errc::too_few_levels);
+constexpr int kLast = static_cast<int>(Errc::implausible_gravity);
 
 TEST(ErrorText, EveryCodeHasATextOfItsOwn) {
   std::set<std::string> described;

@@ -35,6 +35,7 @@ enum class Errc : std::uint8_t {
   not_confirmed,        ///< a station held out of the fit contradicts it: index = station, value = statistic
   not_unique,           ///< many parameter sets say the same: value = sensors, limit = most that give one set
   too_few_levels,       ///< temperature levels below those that the order needs: value = given, limit = needed
+  implausible_gravity,  ///< not gravity near the Earth's surface: index 0 = length, 1 = sigma; value, limit [m/s^2]
 };
 
 struct Error {

@@ -35,7 +35,8 @@ class DirectionRecord {
 
 struct Episode {
   bool open = false;         ///< an alarm is on record
-  DirectionRecord stations;  ///< excited stations since the first alarm (patience)
+  DirectionRecord stations;  ///< excited stations in doubt (patience); kept without an alarm too
+  int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where patience counts them
   SensorSet candidate;       ///< the unique strict answer so far
   DirectionRecord agreeing;  ///< excited stations at which it was the answer (E)
   DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
@@ -43,6 +44,7 @@ struct Episode {
   void clear() noexcept {
     open = false;
     stations.clear();
+    doubtful_blocks = 0;
     candidate = SensorSet{};
     agreeing.clear();
     clean.clear();

@@ -21,7 +21,7 @@ struct MonitorConfig {
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
   int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
-  int patience = 6;                ///< P: excited stations on record before suspect must justify itself
+  int patience = 6;                ///< P: excited stations in doubt before suspect must justify itself
   int clean_blocks = 3;            ///< R: clean blocks in a row that end suspicion
   int forget_blocks = 3;           ///< M: clean excited blocks that end an episode
   int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
@@ -43,6 +43,10 @@ struct MonitorConfig {
   /// with margin. MEMS need more.
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
+  int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
+  /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
+  /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
+  double common_drift_mps2 = 1e-4 * kG0_mps2;
 };
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.

@@ -1,0 +1,57 @@
+/// Parity good, length off: is it gravity or a common scale, which leave the direction alone, or a bias that all
+/// sensors share, which turns it? One attitude cannot tell; several can, and where they cannot, the answer is
+/// "undecided".
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/vec3.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+enum class ReferenceKind : std::uint8_t {
+  none,          ///< the length is not off
+  undecided,     ///< too few attitudes, or neither explanation holds alone
+  common_scale,  ///< common scale or gravity: the direction is usable within `turn_rad`
+  common_bias,   ///< a bias along `bias_mps2`: the direction is not usable
+};
+const char* to_string(ReferenceKind kind) noexcept;
+
+struct ReferenceFinding {
+  ReferenceKind kind = ReferenceKind::none;
+  int attitudes = 0;
+  double length_mps2 = 0.0;  ///< kappa G: what is off alike at every attitude
+  Vec3 bias_mps2{};          ///< a: what is off along a direction, tool frame
+  double turn_rad = 0.0;     ///< most that `a` within its bounds can turn the direction; 0 = no bound yet
+};
+
+/// |x| - G at up to kMax attitudes against kappa G + a.u. Errors are taken as bounded, not as random: what calibration
+/// leaves is the same at every block, and averages away over none.
+class ReferenceStudy {
+ public:
+  static constexpr int kMax = 12;
+  /// Four parameters and two attitudes that can contradict them.
+  static constexpr int kLeast = 6;
+
+  void clear() noexcept { *this = ReferenceStudy{}; }
+  bool empty() const noexcept { return size_ == 0; }
+  /// `bound_mps2`: largest error of |x| - G that noise and calibration explain. An attitude nearer than `apart_rad` to
+  /// one on record is not news.
+  void add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad) noexcept;
+  /// `gravity_bound_mps2`: largest credible error of the gravity reference. `usable_rad`: turn that the user can bear.
+  ReferenceFinding find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
+
+ private:
+  struct Entry {
+    Vec3 u{};
+    double off_mps2 = 0.0, bound_mps2 = 0.0;
+  };
+  std::array<Entry, kMax> entry_{};
+  int size_ = 0;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb
