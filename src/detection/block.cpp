@@ -114,6 +114,15 @@ Readings BlockAccumulator::mean() const noexcept {
   return out;
 }
 
+bool BlockAccumulator::plausible() const noexcept {
+  for (int i = 0; i < kCapacity; ++i) {
+    const int present = present_[static_cast<size_t>(i)];
+    if (present > size_ || (present > 0) != usable_.has(i)) return false;
+  }
+  // Every sample adds between 2^-32 and 1.
+  return size_ == 0 ? inverse_count_ == 0.0 : inverse_count_ > 0.0 && inverse_count_ <= size_;
+}
+
 double BlockAccumulator::covariance(int i, int j) const noexcept {
   // Over the samples of the scarcer channel: exact without dropouts, within sigma^2/N with a few.
   const int least = std::min(present_[static_cast<size_t>(i)], present_[static_cast<size_t>(j)]);

@@ -94,6 +94,10 @@ const char* to_string(GravityModel model) noexcept {
   return "unknown";
 }
 
+bool GravityReference::plausible() const noexcept {
+  return std::isfinite(g_mps2) && g_mps2 > 1.0 && std::isfinite(sigma_mps2) && sigma_mps2 >= 0.0;
+}
+
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept {
   const Error e = first_of<5>(
       {check(in.latitude_deg, kLatitude, -90.0, 90.0), check(in.elevation_m, kElevation, -500.0, 9000.0),

@@ -124,7 +124,7 @@ void HealthMonitor::follow_station(const Sample& sample, const Vec3& direction) 
   }
   drift_rad_ = angle_between_rad(station_.last, direction);
   station_.last = direction;
-  ++station_.blocks;
+  if (station_.blocks < StationTrack::kMostBlocks) ++station_.blocks;
 }
 
 void HealthMonitor::vote(const BlockEvidence& evidence, const BlockView& view) noexcept {

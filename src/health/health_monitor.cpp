@@ -11,7 +11,7 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a copy is an assignment");
 static_assert(noexcept(std::declval<HealthMonitor&>().step(std::declval<const Sample&>())));
 
 namespace {
@@ -86,6 +86,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
 
+  identity_ = identity(setup);
   power_on(setup);
   configured_ = true;
   publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
@@ -107,6 +108,9 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   drift_rad_ = 0.0;
   exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
   evidence_time_s_ = 0.0;
+  last_temperature_degc_ = 25.0;
+  least_prediction_.fill(0.0);
+  most_prediction_.fill(0.0);
   sequence_ = 0;
   clean_run_ = 0;
   probation_.clear();
@@ -141,9 +145,7 @@ Expected<void> HealthMonitor::reset(std::uint64_t key, SensorSet sensors) noexce
 }
 
 Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexcept {
-  const bool sound = std::isfinite(gravity.g_mps2) && gravity.g_mps2 > 1.0 && std::isfinite(gravity.sigma_mps2) &&
-                     gravity.sigma_mps2 >= 0.0;
-  if (!sound) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
+  if (!gravity.plausible()) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
   gravity_ = gravity;
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {
@@ -217,12 +219,10 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
   }
   raised |= advance_recalibration(sample.time_s);
-  // What a block said is a level: a channel event that ranks before it must not make it unsaid.
-  constexpr EventMask kKept = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
   raised |= pending_;
   const HealthEvent taken = decide(raised, sample.time_s);
   const bool channel = taken == HealthEvent::channel_lost || taken == HealthEvent::channel_back;
-  pending_ = channel || taken == HealthEvent::reset ? raised & kKept : 0;
+  pending_ = channel || taken == HealthEvent::reset ? raised & kKeptEvents : 0;
   publish(sample, ticked);
   return verdict_;
 }

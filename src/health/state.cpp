@@ -59,6 +59,7 @@ const char* to_string(Cause cause) noexcept {
     case Cause::time_fault: return "time_fault";
     case Cause::gap: return "gap";
     case Cause::clean: return "clean";
+    case Cause::snapshot_refused: return "snapshot_refused";
   }
   return "?";
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sample.hpp"
 
 namespace plumb {
@@ -37,6 +38,9 @@ class ChannelMonitor {
 
   struct Counters {
     std::uint32_t not_finite = 0, missing = 0, clipped = 0;
+    static constexpr auto fields() noexcept {
+      return field_list(&Counters::not_finite, &Counters::missing, &Counters::clipped);
+    }
   };
   const Counters& counters(int i) const noexcept { return counters_[static_cast<std::size_t>(i)]; }
 
@@ -47,6 +51,14 @@ class ChannelMonitor {
   SensorSet lost_, back_;
   int size_ = 0;
   int confirm_ = 3;
+
+  friend struct FieldsOf;
+  bool plausible() const noexcept { return lost_.contains(back_); }
+  static constexpr auto fields() noexcept {
+    using C = ChannelMonitor;
+    return field_list(not_stored(&C::full_scale_raw_), per_sensor(&C::counters_), per_sensor(&C::bad_run_),
+                      per_sensor(&C::good_run_), &C::lost_, &C::back_, not_stored(&C::size_), not_stored(&C::confirm_));
+  }
 };
 
 }  // namespace PLUMB_ABI

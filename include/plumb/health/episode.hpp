@@ -5,6 +5,7 @@
 #include <array>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
 
@@ -29,8 +30,14 @@ class DirectionRecord {
   }
 
  private:
-  std::array<Vec3, kMax> direction_{};
   int size_ = 0;
+  std::array<Vec3, kMax> direction_{};
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    return field_list(within(&DirectionRecord::size_, 0, kMax),
+                      counted(&DirectionRecord::direction_, &DirectionRecord::size));
+  }
 };
 
 struct Episode {
@@ -47,6 +54,10 @@ struct Episode {
     agreeing.clear();
     clean.clear();
   }
+  static constexpr auto fields() noexcept {
+    using E = Episode;
+    return field_list(&E::open, &E::stations, &E::candidate, &E::agreeing, &E::clean);
+  }
 };
 
 /// The attitude at which blocks are being taken. Blocks of one station are not pooled: between them the tool may have
@@ -56,9 +67,14 @@ struct StationTrack {
   std::uint32_t tag = 0;
   Vec3 direction{};  ///< of its first block
   Vec3 last{};       ///< of its last block
-  int blocks = 0;
+  int blocks = 0;    ///< counted up to kMostBlocks
 
+  static constexpr int kMostBlocks = 1000;
   void clear() noexcept { *this = StationTrack{}; }
+  static constexpr auto fields() noexcept {
+    using S = StationTrack;
+    return field_list(&S::open, &S::tag, &S::direction, &S::last, within(&S::blocks, 0, kMostBlocks));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -54,7 +54,9 @@ enum class Cause : std::uint8_t {
   time_fault,    ///< time not increasing; the sample was refused
   gap,
   clean,
+  snapshot_refused,  ///< switched on without its history: the snapshot that was offered is of no use
 };
+inline constexpr Cause kLastCause = Cause::snapshot_refused;
 const char* to_string(Cause cause) noexcept;
 
 /// The cause that an event stands for; `of_block` is what the last block said, for an alarm.
