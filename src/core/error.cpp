@@ -30,6 +30,7 @@ const char* describe(Errc code) noexcept {
     case Errc::wrong_state: return "the monitor does not take this request in its present state";
     case Errc::not_confirmed: return "a station that was held out of the fit contradicts it";
     case Errc::not_unique: return "more sensors than the paper's parameters are unique for";
+    case Errc::implausible_gravity: return "gravity or its sigma is none that is met near the Earth's surface";
     case Errc::buffer_too_small: return "the memory given is too small for a snapshot";
     case Errc::snapshot_truncated: return "the snapshot ends too early";
     case Errc::snapshot_damaged: return "the snapshot is damaged, or no snapshot at all";
@@ -69,6 +70,7 @@ const char* remedy(Errc code) noexcept {
     case Errc::not_confirmed:
       return "look for a sensor that changed while the stations were collected, then collect anew";
     case Errc::not_unique: return "use the common-frame form: axis, scale and bias of each sensor";
+    case Errc::implausible_gravity: return "give 9.5 to 10.2 m/s^2 with a sigma of 0 to 0.1 m/s^2";
     case Errc::buffer_too_small: return "give at least HealthMonitor::snapshot_size_max() bytes";
     case Errc::snapshot_truncated: return "give all bytes that were written; start without history if they are lost";
     case Errc::snapshot_damaged: return "keep two snapshots in turn and offer the other one, or start without history";

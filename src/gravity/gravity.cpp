@@ -95,7 +95,7 @@ const char* to_string(GravityModel model) noexcept {
 }
 
 bool GravityReference::plausible() const noexcept {
-  return std::isfinite(g_mps2) && g_mps2 > 1.0 && std::isfinite(sigma_mps2) && sigma_mps2 >= 0.0;
+  return given_gravity(g_mps2, sigma_mps2).has_value();
 }
 
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept {

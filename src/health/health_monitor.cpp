@@ -35,6 +35,13 @@ int faults_to_cover(int n, double prior, double risk) noexcept {
 
 }  // namespace
 
+Expected<void> plausible(const GravityReference& gravity) noexcept {
+  const auto given = given_gravity(gravity.g_mps2, gravity.sigma_mps2);
+  if (given) return {};
+  const Error& e = given.error();
+  return fail(Errc::implausible_gravity, e.index == 0 ? 0 : 1, e.value, e.limit);
+}
+
 Expected<void> checked(const MonitorSetup& setup) noexcept {
   const int n = setup.array.size();
   if (n < 3) return fail(Errc::too_few_sensors, -1, n, 3);
@@ -57,11 +64,7 @@ Expected<void> checked(const MonitorSetup& setup) noexcept {
     const double needed_mps2 = (1.0 + kFullScaleMargin) * setup.gravity.g_mps2;
     if (full > 0.0 && !(reach_mps2 >= needed_mps2)) return fail(Errc::range_too_small, i, reach_mps2, needed_mps2);
   }
-  if (!(setup.gravity.g_mps2 > 1.0) || !(setup.gravity.sigma_mps2 >= 0.0) ||
-      !std::isfinite(setup.gravity.g_mps2 + setup.gravity.sigma_mps2)) {
-    return fail(Errc::out_of_range, 0, setup.gravity.g_mps2, 1.0);
-  }
-  return {};
+  return plausible(setup.gravity);
 }
 
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
@@ -145,7 +148,8 @@ Expected<void> HealthMonitor::reset(std::uint64_t key, SensorSet sensors) noexce
 }
 
 Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexcept {
-  if (!gravity.plausible()) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
+  const Expected<void> sound = plausible(gravity);
+  if (!sound) return sound;
   gravity_ = gravity;
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {

@@ -37,7 +37,8 @@ const std::vector<std::string>& known_keys() {
                                                  "temperature_max",
                                                  "recalibrate",
                                                  "drift_bias",
-                                                 "drift_scale"};
+                                                 "drift_scale",
+                                                 "patience_blocks"};
   return names;
 }
 
@@ -83,6 +84,7 @@ MonitorConfig filled(const TomlTable& table) {
   config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
   config.drift_bias_mps2 = table.quantity(Quantity::acceleration, "drift_bias", config.drift_bias_mps2);
   config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
+  config.patience_blocks = whole(table, "patience_blocks", config.patience_blocks);
   return config;
 }
 

@@ -35,6 +35,7 @@ enum class Errc : std::uint8_t {
   wrong_state,          ///< the state machine does not take this request now: value = state (HealthState)
   not_confirmed,        ///< a station held out of the fit contradicts it: index = station, value = statistic
   not_unique,           ///< many parameter sets say the same: value = sensors, limit = most that give one set
+  implausible_gravity,  ///< not gravity near the Earth's surface: index 0 = length, 1 = sigma; value, limit [m/s^2]
   buffer_too_small,     ///< value = bytes given, limit = bytes needed
   snapshot_truncated,   ///< value = bytes given, limit = bytes that the snapshot claims to have
   snapshot_damaged,     ///< no snapshot at all, or its check sum does not fit

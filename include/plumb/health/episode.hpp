@@ -8,6 +8,7 @@
 #include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/health/monitor_config.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -42,7 +43,8 @@ class DirectionRecord {
 
 struct Episode {
   bool open = false;         ///< an alarm is on record
-  DirectionRecord stations;  ///< excited stations since the first alarm (patience)
+  DirectionRecord stations;  ///< excited stations in doubt (patience); kept without an alarm too
+  int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where patience counts them
   SensorSet candidate;       ///< the unique strict answer so far
   DirectionRecord agreeing;  ///< excited stations at which it was the answer (E)
   DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
@@ -50,13 +52,15 @@ struct Episode {
   void clear() noexcept {
     open = false;
     stations.clear();
+    doubtful_blocks = 0;
     candidate = SensorSet{};
     agreeing.clear();
     clean.clear();
   }
   static constexpr auto fields() noexcept {
     using E = Episode;
-    return field_list(&E::open, &E::stations, &E::candidate, &E::agreeing, &E::clean);
+    return field_list(&E::open, &E::stations, within(&E::doubtful_blocks, 0, kMostPatienceBlocks), &E::candidate,
+                      &E::agreeing, &E::clean);
   }
 };
 

@@ -34,8 +34,12 @@ struct MonitorSetup {
   Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
 };
 
+/// A length of gravity in feet, in g0 or from elsewhere would make every healthy sensor look off. Error:
+/// implausible_gravity outside what `given_gravity` takes.
+Expected<void> plausible(const GravityReference& gravity) noexcept;
+
 /// Checks a setup but for its configuration. Errors: too_few_sensors; not_calibrated; range_too_small; out_of_range
-/// (index = sensor whose sigma is too large beside the least, 0: gravity).
+/// (index = sensor whose sigma is too large beside the least); implausible_gravity.
 Expected<void> checked(const MonitorSetup& setup) noexcept;
 
 class HealthMonitor {
@@ -76,7 +80,7 @@ class HealthMonitor {
   /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare.
   Expected<void> request_recalibration() noexcept;
 
-  /// Another length of gravity (depth has changed). Error: out_of_range.
+  /// Another length of gravity (depth has changed). Error: implausible_gravity; then nothing changes.
   Expected<void> set_gravity(const GravityReference& gravity) noexcept;
 
   const SensorArray& array() const noexcept { return array_; }
@@ -105,14 +109,18 @@ class HealthMonitor {
   double clear_fraction() const noexcept;
   BlockView judge(const BlockEvidence& evidence) const noexcept;
   void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
-  void follow_station(const Sample& sample, const Vec3& direction) noexcept;
-  void vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
-  void count_clean(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
+  void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
+
+  // record.cpp: what is kept from block to block
+  void follow_station(const Sample& sample, const Vec3& direction) noexcept;
+  Vec3 vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
+  void count_doubt(const BlockView& view, const Vec3& direction) noexcept;
+  bool patience_is_over() const noexcept;
+  void count_clean(const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockEvidence& evidence, const BlockView& view) noexcept;
   void rescan() noexcept;
-  void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
 
   // recalibrating.cpp: the shadow fit
   bool may_recalibrate() const noexcept;

@@ -14,9 +14,10 @@ inline namespace PLUMB_ABI {
 /// Whose decisions: `HealthMonitor` takes plumb, `PaperMonitor` takes paper.
 enum class MonitorMode : std::uint8_t { plumb, paper };
 
-/// Largest values of two settings.
+/// Largest values of settings that bound a counter.
 inline constexpr int kMostConfirm = 60000;
 inline constexpr int kMostCleanBlocks = 1000;
+inline constexpr int kMostPatienceBlocks = 1000000;
 
 struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
@@ -26,7 +27,7 @@ struct MonitorConfig {
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
   int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
-  int patience = 6;                ///< P: excited stations on record before suspect must justify itself
+  int patience = 6;                ///< P: excited stations in doubt before suspect must justify itself
   int clean_blocks = 3;            ///< R: clean blocks in a row that end suspicion
   int forget_blocks = 3;           ///< M: clean excited blocks that end an episode
   int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
@@ -48,6 +49,7 @@ struct MonitorConfig {
   /// with margin. MEMS need more.
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
+  int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
 
   /// What a snapshot is bound to: all of it, but never stored.
   static constexpr auto fields() noexcept {
@@ -59,7 +61,8 @@ struct MonitorConfig {
                       within(&C::probation_stations, 1, 24), within(&C::missing_confirm, 1, kMostConfirm),
                       &C::max_gap_s, &C::max_age_s, &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction,
                       &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
-                      &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale);
+                      &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
+                      within(&C::patience_blocks, 0, kMostPatienceBlocks));
   }
 };
 

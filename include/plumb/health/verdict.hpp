@@ -64,7 +64,7 @@ struct Verdict {
   int strict_grade = 0;                                 ///< m_strict of the sensors not latched out
   int parity_grade = 0;
   int live_hypotheses = 0;      ///< voting sets still alive in this episode
-  int stations_on_record = 0;   ///< excited stations of this episode
+  int stations_on_record = 0;   ///< excited stations in doubt, on which patience runs out
   bool wants_rotation = false;  ///< another attitude would help
 
   RecalibrationProgress recalibration;  ///< `wanted_direction` in the output frame
