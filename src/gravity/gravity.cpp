@@ -94,9 +94,7 @@ const char* to_string(GravityModel model) noexcept {
   return "unknown";
 }
 
-bool GravityReference::plausible() const noexcept {
-  return given_gravity(g_mps2, sigma_mps2).has_value();
-}
+bool GravityReference::plausible() const noexcept { return given_gravity(g_mps2, sigma_mps2).has_value(); }
 
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept {
   const Error e = first_of<5>(

@@ -277,6 +277,11 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.number("parity_limit", v.parity_limit);
   object.number("norm_error_mps2", v.norm_error_mps2);
   append_vector(object, v, frame);
+  if (v.snapshot_refusal == Errc::ok) {
+    object.nothing("snapshot_refused");
+  } else {
+    object.word("snapshot_refused", describe(v.snapshot_refusal));
+  }
   object.close();
 }
 

@@ -50,6 +50,7 @@ std::string explain(Cause cause, Grade grade, HealthEvent event) {
     case Cause::time_fault: return "time did not increase: the sample was refused";
     case Cause::gap: return "a gap in the data: the evidence starts afresh";
     case Cause::clean: return "block after block agrees within its limits: trust is earned";
+    case Cause::snapshot_refused: return "switched on without its history: the snapshot offered was of no use";
   }
   return "?";
 }
