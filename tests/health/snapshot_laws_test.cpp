@@ -29,10 +29,10 @@ RC_GTEST_PROP(SnapshotLaw, IsTransparentAtAnyStepOfAnyLife, ()) {
   Life other(n, other_seed);
   HealthMonitor& monitor = life.tool.rig.monitor;
   auto stranger = std::make_unique<HealthMonitor>(other.tool.rig.monitor);
-  for (int k = 0; k < 1500; ++k) stranger->step(other.next({stranger.get()}));
+  for (int k = 0; k < 800; ++k) stranger->step(other.next({stranger.get()}));
   auto twin = std::make_unique<HealthMonitor>(monitor);
   std::uint32_t seen = 0;
-  for (int k = 0; k < 4000; ++k) {
+  for (int k = 0; k < 2500; ++k) {
     if (k % every == 0) {
       const Bytes bytes = snapshot_of(monitor);
       *twin = *stranger;
