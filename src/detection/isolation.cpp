@@ -50,6 +50,18 @@ void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
   }
 }
 
+/// Turn of the estimate over `set` that a bias shared by all its sensors makes.
+double common_drift_turn_rad(const SensorArray& array, SensorSet set, const Vec3& x_mps2, double bias_mps2) noexcept {
+  const double length = norm(x_mps2);
+  if (!(bias_mps2 > 0.0) || !(length > 0.0)) return 0.0;
+  Readings shared{};
+  shared.fill(bias_mps2);
+  const Vec3 moved = least_squares(array, set).estimate(shared);
+  const Vec3 u = scaled(x_mps2, 1.0 / length);
+  const double across = dot(moved, moved) - dot(moved, u) * dot(moved, u);
+  return across > 0.0 ? std::atan2(std::sqrt(across), std::fmax(0.0, length - norm(moved))) : 0.0;
+}
+
 }  // namespace
 
 void Isolation::clear() noexcept { dead_.fill(0); }
@@ -178,13 +190,13 @@ IsolationAnswer Isolation::vote(const SensorArray& array, const GravityReference
 
 FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                              const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
-                             int protection_faults, double k_integrity) const noexcept {
+                             const ProtectionTerms& protect) const noexcept {
   FaultSetScan out;
   out.fewest_faults.fill(255);
   const SensorSet posed = posed_ & block.usable;
   const SetTest used = test_set(array, gravity, limits, block, in_service & block.usable);
   const bool norm_void = norm_is_void(array, gravity, limits, block);
-  out.protection_available = used.tested && protection_faults <= kScanDepth && used.parity_rows > 0;
+  out.protection_available = used.tested && protect.faults <= kScanDepth && used.parity_rows > 0;
   bool any_protected = false, any_asserted = false;
   SensorSet common = posed;
   for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
@@ -193,7 +205,7 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
     const SetTest t = test_set(array, gravity, limits, block, rest);
     if (!t.tested) {
       // What is left cannot determine a vector, so this hypothesis bounds nothing.
-      if (size <= protection_faults) out.protection_available = false;
+      if (size <= protect.faults) out.protection_available = false;
       return;
     }
     const bool alive =
@@ -213,12 +225,13 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
       common = common & f;
       any_asserted = true;
     }
-    if (size <= protection_faults && used.tested) {
+    if (size <= protect.faults && used.tested) {
       any_protected = true;
       const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
       const double left = tilt_sigma_rad(t.x_mps2, calibration_covariance(array, t, rest));
       const double spread = std::sqrt(noise * noise + left * left);
-      const double level = angle_between_rad(t.x_mps2, used.x_mps2) + k_integrity * spread;
+      const double shared = common_drift_turn_rad(array, rest, t.x_mps2, protect.common_drift_mps2);
+      const double level = angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;
       if (level > out.protection_rad) out.protection_rad = level;
     }
   });

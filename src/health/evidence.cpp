@@ -105,10 +105,12 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
       raised |= bit(HealthEvent::culprit);
       last_grade_ = asserted_left_ > 0 && latched == scan_.asserted ? Grade::asserted : Grade::strict;
     }
-    const SensorSet aside = answer_.parity & in_service_;
-    const bool enough = rank_of(array_, in_service_ - aside) == 3;
-    if (view.kind == Kind::alarm && view.cause == Cause::parity && !aside.empty() && enough)
-      raised |= bit(HealthEvent::set_aside);
+  }
+  if (accuses) {
+    const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
+    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed_) & in_service_;
+    const bool enough = rank_of(array_, in_service_ - aside_) == 3;
+    if (!aside_.empty() && enough) raised |= bit(HealthEvent::set_aside);
   }
   if (view.kind != Kind::reference && patience_is_over()) raised |= bit(HealthEvent::patience_over);
   if (view.kind == Kind::alarm) {
@@ -141,18 +143,26 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
 EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
-  const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2);
+  const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_);
   block_usable_ = block_.usable();
+  calm_ = SensorSet{};
+  for (int i = 0; i < array_.size(); ++i) {
+    const double sigma = array_.sigma_mps2(i);
+    if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * sigma * sigma) calm_ = calm_.with(i);
+  }
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();
   verdict_.restless = judged.restless;
-  moving_ = !judged.quiet;
-  partial_ = !block_usable_.contains(in_service_);
+  const bool turning = rotation_locked_;
+  rotation_locked_ = false;
+  moving_ = !note_facts(judged, !judged.quiet || turning);
+  partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
   const BlockView view = moving_ ? BlockView{} : judge(judged.evidence);
   if (moving_ || !view.used.tested) {  // a block that cannot be tested is no evidence, and its vector no news
     moving_ = true;
-    verdict_.cause = Cause::moving;
+    verdict_.cause = turning ? Cause::rotating : Cause::moving;
+    count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
     mae_.clear();
     station_.clear();
     return 0;
@@ -161,14 +171,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   evidence_time_s_ = sample.time_s;
   have_evidence_ = true;
   verdict_.cause = temperature_out_ ? Cause::temperature : view.cause;
-  verdict_.decided_by = view.decided_by;
-  verdict_.statistic = view.statistic;
-  verdict_.limit = view.limit;
-  verdict_.margin = view.limit > 0.0 ? 1.0 - view.statistic / view.limit : 0.0;
-  verdict_.parity = view.used.parity;
-  verdict_.parity_limit = view.used.parity_rows > 0 ? view.used.parity_alarm_limit(limits_) : 0.0;
-  verdict_.mae_worst_mps2 = view.mae_worst_mps2;
-  verdict_.mae_worst_limit_mps2 = view.mae_limit_mps2;
+  publish_decision(view);
   if (temperature_out_) {  // all sensors leave their model together: nothing dies, nothing latches
     rescan();
     publish_vector();
@@ -192,6 +195,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     ++unbounded_run_;
   }
   examine_probation(evidence_, view);
+  study_reference(view);
+  if (view.kind == Kind::clean) trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector();

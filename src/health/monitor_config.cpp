@@ -43,6 +43,7 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {c.drift_bias_mps2, 1e-6, 10},
       {c.drift_scale, 1e-7, 0.1},
       {static_cast<double>(c.patience_blocks), 0, kMostPatienceBlocks},
+      {c.common_drift_mps2, 0, 10},
   };
   int index = 0;
   for (const Range& f : fields) {

@@ -81,6 +81,12 @@ bool HealthMonitor::patience_is_over() const noexcept {
   return over && (!exhausted_ || unbounded_run_ >= config_.clean_blocks);
 }
 
+/// By how much the prediction of a sensor must have moved before it is proven.
+double HealthMonitor::proving_change_mps2(int sensor) const noexcept {
+  return std::fmax(kProvingShare * gravity_.g_mps2,
+                   kProvingSigmas * array_.sigma_mps2(sensor) / std::sqrt(evidence_.samples));
+}
+
 void HealthMonitor::count_clean(const BlockView& view) noexcept {
   using Kind = BlockView::Kind;
   if (view.kind != Kind::clean) {
@@ -102,9 +108,7 @@ void HealthMonitor::count_clean(const BlockView& view) noexcept {
       const double prediction = dot(array_.axis(i), view.used.x_mps2);
       if (!have_predictions_ || prediction < least_prediction_[a]) least_prediction_[a] = prediction;
       if (!have_predictions_ || prediction > most_prediction_[a]) most_prediction_[a] = prediction;
-      const double needed = std::fmax(kProvingShare * gravity_.g_mps2,
-                                      kProvingSigmas * array_.sigma_mps2(i) / std::sqrt(evidence_.samples));
-      if (most_prediction_[a] - least_prediction_[a] < needed) moved = false;
+      if (most_prediction_[a] - least_prediction_[a] < proving_change_mps2(i)) moved = false;
     }
     have_predictions_ = true;
     if (moved && clean_run_ >= config_.clean_blocks) unproven_ = false;
@@ -133,7 +137,7 @@ void HealthMonitor::examine_probation(const BlockEvidence& evidence, const Block
   if (view.kind != BlockView::Kind::clean || episode_.open || unproven_ || mode_ == Mode::failed ||
       mode_ == Mode::suspect)
     return;
-  const SensorSet asked = ((excluded_ | set_aside_) - (banned_ | absent_)) & evidence.usable;
+  const SensorSet asked = ((excluded_ | set_aside_) - (banned_ | absent_)) & evidence.usable & calm_;
   SensorSet fine;
   for (int i = 0; i < array_.size(); ++i) {
     if (!asked.has(i)) continue;
@@ -153,8 +157,8 @@ void HealthMonitor::rescan() noexcept {
   int depth = protection_faults_;
   if (asserted_left_ > depth) depth = asserted_left_;
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
-  scan_ = isolation_.scan(array_, gravity_, limits_, evidence_, in_service_, depth, asserted_left_, protection_faults_,
-                          k_integrity_);
+  scan_ = isolation_.scan(array_, gravity_, limits_, evidence_, in_service_, depth, asserted_left_,
+                          {protection_faults_, k_integrity_, config_.common_drift_mps2});
   // The vector is that of a block: what the tool turned since the one before, and inside it, comes on top.
   scan_.protection_rad += drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
 }

@@ -122,9 +122,11 @@ std::uint64_t HealthMonitor::identity(const MonitorSetup& setup) const noexcept 
     out.put(c.bias);
     out.put(c.reference_degc);
     out.put(setup.full_scale_raw[static_cast<size_t>(i)]);
+    out.put(setup.lever_arm_m[static_cast<size_t>(i)]);
   }
   out.put(setup.array.uncertainty());
   out.put(setup.output_frame);
+  out.put(setup.lever_arms_known);
   return out.crc();
 }
 
@@ -223,6 +225,7 @@ bool HealthMonitor::verdict_is_plausible() const noexcept {
   if (v.validity != now && !(v.validity == Validity::held && now != Validity::invalid)) return false;
   if (v.protection_available && !scan_.protection_available) return false;
   if (v.protection_level_rad != (v.protection_available ? scan_.protection_rad : 0.0)) return false;
+  if (v.validity == now && v.usable != usable_bits()) return false;
   const bool within = v.protection_available && v.protection_level_rad <= config_.alert_limit_rad;
   if (!v.alert && !(within && v.validity == Validity::valid)) return false;
   if (!have_evidence_) return true;

@@ -38,7 +38,8 @@ const std::vector<std::string>& known_keys() {
                                                  "recalibrate",
                                                  "drift_bias",
                                                  "drift_scale",
-                                                 "patience_blocks"};
+                                                 "patience_blocks",
+                                                 "common_drift"};
   return names;
 }
 
@@ -85,12 +86,13 @@ MonitorConfig filled(const TomlTable& table) {
   config.drift_bias_mps2 = table.quantity(Quantity::acceleration, "drift_bias", config.drift_bias_mps2);
   config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
   config.patience_blocks = whole(table, "patience_blocks", config.patience_blocks);
+  config.common_drift_mps2 = table.quantity(Quantity::acceleration, "common_drift", config.common_drift_mps2);
   return config;
 }
 
 /// Unit in which MonitorConfig holds the field of a key, for messages.
 const char* unit_of(const std::string& key) noexcept {
-  if (key == "delta_f" || key == "drift_bias") return " m/s^2";
+  if (key == "delta_f" || key == "drift_bias" || key == "common_drift") return " m/s^2";
   if (key == "max_gap" || key == "max_age") return " s";
   if (key == "station_angle" || key == "excitation_angle" || key == "alert_limit") return " rad";
   if (key == "temperature_min" || key == "temperature_max") return " degC";

@@ -193,7 +193,7 @@ TEST(Isolation, ScanNamesTheFewestFaults) {
   fault[2] = 1.0;
   const BlockEvidence block = c.block(plumb_test::direction_at(70, 10), fault);
   c.isolation.vote(c.array, kGravity, c.limits, block);
-  const FaultSetScan scan = c.isolation.scan(c.array, kGravity, c.limits, block, c.array.all(), 3, 1, 1, 4.9);
+  const FaultSetScan scan = c.isolation.scan(c.array, kGravity, c.limits, block, c.array.all(), 3, 1, {1, 4.9, 0.0});
   EXPECT_EQ(scan.least, 1);
   EXPECT_EQ(scan.suspects, SensorSet::of(2));
   EXPECT_EQ(scan.asserted, SensorSet::of(2));

@@ -156,7 +156,7 @@ TEST(RequirementVotes, AreTakenAtBlocks1And2And4And8And16Only) {
     int block = 0;
     for (int k = 0; k < 40; ++k) {
       const Verdict& v = rig.stay(u);
-      if (block > 0 || v.margin < 0.0) ++block;  // counted from the alarm
+      if (block > 0 || v.state != HealthState::nominal) ++block;  // counted from the alarm
       if (v.live_hypotheses == before) continue;
       EXPECT_TRUE(block == 1 || block == 2 || block == 4 || block == 8 || block == 16) << seed << ", block " << block;
       changes += block > 1 ? 1 : 0;

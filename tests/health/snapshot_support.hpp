@@ -101,6 +101,10 @@ class Life {
     for (plumb::HealthMonitor* monitor : asked) {
       if (pick < 0.1) monitor->request_recalibration();
       if (pick > 0.1 && pick < 0.13) monitor->reset(monitor->config().reset_key, monitor->array().all());
+      if (pick > 0.15 && pick < 0.18) monitor->inhibit(true);
+      if (pick > 0.18 && pick < 0.24) monitor->inhibit(false);
+      if (pick > 0.24 && pick < 0.26) monitor->set_rotation({true, false, {}});
+      if (pick > 0.26 && pick < 0.30) monitor->set_rotation({});
       if (pick > 0.13 && pick < 0.15) {
         monitor->set_gravity({g_mps2, 1e-4 * plumb::kG0_mps2, plumb::GravityModel::value});
       }

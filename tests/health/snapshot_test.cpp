@@ -203,6 +203,9 @@ TEST(Snapshot, IsBoundToEverySetting) {
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.recalibrate_after_exclusion = true; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.drift_scale *= 1.01; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.patience_blocks = 100; }));
+  EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.common_drift_mps2 *= 2.0; }));
+  EXPECT_TRUE(refused([](MonitorSetup& s) { s.lever_arm_m[5][1] = 0.01; }));
+  EXPECT_TRUE(refused([](MonitorSetup& s) { s.lever_arms_known = true; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.model.reads = Reads::specific_force; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.model.sensor[3].scale[0] = 1.0 + 1e-15; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.model.sensor[3].bias[2] = 1e-9; }));

@@ -15,7 +15,9 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == 8, "snapshots hold IEEE 754 doubles");
+static_assert(std::numeric_limits<double>::is_iec559 && sizeof(double) == 8 && std::numeric_limits<float>::is_iec559 &&
+                  sizeof(float) == 4,
+              "snapshots hold IEEE 754 numbers");
 
 namespace archive_detail {
 
@@ -23,6 +25,10 @@ template <class T>
 std::uint64_t bits_of(T value) noexcept {
   if constexpr (std::is_same_v<T, double>) {
     std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+  } else if constexpr (std::is_same_v<T, float>) {
+    std::uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
     return bits;
   } else if constexpr (std::is_same_v<T, SensorSet>) {
@@ -116,6 +122,10 @@ class ArchiveReader {
   bool accepted(std::uint64_t bits, const Check& check, T& out) noexcept {
     if constexpr (std::is_same_v<T, double>) {
       std::memcpy(&out, &bits, sizeof out);
+      sound_ = std::is_same_v<Check, AnyBits> || std::isfinite(out);
+    } else if constexpr (std::is_same_v<T, float>) {
+      const auto narrow = static_cast<std::uint32_t>(bits);
+      std::memcpy(&out, &narrow, sizeof out);
       sound_ = std::is_same_v<Check, AnyBits> || std::isfinite(out);
     } else if constexpr (std::is_same_v<T, SensorSet>) {
       out = SensorSet(static_cast<std::uint32_t>(bits));

@@ -64,6 +64,13 @@ struct FaultSetScan {
   }
 };
 
+/// What the protection level covers beside the separation of the live explanations.
+struct ProtectionTerms {
+  int faults = 1;                  ///< fault sets of at most so many members
+  double k_integrity = 0.0;        ///< sigmas of noise and calibration
+  double common_drift_mps2 = 0.0;  ///< bias that all sensors may share
+};
+
 class Isolation {
  public:
   /// Poses the problem on the sensors `posed` (those not latched out). Dead sets stay dead as long as
@@ -86,10 +93,11 @@ class Isolation {
 
   /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
   /// protection level is the largest separation from the estimate of `in_service` (solution
-  /// separation) plus `k_integrity` sigmas of noise and calibration.
+  /// separation) plus `k_integrity` sigmas of noise and calibration, plus what a bias that all sensors share does to
+  /// the direction, |(I - uu') H^+ 1| b / G.
   FaultSetScan scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                     const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
-                    int protection_faults, double k_integrity) const noexcept;
+                    const ProtectionTerms& protect) const noexcept;
 
   int live() const noexcept;
   int voting() const noexcept { return voting_; }

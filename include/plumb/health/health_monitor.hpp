@@ -17,8 +17,11 @@
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/recalibration.hpp"
+#include "plumb/health/reference_study.hpp"
+#include "plumb/health/rotation.hpp"
 #include "plumb/health/snapshot.hpp"
 #include "plumb/health/transition_table.hpp"
+#include "plumb/health/trend.hpp"
 #include "plumb/health/verdict.hpp"
 
 namespace plumb {
@@ -32,6 +35,24 @@ struct MonitorSetup {
   MonitorConfig config;
   std::array<double, kCapacity> full_scale_raw{};  ///< 0 = unknown
   Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
+  std::array<Vec3, kCapacity> lever_arm_m{};       ///< of each sensor from the axis of rotation, tool frame
+  bool lever_arms_known = false;                   ///< else evidence is locked out while the tool turns
+};
+
+/// What was not used, and why.
+struct MonitorCounters {
+  std::uint32_t samples = 0;          ///< offered
+  std::uint32_t time_refused = 0;     ///< time not finite or not increasing
+  std::uint32_t gaps = 0;             ///< longer than the longest gap, or no channel at all
+  std::uint32_t temperature_out = 0;  ///< outside the calibrated span and its margin, or not finite
+  std::uint32_t moving_blocks = 0;
+  std::uint32_t rotating_blocks = 0;
+
+  static constexpr auto fields() noexcept {
+    using C = MonitorCounters;
+    return field_list(&C::samples, &C::time_refused, &C::gaps, &C::temperature_out, &C::moving_blocks,
+                      &C::rotating_blocks);
+  }
 };
 
 /// A length of gravity in feet, in g0 or from elsewhere would make every healthy sensor look off. Error:
@@ -83,6 +104,16 @@ class HealthMonitor {
   /// Another length of gravity (depth has changed). Error: implausible_gravity; then nothing changes.
   Expected<void> set_gravity(const GravityReference& gravity) noexcept;
 
+  /// How the tool turns. Error: not_finite (rate). With known lever arms and a known constant rate what the sensors
+  /// feel of it is taken off; else evidence rests while the tool turns by more than kStillRate_radps.
+  static constexpr double kStillRate_radps = 0.02;  ///< 0.04 mm/s^2 at 0.1 m
+  Expected<void> set_rotation(const Rotation& rotation) noexcept;
+
+  /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
+  /// released. Never held back: a lost channel, rank < 3, failed. Either is recorded as a notice.
+  void inhibit(bool frozen) noexcept;
+
+  const MonitorCounters& counters() const noexcept { return counters_; }
   const SensorArray& array() const noexcept { return array_; }
   const SensorModel& model() const noexcept { return model_; }
   const Recalibration& recalibration() const noexcept { return recalibration_; }
@@ -100,9 +131,16 @@ class HealthMonitor {
   // health_monitor.cpp: the flow of one step
   void power_on(const MonitorSetup& setup) noexcept;
   void empty_windows() noexcept;
-  void publish(const Sample& sample, bool tick) noexcept;
+  EventMask allowed(EventMask raised) const noexcept;
+  void take_rotation_off(Readings& y, SensorSet usable) const noexcept;
+
+  // publish.cpp: the verdict
+  void give_notice(double time_s) noexcept;
+  std::uint16_t usable_bits() const noexcept;
   Validity validity() const noexcept;
+  void publish_decision(const BlockView& view) noexcept;
   void publish_vector() noexcept;
+  void publish(const Sample& sample, bool tick) noexcept;
 
   // evidence.cpp: one block
   EventMask tick(const Sample& sample) noexcept;
@@ -111,6 +149,20 @@ class HealthMonitor {
   void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
+
+  // facts.cpp: what single channels did
+  double predicted(int sensor, const BlockEvidence& evidence) const noexcept;
+  bool note_facts(const BlockJudgement& judged, bool moving) noexcept;
+  void note_stuck(const BlockEvidence& evidence) noexcept;
+  void name_causes(SensorSet named, Cause cause) noexcept;
+  SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
+
+  // rotation_request.cpp, reference: what the host could do about it
+  void study_reference(const BlockView& view) noexcept;
+  double proving_change_mps2(int sensor) const noexcept;
+  RotationRequest rotation_request() const noexcept;
+  RotationRequest proving_turn() const noexcept;
+  RotationRequest resolving_turn() const noexcept;
 
   // record.cpp: what is kept from block to block
   void follow_station(const Sample& sample, const Vec3& direction) noexcept;
@@ -171,7 +223,7 @@ class HealthMonitor {
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_, banned_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
-  bool partial_ = false;  ///< a sensor in service was silent in the last block: nobody vouches for it
+  bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   SampleClock clock_;
@@ -196,7 +248,25 @@ class HealthMonitor {
   bool three_sensor_fit_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
 
+  // Facts about single channels.
+  std::array<Cause, kCapacity> sensor_cause_{};
+  std::array<std::uint8_t, kCapacity> noisy_run_{};  ///< quiet blocks in a row for certain
+  std::array<double, kCapacity> stuck_since_{};      ///< what the others predicted when the reading stopped changing
+  SensorSet noisy_, stuck_, full_scale_;             ///< the others insist on it
+  SensorSet noise_confirmed_, calm_, stuck_watch_, aside_;
+  MonitorCounters counters_;
+
+  // What the host said.
+  std::array<Vec3, kCapacity> lever_arm_m_{};
+  Rotation rotation_;
+  bool lever_arms_known_ = false, rotation_locked_ = false;
+  bool inhibited_ = false, inhibit_notice_ = false;
+  ReferenceKind told_reference_ = ReferenceKind::none, reference_notice_ = ReferenceKind::none;
+
   // Evidence.
+  ScatterRecord scatter_;
+  ReferenceStudy reference_study_;
+  Trend trend_;
   ChannelMonitor gate_;
   BlockAccumulator block_;
   RawBlock raw_;  ///< the same samples before the sensor model
@@ -231,9 +301,16 @@ class HealthMonitor {
         &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
         up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
         &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_,
+        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::noise_confirmed_, &M::calm_,
+        &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        up_to(&M::told_reference_, ReferenceKind::common_bias),
+        up_to(&M::reference_notice_, ReferenceKind::common_bias),
         // evidence
-        &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
-        &M::evidence_, &M::answer_, &M::scan_, &M::clipped_, &M::not_finite_, &M::recalibration_, &M::verdict_);
+        &M::scatter_, &M::reference_study_, &M::trend_, &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_,
+        &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_, &M::scan_, &M::clipped_,
+        &M::not_finite_, &M::recalibration_, &M::verdict_);
   }
 };
 

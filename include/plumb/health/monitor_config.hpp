@@ -50,6 +50,9 @@ struct MonitorConfig {
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
   int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
+  /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
+  /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
+  double common_drift_mps2 = 1e-4 * kG0_mps2;
 
   /// What a snapshot is bound to: all of it, but never stored.
   static constexpr auto fields() noexcept {
@@ -62,7 +65,7 @@ struct MonitorConfig {
                       &C::max_gap_s, &C::max_age_s, &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction,
                       &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
                       &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
-                      within(&C::patience_blocks, 0, kMostPatienceBlocks));
+                      within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2);
   }
 };
 
