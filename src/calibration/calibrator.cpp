@@ -103,6 +103,11 @@ Calibrator::Calibrator(const Datasheet& datasheet, const GravityReference& gravi
   if (!fit::acceptable(datasheet_, gravity_)) stop_ = StopReason::not_finite;
 }
 
+void Calibrator::resume(const Datasheet& datasheet, const FitOptions& options) noexcept {
+  datasheet_ = datasheet;
+  options_ = options;
+}
+
 fit::Parameters Calibrator::parameters() const noexcept {
   return fit::natural(datasheet_, fit::prior_roots(datasheet_), theta_);
 }

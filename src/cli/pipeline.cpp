@@ -252,6 +252,29 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFil
   return refused_setup(configured.error(), array);
 }
 
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration& calibration,
+                                                                 const std::string& snapshot_path) {
+  const io::FileExpected<std::string> bytes = io::read_file(snapshot_path);
+  if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> restored = monitor->restore(*setup_of(array, calibration),
+                                                   reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size());
+  if (restored) return monitor;
+  if (monitor->verdict().snapshot_refusal == Errc::ok) return refused_setup(restored.error(), array);
+  io::FileError error = io::from_error(restored.error());
+  error.file = snapshot_path;
+  error.remedy += " (leave out --snapshot-in)";
+  return tl::unexpected<io::FileError>(std::move(error));
+}
+
+io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor) {
+  std::string bytes(monitor.snapshot_size(), '\0');
+  const Expected<std::size_t> written = monitor.snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  if (!written) return tl::unexpected<io::FileError>(io::from_error(written.error()));
+  return io::write_file(path, bytes);
+}
+
 io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
                                                                    const io::CalibrationFile& calibration,
                                                                    const std::string& path) {

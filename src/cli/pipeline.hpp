@@ -130,6 +130,15 @@ struct MonitorRun {
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration& calibration);
 
+/// The same, gone on from the snapshot that the file holds. Errors: those of `make_monitor`; the file cannot be read;
+/// the snapshot is refused, and then the message says why.
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration& calibration,
+                                                                 const std::string& snapshot_path);
+
+/// Puts the snapshot in its place as a whole, or not at all.
+io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor);
+
 /// The monitor of mode = "paper". Refuses a calibration file without the paper's fits; `path` names it.
 io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
                                                                    const io::CalibrationFile& calibration,

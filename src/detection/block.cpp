@@ -106,6 +106,13 @@ void ScatterRecord::add(int i, double ratio, double degrees, double own, double 
   residual_excess[a] += left;
 }
 
+bool ScatterRecord::plausible() const noexcept {
+  for (const double f : freedom) {
+    if (!(f >= 0.0 && f <= kMostFreedom + kWindowCapacity)) return false;
+  }
+  return true;
+}
+
 void BlockAccumulator::clear() noexcept { *this = BlockAccumulator{}; }
 
 void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double count) noexcept {
@@ -157,6 +164,15 @@ Readings BlockAccumulator::mean() const noexcept {
     if (present_[a] > 0) out[a] = origin_[a] + sum_[a] / present_[a];
   }
   return out;
+}
+
+bool BlockAccumulator::plausible() const noexcept {
+  for (int i = 0; i < kCapacity; ++i) {
+    const int present = present_[static_cast<size_t>(i)];
+    if (present > size_ || (present > 0) != usable_.has(i)) return false;
+  }
+  // Every sample adds between 2^-32 and 1.
+  return size_ == 0 ? inverse_count_ == 0.0 : inverse_count_ > 0.0 && inverse_count_ <= size_;
 }
 
 double BlockAccumulator::covariance(int i, int j) const noexcept {

@@ -35,7 +35,7 @@ GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
   }
   out.gap = out.usable.empty();
   if (out.gap) return out;  // a silent or babbling bus says nothing about any one channel
-  ++block_samples_;
+  if (block_samples_ < kMostBlockSamples) ++block_samples_;
   for (int i = 0; i < size_; ++i) {
     const auto a = static_cast<std::size_t>(i);
     if (out.clipped.has(i)) count_up(clipped_in_block_[a]);

@@ -69,6 +69,11 @@ void Isolation::clear() noexcept { dead_.fill(0); }
 void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
   const int c = plumb::coplanarity(array, posed);
   if (c + 1 != voting_size_ || !posed_.contains(posed) || universe_ != array.size()) clear();
+  resume(array, posed);
+}
+
+void Isolation::resume(const SensorArray& array, SensorSet posed) noexcept {
+  const int c = plumb::coplanarity(array, posed);
   posed_ = posed;
   universe_ = array.size();
   coplanarity_ = c;

@@ -11,7 +11,7 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a copy is an assignment");
 static_assert(noexcept(std::declval<HealthMonitor&>().step(std::declval<const Sample&>())));
 
 namespace {
@@ -91,6 +91,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
 
+  identity_ = identity(setup);
   power_on(setup);
   configured_ = true;
   publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
@@ -112,6 +113,9 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   drift_rad_ = 0.0;
   exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
   evidence_time_s_ = 0.0;
+  last_temperature_degc_ = 25.0;
+  least_prediction_.fill(0.0);
+  most_prediction_.fill(0.0);
   sequence_ = 0;
   clean_run_ = 0;
   probation_.clear();
@@ -119,6 +123,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   last_grade_ = Grade::none;
   sensor_cause_.fill(Cause::none);
   noisy_run_.fill(0);
+  stuck_since_.fill(0.0);
   noisy_ = stuck_ = full_scale_ = noise_confirmed_ = calm_ = stuck_watch_ = aside_ = SensorSet{};
   counters_ = MonitorCounters{};
   rotation_ = Rotation{};
@@ -285,13 +290,11 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
   }
   raised |= advance_recalibration(sample.time_s);
-  // What a block said is a level: a channel event that ranks before it must not make it unsaid.
-  constexpr EventMask kKept = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
   raised = allowed(raised | pending_);
   const HealthEvent taken = decide(raised, sample.time_s);
   if (verdict_.transition.sequence == 0) give_notice(sample.time_s);
   const bool channel = taken == HealthEvent::channel_lost || taken == HealthEvent::channel_back;
-  pending_ = channel || taken == HealthEvent::reset ? raised & kKept : 0;
+  pending_ = channel || taken == HealthEvent::reset ? raised & kKeptEvents : 0;
   publish(sample, ticked);
   return verdict_;
 }

@@ -10,7 +10,7 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-static_assert(std::is_trivially_copyable<PaperMonitor>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<PaperMonitor>::value, "a copy is an assignment");
 static_assert(noexcept(std::declval<PaperMonitor&>().step(std::declval<const Sample&>())));
 
 namespace {

@@ -30,7 +30,7 @@ void HealthMonitor::follow_station(const Sample& sample, const Vec3& direction) 
   }
   drift_rad_ = angle_between_rad(station_.last, direction);
   station_.last = direction;
-  ++station_.blocks;
+  if (station_.blocks < StationTrack::kMostBlocks) ++station_.blocks;
 }
 
 /// Where the tool points, by the sensors that the answer leaves.

@@ -67,6 +67,7 @@ const char* to_string(Cause cause) noexcept {
     case Cause::released: return "released";
     case Cause::common_scale: return "common_scale";
     case Cause::common_bias: return "common_bias";
+    case Cause::snapshot_refused: return "snapshot_refused";
   }
   return "?";
 }

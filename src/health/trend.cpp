@@ -7,6 +7,13 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
+namespace {
+
+/// Beyond it the numbers mean nothing, and a float would not hold them.
+constexpr double kMostRate = 1e30;
+
+}  // namespace
+
 void Trend::add(const SensorArray& array, const BlockEvidence& block, SensorSet used, const Vec3& x_mps2,
                 double time_s) noexcept {
   const double keep = 1.0 - 1.0 / kMemoryBlocks;
@@ -32,7 +39,8 @@ double Trend::rate_mps2_per_h(int i, double check) const noexcept {
   const double slope = product_[a] / time_square_;
   const double left = square_[a] - slope * product_[a];
   const double sigma = std::sqrt(std::fmax(0.0, left) / (weight_ * time_square_));
-  return std::fabs(slope) > kToldSigmas * sigma && sigma > 0.0 ? 3600.0 * slope / check : 0.0;
+  if (!(std::fabs(slope) > kToldSigmas * sigma && sigma > 0.0)) return 0.0;
+  return std::fmax(-kMostRate, std::fmin(kMostRate, 3600.0 * slope / check));
 }
 
 }  // namespace PLUMB_ABI

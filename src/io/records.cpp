@@ -336,6 +336,11 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   append_reference(object, v, frame);
   object.drifts("drift_mps2_per_h", v, array.size());
   append_vector(object, v, frame);
+  if (v.snapshot_refusal == Errc::ok) {
+    object.nothing("snapshot_refused");
+  } else {
+    object.word("snapshot_refused", describe(v.snapshot_refusal));
+  }
   object.close();
 }
 

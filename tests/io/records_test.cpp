@@ -108,6 +108,7 @@ TEST(Records, VerdictCarriesEverything) {
                           "latest_mps2",
                           "protection_available",
                           "alert",
+                          "snapshot_refused",
                           "inclination_sigma_deg",
                           "toolface_sigma_deg"}) {
     EXPECT_TRUE(object.contains(key)) << key;

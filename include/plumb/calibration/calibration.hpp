@@ -163,6 +163,9 @@ class Calibrator {
   void iterate(const Station* stations, int count) noexcept;
   bool done() const noexcept { return stop_ != StopReason::none; }
   int iterations() const noexcept { return iterations_; }
+  const GravityReference& gravity() const noexcept { return gravity_; }
+  /// After its state has been read back: goes on with the datasheet and the options that it was made with.
+  void resume(const Datasheet& datasheet, const FitOptions& options) noexcept;
   double cost() const noexcept { return cost_; }
   /// Where the fit stands: per sensor W and b [m/s^2], in the frame it has drifted to (`finish` turns it back).
   std::array<double, kFitParameters> parameters() const noexcept;
@@ -222,6 +225,22 @@ class Calibrator {
   Phase phase_ = Phase::start;
   FitStart started_ = FitStart::datasheet;
   StopReason stop_ = StopReason::none;
+
+  friend struct FieldsOf;
+  /// Between two iterations. What the fit is made from is given anew; the last step and the sums are made anew.
+  static constexpr int parameter_count(int sensors) noexcept { return 4 * sensors; }
+  static constexpr auto fields() noexcept {
+    using C = Calibrator;
+    return field_list(not_stored(&C::datasheet_), &C::gravity_, not_stored(&C::options_),
+                      leading(any(&C::theta_), &parameter_count), not_stored(&C::step_),
+                      leading(any(&C::best_), &parameter_count), leading(any(&C::screen_), &parameter_count),
+                      not_stored(&C::normal_), not_stored(&C::scratch_), any(&C::cost_), any(&C::damping_),
+                      any(&C::misfit_mps2_), any(&C::screen_misfit_mps2_), within(&C::misfit_rounds_, 0, 100),
+                      within(&C::robust_steps_, 0, 1000), within(&C::freedom_, -kFitParameters, 1000000), &C::looked_,
+                      within(&C::iterations_, 0, 100000), within(&C::rises_, 0, 1000),
+                      within(&C::bad_station_, -1, 1000000), &C::fresh_, up_to(&C::phase_, Phase::screened),
+                      up_to(&C::started_, FitStart::closed_form), up_to(&C::stop_, StopReason::not_finite));
+  }
 };
 
 /// Runs a Calibrator to its end.

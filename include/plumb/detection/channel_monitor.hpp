@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sample.hpp"
 
 namespace plumb {
@@ -52,6 +53,11 @@ class ChannelMonitor {
   struct Counters {
     std::uint32_t not_finite = 0, missing = 0, clipped = 0;                ///< samples
     std::uint32_t noisy_blocks = 0, stuck_blocks = 0, clipped_blocks = 0;  ///< blocks in which the fact stood
+    static constexpr auto fields() noexcept {
+      using C = Counters;
+      return field_list(&C::not_finite, &C::missing, &C::clipped, &C::noisy_blocks, &C::stuck_blocks,
+                        &C::clipped_blocks);
+    }
   };
   /// Counts one block for each fact.
   void count_facts(SensorSet noisy, SensorSet stuck, SensorSet clipped) noexcept;
@@ -64,10 +70,21 @@ class ChannelMonitor {
   std::array<double, kCapacity> last_raw_{};
   std::array<std::uint16_t, kCapacity> repeats_{}, clipped_in_block_{};
   SensorSet changed_;
-  int block_samples_ = 0;
+  int block_samples_ = 0;  ///< counted up to kMostBlockSamples
+  static constexpr int kMostBlockSamples = 1000000;
   SensorSet lost_, back_;
   int size_ = 0;
   int confirm_ = 3;
+
+  friend struct FieldsOf;
+  bool plausible() const noexcept { return lost_.contains(back_); }
+  static constexpr auto fields() noexcept {
+    using C = ChannelMonitor;
+    return field_list(not_stored(&C::full_scale_raw_), per_sensor(&C::counters_), per_sensor(&C::bad_run_),
+                      per_sensor(&C::good_run_), per_sensor(any(&C::last_raw_)), per_sensor(&C::repeats_),
+                      per_sensor(&C::clipped_in_block_), &C::changed_, within(&C::block_samples_, 0, kMostBlockSamples),
+                      &C::lost_, &C::back_, not_stored(&C::size_), not_stored(&C::confirm_));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -39,6 +39,12 @@ struct IsolationAnswer {
   bool contradiction = false;  ///< some sensor is redundant and no voting set is alive
   bool norm_void = false;      ///< a well-checked set passed parity and failed the norm: no norm evidence here
   bool full_alive = false;     ///< the empty fault set still explains everything
+
+  static constexpr auto fields() noexcept {
+    using A = IsolationAnswer;
+    return field_list(&A::strict, &A::parity, &A::asserted, within(&A::live, 0, kVotingCapacity),
+                      within(&A::voting, 0, kVotingCapacity), &A::contradiction, &A::norm_void, &A::full_alive);
+  }
 };
 
 /// Outcome of scanning the fault sets of at most kScanDepth members.
@@ -49,6 +55,13 @@ struct FaultSetScan {
   int least = 255;              ///< size of the smallest live fault set
   double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members
   bool protection_available = false;
+
+  bool plausible() const noexcept { return protection_rad >= 0.0; }
+  static constexpr auto fields() noexcept {
+    using S = FaultSetScan;
+    return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255), &S::protection_rad,
+                      &S::protection_available);
+  }
 };
 
 /// What the protection level covers beside the separation of the live explanations.
@@ -63,6 +76,8 @@ class Isolation {
   /// Poses the problem on the sensors `posed` (those not latched out). Dead sets stay dead as long as
   /// the voting size is unchanged and they consist of posed sensors (projection); otherwise all live.
   void pose(const SensorArray& array, SensorSet posed) noexcept;
+  /// After the dead sets have been read back: poses the problem to which they belong.
+  void resume(const SensorArray& array, SensorSet posed) noexcept;
   /// Forgets all evidence: a new episode.
   void clear() noexcept;
 
@@ -108,6 +123,14 @@ class Isolation {
   int coplanarity_ = 2;
   int strict_ = 0;
   int parity_ = 0;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using I = Isolation;
+    return field_list(&I::dead_, not_stored(&I::posed_), not_stored(&I::universe_), not_stored(&I::voting_size_),
+                      not_stored(&I::voting_), not_stored(&I::coplanarity_), not_stored(&I::strict_),
+                      not_stored(&I::parity_));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -18,6 +18,12 @@ struct BlockEvidence {
   SensorSet usable;             ///< channels that delivered in at least half of the samples
   double samples = 0.0;         ///< N behind the mean
   double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
+
+  bool plausible() const noexcept { return samples >= 0.0 && spread_mps2_sq >= 0.0; }
+  static constexpr auto fields() noexcept {
+    using E = BlockEvidence;
+    return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq);
+  }
 };
 
 /// Quantiles in standard deviations, precomputed from the rates of the configuration.

@@ -36,6 +36,16 @@ class BlockAccumulator {
   SensorSet usable_;                      ///< seen at all
   double inverse_count_ = 0.0;            ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples
   int size_ = 0;
+
+  friend struct FieldsOf;
+  static constexpr int pairs(int sensors) noexcept { return sensors * (sensors + 1) / 2; }
+  bool plausible() const noexcept;
+  static constexpr auto fields() noexcept {
+    using B = BlockAccumulator;
+    return field_list(per_sensor(&B::origin_), per_sensor(&B::sum_), leading(&B::product_, &pairs),
+                      per_sensor(within(&B::present_, 0, kWindowCapacity)), &B::usable_, &B::inverse_count_,
+                      within(&B::size_, 0, kWindowCapacity));
+  }
 };
 
 /// How a block looked.
@@ -58,6 +68,13 @@ struct ScatterRecord {
   void clear() noexcept { *this = ScatterRecord{}; }
   void forget(int i, double keep) noexcept;
   void add(int i, double ratio, double degrees, double own, double left) noexcept;
+
+  bool plausible() const noexcept;
+  static constexpr auto fields() noexcept {
+    using S = ScatterRecord;
+    return field_list(per_sensor(any(&S::residual)), per_sensor(&S::freedom), per_sensor(any(&S::own_excess)),
+                      per_sensor(any(&S::residual_excess)));
+  }
 };
 
 /// Scatter limit of a channel over its own variance: shared by n channels, the chance that any healthy

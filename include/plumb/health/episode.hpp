@@ -5,8 +5,10 @@
 #include <array>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/health/monitor_config.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -29,8 +31,14 @@ class DirectionRecord {
   }
 
  private:
-  std::array<Vec3, kMax> direction_{};
   int size_ = 0;
+  std::array<Vec3, kMax> direction_{};
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    return field_list(within(&DirectionRecord::size_, 0, kMax),
+                      counted(&DirectionRecord::direction_, &DirectionRecord::size));
+  }
 };
 
 struct Episode {
@@ -49,6 +57,11 @@ struct Episode {
     agreeing.clear();
     clean.clear();
   }
+  static constexpr auto fields() noexcept {
+    using E = Episode;
+    return field_list(&E::open, &E::stations, within(&E::doubtful_blocks, 0, kMostPatienceBlocks), &E::candidate,
+                      &E::agreeing, &E::clean);
+  }
 };
 
 /// The attitude at which blocks are being taken. Blocks of one station are not pooled: between them the tool may have
@@ -58,9 +71,14 @@ struct StationTrack {
   std::uint32_t tag = 0;
   Vec3 direction{};  ///< of its first block
   Vec3 last{};       ///< of its last block
-  int blocks = 0;
+  int blocks = 0;    ///< counted up to kMostBlocks
 
+  static constexpr int kMostBlocks = 1000;
   void clear() noexcept { *this = StationTrack{}; }
+  static constexpr auto fields() noexcept {
+    using S = StationTrack;
+    return field_list(&S::open, &S::tag, &S::direction, &S::last, within(&S::blocks, 0, kMostBlocks));
+  }
 };
 
 }  // namespace PLUMB_ABI

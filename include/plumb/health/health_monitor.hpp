@@ -1,9 +1,11 @@
 /// `HealthMonitor`: one `step(sample)` at a time it says which sensors may be believed, which way is
 /// down and within what bound. No heap, no exceptions, no clock, no global state; bounded work in every
-/// step; plain copyable state, so a snapshot is an assignment and a replay is a loop.
+/// step; plain copyable state, so a copy is an assignment and a replay is a loop. What outlives a power cycle is
+/// written by `snapshot` and taken up by `restore` (health/snapshot.hpp).
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "plumb/calibration/calibration.hpp"
@@ -17,6 +19,7 @@
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
+#include "plumb/health/snapshot.hpp"
 #include "plumb/health/transition_table.hpp"
 #include "plumb/health/trend.hpp"
 #include "plumb/health/verdict.hpp"
@@ -44,6 +47,12 @@ struct MonitorCounters {
   std::uint32_t temperature_out = 0;  ///< outside the calibrated span and its margin, or not finite
   std::uint32_t moving_blocks = 0;
   std::uint32_t rotating_blocks = 0;
+
+  static constexpr auto fields() noexcept {
+    using C = MonitorCounters;
+    return field_list(&C::samples, &C::time_refused, &C::gaps, &C::temperature_out, &C::moving_blocks,
+                      &C::rotating_blocks);
+  }
 };
 
 /// A length of gravity in feet, in g0 or from elsewhere would make every healthy sensor look off. Error:
@@ -64,6 +73,20 @@ class HealthMonitor {
   /// range_too_small (index = sensor) where a full scale does not reach gravity plus
   /// kFullScaleMargin beside the bias (value = reach, limit = needed [m/s^2]).
   Expected<void> configure(const MonitorSetup& setup) noexcept;
+
+  /// `configure`, then takes up what `snapshot` wrote under an equal setup, but for gravity: that in force is the
+  /// snapshot's until `set_gravity`. The next step answers as the monitor that wrote it would have, bit for bit. Bytes
+  /// behind the snapshot are not read. Errors: those of `configure`, with the monitor left unconfigured; snapshot_...,
+  /// with the monitor as after `configure`, unproven, and the cause in its verdict (`snapshot_refusal`).
+  Expected<void> restore(const MonitorSetup& setup, const std::uint8_t* bytes, std::size_t size) noexcept;
+
+  /// Writes all that the monitor remembers; returns the bytes written. Not during a step. Errors: not_calibrated (not
+  /// configured: there is nothing to write); buffer_too_small.
+  Expected<std::size_t> snapshot(std::uint8_t* to, std::size_t room) const noexcept;
+  /// Bytes that `snapshot` would write now. It varies with what there is to remember.
+  std::size_t snapshot_size() const noexcept;
+  /// Never more than so many bytes.
+  static constexpr std::size_t snapshot_size_max() noexcept;
 
   /// One sample in, one verdict out. Accepts any bit pattern. The reference stays valid until the next call.
   const Verdict& step(const Sample& sample) noexcept;
@@ -101,6 +124,9 @@ class HealthMonitor {
 
  private:
   struct BlockView;  // what one quiet block said
+  /// What a block said is a level: a channel event that ranks before it must not make it unsaid.
+  static constexpr EventMask kKeptEvents =
+      bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
 
   // health_monitor.cpp: the flow of one step
   void power_on(const MonitorSetup& setup) noexcept;
@@ -171,6 +197,14 @@ class HealthMonitor {
   void sets_changed() noexcept;
   SizeClass classify() const noexcept;
 
+  // snapshot.cpp: what outlives a power cycle
+  std::uint64_t identity(const MonitorSetup& setup) const noexcept;
+  Expected<void> take_up(const MonitorSetup& setup, const std::uint8_t* bytes, std::size_t size) noexcept;
+  bool resume(const MonitorSetup& setup) noexcept;
+  bool sets_are_plausible() const noexcept;
+  bool mode_is_plausible() const noexcept;
+  bool verdict_is_plausible() const noexcept;
+
   // What was configured.
   MonitorConfig config_;
   SensorModel model_;
@@ -184,6 +218,7 @@ class HealthMonitor {
   int protection_faults_ = 1;
   int asserted_left_ = -1;
   bool configured_ = false;
+  std::uint64_t identity_ = 0;  ///< of the setup, gravity left out
 
   // What is remembered.
   Mode mode_ = Mode::suspect;
@@ -250,7 +285,42 @@ class HealthMonitor {
   SensorSet clipped_, not_finite_;
   Recalibration recalibration_;
   Verdict verdict_;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using M = HealthMonitor;
+    return field_list(
+        // configured
+        not_stored(&M::config_), &M::model_, &M::array_, &M::gravity_, not_stored(&M::frame_), not_stored(&M::limits_),
+        not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
+        not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::configured_),
+        not_stored(&M::identity_),
+        // remembered
+        up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
+        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::banned_, &M::unproven_,
+        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::evidence_time_s_,
+        &M::last_temperature_degc_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_,
+        within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks),
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_,
+        &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
+        up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
+        &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_,
+        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::noise_confirmed_, &M::calm_,
+        &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        up_to(&M::told_reference_, ReferenceKind::common_bias),
+        up_to(&M::reference_notice_, ReferenceKind::common_bias),
+        // evidence
+        &M::scatter_, &M::reference_study_, &M::trend_, &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_,
+        &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_, &M::scan_, &M::clipped_,
+        &M::not_finite_, &M::recalibration_, &M::verdict_);
+  }
 };
+
+constexpr std::size_t HealthMonitor::snapshot_size_max() noexcept {
+  return kSnapshotFrameSize + stored_size_max<HealthMonitor>();
+}
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -5,6 +5,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/error.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
@@ -12,6 +13,11 @@ inline namespace PLUMB_ABI {
 
 /// Whose decisions: `HealthMonitor` takes plumb, `PaperMonitor` takes paper.
 enum class MonitorMode : std::uint8_t { plumb, paper };
+
+/// Largest values of settings that bound a counter.
+inline constexpr int kMostConfirm = 60000;
+inline constexpr int kMostCleanBlocks = 1000;
+inline constexpr int kMostPatienceBlocks = 1000000;
 
 struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
@@ -47,6 +53,20 @@ struct MonitorConfig {
   /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
   /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
   double common_drift_mps2 = 1e-4 * kG0_mps2;
+
+  /// What a snapshot is bound to: all of it, but never stored.
+  static constexpr auto fields() noexcept {
+    using C = MonitorConfig;
+    return field_list(up_to(&C::mode, MonitorMode::paper), within(&C::window, 1, kWindowCapacity), &C::delta_f_mps2,
+                      &C::false_alarm_rate, &C::rejection_rate, within(&C::asserted_faults, -1, 3),
+                      within(&C::isolation_stations, 1, 20), within(&C::patience, 1, 24),
+                      within(&C::clean_blocks, 1, kMostCleanBlocks), within(&C::forget_blocks, 1, 24),
+                      within(&C::probation_stations, 1, 24), within(&C::missing_confirm, 1, kMostConfirm),
+                      &C::max_gap_s, &C::max_age_s, &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction,
+                      &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
+                      &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
+                      within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2);
+  }
 };
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/vec3.hpp"
 
 namespace plumb {
@@ -26,13 +27,20 @@ struct ReferenceFinding {
   double length_mps2 = 0.0;  ///< kappa G: what is off alike at every attitude
   Vec3 bias_mps2{};          ///< a: what is off along a direction, tool frame
   double turn_rad = 0.0;     ///< most that `a` within its bounds can turn the direction; 0 = no bound yet
+
+  static constexpr int kMostAttitudes = 12;
+  static constexpr auto fields() noexcept {
+    using F = ReferenceFinding;
+    return field_list(up_to(&F::kind, ReferenceKind::common_bias), within(&F::attitudes, 0, kMostAttitudes),
+                      any(&F::length_mps2), any(&F::bias_mps2), any(&F::turn_rad));
+  }
 };
 
 /// |x| - G at up to kMax attitudes against kappa G + a.u. Errors are taken as bounded, not as random: what calibration
 /// leaves is the same at every block, and averages away over none.
 class ReferenceStudy {
  public:
-  static constexpr int kMax = 12;
+  static constexpr int kMax = ReferenceFinding::kMostAttitudes;
   /// Four parameters and two attitudes that can contradict them.
   static constexpr int kLeast = 6;
 
@@ -48,9 +56,18 @@ class ReferenceStudy {
   struct Entry {
     Vec3 u{};
     double off_mps2 = 0.0, bound_mps2 = 0.0;
+
+    bool plausible() const noexcept { return bound_mps2 > 0.0; }
+    static constexpr auto fields() noexcept { return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2); }
   };
-  std::array<Entry, kMax> entry_{};
   int size_ = 0;
+  std::array<Entry, kMax> entry_{};
+
+  friend struct FieldsOf;
+  int size() const noexcept { return size_; }
+  static constexpr auto fields() noexcept {
+    return field_list(within(&ReferenceStudy::size_, 0, kMax), counted(&ReferenceStudy::entry_, &ReferenceStudy::size));
+  }
 };
 
 }  // namespace PLUMB_ABI

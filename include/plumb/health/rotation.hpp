@@ -1,6 +1,7 @@
 /// How the tool turns, as far as the host knows, and how it should be turned.
 #pragma once
 
+#include "plumb/core/fields.hpp"
 #include "plumb/core/vec3.hpp"
 
 namespace plumb {
@@ -12,6 +13,10 @@ struct Rotation {
   bool turning = false;
   bool rate_known = false;
   Vec3 rate_radps{};  ///< tool frame
+
+  static constexpr auto fields() noexcept {
+    return field_list(&Rotation::turning, &Rotation::rate_known, &Rotation::rate_radps);
+  }
 };
 
 /// "Rotate the tool", for a machine: gravity has to change by `change_mps2` along `along` before the explanations that
@@ -22,6 +27,11 @@ struct RotationRequest {
   Vec3 along{};              ///< unit vector, output frame; zero: any turn does
   double change_mps2 = 0.0;  ///< of gravity along it; beyond 2 G no turn is enough
   double angle_rad = 0.0;    ///< least turn that counts as another attitude
+
+  static constexpr auto fields() noexcept {
+    using R = RotationRequest;
+    return field_list(&R::wanted, any(&R::along), any(&R::change_mps2), any(&R::angle_rad));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -30,6 +30,14 @@ class Trend {
  private:
   double weight_ = 0.0, time_s_ = 0.0, time_square_ = 0.0;
   std::array<double, kCapacity> mean_{}, product_{}, square_{};
+
+  friend struct FieldsOf;
+  bool plausible() const noexcept { return weight_ >= 0.0 && weight_ <= kMemoryBlocks + 1.0; }
+  static constexpr auto fields() noexcept {
+    using T = Trend;
+    return field_list(&T::weight_, any(&T::time_s_), any(&T::time_square_), per_sensor(any(&T::mean_)),
+                      per_sensor(any(&T::product_)), per_sensor(any(&T::square_)));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -6,6 +6,8 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/detection/isolation.hpp"
+#include "plumb/health/episode.hpp"
 #include "plumb/health/recalibration_progress.hpp"
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
@@ -27,6 +29,14 @@ struct TransitionRecord {
   SensorSet sensors;  ///< sensors that the event names (excluded, lost, back)
   double statistic = 0.0;
   double limit = 0.0;
+
+  static constexpr auto fields() noexcept {
+    using R = TransitionRecord;
+    return field_list(&R::sequence, &R::time_s, up_to(&R::from, HealthState::failed),
+                      up_to(&R::to, HealthState::failed), up_to(&R::event, HealthEvent::none),
+                      up_to(&R::cause, kLastCause), up_to(&R::grade, Grade::asserted), &R::sensors, any(&R::statistic),
+                      any(&R::limit));
+  }
 };
 
 /// s_i value that stands for "no live hypothesis keeps sensor i healthy".
@@ -105,6 +115,26 @@ struct Verdict {
   std::uint16_t usable = 0;              ///< bits of Usable
   bool protection_available = false;     ///< never with three sensors or none to spare: nothing checks direction then
   bool alert = true;                     ///< protection level beyond the alert limit, or none available where valid
+
+  Errc snapshot_refusal = Errc::ok;  ///< why the monitor runs without the history that was offered to it
+
+  static constexpr auto fields() noexcept {
+    using V = Verdict;
+    return field_list(
+        any(&V::time_s), &V::sample, up_to(&V::state, HealthState::failed), &V::qualifiers,
+        up_to(&V::validity, Validity::invalid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted, &V::transition,
+        up_to(&V::decided_by, kLastCause), &V::statistic, &V::limit, &V::margin, &V::configured, &V::in_service,
+        &V::set_aside, &V::excluded, &V::absent, &V::suspects, &V::clipped, &V::restless, &V::not_finite, &V::noisy,
+        &V::stuck, &V::contradicted_clip, within(&V::sensor_cause, 0, static_cast<int>(kLastCause)), &V::fewest_faults,
+        up_to(&V::grade, Grade::asserted), within(&V::strict_grade, 0, kCapacity),
+        within(&V::parity_grade, 0, kCapacity), within(&V::live_hypotheses, 0, kVotingCapacity),
+        within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
+        &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::parity, &V::parity_limit,
+        &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference, any(&V::drift_mps2_per_h),
+        &V::temperature_degc, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance, &V::age_s,
+        &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable, &V::protection_available,
+        &V::alert, up_to(&V::snapshot_refusal, kLastErrc));
+  }
 };
 
 }  // namespace PLUMB_ABI
