@@ -42,6 +42,8 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {0, 0, 0},  // recalibrate_after_exclusion: either
       {c.drift_bias_mps2, 1e-6, 10},
       {c.drift_scale, 1e-7, 0.1},
+      {static_cast<double>(c.alarm_form), 0, 1},
+      {c.triple_false_alarm_rate, 0, 1e-2},
   };
   int index = 0;
   for (const Range& f : fields) {

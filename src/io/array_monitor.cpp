@@ -37,7 +37,9 @@ const std::vector<std::string>& known_keys() {
                                                  "temperature_max",
                                                  "recalibrate",
                                                  "drift_bias",
-                                                 "drift_scale"};
+                                                 "drift_scale",
+                                                 "alarm_form",
+                                                 "triple_false_alarm_rate"};
   return names;
 }
 
@@ -83,6 +85,10 @@ MonitorConfig filled(const TomlTable& table) {
   config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
   config.drift_bias_mps2 = table.quantity(Quantity::acceleration, "drift_bias", config.drift_bias_mps2);
   config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
+  const bool average = table.choice("alarm_form", {"every-tool", "average-tool"}, 0) == 1;
+  config.alarm_form = average ? AlarmForm::average_tool : AlarmForm::every_tool;
+  config.triple_false_alarm_rate =
+      table.quantity(Quantity::ratio, "triple_false_alarm_rate", config.triple_false_alarm_rate);
   return config;
 }
 

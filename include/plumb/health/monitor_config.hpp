@@ -6,6 +6,7 @@
 #include "plumb/core/config.hpp"
 #include "plumb/core/error.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/detection/alarm_form.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -17,7 +18,7 @@ struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
   int window = 32;                 ///< samples per block and length of the sliding MAE window, 1 .. kWindowCapacity
   double delta_f_mps2 = 0.0;       ///< given MAE limit (the paper's); 0 = computed from noise and geometry
-  double false_alarm_rate = 1e-5;  ///< per block, each test, 1e-9 .. 1e-2
+  double false_alarm_rate = 1e-5;  ///< per block: of parity, of the norm, of all triples' MAE together; 1e-9 .. 1e-2
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
   int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
@@ -43,6 +44,8 @@ struct MonitorConfig {
   /// with margin. MEMS need more.
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
+  AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
+  double triple_false_alarm_rate = 0.0;          ///< per block, of each triple's MAE alone; 0 = its share of the above
 };
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.
