@@ -10,6 +10,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
+#include "plumb/report/monitor_limits.hpp"
 #include "plumb/report/timeline.hpp"
 #include "plumb/report/words.hpp"
 #include "tool.hpp"
@@ -27,6 +28,7 @@ struct Options {
   std::string verdicts;
   std::vector<std::string> host;
   bool every_sample = false;
+  bool limits = false;
   bool json = false;
 };
 
@@ -52,6 +54,8 @@ constexpr const char* kNotes =
     "returns a2 and a4 to service, with the reset_key of the array file; \"36s recalibrate\" for new biases and\n"
     "scales. A time before the first row, a negative one too, counts as asked for before that row.\n"
     "What the monitor refuses is said on standard error.\n"
+    "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
+    "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 
@@ -218,6 +222,23 @@ io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& 
   return done->last.state == HealthState::failed ? io::ExitCode::monitor_failed : io::ExitCode::done;
 }
 
+/// In paper mode delta_f decides alone, by coefficients of its own for each triple.
+io::FileError limits_of_paper(const io::ArrayFile& array) {
+  return io::FileError{array.path,
+                       0,
+                       "monitor.mode",
+                       "is \"paper\": delta_f is its one limit, and --limits is about plumb's own tests",
+                       "leave out --limits, or set mode = \"plumb\" with the same delta_f to see what that hides",
+                       io::ExitCode::usage};
+}
+
+/// --limits: what the monitor would decide by.
+io::ExitCode tell_limits(const Options& options, const io::ArrayFile& array, const SensorArray& calibrated) {
+  const report::MonitorLimits limits = report::monitor_limits(calibrated, array.gravity, array.monitor);
+  print_now(options.json ? report::limits_json(limits) : report::limits_text(limits));
+  return io::ExitCode::done;
+}
+
 io::ExitCode run(const Options& options) {
   const std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
   const std::vector<NamedFile> to_read = {
@@ -235,9 +256,12 @@ io::ExitCode run(const Options& options) {
   }
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
-    return monitor ? watch(options, *array, **monitor) : report(monitor.error());
+    if (!monitor) return report(monitor.error());
+    if (options.limits) return report(limits_of_paper(*array));
+    return watch(options, *array, **monitor);
   }
   const auto monitor = make_monitor(*array, calibration->calibration);
+  if (monitor && options.limits) return tell_limits(options, *array, (*monitor)->array());
   return monitor ? watch(options, *array, **monitor) : report(monitor.error());
 }
 
@@ -266,6 +290,7 @@ Command add_monitor(CLI::App& tool) {
       ->expected(1)
       ->take_all();
   add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
   app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
   app->footer(kNotes + exit_codes_help());
   return {app, kAbout, [options] { return run(*options); }};

@@ -11,8 +11,6 @@ using std::size_t;
 
 namespace {
 
-/// Gravity may be doubted only by a set in which every member is checked by the others at least so well.
-constexpr double kMinLeverage = 0.05;
 /// Unproven ends only when every sensor's prediction has moved by this part of gravity ...
 constexpr double kProvingShare = 0.02;
 /// ... and by this many standard deviations of its block mean.
@@ -81,7 +79,8 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
   if (view.parity_ratio > 1.0) {
     decided(Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
   } else if (view.norm_ratio > 1.0) {
-    const bool vouched = has_parity && t.least_leverage >= kMinLeverage;
+    const SensorSet used = in_service_ & evidence.usable;
+    const bool vouched = vouches_for_norm(array_, gravity_, limits_, evidence, used, t);
     decided(vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, Cause::norm,
             std::fabs(t.norm), t.norm_alarm_limit(limits_));
   } else if (view.mae_ratio > 1.0) {
