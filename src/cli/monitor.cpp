@@ -10,6 +10,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
+#include "plumb/report/monitor_limits.hpp"
 #include "plumb/report/timeline.hpp"
 #include "plumb/report/words.hpp"
 #include "tool.hpp"
@@ -29,6 +30,7 @@ struct Options {
   std::string snapshot_out;
   std::vector<std::string> host;
   bool every_sample = false;
+  bool limits = false;
   bool json = false;
 };
 
@@ -58,6 +60,8 @@ constexpr const char* kNotes =
     "and\n"
     "`failed` outlive the end of a log as they outlive a power cycle. The snapshot must be of the same array file and\n"
     "calibration; both options may name one file.\n"
+    "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
+    "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 
@@ -262,6 +266,23 @@ io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& 
   return done->last.state == HealthState::failed ? io::ExitCode::monitor_failed : io::ExitCode::done;
 }
 
+/// In paper mode delta_f decides alone, by coefficients of its own for each triple.
+io::FileError limits_of_paper(const io::ArrayFile& array) {
+  return io::FileError{array.path,
+                       0,
+                       "monitor.mode",
+                       "is \"paper\": delta_f is its one limit, and --limits is about plumb's own tests",
+                       "leave out --limits, or set mode = \"plumb\" with the same delta_f to see what that hides",
+                       io::ExitCode::usage};
+}
+
+/// --limits: what the monitor would decide by.
+io::ExitCode tell_limits(const Options& options, const io::ArrayFile& array, const SensorArray& calibrated) {
+  const report::MonitorLimits limits = report::monitor_limits(calibrated, array.gravity, array.monitor);
+  print_now(options.json ? report::limits_json(limits) : report::limits_text(limits));
+  return io::ExitCode::done;
+}
+
 io::ExitCode run(const Options& options) {
   std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
@@ -283,11 +304,14 @@ io::ExitCode run(const Options& options) {
   }
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
-    return monitor ? watch(options, *array, **monitor) : report(monitor.error());
+    if (!monitor) return report(monitor.error());
+    if (options.limits) return report(limits_of_paper(*array));
+    return watch(options, *array, **monitor);
   }
   const auto monitor = options.snapshot_in.empty()
                            ? make_monitor(*array, calibration->calibration)
                            : restore_monitor(*array, calibration->calibration, options.snapshot_in);
+  if (monitor && options.limits) return tell_limits(options, *array, (*monitor)->array());
   return monitor ? watch(options, *array, **monitor) : report(monitor.error());
 }
 
@@ -320,6 +344,7 @@ Command add_monitor(CLI::App& tool) {
       ->expected(1)
       ->take_all();
   add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
   app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
   app->footer(kNotes + exit_codes_help());
   return {app, kAbout, [options] { return run(*options); }};

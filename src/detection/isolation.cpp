@@ -9,11 +9,6 @@ namespace {
 
 using std::size_t;
 
-/// A set whose every member is checked by the parity of the others at least this well may speak about
-/// gravity; with a member that nobody checks, norm off and parity good is that member's fault as well
-/// (mikoff5's z axes: four of them with three coplanar pass parity whatever the fourth reads).
-constexpr double kMinLeverage = 0.05;
-
 /// Calls f(set, index) for all subsets of {0..universe-1} of the given size, in a fixed order.
 template <class F>
 void for_each_subset(int universe, int size, F&& f) noexcept {
@@ -116,9 +111,9 @@ bool Isolation::norm_is_void(const SensorArray& array, const GravityReference& g
   const auto consider = [&](SensorSet set) {
     if (found || set.size() < 4) return;
     const SetTest t = test_set(array, gravity, limits, block, set);
-    if (!t.tested || t.parity_rows < 1 || t.least_leverage < kMinLeverage) return;
+    if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
-    if (t.parity_alive(limits) && off > t.norm_reject_limit(limits)) found = true;
+    if (off > t.norm_reject_limit(limits)) found = vouches_for_norm(array, gravity, limits, block, set, t);
   };
   const SensorSet posed = posed_ & block.usable;
   const SetTest full = test_set(array, gravity, limits, block, posed);

@@ -2,23 +2,14 @@
 #include <cmath>
 
 #include "block_view.hpp"
+#include "plumb/detection/mae_test.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-namespace {
-
-/// Mean of a half-normal variable, in sigmas: what a healthy MAE is expected to show.
-constexpr double kHalfNormalMean = 0.79788456080286535588;
-/// Gravity may be doubted only by a set in which every member is checked by the others at least so well.
-constexpr double kMinLeverage = 0.05;
-
-}  // namespace
-
 void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept {
-  const double per_sample = std::sqrt(evidence.samples / config_.window);  // a sample may be a mean itself
   for (int k = 0; k < array_.triple_count(); ++k) {
     const Triple& triple = array_.triple(k);
     if (!triple.votes || !(in_service_ & evidence.usable).contains(triple.set()) ||
@@ -26,21 +17,15 @@ void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) co
       continue;
     const SetTest t = test_set(array_, gravity_, limits_, evidence, triple.set());
     if (!t.tested) continue;
-    const double sigma = t.norm_sigma_mps2 / per_sample;
-    const double computed = sigma * mae_quantile_ + t.norm_systematic / std::sqrt(evidence.samples) * t.norm_sigma_mps2;
-    const bool given = config_.delta_f_mps2 > 0.0;
-    const double limit = given ? config_.delta_f_mps2 : computed;
+    const MaeLimit limit = config_.delta_f_mps2 > 0.0 ? given_mae_limit(config_.delta_f_mps2)
+                                                      : computed_mae_limit(t, evidence, config_.window, mae_quantile_);
     const double mae = mae_.triple_mps2(k);
-    // Against a computed limit the healthy mean is taken off, else "0.7 of the limit" would be noise itself.
-    const double floor = given ? 0.0 : kHalfNormalMean * sigma;
-    const double ratio = (mae - floor) / (limit - floor);
-    const double noise_limit = given ? limit : sigma * mae_quantile_;
-    const double clear = floor + clear_fraction() * (noise_limit - floor) + (limit - noise_limit);
-    if (mae > clear) view.mae_clean = false;
+    if (mae > limit.clear_mps2(clear_fraction())) view.mae_clean = false;
+    const double ratio = limit.ratio(mae);
     if (ratio > view.mae_ratio || view.mae_limit_mps2 == 0.0) {
       view.mae_ratio = ratio;
       view.mae_worst_mps2 = mae;
-      view.mae_limit_mps2 = limit;
+      view.mae_limit_mps2 = limit.limit_mps2();
     }
   }
 }
@@ -52,6 +37,8 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
   BlockView view;
   view.used = test_set(array_, gravity_, limits_, evidence, in_service_ & evidence.usable);
   if (!view.used.tested) return view;
+  if (config_.alarm_form == AlarmForm::average_tool)
+    view.used = in_quadrature(array_, gravity_, evidence, in_service_ & evidence.usable, view.used);
   const SetTest& t = view.used;
   const bool has_parity = t.parity_rows > 0;
   if (has_parity) view.parity_ratio = t.parity / t.parity_alarm_limit(limits_);
@@ -68,7 +55,8 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
   if (view.parity_ratio > 1.0) {
     decided(Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
   } else if (view.norm_ratio > 1.0) {
-    const bool vouched = has_parity && t.least_leverage >= kMinLeverage;
+    const SensorSet used = in_service_ & evidence.usable;
+    const bool vouched = vouches_for_norm(array_, gravity_, limits_, evidence, used, t);
     decided(vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, Cause::norm,
             std::fabs(t.norm), t.norm_alarm_limit(limits_));
   } else if (view.mae_ratio > 1.0) {

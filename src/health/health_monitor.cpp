@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "plumb/detection/mae_test.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -86,7 +87,9 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   const int n = array_.size();
   limits_ = TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate);
   restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
-  mae_quantile_ = half_normal_mean_quantile(config_.window, config_.false_alarm_rate / triple_count_of(n));
+  const double triple_rate = config_.triple_false_alarm_rate > 0.0 ? config_.triple_false_alarm_rate
+                                                                   : triple_share(array_, config_.false_alarm_rate);
+  mae_quantile_ = half_normal_mean_quantile(config_.window, triple_rate);
   k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;

@@ -39,7 +39,9 @@ const std::vector<std::string>& known_keys() {
                                                  "drift_bias",
                                                  "drift_scale",
                                                  "patience_blocks",
-                                                 "common_drift"};
+                                                 "common_drift",
+                                                 "alarm_form",
+                                                 "triple_false_alarm_rate"};
   return names;
 }
 
@@ -87,6 +89,10 @@ MonitorConfig filled(const TomlTable& table) {
   config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
   config.patience_blocks = whole(table, "patience_blocks", config.patience_blocks);
   config.common_drift_mps2 = table.quantity(Quantity::acceleration, "common_drift", config.common_drift_mps2);
+  const bool average = table.choice("alarm_form", {"every-tool", "average-tool"}, 0) == 1;
+  config.alarm_form = average ? AlarmForm::average_tool : AlarmForm::every_tool;
+  config.triple_false_alarm_rate =
+      table.quantity(Quantity::ratio, "triple_false_alarm_rate", config.triple_false_alarm_rate);
   return config;
 }
 

@@ -270,6 +270,19 @@ TEST(ArrayFile, RecalibrationIsAskedForInTheMonitorTable) {
   expect_refused(changed("window = 16", "drift_scale = \"20 %\""), 7, "monitor.drift_scale", {"at most 0.1"});
 }
 
+TEST(ArrayFile, TheMeaningOfTheRateIsChosenInTheMonitorTable) {
+  EXPECT_EQ(array_of().monitor.alarm_form, AlarmForm::every_tool);
+  EXPECT_EQ(array_of().monitor.triple_false_alarm_rate, 0.0);
+  const MonitorConfig given =
+      array_of(changed("window = 16", "alarm_form = \"average-tool\"\ntriple_false_alarm_rate = 1e-4")).monitor;
+  EXPECT_EQ(given.alarm_form, AlarmForm::average_tool);
+  EXPECT_EQ(given.triple_false_alarm_rate, 1e-4);
+  EXPECT_EQ(array_of(changed("window = 16", "alarm_form = \"every-tool\"")).monitor.alarm_form, AlarmForm::every_tool);
+  expect_refused(changed("window = 16", "alarm_form = \"some\""), 7, "monitor.alarm_form", {"some", "average-tool"});
+  expect_refused(changed("window = 16", "triple_false_alarm_rate = 0.5"), 7, "monitor.triple_false_alarm_rate",
+                 {"at most 0.01"});
+}
+
 // Negative: REQ-170
 TEST(ArrayFileRefuses, WhatTheMonitorRefuses) {
   expect_refused(changed("window = 16", "mode = \"papr\""), 7, "monitor.mode", {"papr", "paper"});

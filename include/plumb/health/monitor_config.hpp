@@ -7,6 +7,7 @@
 #include "plumb/core/error.hpp"
 #include "plumb/core/fields.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/detection/alarm_form.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -23,7 +24,7 @@ struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
   int window = 32;                 ///< samples per block and length of the sliding MAE window, 1 .. kWindowCapacity
   double delta_f_mps2 = 0.0;       ///< given MAE limit (the paper's); 0 = computed from noise and geometry
-  double false_alarm_rate = 1e-5;  ///< per block, each test, 1e-9 .. 1e-2
+  double false_alarm_rate = 1e-5;  ///< per block: of parity, of the norm, of all triples' MAE together; 1e-9 .. 1e-2
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
   int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
@@ -53,6 +54,8 @@ struct MonitorConfig {
   /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
   /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
   double common_drift_mps2 = 1e-4 * kG0_mps2;
+  AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
+  double triple_false_alarm_rate = 0.0;          ///< per block, of each triple's MAE alone; 0 = its share of the above
 
   /// What a snapshot is bound to: all of it, but never stored.
   static constexpr auto fields() noexcept {
@@ -65,7 +68,8 @@ struct MonitorConfig {
                       &C::max_gap_s, &C::max_age_s, &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction,
                       &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
                       &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
-                      within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2);
+                      within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2,
+                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate);
   }
 };
 
