@@ -151,7 +151,10 @@ void look_for_hidden(const SensorArray& array, const GravityReference& gravity, 
   out.blind_worst_mps2 = *std::max_element(hidden.begin(), hidden.end());
 }
 
-std::string mg(double mps2) { return fmt::format("{:.3g} mg", 1e3 * g0_from_mps2(mps2)); }
+std::string mg(double mps2) {
+  const double g0 = g0_from_mps2(mps2);
+  return g0 < 1.0 ? fmt::format("{:.3g} mg", 1e3 * g0) : fmt::format("{:.2f} g0", g0);
+}
 
 std::string row(const char* name, const TestLimit& t, bool with_bias) {
   return fmt::format("{:<28}{:>12}{:>12}{:>12}{:>14}\n", name, mg(t.noise_mps2), mg(t.systematic_mps2),
@@ -209,7 +212,7 @@ std::string limits_text(const MonitorLimits& l) {
   out += row(l.delta_f_mps2 > 0.0 ? "triples (given delta_f)" : "triple, the widest", l.triple, false);
   out += fmt::format("\nnoise of a sample {}, left by calibration {}\n", mg(l.noise_mps2), mg(l.left_mps2));
   if (l.useful_samples > 0.0) {
-    const auto enough = static_cast<long>(std::ceil(l.useful_samples));
+    const auto enough = static_cast<long>(std::ceil(l.useful_samples * (1.0 - 1e-9)));
     out += fmt::format(
         "What calibration leaves does not average out: blocks beyond {} samples buy nothing at one attitude{}.\n",
         enough, l.window > enough ? fmt::format(", and these have {}", l.window) : std::string());

@@ -13,8 +13,8 @@ inline namespace PLUMB_ABI {
 int voting_triples(const SensorArray& array) noexcept;
 
 /// What is asked of each voting triple so that all of them together alarm at most at `false_alarm_rate` per block. The
-/// triples of n sensors share n readings, so together they stay below it: at 74 to 91 % of it for the paper's four
-/// sensors, 44 to 67 % for eight (1 to 32 samples, rate 1e-3).
+/// triples of n sensors share n readings, so together they stay below it: at 70 to 84 % of it for the paper's four
+/// sensors, 52 to 63 % for eight (1 to 32 samples, rates 1e-3 and 1e-4).
 double triple_share(const SensorArray& array, double false_alarm_rate) noexcept;
 
 /// Limit of the MAE of one triple at one block [m/s^2].
