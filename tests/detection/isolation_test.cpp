@@ -91,7 +91,7 @@ TEST(Isolation, MoreStationsAtOneAttitudeDoNotResolveAnotherAttitudeDoes) {
   EXPECT_EQ(answer.strict, SensorSet::of(0));
 }
 
-// Verifies: REQ-061
+// Verifies: REQ-065
 TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
   for (int n = 5; n <= kCapacity; ++n) {
     Case c(plumb_test::cone_array(n, kSigma), 17);
@@ -111,7 +111,7 @@ TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
 /// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
 /// Counter-example: four of mikoff5's z axes with three coplanar pass parity whatever the fourth reads;
 /// taken literally, its fault would void the norm for ever. Only sets whose members are all checked may.
-// Negative: REQ-061
+// Negative: REQ-065
 TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
   AxisList axes{};
   const Vec3 raw[5] = {
