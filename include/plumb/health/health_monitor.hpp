@@ -11,11 +11,11 @@
 #include "plumb/detection/combination_mae.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/detection/stationarity.hpp"
+#include "plumb/health/decision.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/recalibration.hpp"
-#include "plumb/health/transition_table.hpp"
 #include "plumb/health/verdict.hpp"
 
 namespace plumb {
@@ -104,14 +104,11 @@ class HealthMonitor {
   Mode published_mode() const noexcept { return mode_ == Mode::recalibrating ? base_ : mode_; }
 
   // decision.cpp: one event
-  HealthEvent decide(EventMask raised, double time_s) noexcept;  // the event that was taken
-  SensorSet act(Action::Bits actions) noexcept;                  // each returns the sensors that it names
-  SensorSet move_channels(Action::Bits actions) noexcept;
-  SensorSet return_to_service(Action::Bits actions) noexcept;
-  void retire(SensorSet culprits) noexcept;
+  HealthEvent decide(EventMask raised, double time_s) noexcept;                        // the event that was taken
+  SensorSet carry_out(const Decision& decision, const DecisionState& after) noexcept;  // the sensors that it names
   void forget_episode() noexcept;
   void sets_changed() noexcept;
-  SizeClass classify() const noexcept;
+  SizeClass classify(SensorSet set) const noexcept;
 
   // What was configured.
   MonitorConfig config_;
