@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "growth.hpp"
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/io/array_file.hpp"
@@ -56,15 +57,17 @@ void BM_XsensReadCsv(benchmark::State& state) {
 }
 BENCHMARK(BM_XsensReadCsv)->Unit(benchmark::kMillisecond);
 
-/// The first part of the recording, in percent: time has to grow with the length.
+/// The first part of the recording, in percent: time has to grow with the length, that is with an exponent of 1.
 void BM_XsensDetectAndFit(benchmark::State& state) {
   if (absent(state)) return;
+  static plumb_bench::Growth growth;
   const Loaded& data = loaded();
   StationFinder::Settings settings;
   settings.block = data.file.monitor.window;
   const SensorModel model = data.file.datasheet.model();
   const std::size_t length = data.samples.size() * static_cast<std::size_t>(state.range(0)) / 100;
   int stations_found = 0;
+  const plumb_bench::Stopwatch watch;
   for (auto _ : state) {
     const auto finder = std::make_unique<StationFinder>(data.file.array, data.file.gravity.g_mps2, settings);
     std::vector<Station> stations;
@@ -80,9 +83,10 @@ void BM_XsensDetectAndFit(benchmark::State& state) {
         calibrate(data.file.datasheet, data.file.gravity, stations.data(), static_cast<int>(stations.size())));
     stations_found = static_cast<int>(stations.size());
   }
+  growth.set(static_cast<double>(length), watch.seconds_each(state));
   state.counters["stations"] = stations_found;
-  state.SetComplexityN(static_cast<benchmark::IterationCount>(length));
+  state.counters["exponent"] = growth.exponent();
 }
-BENCHMARK(BM_XsensDetectAndFit)->Unit(benchmark::kMillisecond)->Arg(25)->Arg(50)->Arg(75)->Arg(100)->Complexity();
+BENCHMARK(BM_XsensDetectAndFit)->Unit(benchmark::kMillisecond)->Arg(25)->Arg(50)->Arg(75)->Arg(100);
 
 }  // namespace

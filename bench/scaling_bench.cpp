@@ -1,31 +1,35 @@
-// How the fit grows with the number of sensors n and of attitudes N; Google Benchmark prints the fitted exponents
-// ("BigO"). Built for 16 sensors.
-#include "calibration_bench.hpp"
-
+// How the fit grows with the number of sensors n and of attitudes N, as a table of n by N. Built for 16 sensors. Each
+// line has the exponents over the lines so far: of N at its n, of n at its N. The last N of an n and the last n of an N
+// have them whole.
 #include <benchmark/benchmark.h>
+
+#include <map>
+
+#include "calibration_bench.hpp"
+#include "growth.hpp"
 
 namespace {
 
 using namespace plumb;
 
-void BM_FitByAttitudes(benchmark::State& state) {
-  const int count = static_cast<int>(state.range(0));
-  const plumb_bench::Problem p = plumb_bench::problem_of(4, count, 7);
+void BM_Fit(benchmark::State& state) {
+  static std::map<int, plumb_bench::Growth> by_attitudes, by_sensors;
+  const int n = static_cast<int>(state.range(0)), count = static_cast<int>(state.range(1));
+  const plumb_bench::Problem p = plumb_bench::problem_of(n, count, 7);
+  const plumb_bench::Stopwatch watch;
   for (auto _ : state) {
     benchmark::DoNotOptimize(calibrate(p.sheet, plumb_bench::gravity(), p.stations.data(), count));
   }
-  state.SetComplexityN(count);
+  const double seconds = watch.seconds_each(state);
+  by_attitudes[n].set(count, seconds);
+  by_sensors[count].set(n, seconds);
+  state.counters["exponent_of_N"] = by_attitudes[n].exponent();
+  state.counters["exponent_of_n"] = by_sensors[count].exponent();
 }
-BENCHMARK(BM_FitByAttitudes)->Arg(12)->Arg(24)->Arg(48)->Arg(100)->Arg(250)->Arg(500)->Arg(1000)->Complexity();
-
-void BM_FitBySensors(benchmark::State& state) {
-  const int n = static_cast<int>(state.range(0));
-  const plumb_bench::Problem p = plumb_bench::problem_of(n, 100, 8);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(calibrate(p.sheet, plumb_bench::gravity(), p.stations.data(), 100));
-  }
-  state.SetComplexityN(n);
-}
-BENCHMARK(BM_FitBySensors)->DenseRange(3, 16)->Complexity();
+BENCHMARK(BM_Fit)
+    ->ArgNames({"n", "N"})
+    ->ArgsProduct({benchmark::CreateDenseRange(3, 16, 1), {12, 24, 48, 100, 250, 500, 1000}})
+    ->Unit(benchmark::kMicrosecond)
+    ->MinTime(0.1);
 
 }  // namespace

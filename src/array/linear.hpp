@@ -70,6 +70,32 @@ inline Vec3 singular_values(Rows m) noexcept {
   return s;
 }
 
+/// Inverse of H'H by its adjugate, all zero where it has none. Good to the square of the condition: for figures of
+/// merit, not for estimates.
+inline Mat3 inverse_normal(const Rows& m) noexcept {
+  const double xx = column_dot(m, 0, 0);
+  const double xy = column_dot(m, 0, 1);
+  const double xz = column_dot(m, 0, 2);
+  const double yy = column_dot(m, 1, 1);
+  const double yz = column_dot(m, 1, 2);
+  const double zz = column_dot(m, 2, 2);
+  const double cxx = yy * zz - yz * yz;
+  const double cxy = xz * yz - xy * zz;
+  const double cxz = xy * yz - xz * yy;
+  const double det = xx * cxx + xy * cxy + xz * cxz;
+  if (!(det > 0.0)) return Mat3{};
+  const double cyz = xy * xz - xx * yz;
+  return {cxx / det,
+          cxy / det,
+          cxz / det,
+          cxy / det,
+          (xx * zz - xz * xz) / det,
+          cyz / det,
+          cxz / det,
+          cyz / det,
+          (xx * yy - xy * xy) / det};
+}
+
 /// Columns of the inverse of the matrix with rows a, b, c: x = column[0] ya + column[1] yb + column[2] yc.
 inline std::array<Vec3, 3> inverse_columns(const Vec3& a, const Vec3& b, const Vec3& c, double det) noexcept {
   std::array<Vec3, 3> column = {cross(b, c), cross(c, a), cross(a, b)};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "paper_step.hpp"
+#include "paper_three.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -43,8 +44,7 @@ Error check_options(const PaperOptions& o) noexcept {
   return Error{};
 }
 
-Error check_stations(const Problem& problem) noexcept {
-  const bool sound = std::isfinite(problem.error.cost(problem.error.start(), problem.stations, problem.count));
+Error check_stations(const Problem& problem, bool sound) noexcept {
   int usable = 0;
   for (int s = 0; s < problem.count; ++s) {
     if (!problem.error.usable(problem.stations[s])) continue;
@@ -58,37 +58,68 @@ Error check_stations(const Problem& problem) noexcept {
 
 /// Standard deviation of a station mean relative to gravity, all sensors and stations together.
 double relative_noise(const Datasheet& datasheet, const Problem& problem, double g_mps2) noexcept {
-  double sum = 0.0;
-  int terms = 0;
+  double variance = 0.0, shares = 0.0;
+  for (int i = 0; i < datasheet.size; ++i) {
+    const double sigma = datasheet.sensor[at(i)].row.sigma_mps2;
+    if (problem.error.used().has(i)) variance += sigma * sigma / problem.error.sensors();
+  }
+  int used = 0;
   for (int s = 0; s < problem.count; ++s) {
     if (!problem.error.usable(problem.stations[s])) continue;
-    for (int i = 0; i < datasheet.size; ++i) {
-      if (!problem.error.used().has(i)) continue;
-      const double sigma = datasheet.sensor[at(i)].row.sigma_mps2;
-      sum += sigma * sigma / problem.stations[s].count;
-      ++terms;
-    }
+    shares += 1.0 / problem.stations[s].count;
+    ++used;
   }
-  return terms > 0 ? std::sqrt(sum / terms) / g_mps2 : 0.0;
+  return used > 0 ? std::sqrt(variance * shares / used) / g_mps2 : 0.0;
 }
 
-/// From the start to the stop; fills what `out` says of the way and leaves `theta` at the end, with the matrix and
-/// gradient of `assemble` there.
-void iterate(const Problem& problem, const PaperOptions& options, Workspace& work, PaperParameters& theta,
-             PaperFit& out, PaperTrace* trace) noexcept {
+/// The storage of a fit, and the form that its steps take: that of three sensors where it holds, else the general one.
+struct Way {
+  Workspace general;
+  ThreeSensorStep three;
+  bool of_three = false;
+};
+
+/// The cost at theta, and what a step or the rank needs there.
+double look(const Problem& problem, const PaperParameters& theta, Way& way) noexcept {
+  return way.of_three ? way.three.look(problem, theta) : assemble(problem, theta, way.general);
+}
+
+/// From where `look` was last, theta.
+bool step_from(const Problem& problem, const PaperParameters& theta, PaperStep step, Way& way) noexcept {
+  if (step == PaperStep::plain_inverse) return plain_inverse_step(problem, theta, way.general);
+  if (way.of_three) {
+    if (way.three.step(problem, way.general.step)) return true;
+    way.of_three = false;
+    look(problem, theta, way);
+  }
+  return minimum_norm_step(problem, way.general);
+}
+
+/// Where `look` was last, theta.
+int rank_at(const Problem& problem, const PaperParameters& theta, double noise, Way& way) noexcept {
+  if (way.of_three) {
+    if (way.three.shows_all(problem, rank_floor(noise))) return kPaperRank;
+    way.of_three = false;
+    look(problem, theta, way);
+  }
+  return rank_of(noise, way.general);
+}
+
+/// From the start, where `look` was and found `out.cost`, to the stop; fills what `out` says of the way and leaves
+/// `theta` at the end, where `look` was last.
+void iterate(const Problem& problem, const PaperOptions& options, Way& way, PaperParameters& theta, PaperFit& out,
+             PaperTrace* trace) noexcept {
   const int size = problem.error.parameters();
-  out.start_cost = out.cost = assemble(problem, theta, work);
   note(theta, out.cost, 0.0, trace);
   while (out.stop == StopReason::none) {
-    const bool solved = options.step == PaperStep::minimum_norm ? minimum_norm_step(problem, work)
-                                                                : plain_inverse_step(problem, theta, work);
+    const bool solved = step_from(problem, theta, options.step, way);
     PaperParameters next = theta;
-    for (int k = 0; k < size; ++k) next[at(k)] += options.damping * work.step[at(k)];
-    const double cost = solved ? assemble(problem, next, work) : 0.0;
+    for (int k = 0; k < size; ++k) next[at(k)] += options.damping * way.general.step[at(k)];
+    const double cost = solved ? look(problem, next, way) : 0.0;
     const double change = change_between(next, theta, problem.error.prior(), size);
     if (!solved || !std::isfinite(cost) || !std::isfinite(change)) {
       out.stop = StopReason::not_finite;
-      assemble(problem, theta, work);
+      look(problem, theta, way);
       break;
     }
     theta = next;
@@ -114,16 +145,19 @@ Expected<void> paper_calibrate(const Datasheet& datasheet, const GravityReferenc
   const Expected<PaperError> error = PaperError::make(datasheet, gravity, used);
   if (!error) return tl::unexpected<Error>(error.error());
   const Problem problem = {*error, stations, stations == nullptr ? 0 : count};
-  const Error bad_station = check_stations(problem);
+  Way way;
+  way.of_three = options.step == PaperStep::minimum_norm && way.three.begin(problem);
+  PaperParameters theta = error->start();
+  const double start_cost = look(problem, theta, way);
+  const Error bad_station = check_stations(problem, std::isfinite(start_cost));
   if (bad_station.code != Errc::ok) return tl::unexpected<Error>(bad_station);
   out = PaperFit{};
   out.used = used;
   out.model = datasheet.model();
+  out.start_cost = out.cost = start_cost;
   if (trace != nullptr) trace->size = 0;
-  Workspace work;
-  PaperParameters theta = error->start();
-  iterate(problem, options, work, theta, out, trace);
-  out.rank = rank_of(relative_noise(datasheet, problem, gravity.g_mps2), work);
+  iterate(problem, options, way, theta, out, trace);
+  out.rank = rank_at(problem, theta, relative_noise(datasheet, problem, gravity.g_mps2), way);
   error->store(theta, out.model);
   return {};
 }

@@ -1,10 +1,8 @@
 /// The paper's error of one station and its derivatives.
-#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
-#include "fit_internal.hpp"
-#include "plumb/calibration/paper_calibration.hpp"
+#include "paper_points.hpp"
 #include "plumb/numeric/symmetric_eigen.hpp"
 
 namespace plumb {
@@ -39,19 +37,6 @@ Error check_sensor(const DatasheetSensor& s, int i) noexcept {
 }
 
 }  // namespace
-
-/// What all stations have in common.
-struct PaperError::Prepared {
-  std::array<Vec3, kPaperCapacity> column{};     ///< of map (I - m)
-  std::array<double, kPaperCapacity> ratio{};    ///< SF over the nominal one
-  std::array<double, kPaperCapacity> inverse{};  ///< 1 / SF
-  std::array<double, kPaperCapacity> bias{};
-  bool finite = true;
-  double temperature_degc = 0.0;
-  bool tempered = false;
-  std::array<double, kPaperCapacity> gain{};   ///< 1 / SF* at that temperature; NaN where SF* is 0
-  std::array<double, kPaperCapacity> drift{};  ///< B*
-};
 
 /// What the error and its derivatives have in common at one station.
 struct PaperError::Point {
@@ -192,12 +177,7 @@ double PaperError::gauss_newton(const PaperParameters& at, const Station* statio
     const double e = dot(p.x, p.x) - g_squared_;
     derivatives(p, prepared, slope);
     for (int a = 0; a < size; a += 4) Four::Map(gradient.data() + a) += e * Four::Map(slope.data() + a);
-    // Four columns at a time, over the diagonal to the end of the four.
-    for (int a = 0; a < size; ++a) {
-      const double own = slope[fit::at(a)];
-      double* row = matrix + fit::at(a * stride);
-      for (int b = 0; b <= a; b += 4) Four::Map(row + b) += own * Four::Map(slope.data() + b);
-    }
+    paper::add_square(slope.data(), size, matrix, stride);
     sum += e * e;
     ++used;
   }

@@ -258,6 +258,8 @@ bool plain_inverse_step(const Problem& problem, const PaperParameters& theta, Wo
   return true;
 }
 
+double rank_floor(double noise) noexcept { return std::fmax(kRounding, kFeigned * noise); }
+
 /// From the matrix of `assemble`.
 int rank_of(double noise, Workspace& work) noexcept {
   factorise(work);
@@ -265,7 +267,7 @@ int rank_of(double noise, Workspace& work) noexcept {
   if (r == 0) return 0;
   set_gram(work);
   if (!symmetric_eigenvalues(work.gram.data(), r, r, work.values.data())) return 0;
-  const double floor = std::fmax(kRounding, kFeigned * noise);
+  const double floor = rank_floor(noise);
   int rank = 0;
   for (int v = 0; v < r; ++v) {
     if (work.values[at(v)] > floor * floor * work.values[at(r - 1)]) ++rank;

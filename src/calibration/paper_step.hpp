@@ -49,7 +49,11 @@ bool minimum_norm_step(const Problem& problem, Workspace& work) noexcept;
 /// With the full Hessian, eliminated with row pivots; no other safeguard.
 bool plain_inverse_step(const Problem& problem, const PaperParameters& theta, Workspace& work) noexcept;
 
-/// From the matrix of `assemble`. `noise` is that of a station mean relative to gravity.
+/// What rounding and noise feign of a singular value, relative to the largest. `noise` is that of a station mean
+/// relative to gravity.
+double rank_floor(double noise) noexcept;
+
+/// From the matrix of `assemble`; `noise` as above.
 int rank_of(double noise, Workspace& work) noexcept;
 
 }  // namespace paper

@@ -1,12 +1,11 @@
 #include "fit_pictures.hpp"
 
 #include <cmath>
-#include <filesystem>
 
 #include "fit_summary.hpp"
+#include "plot_files.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/fit_plot.hpp"
-#include "plumb/report/plot.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -49,27 +48,9 @@ report::FitPictures pictures_of(const CalibrationRun& run, const io::ArrayFile& 
 
 io::FileExpected<std::vector<std::string>> draw_fit(const std::string& directory, const CalibrationRun& run,
                                                     const io::ArrayFile& array, std::string& missing) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) {
-    return tl::unexpected<io::FileError>(io::FileError{directory, 0, "--plots",
-                                                       "cannot create the directory: " + error.message(),
-                                                       "choose another directory", io::ExitCode::other});
-  }
   const report::FitPictures pictures = pictures_of(run, array);
-  std::vector<std::string> written;
-  for (const report::PlotFile& file : report::fit_plot_files(pictures)) {
-    const io::FileExpected<void> done =
-        io::write_file((std::filesystem::path(directory) / file.name).string(), file.text);
-    if (!done) return tl::unexpected<io::FileError>(done.error());
-    written.push_back(file.name);
-  }
-  const io::FileExpected<void> drawn = report::run_gnuplot(directory, report::kFitScript);
-  if (!drawn) {
-    missing = drawn.error().text();
-    return written;
-  }
-  return report::fit_picture_names(pictures);
+  return draw_files(directory, report::fit_plot_files(pictures), report::kFitScript,
+                    report::fit_picture_names(pictures), missing);
 }
 
 }  // namespace cli

@@ -4,114 +4,25 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <memory>
-#include <string>
 #include <type_traits>
 
-#include "calibration_support.hpp"
+#include "paper_support.hpp"
 
 namespace {
 
 using namespace calibration_test;
-using plumb::PaperFit;
-using plumb::PaperOptions;
 using plumb::PaperStep;
-using plumb::PaperTrace;
-using plumb::SensorSet;
 
 static_assert(std::is_trivially_copyable_v<PaperFit>);
 static_assert(std::is_trivially_copyable_v<PaperTrace>);
 static_assert(std::is_trivially_copyable_v<plumb::PaperError>);
 
-constexpr double kSigma = 2e-4 * plumb::kG0_mps2;
-const SensorSet kAll = SensorSet::first(4);
-
-void tell(const std::string& name, double value) {
-  testing::Test::RecordProperty(name, std::to_string(value));
-  std::cout << "[ measured ] " << name << " = " << value << '\n';
-}
-
-struct Scene {
-  plumb::Datasheet sheet;
-  Truth truth;
-  std::vector<plumb::Station> stations;
-};
-
-Scene scene_of(std::uint64_t seed, double sigma_mps2 = kSigma) {
-  Noise noise(seed);
-  Scene s;
-  s.sheet = paper_tool(kSigma);
-  s.truth = draw_truth(s.sheet, noise);
-  s.stations = random_stations(s.sheet, s.truth, 48, noise, sigma_mps2);
-  return s;
-}
-
-PaperFit fitted_by_paper(const Scene& s, SensorSet used, const PaperOptions& options = {},
-                         PaperTrace* trace = nullptr) {
-  PaperFit fit;
-  const auto done = plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(),
-                                           static_cast<int>(s.stations.size()), used, options, fit, trace);
-  EXPECT_TRUE(done.has_value());
-  return fit;
-}
-
-/// J'J in prior units, by the gradient alone.
-std::vector<double> information(const plumb::PaperError& error, const plumb::PaperParameters& at_parameters,
-                                const Scene& s, std::vector<double>& slope) {
-  const int n = error.parameters();
-  std::vector<double> out(at(n * n));
-  slope.assign(at(n), 0.0);
-  plumb::PaperParameters gradient;
-  for (const plumb::Station& station : s.stations) {
-    const double e = error(at_parameters, station, &gradient);
-    for (int a = 0; a < n; ++a) {
-      gradient[at(a)] *= error.prior()[at(a)];
-      slope[at(a)] += e * gradient[at(a)];
-    }
-    for (int a = 0; a < n; ++a) {
-      for (int b = 0; b < n; ++b) out[at(a * n + b)] += gradient[at(a)] * gradient[at(b)];
-    }
-  }
-  return out;
-}
-
-/// The eigenvalues of the whole matrix, and the step of rank nine that they give [prior units].
-std::vector<double> reference_step(const plumb::PaperError& error, const plumb::PaperParameters& from, const Scene& s,
-                                   std::vector<double>& values) {
-  const int n = error.parameters();
-  std::vector<double> slope, vectors(at(n * n)), step(at(n));
-  std::vector<double> matrix = information(error, from, s, slope);
-  values.assign(at(n), 0.0);
-  EXPECT_TRUE(plumb::symmetric_eigen(matrix.data(), n, n, values.data(), vectors.data()));
-  for (int v = n - plumb::kPaperRank; v < n; ++v) {
-    double share = 0.0;
-    for (int k = 0; k < n; ++k) share += vectors[at(k * n + v)] * slope[at(k)];
-    for (int k = 0; k < n; ++k) step[at(k)] -= vectors[at(k * n + v)] * share / values[at(v)];
-  }
-  return step;
-}
-
-/// n sensors of a cone and its axis, at four temperatures.
-Scene scene_of_many(int n, std::uint64_t seed, double sigma_mps2) {
-  Noise noise(seed);
-  Scene s;
-  plumb::AxisList axes{};
-  EXPECT_EQ(plumb::cone_with_axis(axes, n), n);
-  s.sheet = datasheet_of(axes, n, kSigma);
-  s.truth = draw_truth(s.sheet, noise);
-  for (int k = 0; k < 60; ++k) {
-    const Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
-    s.stations.push_back(station_at(s.sheet, s.truth, g, noise, sigma_mps2, 25.0 + 10.0 * (k % 4)));
-  }
-  return s;
-}
-
 TEST(PaperCalibration, StepIsThePseudoInverseOfRankNine) {
   const auto trace = std::make_unique<PaperTrace>();
-  for (const int n : {4, 5}) {
-    const Scene s = n == 4 ? scene_of(4711) : scene_of_many(5, 4712, kSigma);
+  for (const int n : {3, 4, 5}) {
+    const Scene s = n < 5 ? scene_of(4711) : scene_of_many(5, 4712, kSigma);
     const SensorSet used = SensorSet::first(n);
     const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), used);
     ASSERT_TRUE(error.has_value());
@@ -129,8 +40,8 @@ TEST(PaperCalibration, StepIsThePseudoInverseOfRankNine) {
     const std::string name = "n" + std::to_string(n) + ".singular_value_";
     const std::size_t count = values.size();
     tell(name + "9_to_1", std::sqrt(values[count - 9] / values[count - 1]));
-    tell(name + "10_to_9", std::sqrt(values[count - 10] / values[count - 9]));
-    EXPECT_LT(std::sqrt(values[count - 10] / values[count - 9]), n == 4 ? 1e-2 : 2e-2);
+    tell(name + "10_to_9", std::sqrt(std::fabs(values[count - 10] / values[count - 9])));
+    EXPECT_LT(std::sqrt(std::fabs(values[count - 10] / values[count - 9])), n == 5 ? 2e-2 : 1e-2);
     EXPECT_EQ(fit.rank, plumb::kPaperRank);
   }
 }
@@ -182,32 +93,6 @@ TEST(PaperCalibration, WithoutNoiseTheVectorHasTheLengthOfGravity) {
   }
 }
 
-/// Stations from 20 to 150 degC of a tool that the paper's parameters describe exactly.
-Scene scene_over_temperature(bool bias_drifts) {
-  Scene s = scene_of(7);
-  for (int i = 0; i < 4 && !bias_drifts; ++i) s.sheet.sensor[at(i)].coefficients.bias = {0.02, 0.0, 0.0, 0.0};
-  const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), kAll);
-  EXPECT_TRUE(error.has_value());
-  if (!error) return s;
-  Noise noise(8);
-  plumb::PaperParameters truth = error->start();
-  for (int k = 0; k < error->parameters(); ++k) truth[at(k)] += 0.5 * error->prior()[at(k)] * noise.normal();
-  plumb::SensorModel model = s.sheet.model();
-  error->store(truth, model);
-  EXPECT_NEAR(model.sensor[0].scale[1] / model.sensor[0].scale[0], 1e-5 / (3.0 / plumb::kG0_mps2), 1e-18);
-  EXPECT_EQ(model.sensor[0].bias[1], bias_drifts ? 1e-3 : 0.0);
-  for (plumb::Station& station : s.stations) {
-    const Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
-    plumb::Readings y{};
-    for (int i = 0; i < 4; ++i) y[at(i)] = plumb::dot(s.sheet.sensor[at(i)].row.axis, g);
-    station.temperature_degc = 85.0 + noise.within(65.0);
-    const auto raw = model.raw_from(y, station.temperature_degc);
-    EXPECT_TRUE(raw.has_value());
-    if (raw) station.mean = *raw;
-  }
-  return s;
-}
-
 TEST(PaperCalibration, TemperatureTermsGoAlong) {
   const PaperFit still = fitted_by_paper(scene_over_temperature(false), kAll);
   EXPECT_TRUE(still.converged);
@@ -228,6 +113,7 @@ TEST(PaperCalibration, OneCircleOfRollsShowsFiveDirections) {
     s.stations.push_back(station_at(s.sheet, s.truth, rolled(30.0, 15.0 * k), noise, kSigma));
   }
   EXPECT_EQ(fitted_by_paper(s, kAll).rank, 5);
+  EXPECT_FALSE(fitted_by_paper(s, SensorSet::first(3)).sound());
 }
 
 TEST(PaperCalibration, DampingSlowsAndFrozenParametersStay) {
@@ -242,6 +128,9 @@ TEST(PaperCalibration, DampingSlowsAndFrozenParametersStay) {
   s.sheet.sensor[2].prior = {0.0, 0.0, 0.0};
   const PaperFit frozen = fitted_by_paper(s, kAll);
   EXPECT_TRUE(frozen.converged);
+  const PaperFit frozen_triple = fitted_by_paper(s, SensorSet::first(3));
+  EXPECT_TRUE(frozen_triple.converged);
+  EXPECT_EQ(frozen_triple.model.sensor[2].bias, s.sheet.sensor[2].coefficients.bias);
   EXPECT_EQ(frozen.model.sensor[2].scale, s.sheet.sensor[2].coefficients.scale);
   EXPECT_EQ(frozen.model.sensor[2].bias, s.sheet.sensor[2].coefficients.bias);
   for (int k = 0; k < 4; ++k) EXPECT_EQ(frozen.model.misalignment[at(2 * plumb::kCapacity + k)], 0.0);

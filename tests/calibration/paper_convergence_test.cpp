@@ -3,53 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <string>
 
-#include "calibration_support.hpp"
-#include "plumb/calibration/paper_calibration.hpp"
+#include "paper_support.hpp"
 
 namespace {
 
 using namespace calibration_test;
-using plumb::PaperFit;
-using plumb::PaperOptions;
 using plumb::PaperStep;
-using plumb::SensorSet;
 
-constexpr double kSigma = 2e-4 * plumb::kG0_mps2;
 /// Norm error over the sphere below which a run has found the right answer; a good one has 1e-4, a wrong one percents.
 constexpr double kRight_g0 = 5e-4;
-const SensorSet kAll = SensorSet::first(4);
-
-void tell(const std::string& name, double value) {
-  testing::Test::RecordProperty(name, std::to_string(value));
-  std::cout << "[ measured ] " << name << " = " << value << '\n';
-}
-
-struct Scene {
-  plumb::Datasheet sheet;
-  Truth truth;
-  std::vector<plumb::Station> stations;
-};
-
-Scene scene_of(std::uint64_t seed, double sigma_mps2 = kSigma) {
-  Noise noise(seed);
-  Scene s;
-  s.sheet = paper_tool(kSigma);
-  s.truth = draw_truth(s.sheet, noise);
-  s.stations = random_stations(s.sheet, s.truth, 48, noise, sigma_mps2);
-  return s;
-}
-
-PaperFit fitted_by_paper(const Scene& s, SensorSet used, const PaperOptions& options = {}) {
-  PaperFit fit;
-  const auto done = plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(),
-                                           static_cast<int>(s.stations.size()), used, options, fit);
-  EXPECT_TRUE(done.has_value());
-  return fit;
-}
-
 /// What the fitted tool says over the sphere in the absence of noise, rms in g0.
 struct Over {
   double norm = 0.0;
@@ -163,21 +127,6 @@ TEST(PaperConvergence, PlainInverseMostlyEndsOnThreeByLuckOfRounding) {
   tell_all("n3.plain_inverse", t, kRuns);
   EXPECT_GT(t.stopped, kRuns * 8 / 10);
   EXPECT_GT(t.right, kRuns * 8 / 10);
-}
-
-/// n sensors of a cone and its axis, at four temperatures.
-Scene scene_of_many(int n, std::uint64_t seed, double sigma_mps2) {
-  Noise noise(seed);
-  Scene s;
-  plumb::AxisList axes{};
-  EXPECT_EQ(plumb::cone_with_axis(axes, n), n);
-  s.sheet = datasheet_of(axes, n, kSigma);
-  s.truth = draw_truth(s.sheet, noise);
-  for (int k = 0; k < 60; ++k) {
-    const Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
-    s.stations.push_back(station_at(s.sheet, s.truth, g, noise, sigma_mps2, 25.0 + 10.0 * (k % 4)));
-  }
-  return s;
 }
 
 TEST(PaperConvergence, LargerArraysHaveTheSameNineDirections) {

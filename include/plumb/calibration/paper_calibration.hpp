@@ -29,6 +29,10 @@ inline constexpr double kPaperMinSingular = 1e-3;
 /// row by row without the diagonal. The first n(n+1) entries count, the rest are 0.
 using PaperParameters = std::array<double, kPaperParameters>;
 
+namespace paper {
+class ThreeSensorStep;
+}
+
 /// The error of one station as a function of the parameters, for the sensors `used` of one datasheet.
 class PaperError {
  public:
@@ -72,6 +76,7 @@ class PaperError {
   void store(const PaperParameters& at, SensorModel& model) const noexcept;
 
  private:
+  friend class paper::ThreeSensorStep;
   struct Point;
   struct Prepared;
   Prepared prepare(const PaperParameters& at) const noexcept;
@@ -144,8 +149,8 @@ struct PaperFit {
   bool sound() const noexcept { return converged && rank == kPaperRank; }
 };
 
-/// Fits the sensors in `used` to the stations that have them all, starting from the datasheet. Needs 90 KB of stack at
-/// capacity 8 and above (16 KB at capacity 4): a matrix of 72 x 72 and its factor of 72 x 32.
+/// Fits the sensors in `used` to the stations that have them all, starting from the datasheet. Needs 100 KB of stack at
+/// capacity 8 and above (24 KB at capacity 4): a matrix of 72 x 72 and its factor of 72 x 32.
 /// Errors: out_of_range (index 0 damping, 1 stop, 2 max_iterations); those of `PaperError::make`; too_few_stations
 /// (fewer than kPaperRank usable); not_finite (index = station: temperature, raw value, or SF* = 0 at the start).
 /// A fit that did not converge is returned with `converged` false, at its last finite parameters: showing that is what

@@ -5,7 +5,7 @@
 /// A class of its own, because its calibration (a fit of all sensors and one per triple, 65 kB at capacity 8) must not
 /// burden `HealthMonitor`. It is meant for comparison on a host and not for bare metal: everything in `step` is bounded
 /// and free of heap, but a step that ends a recalibration runs one whole fit (at most kMaxPaperIterations iterations,
-/// 90 kB of stack), and every quiet block after an alarm reads every triple by its own coefficients.
+/// 100 kB of stack), and every quiet block after an alarm reads every triple by its own coefficients.
 #pragma once
 
 #include <array>

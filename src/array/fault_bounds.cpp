@@ -1,0 +1,90 @@
+#include "plumb/array/fault_bounds.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A reading this much beyond its slack, relative, still touches it: corners where more than three sensors meet.
+constexpr double kTouches = 1e-9;
+
+void raise(double& entry, double to) noexcept {
+  if (to > entry) entry = to;
+}
+
+/// One vertex: what it does to the vector, and to every sensor that is not to be trusted.
+void count_vertex(const SensorArray& array, const Readings& slack, SensorSet corner, const Vec3& d,
+                  FaultBounds& out) noexcept {
+  Readings off{};
+  SensorSet objects;
+  for (int i = 0; i < array.size(); ++i) {
+    off[index(i)] = std::fabs(dot(array.axis(i), d));
+    if (!corner.has(i) && off[index(i)] > slack[index(i)] * (1.0 + kTouches)) objects = objects.with(i);
+  }
+  const int against = objects.size();
+  raise(out.vector_error[index(against)], norm(d));
+  for (int i = 0; i < array.size(); ++i) {
+    if (corner.has(i)) continue;
+    const int k = objects.with(i).size();
+    raise(out.fault[index(k)][index(i)], slack[index(i)] + off[index(i)]);
+  }
+}
+
+/// All eight sign patterns of a triple, less those that only turn d round.
+void count_triple(const SensorArray& array, const Readings& slack, int triple, FaultBounds& out) noexcept {
+  const Triple& t = array.triple(triple);
+  if (std::isinf(t.condition)) return;
+  const Mat3 map = triple_map(array, triple);
+  const double a = slack[t.sensors[0]];
+  const double b = slack[t.sensors[1]];
+  const double c = slack[t.sensors[2]];
+  for (const double sb : {1.0, -1.0}) {
+    for (const double sc : {1.0, -1.0}) count_vertex(array, slack, t.set(), times(map, {a, sb * b, sc * c}), out);
+  }
+}
+
+}  // namespace
+
+double FaultBounds::worst_fault(int k) const noexcept {
+  if (k < 1 || k > sensors) return kInfinity;
+  double worst = 0.0;
+  for (int i = 0; i < sensors; ++i) raise(worst, fault[index(k)][index(i)]);
+  return worst;
+}
+
+FaultBounds fault_bounds(const SensorArray& array, const Readings& slack) noexcept {
+  FaultBounds out;
+  const int n = array.size();
+  out.sensors = n;
+  for (int t = 0; t < array.triple_count(); ++t) count_triple(array, slack, t, out);
+  const int last = n - 1 - coplanarity(array, array.all());
+  for (int k = 1; k <= n; ++k) {
+    // Whoever may distrust k sensors may distrust fewer.
+    raise(out.vector_error[index(k)], out.vector_error[index(k - 1)]);
+    if (k > last) {
+      out.fault[index(k)].fill(kInfinity);
+      out.vector_error[index(k)] = kInfinity;
+      continue;
+    }
+    for (int i = 0; i < n; ++i) raise(out.fault[index(k)][index(i)], out.fault[index(k - 1)][index(i)]);
+  }
+  if (last < 0) out.vector_error[0] = kInfinity;
+  out.fault[0].fill(kInfinity);
+  return out;
+}
+
+FaultBounds fault_bounds(const SensorArray& array, double slack) noexcept {
+  Readings all{};
+  all.fill(slack);
+  return fault_bounds(array, all);
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

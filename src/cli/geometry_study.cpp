@@ -1,0 +1,231 @@
+#include "geometry_study.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "plumb/core/units.hpp"
+#include "plumb/detection/isolation.hpp"
+#include "plumb/report/words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+/// A geometry that needs more errors than this to tell two sensors apart is of no use (isolation note, bar 13).
+constexpr double kMostErrors = 40.0;
+constexpr double kUnseenBias = 0.05;
+/// Two axes closer than this are the same for wiring: to exchange them changes nothing.
+constexpr double kHarmless_rad = 1e-6;
+constexpr int kMapStep_deg = 5;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// ISCWSA axes: what `tilt_of` takes apart.
+Vec3 down_at(double inclination_deg, double toolface_deg) {
+  const double i = rad_from_deg(inclination_deg), t = rad_from_deg(toolface_deg);
+  return {-std::sin(i) * std::sin(t), -std::sin(i) * std::cos(t), std::cos(i)};
+}
+
+/// Without the last digits of an axis that was computed: 0 rather than 1e-17.
+double rounded(double cosine) { return std::round(1e12 * cosine) * 1e-12; }
+
+std::vector<SensorStudy> sensors_of(const GeometrySubject& subject) {
+  const SensorArray& array = subject.array;
+  const Vec3 down[3] = {{0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}, {-1.0, 0.0, 0.0}};
+  std::vector<SensorStudy> out(at(array.size()));
+  for (std::size_t a = 0; a < 3; ++a) {
+    Readings along{};
+    for (int i = 0; i < array.size(); ++i) along[at(i)] = subject.gravity.g_mps2 * rounded(dot(array.axis(i), down[a]));
+    Expected<std::array<double, kCapacity>> raw = along;
+    if (subject.file) raw = subject.model.raw_from(along, subject.model.sensor[0].reference_degc);
+    for (int i = 0; i < array.size(); ++i) {
+      out[at(i)].expected.down_mps2[a] = along[at(i)];
+      if (raw) out[at(i)].expected.raw[a] = (*raw)[at(i)];
+    }
+  }
+  for (int i = 0; i < array.size(); ++i) out[at(i)].id = array.row(i).id.data();
+  return out;
+}
+
+void find_remounts(const SensorArray& array, std::vector<SensorStudy>& sensors) {
+  for (int t = 0; t < array.triple_count(); ++t) {
+    if (!array.triple(t).votes) continue;
+    for (int m = 0; m < 3; ++m) {
+      const int i = array.triple(t).sensors[at(m)];
+      const double away = angle_between_rad(array.axis(i), mirror_axis(array, t, m));
+      double& nearest = sensors[at(i)].nearest_remount_rad;
+      if (!(nearest > 0.0) || away < nearest) nearest = away;
+    }
+  }
+}
+
+/// Reversals, exchanges of two, turns of three: those that stay below the limits of a block.
+std::vector<HiddenWiring> hidden_wirings(const GeometrySubject& subject, const ErrorBudget& budget) {
+  const SensorArray& array = subject.array;
+  const int n = array.size();
+  double noise = 0.0;
+  for (int i = 0; i < n; ++i) noise = std::fmax(noise, budget.noise_mps2[at(i)] + budget.calibration_mps2[at(i)]);
+  const double parity = n > 3 ? budget.limits.parity_alarm[at(n - 3)] * noise / subject.gravity.g_mps2 : 0.0;
+  const double gain = figures_of_merit(array).gdop;
+  const double length = (budget.limits.norm_alarm * gain * noise + budget.gravity_mps2) / subject.gravity.g_mps2;
+  std::vector<HiddenWiring> out;
+  const auto consider = [&](const Wiring& wiring, const std::string& what) {
+    const WiringEffect effect = wiring_effect(array, wiring);
+    if (effect.unseen(parity + 1e-12, length) && effect.turn_rad > kHarmless_rad) out.push_back({what, effect});
+  };
+  const auto id = [&array](int i) { return std::string(array.row(i).id.data()); };
+  for (int i = 0; i < n; ++i) {
+    consider(Wiring::reversed(i), id(i) + " reversed");
+    for (int j = i + 1; j < n; ++j) {
+      consider(Wiring::swapped(i, j), id(i) + " and " + id(j) + " exchanged");
+      consider(Wiring::swapped_reversed(i, j), id(i) + " and " + id(j) + " exchanged and reversed");
+      for (int k = j + 1; k < n; ++k) {
+        consider(Wiring::cycled(i, j, k),
+                 fmt::format("{}, {}, {} carry {}, {}, {}", id(i), id(j), id(k), id(j), id(k), id(i)));
+        consider(Wiring::cycled(i, k, j),
+                 fmt::format("{}, {}, {} carry {}, {}, {}", id(i), id(j), id(k), id(k), id(i), id(j)));
+      }
+    }
+  }
+  return out;
+}
+
+/// The same axes with the noise of all sensors changed alike.
+Expected<SensorArray> with_noise(const SensorArray& array, double factor) {
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < array.size(); ++i) {
+    rows[at(i)] = array.row(i);
+    rows[at(i)].sigma_mps2 *= factor;
+  }
+  Expected<SensorArray> out = SensorArray::make(rows.data(), array.size());
+  if (out) out->set_uncertainty(array.uncertainty());
+  return out;
+}
+
+double largest_sigma(const SensorArray& array) {
+  double out = 0.0;
+  for (int i = 0; i < array.size(); ++i) out = std::fmax(out, array.sigma_mps2(i));
+  return out;
+}
+
+std::vector<report::GeometryPictures::Level> levels_of(const GeometrySubject& subject) {
+  std::vector<report::GeometryPictures::Level> out;
+  if (subject.array.size() < 4) return out;
+  for (const double sigma_mg0 : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
+    const double factor = mps2_from_g0(1e-3 * sigma_mg0) / largest_sigma(subject.array);
+    const Expected<SensorArray> array = with_noise(subject.array, factor);
+    if (!array) continue;
+    TestSettings one = subject.settings;
+    one.samples = 1.0;
+    out.push_back({sigma_mg0, deg_from_rad(protection_level_rad(*array, subject.gravity, one)),
+                   deg_from_rad(protection_level_rad(*array, subject.gravity, subject.settings))});
+  }
+  return out;
+}
+
+void map_attitudes(const OneAttitude& one, GeometryStudy& study) {
+  MapSummary& s = study.one_attitude;
+  s.least_clear_mps2 = std::numeric_limits<double>::infinity();
+  double weight = 0.0, blind = 0.0;
+  for (int inclination = 0; inclination <= 180; inclination += kMapStep_deg) {
+    for (int toolface = 0; toolface <= 360; toolface += kMapStep_deg) {
+      const AttitudeFigures figures = one.at(down_at(inclination, toolface));
+      study.map.push_back({static_cast<double>(inclination), static_cast<double>(toolface),
+                           g0_from_mps2(figures.clear_from_mps2), g0_from_mps2(figures.nearest_mirror_mps2),
+                           figures.blind.size()});
+      if (figures.clear_from_mps2 < s.least_clear_mps2) {
+        s.least_clear_mps2 = figures.clear_from_mps2;
+        s.best_inclination_deg = inclination;
+        s.best_toolface_deg = toolface;
+      }
+      s.largest_clear_mps2 = std::fmax(s.largest_clear_mps2, figures.clear_from_mps2);
+      if (toolface == 360) continue;  // the same attitude as 0
+      const double area = std::sin(rad_from_deg(inclination));
+      weight += area;
+      if (!figures.blind.empty()) blind += area;
+    }
+  }
+  s.blind_share = blind / weight;
+}
+
+void find_warnings(const GeometrySubject& subject, GeometryStudy& study) {
+  if (study.merit.min_triple_det < kMinTripleDet) {
+    study.warnings.push_back(
+        {"near_singular_triples",
+         fmt::format(
+             "{} of {} groups of three lie nearly in one plane (|det| below {}): they raise no alarm and do not "
+             "isolate. Turn or move one axis of each group out of the plane",
+             study.merit.near_singular_triples, subject.array.triple_count(), kMinTripleDet)});
+  }
+  const double apart = study.constants.worst_fault(2);
+  if (std::isfinite(apart) && apart > kMostErrors) {
+    study.warnings.push_back(
+        {"weak_isolation", fmt::format("in the worst case a fault must exceed {:.0f} errors of a reading before it is "
+                                       "told from every other one (more than {:.0f}). Spread the axes more evenly",
+                                       apart, kMostErrors)});
+  }
+}
+
+void find_limits(const GeometrySubject& subject, GeometryStudy& study) {
+  const SensorArray& array = subject.array;
+  const auto add = [&study](const char* name, std::string text) { study.limits.push_back({name, std::move(text)}); };
+  const SensorSet critical = critical_sensors(array, array.all());
+  if (study.merit.strict_grade < 1) add("no_isolation", "one faulty sensor cannot be told from the others");
+  if (!critical.empty())
+    add("critical_sensors", fmt::format("no vector without {}", report::sensor_names(critical, array)));
+  if (study.merit.parity_grade < 1 && study.merit.strict_grade >= 1)
+    add("gravity_needed",
+        "parity alone accuses nobody: isolation rests on the length of gravity and on several attitudes");
+  if (study.collusion_grade < 1)
+    add("collusion", "one sensor with an error made to fit a mirror image leaves two explanations at that attitude");
+  if (study.common.visibility < kUnseenBias)
+    add("common_bias_unseen", fmt::format("a bias that all sensors share does not show in parity and moves the vector "
+                                          "by {:.2f} of it",
+                                          norm(study.common.vector_error)));
+  if (!study.hidden.empty())
+    add("hidden_wiring", fmt::format("{} mistakes of wiring show at no attitude; check one known attitude by hand",
+                                     study.hidden.size()));
+  if (array.size() > kStrictCapacity)
+    add("many_sensors",
+        fmt::format("above {} sensors the monitor decides no strict grade, and no parity grade above {}",
+                    kStrictCapacity, kScanDepth));
+  add("common_rotation", "gravity does not show how the axes sit in the housing, nor `reads` the wrong way round");
+  add("common_scale", "a scale that all sensors share shows against the value of gravity only");
+}
+
+}  // namespace
+
+GeometryStudy study_geometry(const GeometrySubject& subject) {
+  const SensorArray& array = subject.array;
+  GeometryStudy out;
+  out.merit = figures_of_merit(array);
+  out.constants = fault_bounds(array);
+  out.budget = error_budget(array, subject.gravity, subject.settings);
+  out.thresholds = thresholds_of(array, subject.gravity, subject.settings);
+  out.common = common_bias(array);
+  out.polarity = best_polarity(array);
+  const int spare = array.size() - 1 - out.merit.coplanarity;
+  out.collusion_grade = spare > 0 ? spare / 2 : 0;
+  out.sensors = sensors_of(subject);
+  find_remounts(array, out.sensors);
+  out.hidden = hidden_wirings(subject, out.budget);
+  out.levels = levels_of(subject);
+  if (out.merit.strict_grade > 0) {
+    const auto one = std::make_unique<OneAttitude>(array, subject.gravity, out.budget);
+    for (int i = 0; i < array.size(); ++i) {
+      out.sensors[at(i)].blind_half_width_mps2 = one->blind_half_width_mps2(i);
+      out.sensors[at(i)].any_attitude_mps2 = one->any_attitude_mps2(i);
+    }
+    map_attitudes(*one, out);
+  }
+  find_warnings(subject, out);
+  find_limits(subject, out);
+  return out;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,218 @@
+// What `plumb geometry` prints.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry_study.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/report/words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+constexpr std::size_t kMostListed = 12;
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+/// A figure in a column, or a dash where the geometry has none.
+std::string figure(double value, int width, int digits) {
+  return std::isfinite(value) ? fmt::format("{:>{}.{}f}", value, width, digits) : fmt::format("{:>{}}", "-", width);
+}
+
+std::string line(const char* what, const std::string& value) { return fmt::format("{:<44} {}\n", what, value); }
+
+std::string reading_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const bool file = subject.file != nullptr;
+  std::string out = fmt::format("{}: {} sensors{}\n", subject.name, subject.array.size(),
+                                subject.calibrated ? ", axes and uncertainty from the calibration" : "");
+  if (file) {
+    const io::ArrayFile& f = *subject.file;
+    out += fmt::format("reads {}; the log is in {}; gravity {:.5f} m/s^2 (1 sigma {:.3f} mg0)\n",
+                       f.datasheet.reads == Reads::gravity ? "gravity (a sensor that points down counts up)"
+                                                           : "specific force (a sensor that points up counts up)",
+                       f.input.unit.name, subject.gravity.g_mps2, mg0(subject.gravity.sigma_mps2));
+  }
+  out += fmt::format("\n  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>32}\n", "sensor", "x", "y", "z", "noise",
+                     file ? "expected in the log, tool at" : "expected, g0, tool at");
+  out += fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>10} {:>10} {:>10}\n", "", "", "", "", "mg0", "vertical",
+                     "horiz. 0", "horiz. 90");
+  for (int i = 0; i < subject.array.size(); ++i) {
+    const Vec3& h = subject.array.axis(i);
+    out += fmt::format("  {:<15} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.4f}  ", study.sensors[at(i)].id, h[0], h[1], h[2],
+                       mg0(subject.array.sigma_mps2(i)));
+    const ExpectedReading& e = study.sensors[at(i)].expected;
+    for (std::size_t a = 0; a < 3; ++a)
+      out += fmt::format(" {:>10.4g}", file ? e.raw[a] : g0_from_mps2(e.down_mps2[a]));
+    out += "\n";
+  }
+  return out + "  (vertical: z down; horiz. 0 and 90: z level, toolface 0 and 90 deg)\n";
+}
+
+std::string merit_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const FiguresOfMerit& f = study.merit;
+  std::string out = "\ngeometry\n";
+  out += line("  noise gain of the vector (GDOP)", fmt::format("{:.4f}", f.gdop));
+  out += line("  condition of the axes", fmt::format("{:.4f}", f.condition));
+  out += line("  angle between the nearest two axes", fmt::format("{:.3f} deg", deg_from_rad(f.nearest_angle_rad)));
+  out += line("  smallest |det| of a triple", fmt::format("{:.4f}", f.min_triple_det));
+  out += line("  worst condition of a triple", fmt::format("{:.4g}", f.max_triple_condition));
+  out +=
+      line("  near-singular triples", fmt::format("{} of {}", f.near_singular_triples, subject.array.triple_count()));
+  out += line("  most axes in one plane, c", fmt::format("{}", f.coplanarity));
+  out += "\nfaulty sensors that can be borne\n";
+  out += line("  isolated for good (strict), n - 1 - c", fmt::format("{}   over several attitudes", f.strict_grade));
+  out += line("  set aside by parity alone, n - 2 - c",
+              fmt::format("{}   at once, without gravity, reversible", f.parity_grade));
+  out += line("  even if they collude, n >= 2m + c + 1", fmt::format("{}   in one block", study.collusion_grade));
+  out += line("  critical sensors",
+              report::sensor_names(critical_sensors(subject.array, subject.array.all()), subject.array, "none"));
+  return out;
+}
+
+std::string constant_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const int most = subject.array.size() - 1 - study.merit.coplanarity;
+  if (most < 1) return "";
+  std::string out =
+      "\nworst case, in errors e of a healthy reading (T7: any attitude, any values of the other faulty ones)\n";
+  out += fmt::format("  {:>7} {:>16} {:>16} {:>20}\n", "faulty", "detected above", "told apart above",
+                     "vector off at most");
+  for (int m = 1; m <= most; ++m) {
+    const double apart = study.constants.worst_fault(2 * m);
+    const bool told = 2 * m <= most && std::isfinite(apart);
+    out += fmt::format("  {:>7} {} {} {}\n", m, figure(study.constants.worst_fault(m), 14, 2) + " e",
+                       told ? figure(apart, 14, 2) + " e" : fmt::format("{:>16}", "-"),
+                       figure(study.constants.vector_error[at(m)], 18, 2) + " e");
+  }
+  return out;
+}
+
+std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const TestSettings& s = subject.settings;
+  std::string out = fmt::format(
+      "\nleast faults found, mg0, in one block of {:.0f} samples at any attitude (false alarms {:.0e}, missed "
+      "{:.0e})\n",
+      s.samples, s.false_alarm_rate, s.missed_detection);
+  out += fmt::format("  {:<15} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12} {:>12}\n", "", "noise of", "detected",
+                     "detected", "set aside", "told apart", "one attitude", "one attitude");
+  out += fmt::format("  {:<15} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12} {:>12}\n", "sensor", "a block", "mostly",
+                     "surely", "by parity", "surely", "blind below", "clear above");
+  for (int i = 0; i < subject.array.size(); ++i) {
+    const SensorThresholds& t = study.thresholds.sensor[at(i)];
+    const SensorStudy& one = study.sensors[at(i)];
+    const bool isolable = study.merit.strict_grade > 0;
+    out += fmt::format("  {:<15} {} {} {} {} {} {} {}\n", one.id, figure(mg0(study.budget.noise_mps2[at(i)]), 10, 4),
+                       figure(mg0(t.detectable_mps2), 10, 3), figure(mg0(t.sure_detection_mps2), 10, 3),
+                       figure(mg0(t.set_aside_mps2), 10, 3), figure(mg0(study.thresholds.sure.fault[2][at(i)]), 10, 3),
+                       figure(isolable ? mg0(one.blind_half_width_mps2) : kNone, 12, 1),
+                       figure(isolable ? mg0(one.any_attitude_mps2) : kNone, 12, 1));
+  }
+  return out;
+}
+
+std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  std::string out = "\nundetected tilt error (one bias at its worst, noise, calibration; one block)\n";
+  const bool known = study.thresholds.protection_rad < kPi;
+  out += line("  protection level of this array",
+              known ? fmt::format("{:.4f} deg", deg_from_rad(study.thresholds.protection_rad)) : "not available");
+  if (!study.levels.empty()) {
+    out += fmt::format("  {:>22}", "noise of a sample, mg0");
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.2f}", level.sigma_mg0);
+    out += fmt::format("\n  {:>22}", "one sample, deg");
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.4f}", level.one_sample_deg);
+    out += fmt::format("\n  {:>22}", fmt::format("block of {:.0f}, deg", subject.settings.samples));
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.4f}", level.block_deg);
+    out += "\n";
+  }
+  if (study.map.empty()) return out;
+  const MapSummary& s = study.one_attitude;
+  out += "\nby the length of gravity at one attitude (T8; more attitudes remove the rest)\n";
+  out +=
+      line("  attitudes at which some sensor is blind", fmt::format("{:.0f} % of the sphere", 100.0 * s.blind_share));
+  out += line("  any fault is isolated above",
+              fmt::format("{:.3f} g0 at the best attitude (inclination {:.0f}, toolface {:.0f} deg), {:.3f} g0 at the "
+                          "worst",
+                          g0_from_mps2(s.least_clear_mps2), s.best_inclination_deg, s.best_toolface_deg,
+                          g0_from_mps2(s.largest_clear_mps2)));
+  return out;
+}
+
+std::string bias_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  std::string out = "\na bias that all sensors share\n";
+  const auto effect = [](const CommonBias& b) {
+    return fmt::format("{:.4f} of it seen by parity, {:.4f} of it in the vector", b.visibility, norm(b.vector_error));
+  };
+  out += line("  as mounted", effect(study.common));
+  if (study.polarity.reverse.empty()) return out + line("  best polarities", "as mounted");
+  return out + line("  best polarities",
+                    fmt::format("{} reversed: {}", report::sensor_names(study.polarity.reverse, subject.array),
+                                effect(study.polarity.effect)));
+}
+
+std::string wiring_text(const GeometryStudy& study) {
+  std::string out = "\nwiring and mounting\n";
+  if (study.hidden.empty()) out += "  every reversed sensor, exchange of two and turn of three is seen\n";
+  std::size_t listed = 0;
+  for (const HiddenWiring& h : study.hidden) {
+    if (listed++ == kMostListed) {
+      out += fmt::format("  ... and {} more (--json lists all)\n", study.hidden.size() - kMostListed);
+      break;
+    }
+    const double off_deg = deg_from_rad(h.effect.inclination_rad);
+    out += fmt::format("  not seen at any attitude: {}; {}, inclination {}\n", h.what,
+                       h.effect.turn_rad >= kPi
+                           ? "the vector is mirrored"
+                           : fmt::format("the vector turns by up to {:.0f} deg", deg_from_rad(h.effect.turn_rad)),
+                       off_deg < 0.05 ? "stays right" : fmt::format("off by up to {:.1f} deg", off_deg));
+  }
+  double nearest = 0.0;
+  std::string id;
+  for (const SensorStudy& s : study.sensors) {
+    if (s.nearest_remount_rad > 0.0 && (nearest <= 0.0 || s.nearest_remount_rad < nearest)) {
+      nearest = s.nearest_remount_rad;
+      id = s.id;
+    }
+  }
+  if (nearest > 0.0) {
+    out += fmt::format(
+        "  mounted on a mirror axis a sensor passes in that group of three at every attitude; nearest: {}, {:.1f} deg "
+        "away\n",
+        id, deg_from_rad(nearest));
+  }
+  return out;
+}
+
+std::string finding_text(const GeometryStudy& study) {
+  std::string out;
+  for (const Finding& f : study.warnings) out += fmt::format("\nwarning: {}: {}\n", f.name, f.text);
+  out += "\nknown limits\n";
+  for (const Finding& f : study.limits) out += fmt::format("  {:<20} {}\n", f.name, f.text);
+  return out;
+}
+
+std::string triple_text(const SensorArray& array) {
+  std::string out = fmt::format("\n  {:>9} {:>11}  {:<14}  {}\n", "det", "condition", "", "triple");
+  for (int k = 0; k < array.triple_count(); ++k) {
+    const Triple& t = array.triple(k);
+    out += fmt::format("  {:>9.5f} {:>11.4g}  {:<14}  {}\n", t.det, t.condition, t.votes ? "" : "near singular",
+                       report::sensor_names(t.set(), array));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string geometry_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  return reading_text(subject, study) + merit_text(subject, study) + constant_text(subject, study) +
+         threshold_text(subject, study) + attitude_text(subject, study) + bias_text(subject, study) +
+         wiring_text(study) + finding_text(study) + triple_text(subject.array);
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

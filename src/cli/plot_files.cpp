@@ -1,0 +1,39 @@
+#include "plot_files.hpp"
+
+#include <filesystem>
+
+#include "plumb/io/output_file.hpp"
+#include "plumb/report/plot.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
+                                                      const std::vector<report::PlotFile>& files, const char* script,
+                                                      std::vector<std::string> pictures, std::string& missing) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    return tl::unexpected<io::FileError>(io::FileError{directory, 0, "--plots",
+                                                       "cannot create the directory: " + error.message(),
+                                                       "choose another directory", io::ExitCode::other});
+  }
+  std::vector<std::string> written;
+  for (const report::PlotFile& file : files) {
+    const io::FileExpected<void> done =
+        io::write_file((std::filesystem::path(directory) / file.name).string(), file.text);
+    if (!done) return tl::unexpected<io::FileError>(done.error());
+    written.push_back(file.name);
+  }
+  const io::FileExpected<void> drawn = report::run_gnuplot(directory, script);
+  if (!drawn) {
+    missing = drawn.error().text();
+    return written;
+  }
+  return pictures;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,23 @@
+/// Plot data and programs, written to a directory and drawn.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plumb/io/file_error.hpp"
+#include "plumb/report/fit_plot.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// Writes the files and runs gnuplot on `script`, which draws `pictures`. `missing` says why there are no pictures
+/// where gnuplot cannot draw them; the returned names are those of the files that exist then. Error: a file or the
+/// directory cannot be written.
+io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
+                                                      const std::vector<report::PlotFile>& files, const char* script,
+                                                      std::vector<std::string> pictures, std::string& missing);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,108 @@
+#include "plumb/detection/one_attitude.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "largest_eigenvalue.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+using detection_detail::largest_eigenvalue;
+
+constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// c(T) e: how far errors of its readings can move a triple's vector.
+double moved_by(const Mat3& map, const Vec3& errors) noexcept {
+  double worst = 0.0;
+  for (const double b : {errors[1], -errors[1]}) {
+    for (const double c : {errors[2], -errors[2]}) worst = std::fmax(worst, norm(times(map, {errors[0], b, c})));
+  }
+  return worst;
+}
+
+/// d: what the length of a triple's vector may be off by where nobody is at fault, plus what it is allowed to be.
+double allowance(const SensorArray& array, const ErrorBudget& budget, int triple) noexcept {
+  const Triple& t = array.triple(triple);
+  Vec3 errors{};
+  double calibration = 0.0;
+  for (std::size_t m = 0; m < 3; ++m) {
+    const std::size_t i = t.sensors[m];
+    errors[m] = budget.noise_factor * budget.noise_mps2[i] + budget.calibration_mps2[i];
+    calibration += norm(triple_weight(array, triple, static_cast<int>(m))) * budget.calibration_mps2[i];
+  }
+  const double root_n = array.sigma_mps2(t.sensors[0]) / budget.noise_mps2[t.sensors[0]];
+  const double noise = std::sqrt(largest_eigenvalue(least_squares(array, t.set()).covariance)) / root_n;
+  const double limit = budget.limits.reject[1] * noise + calibration + budget.gravity_mps2;
+  return limit + budget.gravity_mps2 + moved_by(triple_map(array, triple), errors);
+}
+
+}  // namespace
+
+OneAttitude::OneAttitude(const SensorArray& array, const GravityReference& gravity, const ErrorBudget& budget) noexcept
+    : g_mps2_(gravity.g_mps2) {
+  for (int k = 0; k < array.triple_count(); ++k) {
+    if (!array.triple(k).votes) continue;
+    const double d = allowance(array, budget, k);
+    for (int m = 0; m < 3; ++m) {
+      Entry& entry = entries_[index(triples_)][index(m)];
+      entry.weight = triple_weight(array, k, m);
+      entry.reach = (2.0 * g_mps2_ * d + d * d) / dot(entry.weight, entry.weight);
+    }
+    sensors_[index(triples_)] = array.triple(k).sensors;
+    ++triples_;
+  }
+}
+
+template <class F>
+void OneAttitude::for_each(F&& f) const noexcept {
+  for (int t = 0; t < triples_; ++t) {
+    for (std::size_t m = 0; m < 3; ++m) f(int{sensors_[index(t)][m]}, entries_[index(t)][m]);
+  }
+}
+
+double OneAttitude::blind_half_width_mps2(int i) const noexcept {
+  double worst = 0.0;
+  for_each([&](int sensor, const Entry& e) {
+    if (sensor == i) worst = std::fmax(worst, std::sqrt(e.reach));
+  });
+  return worst > 0.0 ? worst : std::numeric_limits<double>::infinity();
+}
+
+double OneAttitude::any_attitude_mps2(int i) const noexcept {
+  double worst = 0.0;
+  for_each([&](int sensor, const Entry& e) {
+    // The larger root of f (f - 2 G / |w|) = reach.
+    const double half = g_mps2_ / norm(e.weight);
+    if (sensor == i) worst = std::fmax(worst, half + std::sqrt(half * half + e.reach));
+  });
+  return worst > 0.0 ? worst : std::numeric_limits<double>::infinity();
+}
+
+bool OneAttitude::isolates(const Vec3& down, int i, double f_mps2) const noexcept {
+  bool all_fail = true, any = false;
+  for_each([&](int sensor, const Entry& e) {
+    if (sensor != i) return;
+    any = true;
+    const double mirror = -2.0 * g_mps2_ * dot(down, e.weight) / dot(e.weight, e.weight);
+    if (!(std::fabs(f_mps2) * std::fabs(f_mps2 - mirror) > e.reach)) all_fail = false;
+  });
+  return any && all_fail;
+}
+
+AttitudeFigures OneAttitude::at(const Vec3& down) const noexcept {
+  AttitudeFigures out;
+  out.nearest_mirror_mps2 = std::numeric_limits<double>::infinity();
+  for_each([&](int sensor, const Entry& e) {
+    const double mirror = std::fabs(2.0 * g_mps2_ * dot(down, e.weight) / dot(e.weight, e.weight));
+    const double square = mirror * mirror;
+    out.clear_from_mps2 = std::fmax(out.clear_from_mps2, 0.5 * (mirror + std::sqrt(square + 4.0 * e.reach)));
+    out.nearest_mirror_mps2 = std::fmin(out.nearest_mirror_mps2, mirror);
+    if (square <= 4.0 * e.reach) out.blind = out.blind.with(sensor);
+  });
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,205 @@
+#include "plumb/detection/thresholds.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "largest_eigenvalue.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/detection/detectable.hpp"
+#include "plumb/detection/isolation.hpp"
+#include "plumb/numeric/tails.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+using detection_detail::largest_eigenvalue;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Bound of sqrt(z' Cov_ii z) over all attitudes, z = (g, 1): the axis part by its largest eigenvalue, the cross term
+/// by its length.
+double calibration_sigma(const SensorArray& array, int i, double g_mps2) noexcept {
+  const RowUncertainty& u = array.uncertainty();
+  const auto entry = [&u, i](int p, int q) {
+    const int a = 4 * i + (p > q ? p : q);
+    const int b = 4 * i + (p > q ? q : p);
+    return u.covariance[index(a * (a + 1) / 2 + b)];
+  };
+  Mat3 axis{};
+  for (int p = 0; p < 3; ++p) {
+    for (int q = 0; q < 3; ++q) axis[index(3 * p + q)] = entry(p, q);
+  }
+  const double across = norm({entry(3, 0), entry(3, 1), entry(3, 2)});
+  const double misfit = u.misfit_mps2[index(i)];
+  const double variance =
+      g_mps2 * g_mps2 * largest_eigenvalue(axis) + 2.0 * g_mps2 * across + entry(3, 3) + misfit * misfit;
+  return variance > 0.0 ? std::sqrt(variance) : 0.0;
+}
+
+/// Variance with which the rest predicts sensor i [(m/s^2)^2 of one sample]; infinite where the rest has no rank.
+double predicted_variance(const SensorArray& array, SensorSet rest, int i) noexcept {
+  const LeastSquares fit = least_squares(array, rest);
+  if (!fit.valid) return kInfinity;
+  return dot(array.axis(i), times(fit.covariance, array.axis(i)));
+}
+
+/// A bias of sensor i in m/s^2 that shifts the parity of rest + {i} by one standard deviation of a block mean.
+double unit_bias(const SensorArray& array, SensorSet rest, int i, double samples) noexcept {
+  const double sigma = array.sigma_mps2(i);
+  return std::sqrt((sigma * sigma + predicted_variance(array, rest, i)) / samples);
+}
+
+double binomial(int n, int k) noexcept {
+  double out = 1.0;
+  for (int i = 1; i <= k; ++i) out = out * (n - k + i) / i;
+  return out;
+}
+
+/// What the parity grade's own vote takes: every set with sensor i that it hears must be dead.
+class SetAside {
+ public:
+  SetAside(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget) noexcept
+      : array_(array), settings_(settings), budget_(budget), grade_(parity_grade(array, array.all())) {
+    if (array.size() > kStrictCapacity && grade_ > kScanDepth) grade_ = kScanDepth;
+    for (int m = 0; m <= grade_; ++m) sets_ += hears(m) ? binomial(array.size() - 1, m) : 0.0;
+  }
+
+  double of(int i) const noexcept {
+    if (grade_ < 1) return kInfinity;
+    double worst = 0.0;
+    for (int m = 0; m <= grade_; ++m) {
+      const double bias = hears(m) ? shift(m) * hardest(i, m) : 0.0;
+      if (bias > worst) worst = bias;
+    }
+    return worst;
+  }
+
+ private:
+  /// Fault sets are heard one by one up to the depth of the scan, and those of the grade's own size.
+  bool hears(int m) const noexcept { return m <= kScanDepth || m == grade_; }
+
+  /// Shift of the parity of a set without m sensors that kills it, the chance of a miss shared among all sets.
+  double shift(int m) const noexcept {
+    const int dof = array_.size() - m - 3;
+    const double alarm = m == 0 ? budget_.limits.parity_alarm[index(dof)] : 0.0;
+    const double reject = budget_.limits.reject[index(dof)];
+    const double limit = (alarm > reject ? alarm : reject) + budget_.parity_systematic;
+    return detectable_shift(limit, dof, settings_.missed_detection / sets_) + budget_.parity_systematic;
+  }
+
+  /// Largest `unit_bias` over all choices of m others to leave out.
+  double hardest(int i, int m) const noexcept {
+    const SensorSet others = array_.all().without(i);
+    if (m == 0) return unit_bias(array_, others, i, settings_.samples);
+    double worst = 0.0;
+    for (SensorSet out = SensorSet::first(m); array_.all().contains(out); out = next_of_same_size(out)) {
+      if (out.has(i)) continue;
+      const double bias = unit_bias(array_, others - out, i, settings_.samples);
+      if (bias > worst) worst = bias;
+    }
+    return worst;
+  }
+
+  const SensorArray& array_;
+  const TestSettings& settings_;
+  const ErrorBudget& budget_;
+  int grade_;
+  double sets_ = 0.0;
+};
+
+/// What parity finds of single biases: fills `detectable_mps2` and `gain`.
+void find_detectable(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget,
+                     std::array<SensorThresholds, kCapacity>& sensor) noexcept {
+  const int dof = array.size() - 3;
+  const double systematic = budget.parity_systematic;
+  const double shift = dof < 1 ? kInfinity
+                               : systematic + detectable_shift(budget.limits.parity_alarm[index(dof)] + systematic, dof,
+                                                               settings.missed_detection);
+  const LeastSquares fit = least_squares(array, array.all());
+  for (int i = 0; i < array.size(); ++i) {
+    sensor[index(i)].gain = norm(fit.column[index(i)]);
+    sensor[index(i)].detectable_mps2 = shift * unit_bias(array, array.all().without(i), i, settings.samples);
+  }
+}
+
+double protection_level(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
+                        const ErrorBudget& budget, const std::array<SensorThresholds, kCapacity>& sensor) noexcept {
+  double bias = 0.0, left = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    const SensorThresholds& s = sensor[index(i)];
+    const double moved = s.gain * s.detectable_mps2;
+    if (moved > bias) bias = moved;
+    left += s.gain * budget.calibration_mps2[index(i)];
+  }
+  const double largest = largest_eigenvalue(least_squares(array, array.all()).covariance);
+  const double noise = normal_tail_quantile(0.5 * settings.integrity_risk) * std::sqrt(largest / settings.samples);
+  const double error = (bias + noise + left) / gravity.g_mps2;
+  return error < 1.0 ? std::asin(error) : kPi;
+}
+
+}  // namespace
+
+ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravity,
+                         const TestSettings& settings) noexcept {
+  ErrorBudget out;
+  const int n = array.size();
+  if (n < 3) return out;
+  out.limits = TestLimits::from_rates(n, settings.false_alarm_rate, settings.rejection_rate);
+  out.noise_factor = normal_tail_quantile(settings.rejection_rate / (2.0 * n));
+  out.gravity_mps2 = out.limits.gravity * gravity.sigma_mps2;
+  double trace = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double sigma = array.sigma_mps2(i) / std::sqrt(settings.samples);
+    const double left = out.limits.calibration * calibration_sigma(array, i, gravity.g_mps2);
+    out.noise_mps2[index(i)] = sigma;
+    out.calibration_mps2[index(i)] = left;
+    trace += left / sigma * (left / sigma);
+  }
+  // b_S is the root of an eigenvalue of a projection of the covariance: at most the root of its trace.
+  out.parity_systematic = std::sqrt(trace);
+  return out;
+}
+
+double protection_level_rad(const SensorArray& array, const GravityReference& gravity,
+                            const TestSettings& settings) noexcept {
+  if (array.size() < 3) return kPi;
+  std::array<SensorThresholds, kCapacity> sensor{};
+  const ErrorBudget budget = error_budget(array, gravity, settings);
+  find_detectable(array, settings, budget, sensor);
+  return protection_level(array, gravity, settings, budget, sensor);
+}
+
+Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravity,
+                         const TestSettings& settings) noexcept {
+  Thresholds out;
+  const int n = array.size();
+  out.protection_rad = kPi;
+  if (n < 3) return out;
+  const ErrorBudget budget = error_budget(array, gravity, settings);
+  // A set that passes leaves no residual beyond its limit, and the truth none beyond the budget: together the slack.
+  double limit = 0.0;
+  for (int nu = 1; nu <= n - 3; ++nu) {
+    for (const double one : {budget.limits.reject[index(nu)], budget.limits.parity_alarm[index(nu)]})
+      limit = one > limit ? one : limit;
+  }
+  Readings slack{};
+  for (int i = 0; i < n; ++i) {
+    slack[index(i)] = budget.noise_mps2[index(i)] * (limit + budget.parity_systematic + budget.noise_factor) +
+                      budget.calibration_mps2[index(i)];
+  }
+  out.sure = fault_bounds(array, slack);
+  find_detectable(array, settings, budget, out.sensor);
+  const SetAside set_aside(array, settings, budget);
+  for (int i = 0; i < n; ++i) {
+    out.sensor[index(i)].set_aside_mps2 = set_aside.of(i);
+    out.sensor[index(i)].sure_detection_mps2 = out.sure.fault[1][index(i)];
+  }
+  out.protection_rad = protection_level(array, gravity, settings, budget, out.sensor);
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,232 @@
+// What the figures promise, against the tests that the monitor makes.
+#include "plumb/detection/thresholds.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "plumb/detection/isolation.hpp"
+#include "plumb/numeric/tails.hpp"
+#include "threshold_support.hpp"
+
+// Serves: REQ-016
+
+namespace {
+
+using namespace plumb;
+using namespace plumb_test;
+
+constexpr double kMilli = 1e-3 * kG0_mps2;
+
+TestSettings one_sample() {
+  TestSettings s;
+  s.samples = 1.0;
+  s.integrity_risk = 1e-7;
+  return s;
+}
+
+/// Domain note 3: false alarms 1e-5, missed 1e-3, integrity 1e-7: 3.0 mg and 0.18 deg at 0.2 mg, 15 mg and 0.90 at 1
+/// mg.
+// Verifies: REQ-016
+TEST(ThresholdsOf, TheTetrahedronHasTheNotesFigures) {
+  const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};
+  const struct {
+    double sigma_mg, bias_mg, level_deg;
+  } rows[] = {{0.2, 3.0, 0.18}, {0.5, 7.5, 0.45}, {1.0, 15.0, 0.90}};
+  for (const auto& row : rows) {
+    const Thresholds t = thresholds_of(tetrahedron(row.sigma_mg * kMilli), gravity, one_sample());
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(t.sensor[i].detectable_mps2 / kMilli, row.bias_mg, 0.02 * row.bias_mg);
+      EXPECT_NEAR(t.sensor[i].gain, 0.75, 1e-12);
+      EXPECT_TRUE(std::isinf(t.sensor[i].set_aside_mps2)) << "parity of four accuses nobody";
+    }
+    EXPECT_NEAR(deg_from_rad(t.protection_rad), row.level_deg, 0.02 * row.level_deg);
+  }
+}
+
+TEST(ThresholdsOf, SureDetectionIsTheGeometrysConstantTimesTheErrors) {
+  const SensorArray array = cone_array(5, kMilli);
+  const TestSettings settings;
+  const ErrorBudget budget = error_budget(array, kGravity, settings);
+  const Thresholds t = thresholds_of(array, kGravity, settings);
+  // Equal errors: E = (limit of the test + k_e) sigma / sqrt(N), and the constants are in units of 2 e.
+  const double slack = (budget.limits.reject[2] + budget.noise_factor) * kMilli / std::sqrt(32.0);
+  const FaultBounds constants = fault_bounds(array);
+  EXPECT_NEAR(t.sure.worst_fault(1), 0.5 * constants.worst_fault(1) * slack, 1e-9);
+  EXPECT_NEAR(t.sure.worst_fault(2), 0.5 * constants.worst_fault(2) * slack, 1e-9);
+  EXPECT_NEAR(budget.noise_factor, normal_tail_quantile(1e-6 / 10.0), 1e-12);
+}
+
+// Negative: REQ-016
+TEST(ThresholdsOf, WithoutRedundancyNothingIsPromised) {
+  AxisList axes{};
+  const Thresholds t = thresholds_of(make_array(axes, orthogonal_triad(axes), kMilli), kGravity, TestSettings{});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(std::isinf(t.sensor[i].detectable_mps2));
+    EXPECT_TRUE(std::isinf(t.sensor[i].sure_detection_mps2));
+  }
+  EXPECT_EQ(t.protection_rad, kPi);
+  EXPECT_EQ(thresholds_of(SensorArray(), kGravity, TestSettings{}).sensor[0].gain, 0.0);
+}
+
+TEST(ThresholdsOf, CalibrationErrorsWidenEveryOne) {
+  SensorArray array = cone_array(6, kMilli);
+  const Thresholds ideal = thresholds_of(array, kGravity, TestSettings{});
+  RowUncertainty left;
+  for (std::size_t i = 0; i < 6; ++i) left.misfit_mps2[i] = 0.1 * kMilli;
+  array.set_uncertainty(left);
+  const Thresholds t = thresholds_of(array, kGravity, TestSettings{});
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_GT(t.sensor[i].detectable_mps2, 1.5 * ideal.sensor[i].detectable_mps2);
+    EXPECT_GT(t.sensor[i].set_aside_mps2, 1.5 * ideal.sensor[i].set_aside_mps2);
+    EXPECT_GT(t.sensor[i].sure_detection_mps2, 1.5 * ideal.sensor[i].sure_detection_mps2);
+  }
+  EXPECT_GT(t.protection_rad, 1.5 * ideal.protection_rad);
+}
+
+/// At the detectable bias the parity test misses 1e-3, at any attitude; noise as the budget has it.
+// Verifies: REQ-055
+TEST(DetectableBias, IsMissedOnceInAThousandOnEveryGeometry) {
+  Noise noise(5);
+  for (const SensorArray& array : sample_arrays(2e-4 * kG0_mps2)) {
+    const Thresholds t = thresholds_of(array, kExact, TestSettings{});
+    const TestLimits limits = TestLimits::from_rates(array.size(), 1e-5, 1e-6);
+    int missed = 0, near = 0;
+    constexpr int kTrials = 20000;
+    for (int k = 0; k < kTrials; ++k) {
+      const int i = k % array.size();
+      const double bias = t.sensor[static_cast<std::size_t>(i)].detectable_mps2;
+      const Vec3 down = random_direction(noise);
+      BlockEvidence block = noisy_block(array, down, noise, 32.0);
+      block.mean_mps2[static_cast<std::size_t>(i)] += bias;
+      const SetTest full = test_set(array, kExact, limits, block, array.all());
+      if (full.parity <= full.parity_alarm_limit(limits)) ++missed;
+      block.mean_mps2[static_cast<std::size_t>(i)] -= 0.5 * bias;
+      const SetTest half = test_set(array, kExact, limits, block, array.all());
+      if (half.parity <= half.parity_alarm_limit(limits)) ++near;
+    }
+    EXPECT_NEAR(missed, 20, 4.0 * std::sqrt(20.0)) << array.size();
+    EXPECT_GT(near, kTrials / 2) << "half of it is mostly missed: the figure is not loose";
+  }
+}
+
+/// The parity grade sets a fault of that size aside with its first block; three quarters of it is not enough
+/// everywhere.
+TEST(SetAsideBias, IsConvictedByTheVoteOnEveryGeometry) {
+  Noise noise(6);
+  for (const SensorArray& array : sample_arrays(2e-4 * kG0_mps2)) {
+    const Thresholds t = thresholds_of(array, kExact, TestSettings{});
+    const TestLimits limits = TestLimits::from_rates(array.size(), 1e-5, 1e-6);
+    Isolation isolation;
+    isolation.pose(array, array.all());
+    if (isolation.parity_grade() < 1) {
+      EXPECT_TRUE(std::isinf(t.sensor[0].set_aside_mps2));
+      continue;
+    }
+    int missed = 0, wrong = 0;
+    constexpr int kTrials = 2000;
+    for (int k = 0; k < kTrials; ++k) {
+      const int i = k % array.size();
+      const Vec3 down = random_direction(noise);
+      BlockEvidence block = noisy_block(array, down, noise, 32.0);
+      block.mean_mps2[static_cast<std::size_t>(i)] += t.sensor[static_cast<std::size_t>(i)].set_aside_mps2;
+      isolation.clear();
+      isolation.pose(array, array.all());
+      const SensorSet convicted = isolation.vote(array, kExact, limits, block).parity;
+      if (convicted != SensorSet::of(i)) ++missed;
+      if (!(SensorSet::of(i).contains(convicted))) ++wrong;
+    }
+    EXPECT_LE(missed, 10) << array.size() << ": 2 expected at most";
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+/// Nothing alarms, yet the direction is off by no more than the protection level; faults of all sizes up to twice the
+/// detectable one.
+// Verifies: REQ-016
+TEST(ProtectionLevel, BoundsTheTiltWhileNothingAlarms) {
+  Noise noise(7);
+  for (const SensorArray& array : sample_arrays(2e-4 * kG0_mps2)) {
+    const Thresholds t = thresholds_of(array, kExact, TestSettings{});
+    const TestLimits limits = TestLimits::from_rates(array.size(), 1e-5, 1e-6);
+    const LeastSquares fit = least_squares(array, array.all());
+    double worst = 0.0;
+    for (int k = 0; k < 30000; ++k) {
+      const int i = k % array.size();
+      const Vec3 down = random_direction(noise);
+      BlockEvidence block = noisy_block(array, down, noise, 32.0);
+      block.mean_mps2[static_cast<std::size_t>(i)] +=
+          (4.0 * noise.uniform() - 2.0) * t.sensor[static_cast<std::size_t>(i)].detectable_mps2;
+      const SetTest full = test_set(array, kExact, limits, block, array.all());
+      if (full.parity > full.parity_alarm_limit(limits)) continue;
+      worst = std::fmax(worst, angle_between_rad(fit.estimate(block.mean_mps2), down));
+    }
+    EXPECT_LE(worst, t.protection_rad) << array.size();
+    EXPECT_GE(worst, 0.5 * t.protection_rad) << "and it is not a bound of everything";
+  }
+}
+
+/// T7 in force: whatever the noise below k_e sigmas and the other faulty sensors do, at any attitude.
+// Verifies: REQ-016
+RC_GTEST_PROP(SureFaultLaw, IsDetectedAndAccusedByEveryExplanation, ()) {
+  const SensorArray array = drawn_array();
+  const int n = array.size();
+  const int c = coplanarity(array, array.all());
+  const TestSettings settings;
+  const Thresholds t = thresholds_of(array, kExact, settings);
+  const ErrorBudget budget = error_budget(array, kExact, settings);
+  const TestLimits& limits = budget.limits;
+  const int most = n - 1 - c;
+  if (most < 1) return;
+  const int m = *rc::gen::inRange(1, most + 1);
+  const int first = *rc::gen::inRange(0, n);
+  const Vec3 down = drawn_direction();
+  BlockEvidence block = exact_block(array, down, settings.samples);
+  SensorSet faulty;
+  for (int k = 0; k < m; ++k) faulty = faulty.with((first + k) % n);
+  for (int i = 0; i < n; ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    const double noise = drawn(-1.0, 1.0) * budget.noise_factor * budget.noise_mps2[s];
+    // Only the first one is large; the others read what they like, and like to agree with it.
+    const double large = t.sure.fault[static_cast<std::size_t>(m)][s] * drawn(1.0, 3.0) * 1.000001;
+    const double any = drawn(-2.0, 2.0) * large;
+    block.mean_mps2[s] += i == first ? large : faulty.has(i) ? any : noise;
+  }
+  const SetTest full = test_set(array, kExact, limits, block, array.all());
+  RC_ASSERT(full.parity > full.parity_alarm_limit(limits));
+  RC_ASSERT(!full.parity_alive(limits));
+}
+
+// Verifies: REQ-016
+RC_GTEST_PROP(SureFaultLaw, IsToldFromEveryOtherWhereTwiceTheFaultsAreAllowedFor, ()) {
+  const SensorArray array = drawn_array();
+  const int n = array.size();
+  const int c = coplanarity(array, array.all());
+  const TestSettings settings;
+  const Thresholds t = thresholds_of(array, kExact, settings);
+  const ErrorBudget budget = error_budget(array, kExact, settings);
+  const int most = (n - 1 - c) / 2;
+  if (most < 1) return;
+  const int m = *rc::gen::inRange(1, most + 1);
+  const int first = *rc::gen::inRange(0, n);
+  const Vec3 down = drawn_direction();
+  BlockEvidence block = exact_block(array, down, settings.samples);
+  SensorSet faulty;
+  for (int k = 0; k < m; ++k) faulty = faulty.with((first + k) % n);
+  // They agree on another vector, as far as they can.
+  const Vec3 other = scaled(drawn_direction(), drawn(0.0, 20.0));
+  for (int i = 0; i < n; ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    const double noise = drawn(-1.0, 1.0) * 0.5 * budget.noise_mps2[s];
+    const double bound = t.sure.fault[static_cast<std::size_t>(2 * m)][s] * 1.000001;
+    const double wanted = dot(array.axis(i), other);
+    block.mean_mps2[s] += !faulty.has(i) ? noise : std::fabs(wanted) > bound ? wanted : std::copysign(bound, wanted);
+  }
+  Isolation isolation;
+  isolation.pose(array, array.all());
+  const FaultSetScan scan = isolation.scan(array, kExact, budget.limits, block, array.all(), m, m, 1, 5.0);
+  RC_ASSERT(scan.asserted == faulty);
+}
+
+}  // namespace
