@@ -1,5 +1,5 @@
 # The state machine as `plumb model --format json` tells it -> a Coq file. Run by proofs/check_coq.sh; the result is
-# never kept. Names become constructors: "by size (unproven: stay)" -> T_by_size_unproven_stay.
+# never kept. Names become constructors: "by size (unproven: suspect)" -> T_by_size_unproven_suspect.
 def name(prefix): prefix + (gsub("[^A-Za-z0-9]+"; "_") | sub("_$"; ""));
 def listed: join(" | ");
 def bool: if . == null then "_" elif . then "true" else "false" end;

@@ -9,6 +9,13 @@ namespace {
 
 using std::size_t;
 
+/// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
+/// whose less checked members are no better explanation (`vouches_for_norm`).
+constexpr double kMinLeverage = 0.002;
+/// A set doubts gravity from this part of the limit on at which the norm would kill it: what its subsets, which measure
+/// the length less well, are off by is noise on top of the same error, and must not be held against them first.
+constexpr double kDoubtShare = 0.5;
+
 /// Calls f(set, index) for all subsets of {0..universe-1} of the given size, in a fixed order.
 template <class F>
 void for_each_subset(int universe, int size, F&& f) noexcept {
@@ -59,7 +66,10 @@ double common_drift_turn_rad(const SensorArray& array, SensorSet set, const Vec3
 
 }  // namespace
 
-void Isolation::clear() noexcept { dead_.fill(0); }
+void Isolation::clear() noexcept {
+  dead_.fill(0);
+  claims_.clear();
+}
 
 void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
   const int c = plumb::coplanarity(array, posed);
@@ -105,28 +115,42 @@ bool Isolation::has_dead_subset(SensorSet set) const noexcept {
   return false;
 }
 
-bool Isolation::norm_is_void(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                             const BlockEvidence& block) const noexcept {
-  bool found = false;
-  const auto consider = [&](SensorSet set) {
-    if (found || set.size() < 4) return;
+ReferenceDoubt Isolation::doubt_reference(const SensorArray& array, const GravityReference& gravity,
+                                          const TestLimits& limits, const BlockEvidence& block,
+                                          ReferenceClaims* record) const noexcept {
+  ReferenceDoubt doubt;
+  const SensorSet posed = posed_ & block.usable;
+  bool agrees = false;
+  const auto ask = [&](SensorSet set, int rank) {
     const SetTest t = test_set(array, gravity, limits, block, set);
     if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
+    if (t.least_leverage < kMinLeverage && !vouches_for_norm(array, gravity, limits, block, set, t)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
-    if (off > t.norm_reject_limit(limits)) found = vouches_for_norm(array, gravity, limits, block, set, t);
+    const double limit = t.norm_reject_limit(limits);
+    const bool doubts = off > kDoubtShare * limit;
+    agrees = agrees || !doubts;
+    // A claim that leaves one fault alone is believed whatever the set is off by: one fault in a tool that moves
+    // steadily is likelier than several that pass for a healthy set.
+    const int claim = posed_.size() - set.size() >= 2 ? ReferenceClaims::index_of(set, rank, universe_) : -1;
+    if (claim >= 0) {
+      const double unit = t.norm_sigma_mps2 / std::sqrt(block.samples);
+      const double margin = limit * unit - limits.gravity * gravity.sigma_mps2;
+      if (record != nullptr) record->hear(claim, t.norm_error_mps2, margin);
+      if ((record != nullptr ? *record : claims_).refuted(claim)) return;
+    }
+    if (doubts) doubt.add(set);
   };
-  const SensorSet posed = posed_ & block.usable;
-  const SetTest full = test_set(array, gravity, limits, block, posed);
-  const double full_off = full.norm < 0.0 ? -full.norm : full.norm;
-  // Everything agrees, gravity included: nothing to void, and the healthy case costs one test.
-  if (full.tested && full.parity_alive(limits) && !(full_off > full.norm_reject_limit(limits))) return false;
-  for_each_fault_set(posed, universe_, 2, [&](SensorSet f) { consider(posed - f); });
-  if (universe_ <= kStrictCapacity) {
-    for_each_subset(universe_, coplanarity_ + 2, [&](SensorSet s, int) {
-      if (posed.contains(s)) consider(s);
+  const auto ask_size = [&](int size) {
+    for_each_subset(universe_, size, [&](SensorSet s, int rank) {
+      if (posed.contains(s)) ask(s, rank);
     });
-  }
-  return found;
+  };
+  const int smallest = coplanarity_ + 2 > 4 ? coplanarity_ + 2 : 4;
+  const bool few = universe_ <= kStrictCapacity;
+  const int deep = posed.size() - (few ? kScanDepth : kScanDepth - 1);
+  for (int size = posed.size(); size >= smallest && size >= deep && !agrees; --size) ask_size(size);
+  if (few && deep > smallest && !agrees) ask_size(smallest);
+  return doubt;
 }
 
 SensorSet Isolation::convict_by_parity(const SensorArray& array, const GravityReference& gravity,
@@ -157,11 +181,12 @@ IsolationAnswer Isolation::vote(const SensorArray& array, const GravityReference
                                 const BlockEvidence& block) noexcept {
   IsolationAnswer out;
   out.voting = voting_;
-  out.norm_void = norm_is_void(array, gravity, limits, block);
+  const ReferenceDoubt doubt = doubt_reference(array, gravity, limits, block, &claims_);
+  out.norm_void = doubt.any();
   out.parity = convict_by_parity(array, gravity, limits, block);
   const auto alive_here = [&](SensorSet s) {
     const SetTest t = test_set(array, gravity, limits, block, s);
-    return out.norm_void ? t.parity_alive(limits) : t.alive(limits) && t.parity_alive(limits);
+    return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(s));
   };
   out.full_alive = !has_dead_subset(posed_) && alive_here(posed_);
   if (strict_ < 1) return out;
@@ -193,7 +218,7 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
   out.fewest_faults.fill(255);
   const SensorSet posed = posed_ & block.usable;
   const SetTest used = test_set(array, gravity, limits, block, in_service & block.usable);
-  const bool norm_void = norm_is_void(array, gravity, limits, block);
+  const ReferenceDoubt doubt = doubt_reference(array, gravity, limits, block, nullptr);
   out.protection_available = used.tested && protect.faults <= kScanDepth && used.parity_rows > 0;
   bool any_protected = false, any_asserted = false;
   SensorSet common = posed;
@@ -206,9 +231,8 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
       if (size <= protect.faults) out.protection_available = false;
       return;
     }
-    const bool alive =
-        (norm_void ? t.parity_alive(limits) : t.alive(limits) && t.parity_alive(limits)) && !has_dead_subset(rest);
-    if (!alive) return;
+    const bool explains = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
+    if (!explains || has_dead_subset(rest)) return;
     for (int i = 0; i < universe_; ++i) {
       if (rest.has(i) && size < out.fewest_faults[static_cast<size_t>(i)])
         out.fewest_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
@@ -236,7 +260,7 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
   out.protection_available = out.protection_available && any_protected;
   if (any_asserted && !common.empty()) {
     const SetTest rest = test_set(array, gravity, limits, block, posed - common);
-    const bool alive = norm_void ? rest.parity_alive(limits) : rest.alive(limits) && rest.parity_alive(limits);
+    const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubt.excuses(posed - common));
     if (rest.tested && alive) out.asserted = common;
   }
   return out;

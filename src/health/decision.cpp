@@ -4,14 +4,14 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-SizeClass HealthMonitor::classify() const noexcept {
-  if (rank_of(array_, in_service_) < 3) return SizeClass::rank_lost;
-  if (!critical_sensors(array_, in_service_).empty()) return SizeClass::critical;
-  return in_service_ == array_.all() ? SizeClass::all_configured : SizeClass::reduced;
+SizeClass HealthMonitor::classify(SensorSet set) const noexcept {
+  if (rank_of(array_, set) < 3) return SizeClass::rank_lost;
+  if (!critical_sensors(array_, set).empty()) return SizeClass::critical;
+  return set == array_.all() ? SizeClass::all_configured : SizeClass::reduced;
 }
 
 void HealthMonitor::sets_changed() noexcept {
-  size_class_ = classify();
+  size_class_ = classify(in_service_);
   map_ = least_squares(array_, in_service_);
   mae_.clear_all_sensor();
   isolation_.pose(array_, in_service_ | set_aside_);
@@ -34,87 +34,82 @@ void HealthMonitor::forget_episode() noexcept {
   exhausted_ = false;
 }
 
-void HealthMonitor::retire(SensorSet culprits) noexcept {
-  in_service_ = in_service_ - culprits;
-  set_aside_ = set_aside_ - culprits;
-  excluded_ = excluded_ | culprits;
-  banned_ = banned_ | (culprits & readmitted_);  // readmitted once and convicted again: out for good
-  if (asserted_left_ > 0) asserted_left_ -= culprits.size() < asserted_left_ ? culprits.size() : asserted_left_;
-  forget_episode();
-}
-
-SensorSet HealthMonitor::move_channels(Action::Bits actions) noexcept {
-  SensorSet named;
+SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLedger& s) noexcept {
+  SensorSet moved;
+  if ((actions & Action::exclude) != 0) {
+    moved = named.culprits;
+    s.banned = s.banned | (moved & s.readmitted);  // readmitted once and convicted again: out for good
+    s.excluded = s.excluded | moved;
+    // The survivors were just found alive together, those set aside before among them: they serve again, but for those
+    // that had come back once already.
+    const SensorSet acquitted = s.set_aside - moved;
+    s.in_service = (s.in_service - moved) | (acquitted - s.banned);
+    s.excluded = s.excluded | (acquitted & s.banned);
+    s.set_aside = SensorSet{};
+  }
+  if ((actions & Action::set_aside) != 0) {
+    moved = named.accused & s.in_service;
+    s.banned = s.banned | (moved & s.readmitted);
+    s.in_service = s.in_service - moved;
+    s.set_aside = s.set_aside | moved;
+  }
   if ((actions & Action::mark_absent) != 0) {
-    named = (gate_.lost() & array_.all()) - absent_;
-    in_service_ = in_service_ - named;
-    set_aside_ = set_aside_ - named;
-    excluded_ = excluded_ - named;
-    absent_ = absent_ | named;
-    on_probation_ = on_probation_ - named;
+    moved = named.lost - s.absent;
+    s.in_service = s.in_service - moved;
+    s.set_aside = s.set_aside - moved;
+    s.excluded = s.excluded - moved;
+    s.absent = s.absent | moved;
   }
   if ((actions & Action::mark_back) != 0) {
-    named = gate_.back() & absent_;
-    absent_ = absent_ - named;
-    excluded_ = excluded_ | named;
-    banned_ = banned_ | (named & readmitted_);
-    gate_.welcome(named);
+    moved = named.back & s.absent;
+    s.banned = s.banned | (moved & s.readmitted);
+    s.absent = s.absent - moved;
+    s.excluded = s.excluded | moved;
   }
-  return named;
+  if ((actions & (Action::reinstate | Action::rearm)) != 0) {
+    const bool reinstates = (actions & Action::reinstate) != 0;
+    moved = reinstates ? SensorSet::of(((named.proven & (s.excluded | s.set_aside)) - s.banned).lowest()) : named.reset;
+    if (reinstates) s.readmitted = s.readmitted | moved;
+    s.excluded = s.excluded - moved;
+    s.set_aside = s.set_aside - moved;
+    s.absent = s.absent - moved;
+    s.in_service = s.in_service | moved;
+  }
+  return moved;
 }
 
-SensorSet HealthMonitor::return_to_service(Action::Bits actions) noexcept {
-  SensorSet named;
+/// What a decision means for everything that the monitor remembers beside the machine.
+SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState& after) noexcept {
+  const SensorSet before = in_service_, posed_before = in_service_ | set_aside_;
+  const Action::Bits actions = decision.actions;
+  SensorSet named = decision.sensors;
+  in_service_ = after.sensors.in_service;
+  set_aside_ = after.sensors.set_aside;
+  excluded_ = after.sensors.excluded;
+  absent_ = after.sensors.absent;
+  readmitted_ = after.sensors.readmitted;
+  banned_ = after.sensors.banned;
+  if ((actions & Action::exclude) != 0) {
+    if (asserted_left_ > 0) asserted_left_ -= named.size() < asserted_left_ ? named.size() : asserted_left_;
+    forget_episode();
+  }
+  if ((actions & Action::set_aside) != 0) last_grade_ = Grade::parity;
+  if ((actions & Action::mark_absent) != 0) on_probation_ = on_probation_ - named;
+  if ((actions & (Action::mark_back | Action::rearm)) != 0) gate_.welcome(named);
   if ((actions & Action::reinstate) != 0) {
-    named = SensorSet::of((on_probation_ & (excluded_ | set_aside_)).lowest());
-    readmitted_ = readmitted_ | named;
     probation_.clear();
     on_probation_ = SensorSet{};
   }
-  if ((actions & Action::rearm) != 0) {
-    named = reset_sensors_ - gate_.lost();
-    gate_.welcome(named);
-    forget_episode();
-  }
-  excluded_ = excluded_ - named;
-  set_aside_ = set_aside_ - named;
-  absent_ = absent_ - named;
-  in_service_ = in_service_ | named;
-  return named;
-}
-
-SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
-  const SensorSet before = in_service_, posed_before = in_service_ | set_aside_;
-  SensorSet named;
-  if ((actions & Action::exclude) != 0) {
-    named = culprits();
-    retire(named);
-    // The survivors were just found alive together, those set aside before among them: they serve again.
-    in_service_ = in_service_ | set_aside_;
-    set_aside_ = SensorSet{};
-  }
-  if ((actions & Action::set_aside) != 0) {
-    named = aside_ & in_service_;
-    in_service_ = in_service_ - named;
-    set_aside_ = set_aside_ | named;
-    banned_ = banned_ | (named & readmitted_);
-    last_grade_ = Grade::parity;
-  }
-  if ((actions & (Action::mark_absent | Action::mark_back)) != 0) named = move_channels(actions);
-  if ((actions & (Action::reinstate | Action::rearm)) != 0) named = return_to_service(actions);
+  if ((actions & Action::rearm) != 0) forget_episode();
   if ((actions & (Action::start_fit | Action::discard_fit | Action::restart_fit | Action::adopt_fit)) != 0) {
     const SensorSet fitted = serve_fit(actions);
     if (named.empty()) named = fitted;
   }
-  if ((actions & Action::exhausted) != 0) exhausted_ = true;
-  if ((actions & Action::unproven) != 0) {
-    unproven_ = true;
-    have_predictions_ = false;
-  }
-  if (before != in_service_) {
-    clean_run_ = 0;
-    recalibration_.forget();  // its stations were those of other sensors
-  }
+  exhausted_ = after.exhausted;
+  unproven_ = after.unproven;
+  clean_run_ = after.clean_run;
+  if ((actions & Action::unproven) != 0) have_predictions_ = false;
+  if (before != in_service_) recalibration_.forget();  // its stations were those of other sensors
   const bool posed_changed = posed_before != (in_service_ | set_aside_);
   if (posed_changed) {
     // The question is another one now: what was answered, and over how many stations, does not carry over.
@@ -127,32 +122,29 @@ SensorSet HealthMonitor::act(Action::Bits actions) noexcept {
 }
 
 HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
-  const HealthEvent event = first_taken(mode_, raised);
-  const bool was_reset = reset_pending_;
-  const Cell& cell = cell_of(mode_, event);
+  DecisionState state{mode_,     base_,      {in_service_, set_aside_, excluded_, absent_, readmitted_, banned_},
+                      unproven_, exhausted_, clean_run_};
+  DecisionInput input;
+  input.raised = raised;
+  input.named = {culprits(),   aside_,        gate_.lost() & array_.all(),
+                 gate_.back(), on_probation_, reset_sensors_ - gate_.lost()};
+  input.protection_within = unbounded_run_ < config_.clean_blocks;
+  input.clean_blocks = config_.clean_blocks;
+  const Decision decision = plumb::decide(kTransitionTable, state, input, [this](SensorSet set) {
+    return set == in_service_ ? size_class_ : classify(set);
+  });
+  const HealthEvent event = decision.event;
   const Mode from = mode_;
-  const SensorSet sets[4] = {in_service_, set_aside_, excluded_, absent_};
   const double statistic = verdict_.statistic, limit = verdict_.limit;
   const bool by_noise = event == HealthEvent::set_aside && noise_confirmed_.contains(aside_);
-  const SensorSet named = act(cell.actions);
-  if (was_reset) {
+  const SensorSet named = carry_out(decision, state);
+  mode_ = state.mode;
+  if (reset_pending_) {
     reset_pending_ = false;
     reset_sensors_ = SensorSet{};
   }
-
-  TargetFacts facts;
-  facts.size = size_class_;
-  facts.unproven = unproven_;
-  facts.earned = clean_run_ >= config_.clean_blocks && !unproven_;
-  facts.base_suspect = base_ == Mode::suspect;
-  facts.protection_within = unbounded_run_ < config_.clean_blocks;
-  facts.calibrated = true;
-  mode_ = resolve(from, cell.target, facts);
   follow_suspicion(event, from);
-
-  const bool changed =
-      mode_ != from || sets[0] != in_service_ || sets[1] != set_aside_ || sets[2] != excluded_ || sets[3] != absent_;
-  if (!changed) return event;
+  if (!decision.changed) return event;
   const Cause asked_by = recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;
   const Cause cause = event == HealthEvent::recalibrate ? asked_by
                       : by_noise                        ? Cause::noisy

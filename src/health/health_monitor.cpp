@@ -152,7 +152,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   evidence_ = BlockEvidence{};
   answer_ = IsolationAnswer{};
   scan_ = FaultSetScan{};
-  size_class_ = classify();
+  size_class_ = classify(in_service_);
   live_ = isolation_.live();
 }
 

@@ -176,7 +176,7 @@ Expected<void> HealthMonitor::take_up(const MonitorSetup& setup, const std::uint
 /// Derives what is not stored, and asks of the whole what its parts alone cannot answer.
 bool HealthMonitor::resume(const MonitorSetup& setup) noexcept {
   if (!sets_are_plausible()) return false;
-  size_class_ = classify();
+  size_class_ = classify(in_service_);
   map_ = least_squares(array_, in_service_);
   isolation_.resume(array_, in_service_ | set_aside_);
   if (recalibration_.adopted()) {

@@ -131,7 +131,7 @@ const char* to_string(Target target) noexcept {
   switch (target) {
     case Target::stay: return "stay";
     case Target::by_size: return "by size";
-    case Target::by_size_if_proven: return "by size (unproven: stay)";
+    case Target::by_size_if_proven: return "by size (unproven: suspect)";
     case Target::by_size_when_earned: return "by size when earned";
     case Target::suspect: return "suspect";
     case Target::suspect_or_failed: return "suspect (rank < 3: failed)";

@@ -108,9 +108,6 @@ TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
   }
 }
 
-/// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
-/// Counter-example: four of mikoff5's z axes with three coplanar pass parity whatever the fourth reads;
-/// taken literally, its fault would void the norm for ever. Only sets whose members are all checked may.
 /// A precise sensor among noisy ones has little leverage, and so has an axis that stands nearly alone. A steady
 /// acceleration that the others show without it is no fault of its own.
 // Verifies: REQ-061
@@ -144,6 +141,9 @@ TEST(Isolation, AnAccelerationThatTheOthersShowTooIsNoFaultOfAWeaklyCheckedMembe
   }
 }
 
+/// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
+/// Counter-example: four of mikoff5's z axes with three coplanar pass parity whatever the fourth reads;
+/// taken literally, its fault would void the norm for ever. Only sets whose members are all checked may.
 // Negative: REQ-061
 TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
   AxisList axes{};

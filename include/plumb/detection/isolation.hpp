@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/detection/reference_doubt.hpp"
 #include "plumb/detection/set_test.hpp"
 
 namespace plumb {
@@ -37,7 +38,7 @@ struct IsolationAnswer {
   int live = 0;                ///< voting sets still alive
   int voting = 0;              ///< voting sets in all
   bool contradiction = false;  ///< some sensor is redundant and no voting set is alive
-  bool norm_void = false;      ///< a well-checked set passed parity and failed the norm: no norm evidence here
+  bool norm_void = false;      ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
   bool full_alive = false;     ///< the empty fault set still explains everything
 
   static constexpr auto fields() noexcept {
@@ -110,12 +111,13 @@ class Isolation {
     dead_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
   }
   bool has_dead_subset(SensorSet set) const noexcept;
-  bool norm_is_void(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                    const BlockEvidence& block) const noexcept;
+  ReferenceDoubt doubt_reference(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                                 const BlockEvidence& block, ReferenceClaims* record) const noexcept;
   SensorSet convict_by_parity(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                               const BlockEvidence& block) const noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
+  ReferenceClaims claims_;
   SensorSet posed_;
   int universe_ = 0;     ///< configured sensors, over which sets are numbered
   int voting_size_ = 3;  ///< c + 1
@@ -127,9 +129,9 @@ class Isolation {
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using I = Isolation;
-    return field_list(&I::dead_, not_stored(&I::posed_), not_stored(&I::universe_), not_stored(&I::voting_size_),
-                      not_stored(&I::voting_), not_stored(&I::coplanarity_), not_stored(&I::strict_),
-                      not_stored(&I::parity_));
+    return field_list(&I::dead_, &I::claims_, not_stored(&I::posed_), not_stored(&I::universe_),
+                      not_stored(&I::voting_size_), not_stored(&I::voting_), not_stored(&I::coplanarity_),
+                      not_stored(&I::strict_), not_stored(&I::parity_));
   }
 };
 

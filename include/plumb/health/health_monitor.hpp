@@ -13,6 +13,7 @@
 #include "plumb/detection/combination_mae.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/detection/stationarity.hpp"
+#include "plumb/health/decision.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
@@ -20,7 +21,6 @@
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
 #include "plumb/health/snapshot.hpp"
-#include "plumb/health/transition_table.hpp"
 #include "plumb/health/trend.hpp"
 #include "plumb/health/verdict.hpp"
 
@@ -188,14 +188,11 @@ class HealthMonitor {
   Mode published_mode() const noexcept { return mode_ == Mode::recalibrating ? base_ : mode_; }
 
   // decision.cpp: one event
-  HealthEvent decide(EventMask raised, double time_s) noexcept;  // the event that was taken
-  SensorSet act(Action::Bits actions) noexcept;                  // each returns the sensors that it names
-  SensorSet move_channels(Action::Bits actions) noexcept;
-  SensorSet return_to_service(Action::Bits actions) noexcept;
-  void retire(SensorSet culprits) noexcept;
+  HealthEvent decide(EventMask raised, double time_s) noexcept;                        // the event that was taken
+  SensorSet carry_out(const Decision& decision, const DecisionState& after) noexcept;  // the sensors that it names
   void forget_episode() noexcept;
   void sets_changed() noexcept;
-  SizeClass classify() const noexcept;
+  SizeClass classify(SensorSet set) const noexcept;
 
   // snapshot.cpp: what outlives a power cycle
   std::uint64_t identity(const MonitorSetup& setup) const noexcept;

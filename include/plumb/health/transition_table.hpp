@@ -36,7 +36,7 @@ constexpr HealthState state_of(Mode mode) noexcept {
 enum class Target : std::uint8_t {
   stay,
   by_size,              ///< failed, degraded, nominal or isolated, by rank, critical sensors and count
-  by_size_if_proven,    ///< by size, but an unproven suspect stays
+  by_size_if_proven,    ///< by size, but who is unproven goes to suspect, or stays there
   by_size_when_earned,  ///< by size after R clean blocks (unproven: excited ones), else stay
   suspect,
   suspect_or_failed,  ///< failed where rank < 3
@@ -145,7 +145,7 @@ constexpr Row kRecalibrating = {
     ignored(),
     go(T::suspect_or_failed, A::mark_absent | A::discard_fit),
     go(T::stay, A::mark_back),
-    go(T::by_size, A::exclude | A::discard_fit),
+    go(T::by_size_if_proven, A::exclude | A::discard_fit),
     go(T::suspect_or_failed, A::set_aside | A::discard_fit),
     go(T::base, A::discard_fit),
     go(T::suspect, A::discard_fit),
@@ -212,14 +212,16 @@ constexpr EventMask bit(HealthEvent event) noexcept { return EventMask{1} << sta
 
 /// The event that a step takes: the first in rank order that the mode neither ignores nor holds; none where there is no
 /// such. An ignored event must not block those behind it, else one level could livelock the rest.
-constexpr HealthEvent first_taken(Mode mode, EventMask raised) noexcept {
+constexpr HealthEvent first_taken(const TransitionTable& table, Mode mode, EventMask raised) noexcept {
   for (int e = 0; e < kEventCount; ++e) {
-    const auto event = static_cast<HealthEvent>(e);
-    if ((raised & bit(event)) == 0) continue;
-    const CellKind kind = cell_of(mode, event).kind;
-    if (kind == CellKind::taken || kind == CellKind::impossible) return event;
+    if ((raised & bit(static_cast<HealthEvent>(e))) == 0) continue;
+    const CellKind kind = table[static_cast<std::size_t>(mode)][static_cast<std::size_t>(e)].kind;
+    if (kind == CellKind::taken || kind == CellKind::impossible) return static_cast<HealthEvent>(e);
   }
   return HealthEvent::none;
+}
+constexpr HealthEvent first_taken(Mode mode, EventMask raised) noexcept {
+  return first_taken(kTransitionTable, mode, raised);
 }
 
 /// What is left in service after an action.
@@ -250,7 +252,7 @@ constexpr Mode resolve(Mode from, Target target, const TargetFacts& facts) noexc
   switch (target) {
     case Target::stay: return from;
     case Target::by_size: return mode_by_size(facts.size);
-    case Target::by_size_if_proven: return lost || !facts.unproven ? mode_by_size(facts.size) : from;
+    case Target::by_size_if_proven: return lost || !facts.unproven ? mode_by_size(facts.size) : Mode::suspect;
     case Target::by_size_when_earned: return facts.earned ? mode_by_size(facts.size) : from;
     case Target::suspect: return Mode::suspect;
     case Target::suspect_or_failed: return lost ? Mode::failed : Mode::suspect;

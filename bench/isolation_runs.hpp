@@ -1,0 +1,58 @@
+// Counts of isolation trials, run for whichever capacity the sources were compiled with: plain numbers, so that one
+// program holds several capacities.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace plumb_bench {
+
+struct Count {
+  std::uint64_t trials = 0, correct = 0, undecided = 0, wrong = 0;
+};
+
+/// Episodes with at most m_strict faults of any kind; per grade how many named a healthy sensor.
+struct SoundCount {
+  std::uint64_t trials = 0, votes = 0, strict = 0, strict_right = 0;
+  std::uint64_t parity = 0, parity_asked = 0, asserted = 0, asserted_asked = 0;
+};
+
+struct SoundnessJob {
+  int n = 4;
+  std::uint64_t trials = 0, seed = 0;
+  bool fitted = false;         ///< tools from a pool of fits; else perfectly calibrated ones
+  double least_gravity = 0.0;  ///< gravity error in sigmas of the reference: |error| from `least` to `most`
+  double most_gravity = 3.0;
+  int healthy = 3;   ///< at least so many in every trial
+  int stations = 0;  ///< 0: one to four
+};
+
+/// Biases, log-uniform from `least` to `most` sigmas of one sample, constant over the stations.
+struct RatesJob {
+  int n = 4, faults = 1;
+  double least = 10.0, most = 30.0;
+  std::uint64_t trials = 0, seed = 0;
+};
+
+enum class Rule : std::uint8_t { strict, paper, glt, leave_out, best_fit };
+inline constexpr int kRules = 5;
+using RuleCounts = std::array<Count, kRules>;
+
+/// Faults of the study of the parity grade.
+enum class ParityFault : std::uint8_t { bias, stuck, colluding, mirrored };
+
+#define PLUMB_BENCH_ISOLATION_RUNS                                     \
+  SoundCount soundness(const SoundnessJob& job);                       \
+  RuleCounts eight_attitudes(const RatesJob& job);                     \
+  Count parity_at_one_station(const RatesJob& job, ParityFault fault); \
+  Count asserted_at_one_block(const RatesJob& job);
+
+namespace cap8 {
+PLUMB_BENCH_ISOLATION_RUNS
+}
+namespace cap16 {
+PLUMB_BENCH_ISOLATION_RUNS
+}
+#undef PLUMB_BENCH_ISOLATION_RUNS
+
+}  // namespace plumb_bench

@@ -1,0 +1,89 @@
+/// The decision layer without the evidence: which event a step takes, what its actions do to the sensors' places, and
+/// where the machine goes. Small plain states, so that tests/health/induction_test.cpp can try all of them.
+#pragma once
+
+#include "plumb/core/sensor_set.hpp"
+#include "plumb/health/transition_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Where every sensor stands. The first four partition the array (property S4).
+struct SensorLedger {
+  SensorSet in_service, set_aside, excluded, absent;
+  SensorSet readmitted;  ///< have come back by probation once
+  SensorSet banned;      ///< convicted after that: out for good
+};
+
+/// Which sensors the events of a step are about.
+struct NamedSensors {
+  SensorSet culprits;  ///< convicted, to be latched out
+  SensorSet accused;   ///< convicted at the parity grade, to be set aside
+  SensorSet lost;      ///< channels that have fallen silent
+  SensorSet back;      ///< channels that deliver again
+  SensorSet proven;    ///< on probation, and through it
+  SensorSet reset;     ///< named by the host
+};
+
+struct DecisionState {
+  Mode mode = Mode::suspect;
+  Mode base = Mode::suspect;  ///< what recalibrating was entered from
+  SensorLedger sensors;
+  bool unproven = true;
+  bool exhausted = false;
+  int clean_run = 0;  ///< clean blocks in a row
+};
+
+struct DecisionInput {
+  EventMask raised = 0;
+  NamedSensors named;
+  bool protection_within = false;  ///< protection level available and within the alert limit
+  bool calibrated = true;
+  int clean_blocks = 3;  ///< R
+};
+
+struct Decision {
+  HealthEvent event = HealthEvent::none;
+  Action::Bits actions = Action::none;
+  SensorSet sensors;     ///< those that changed their place for it
+  bool changed = false;  ///< of state or of place: one record is due (property S15)
+};
+
+/// Carries out the part of the actions that moves sensors; returns those that the event is about.
+SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLedger& sensors) noexcept;
+
+/// One step of the machine. `size_of(set)` tells what is left with a set in service (SizeClass).
+template <class SizeOf>
+Decision decide(const TransitionTable& table, DecisionState& state, const DecisionInput& input,
+                SizeOf&& size_of) noexcept {
+  Decision out;
+  out.event = first_taken(table, state.mode, input.raised);
+  const Cell& cell = table[static_cast<std::size_t>(state.mode)][static_cast<std::size_t>(out.event)];
+  out.actions = cell.actions;
+  const SensorLedger before = state.sensors;
+  const Mode from = state.mode;
+  out.sensors = move_sensors(cell.actions, input.named, state.sensors);
+
+  if ((cell.actions & Action::start_fit) != 0) state.base = from;
+  if ((cell.actions & Action::unproven) != 0) state.unproven = true;
+  if ((cell.actions & (Action::exclude | Action::rearm | Action::adopt_fit)) != 0) state.exhausted = false;
+  if ((cell.actions & Action::exhausted) != 0) state.exhausted = true;
+  if (before.in_service != state.sensors.in_service || (cell.actions & Action::adopt_fit) != 0) state.clean_run = 0;
+
+  TargetFacts facts;
+  facts.size = size_of(state.sensors.in_service);
+  facts.unproven = state.unproven;
+  facts.earned = state.clean_run >= input.clean_blocks && !state.unproven;
+  facts.base_suspect = state.base == Mode::suspect;
+  facts.protection_within = input.protection_within;
+  facts.calibrated = input.calibrated;
+  state.mode = resolve(from, cell.target, facts);
+
+  const SensorLedger& after = state.sensors;
+  out.changed = state.mode != from || before.in_service != after.in_service || before.set_aside != after.set_aside ||
+                before.excluded != after.excluded || before.absent != after.absent;
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb
