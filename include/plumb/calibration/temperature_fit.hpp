@@ -125,9 +125,9 @@ struct TemperatureWork {
 /// Errors, in this order: those of `Calibrator::finish`, where they apply; out_of_range (index 2: order or max_order,
 /// 3: the span of use is not finite or narrower than kLevelsApart_degc where an order above 0 is asked for, 4: a prior
 /// is not above 0, 5: an order above 0 beside roll groups); too_few_levels (value = levels, limit = order + 1;
-/// report.missing_degc says where); unobservable; implausible (index = sensor: its scale factor leaves the bound at some
-/// temperature of the span of use). An automatic order is refused only where order 0 is. `report` and `fit_report`,
-/// where given, are filled as far as the stations allow, for refused fits too.
+/// report.missing_degc says where); unobservable; implausible (index = sensor: its scale factor leaves the bound at
+/// some temperature of the span of use). An automatic order is refused only where order 0 is. `report` and
+/// `fit_report`, where given, are filled as far as the stations allow, for refused fits too.
 Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, const GravityReference& gravity,
                                                  const Station* stations, int count, const TemperatureOptions& options,
                                                  Station* scratch, TemperatureWork& work,
