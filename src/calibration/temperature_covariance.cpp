@@ -13,8 +13,10 @@ namespace {
 
 /// Temperatures at which the span is looked at: a variance is of degree 6 in the temperature.
 constexpr int kGrid = 13;
-/// Rotations carry no variance; this part of the diagonal keeps the factor from failing on them.
-constexpr double kRidge = 1e-9;
+/// Rotations carry no variance but rounding, of either sign; this part of the diagonal, or ten times as much where that
+/// is not enough, stands above it. It goes into the result, so that what covers the rest covers them too.
+constexpr double kRidge = 1e-7;
+constexpr int kRidges = 5;
 
 /// d(W, b) as it acts at one temperature, by the parameters of one sensor.
 struct Action {
@@ -69,6 +71,17 @@ void transpose(double* a, int m) noexcept {
       a[j * m + i] = kept;
     }
   }
+}
+
+/// The lower factor of `a`, which gets as much of a ridge as it takes.
+bool factor_of(double* a, int m, double* factor) noexcept {
+  double ridge = kRidge;
+  for (int k = 0; k < kRidges; ++k, ridge *= 10.0) {
+    for (int i = 0; i < m; ++i) a[i * m + i] *= 1.0 + ridge;
+    for (int i = 0; i < m * m; ++i) factor[i] = a[i];
+    if (cholesky_factor(factor, m, m)) return true;
+  }
+  return false;
 }
 
 /// Largest x with det(c - x l l') = 0; c is destroyed, `l` the lower factor. Not above 0 where it could not be had.
@@ -180,9 +193,7 @@ double covering_covariance(const Joint& joint, const JointState& state, const Ch
     covariance_at(joint, state, work.information.data(), temperature(g), one);
     for (std::size_t k = 0; k < size; ++k) mean[k] += one[k] / kGrid;
   }
-  for (std::size_t k = 0; k < size; ++k) factor[k] = mean[k];
-  for (int k = 0; k < m; ++k) factor[k * m + k] *= 1.0 + kRidge;
-  if (!cholesky_factor(factor, m, m)) return 0.0;
+  if (!factor_of(mean, m, factor)) return 0.0;
   double inflation = 1.0;
   for (int g = 0; g < kGrid; ++g) {
     covariance_at(joint, state, work.information.data(), temperature(g), one);

@@ -265,7 +265,9 @@ Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   switch (e.code) {
     case Errc::too_few_stations:
       if (!run.log_findings.empty()) return no_stations(run);
-      return {fmt::format("{} stations were found, {} are needed", run.stations.size(), e.limit), more_attitudes(run)};
+      return {fmt::format("{} station{} found, {} are needed", run.stations.size(),
+                          run.stations.size() == 1 ? " was" : "s were", e.limit),
+              more_attitudes(run)};
     case Errc::unobservable:
       return {fmt::format(
                   "the stations determine {} of the {} parameters that they must (the report names what is missing)",

@@ -23,7 +23,7 @@ namespace {
 struct Options {
   std::string array;
   std::string calibration;
-  LogSpec log{"-", io::BadRowPolicy::stop};
+  LogSpec log{"-", io::BadRowPolicy::stop, false};
   std::string events;
   std::string verdicts;
   std::string snapshot_in;
@@ -60,6 +60,9 @@ constexpr const char* kNotes =
     "and\n"
     "`failed` outlive the end of a log as they outlive a power cycle. The snapshot must be of the same array file and\n"
     "calibration; both options may name one file.\n"
+    "--follow waits at the end of the log for what is appended to it, as on standard input, until Ctrl-C; the "
+    "snapshot\n"
+    "and the files are complete then too.\n"
     "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
     "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -101,7 +104,7 @@ struct Outputs {
 
 io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile& array, const SensorArray& sensors,
                                     const Verdict& now, Outputs& out) {
-  const bool live = options.log.path == "-";
+  const bool live = options.log.path == "-" || options.log.follow;
   const bool taken = options.events == "-" || options.verdicts == "-";
   if (!options.events.empty()) {
     io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.events, io::OutputFile::Mode::stream);
@@ -283,7 +286,18 @@ io::ExitCode tell_limits(const Options& options, const io::ArrayFile& array, con
   return io::ExitCode::done;
 }
 
+std::optional<io::FileError> follow_misuse(const Options& options) {
+  if (!options.log.follow || options.log.path != "-") return std::nullopt;
+  return io::FileError{"--follow",
+                       0,
+                       "",
+                       "standard input is followed anyway, until it is closed",
+                       "leave --follow out, or name the file that grows with --log",
+                       io::ExitCode::usage};
+}
+
 io::ExitCode run(const Options& options) {
+  if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
   std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
     return report(*clash);
@@ -329,6 +343,7 @@ Command add_monitor(CLI::App& tool) {
       ->type_name("CAL.json");
   app->add_option("--log", options->log.path, "the log, CSV with a header row; `-` (default) reads standard input")
       ->type_name("LOG.csv|-");
+  app->add_flag("--follow", options->log.follow, "at the end of the log wait for the rows that are appended to it");
   app->add_option("--events", options->events,
                   "write one JSON line per change; `-` = standard output, instead of the table")
       ->type_name("E.jsonl");

@@ -298,6 +298,7 @@ io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& 
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
+  if (log.follow) reader->follow();
   MonitorRun run;
   Progress progress("monitoring " + log.path);
   Sample sample;

@@ -26,6 +26,7 @@ namespace cli {
 struct LogSpec {
   std::string path;  ///< "-" = standard input
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
+  bool follow = false;  ///< at the end wait for more
 };
 
 // ---- from a log to a calibration ---------------------------------------------------------------

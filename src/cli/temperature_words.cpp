@@ -14,6 +14,7 @@ namespace cli {
 namespace {
 
 constexpr double kMicroG0_mps2 = 1e-6 * kG0_mps2;
+constexpr double kAbsoluteZero_degc = -273.15;
 constexpr std::size_t kNamedTerms = 4;
 constexpr std::size_t kNamedDirections = 6;
 constexpr std::size_t kNamedLevels = 5;
@@ -80,12 +81,14 @@ std::string read_temperature_order(const std::string& text, int& order) {
 std::string read_use_range(const std::string& text, ChebyshevSpan& use_degc) {
   const std::size_t comma = text.find(',');
   ChebyshevSpan read;
-  if (comma == std::string::npos || !number(text, 0, comma, read.lowest) ||
-      !number(text, comma + 1, text.size(), read.highest)) {
+  const std::size_t second = comma == std::string::npos ? comma : text.find_first_not_of(' ', comma + 1);
+  if (second == std::string::npos || !number(text, 0, comma, read.lowest) ||
+      !number(text, second, text.size(), read.highest)) {
     return "\"" + text + "\" is not two temperatures in degC: write for example 20,150";
   }
   if (!(read.highest - read.lowest >= kLevelsApart_degc))
     return fmt::format("\"{}\" must rise by {:g} degC or more", text, kLevelsApart_degc);
+  if (!(read.lowest > kAbsoluteZero_degc)) return "\"" + text + "\" begins below absolute zero, -273.15 degC";
   use_degc = read;
   return "";
 }
@@ -158,10 +161,12 @@ std::vector<TemperatureFact> temperature_facts(const CalibrationRun& run, const 
     out.push_back({"order", fmt::format("{}, scale and bias of every sensor; {} of {} parameters seen by the data",
                                         t.order, t.rank, t.parameters)});
     out.push_back({"range of use", fmt::format("{:.3g} to {:.3g} degC", t.use_degc.lowest, t.use_degc.highest)});
-    const double used = t.use_degc.highest - t.use_degc.lowest, seen = t.levels.highest_degc - t.levels.lowest_degc;
-    if (t.null_directions == 0 && t.condition > kExtrapolated && used > kWider * seen) {
+    const double seen = t.levels.highest_degc - t.levels.lowest_degc, spare = (kWider - 1.0) * seen;
+    const bool beyond =
+        t.use_degc.highest > t.levels.highest_degc + spare || t.use_degc.lowest < t.levels.lowest_degc - spare;
+    if (t.null_directions == 0 && t.condition > kExtrapolated && beyond) {
       out.push_back({"extrapolated",
-                     "the range of use is far wider than what was recorded: where no station is, the "
+                     "the range of use reaches far beyond what was recorded: where no station is, the "
                      "`prior` of the array file speaks"});
     }
     if (run.accepted) out.push_back({"expected error", forecast_words(t, array)});

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 #include "plumb/io/hash.hpp"
 #include "text_tools.hpp"
@@ -28,6 +29,12 @@ bool out_of_range_value(std::string_view cell, double& value) noexcept {
   text[cell.size()] = '\0';
   value = std::strtod(text, nullptr);
   return true;
+}
+
+/// Short beside what a person notices, long beside what a look at the file costs. A signal ends it early.
+void wait_for_more() noexcept {
+  const timespec pause = {0, 20'000'000};
+  (void)::nanosleep(&pause, nullptr);
 }
 
 }  // namespace
@@ -69,6 +76,10 @@ bool LineSource::refill() {
     if (count < 0) {
       error_number_ = errno;
       return false;
+    }
+    if (count == 0 && following_) {
+      wait_for_more();
+      continue;
     }
     at_end_ = count == 0;
     const auto fresh = static_cast<std::size_t>(count);

@@ -37,6 +37,8 @@ class LineSource {
   std::uint64_t hash() const noexcept { return hash_; }
   void hash_bytes();
   void stop_when(const volatile std::sig_atomic_t* flag) noexcept { stop_ = flag; }
+  /// At the end of the file wait for what is appended; only a stop or an error ends the lines then.
+  void follow() noexcept { following_ = true; }
   bool stopped() const noexcept { return stop_ != nullptr && *stop_ != 0; }
 
  private:
@@ -49,6 +51,7 @@ class LineSource {
   int error_number_ = 0;
   bool at_end_ = false;
   bool hashing_ = false;
+  bool following_ = false;
   std::uint64_t bytes_ = 0;
   std::uint64_t hash_ = 0;
   const volatile std::sig_atomic_t* stop_ = nullptr;

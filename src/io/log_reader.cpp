@@ -350,6 +350,7 @@ void LogReader::hash_bytes() {
   state_->source.hash_bytes();
   state_->statistics.hash = state_->source.hash();
 }
+void LogReader::follow() { state_->source.follow(); }
 void LogReader::stop_when(const volatile std::sig_atomic_t* flag) { state_->source.stop_when(flag); }
 
 FileExpected<LogContent> read_log(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {

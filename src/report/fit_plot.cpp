@@ -174,8 +174,8 @@ std::string attitude_script(const FitPictures& p) {
     for (const int from_pole_deg : {30, 60, 90}) {
       const double radius = std::sqrt(1.0 - std::cos(rad_from_deg(from_pole_deg)));
       const int inclination_deg = side < 0 ? from_pole_deg : 180 - from_pole_deg;
-      out += fmt::format("set object circle at {0},0 size {1:.4f} fs empty border lc rgb prior lw {2}\n", centre,
-                         radius, from_pole_deg == 90 ? 1.2 : 0.5);
+      out += fmt::format("set object circle at {0},0 size {1:.4f} fc rgb prior fs empty border lc rgb prior lw {2}\n",
+                         centre, radius, from_pole_deg == 90 ? 1.2 : 0.5);
       out += fmt::format("set label '{} deg' at {},{:.4f} center offset 0,0.5 tc rgb prior font ',12'\n",
                          inclination_deg, centre, radius);
     }

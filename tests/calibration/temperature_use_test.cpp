@@ -148,4 +148,21 @@ TEST(TemperatureUse, TheFitAtOneTemperatureFindsTheSameByTheFittedDrift) {
   }
 }
 
+/// Rotations, which carry no variance but rounding, once made half of the good fits fail; which half was chance.
+TEST(TemperatureUse, ACovarianceThatCoversTheSpanIsAlwaysHad) {
+  for (const double sigma_mps2 : {2e-4 * plumb::kG0_mps2, 1e-5 * plumb::kG0_mps2}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Noise noise(seed);
+      const plumb::Datasheet sheet = paper_sheet(sigma_mps2);
+      const Truth truth = temperature_test::draw_truth(sheet, noise);
+      const auto stations = on_levels(truth, {25.0, 60.0, 105.0, 150.0}, noise, sigma_mps2);
+      for (const double low : {-20.0, 20.0, 25.0}) {
+        const Fit f = fit_of(sheet, stations, options_of(3, low, 150.0 + low));
+        ASSERT_TRUE(f.made.has_value()) << seed << ' ' << low << ' ' << plumb::describe(f.made.error().code);
+        EXPECT_LT(f.report.inflation, 20.0) << seed;
+      }
+    }
+  }
+}
+
 }  // namespace

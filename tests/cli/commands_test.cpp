@@ -2,8 +2,10 @@
 #include <sys/ioctl.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tool_runner.hpp"
 
@@ -201,6 +203,31 @@ TEST(Monitor, InterruptKeepsTheResults) {
   EXPECT_TRUE(says(where.text("events.jsonl"), {"\"to\":\"nominal\"", "\"to\":\"suspect\""}));
 }
 
+TEST(Monitor, FollowsALogThatGrows) {
+  const Workshop where;
+  const std::string log = where.text("drilling.csv");
+  const std::size_t part = log.find(line_of(log, 2000)), row = log.find(line_of(log, 1000)) + 7;
+  where.put("growing.csv", log.substr(0, row));  // in the middle of a row
+  const Process process(where, kMonitor + std::vector<std::string>{"--log", "growing.csv", "--follow"}, -1, {});
+  ASSERT_TRUE(process.says("nominal"));
+  {
+    std::ofstream more(where / "growing.csv", std::ios::app);
+    more << log.substr(row, part - row);
+  }
+  ASSERT_TRUE(process.says("contradict")) << "what was appended is monitored";
+  process.interrupt();
+  const Outcome outcome = process.wait();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(says(outcome.out, {"nominal", "suspect", "1998 samples"})) << outcome.out;
+}
+
+TEST(Monitor, FollowIsForFiles) {
+  const Workshop where;
+  const Outcome outcome = run(where, kMonitor + std::vector<std::string>{"--log", "-", "--follow"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(says(outcome.err, {"--follow", "standard input"})) << outcome.err;
+}
+
 TEST(Calibrate, InterruptFitsTheStationsFoundSoFar) {
   const Workshop where;
   const std::string log = where.text("calibration.csv");
@@ -262,6 +289,32 @@ TEST(Model, ThreeFormatsOfOneTable) {
         cell["mode"] != "failed" || cell["event"] == "reset" || cell["leads_to"] == nlohmann::json({"failed"});
     EXPECT_TRUE(latched) << cell;
   }
+}
+
+/// docs/state-machine.svg is `plumb model --format dot | dot -Tsvg`, drawn by some version of Graphviz.
+TEST(Model, ThePictureInTheDocsIsOfThisTable) {
+  const Directory where;
+  std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/docs/state-machine.svg");
+  const std::string picture((std::istreambuf_iterator<char>(file)), {});
+  std::istringstream dot(run(where, {"model", "--format", "dot"}).out);
+  std::size_t arrows = 0;
+  for (std::string line; std::getline(dot, line);) {
+    const std::size_t arrow = line.find("\" -> \""), label = line.find("\" [label=\"");
+    if (arrow == std::string::npos) continue;
+    ++arrows;
+    const std::string from = line.substr(3, arrow - 3), to = line.substr(arrow + 6, label - arrow - 6);
+    const std::size_t drawn = picture.find("<title>" + from + "&#45;&gt;" + to + "</title>");
+    ASSERT_NE(drawn, std::string::npos) << line;
+    const std::string group = picture.substr(drawn, picture.find("</g>", drawn) - drawn);
+    std::string events = line.substr(label + 10, line.rfind('"') - label - 10);
+    for (std::size_t cut; !events.empty(); events = cut == std::string::npos ? "" : events.substr(cut + 2)) {
+      cut = events.find("\\n");
+      EXPECT_NE(group.find(">" + events.substr(0, cut) + "</text>"), std::string::npos) << line;
+    }
+  }
+  std::size_t titles = 0;
+  for (std::size_t at = 0; (at = picture.find("&gt;", at)) != std::string::npos; ++at) ++titles;
+  EXPECT_EQ(titles, 2 * arrows) << "each arrow once as a comment, once as a title";
 }
 
 TEST(Model, EveryTargetSaysWhatItDependsOn) {

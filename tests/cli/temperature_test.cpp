@@ -152,7 +152,7 @@ TEST(ToolTemperature, ARangeFarBeyondTheLevelsIsTold) {
   EXPECT_GT(far["temperature"]["expected_error"][2]["direction_rad"].get<double>(),
             10.0 * near["temperature"]["expected_error"][2]["direction_rad"].get<double>());
   EXPECT_TRUE(says(where.calibrate({"--temperature-order", "3", "--use-range-degc", "20,150"}).out,
-                   {"extrapolated", "far wider than what was recorded", "expected error"}));
+                   {"extrapolated", "far beyond what was recorded", "expected error"}));
 }
 
 TEST(ToolTemperature, BadOptionsAreRefused) {

@@ -47,6 +47,7 @@ TEST(ChannelFacts, TwoSigmasOfNoiseAreToldByTheResidualWithinAFewBlocks) {
         EXPECT_GT(rig.monitor.channels().counters(2).noisy_blocks, 10U);
       }
     }
+    EXPECT_GT(noisy, 0) << times;
     EXPECT_LE(held, 20 * 8) << times << " sigma: " << held << " of 800 blocks held";
     RecordProperty("held_at_" + std::to_string(times), held);
   }

@@ -71,6 +71,9 @@ class LogReader {
 
   /// Hash the bytes as they pass (for the provenance of a calibration). Call before the first `next`.
   void hash_bytes();
+  /// At the end of the file wait for the rows that are appended to it, until `stop_when`. A row is taken once its line
+  /// has ended.
+  void follow();
   /// Treat the input as ended once *flag != 0, also while waiting on a pipe, provided the handler that
   /// sets it was installed by sigaction without SA_RESTART.
   void stop_when(const volatile std::sig_atomic_t* flag);
