@@ -1,5 +1,7 @@
 // plumb inside an instrument: no file, no heap. An array built by hand, a loop of samples, and the verdict.
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 #include "plumb/array/named.hpp"
@@ -10,6 +12,7 @@ namespace {
 constexpr double kSigma_mps2 = 0.002;  // noise of one sample, 1 sigma
 plumb::MonitorSetup setup;             // both are plain state, some ten kB: better static than on a small stack
 plumb::HealthMonitor monitor;
+std::array<std::uint8_t, plumb::HealthMonitor::snapshot_size_max()> bytes;  // yours, static
 
 int refused(const plumb::Error& error) {
   std::printf("refused: %s; %s\n", plumb::describe(error.code), plumb::remedy(error.code));
@@ -55,4 +58,10 @@ int main() {
     std::printf("%6.2f s  %s -> %s  cause %s, output %s\n", v.time_s, plumb::to_string(v.transition.from),
                 plumb::to_string(v.state), plumb::to_string(v.cause), plumb::to_string(v.validity));
   }
+  const plumb::Expected<std::size_t> size = monitor.snapshot(bytes.data(), bytes.size());
+  if (!size) return refused(size.error());
+  // write `*size` bytes to flash; the power goes and comes back; read them again
+  const plumb::Expected<void> taken = monitor.restore(setup, bytes.data(), bytes.size());
+  if (!taken) return refused(taken.error());
+  std::printf("after a power cycle: %s\n", plumb::to_string(monitor.step(simulated(*array, 6000)).state));
 }

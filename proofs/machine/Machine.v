@@ -49,11 +49,11 @@ Theorem printed_destinations_are_exact :
     all_events) all_modes = true.
 Proof. vm_compute. reflexivity. Qed.
 
-(* S3: when a channel is lost or a culprit excluded and the rest no longer spans three directions, the monitor fails, in
+(* S3: when a channel is lost, a culprit excluded or a sensor set aside and the rest no longer spans three directions, the monitor fails, in
    whatever mode it was (in failed it stays). *)
 Theorem S3_rank_loss_fails m e c f :
-  e = E_channel_lost \/ e = E_culprit -> size_left f = S_rank_lost -> goes m e c f = M_failed.
-Proof. revert m e. every_cell; destruct H; settle; every_fact. Qed.
+  e = E_channel_lost \/ e = E_culprit \/ e = E_set_aside -> size_left f = S_rank_lost -> goes m e c f = M_failed.
+Proof. revert m e. every_cell; destruct H as [H|[H|H]]; settle; every_fact. Qed.
 
 (* S3, the other side: nothing that goes "by size" arrives in service without rank. *)
 Theorem S3_never_in_service_by_size m e c f :

@@ -81,6 +81,25 @@ double RowUncertainty::at(int i, int j, const Vec3& g_mps2) const noexcept {
   return sum;
 }
 
+bool RowUncertainty::is_covariance() const noexcept {
+  constexpr double kRounding = 1e-6;
+  const auto entry = [this](int a, int b) { return covariance[index(a * (a + 1) / 2 + b)]; };
+  double largest = 0.0;
+  for (int a = 0; a < 4 * kCapacity; ++a) largest = std::fmax(largest, entry(a, a));
+  const double floor = kRounding * kRounding * largest;
+  for (int a = 0; a < 4 * kCapacity; ++a) {
+    if (!(entry(a, a) >= -floor)) return false;
+    for (int b = 0; b < a; ++b) {
+      const double square = entry(a, b) * entry(a, b);
+      if (!(square <= (1.0 + kRounding) * entry(a, a) * entry(b, b) + largest * floor)) return false;
+    }
+  }
+  for (const double sigma : misfit_mps2) {
+    if (!(sigma >= 0.0)) return false;
+  }
+  return true;
+}
+
 Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {
   if (n < 3 || rows == nullptr) return fail(Errc::too_few_sensors, -1, rows == nullptr ? 0.0 : n, 3.0);
   if (n > kCapacity) return fail(Errc::too_many_sensors, -1, n, kCapacity);

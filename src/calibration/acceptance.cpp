@@ -31,23 +31,6 @@ const char* to_string(Concern concern) noexcept {
   return "unknown";
 }
 
-CommonScale common_scale(const Datasheet& datasheet, const Calibration& calibration) noexcept {
-  CommonScale out;
-  const int n = datasheet.size < kCapacity ? datasheet.size : kCapacity;
-  if (n < 1) return out;
-  double squares = 0.0, prior = 0.0;
-  for (int i = 0; i < n; ++i) {
-    const DatasheetSensor& s = datasheet.sensor[at(i)];
-    const double change = calibration.model.sensor[at(i)].scale[0] / s.coefficients.scale[0] - 1.0;
-    out.mean += change / n;
-    squares += change * change / n;
-    prior += s.prior.scale * s.prior.scale / n;
-  }
-  out.scatter = std::sqrt(std::fmax(squares - out.mean * out.mean, 0.0));
-  if (prior > 0.0) out.prior_sigmas = out.mean / std::sqrt(prior);
-  return out;
-}
-
 Judgement judge_gravity(const GravityReference& gravity) noexcept {
   const double g = gravity.g_mps2;
   // Written so that a NaN is refused too.
@@ -72,11 +55,11 @@ Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, con
   // Before the rest: what one sensor spoils shows everywhere.
   const Judgement alone = judge_odd_sensor(datasheet, odd, limits);
   if (alone.error.code != Errc::ok) return alone;
-  const CommonScale common = common_scale(datasheet, calibration);
-  if (std::fabs(common.prior_sigmas) > limits.max_common_scale_sigmas &&
+  const CommonScale& common = calibration.report.common_scale;
+  if (std::fabs(common.sigmas()) > limits.max_common_scale_sigmas &&
       std::fabs(common.mean) > kTogether * common.scatter) {
-    const double bound = limits.max_common_scale_sigmas * common.mean / common.prior_sigmas;
-    return refuse(Concern::common_scale, Errc::implausible, -1, common.mean, bound);
+    return refuse(Concern::common_scale, Errc::implausible, -1, common.mean,
+                  limits.max_common_scale_sigmas * common.sigma);
   }
   const double parity = calibration.report.parity_rms_mps2;
   if (!(parity <= limits.max_parity_rms_mps2)) {

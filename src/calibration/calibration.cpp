@@ -8,8 +8,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 /// Eigenvalues below this times the largest are rounding.
 constexpr double kRankTolerance = 1e-10;
 /// Errors of the fitted directions feign information of about their own variance where there is none (one
@@ -63,7 +61,7 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
     }
   }
   for (int i = 0; i < n; ++i) {
-    const double misfit = report.misfit_mps2 / length[at(i)];
+    const double misfit = (i == report.loud_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) / length[at(i)];
     uncertainty.misfit_mps2[at(i)] = misfit;
     double variance = misfit * misfit;
     for (int p = 0; p < 4; ++p) {
@@ -88,30 +86,48 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
   return out;
 }
 
-}  // namespace fit
-
-/// What is wrong before any fit; the report gets what the stations alone tell.
-Error Calibrator::refused(const Station* stations, int count, FitReport& report) const noexcept {
-  if (!fit::plainly_sound(datasheet_)) {
-    const Expected<SensorArray> nominal = datasheet_.array();
+Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
+                    const Station* stations, int count, FitReport& report) noexcept {
+  if (!plainly_sound(datasheet)) {
+    const Expected<SensorArray> nominal = datasheet.array();
     if (!nominal) return nominal.error();
   }
-  for (int i = 0; i < datasheet_.size; ++i) {
-    const double scale = datasheet_.sensor[at(i)].coefficients.scale[0];
+  for (int i = 0; i < datasheet.size; ++i) {
+    const double scale = datasheet.sensor[at(i)].coefficients.scale[0];
     if (scale == 0.0 || !std::isfinite(scale)) return Error{Errc::not_finite, i, scale, 0.0};
   }
-  if (!fit::unit_axis(options_.roll_axis)) return Error{Errc::out_of_range, 0, norm(options_.roll_axis), 1.0};
-  const fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
+  if (!unit_axis(options.roll_axis)) return Error{Errc::out_of_range, 0, norm(options.roll_axis), 1.0};
+  if (!(options.roll_wobble_rad >= 0.0) || !std::isfinite(options.roll_wobble_rad)) {
+    return Error{Errc::out_of_range, 2, options.roll_wobble_rad, 0.0};
+  }
+  const Problem problem = problem_of(datasheet, gravity.g_mps2, options, stations, count);
   report.roll_groups = problem.roll.groups;
+  report.lone_rolls = problem.roll.lone;
+  if (problem.roll.used) {
+    report.roll_axis = problem.roll.axis;
+    report.roll_wobble_rad = problem.roll.wobble_rad;
+  }
   if (problem.roll.groups > kMaxRollGroups) {
     return Error{Errc::out_of_range, 1, static_cast<double>(problem.roll.groups), kMaxRollGroups};
   }
-  report.stations = fit::usable_stations(problem);
-  fit::note_stations(problem, report);
-  const int needed = options_.require_full_rank ? kStationsForFullRank : kStationsAtLeast;
+  report.stations = usable_stations(problem);
+  note_stations(problem, report);
+  const int needed = options.require_full_rank ? kStationsForFullRank : kStationsAtLeast;
   if (report.stations < needed) {
     return Error{Errc::too_few_stations, -1, static_cast<double>(report.stations), static_cast<double>(needed)};
   }
+  return same_numbers(problem);
+}
+
+double rank_floor(const FitTally& tally) noexcept {
+  return std::fmax(kRankTolerance, kFeignedInformation * tally.direction_variance());
+}
+
+}  // namespace fit
+
+Error Calibrator::refused(const Station* stations, int count, FitReport& report) const noexcept {
+  const Error wrong = fit::refused_input(datasheet_, gravity_, options_, stations, count, report);
+  if (wrong.code != Errc::ok) return wrong;
   if (stop_ == StopReason::not_finite) return Error{Errc::diverged, bad_station_, cost_, 0.0};
   return Error{};
 }
@@ -136,15 +152,19 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   if (!sums.finite || !std::isfinite(r.chi2)) return false;
   fitted.tally.write(datasheet_.size, r);
   fit::expand(scratch_.data(), roll, roots, datasheet_.size, normal_.data());
-  const double floor = std::fmax(kRankTolerance, kFeignedInformation * fitted.tally.direction_variance());
+  const double floor = fit::rank_floor(fitted.tally);
   if (!fit::analyse(datasheet_, problem.roll, roots, fitted.theta, floor, normal_.data(), scratch_.data(), r)) {
     return false;
   }
   r.degrees_of_freedom = sums.rows - 2 * r.stations - r.rank;
   r.p_value = r.degrees_of_freedom >= 1 ? chi2_tail(r.chi2, r.degrees_of_freedom) : 1.0;
-  if (!options_.estimate_misfit && r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
-    fit::inflate(r.chi2 / r.degrees_of_freedom, r.parameters, normal_.data(), r);
+  double factor = 1.0;
+  if (options_.estimate_misfit) {
+    factor = fit::note_loud_sensor(problem, fitted.tally, r);
+  } else if (r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
+    factor = r.chi2 / r.degrees_of_freedom;
   }
+  fit::inflate(factor, r.parameters, normal_.data(), r);
   return true;
 }
 
@@ -153,20 +173,15 @@ Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, 
   if (options_.require_full_rank && r.rank < needed) {
     return Error{Errc::unobservable, -1, static_cast<double>(r.rank), static_cast<double>(needed)};
   }
-  const Error error = fit::implausible(datasheet_, problem.roll, options_, fitted.theta);
-  if (error.code != Errc::ok) return error;
-  const double most = options_.max_outlier_share * (r.stations + r.outliers);
-  if (static_cast<double>(r.outliers) > most) {
-    return Error{Errc::poor_fit, fit::most_blamed(problem), static_cast<double>(r.outliers), most};
-  }
-  double excess = 0.0;
-  const int loudest = fitted.tally.loudest(datasheet_.size, r.degrees_of_freedom, excess);
-  const bool singled_out = excess > options_.max_sensor_excess;
-  if (!(r.norm_rms_mps2 <= options_.max_norm_rms_mps2)) {
-    return Error{Errc::poor_fit, singled_out ? loudest : -1, r.norm_rms_mps2, options_.max_norm_rms_mps2};
-  }
-  if (singled_out) return Error{Errc::poor_fit, loudest, excess, options_.max_sensor_excess};
-  return Error{};
+  return fit::judge_figures(problem, options_, fitted, r);
+}
+
+bool Calibrator::sets_aside(const Station& station) const noexcept {
+  if (phase_ != Phase::screened) return false;
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, &station, 1);
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  problem.screen = &screen;
+  return fit::Screening(problem).out(station);
 }
 
 Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) noexcept {
@@ -186,6 +201,10 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   fit::Fitted fitted;
   if (!describe(problem, fitted, r)) return fail(Errc::diverged, -1, cost_);
   Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, normal_.data(), r);
+  if (out) {
+    r.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out->array);
+    out->report.inclination_sigma_rad = r.inclination_sigma_rad;
+  }
   Error error = judge(problem, fitted, r);
   if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
   if (error.code == Errc::ok) return out;

@@ -34,27 +34,29 @@ constexpr double kFirstShare = 0.49;
 /// Fewer degrees of freedom have no median to speak of.
 constexpr int kScreenFreedom = 6;
 
-bool acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept {
+}  // namespace
+
+bool fit::acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept {
   if (datasheet.size < 3 || datasheet.size > kCapacity) return false;
   if (!std::isfinite(gravity.g_mps2) || !(gravity.g_mps2 > 0.0)) return false;
   for (int i = 0; i < datasheet.size; ++i) {
     const DatasheetSensor& s = datasheet.sensor[at(i)];
     if (!(s.row.sigma_mps2 > 0.0) || !std::isfinite(s.row.sigma_mps2)) return false;
-    // Zero is allowed: it freezes the parameter.
     if (!(s.prior.bias_mps2 >= 0.0) || !(s.prior.scale >= 0.0) || !(s.prior.axis_rad >= 0.0)) return false;
     if (!std::isfinite(s.prior.bias_mps2 + s.prior.scale + s.prior.axis_rad)) return false;
   }
   return true;
 }
 
-/// A frozen parameter stays at its nominal value, which the closed form knows nothing of.
-bool all_free(const Datasheet& datasheet) noexcept {
+bool fit::all_free(const Datasheet& datasheet) noexcept {
   for (int i = 0; i < datasheet.size; ++i) {
     const Prior& prior = datasheet.sensor[at(i)].prior;
     if (!(prior.bias_mps2 > 0.0 && prior.scale > 0.0 && prior.axis_rad > 0.0)) return false;
   }
   return true;
 }
+
+namespace {
 
 double squared_length(const fit::Parameters& v, int n) noexcept {
   double sum = 0.0;
@@ -91,13 +93,19 @@ fit::Problem fit::problem_of(const Datasheet& datasheet, double g_mps2, const Fi
   Problem problem = {datasheet, g_mps2, stations, stations == nullptr ? 0 : count, {}, nullptr};
   problem.roll.axis = options.roll_axis;
   problem.roll.wobble_rad = options.roll_wobble_rad;
-  problem.roll.used = has_roll_groups(problem, problem.roll.groups) && unit_axis(options.roll_axis);
+  find_roll_groups(problem, problem.roll);
+  problem.roll.used = problem.roll.used && unit_axis(options.roll_axis);
   return problem;
 }
 
 Calibrator::Calibrator(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options) noexcept
     : datasheet_(datasheet), gravity_(gravity), options_(options) {
-  if (!acceptable(datasheet_, gravity_)) stop_ = StopReason::not_finite;
+  if (!fit::acceptable(datasheet_, gravity_)) stop_ = StopReason::not_finite;
+}
+
+void Calibrator::resume(const Datasheet& datasheet, const FitOptions& options) noexcept {
+  datasheet_ = datasheet;
+  options_ = options;
 }
 
 fit::Parameters Calibrator::parameters() const noexcept {
@@ -110,8 +118,13 @@ bool Calibrator::settled(const fit::Problem& problem, const fit::Parameters& nat
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
   fit::Parameters moved = fit::times_roots(roots, datasheet_.size, step_);
   fit::remove_rotation(natural, datasheet_.size, problem.roll, moved);
-  for (int i = 0; i < datasheet_.size; ++i) {
-    const fit::PriorRoot& root = roots[at(i)];
+  return fit::small_step(roots, datasheet_.size, natural, moved, relative);
+}
+
+bool fit::small_step(const PriorRoots& roots, int n, const Parameters& natural, const Parameters& moved,
+                     double relative) noexcept {
+  for (int i = 0; i < n; ++i) {
+    const PriorRoot& root = roots[at(i)];
     const Vec3 x = {root.axes[0], root.axes[1], root.axes[2]};
     const Vec3 y = {root.axes[1], root.axes[3], root.axes[4]};
     const Vec3 z = {root.axes[2], root.axes[4], root.axes[5]};
@@ -162,7 +175,7 @@ bool Calibrator::goes_down(double cost, bool finite) noexcept {
 
 void Calibrator::find_start(const Station* stations, int count) noexcept {
   phase_ = Phase::squares;
-  if (options_.start == FitStart::datasheet || !all_free(datasheet_)) return;
+  if (options_.start == FitStart::datasheet || !fit::all_free(datasheet_)) return;
   fit::Parameters natural;
   if (!fit::closed_form(fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count), natural)) return;
   theta_ = fit::prior_units(datasheet_, natural);
@@ -223,7 +236,7 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
   for (int k = 0; k < n4; ++k) step_[at(k)] -= theta_[at(k)];
   if (!cholesky_factor(normal_.data(), n4, n4)) return false;
   cholesky_solve(normal_.data(), n4, n4, step_.data());
-  if (all_free(datasheet_)) {
+  if (fit::all_free(datasheet_)) {
     // A common rotation costs the data nothing, but only as a rotation: taken along its tangent it would stretch. Where
     // the data do not see it, the prior alone has it.
     fit::Parameters change = fit::times_roots(roots, n, step_);

@@ -5,6 +5,7 @@
 
 #include "fit_internal.hpp"
 #include "plumb/array/geometry.hpp"
+#include "station_solver.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -117,14 +118,15 @@ StationPrediction predict(const Calibration& calibration, const GravityReference
   return out;
 }
 
-HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations, int count,
-                 const HoldOutPlan& plan, const FitOptions& options, Station* scratch,
-                 StationPrediction* each) noexcept {
+namespace {
+
+/// `fit_to` makes a calibration of the stations at the front of `scratch`; it is given their number.
+template <class FitTo>
+HoldOut hold_out_of(FitTo fit_to, const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
+                    int count, const HoldOutPlan& plan, Station* scratch, StationPrediction* each) noexcept {
   HoldOut out;
   if (stations == nullptr || scratch == nullptr || count < 1 || plan.folds < 2) return out;
   if (plan.rounds < 1 || plan.rounds > plan.folds) return out;
-  // The stations held out saw the same gravity as the others: how well it is known is no part of the prediction.
-  const GravityReference same = {gravity.g_mps2, 0.0, gravity.model};
   Tally tally;
   for (int k = 0; k < count && each != nullptr; ++k) each[k] = StationPrediction{};
   for (int fold = 0; fold < plan.rounds && fold < count; ++fold) {
@@ -132,9 +134,11 @@ HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, co
     for (int k = 0; k < count; ++k) {
       if (k % plan.folds != fold) scratch[kept++] = stations[k];
     }
-    const Expected<Calibration> without = calibrate(datasheet, same, scratch, kept, options);
+    const Expected<Calibration> without = fit_to(kept);
     for (int k = fold; k < count; k += plan.folds) {
-      const StationPrediction p = without ? predict(*without, same, stations[k]) : StationPrediction{};
+      Station asked = stations[k];
+      asked.delivered = fit::usable_channels(datasheet, asked);  // a reading at full scale is none, as in the fit
+      const StationPrediction p = without ? predict(*without, gravity, asked) : StationPrediction{};
       if (each != nullptr) each[k] = p;
       if (p.judged) {
         take(p, k, tally, out);
@@ -148,6 +152,29 @@ HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, co
   out.parity_rms_mps2 = std::sqrt(tally.squared_parity / out.judged);
   out.sigmas = std::sqrt(tally.squared_sigmas / out.judged);
   return out;
+}
+
+}  // namespace
+
+HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations, int count,
+                 const HoldOutPlan& plan, const FitOptions& options, Station* scratch,
+                 StationPrediction* each) noexcept {
+  // The stations held out saw the same gravity as the others: how well it is known is no part of the prediction.
+  const GravityReference same = {gravity.g_mps2, 0.0, gravity.model};
+  const auto fit_to = [&](int kept) { return calibrate(datasheet, same, scratch, kept, options); };
+  return hold_out_of(fit_to, datasheet, same, stations, count, plan, scratch, each);
+}
+
+HoldOut hold_out_over_temperature(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
+                                  int count, const HoldOutPlan& plan, const TemperatureOptions& options,
+                                  Station* scratch, Station* more_scratch, TemperatureWork& work,
+                                  StationPrediction* each) noexcept {
+  if (more_scratch == nullptr) return {};
+  const GravityReference same = {gravity.g_mps2, 0.0, gravity.model};
+  const auto fit_to = [&](int kept) {
+    return calibrate_over_temperature(datasheet, same, scratch, kept, options, more_scratch, work);
+  };
+  return hold_out_of(fit_to, datasheet, same, stations, count, plan, scratch, each);
 }
 
 OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations, int count,

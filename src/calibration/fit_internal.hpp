@@ -86,6 +86,7 @@ struct Roll {
   double wobble_rad = 0.0;
   bool used = false;
   int groups = 0;  ///< beyond kMaxRollGroups: too many
+  int lone = 0;    ///< groups of one station
 };
 
 /// Where the outliers were told from the rest: a station is out where its residual there, with that misfit, is beyond
@@ -94,6 +95,15 @@ struct Screen {
   Parameters theta{};
   double misfit_variance = 0.0;
 };
+
+/// Whether datasheet and gravity have numbers that a fit can start from. A prior sigma of zero is allowed: it freezes
+/// the parameter.
+bool acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept;
+/// Whether nothing is frozen. A frozen parameter stays at its nominal value, which the closed form knows nothing of.
+bool all_free(const Datasheet& datasheet) noexcept;
+/// Whether a step (natural units, common rotation taken out) is below so much of each value, or of its prior sigma.
+bool small_step(const PriorRoots& roots, int n, const Parameters& natural, const Parameters& moved,
+                double relative) noexcept;
 
 /// What is fixed during one fit.
 struct Problem {
@@ -157,8 +167,8 @@ double median_misfit(const Problem& problem, const Parameters& theta, double mis
 /// alone seldom looks so. An outlier pulls the fit, hence a part of the limit only.
 bool stands_out(const Problem& problem, const Parameters& theta, int freedom) noexcept;
 
-/// Whether any two usable stations share a roll group; `groups` counts those that do. At most kMaxRollGroups are used.
-bool has_roll_groups(const Problem& problem, int& groups) noexcept;
+/// Counts the roll groups; `used` where any two stations share one. At most kMaxRollGroups are used.
+void find_roll_groups(const Problem& problem, Roll& roll) noexcept;
 
 /// W and b from the stations alone, in the frame that the prior likes best; false where they do not determine it, or
 /// where the datasheet is too far off. Incomplete stations are left aside. All priors must be above zero.

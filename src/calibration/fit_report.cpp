@@ -9,6 +9,8 @@ namespace fit {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Residuals that noise alone explains with at least this probability.
+constexpr double kSuspicious = 1e-3;
 
 struct Deviation {
   double scale = 0.0;  ///< relative to the datasheet, the larger of the two ratios
@@ -52,6 +54,31 @@ Error furthest_off(const Datasheet& datasheet, const FitOptions& options, const 
   return worst;
 }
 
+/// Variance of the samples about the means of their stations, pooled.
+class SampleNoise {
+ public:
+  explicit SampleNoise(const Datasheet& datasheet) noexcept : datasheet_(datasheet) {}
+  void add(const Station& station, SensorSet used) noexcept {
+    if (station.count < 2) return;
+    const double freedom = static_cast<double>(station.count) - 1.0;
+    for (int i = 0; i < datasheet_.size; ++i) {
+      const double noise = station.scatter[at(i)] / datasheet_.sensor[at(i)].coefficients.scale[0];
+      if (!used.has(i) || !(noise * noise > 0.0) || !std::isfinite(noise * noise)) continue;
+      squares_[at(i)] += freedom * noise * noise;
+      freedom_[at(i)] += freedom;
+    }
+  }
+  void write(FitReport& report) const noexcept {
+    for (int i = 0; i < datasheet_.size; ++i) {
+      report.sample_noise_mps2[at(i)] = freedom_[at(i)] > 0.0 ? std::sqrt(squares_[at(i)] / freedom_[at(i)]) : 0.0;
+    }
+  }
+
+ private:
+  const Datasheet& datasheet_;
+  std::array<double, kCapacity> squares_{}, freedom_{};
+};
+
 }  // namespace
 
 bool plainly_sound(const Datasheet& datasheet) noexcept {
@@ -69,6 +96,7 @@ bool plainly_sound(const Datasheet& datasheet) noexcept {
 
 void note_stations(const Problem& problem, FitReport& report) noexcept {
   bool any = false;
+  SampleNoise noise(problem.datasheet);
   for (int k = 0; k < problem.count; ++k) {
     const Station& station = problem.stations[k];
     const double t = station.temperature_degc;
@@ -77,11 +105,64 @@ void note_stations(const Problem& problem, FitReport& report) noexcept {
     const SensorSet clipped = given - usable_channels(problem.datasheet, station);
     report.clipped += clipped.size();
     report.clipped_sensors = report.clipped_sensors | clipped;
+    noise.add(station, given - clipped);
     if (!std::isfinite(t)) continue;
     if (!any || t < report.temperature_min_degc) report.temperature_min_degc = t;
     if (!any || t > report.temperature_max_degc) report.temperature_max_degc = t;
     any = true;
   }
+  noise.write(report);
+}
+
+double note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& report) noexcept {
+  const int n = problem.datasheet.size, freedom = tally.freedom(report);
+  double excess = 0.0;
+  const int loudest = tally.loudest(n, freedom, excess);
+  if (loudest < 0 || !(report.p_value < kNoNoise)) return 1.0;
+  // Whether or not it can be named: the misfit is a mean over the sensors, and the loudest one has more.
+  const double factor = std::fmax(tally.variance_factor(loudest, n, freedom), 1.0);
+  if (!tally.beyond_chance(loudest, freedom, excess)) return factor;
+  report.loud_sensor = loudest;
+  report.loud_excess = excess;
+  const double sigma = problem.datasheet.sensor[at(loudest)].row.sigma_mps2;
+  double noise = 0.0;
+  int stations = 0;
+  for (int k = 0; k < problem.count; ++k) {
+    if (problem.stations[k].count == 0) continue;
+    noise += sigma * sigma / problem.stations[k].count;
+    ++stations;
+  }
+  noise /= stations > 0 ? stations : 1;
+  const double common = report.misfit_mps2 * report.misfit_mps2;
+  report.loud_misfit_mps2 = std::sqrt(factor * (common + noise) - noise);
+  return factor;
+}
+
+/// With three sensors a station has one residual, and the fit can bend towards a few stations that err so that the
+/// sound ones look it (calibration note 5). That happens where few degrees of freedom are left.
+Error doubtful_screening(const Datasheet& datasheet, const FitReport& report) noexcept {
+  constexpr int kFewFreedom = 24;  // from there on not one fit in 2000 was seen to take the wrong stations
+  constexpr int kLeastFreedom = 8;
+  constexpr double kDoubtful = 1e-3;  // of the stations that stayed
+  if (datasheet.size != 3 || report.outliers == 0 || report.degrees_of_freedom >= kFewFreedom) return Error{};
+  const double most = 0.5 * report.degrees_of_freedom;
+  if (report.degrees_of_freedom < kLeastFreedom || static_cast<double>(report.outliers) > most) {
+    return Error{Errc::poor_fit, -1, static_cast<double>(report.outliers), most};
+  }
+  if (report.p_value < kDoubtful) return Error{Errc::poor_fit, -1, report.p_value, kDoubtful};
+  return Error{};
+}
+
+Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const FitReport& report) noexcept {
+  if (!(report.p_value < kNoNoise)) return Error{};
+  Error worst;
+  for (int i = 0; i < datasheet.size; ++i) {
+    const double factor = report.sample_noise_mps2[at(i)] / datasheet.sensor[at(i)].row.sigma_mps2;
+    if (factor > options.max_noise_factor && factor > worst.value) {
+      worst = Error{Errc::poor_fit, i, factor, options.max_noise_factor};
+    }
+  }
+  return worst;
 }
 
 void note_outliers(const Problem& problem, FitReport& report) noexcept {
@@ -119,13 +200,17 @@ int most_blamed(const Problem& problem) noexcept {
 
 void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitReport& report) noexcept {
   const double n = datasheet.size;
-  double variance = 0.0;
+  CommonScale out;
+  double squares = 0.0, variance = 0.0;
   for (int i = 0; i < datasheet.size; ++i) {
-    const double prior = datasheet.sensor[at(i)].prior.scale;
-    report.common_scale += (norm(row_of(theta, i)) - 1.0) / n;
+    const double prior = datasheet.sensor[at(i)].prior.scale, change = norm(row_of(theta, i)) - 1.0;
+    out.mean += change / n;
+    squares += change * change / n;
     variance += prior * prior / (n * n);
   }
-  report.common_scale_sigma = std::sqrt(variance);
+  out.scatter = std::sqrt(std::fmax(squares - out.mean * out.mean, 0.0));
+  out.sigma = std::sqrt(variance);
+  report.common_scale = out;
 }
 
 Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
@@ -144,6 +229,47 @@ Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions
     if (alone.code != Errc::ok) return alone;
   }
   return worst;
+}
+
+Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
+                    const FitReport& r) noexcept {
+  const Error error = implausible(problem.datasheet, problem.roll, options, fitted.theta);
+  if (error.code != Errc::ok) return error;
+  const double most = options.max_outlier_share * (r.stations + r.outliers);
+  if (static_cast<double>(r.outliers) > most) {
+    return Error{Errc::poor_fit, most_blamed(problem), static_cast<double>(r.outliers), most};
+  }
+  const Error doubtful = doubtful_screening(problem.datasheet, r);
+  if (doubtful.code != Errc::ok) return doubtful;
+  const Error noisy = noisy_samples(problem.datasheet, options, r);
+  if (noisy.code != Errc::ok) return noisy;
+  double excess = 0.0;
+  const int loudest = fitted.tally.loudest(problem.datasheet.size, fitted.tally.freedom(r), excess);
+  // Among few stations chance alone reaches the bound; what accuses nobody as a whole accuses no sensor.
+  const bool singled_out = excess > options.max_sensor_excess && r.p_value < kSuspicious;
+  if (!(r.norm_rms_mps2 <= options.max_norm_rms_mps2)) {
+    return Error{Errc::poor_fit, singled_out ? loudest : -1, r.norm_rms_mps2, options.max_norm_rms_mps2};
+  }
+  if (singled_out) return Error{Errc::poor_fit, loudest, excess, options.max_sensor_excess};
+  return Error{};
+}
+
+Error same_numbers(const Problem& problem) noexcept {
+  constexpr int kEnough = 3;  // stations; one may be chance where a converter is coarse
+  for (int i = 1; i < problem.datasheet.size; ++i) {
+    for (int j = 0; j < i; ++j) {
+      int seen = 0;
+      bool same = true;
+      for (int s = 0; s < problem.count && same; ++s) {
+        const Station& station = problem.stations[s];
+        if (station.count == 0 || !station.delivered.has(i) || !station.delivered.has(j)) continue;
+        same = station.mean[at(i)] == station.mean[at(j)];
+        ++seen;
+      }
+      if (same && seen >= kEnough) return Error{Errc::implausible, i, 0.0, 0.0};
+    }
+  }
+  return Error{};
 }
 
 Error twin_channels(const Problem& problem) noexcept {

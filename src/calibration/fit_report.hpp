@@ -15,7 +15,14 @@ struct Fitted {
 /// True where `Datasheet::array` is sure to accept; cheaper, for it builds no triples.
 bool plainly_sound(const Datasheet& datasheet) noexcept;
 
-/// Temperatures and clipped readings.
+/// What is wrong before any fit; the report gets what the stations alone tell.
+Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
+                    const Station* stations, int count, FitReport& report) noexcept;
+
+/// Eigenvalues of the information below this part of the largest count as zero.
+double rank_floor(const FitTally& tally) noexcept;
+
+/// Temperatures, clipped readings, noise of the samples.
 void note_stations(const Problem& problem, FitReport& report) noexcept;
 /// The stations that the screen leaves out.
 void note_outliers(const Problem& problem, FitReport& report) noexcept;
@@ -27,6 +34,27 @@ void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitR
 /// where there is one.
 Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
                   const Parameters& theta) noexcept;
+
+/// A fit of full rank, judged by its own figures.
+Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
+                    const FitReport& report) noexcept;
+/// `loud_sensor` and what goes with it; by what factor its residuals widen every variance (>= 1).
+double note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& report) noexcept;
+
+/// Three sensors, stations set aside, and too little left to say that they were the right ones: poor_fit (value =
+/// stations set aside, limit = how many may be; or value = p of the rest, limit = what it may be).
+Error doubtful_screening(const Datasheet& datasheet, const FitReport& report) noexcept;
+
+/// A sensor whose own samples are noisier than declared, where the residuals are no noise either.
+Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const FitReport& report) noexcept;
+
+/// 1 sigma of an inclination about the roll axis, mean over the stations where roll rows have seen it, else over the
+/// sphere [rad].
+double inclination_sigma(const Problem& problem, const Parameters& theta, const SensorArray& calibrated) noexcept;
+
+/// Two channels that hold the very same numbers at every station, which two sensors with noise never do: implausible,
+/// index = the later one.
+Error same_numbers(const Problem& problem) noexcept;
 
 /// Two channels that read alike at every station although their axes differ: implausible, index = the later one. For
 /// fits that failed: at a single attitude healthy sensors may do so too.

@@ -149,6 +149,23 @@ int FitTally::loudest(int n, int freedom, double& excess) const noexcept {
   return most;
 }
 
+bool FitTally::beyond_chance(int sensor, int freedom, double excess) const noexcept {
+  constexpr double kChance = 3.0;  // one sided 1e-3, before the choice of the sensor
+  const double own = alone_[at(sensor)], rest = freedom - own;
+  if (!(own > 0.0) || !(rest > 0.0)) return false;
+  const double z = std::log(excess) - 0.5 * (1.0 / rest - 1.0 / own);
+  return z > kChance * std::sqrt(0.5 * (1.0 / own + 1.0 / rest));
+}
+
+/// What is left out with a sensor is its error against what the others say of it, theirs included. With the mean of
+/// M_ii, (n - 2) / n, that is v_i + v_o (1 / M - 1) in units of 1 / M, v_o the variance of the others.
+double FitTally::variance_factor(int sensor, int n, int freedom) const noexcept {
+  const double own = alone_[at(sensor)], rest = freedom - own;
+  const double blowup = static_cast<double>(n) / (n - 2);
+  const double others = (chi2_ - explained_[at(sensor)]) / rest;
+  return explained_[at(sensor)] / own * blowup - others * (blowup - 1.0);
+}
+
 }  // namespace fit
 }  // namespace PLUMB_ABI
 }  // namespace plumb

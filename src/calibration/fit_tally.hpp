@@ -16,9 +16,17 @@ class FitTally {
   void write(int n, FitReport& report) const noexcept;
   /// Of a fitted direction, mean over the stations [rad^2].
   double direction_variance() const noexcept { return stations_ > 0 ? direction_variance_ / stations_ : 0.0; }
+  /// Degrees of freedom of the stations' own residuals: what roll rows add, and what they determine, is no part of it.
+  int freedom(const FitReport& report) const noexcept {
+    return rows_ - 2 * stations_ - (report.rank - (3 - report.gauge));
+  }
   /// Sensor whose residuals are most above those of the others, and by what factor (rms); -1 where none can be told
   /// from the rest.
   int loudest(int n, int freedom, double& excess) const noexcept;
+  /// Whether noise alike in all sensors would hardly ever single out one of them so (Fisher's z).
+  bool beyond_chance(int sensor, int freedom, double excess) const noexcept;
+  /// Variance of that sensor's reading at a station over what the weights of the fit say.
+  double variance_factor(int sensor, int n, int freedom) const noexcept;
 
  private:
   void add_harmonics(const Vec3& direction) noexcept;

@@ -25,20 +25,6 @@ Moments moments_of(const Vec3& g, double weight) noexcept {
   return out;
 }
 
-/// Weight of a station whose residual has this squared length.
-double pull_of(Loss loss, double chi2, int freedom) noexcept {
-  if (loss == Loss::huber) {
-    const double limit = huber_limit(freedom);
-    return chi2 > limit * limit ? limit / std::sqrt(chi2) : 1.0;
-  }
-  if (loss == Loss::tukey) {
-    const double limit = outlier_limit(freedom);
-    const double rest = 1.0 - chi2 / (limit * limit);
-    return rest > 0.0 ? rest * rest : 0.0;
-  }
-  return 1.0;
-}
-
 /// Inclination, in its own standard deviations, at which a roll row has lost half of its weight.
 constexpr double kStationary = 10.0;
 
@@ -128,17 +114,6 @@ void finish_rolls(const RollSums& roll, int n, Sums& sums, Parameters& rhs) noex
   }
 }
 
-void note_station(const StationSolver& s, double pull, Sums& sums) noexcept {
-  ++sums.stations;
-  sums.rows += s.rows;
-  sums.chi2 += pull * s.chi2;
-  if (s.chi2 > sums.worst * s.limit_squared) sums.worst = s.chi2 / s.limit_squared;
-  for (int k = 0; k < s.rows; ++k) {
-    const double projected = s.projected(k);
-    sums.weighted_chi2 += projected * projected;
-  }
-}
-
 using Block = std::array<double, 16>;
 
 /// Root times block, or (with the roles of rows and columns exchanged by the caller) block times root.
@@ -155,11 +130,10 @@ Block times_root(const PriorRoot& root, const Block& b, bool transpose) noexcept
 
 }  // namespace
 
-bool has_roll_groups(const Problem& problem, int& groups) noexcept {
+void find_roll_groups(const Problem& problem, Roll& roll) noexcept {
   std::array<std::uint32_t, kMaxRollGroups> tag{};
   std::array<int, kMaxRollGroups> members{};
-  bool shared = false;
-  groups = 0;
+  int groups = 0;
   for (int s = 0; s < problem.count; ++s) {
     const Station& station = problem.stations[s];
     if (station.roll_group == 0 || station.count == 0) continue;
@@ -173,9 +147,13 @@ bool has_roll_groups(const Problem& problem, int& groups) noexcept {
       ++groups;
       tag[at(k)] = station.roll_group;
     }
-    if (++members[at(k)] > 1) shared = true;
+    ++members[at(k)];
   }
-  return shared;
+  roll.groups = groups;
+  for (int k = 0; k < groups && k < kMaxRollGroups; ++k) {
+    if (members[at(k)] > 1) roll.used = true;
+    if (members[at(k)] == 1) ++roll.lone;
+  }
 }
 
 Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_variance, Loss loss, double* blocks,

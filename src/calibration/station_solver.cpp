@@ -174,6 +174,30 @@ double huber_limit(int freedom) noexcept {
 
 double outlier_limit(int freedom) noexcept { return freedom > 1 ? 3.0 * huber_limit(freedom) : 4.685; }
 
+double pull_of(Loss loss, double chi2, int freedom) noexcept {
+  if (loss == Loss::huber) {
+    const double limit = huber_limit(freedom);
+    return chi2 > limit * limit ? limit / std::sqrt(chi2) : 1.0;
+  }
+  if (loss == Loss::tukey) {
+    const double limit = outlier_limit(freedom);
+    const double rest = 1.0 - chi2 / (limit * limit);
+    return rest > 0.0 ? rest * rest : 0.0;
+  }
+  return 1.0;
+}
+
+void note_station(const StationSolver& s, double pull, Sums& sums) noexcept {
+  ++sums.stations;
+  sums.rows += s.rows;
+  sums.chi2 += pull * s.chi2;
+  if (s.chi2 > sums.worst * s.limit_squared) sums.worst = s.chi2 / s.limit_squared;
+  for (int k = 0; k < s.rows; ++k) {
+    const double projected = s.projected(k);
+    sums.weighted_chi2 += projected * projected;
+  }
+}
+
 Screening::Screening(const Problem& problem) noexcept
     : solver(problem, problem.screen != nullptr ? problem.screen->theta : kNoParameters,
              problem.screen != nullptr ? problem.screen->misfit_variance : 0.0),

@@ -86,6 +86,12 @@ class StationSolver {
 double outlier_limit(int freedom) noexcept;
 double huber_limit(int freedom) noexcept;
 
+/// Weight of a station whose residual has this squared length.
+double pull_of(Loss loss, double chi2, int freedom) noexcept;
+
+/// Adds a solved station to the sums that need no derivatives.
+void note_station(const StationSolver& station, double pull, Sums& sums) noexcept;
+
 /// Tells the outliers among the stations where the problem has a screen.
 class Screening {
  public:

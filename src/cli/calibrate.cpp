@@ -1,10 +1,15 @@
 // plumb calibrate: a log of quiet attitudes in, a calibration file out.
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <memory>
+#include <sstream>
 
 #include "fit_pictures.hpp"
 #include "fit_summary.hpp"
 #include "pipeline.hpp"
+#include "plumb/core/units.hpp"
+#include "temperature_words.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -21,6 +26,7 @@ struct Options {
   bool suggest = false;
   bool json = false;
   bool verbose = false;
+  bool rolls = false;  ///< something was said about the roll groups
 };
 
 constexpr const char* kAbout =
@@ -39,6 +45,39 @@ constexpr const char* kNotes =
     "mode = \"paper\"; up to 8 sensors. An array file with that mode implies it.\n"
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
+/// The number that the text is, or what is wrong with it.
+std::string read_number(const std::string& text, double& value) {
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  return read.ec == std::errc{} && read.ptr == end && std::isfinite(value) ? "" : "\"" + text + "\" is not a number";
+}
+
+std::string read_roll_axis(const std::string& text, std::optional<Vec3>& out) {
+  Vec3 axis{};
+  std::istringstream in(text + ",");
+  std::string part;
+  std::size_t parts = 0;
+  for (; std::getline(in, part, ','); ++parts) {
+    const std::string wrong = parts < 3 ? read_number(part, axis[parts]) : "";
+    if (!wrong.empty()) return wrong + "; give three numbers, the direction in the tool frame: 0,0,1";
+  }
+  if (parts != 3) return "give three numbers, the direction in the tool frame: 0,0,1";
+  const double length = norm(axis);
+  if (!(length > 0.0) || !std::isfinite(length)) return "the three numbers give no direction; the tool axis z is 0,0,1";
+  out = scaled(axis, 1.0 / length);
+  return "";
+}
+
+std::string read_wobble(const std::string& text, double& wobble_rad) {
+  constexpr double kMost_deg = 45.0;
+  double value = 0.0;
+  const std::string wrong = read_number(text, value);
+  if (!wrong.empty()) return wrong + "; give degrees, 0 or more";
+  if (!(value >= 0.0) || value > kMost_deg) return "\"" + text + "\" deg is no wobble: give 0 to 45";
+  wobble_rad = rad_from_deg(value);
+  return "";
+}
+
 /// The pictures, where asked for. Without gnuplot the rest is done all the same.
 io::FileExpected<void> draw(const Options& options, const CalibrationRun& fit, const io::ArrayFile& array) {
   if (options.plots.empty()) return {};
@@ -56,6 +95,14 @@ io::ExitCode run(const Options& options) {
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
+  if (options.rolls && array->input.roll_group_column.empty()) {
+    return report(io::FileError{options.array, 0, "input.roll_group",
+                                "is missing: --roll-axis and --roll-wobble-deg are about stations that share an "
+                                "inclination, and nothing says which do",
+                                "name the column of the log that holds the number of the roll group: roll_group = "
+                                "\"group\", or take the options out",
+                                io::ExitCode::usage});
+  }
   watch_interrupts();
   CalibrationChoice choice = options.choice;
   choice.paper_fits = choice.paper_fits || array->monitor.mode == MonitorMode::paper;
@@ -71,7 +118,7 @@ io::ExitCode run(const Options& options) {
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
   if (fit->paper_refusal.code != Errc::ok) {
-    const Refusal refusal = paper_refusal_of(*fit);
+    const Refusal refusal = paper_refusal_of(*fit, *array);
     print_error("plumb: the fit by the paper's method is of no use: " + refusal.reason + ". " + options.out +
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
@@ -109,9 +156,46 @@ Command add_calibrate(CLI::App& tool) {
          "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
          "default 4 folds, below 16 stations one at a time")
       ->type_name("K|FRACTION|one|none");
+  app->add_option_function<std::string>(
+         "--temperature-order",
+         [options](const std::string& text) {
+           const std::string wrong = read_temperature_order(text, options->choice.temperature.order);
+           if (!wrong.empty()) throw CLI::ValidationError("--temperature-order", wrong);
+         },
+         "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
+         "support (the default); 0 takes the coefficients of the array file")
+      ->type_name("auto|0|1|2|3");
+  app->add_option_function<std::string>(
+         "--use-range-degc",
+         [options](const std::string& text) {
+           const std::string wrong = read_use_range(text, options->choice.temperature.use_degc);
+           if (!wrong.empty()) throw CLI::ValidationError("--use-range-degc", wrong);
+         },
+         "temperatures at which the calibration will be used, for the errors to expect there; by default those of the "
+         "stations. A negative one needs the form --use-range-degc=-20,60")
+      ->type_name("LO,HI");
   app->add_flag_callback(
       "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
       "plain least squares: do not set stations aside whose residuals are not noise");
+  app->add_option_function<std::string>(
+         "--roll-axis",
+         [options](const std::string& text) {
+           options->rolls = true;
+           const std::string wrong = read_roll_axis(text, options->choice.roll_axis);
+           if (!wrong.empty()) throw CLI::ValidationError("--roll-axis", wrong);
+         },
+         "the axis about which stations of one roll group ([input] roll_group) were rolled, in the tool frame; by "
+         "default the one from which inclination is counted")
+      ->type_name("X,Y,Z");
+  app->add_option_function<std::string>(
+         "--roll-wobble-deg",
+         [options](const std::string& text) {
+           options->rolls = true;
+           const std::string wrong = read_wobble(text, options->choice.fit.roll_wobble_rad);
+           if (!wrong.empty()) throw CLI::ValidationError("--roll-wobble-deg", wrong);
+         },
+         "by how much the inclination differed from roll to roll within a group, 1 sigma, deg; 0 by default")
+      ->type_name("D");
   app->add_option("--plots", options->plots,
                   "draw residuals, parameters, convergence and attitudes into this directory (needs gnuplot)")
       ->type_name("DIR");

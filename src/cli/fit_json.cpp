@@ -5,6 +5,7 @@
 
 #include "fit_summary.hpp"
 #include "plumb/core/units.hpp"
+#include "temperature_json.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -52,6 +53,11 @@ Json fit_object(const CalibrationRun& run) {
           {"parameters", r.parameters},
           {"rank", known(r.rank)},
           {"gauge", known(r.gauge)},
+          {"roll_groups", r.roll_groups},
+          {"roll_groups_of_one", r.lone_rolls},
+          {"roll_axis", r.roll_axis == Vec3{} ? Json() : Json(r.roll_axis)},
+          {"roll_wobble_rad", r.roll_axis == Vec3{} ? Json() : Json(r.roll_wobble_rad)},
+          {"inclination_sigma_rad", r.null_directions == 0 ? known(r.inclination_sigma_rad) : Json()},
           {"norm_rms_mps2", known(r.norm_rms_mps2)},
           {"parity_rms_mps2", known(r.parity_rms_mps2)},
           {"misfit_mps2", known(r.misfit_mps2)},
@@ -78,7 +84,7 @@ Json hold_out_json(const CalibrationRun& run) {
           {"worst_station", h.worst + 1}};
 }
 
-/// Stations that the fit set aside; the report lists the first kMaxOutliers.
+/// Stations that the fit set aside, those of an accepted fit all by number; details of the first kMaxOutliers.
 Json outliers_json(const CalibrationRun& run, const io::ArrayFile& array) {
   const FitReport& r = run.told();
   Json listed = Json::array();
@@ -89,7 +95,9 @@ Json outliers_json(const CalibrationRun& run, const io::ArrayFile& array) {
                       {"sensor", o.sensor >= 0 ? Json(id_of(array, o.sensor)) : Json()},
                       {"share", o.sensor >= 0 ? finite(o.share) : Json()}});
   }
-  return {{"count", r.outliers}, {"listed", std::move(listed)}};
+  Json stations = Json::array();
+  for (const int k : run.study.set_aside) stations.push_back(k + 1);
+  return {{"count", r.outliers}, {"stations", std::move(stations)}, {"listed", std::move(listed)}};
 }
 
 Json clipped_json(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -103,6 +111,8 @@ Json clipped_json(const CalibrationRun& run, const io::ArrayFile& array) {
 
 Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
   Json out = Json::array();
+  const int loudest = run.told().loud_sensor;
+  const std::string loud = loudest >= 0 ? id_of(array, loudest) : "";
   for (const SensorFigures& f : sensor_figures(run, array)) {
     const auto known = [&f](double value) { return f.known ? finite(value) : Json(); };
     out.push_back({{"id", f.id},
@@ -118,6 +128,8 @@ Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
                    {"axis_data_share", known(f.axis_share)},
                    {"e_cal_mps2", known(f.e_cal_mg * kMilliG0_mps2)},
                    {"residual_rms_mps2", known(f.residual_rms_mg * kMilliG0_mps2)},
+                   {"sample_noise_mps2", f.sample_noise_mg > 0.0 ? Json(f.sample_noise_mg * kMilliG0_mps2) : Json()},
+                   {"loud", f.known && f.id == loud},
                    {"data_share", known(f.data_share)}});
   }
   return out;
@@ -197,10 +209,12 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["outliers"] = outliers_json(run, array);
   out["at_full_scale"] = clipped_json(run, array);
   out["unobservable"] = unobservable(run, array);
+  out["temperature"] = temperature_json(run, array);
   out["hold_out"] = hold_out_json(run);
-  out["common_scale"] = run.study.shown ? Json{{"mean", run.study.common_scale.mean},
-                                               {"scatter", run.study.common_scale.scatter},
-                                               {"prior_sigmas", run.study.common_scale.prior_sigmas}}
+  out["common_scale"] = run.study.shown ? Json{{"mean", run.told().common_scale.mean},
+                                               {"scatter", run.told().common_scale.scatter},
+                                               {"sigma", run.told().common_scale.sigma},
+                                               {"sigmas", run.told().common_scale.sigmas()}}
                                         : Json();
   out["odd_sensor"] = Json();
   if (run.study.odd_sought) {

@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "fit_words.hpp"
+#include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
+#include "temperature_words.hpp"
+#include "unit_guess.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -118,6 +122,17 @@ std::string worst_value(const CalibrationRun& run, const io::ArrayFile& array) {
   return out;
 }
 
+/// The sensor whose channel is a copy of this one's; -1 where none is.
+int same_as(const CalibrationRun& run, const io::ArrayFile& array, int sensor) {
+  for (int i = 0; i < array.array.size() && sensor >= 0 && !run.stations.empty(); ++i) {
+    const auto differs = [i, sensor](const Station& s) {
+      return s.mean[static_cast<std::size_t>(i)] != s.mean[static_cast<std::size_t>(sensor)];
+    };
+    if (i != sensor && std::none_of(run.stations.begin(), run.stations.end(), differs)) return i;
+  }
+  return -1;
+}
+
 Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
   switch (run.concern) {
@@ -126,12 +141,17 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
                           e.value < e.limit ? "less" : "more", kEarthGravityMin_mps2, kEarthGravityMax_mps2),
               "correct [gravity] in the array file (unit, latitude, depth); every scale factor would take the error"};
     case Concern::common_scale:
-      return {fmt::format("all scale factors moved together by {:+.2f} %, more than {:.2f} % (twice the `prior` of one "
-                          "sensor)",
-                          100.0 * e.value, 100.0 * e.limit),
+      return {fmt::format("gravity reference or common scale off by {:.1f} %: all scale factors moved together by "
+                          "{:+.2f} %, more than {:.2f} % (4 sigma of what `prior` expects of the mean of {} sensors)",
+                          100.0 * std::fabs(e.value), 100.0 * e.value, 100.0 * e.limit, array.array.size()),
               "check [gravity], `unit` and `scale`: a wrong one does just this; if all sensors really are so, state "
               "their `scale` as it is or widen `prior`"};
     default: break;
+  }
+  if (const int twin = same_as(run, array, e.index); twin >= 0) {
+    return {fmt::format("{} and {} hold the same numbers at every station, which two sensors never do",
+                        id_of(array, std::min(twin, e.index)), id_of(array, std::max(twin, e.index))),
+            "look at `column` of both in the array file, and at how the log was written"};
   }
   const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "a sensor";
   const std::string worst = worst_value(run, array);
@@ -140,6 +160,20 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
                         : worst + ", which is physically implausible",
           "check the channel, the sign of its axis and its scale in the array file; if all is right, the sensor is "
           "faulty: leave it out"};
+}
+
+/// A unit that is wrong by a factor spoils everything that a fit could say.
+constexpr double kWrongUnit = 2.0;
+
+/// Whether the numbers of the log cannot be in the unit stated; fills the refusal.
+bool wrong_unit(const CalibrationRun& run, const io::ArrayFile& array, Refusal& out) {
+  const double factor = length_factor(array, run.stations);
+  if (!(factor > 0.0) || (factor < kWrongUnit && factor > 1.0 / kWrongUnit)) return false;
+  out = {fmt::format("the vector is {:.3g} times as long as gravity, so the numbers of the log are not in {} or not of "
+                     "the `scale` stated{}",
+                     factor, array.input.unit.name, likely_unit(array, factor)),
+         "correct `unit` in [input], or `scale` and `bias` of the sensors"};
+  return true;
 }
 
 Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -168,6 +202,12 @@ Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
     default: break;
   }
   const FitReport& r = run.report;
+  if (e.index >= 0 && e.value == noise_factor(r, array, e.index)) {
+    return {noise_words(r, array, e.index) + ", and the residuals are no noise either",
+            "look at the channel of " + id_of(array, e.index) +
+                " in the log; if its noise is what it is, declare it in the array file: the limits of the monitor are "
+                "made of it"};
+  }
   const double most = run.options.max_outlier_share * (r.stations + r.outliers);
   const std::string channel = e.index >= 0 ? "look at the channel of " + id_of(array, e.index) + " in the log; " : "";
   if (static_cast<double>(r.outliers) > most) {
@@ -175,6 +215,13 @@ Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
                         r.stations + r.outliers, std::floor(most),
                         e.index >= 0 ? ", most of them by the reading of " + id_of(array, e.index) : ""),
             channel + record};
+  }
+  if (r.parameters == 12 && r.outliers > 0 && r.norm_rms_mps2 <= run.options.max_norm_rms_mps2) {
+    return {fmt::format("three sensors cannot tell which stations err: {} of {} were set aside ({}), and the rest "
+                        "{}",
+                        r.outliers, r.stations + r.outliers, listed(outlier_words(run, array)),
+                        r.p_value < 1e-3 ? "is no noise either" : "is too little to confirm it"),
+            record + ", at 36 attitudes or more"};
   }
   if (e.index >= 0 && r.norm_rms_mps2 <= run.options.max_norm_rms_mps2) {
     return {fmt::format("the residuals of {} are {:.1f} times those of the other sensors (allowed {:.1f})",
@@ -185,7 +232,22 @@ Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
           "look at " + worst_sensor(run, array) + ", whose residual is the largest; check [gravity], and " + record};
 }
 
+std::string largest_reading(const Station& station, const io::ArrayFile& array) {
+  int most = 0;
+  for (int i = 1; i < array.array.size(); ++i) {
+    if (std::fabs(station.mean[static_cast<std::size_t>(i)]) > std::fabs(station.mean[static_cast<std::size_t>(most)]))
+      most = i;
+  }
+  return fmt::format("{} reads {:.4g} {}", id_of(array, most), station.mean[static_cast<std::size_t>(most)],
+                     array.input.unit.name);
+}
+
 Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
+  if (const int k = run.refusal.index; k >= 0 && k < static_cast<int>(run.stations.size())) {
+    return {fmt::format("station {} holds a reading that no sensor gives ({})", k + 1,
+                        largest_reading(run.stations[static_cast<std::size_t>(k)], array)),
+            "mend the row or leave it out"};
+  }
   const std::vector<std::string> absent = absent_words(run, array);
   if (!absent.empty()) return {"the fit did not settle: " + joined(absent, "; "), "look at the channel in the log"};
   return {"the fit did not settle",
@@ -196,6 +258,10 @@ Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
 
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
+  if (const std::optional<Refusal> temperature = temperature_refusal(run)) return *temperature;
+  Refusal unit;
+  const bool of_values = e.code == Errc::implausible || e.code == Errc::poor_fit || e.code == Errc::diverged;
+  if (of_values && run.concern != Concern::gravity && wrong_unit(run, array, unit)) return unit;
   switch (e.code) {
     case Errc::too_few_stations:
       if (!run.log_findings.empty()) return no_stations(run);
@@ -204,10 +270,16 @@ Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
       return {fmt::format(
                   "the stations determine {} of the {} parameters that they must (the report names what is missing)",
                   e.value, e.limit),
-              more_attitudes(run)};
+              more_attitudes(run) + (run.report.roll_axis == Vec3{}
+                                         ? ""
+                                         : "; with more rolls to a group, or without `roll_group`, where it is "
+                                           "the common rotation that is missing")};
     case Errc::implausible: return implausible(run, array);
     case Errc::poor_fit: return poor_fit(run, array);
     case Errc::diverged: return did_not_settle(run, array);
+    case Errc::out_of_range:  // axis and wobble come from the command line, which checks them
+      return {fmt::format("the log has more than {} roll groups", kMaxRollGroups),
+              "join groups of like inclination, or leave some stations without"};
     default: {
       const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "";
       const io::FileError words = io::from_error(e);
@@ -216,21 +288,48 @@ Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   }
 }
 
-Refusal paper_refusal_of(const CalibrationRun& run) {
+namespace {
+
+/// The paper writes each misalignment as a mixture of the other readings: axes near one plane make that a quotient of
+/// small numbers, and no attitude mends it.
+constexpr double kFlat = 0.1;
+
+double least_singular_value(const SensorArray& array) {
+  Eigen::MatrixX3d axes(array.size(), 3);
+  for (int i = 0; i < array.size(); ++i) axes.row(i) = Eigen::Vector3d(array.axis(i).data()).transpose();
+  return Eigen::JacobiSVD<Eigen::MatrixX3d>(axes).singularValues()[2];
+}
+
+}  // namespace
+
+Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.paper_refusal;
-  const std::string without = ", or calibrate without --paper and mode = \"paper\"";
+  const std::string without = "calibrate without --paper and mode = \"paper\"";
+  const double least = least_singular_value(array.array);
+  if (least < kFlat) {
+    return {fmt::format("the nominal axes lie near one plane (least singular value {:.3g}, below {} the misalignments "
+                        "of eq (3) are quotients of small numbers)",
+                        least, kFlat),
+            without + "; plumb's own fit does not need them"};
+  }
   switch (e.code) {
-    case Errc::diverged: return {"it did not converge", "check axes and scales in the array file" + without};
+    case Errc::diverged: return {"it did not converge", "check axes and scales in the array file, or " + without};
     case Errc::unobservable:
+      if (e.value > e.limit) {
+        return {fmt::format("its equations have rank {} where the length of gravity shows {} directions: what the "
+                            "sensors contradict one another by ({:.3g} mg0 rms) feigns the others",
+                            e.value, e.limit, in_mg0(run.told().parity_rms_mps2)),
+                "look for what moves the readings beyond their noise (see `chi^2` in the report), or " + without};
+      }
       return {fmt::format("the stations show {} of the {} directions that the length of gravity can show", e.value,
                           e.limit),
-              more_attitudes(run) + without};
+              more_attitudes(run) + ", or " + without};
     case Errc::too_few_stations:
       return {fmt::format("{} stations have all sensors, {} are needed", e.value, e.limit),
-              more_attitudes(run) + without};
+              more_attitudes(run) + ", or " + without};
     default: {
       const io::FileError words = io::from_error(e);
-      return {words.what, words.remedy + without};
+      return {words.what, words.remedy + ", or " + without};
     }
   }
 }

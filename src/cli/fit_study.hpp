@@ -10,6 +10,7 @@
 #include "plumb/calibration/null_directions.hpp"
 #include "plumb/calibration/observability.hpp"
 #include "plumb/calibration/paper_parameters.hpp"
+#include "plumb/calibration/temperature_fit.hpp"
 #include "plumb/io/array_file.hpp"
 
 namespace plumb {
@@ -29,11 +30,11 @@ std::string read_hold_out(const std::string& text, HoldOutChoice& choice);
 struct FitStudy {
   std::unique_ptr<Calibration> shown;  ///< accepted, or what was refused; null where nothing converged
   Judgement judgement;                 ///< of `judge`; code ok where it was not reached or all is well
-  CommonScale common_scale;
   HoldOutPlan plan;
   HoldOut held_out;
   std::vector<StationPrediction> predicted;  ///< by station; empty: none held out; outliers are not judged
   std::vector<int> kept;                     ///< stations that an accepted fit did not set aside; else all
+  std::vector<int> set_aside;                ///< the others
   bool odd_sought = false;
   OddSensor odd;
   std::vector<SeenAttitude> attitudes;     ///< by station; direction 0 where unknown
@@ -52,9 +53,11 @@ std::vector<Station> chosen(const std::vector<Station>& stations, const std::vec
 /// Attitudes that are proposed.
 inline constexpr int kPlanned = 6;
 
-/// `fit` is what `calibrate` returned for the stations with `options`, `report` what it wrote.
+/// `fit` is what `calibrate_over_temperature` returned for the stations with `options`, their order the one that was
+/// fitted, `report` what it wrote. Of a fit over temperature all but the stations held out are studied with the drift
+/// that it found; the fits that predict these find their own.
 FitStudy study_fit(const io::ArrayFile& array, const std::vector<Station>& stations, const Expected<Calibration>& fit,
-                   const FitReport& report, const FitOptions& options, const HoldOutChoice& choice);
+                   const FitReport& report, const TemperatureOptions& options, const HoldOutChoice& choice);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -41,6 +41,7 @@ std::vector<SensorFigures> sensor_figures(const CalibrationRun& run, const io::A
     const auto a = static_cast<std::size_t>(i);
     SensorFigures f;
     f.id = id_of(array, i);
+    f.sample_noise_mg = run.told().sample_noise_mps2[a] / kMilliG0_mps2;
     out.push_back(f);
     if (!run.study.shown) continue;
     const Calibration& shown = *run.study.shown;

@@ -29,6 +29,7 @@ struct SensorFigures {
   double data_share = 0.0;  ///< least of its parameters
   double e_cal_mg = 0.0;
   double residual_rms_mg = 0.0;
+  double sample_noise_mg = 0.0;  ///< of the samples of the stations; 0: not known
 };
 std::vector<SensorFigures> sensor_figures(const CalibrationRun& run, const io::ArrayFile& array);
 

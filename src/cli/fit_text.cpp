@@ -7,6 +7,7 @@
 #include "fit_summary.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/words.hpp"
+#include "temperature_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -14,6 +15,8 @@ namespace cli {
 namespace {
 
 constexpr std::size_t kOddStationsListed = 5;
+/// Over the declared noise; 128 samples tell 1.25 from 1 by 4 sigma.
+constexpr double kToldNoise = 1.25;
 /// Rounding.
 constexpr double kNoExcitation = 1e-9;
 constexpr std::size_t kTextWidth = 116;
@@ -85,11 +88,15 @@ std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
     return out + line("rank", "not known: there is no fit to these stations");
   }
   std::string rank = fmt::format("{} of {} parameters seen by the data", r.rank, r.parameters);
-  if (r.gauge > 0) {
+  if (r.gauge > 1) {
     rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show and the nominal axes fix",
                         r.gauge);
+  } else if (r.gauge == 1) {
+    rank += "; 1 is a rotation of all axes about the roll axis, which gravity cannot show and the nominal axes fix";
   }
   out += line("rank", rank);
+  if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
+  if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
   const std::vector<std::string> unseen = unobservable(run, array);
   out += unseen.empty() ? line("not determined", "nothing") : lines("not determined", unseen);
   out +=
@@ -97,13 +104,19 @@ std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
   return out;
 }
 
+std::string temperature_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  std::string out;
+  for (const TemperatureFact& fact : temperature_facts(run, array)) out += line(fact.label, fact.words);
+  return out.empty() ? out : "\ntemperature\n" + out;
+}
+
 std::string residual_section(const CalibrationRun& run, const io::ArrayFile& array) {
   if (!run.study.shown) return "";
   const FitReport& r = run.told();
   std::string out = "\nresiduals\n";
   out += line("length of gravity", fmt::format("{:.3f} mg0 rms", in_mg0(r.norm_rms_mps2)));
-  out += line("parity", r.parameters > 12 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
-                                          : std::string("none: three sensors do not check one another"));
+  out += line("parity", array.array.size() > 3 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
+                                               : std::string("none: three sensors do not check one another"));
   out += line("beyond the noise", fmt::format("{:.3f} mg0", in_mg0(r.misfit_mps2)));
   out += line("chi^2", fmt::format("{:.4g} for {} degrees of freedom, p = {:.3g}: {}", r.chi2, r.degrees_of_freedom,
                                    r.p_value, p_value_words(r)));
@@ -111,7 +124,7 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
   if (h.judged > 0) {
     std::string words =
         fmt::format("norm {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.norm_rms_mps2), in_mg0(h.norm_max_mps2));
-    if (r.parameters > 12) {
+    if (array.array.size() > 3) {
       words +=
           fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.parity_rms_mps2), in_mg0(h.parity_max_mps2));
     }
@@ -136,6 +149,11 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
   if (run.study.odd.sensor >= 0) {
     out += line("stands out",
                 id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
+  }
+  if (const std::string loud = loud_words(r, array); !loud.empty()) out += line("stands out", loud);
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (noise_factor(r, array, i) > kToldNoise)
+      out += line("noise", noise_words(r, array, i) + ": declare it as it is, the limits of a monitor are made of it");
   }
   out += line("common scale", common_scale_words(run));
   return out;
@@ -227,8 +245,8 @@ std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, cons
   out += fmt::format("log         {} rows used, {} bad rows skipped, {} stations\n", run.log.rows, run.log.rows_bad,
                      run.stations.size());
   if (parts.stations) out += stations_text(run);
-  out += fit_section(run, array) + residual_section(run, array) + sensors_section(run, array) +
-         paper_parameters_section(run, array);
+  out += fit_section(run, array) + temperature_section(run, array) + residual_section(run, array) +
+         sensors_section(run, array) + temperature_table(run, array) + paper_parameters_section(run, array);
   if (run.paper) out += paper_fits_section(*run.paper, array);
   const bool too_little = run.refusal.code == Errc::too_few_stations || run.refusal.code == Errc::unobservable;
   out += attitude_section(run, array, parts.suggest || (too_little && run.log_findings.empty()));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "temperature_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -137,6 +138,8 @@ std::vector<std::string> unobservable(const CalibrationRun& run, const io::Array
     out.push_back(null_words((*run.study.nulls)[static_cast<std::size_t>(k)], array));
   if (run.told().null_directions > run.study.null_count)
     out.push_back(fmt::format("and {} more", run.told().null_directions - run.study.null_count));
+  const std::vector<std::string> over_temperature = temperature_unobservable(run, array);
+  out.insert(out.end(), over_temperature.begin(), over_temperature.end());
   return out;
 }
 
@@ -222,13 +225,13 @@ std::vector<std::string> absent_words(const CalibrationRun& run, const io::Array
 
 std::string common_scale_words(const CalibrationRun& run) {
   if (!run.study.shown) return "";
-  const CommonScale& c = run.study.common_scale;
+  const CommonScale& c = run.told().common_scale;
   std::string out = fmt::format(
-      "all scale factors moved together by {:+.3f} % ({:.1f} sigma of the datasheet), singly by "
-      "{:.3f} %",
-      100.0 * c.mean, std::fabs(c.prior_sigmas), 100.0 * c.scatter);
-  if (std::fabs(c.prior_sigmas) > AcceptanceLimits{}.told_common_scale_sigmas)
-    out += ": gravity reference or unit wrong?";
+      "all scale factors moved together by {:+.3f} % ({:.1f} sigma of what `prior` expects), singly by {:.3f} %",
+      100.0 * c.mean, std::fabs(c.sigmas()), 100.0 * c.scatter);
+  if (std::fabs(c.sigmas()) > AcceptanceLimits{}.told_common_scale_sigmas)
+    out += fmt::format(": gravity reference or common scale off by {:.1f} %, or the `unit` is wrong?",
+                       100.0 * std::fabs(c.mean));
   return out;
 }
 
@@ -243,6 +246,46 @@ std::vector<std::string> outlier_words(const CalibrationRun& run, const io::Arra
     out.push_back(fmt::format("station {} ({:.1f} sigma{})", o.station + 1, o.standardised, whose));
   }
   if (r.outliers > listed) out.push_back(fmt::format("{} more", r.outliers - listed));
+  return out;
+}
+
+double noise_factor(const FitReport& report, const io::ArrayFile& array, int sensor) {
+  return report.sample_noise_mps2[static_cast<std::size_t>(sensor)] /
+         array.datasheet.sensor[static_cast<std::size_t>(sensor)].row.sigma_mps2;
+}
+
+std::string noise_words(const FitReport& report, const io::ArrayFile& array, int sensor) {
+  return fmt::format("the samples of {} scatter by {:.3g} mg0, {:.2g} times the {:.3g} mg0 declared",
+                     id_of(array, sensor),
+                     1e3 * g0_from_mps2(report.sample_noise_mps2[static_cast<std::size_t>(sensor)]),
+                     noise_factor(report, array, sensor),
+                     1e3 * g0_from_mps2(array.datasheet.sensor[static_cast<std::size_t>(sensor)].row.sigma_mps2));
+}
+
+std::string loud_words(const FitReport& report, const io::ArrayFile& array) {
+  if (report.loud_sensor < 0) return "";
+  return fmt::format(
+      "{}: its residuals are {:.1f} times those of the other sensors, {:.3g} mg0 at a station beyond its noise; all "
+      "sigmas are widened for it. Look at its channel",
+      id_of(array, report.loud_sensor), report.loud_excess, 1e3 * g0_from_mps2(report.loud_misfit_mps2));
+}
+
+std::string inclination_words(const FitReport& report) {
+  return fmt::format("known to {:.3g} deg (1 sigma) in itself, {}", deg_from_rad(report.inclination_sigma_rad),
+                     report.roll_axis == Vec3{} ? "by the nominal axes alone: gravity shows its changes only, unless "
+                                                  "`roll_group` says which stations share one"
+                                                : "by the stations that share one");
+}
+
+std::string roll_words(const FitReport& report) {
+  if (report.roll_groups == 0) return "";
+  std::string out = fmt::format("{} in the log", report.roll_groups);
+  if (report.roll_axis != Vec3{}) {
+    out += fmt::format(", rolled about ({:.3g}, {:.3g}, {:.3g}) within {:.3g} deg", report.roll_axis[0],
+                       report.roll_axis[1], report.roll_axis[2], deg_from_rad(report.roll_wobble_rad));
+  }
+  if (report.lone_rolls == 1) out += "; one has a single station, which says nothing";
+  if (report.lone_rolls > 1) out += fmt::format("; {} have a single station, which says nothing", report.lone_rolls);
   return out;
 }
 

@@ -38,6 +38,20 @@ std::string common_scale_words(const CalibrationRun& run);
 /// Stations that the fit set aside: "station 7 (31.2 sigma, 98 % of it by a2)", and how many more.
 std::vector<std::string> outlier_words(const CalibrationRun& run, const io::ArrayFile& array);
 
+/// Noise of a sensor's own samples over the declared one; 0 where the stations do not know it.
+double noise_factor(const FitReport& report, const io::ArrayFile& array, int sensor);
+/// "the samples of a2 scatter by 1 mg0, 5 times the 0.2 mg0 declared".
+std::string noise_words(const FitReport& report, const io::ArrayFile& array, int sensor);
+
+/// "a3: its residuals are 2.4 times ...": the sensor that is louder than the others beyond chance; empty where none is.
+std::string loud_words(const FitReport& report, const io::ArrayFile& array);
+
+/// How surely an inclination is known in itself, and by what.
+std::string inclination_words(const FitReport& report);
+
+/// What the roll groups of the log were good for; empty where there are none.
+std::string roll_words(const FitReport& report);
+
 /// "with it 4.5 mg0 remain beyond the noise, without it 0.01 mg0".
 std::string odd_sensor_words(const OddSensor& odd);
 
@@ -51,7 +65,7 @@ struct Refusal {
 };
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
 /// The same for the fits by the paper's method.
-Refusal paper_refusal_of(const CalibrationRun& run);
+Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -7,6 +7,7 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
+#include "unit_guess.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -95,8 +96,8 @@ void LogDiagnosis::judge_length(std::vector<std::string>& out) const {
   if (length_mps2_.empty() || (factor > 1.0 / kLengthFactor && factor < kLengthFactor)) return;
   out.push_back(
       fmt::format("`unit` and `scale`: the vector is {:.3g} times as long as gravity (median), so the numbers "
-                  "of the log are not in the unit or not of the scale that the array file states",
-                  factor));
+                  "of the log are not in the unit or not of the scale that the array file states{}",
+                  factor, likely_unit(*array_, factor)));
 }
 
 void LogDiagnosis::judge_time(std::vector<std::string>& out) const {

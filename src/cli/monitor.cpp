@@ -10,6 +10,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
+#include "plumb/report/monitor_limits.hpp"
 #include "plumb/report/timeline.hpp"
 #include "plumb/report/words.hpp"
 #include "tool.hpp"
@@ -25,8 +26,11 @@ struct Options {
   LogSpec log{"-", io::BadRowPolicy::stop};
   std::string events;
   std::string verdicts;
+  std::string snapshot_in;
+  std::string snapshot_out;
   std::vector<std::string> host;
   bool every_sample = false;
+  bool limits = false;
   bool json = false;
 };
 
@@ -52,17 +56,28 @@ constexpr const char* kNotes =
     "returns a2 and a4 to service, with the reset_key of the array file; \"36s recalibrate\" for new biases and\n"
     "scales. A time before the first row, a negative one too, counts as asked for before that row.\n"
     "What the monitor refuses is said on standard error.\n"
+    "--snapshot-in goes on where another run ended that wrote --snapshot-out: exclusions, doubts, adopted coefficients "
+    "and\n"
+    "`failed` outlive the end of a log as they outlive a power cycle. The snapshot must be of the same array file and\n"
+    "calibration; both options may name one file.\n"
+    "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
+    "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
 
 /// A table line at each change.
 class TableSink : public VerdictSink {
  public:
-  TableSink(const SensorArray& array, const Mat3& frame) : array_(array), frame_(frame) {}
+  /// `restored`: what the monitor says before the first sample, where it goes on from a snapshot.
+  TableSink(const SensorArray& array, const Mat3& frame, const std::optional<Verdict>& restored)
+      : array_(array), frame_(frame), restored_(restored) {}
 
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override {
-    if (!started_)
-      print_now(report::table_header() + report::table_line(report::power_on_row(sample.time_s, HealthState::suspect)));
+    if (!started_) {
+      print_now(report::table_header() +
+                report::table_line(restored_ ? report::restored_row(sample.time_s, *restored_, frame_)
+                                             : report::power_on_row(sample.time_s, HealthState::suspect)));
+    }
     started_ = true;
     if (verdict.transition.sequence != 0) print_now(report::table_line(report::row_of(verdict, array_, frame_)));
     return {};
@@ -71,6 +86,7 @@ class TableSink : public VerdictSink {
  private:
   const SensorArray& array_;
   Mat3 frame_;
+  std::optional<Verdict> restored_;
   bool started_ = false;
 };
 
@@ -84,7 +100,7 @@ struct Outputs {
 };
 
 io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile& array, const SensorArray& sensors,
-                                    Outputs& out) {
+                                    const Verdict& now, Outputs& out) {
   const bool live = options.log.path == "-";
   const bool taken = options.events == "-" || options.verdicts == "-";
   if (!options.events.empty()) {
@@ -98,12 +114,16 @@ io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile&
     out.sinks.push_back(
         &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
   }
+  // --events - writes there what --json would.
+  const bool told = options.events == "-";
+  if (options.json && told) return {};
   if (options.json) {
     io::FileExpected<io::OutputFile> file = io::OutputFile::create("-", io::OutputFile::Mode::stream);
     if (!file) return tl::unexpected<io::FileError>(file.error());
     out.sinks.push_back(&out.json.emplace(*std::move(file), sensors, true));
   } else if (!taken) {
-    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame));
+    const std::optional<Verdict> restored = options.snapshot_in.empty() ? std::nullopt : std::optional<Verdict>(now);
+    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame, restored));
   }
   return {};
 }
@@ -181,6 +201,33 @@ void tell_refusals(const scenario::Host& host, const SensorArray& sensors) {
     print_error(fmt::format("plumb: the log ended before the last {} of the --host requests.\n", host.waiting()));
 }
 
+io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonitor& monitor) {
+  if (snapshot_path.empty()) return {};
+  return save_snapshot(snapshot_path, monitor);
+}
+/// `run` has refused the options: there is nothing to keep.
+io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
+
+std::optional<io::FileError> snapshot_misuse(const Options& options, const io::ArrayFile& array) {
+  const NamedFile named[] = {{"--snapshot-in", options.snapshot_in}, {"--snapshot-out", options.snapshot_out}};
+  for (const NamedFile& file : named) {
+    if (file.path.empty()) continue;
+    if (file.path == "-") {
+      return io::FileError{file.option,        0, "", "a snapshot is kept in a file, not in a pipe", "name a file",
+                           io::ExitCode::usage};
+    }
+    if (array.monitor.mode == MonitorMode::paper) {
+      return io::FileError{file.option,
+                           0,
+                           "",
+                           "the paper's algorithm keeps no snapshot",
+                           "leave the option out, or set mode = \"plumb\" in " + array.path,
+                           io::ExitCode::usage};
+    }
+  }
+  return std::nullopt;
+}
+
 /// The run itself, with either monitor.
 template <class Monitor>
 io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& monitor) {
@@ -193,12 +240,13 @@ io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& 
   }
   scenario::Host host(std::move(requests));
   Outputs outputs;
-  const io::FileExpected<void> opened = open_outputs(options, array, sensors, outputs);
+  const io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
   const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, options.log, outputs.sinks, host);
   if (!done) return report(done.error());
-  const io::FileExpected<void> kept = commit(outputs);
+  io::FileExpected<void> kept = commit(outputs);
+  if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
@@ -218,8 +266,28 @@ io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& 
   return done->last.state == HealthState::failed ? io::ExitCode::monitor_failed : io::ExitCode::done;
 }
 
+/// In paper mode delta_f decides alone, by coefficients of its own for each triple.
+io::FileError limits_of_paper(const io::ArrayFile& array) {
+  return io::FileError{array.path,
+                       0,
+                       "monitor.mode",
+                       "is \"paper\": delta_f is its one limit, and --limits is about plumb's own tests",
+                       "leave out --limits, or set mode = \"plumb\" with the same delta_f to see what that hides",
+                       io::ExitCode::usage};
+}
+
+/// --limits: what the monitor would decide by.
+io::ExitCode tell_limits(const Options& options, const io::ArrayFile& array, const SensorArray& calibrated) {
+  const report::MonitorLimits limits = report::monitor_limits(calibrated, array.gravity, array.monitor);
+  print_now(options.json ? report::limits_json(limits) : report::limits_text(limits));
+  return io::ExitCode::done;
+}
+
 io::ExitCode run(const Options& options) {
-  const std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
+  std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
+    return report(*clash);
+  to_write.push_back({"--snapshot-out", options.snapshot_out});
   const std::vector<NamedFile> to_read = {
       {"--array", options.array}, {"--calibration", options.calibration}, {"--log", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
@@ -227,6 +295,7 @@ io::ExitCode run(const Options& options) {
   if (!array) return report(array.error());
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
   if (!calibration) return report(calibration.error());
+  if (const std::optional<io::FileError> misuse = snapshot_misuse(options, *array)) return report(*misuse);
   if (array->input.rows == io::RowKind::stations && array->monitor.window > 1) {
     print_error(fmt::format(
         "plumb: {}: every row of the log is a station, but [monitor] window = {} joins that many rows to one "
@@ -235,9 +304,14 @@ io::ExitCode run(const Options& options) {
   }
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
-    return monitor ? watch(options, *array, **monitor) : report(monitor.error());
+    if (!monitor) return report(monitor.error());
+    if (options.limits) return report(limits_of_paper(*array));
+    return watch(options, *array, **monitor);
   }
-  const auto monitor = make_monitor(*array, calibration->calibration);
+  const auto monitor = options.snapshot_in.empty()
+                           ? make_monitor(*array, calibration->calibration)
+                           : restore_monitor(*array, calibration->calibration, options.snapshot_in);
+  if (monitor && options.limits) return tell_limits(options, *array, (*monitor)->array());
   return monitor ? watch(options, *array, **monitor) : report(monitor.error());
 }
 
@@ -261,11 +335,16 @@ Command add_monitor(CLI::App& tool) {
   app->add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
       ->type_name("V.jsonl");
   app->add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
+  app->add_option("--snapshot-in", options->snapshot_in, "go on from this snapshot instead of from power-on")
+      ->type_name("S.bin");
+  app->add_option("--snapshot-out", options->snapshot_out, "at the end of the run, write what the monitor remembers")
+      ->type_name("S.bin");
   app->add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
       ->type_name("REQUEST")
       ->expected(1)
       ->take_all();
   add_bad_row_option(*app, options->log.on_bad_row);
+  app->add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
   app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
   app->footer(kNotes + exit_codes_help());
   return {app, kAbout, [options] { return run(*options); }};

@@ -31,6 +31,7 @@ Station station_of_row(const Sample& sample, SensorSet usable) {
   station.temperature_degc = sample.temperature_degc;
   station.count = sample.count;
   station.tag = sample.station;
+  station.roll_group = sample.roll_group;
   station.begin_s = station.end_s = sample.time_s;
   return station;
 }
@@ -82,9 +83,12 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   if (!fit) {
     run.refusal = fit.error();
     // Stations that determine too little say nothing of values; that one sensor contradicts itself they do say.
-    const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable;
+    const bool too_little = fit.error().code == Errc::too_few_stations || fit.error().code == Errc::unobservable ||
+                            fit.error().code == Errc::too_few_levels;
     const bool stands = judged.concern == Concern::gravity || judged.concern == Concern::odd_sensor;
-    if (!named || (too_little && !stands)) return;
+    // One number that is none spoils a whole sensor; the station that holds it is the better name.
+    const bool one_row = fit.error().code == Errc::diverged && fit.error().index >= 0;
+    if (!named || (too_little && !stands) || (one_row && judged.concern == Concern::odd_sensor)) return;
   } else if (!named) {
     run.accepted = std::make_unique<Calibration>(*fit);
     return;
@@ -100,11 +104,29 @@ io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool li
   return done;
 }
 
-/// The paper's fits beside the accepted one, to the same stations. Of no use where that of all sensors is not sound.
+/// The stations as they would have been at one temperature, by the calibration.
+std::vector<Station> at_one_temperature(std::vector<Station> stations, const Calibration& calibration) {
+  const double degc = calibration.model.sensor[0].reference_degc;
+  for (Station& s : stations) {
+    const Readings y = calibration.model.apply(s.mean, s.temperature_degc, s.delivered);
+    if (const auto raw = calibration.model.raw_from(y, degc)) s.mean = *raw;
+    s.temperature_degc = degc;
+  }
+  return stations;
+}
+
+/// The paper's fits beside the accepted one, to the same stations. They know no temperature: what plumb's fit found of
+/// it is taken out of the stations and put into the model. Of
+/// no use where that of all sensors is not sound.
 void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
-  const std::vector<Station> stations = chosen(run.stations, run.study.kept);
+  std::vector<Station> stations = chosen(run.stations, run.study.kept);
   auto paper = std::make_unique<PaperCalibration>();
-  const Expected<void> done = paper_calibrate_all(array.datasheet, array.gravity, stations.data(),
+  Datasheet datasheet = array.datasheet;
+  if (run.temperature.order > 0) {
+    datasheet = with_temperature_of(datasheet, *run.accepted);
+    stations = at_one_temperature(std::move(stations), *run.accepted);
+  }
+  const Expected<void> done = paper_calibrate_all(datasheet, array.gravity, stations.data(),
                                                   static_cast<int>(stations.size()), PaperOptions{}, *paper);
   if (!done) {
     run.paper_refusal = done.error();
@@ -179,9 +201,18 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   collector.finish(run);
   run.log = reader->statistics();
   run.options = choice.fit;
-  const Expected<Calibration> fit = calibrate(array.datasheet, array.gravity, run.stations.data(),
-                                              static_cast<int>(run.stations.size()), run.options, &run.report);
-  run.study = study_fit(array, run.stations, fit, run.report, run.options, choice.hold_out);
+  const Vec3 counted_from = {array.output_frame[6], array.output_frame[7], array.output_frame[8]};
+  const Vec3 axis = choice.roll_axis.value_or(counted_from);
+  run.options.roll_axis = scaled(axis, 1.0 / norm(axis));
+  TemperatureOptions over = choice.temperature;
+  over.fit = run.options;
+  const auto work = std::make_unique<TemperatureWork>();
+  std::vector<Station> scratch(run.stations.size());
+  const Expected<Calibration> fit = calibrate_over_temperature(array.datasheet, array.gravity, run.stations.data(),
+                                                               static_cast<int>(run.stations.size()), over,
+                                                               scratch.data(), *work, &run.temperature, &run.report);
+  over.order = run.temperature.order;
+  run.study = study_fit(array, run.stations, fit, run.report, over, choice.hold_out);
   settle(run, fit);
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
   return run;
@@ -219,6 +250,29 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFil
   const Expected<void> configured = monitor->configure(*setup_of(array, calibration));
   if (configured) return monitor;
   return refused_setup(configured.error(), array);
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration& calibration,
+                                                                 const std::string& snapshot_path) {
+  const io::FileExpected<std::string> bytes = io::read_file(snapshot_path);
+  if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> restored = monitor->restore(*setup_of(array, calibration),
+                                                   reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size());
+  if (restored) return monitor;
+  if (monitor->verdict().snapshot_refusal == Errc::ok) return refused_setup(restored.error(), array);
+  io::FileError error = io::from_error(restored.error());
+  error.file = snapshot_path;
+  error.remedy += " (leave out --snapshot-in)";
+  return tl::unexpected<io::FileError>(std::move(error));
+}
+
+io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor) {
+  std::string bytes(monitor.snapshot_size(), '\0');
+  const Expected<std::size_t> written = monitor.snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  if (!written) return tl::unexpected<io::FileError>(io::from_error(written.error()));
+  return io::write_file(path, bytes);
 }
 
 io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct CalibrationRun {
   bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
   FitOptions options;
   FitReport report;
+  TemperatureReport temperature;  ///< of the fit, whichever order it had
   FitStudy study;
   Error refusal;                          ///< why it was not accepted
   Concern concern = Concern::none;        ///< what exactly, where the code alone does not say
@@ -52,7 +54,10 @@ struct CalibrationRun {
 struct CalibrationChoice {
   HoldOutChoice hold_out;
   FitOptions fit;
-  bool paper_fits = false;  ///< the paper's own fits too
+  TemperatureOptions temperature;  ///< its own `fit` is not looked at
+  bool paper_fits = false;         ///< the paper's own fits too
+  /// Of the roll groups; by default the axis from which the array file has inclinations counted in results.
+  std::optional<Vec3> roll_axis;
 };
 
 /// Reads the log, finds the stations (or takes the rows as stations), fits, and judges the fit. Refuses to make the
@@ -124,6 +129,15 @@ struct MonitorRun {
 /// A monitor with this calibration, switched on; on the heap, because at capacity 24 it is 2 MB large.
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration& calibration);
+
+/// The same, gone on from the snapshot that the file holds. Errors: those of `make_monitor`; the file cannot be read;
+/// the snapshot is refused, and then the message says why.
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration& calibration,
+                                                                 const std::string& snapshot_path);
+
+/// Puts the snapshot in its place as a whole, or not at all.
+io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor);
 
 /// The monitor of mode = "paper". Refuses a calibration file without the paper's fits; `path` names it.
 io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,

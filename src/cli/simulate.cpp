@@ -114,6 +114,7 @@ class StationMean {
     for (std::size_t i = 0; i < sensors_; ++i) sum_.raw[i] += sample.raw[i];
     sum_.delivered = sample.delivered;
     sum_.station = sample.station;
+    sum_.roll_group = sample.roll_group;
     truth_.faulty = truth_.faulty | truth.faulty;
     truth_.gravity_mps2 = truth.gravity_mps2;
     truth_.station = truth.station;

@@ -30,6 +30,16 @@ const char* describe(Errc code) noexcept {
     case Errc::wrong_state: return "the monitor does not take this request in its present state";
     case Errc::not_confirmed: return "a station that was held out of the fit contradicts it";
     case Errc::not_unique: return "more sensors than the paper's parameters are unique for";
+    case Errc::too_few_levels: return "too few temperatures for polynomials of this order";
+    case Errc::implausible_gravity: return "gravity or its sigma is none that is met near the Earth's surface";
+    case Errc::buffer_too_small: return "the memory given is too small for a snapshot";
+    case Errc::snapshot_truncated: return "the snapshot ends too early";
+    case Errc::snapshot_damaged: return "the snapshot is damaged, or no snapshot at all";
+    case Errc::snapshot_older: return "the snapshot was written by an older version of plumb";
+    case Errc::snapshot_newer: return "the snapshot was written by a newer version of plumb";
+    case Errc::snapshot_capacity: return "the snapshot was written by a build for another number of sensors";
+    case Errc::snapshot_foreign: return "the snapshot belongs to another configuration, array or calibration";
+    case Errc::snapshot_implausible: return "the snapshot holds what no monitor can have remembered";
   }
   return "unknown error code";
 }
@@ -61,6 +71,16 @@ const char* remedy(Errc code) noexcept {
     case Errc::not_confirmed:
       return "look for a sensor that changed while the stations were collected, then collect anew";
     case Errc::not_unique: return "use the common-frame form: axis, scale and bias of each sensor";
+    case Errc::too_few_levels: return "record the attitudes at more temperatures, or fit a lower order";
+    case Errc::implausible_gravity: return "give 9.5 to 10.2 m/s^2 with a sigma of 0 to 0.1 m/s^2";
+    case Errc::buffer_too_small: return "give at least HealthMonitor::snapshot_size_max() bytes";
+    case Errc::snapshot_truncated: return "give all bytes that were written; start without history if they are lost";
+    case Errc::snapshot_damaged: return "keep two snapshots in turn and offer the other one, or start without history";
+    case Errc::snapshot_older: return "start without history, then write a snapshot anew";
+    case Errc::snapshot_newer: return "use the version of plumb that wrote it, or start without history";
+    case Errc::snapshot_capacity: return "use the build that wrote it, or start without history";
+    case Errc::snapshot_foreign: return "offer the snapshot of this tool with these settings, or start without history";
+    case Errc::snapshot_implausible: return "start without history, and look for what rewrote the snapshot";
   }
   return "report this code as a defect of plumb";
 }

@@ -28,18 +28,49 @@ double functional_variance(const BlockAccumulator& block, const std::array<doubl
   return sum;
 }
 
-/// True where the residual of channel i against the estimate of the quiet ones scatters beyond noise.
-bool residual_restless(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& others, int i,
-                       double factor) noexcept {
+/// Over so many degrees of freedom a healthy residual may look restless with this chance.
+constexpr double kRecordRate = 1e-7;
+/// Part of a channel's own scatter that its residual must hold before it is called the channel's.
+constexpr double kOwnShare = 0.5;
+
+/// So many of the others are doubted at once, at most: more choices take too long, and are rarer still.
+constexpr int kMostDoubted = 3;
+
+/// Scatter of the residual of a channel against the estimate of others.
+struct ResidualScatter {
+  double ratio = 0.0;   ///< to what noise explains
+  double own = 0.0;     ///< of the channel alone, beyond noise [(m/s^2)^2]
+  double excess = 0.0;  ///< of the residual, beyond noise [(m/s^2)^2]
+};
+
+ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& others,
+                                 int i) noexcept {
   std::array<double, kCapacity> l{};
-  double expected = array.sigma_mps2(i) * array.sigma_mps2(i);
+  const double own_noise = array.sigma_mps2(i) * array.sigma_mps2(i);
+  double expected = own_noise;
   for (int j = 0; j < array.size(); ++j) {
     const double weight = dot(array.axis(i), others.column[static_cast<size_t>(j)]);
     l[static_cast<size_t>(j)] = -weight;
     expected += weight * weight * array.sigma_mps2(j) * array.sigma_mps2(j);
   }
   l[static_cast<size_t>(i)] = 1.0;
-  return functional_variance(block, l, array.size()) > factor * expected;
+  const double variance = functional_variance(block, l, array.size());
+  return {variance / expected, block.covariance(i, i) - own_noise, variance - expected};
+}
+
+/// True where the scatter of channel i is its own, whichever `grade` sensors of `calm` are left out of the estimate:
+/// with at most that many faulty ones among them, some choice leaves healthy sensors only, and those would have
+/// predicted a movement of the tool.
+bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, SensorSet calm, int i,
+                     int grade) noexcept {
+  for (SensorSet left = SensorSet::first(grade); array.all().contains(left); left = next_of_same_size(left)) {
+    if (!calm.contains(left)) continue;
+    const LeastSquares ls = least_squares(array, calm - left);
+    if (!ls.valid) return false;
+    const ResidualScatter r = residual_scatter(array, block, ls, i);
+    if (!(r.excess > kOwnShare * r.own)) return false;
+  }
+  return true;
 }
 
 /// v of the systematic limit: variance of the vector inside the block beyond what noise explains.
@@ -60,6 +91,27 @@ double vector_spread(const SensorArray& array, const BlockAccumulator& block, co
 }
 
 }  // namespace
+
+void ScatterRecord::forget(int i, double keep) noexcept {
+  const auto a = static_cast<size_t>(i);
+  for (auto* sums : {&residual, &freedom, &own_excess, &residual_excess}) (*sums)[a] *= keep;
+}
+
+void ScatterRecord::add(int i, double ratio, double degrees, double own, double left) noexcept {
+  const auto a = static_cast<size_t>(i);
+  if (freedom[a] > kMostFreedom) forget(i, 0.5);
+  residual[a] += ratio * degrees;
+  freedom[a] += degrees;
+  own_excess[a] += own;
+  residual_excess[a] += left;
+}
+
+bool ScatterRecord::plausible() const noexcept {
+  for (const double f : freedom) {
+    if (!(f >= 0.0 && f <= kMostFreedom + kWindowCapacity)) return false;
+  }
+  return true;
+}
 
 void BlockAccumulator::clear() noexcept { *this = BlockAccumulator{}; }
 
@@ -114,6 +166,15 @@ Readings BlockAccumulator::mean() const noexcept {
   return out;
 }
 
+bool BlockAccumulator::plausible() const noexcept {
+  for (int i = 0; i < kCapacity; ++i) {
+    const int present = present_[static_cast<size_t>(i)];
+    if (present > size_ || (present > 0) != usable_.has(i)) return false;
+  }
+  // Every sample adds between 2^-32 and 1.
+  return size_ == 0 ? inverse_count_ == 0.0 : inverse_count_ > 0.0 && inverse_count_ <= size_;
+}
+
 double BlockAccumulator::covariance(int i, int j) const noexcept {
   // Over the samples of the scarcer channel: exact without dropouts, within sigma^2/N with a few.
   const int least = std::min(present_[static_cast<size_t>(i)], present_[static_cast<size_t>(j)]);
@@ -126,8 +187,41 @@ double restless_factor(int n, int size, double rate) noexcept {
   return n > 0 && size > 1 ? chi2_tail_quantile(rate / n, size - 1) / (size - 1) : 0.0;
 }
 
+namespace {
+
+/// Sorts the restless channels: noisy ones, and whether the rest leaves the tool quiet.
+void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, SensorSet calm, double factor,
+                            ScatterRecord* record, BlockJudgement& out) noexcept {
+  const LeastSquares ls = least_squares(array, calm);
+  out.quiet = ls.valid;
+  if (!ls.valid) return;
+  const int grade = std::min(parity_grade(array, calm | out.restless), kMostDoubted);
+  for (int i = 0; i < array.size(); ++i) {
+    if (record != nullptr && calm.has(i)) record->forget(i, 0.5);
+    if (!out.restless.has(i)) continue;
+    const ResidualScatter r = residual_scatter(array, block, ls, i);
+    bool noisy = r.ratio > factor;
+    if (record != nullptr) {
+      const auto a = static_cast<size_t>(i);
+      record->add(i, r.ratio, block.size() - 1, r.own, r.excess);
+      const bool mine = record->residual_excess[a] > kOwnShare * record->own_excess[a];
+      const double limit = chi2_tail_quantile(kRecordRate, static_cast<int>(record->freedom[a]));
+      noisy = noisy || (mine && record->residual[a] > limit);
+    }
+    if (!noisy) {
+      out.quiet = false;  // the others predict its movement: the tool moves
+      continue;
+    }
+    out.noisy = out.noisy.with(i);
+    if (grade > 0 && own_for_certain(array, block, calm, i, grade))
+      out.noisy_for_certain = out.noisy_for_certain.with(i);
+  }
+}
+
+}  // namespace
+
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
-                           double g_mps2) noexcept {
+                           double g_mps2, ScatterRecord* record) noexcept {
   BlockJudgement out;
   out.evidence.mean_mps2 = block.mean();
   out.evidence.usable = block.usable() & array.all();
@@ -144,23 +238,13 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
     if (block.covariance(i, i) > limit) out.restless = out.restless.with(i);
   }
   const SensorSet calm = judged - out.restless;
-  const LeastSquares ls = least_squares(array, calm);
-  out.quiet = ls.valid;
-  for (int i = 0; i < array.size() && out.quiet; ++i) {
-    if (!out.restless.has(i)) continue;
-    if (residual_restless(array, block, ls, i, factor)) {
-      out.noisy = out.noisy.with(i);
-    } else {
-      out.quiet = false;  // the others predict its movement: the tool moves
-    }
-  }
+  tell_noise_from_motion(array, block, calm, factor, record, out);
   if (out.quiet) {
-    out.evidence.spread_mps2_sq = vector_spread(array, block, ls);
+    out.evidence.spread_mps2_sq = vector_spread(array, block, least_squares(array, calm));
     // A vector that swings by more than 0.1 g0 inside a block is motion whatever its noise class says.
     out.quiet = out.evidence.spread_mps2_sq < 0.01 * g_mps2 * g_mps2;
-  } else {
-    out.noisy = SensorSet{};
   }
+  if (!out.quiet) out.noisy = out.noisy_for_certain = SensorSet{};
   return out;
 }
 

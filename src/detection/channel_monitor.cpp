@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kClipFraction = 0.995;
 
-/// Counters stop at the top instead of wrapping: a wrapped counter would deny a broken channel.
-template <class T>
-void count_up(T& counter) noexcept {
-  if (counter != static_cast<T>(~T{0})) ++counter;
-}
-
 }  // namespace
 
 void ChannelMonitor::configure(int n, const std::array<double, kCapacity>& full_scale_raw, int confirm) noexcept {
@@ -41,8 +35,19 @@ GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
   }
   out.gap = out.usable.empty();
   if (out.gap) return out;  // a silent or babbling bus says nothing about any one channel
+  if (block_samples_ < kMostBlockSamples) ++block_samples_;
   for (int i = 0; i < size_; ++i) {
     const auto a = static_cast<std::size_t>(i);
+    if (out.clipped.has(i)) count_up(clipped_in_block_[a]);
+    if (out.usable.has(i)) {
+      if (sample.raw[a] == last_raw_[a]) {
+        count_up(repeats_[a]);
+      } else {
+        repeats_[a] = 0;
+        changed_ = changed_.with(i);
+      }
+      last_raw_[a] = sample.raw[a];
+    }
     if (out.missing.has(i)) count_up(counters_[a].missing);
     if (out.not_finite.has(i)) count_up(counters_[a].not_finite);
     if (out.clipped.has(i)) count_up(counters_[a].clipped);
@@ -60,6 +65,37 @@ GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
     if (lost_.has(i) && good_run_[a] >= confirm_) back_ = back_.with(i);
   }
   return out;
+}
+
+void ChannelMonitor::begin_block() noexcept {
+  clipped_in_block_.fill(0);
+  changed_ = SensorSet{};
+  block_samples_ = 0;
+}
+
+SensorSet ChannelMonitor::clipped_beyond(double share) const noexcept {
+  SensorSet out;
+  for (int i = 0; i < size_; ++i) {
+    if (clipped_in_block_[static_cast<std::size_t>(i)] > share * block_samples_) out = out.with(i);
+  }
+  return out;
+}
+
+SensorSet ChannelMonitor::repeating(int samples) const noexcept {
+  SensorSet out;
+  for (int i = 0; i < size_; ++i) {
+    if (repeats_[static_cast<std::size_t>(i)] + 1 >= samples) out = out.with(i);
+  }
+  return out;
+}
+
+void ChannelMonitor::count_facts(SensorSet noisy, SensorSet stuck, SensorSet clipped) noexcept {
+  for (int i = 0; i < size_; ++i) {
+    Counters& c = counters_[static_cast<std::size_t>(i)];
+    if (noisy.has(i)) count_up(c.noisy_blocks);
+    if (stuck.has(i)) count_up(c.stuck_blocks);
+    if (clipped.has(i)) count_up(c.clipped_blocks);
+  }
 }
 
 void ChannelMonitor::condemn(SensorSet channels) noexcept { lost_ = lost_ | (channels & SensorSet::first(size_)); }

@@ -9,9 +9,8 @@ namespace {
 
 using std::size_t;
 
-/// A set whose every member is checked by the parity of the others at least this well may speak about
-/// gravity; with a member that nobody checks, norm off and parity good is that member's fault as well
-/// (mikoff5's z axes: four of them with three coplanar pass parity whatever the fourth reads).
+/// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
+/// whose less checked members are no better explanation (`vouches_for_norm`).
 constexpr double kMinLeverage = 0.002;
 /// A set doubts gravity from this part of the limit on at which the norm would kill it: what its subsets, which measure
 /// the length less well, are off by is noise on top of the same error, and must not be held against them first.
@@ -53,6 +52,18 @@ void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
   }
 }
 
+/// Turn of the estimate over `set` that a bias shared by all its sensors makes.
+double common_drift_turn_rad(const SensorArray& array, SensorSet set, const Vec3& x_mps2, double bias_mps2) noexcept {
+  const double length = norm(x_mps2);
+  if (!(bias_mps2 > 0.0) || !(length > 0.0)) return 0.0;
+  Readings shared{};
+  shared.fill(bias_mps2);
+  const Vec3 moved = least_squares(array, set).estimate(shared);
+  const Vec3 u = scaled(x_mps2, 1.0 / length);
+  const double across = dot(moved, moved) - dot(moved, u) * dot(moved, u);
+  return across > 0.0 ? std::atan2(std::sqrt(across), std::fmax(0.0, length - norm(moved))) : 0.0;
+}
+
 }  // namespace
 
 void Isolation::clear() noexcept {
@@ -63,6 +74,11 @@ void Isolation::clear() noexcept {
 void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
   const int c = plumb::coplanarity(array, posed);
   if (c + 1 != voting_size_ || !posed_.contains(posed) || universe_ != array.size()) clear();
+  resume(array, posed);
+}
+
+void Isolation::resume(const SensorArray& array, SensorSet posed) noexcept {
+  const int c = plumb::coplanarity(array, posed);
   posed_ = posed;
   universe_ = array.size();
   coplanarity_ = c;
@@ -88,12 +104,15 @@ int Isolation::live() const noexcept {
 }
 
 bool Isolation::has_dead_subset(SensorSet set) const noexcept {
-  bool found = false;
-  if (strict_ < 1) return found;
-  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (set.contains(s) && is_dead(index)) found = true;
-  });
-  return found;
+  std::uint64_t any = 0;
+  for (const std::uint64_t word : dead_) any |= word;
+  if (strict_ < 1 || any == 0) return false;
+  const SensorSet all = SensorSet::first(universe_);
+  int index = 0;
+  for (SensorSet s = SensorSet::first(voting_size_); all.contains(s); s = next_of_same_size(s), ++index) {
+    if (is_dead(index) && set.contains(s)) return true;
+  }
+  return false;
 }
 
 ReferenceDoubt Isolation::doubt_reference(const SensorArray& array, const GravityReference& gravity,
@@ -104,7 +123,8 @@ ReferenceDoubt Isolation::doubt_reference(const SensorArray& array, const Gravit
   bool agrees = false;
   const auto ask = [&](SensorSet set, int rank) {
     const SetTest t = test_set(array, gravity, limits, block, set);
-    if (!t.tested || t.parity_rows < 1 || t.least_leverage < kMinLeverage || !t.parity_alive(limits)) return;
+    if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
+    if (t.least_leverage < kMinLeverage && !vouches_for_norm(array, gravity, limits, block, set, t)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
     const double limit = t.norm_reject_limit(limits);
     const bool doubts = off > kDoubtShare * limit;
@@ -193,13 +213,13 @@ IsolationAnswer Isolation::vote(const SensorArray& array, const GravityReference
 
 FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                              const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
-                             int protection_faults, double k_integrity) const noexcept {
+                             const ProtectionTerms& protect) const noexcept {
   FaultSetScan out;
   out.fewest_faults.fill(255);
   const SensorSet posed = posed_ & block.usable;
   const SetTest used = test_set(array, gravity, limits, block, in_service & block.usable);
   const ReferenceDoubt doubt = doubt_reference(array, gravity, limits, block, nullptr);
-  out.protection_available = used.tested && protection_faults <= kScanDepth && used.parity_rows > 0;
+  out.protection_available = used.tested && protect.faults <= kScanDepth && used.parity_rows > 0;
   bool any_protected = false, any_asserted = false;
   SensorSet common = posed;
   for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
@@ -208,7 +228,7 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
     const SetTest t = test_set(array, gravity, limits, block, rest);
     if (!t.tested) {
       // What is left cannot determine a vector, so this hypothesis bounds nothing.
-      if (size <= protection_faults) out.protection_available = false;
+      if (size <= protect.faults) out.protection_available = false;
       return;
     }
     const bool explains = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
@@ -227,12 +247,13 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
       common = common & f;
       any_asserted = true;
     }
-    if (size <= protection_faults && used.tested) {
+    if (size <= protect.faults && used.tested) {
       any_protected = true;
       const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
       const double left = tilt_sigma_rad(t.x_mps2, calibration_covariance(array, t, rest));
       const double spread = std::sqrt(noise * noise + left * left);
-      const double level = angle_between_rad(t.x_mps2, used.x_mps2) + k_integrity * spread;
+      const double shared = common_drift_turn_rad(array, rest, t.x_mps2, protect.common_drift_mps2);
+      const double level = angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;
       if (level > out.protection_rad) out.protection_rad = level;
     }
   });

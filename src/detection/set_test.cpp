@@ -11,6 +11,9 @@ namespace {
 
 using std::size_t;
 
+/// A member whose fault shows in parity with less than the root of this is one that nobody checks.
+constexpr double kMinLeverage = 0.05;
+
 /// Members of a set with their whitened rows and readings.
 struct Rows {
   int count = 0;
@@ -213,6 +216,21 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
   out.norm_systematic = root_n * (limits.calibration * cal.norm + reference);
   out.systematic = root_n * (limits.calibration * cal.both + reference);
   return out;
+}
+
+bool vouches_for_norm(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                      const BlockEvidence& block, SensorSet set, const SetTest& test) noexcept {
+  if (!test.tested || test.parity_rows < 1) return false;
+  if (test.least_leverage >= kMinLeverage) return true;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!set.has(i)) continue;
+    const double whitened = dot(array.axis(i), times(test.covariance, array.axis(i))) * block.samples /
+                            (array.sigma_mps2(i) * array.sigma_mps2(i));
+    if (1.0 - whitened >= kMinLeverage) continue;
+    const SetTest others = test_set(array, gravity, limits, block, set.without(i));
+    if (!others.tested || !(std::fabs(others.norm) > others.norm_reject_limit(limits))) return false;
+  }
+  return true;
 }
 
 Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {

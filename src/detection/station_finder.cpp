@@ -48,6 +48,7 @@ bool StationFinder::close(Station& finished) noexcept {
     finished.temperature_degc = station_.temperature_degc;
     finished.count = station_.count;
     finished.tag = station_.tag;
+    finished.roll_group = station_.roll_group;
     finished.begin_s = station_.begin_s;
     finished.end_s = station_.end_s;
   }
@@ -93,8 +94,11 @@ bool StationFinder::block_done(Station& finished) noexcept {
 bool StationFinder::add(const Sample& sample, const Readings& y_mps2, SensorSet usable, Station& finished) noexcept {
   bool written = false;
   const bool gap = started_ && (!(sample.time_s > last_s_) || sample.time_s - last_s_ > settings_.max_gap_s);
-  const bool other_tag = started_ && current_.count > 0 && sample.station != current_.tag;
-  const bool other_station = started_ && station_.present && sample.station != station_.tag;
+  const auto other = [&sample](const Block& block) {
+    return sample.station != block.tag || sample.roll_group != block.roll_group;
+  };
+  const bool other_tag = started_ && current_.count > 0 && other(current_);
+  const bool other_station = started_ && station_.present && other(station_);
   if (gap || other_tag || other_station) {
     readings_.clear();
     current_ = Block{};
@@ -103,6 +107,7 @@ bool StationFinder::add(const Sample& sample, const Readings& y_mps2, SensorSet 
   if (current_.count == 0) {
     current_.begin_s = sample.time_s;
     current_.tag = sample.station;
+    current_.roll_group = sample.roll_group;
     current_.origin = sample.raw;
   }
   readings_.add(y_mps2, usable, sample.count);

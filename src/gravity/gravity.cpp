@@ -94,6 +94,8 @@ const char* to_string(GravityModel model) noexcept {
   return "unknown";
 }
 
+bool GravityReference::plausible() const noexcept { return given_gravity(g_mps2, sigma_mps2).has_value(); }
+
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept {
   const Error e = first_of<5>(
       {check(in.latitude_deg, kLatitude, -90.0, 90.0), check(in.elevation_m, kElevation, -500.0, 9000.0),

@@ -1,5 +1,5 @@
 // One event per step through the transition table, and what its actions do to the sets.
-#include "plumb/health/health_monitor.hpp"
+#include "block_view.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -15,8 +15,16 @@ void HealthMonitor::sets_changed() noexcept {
   map_ = least_squares(array_, in_service_);
   mae_.clear_all_sensor();
   isolation_.pose(array_, in_service_ | set_aside_);
+  trend_.clear();
+  scatter_.clear();
+  reference_study_.clear();
   rescan();
-  if (have_evidence_) publish_vector();
+  partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
+  if (!have_evidence_) return;
+  publish_vector();
+  // What the last block says about the sensors that are left: the record of the change keeps what changed it.
+  const BlockView view = judge(evidence_);
+  if (view.used.tested) publish_decision(view);
 }
 
 void HealthMonitor::forget_episode() noexcept {
@@ -118,8 +126,8 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
                       unproven_, exhausted_, clean_run_};
   DecisionInput input;
   input.raised = raised;
-  input.named = {culprits(),   answer_.parity, gate_.lost() & array_.all(),
-                 gate_.back(), on_probation_,  reset_sensors_ - gate_.lost()};
+  input.named = {culprits(),   aside_,        gate_.lost() & array_.all(),
+                 gate_.back(), on_probation_, reset_sensors_ - gate_.lost()};
   input.protection_within = unbounded_run_ < config_.clean_blocks;
   input.clean_blocks = config_.clean_blocks;
   const Decision decision = plumb::decide(kTransitionTable, state, input, [this](SensorSet set) {
@@ -127,6 +135,8 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   });
   const HealthEvent event = decision.event;
   const Mode from = mode_;
+  const double statistic = verdict_.statistic, limit = verdict_.limit;
+  const bool by_noise = event == HealthEvent::set_aside && noise_confirmed_.contains(aside_);
   const SensorSet named = carry_out(decision, state);
   mode_ = state.mode;
   if (reset_pending_) {
@@ -136,7 +146,10 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   follow_suspicion(event, from);
   if (!decision.changed) return event;
   const Cause asked_by = recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;
-  const Cause cause = event == HealthEvent::recalibrate ? asked_by : cause_of(event, verdict_.cause);
+  const Cause cause = event == HealthEvent::recalibrate ? asked_by
+                      : by_noise                        ? Cause::noisy
+                                                        : cause_of(event, verdict_.cause);
+  name_causes(named - in_service_, cause);
   if (event != HealthEvent::alarm && event != HealthEvent::clean_block) verdict_.cause = cause;
   TransitionRecord& record = verdict_.transition;
   record.sequence = ++sequence_;
@@ -147,8 +160,8 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   record.cause = cause;
   record.grade = event == HealthEvent::culprit || event == HealthEvent::set_aside ? last_grade_ : Grade::none;
   record.sensors = named;
-  record.statistic = verdict_.statistic;
-  record.limit = verdict_.limit;
+  record.statistic = statistic;
+  record.limit = limit;
   if (event == HealthEvent::fit_rejected) {
     const Error refusal = recalibration_.progress(array_).last_refusal;
     record.statistic = refusal.value;

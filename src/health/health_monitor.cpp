@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "plumb/detection/mae_test.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -11,7 +12,7 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<HealthMonitor>::value, "a copy is an assignment");
 static_assert(noexcept(std::declval<HealthMonitor&>().step(std::declval<const Sample&>())));
 
 namespace {
@@ -35,6 +36,13 @@ int faults_to_cover(int n, double prior, double risk) noexcept {
 
 }  // namespace
 
+Expected<void> plausible(const GravityReference& gravity) noexcept {
+  const auto given = given_gravity(gravity.g_mps2, gravity.sigma_mps2);
+  if (given) return {};
+  const Error& e = given.error();
+  return fail(Errc::implausible_gravity, e.index == 0 ? 0 : 1, e.value, e.limit);
+}
+
 Expected<void> checked(const MonitorSetup& setup) noexcept {
   const int n = setup.array.size();
   if (n < 3) return fail(Errc::too_few_sensors, -1, n, 3);
@@ -57,11 +65,7 @@ Expected<void> checked(const MonitorSetup& setup) noexcept {
     const double needed_mps2 = (1.0 + kFullScaleMargin) * setup.gravity.g_mps2;
     if (full > 0.0 && !(reach_mps2 >= needed_mps2)) return fail(Errc::range_too_small, i, reach_mps2, needed_mps2);
   }
-  if (!(setup.gravity.g_mps2 > 1.0) || !(setup.gravity.sigma_mps2 >= 0.0) ||
-      !std::isfinite(setup.gravity.g_mps2 + setup.gravity.sigma_mps2)) {
-    return fail(Errc::out_of_range, 0, setup.gravity.g_mps2, 1.0);
-  }
-  return {};
+  return plausible(setup.gravity);
 }
 
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
@@ -78,14 +82,19 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   array_ = setup.array;
   gravity_ = setup.gravity;
   frame_ = setup.output_frame;
+  lever_arm_m_ = setup.lever_arm_m;
+  lever_arms_known_ = setup.lever_arms_known;
   const int n = array_.size();
   limits_ = TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate);
   restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
-  mae_quantile_ = half_normal_mean_quantile(config_.window, config_.false_alarm_rate / triple_count_of(n));
+  const double triple_rate = config_.triple_false_alarm_rate > 0.0 ? config_.triple_false_alarm_rate
+                                                                   : triple_share(array_, config_.false_alarm_rate);
+  mae_quantile_ = half_normal_mean_quantile(config_.window, triple_rate);
   k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
 
+  identity_ = identity(setup);
   power_on(setup);
   configured_ = true;
   publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
@@ -107,11 +116,25 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   drift_rad_ = 0.0;
   exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
   evidence_time_s_ = 0.0;
+  last_temperature_degc_ = 25.0;
+  least_prediction_.fill(0.0);
+  most_prediction_.fill(0.0);
   sequence_ = 0;
   clean_run_ = 0;
   probation_.clear();
   on_probation_ = reset_sensors_ = clipped_ = not_finite_ = SensorSet{};
   last_grade_ = Grade::none;
+  sensor_cause_.fill(Cause::none);
+  noisy_run_.fill(0);
+  stuck_since_.fill(0.0);
+  noisy_ = stuck_ = full_scale_ = noise_confirmed_ = calm_ = stuck_watch_ = aside_ = SensorSet{};
+  counters_ = MonitorCounters{};
+  rotation_ = Rotation{};
+  rotation_locked_ = inhibited_ = inhibit_notice_ = false;
+  told_reference_ = reference_notice_ = ReferenceKind::none;
+  scatter_.clear();
+  reference_study_.clear();
+  trend_.clear();
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
@@ -141,9 +164,8 @@ Expected<void> HealthMonitor::reset(std::uint64_t key, SensorSet sensors) noexce
 }
 
 Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexcept {
-  const bool sound = std::isfinite(gravity.g_mps2) && gravity.g_mps2 > 1.0 && std::isfinite(gravity.sigma_mps2) &&
-                     gravity.sigma_mps2 >= 0.0;
-  if (!sound) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
+  const Expected<void> sound = plausible(gravity);
+  if (!sound) return sound;
   gravity_ = gravity;
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {
@@ -153,16 +175,86 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   // What died under the other gravity may have died of it.
   isolation_.clear();
   answer_ = IsolationAnswer{};
+  reference_study_.clear();
   episode_.candidate = SensorSet{};
   episode_.agreeing.clear();
   return {};
 }
 
+Expected<void> HealthMonitor::set_rotation(const Rotation& rotation) noexcept {
+  if (!std::isfinite(norm(rotation.rate_radps))) return fail(Errc::not_finite, 0, norm(rotation.rate_radps));
+  rotation_ = rotation;
+  return {};
+}
+
+void HealthMonitor::inhibit(bool frozen) noexcept {
+  inhibit_notice_ = inhibit_notice_ != (frozen != inhibited_);
+  inhibited_ = frozen;
+}
+
+/// What the host's freeze leaves of the events: it holds back what moves sensors on evidence and what replaces the
+/// calibration. Both are levels or come again with the next block.
+EventMask HealthMonitor::allowed(EventMask raised) const noexcept {
+  constexpr EventMask kFrozen = bit(HealthEvent::culprit) | bit(HealthEvent::set_aside) |
+                                bit(HealthEvent::probation_passed) | bit(HealthEvent::recalibrate) |
+                                bit(HealthEvent::fit_accepted);
+  return inhibited_ ? raised & ~kFrozen : raised;
+}
+
+/// y = h.g is what the sensors feel of gravity; turning adds -h.(w x (w x r)).
+void HealthMonitor::take_rotation_off(Readings& y, SensorSet usable) const noexcept {
+  const Vec3& w = rotation_.rate_radps;
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    if (usable.has(i)) y[a] += dot(array_.axis(i), cross(w, cross(w, lever_arm_m_[a])));
+  }
+}
+
 void HealthMonitor::empty_windows() noexcept {
+  gate_.begin_block();
   block_.clear();
   raw_.clear();
   mae_.clear();
   station_.clear();
+}
+
+/// The sample is refused and the windows stay as they are; what was valid is now only held.
+void HealthMonitor::refuse(const Sample& sample) noexcept {
+  count_up(counters_.time_refused);
+  verdict_.sample = counters_.samples;
+  verdict_.cause = Cause::time_fault;
+  if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
+  verdict_.alert = true;
+  if (reset_pending_) {  // the host's key is served whatever the clock does
+    decide(bit(HealthEvent::reset), clock_.last_s());
+    publish(sample, false);
+    verdict_.cause = Cause::time_fault;
+  }
+}
+
+/// One sample into the block and the windows.
+void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexcept {
+  Readings y = readings_of(model_, sample, last_temperature_degc_, gate);
+  if (rotation_.turning) {
+    const bool modelled = rotation_.rate_known && lever_arms_known_;
+    if (modelled) take_rotation_off(y, gate.usable);
+    const bool still = rotation_.rate_known && norm(rotation_.rate_radps) <= kStillRate_radps;
+    rotation_locked_ = rotation_locked_ || !(modelled || still);
+  }
+  clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
+  not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
+  const double t = sample.temperature_degc;
+  const bool outside = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
+                         t <= config_.temperature_max_degc + kTemperatureMargin_degc);
+  if (outside) count_up(counters_.temperature_out);
+  temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
+  if (std::isfinite(t)) last_temperature_degc_ = t;
+  const bool map_usable = gate.usable.contains(in_service_);
+  mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
+  if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
+  block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
+  raw_.add(sample.raw, gate.usable, last_temperature_degc_);
+  verdict_.accepted = true;
 }
 
 const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
@@ -171,42 +263,26 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.accepted = false;
   if (!configured_) return verdict_;
   verdict_.time_s = sample.time_s;
+  count_up(counters_.samples);
   const Arrival arrival = clock_.admit(sample.time_s, config_.max_gap_s);
   if (arrival == Arrival::refused) {
-    // The sample is refused and the windows stay as they are; what was valid is now only held.
-    verdict_.cause = Cause::time_fault;
-    if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
-    verdict_.alert = true;
-    if (reset_pending_) {  // the host's key is served whatever the clock does
-      decide(bit(HealthEvent::reset), clock_.last_s());
-      publish(sample, false);
-      verdict_.cause = Cause::time_fault;
-    }
+    refuse(sample);
     return verdict_;
   }
-  if (arrival == Arrival::new_time_base) have_evidence_ = false;  // its age cannot be told any more
+  if (arrival == Arrival::new_time_base) {
+    have_evidence_ = false;  // its age cannot be told any more
+    trend_.clear();
+  }
   GateResult gate = gate_.gate(sample);
   if (arrival != Arrival::in_order || gate.gap) {
+    count_up(counters_.gaps);
     verdict_.cause = Cause::gap;
     empty_windows();
   }
   bool ticked = false;
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
   if (!gate.gap) {
-    const Readings y = readings_of(model_, sample, last_temperature_degc_, gate);
-    clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
-    not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
-    const double t = sample.temperature_degc;
-    const bool outside = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
-                           t <= config_.temperature_max_degc + kTemperatureMargin_degc);
-    temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
-    if (std::isfinite(t)) last_temperature_degc_ = t;
-    const bool map_usable = gate.usable.contains(in_service_);
-    mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
-    if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
-    block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
-    raw_.add(sample.raw, gate.usable, last_temperature_degc_);
-    verdict_.accepted = true;
+    collect_sample(sample, gate);
     ticked = block_.size() >= config_.window;
     if (ticked) {
       raised |= tick(sample);
@@ -217,73 +293,13 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
     if (!(gate_.back() & absent_).empty()) raised |= bit(HealthEvent::channel_back);
   }
   raised |= advance_recalibration(sample.time_s);
-  // What a block said is a level: a channel event that ranks before it must not make it unsaid.
-  constexpr EventMask kKept = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
-  raised |= pending_;
+  raised = allowed(raised | pending_);
   const HealthEvent taken = decide(raised, sample.time_s);
+  if (verdict_.transition.sequence == 0) give_notice(sample.time_s);
   const bool channel = taken == HealthEvent::channel_lost || taken == HealthEvent::channel_back;
-  pending_ = channel || taken == HealthEvent::reset ? raised & kKept : 0;
+  pending_ = channel || taken == HealthEvent::reset ? raised & kKeptEvents : 0;
   publish(sample, ticked);
   return verdict_;
-}
-
-Validity HealthMonitor::validity() const noexcept {
-  if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
-  if (moving_ || clock_.last_s() - evidence_time_s_ > config_.max_age_s) return Validity::held;
-  const Mode mode = published_mode();
-  if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
-  if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
-  return mode == Mode::degraded ? Validity::degraded : Validity::valid;
-}
-
-void HealthMonitor::publish_vector() noexcept {
-  const SensorSet used = in_service_ & evidence_.usable;
-  const SetTest t = test_set(array_, gravity_, limits_, evidence_, used);
-  if (!t.tested) return;
-  Mat3 covariance = calibration_covariance(array_, t, used);
-  for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
-  verdict_.covariance = turned_covariance(frame_, covariance);
-  verdict_.gravity_mps2 = times(frame_, t.x_mps2);
-  verdict_.norm_error_mps2 = t.norm_error_mps2;
-}
-
-void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
-  Verdict& v = verdict_;
-  v.time_s = sample.time_s;
-  v.tick = ticked && !moving_;
-  v.state = state_of(mode_);
-  v.qualifiers = static_cast<std::uint8_t>((unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
-                                           (mode_ == Mode::initial ? Qualifier::initial_calibration : 0) |
-                                           (!set_aside_.empty() ? Qualifier::provisional : 0) |
-                                           (exhausted_ ? Qualifier::exhausted : 0) |
-                                           (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
-                                           (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0));
-  v.configured = array_.all();
-  v.in_service = in_service_;
-  v.set_aside = set_aside_;
-  v.excluded = excluded_;
-  v.absent = absent_;
-  v.clipped = clipped_;
-  v.not_finite = not_finite_;
-  v.suspects = episode_.open ? scan_.suspects : SensorSet{};
-  v.fewest_faults = scan_.fewest_faults;
-  v.grade = last_grade_;
-  v.strict_grade = isolation_.strict_grade();
-  v.parity_grade = isolation_.parity_grade();
-  v.live_hypotheses = live_;
-  v.stations_on_record = episode_.stations.size();
-  v.recalibration = recalibration_.progress(array_);
-  v.recalibration.wanted_direction = times(frame_, v.recalibration.wanted_direction);
-  v.wants_rotation = (mode_ == Mode::suspect && (unproven_ || (episode_.open && !answer_.contradiction))) ||
-                     (mode_ == Mode::recalibrating && v.recalibration.stations_wanted > 0);
-  v.mae_all_mps2 = mae_.all_mps2();
-  v.validity = validity();
-  v.age_s = have_evidence_ ? clock_.last_s() - evidence_time_s_ : 0.0;
-  v.protection_available = scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
-                           published_mode() != Mode::degraded;
-  v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
-  v.alert =
-      !v.protection_available || v.protection_level_rad > config_.alert_limit_rad || v.validity != Validity::valid;
 }
 
 }  // namespace PLUMB_ABI

@@ -7,13 +7,6 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-namespace {
-
-/// So many refused samples that increase among themselves are a new time base, not a glitch.
-constexpr int kNewTimeBase = 16;
-
-}  // namespace
-
 Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
   if (!std::isfinite(time_s)) return Arrival::refused;
   Arrival arrival = Arrival::in_order;

@@ -24,10 +24,10 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {static_cast<double>(c.asserted_faults), -1, 3},
       {static_cast<double>(c.isolation_stations), 1, 20},
       {static_cast<double>(c.patience), 1, 24},
-      {static_cast<double>(c.clean_blocks), 1, 1000},
+      {static_cast<double>(c.clean_blocks), 1, kMostCleanBlocks},
       {static_cast<double>(c.forget_blocks), 1, 24},
       {static_cast<double>(c.probation_stations), 1, 24},
-      {static_cast<double>(c.missing_confirm), 1, 60000},
+      {static_cast<double>(c.missing_confirm), 1, kMostConfirm},
       {c.max_gap_s, 1e-6, 1e9},
       {c.max_age_s, 1e-6, 1e9},
       {c.station_angle_rad, 1e-4, 1.5},
@@ -42,6 +42,10 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {0, 0, 0},  // recalibrate_after_exclusion: either
       {c.drift_bias_mps2, 1e-6, 10},
       {c.drift_scale, 1e-7, 0.1},
+      {static_cast<double>(c.patience_blocks), 0, kMostPatienceBlocks},
+      {c.common_drift_mps2, 0, 10},
+      {static_cast<double>(c.alarm_form), 0, 1},
+      {c.triple_false_alarm_rate, 0, 1e-2},
   };
   int index = 0;
   for (const Range& f : fields) {

@@ -10,7 +10,7 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-static_assert(std::is_trivially_copyable<PaperMonitor>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<PaperMonitor>::value, "a copy is an assignment");
 static_assert(noexcept(std::declval<PaperMonitor&>().step(std::declval<const Sample&>())));
 
 namespace {
@@ -102,9 +102,8 @@ Expected<void> PaperMonitor::reset(std::uint64_t key, SensorSet sensors) noexcep
 }
 
 Expected<void> PaperMonitor::set_gravity(const GravityReference& gravity) noexcept {
-  const bool sound = std::isfinite(gravity.g_mps2) && gravity.g_mps2 > 1.0 && std::isfinite(gravity.sigma_mps2) &&
-                     gravity.sigma_mps2 >= 0.0;
-  if (!sound) return fail(Errc::out_of_range, 0, gravity.g_mps2, 1.0);
+  const Expected<void> sound = plausible(gravity);
+  if (!sound) return sound;
   gravity_ = gravity;
   restart_pool();  // errors against two gravities do not add up; stations of a fit neither
   return {};

@@ -2,16 +2,24 @@
 #include "plumb/health/recalibration.hpp"
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-static_assert(std::is_trivially_copyable<Recalibration>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<Recalibration>::value, "a copy is an assignment");
 
 namespace {
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+FitOptions options() noexcept {
+  FitOptions out;
+  out.require_full_rank = false;  // of the axes nothing is asked
+  out.estimate_misfit = false;    // what the fit cannot explain is a reason to refuse it
+  return out;
+}
 
 /// Stations beyond those that determine the parameters, so that the residuals can contradict the fit.
 constexpr int kSpareStations = 4;
@@ -36,6 +44,10 @@ void Recalibration::configure(const SensorModel& commissioning, const DriftSigma
     commissioned_scale_[at(i)] = commissioning.sensor[at(i)].scale[0];
     commissioned_bias_mps2_[at(i)] = commissioning.sensor[at(i)].bias[0];
   }
+  length_.fill(0.0);
+  shift_mps2_.fill(0.0);
+  inflation_ = 1.0;
+  sensors_ = SensorSet{};
   adopted_ = false;
   adopted_s_ = 0.0;
   iterations_ = 0;
@@ -87,10 +99,7 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
     case RecalibrationPhase::accepted: return Outcome::accepted;
     case RecalibrationPhase::collecting:
       if (untried_ && store_.size() >= stations_needed(sensors_.size()) && ready(in_force)) {
-        FitOptions options;
-        options.require_full_rank = false;  // of the axes nothing is asked
-        options.estimate_misfit = false;    // what the fit cannot explain is a reason to refuse it
-        calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options);
+        calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options());
         phase_ = RecalibrationPhase::fitting;
       }
       return Outcome::none;
@@ -116,6 +125,24 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
   adopted_ = true;
   adopted_s_ = time_s;
   stop();
+}
+
+bool Recalibration::resume(const InForce& in_force) noexcept {
+  if (!coefficients_are_plausible(in_force.model)) return false;
+  switch (phase_) {
+    case RecalibrationPhase::idle:
+    case RecalibrationPhase::collecting: return true;
+    case RecalibrationPhase::fitting:
+    case RecalibrationPhase::accepted: break;
+  }
+  if (sensors_.size() < 3 || store_.size() < stations_needed(sensors_.size())) return false;
+  if (phase_ == RecalibrationPhase::accepted) {
+    const double any_time_s = std::numeric_limits<double>::infinity();
+    return check_bounds(in_force.model, any_time_s).code == Errc::ok && std::isfinite(inflation_) && inflation_ >= 1.0;
+  }
+  // Gravity may have been set since the fit began.
+  calibrator_.resume(datasheet({in_force.model, in_force.array, calibrator_.gravity(), in_force.limits}), options());
+  return true;
 }
 
 /// The attitude that is farthest from all on record, among those along the axes in question and the faces,

@@ -195,6 +195,17 @@ Error Recalibration::check_bounds(const SensorModel& model, double time_s) const
   return Error{};
 }
 
+/// In force can only be what the bounds have let pass.
+bool Recalibration::coefficients_are_plausible(const SensorModel& model) const noexcept {
+  for (int i = 0; i < model.size; ++i) {
+    const SensorCoefficients& c = model.sensor[at(i)];
+    const double scale = std::fabs(c.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_.scale;
+    const double bias = std::fabs(c.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_.bias_mps2;
+    if (!(scale <= kCommissioningSigmas && bias <= kCommissioningSigmas)) return false;
+  }
+  return true;
+}
+
 /// Every station against the new calibration, by the tests and limits of the monitor: those of the fit, and those
 /// that were held out of it (property S20).
 Error Recalibration::check_stations(const InForce& in_force) const noexcept {

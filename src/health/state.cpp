@@ -59,6 +59,15 @@ const char* to_string(Cause cause) noexcept {
     case Cause::time_fault: return "time_fault";
     case Cause::gap: return "gap";
     case Cause::clean: return "clean";
+    case Cause::noisy: return "noisy";
+    case Cause::stuck: return "stuck";
+    case Cause::clipped: return "clipped";
+    case Cause::rotating: return "rotating";
+    case Cause::inhibited: return "inhibited";
+    case Cause::released: return "released";
+    case Cause::common_scale: return "common_scale";
+    case Cause::common_bias: return "common_bias";
+    case Cause::snapshot_refused: return "snapshot_refused";
   }
   return "?";
 }

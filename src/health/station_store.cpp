@@ -5,7 +5,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-static_assert(std::is_trivially_copyable<StationStore>::value, "a snapshot is an assignment");
+static_assert(std::is_trivially_copyable<StationStore>::value, "a copy is an assignment");
 
 namespace {
 

@@ -22,7 +22,7 @@ const std::vector<std::string>& known_sections() {
 }
 
 const std::vector<std::string>& known_input_keys() {
-  static const std::vector<std::string> names = {"rows",  "time",  "time_unit",   "rate",  "station",
+  static const std::vector<std::string> names = {"rows",  "time",  "time_unit",   "rate",  "station", "roll_group",
                                                  "count", "where", "temperature", "reads", "unit"};
   return names;
 }
@@ -168,6 +168,7 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   input.unit = table.checked(parse_raw_unit(unit), "unit", table.need("unit", about_unit));
   read_time(table, input);
   input.station_column = table.text("station", "");
+  input.roll_group_column = table.text("roll_group", "");
   input.count_column = table.text("count", "");
   input.temperature_column = table.text("temperature", "");
   read_where(table, input);

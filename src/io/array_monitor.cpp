@@ -37,7 +37,11 @@ const std::vector<std::string>& known_keys() {
                                                  "temperature_max",
                                                  "recalibrate",
                                                  "drift_bias",
-                                                 "drift_scale"};
+                                                 "drift_scale",
+                                                 "patience_blocks",
+                                                 "common_drift",
+                                                 "alarm_form",
+                                                 "triple_false_alarm_rate"};
   return names;
 }
 
@@ -83,12 +87,18 @@ MonitorConfig filled(const TomlTable& table) {
   config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
   config.drift_bias_mps2 = table.quantity(Quantity::acceleration, "drift_bias", config.drift_bias_mps2);
   config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
+  config.patience_blocks = whole(table, "patience_blocks", config.patience_blocks);
+  config.common_drift_mps2 = table.quantity(Quantity::acceleration, "common_drift", config.common_drift_mps2);
+  const bool average = table.choice("alarm_form", {"every-tool", "average-tool"}, 0) == 1;
+  config.alarm_form = average ? AlarmForm::average_tool : AlarmForm::every_tool;
+  config.triple_false_alarm_rate =
+      table.quantity(Quantity::ratio, "triple_false_alarm_rate", config.triple_false_alarm_rate);
   return config;
 }
 
 /// Unit in which MonitorConfig holds the field of a key, for messages.
 const char* unit_of(const std::string& key) noexcept {
-  if (key == "delta_f" || key == "drift_bias") return " m/s^2";
+  if (key == "delta_f" || key == "drift_bias" || key == "common_drift") return " m/s^2";
   if (key == "max_gap" || key == "max_age") return " s";
   if (key == "station_angle" || key == "excitation_angle" || key == "alert_limit") return " rad";
   if (key == "temperature_min" || key == "temperature_max") return " degC";

@@ -64,11 +64,21 @@ void read_slopes(const TomlTable& table, const char* key, Quantity quantity, dou
   }
 }
 
+/// 1-sigma tolerances of terms 1..3; those not given keep their default.
+void read_prior_slopes(const TomlTable& table, const char* key, Quantity quantity, std::array<double, 3>& out) {
+  std::array<double, 4> terms = {0.0, out[0], out[1], out[2]};
+  read_slopes(table, key, quantity, 1.0, terms);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    refuse_unless_positive(table, key, terms[k + 1], "give 1-sigma tolerances, or leave the term out");
+    out[k] = terms[k + 1];
+  }
+}
+
 Prior read_prior(const TomlTable& table, const RawUnit& unit, double scale) {
   Prior prior;
   const TomlNode* node = table.find("prior");
   if (node == nullptr) return prior;
-  const TomlTable inner(*node, table.file(), table.field("prior"), {"bias", "scale", "axis"});
+  const TomlTable inner(*node, table.file(), table.field("prior"), {"bias", "scale", "axis", "bias_t", "scale_t"});
   if (const TomlNode* bias = inner.find("bias"); bias != nullptr) {
     const std::string text = inner.text_with_unit(*bias, "bias", accepted_raw_units());
     prior.bias_mps2 = std::abs(inner.checked(parse_as_acceleration(text, unit, scale), "bias", *bias));
@@ -80,6 +90,8 @@ Prior read_prior(const TomlTable& table, const RawUnit& unit, double scale) {
   refuse_unless_positive(inner, "scale", prior.scale, "give the 1-sigma tolerance of the scale, for example \"2 %\"");
   refuse_unless_positive(inner, "axis", prior.axis_rad,
                          "give the 1-sigma tolerance of the direction, for example \"2 deg\"");
+  read_prior_slopes(inner, "bias_t", Quantity::acceleration, prior.bias_t_mps2);
+  read_prior_slopes(inner, "scale_t", Quantity::ratio, prior.scale_t);
   return prior;
 }
 

@@ -55,29 +55,40 @@ Json from_sensors(const Calibration& calibration) {
   return sensors;
 }
 
+/// Only where stations had roll groups: a file without is as it was before there were any.
+Json from_roll(const FitReport& report) {
+  return {{"groups", report.roll_groups},
+          {"lone", report.lone_rolls},
+          {"axis", from_array(report.roll_axis, 3)},
+          {"wobble_rad", from_double(report.roll_wobble_rad)},
+          {"inclination_sigma_rad", from_double(report.inclination_sigma_rad)}};
+}
+
 Json from_report(const FitReport& report, std::size_t n) {
   Json unseen = Json::array();
   const int kept = std::clamp(report.null_directions, 0, kMaxNullDirections);
   for (int d = 0; d < kept; ++d)
     unseen.push_back(from_array(report.null_direction[static_cast<std::size_t>(d)].component, 4 * n));
-  return {{"stations", report.stations},
-          {"parameters", report.parameters},
-          {"rank", report.rank},
-          {"gauge", report.gauge},
-          {"null_directions", report.null_directions},
-          {"null_direction", std::move(unseen)},
-          {"condition", from_double(report.condition)},
-          {"norm_rms_mps2", from_double(report.norm_rms_mps2)},
-          {"parity_rms_mps2", from_double(report.parity_rms_mps2)},
-          {"misfit_mps2", from_double(report.misfit_mps2)},
-          {"chi2", from_double(report.chi2)},
-          {"degrees_of_freedom", report.degrees_of_freedom},
-          {"p_value", from_double(report.p_value)},
-          {"excitation", from_double(report.excitation)},
-          {"temperature_min_degc", from_double(report.temperature_min_degc)},
-          {"temperature_max_degc", from_double(report.temperature_max_degc)},
-          {"iterations", report.iterations},
-          {"stop", to_string(report.stop)}};
+  Json out = {{"stations", report.stations},
+              {"parameters", report.parameters},
+              {"rank", report.rank},
+              {"gauge", report.gauge},
+              {"null_directions", report.null_directions},
+              {"null_direction", std::move(unseen)},
+              {"condition", from_double(report.condition)},
+              {"norm_rms_mps2", from_double(report.norm_rms_mps2)},
+              {"parity_rms_mps2", from_double(report.parity_rms_mps2)},
+              {"misfit_mps2", from_double(report.misfit_mps2)},
+              {"chi2", from_double(report.chi2)},
+              {"degrees_of_freedom", report.degrees_of_freedom},
+              {"p_value", from_double(report.p_value)},
+              {"excitation", from_double(report.excitation)},
+              {"temperature_min_degc", from_double(report.temperature_min_degc)},
+              {"temperature_max_degc", from_double(report.temperature_max_degc)},
+              {"iterations", report.iterations},
+              {"stop", to_string(report.stop)}};
+  if (report.roll_groups > 0) out["roll"] = from_roll(report);
+  return out;
 }
 
 /// Lower triangle, one row a line.

@@ -1,7 +1,9 @@
 // The section of a calibration file that holds the fits by the paper's method.
+#include <cmath>
 #include <vector>
 
 #include "calibration_source.hpp"
+#include "plumb/core/units.hpp"
 #include "plumb/io/calibration_file.hpp"
 
 namespace plumb {
@@ -85,7 +87,70 @@ PaperFit fit_from(const Source& source, const Json& object, const std::string& n
   return fit;
 }
 
+/// Fits of one recording differ by misfit and by a rotation of the frame of a few degrees; beyond these it is not one
+/// recording.
+constexpr double kMostLength = 0.02;  // of gravity, rms over the directions
+constexpr double kMostTurn_rad = rad_from_deg(15.0);
+
+/// Directions to compare in: the axes and the corners of a cube, both ways.
+std::vector<Vec3> directions() {
+  std::vector<Vec3> out;
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    for (const double y : {-1.0, 0.0, 1.0}) {
+      for (const double z : {-1.0, 0.0, 1.0}) {
+        const double length = std::sqrt(x * x + y * y + z * z);
+        if (length > 0.0) out.push_back(scaled(Vec3{x, y, z}, 1.0 / length));
+      }
+    }
+  }
+  return out;
+}
+
+void check_fit(const Source& source, const std::string& name, const PaperFit& fit, const Calibration& calibration,
+               const ArrayFile& array, double temperature_degc) {
+  double square = 0.0, most_rad = 0.0;
+  const std::vector<Vec3> all = directions();
+  for (const Vec3& u : all) {
+    Readings felt{};
+    for (int i = 0; i < calibration.array.size(); ++i)
+      felt[static_cast<std::size_t>(i)] = kG0_mps2 * dot(calibration.array.axis(i), u);
+    const Expected<std::array<double, kCapacity>> raw = calibration.model.raw_from(felt, temperature_degc);
+    const Vec3 x = raw ? paper_vector(array.array, fit, *raw, temperature_degc) : Vec3{};
+    const double off = norm(x) / kG0_mps2 - 1.0;
+    square += off * off / static_cast<double>(all.size());
+    most_rad = std::fmax(most_rad, angle_between_rad(x, u));
+  }
+  const int line = source.line_of("paper", "\"used\"");
+  const std::string remedy = std::string(kMakeAnew) + " (with --paper)";
+  // Written so that a NaN is refused too.
+  if (!(std::sqrt(square) <= kMostLength)) {
+    source.fail(line, name,
+                "contradicts the calibration beside it: gravity comes out " + brief(100.0 * std::sqrt(square), 3) +
+                    " % off (rms over all directions, " + brief(100.0 * kMostLength) + " % allowed)",
+                remedy);
+  }
+  if (!(most_rad <= kMostTurn_rad)) {
+    source.fail(line, name,
+                "contradicts the calibration beside it: down comes out " + brief(deg_from_rad(most_rad), 3) +
+                    " deg off (" + brief(deg_from_rad(kMostTurn_rad)) + " deg allowed)",
+                remedy);
+  }
+}
+
 }  // namespace
+
+void check_paper(const Source& source, const PaperCalibration& paper, const Calibration& calibration,
+                 const ArrayFile& array) {
+  const FitReport& report = calibration.report;
+  for (const double t : {report.temperature_min_degc, report.temperature_max_degc}) {
+    if (paper.all.sound()) check_fit(source, "paper.all", paper.all, calibration, array, t);
+    for (int k = 0; k < paper.triples; ++k) {
+      const PaperFit& fit = paper.triple[static_cast<std::size_t>(k)];
+      // One that is not sound has no say.
+      if (fit.sound()) check_fit(source, "paper.triples[" + std::to_string(k + 1) + "]", fit, calibration, array, t);
+    }
+  }
+}
 
 Json from_paper(const PaperCalibration& paper, const SensorArray& array) {
   Json triples = Json::array();

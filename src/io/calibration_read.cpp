@@ -132,6 +132,14 @@ void check_array(const Source& source, const Json& root, const ArrayFile& array)
   }
 }
 
+void read_roll(const Source& source, const Json& object, FitReport& report) {
+  report.roll_groups = source.whole_of<int>(object, "groups");
+  report.lone_rolls = source.whole_of<int>(object, "lone");
+  source.numbers_of(object, "axis", report.roll_axis.data(), 3);
+  report.roll_wobble_rad = source.number_of(object, "wobble_rad");
+  report.inclination_sigma_rad = source.number_of(object, "inclination_sigma_rad");
+}
+
 FitReport read_report(const Source& source, const Json& object, std::size_t n) {
   FitReport report;
   report.stations = source.whole_of<int>(object, "stations");
@@ -158,6 +166,7 @@ FitReport read_report(const Source& source, const Json& object, std::size_t n) {
   report.stop = enum_from(source, object, "stop",
                           {StopReason::none, StopReason::converged, StopReason::iteration_limit, StopReason::no_descent,
                            StopReason::not_finite});
+  if (object.contains("roll")) read_roll(source, object["roll"], report);
   return report;
 }
 
@@ -232,7 +241,10 @@ FileExpected<CalibrationFile> read_calibration(const std::string& path, const Ar
     CalibrationFile out;
     out.calibration = read_content(source, root, array);
     out.context = read_context(source, root);
-    if (root.contains("paper")) out.paper = read_paper(source, root["paper"], array);
+    if (root.contains("paper")) {
+      out.paper = read_paper(source, root["paper"], array);
+      check_paper(source, *out.paper, out.calibration, array);
+    }
     out.array_name = source.text_of(root["array"], "name");
     out.array_file = source.text_of(root["array"], "file");
     return out;

@@ -84,6 +84,10 @@ Enum enum_from(const Source& source, const Json& object, const std::string& key,
   source.fail(0, key, in_quotes(word) + " is not known", kMakeAnew);
 }
 
+/// Refuses a fit by the paper's method that says of readings what plumb's own fit of the same file contradicts.
+void check_paper(const Source& source, const PaperCalibration& paper, const Calibration& calibration,
+                 const ArrayFile& array);
+
 /// The section `paper`: the fits by the paper's method, in the order of the triples of the array.
 std::shared_ptr<const PaperCalibration> read_paper(const Source& source, const Json& section, const ArrayFile& array);
 

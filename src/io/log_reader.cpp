@@ -40,6 +40,7 @@ struct LogReader::State {
   std::vector<std::string_view> cells;
   std::size_t time = kNoColumn;
   std::size_t station = kNoColumn;
+  std::size_t roll_group = kNoColumn;
   std::size_t count = kNoColumn;
   std::size_t temperature = kNoColumn;
   std::vector<std::size_t> sensors;
@@ -67,6 +68,7 @@ struct LogReader::State {
   FileError bad_row() const;
   bool fill(Sample& sample);
   bool fill_time(Sample& sample);
+  bool fill_tag(std::size_t column, const char* what, std::uint32_t& tag);
   bool fill_tags(Sample& sample);
   bool fill_temperature(Sample& sample);
   bool fill_sensors(Sample& sample);
@@ -140,6 +142,7 @@ FileExpected<void> LogReader::State::map_columns() {
   };
   const Wanted wanted[] = {{input.time_column, "input.time", time},
                            {input.station_column, "input.station", station},
+                           {input.roll_group_column, "input.roll_group", roll_group},
                            {input.count_column, "input.count", count},
                            {input.temperature_column, "input.temperature", temperature}};
   for (const Wanted& one : wanted) {
@@ -197,17 +200,23 @@ bool LogReader::State::fill_time(Sample& sample) {
   return true;
 }
 
-bool LogReader::State::fill_tags(Sample& sample) {
+bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint32_t& tag) {
+  if (column == kNoColumn) return true;
   std::int64_t value = 0;
-  if (station != kNoColumn) {
-    const CellKind kind = parse_whole(cells[station], value);
-    const bool fits = kind == CellKind::empty || (kind == CellKind::number && value >= -1 && value < kLargestCount);
-    if (!fits)
-      return refuse(station, in_quotes(cells[station]) +
-                                 " is not a station number (a whole number from 0 up, -1 or empty for none)");
-    sample.station = kind == CellKind::empty ? 0U : tag_of_label(value);
-  }
+  const CellKind kind = parse_whole(cells[column], value);
+  const bool fits = kind == CellKind::empty || (kind == CellKind::number && value >= -1 && value < kLargestCount);
+  if (!fits)
+    return refuse(column,
+                  in_quotes(cells[column]) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
+  tag = kind == CellKind::empty ? 0U : tag_of_label(value);
+  return true;
+}
+
+bool LogReader::State::fill_tags(Sample& sample) {
+  if (!fill_tag(station, "a station number", sample.station)) return false;
+  if (!fill_tag(roll_group, "the number of a roll group", sample.roll_group)) return false;
   if (count != kNoColumn) {
+    std::int64_t value = 0;
     const bool fits = parse_whole(cells[count], value) == CellKind::number && value >= 1 && value <= kLargestCount;
     if (!fits) return refuse(count, in_quotes(cells[count]) + " is not a number of samples (a whole number from 1 up)");
     sample.count = static_cast<std::uint32_t>(value);

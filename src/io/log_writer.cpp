@@ -44,13 +44,15 @@ FileExpected<LogWriter> LogWriter::create(const std::string& path, const ArrayFi
   const InputSpec& input = writer.input_;
   add(input.time_column);
   add(input.station_column);
+  add(input.roll_group_column);
   add(input.count_column);
   add(input.temperature_column);
   // A filter on a column that has a role already is satisfied, or not, by the samples themselves.
   std::vector<ColumnFilter> constant;
   for (const ColumnFilter& filter : input.where) {
     bool taken = filter.column == input.time_column || filter.column == input.station_column ||
-                 filter.column == input.count_column || filter.column == input.temperature_column;
+                 filter.column == input.roll_group_column || filter.column == input.count_column ||
+                 filter.column == input.temperature_column;
     for (const std::string& column : input.sensor_columns) taken = taken || filter.column == column;
     if (!taken) constant.push_back(filter);
   }
@@ -80,6 +82,7 @@ FileExpected<void> LogWriter::write(const Sample& sample) {
     append_shortest(line_, time_cell(sample.time_s, input_.time_unit_s));
   }
   if (!input_.station_column.empty()) whole(label_of_tag(sample.station));
+  if (!input_.roll_group_column.empty()) whole(label_of_tag(sample.roll_group));
   if (!input_.count_column.empty()) whole(static_cast<std::int64_t>(sample.count));
   if (!input_.temperature_column.empty()) {
     comma();

@@ -110,13 +110,33 @@ class Object {
     }
     out_ += ']';
   }
+  /// Why each sensor is out of service or doubted, in the order of the array.
+  void causes(const char* key, const Verdict& verdict, int size) {
+    name(key);
+    out_ += '[';
+    for (int i = 0; i < size; ++i) {
+      out_.append(i > 0 ? ",\"" : "\"")
+          .append(to_string(verdict.sensor_cause[static_cast<std::size_t>(i)]))
+          .append("\"");
+    }
+    out_ += ']';
+  }
+  void drifts(const char* key, const Verdict& verdict, int size) {
+    name(key);
+    out_ += '[';
+    for (int i = 0; i < size; ++i) {
+      if (i > 0) out_ += ',';
+      append_json_number(out_, static_cast<double>(verdict.drift_mps2_per_h[static_cast<std::size_t>(i)]));
+    }
+    out_ += ']';
+  }
   void qualifiers(const char* key, std::uint8_t bits) {
     static constexpr const char* kNames[] = {"unproven",      "moving",    "initial_calibration", "provisional",
-                                             "no_redundancy", "exhausted", "three_sensor_fit"};
+                                             "no_redundancy", "exhausted", "three_sensor_fit",    "inhibited"};
     name(key);
     out_ += '[';
     bool first = true;
-    for (unsigned k = 0; k < 7; ++k) {
+    for (unsigned k = 0; k < 8; ++k) {
       if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
       if (!first) out_ += ',';
       first = false;
@@ -150,7 +170,43 @@ void append_masks(Object& object, const Verdict& v, const SensorArray& array) {
   object.sensors("clipped", v.clipped, array);
   object.sensors("restless", v.restless, array);
   object.sensors("not_finite", v.not_finite, array);
+  object.sensors("noisy", v.noisy, array);
+  object.sensors("stuck", v.stuck, array);
+  object.sensors("contradicted_clip", v.contradicted_clip, array);
+  object.causes("sensor_cause", v, array.size());
   object.fewest_faults("fewest_faults", v, array.size());
+}
+
+/// null where no turn is asked for; `along` null where any does.
+void append_rotation(Object& object, const Verdict& v, const Mat3& frame) {
+  if (!v.rotation.wanted) {
+    object.nothing("rotation");
+    return;
+  }
+  Object inner = object.object("rotation");
+  if (v.rotation.change_mps2 > 0.0) {
+    inner.numbers("along", in_frame(frame, v.rotation.along));
+  } else {
+    inner.nothing("along");
+  }
+  inner.number("change_mps2", v.rotation.change_mps2);
+  inner.number("angle_deg", deg_from_rad(v.rotation.angle_rad));
+  inner.close();
+}
+
+/// null unless the length has been off.
+void append_reference(Object& object, const Verdict& v, const Mat3& frame) {
+  if (v.reference.kind == ReferenceKind::none) {
+    object.nothing("reference");
+    return;
+  }
+  Object inner = object.object("reference");
+  inner.word("kind", to_string(v.reference.kind));
+  inner.whole("attitudes", v.reference.attitudes);
+  inner.number("length_mps2", v.reference.length_mps2);
+  inner.numbers("bias_mps2", in_frame(frame, v.reference.bias_mps2));
+  inner.number_if(v.reference.turn_rad > 0.0, "turn_deg", deg_from_rad(v.reference.turn_rad));
+  inner.close();
 }
 
 /// null unless a fit is being made or one was refused.
@@ -269,6 +325,7 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.whole("live_hypotheses", v.live_hypotheses);
   object.whole("stations_on_record", v.stations_on_record);
   object.flag("wants_rotation", v.wants_rotation);
+  append_rotation(object, v, frame);
   append_recalibration(object, v, array, frame);
   object.number("mae_all_mps2", v.mae_all_mps2);
   object.number("mae_worst_mps2", v.mae_worst_mps2);
@@ -276,7 +333,14 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.number("parity", v.parity);
   object.number("parity_limit", v.parity_limit);
   object.number("norm_error_mps2", v.norm_error_mps2);
+  append_reference(object, v, frame);
+  object.drifts("drift_mps2_per_h", v, array.size());
   append_vector(object, v, frame);
+  if (v.snapshot_refusal == Errc::ok) {
+    object.nothing("snapshot_refused");
+  } else {
+    object.word("snapshot_refused", describe(v.snapshot_refusal));
+  }
   object.close();
 }
 

@@ -165,6 +165,7 @@ ScenarioFile parsed(const TomlNode& root, const std::string& path) {
   scenario.temperature = read_temperature(source, out.array.datasheet.sensor[0].coefficients.reference_degc);
   scenario.noise = read_noise(source);
   scenario.faults = read_faults(source, out.array);
+  scenario.tag_rolls = scenario.tag_stations && !out.array.input.roll_group_column.empty();
   refuse_what_the_log_cannot_hold(top, source, out.array, scenario);
   // The simulator has the last word; what is said above is said with the line.
   const tl::expected<scenario::Simulator, std::string> playable = scenario::Simulator::make(scenario);

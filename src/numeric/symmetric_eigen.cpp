@@ -103,7 +103,7 @@ void sort_ascending(double* values, const View& v, int n) noexcept {
 // NOLINTNEXTLINE(readability-non-const-parameter): both are written, through the views below
 bool symmetric_eigen(double* a, int n, int stride, double* values, double* vectors) noexcept {
   if (a == nullptr || values == nullptr || vectors == nullptr) return false;
-  if (n < 1 || n > 4 * kCapacity || stride < n) return false;
+  if (n < 1 || n > kMaxEigenSize || stride < n) return false;
   const View m = {a, static_cast<std::size_t>(stride)};
   const View v = {vectors, static_cast<std::size_t>(stride)};
   const double largest = largest_of(m, n);

@@ -10,7 +10,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-constexpr int kMaxSize = 4 * kCapacity;
+constexpr int kMaxSize = kMaxEigenSize;
 constexpr int kMaxSteps = 60;  // for one eigenvalue; fewer than two are usual
 using Column = std::array<double, kMaxSize + 4>;
 

@@ -50,6 +50,15 @@ std::string explain(Cause cause, Grade grade, HealthEvent event) {
     case Cause::time_fault: return "time did not increase: the sample was refused";
     case Cause::gap: return "a gap in the data: the evidence starts afresh";
     case Cause::clean: return "block after block agrees within its limits: trust is earned";
+    case Cause::noisy: return "a sensor is noisy while the others are quiet";
+    case Cause::stuck: return "a sensor repeats one value while the others show a change";
+    case Cause::clipped: return "a sensor is at full scale where the others see no reason for it";
+    case Cause::rotating: return "the tool turns: what its sensors feel of that is not known";
+    case Cause::inhibited: return "the host froze exclusion and recalibration";
+    case Cause::released: return "the host let exclusion and recalibration go on";
+    case Cause::common_scale: return "gravity or a common scale is off: the direction is usable";
+    case Cause::common_bias: return "the sensors share a bias: the direction is not usable";
+    case Cause::snapshot_refused: return "switched on without its history: the snapshot offered was of no use";
   }
   return "?";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace plumb {
@@ -49,6 +50,34 @@ std::string tool_wrong(const Tool& tool) {
   return {};
 }
 
+/// Stations of like inclination (of z against down) get a number in the order of their first, others 0.
+std::vector<std::uint32_t> roll_groups_of(const std::vector<Vec3>& directions) {
+  constexpr double kSame = 1e-9;
+  std::vector<std::size_t> order(directions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&directions](std::size_t a, std::size_t b) { return directions[a][2] < directions[b][2]; });
+  // First the lowest station of each run of alike ones, then numbers in the order of those.
+  std::vector<std::size_t> first(directions.size(), directions.size());
+  for (std::size_t k = 0; k < order.size();) {
+    std::size_t end = k + 1;
+    while (end < order.size() && directions[order[end]][2] - directions[order[k]][2] <= kSame) ++end;
+    const std::size_t least = *std::min_element(order.begin() + static_cast<std::ptrdiff_t>(k),
+                                                order.begin() + static_cast<std::ptrdiff_t>(end));
+    if (end - k > 1) {
+      for (std::size_t m = k; m < end; ++m) first[order[m]] = least;
+    }
+    k = end;
+  }
+  std::vector<std::uint32_t> group(directions.size(), 0U);
+  std::uint32_t groups = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    if (first[k] == k) group[k] = ++groups;
+    if (first[k] < k) group[k] = group[first[k]];
+  }
+  return group;
+}
+
 }  // namespace
 
 tl::expected<Simulator, std::string> Simulator::make(Scenario scenario) {
@@ -70,6 +99,7 @@ Simulator::Simulator(Scenario scenario, std::vector<Vec3> directions, Injector i
       injector_(std::move(injector)),
       dwell_rows_(std::max<std::uint64_t>(1, rows_of(scenario_.dwell_s, scenario_.rate_hz))),
       move_rows_(rows_of(scenario_.move_s, scenario_.rate_hz)) {
+  if (scenario_.tag_stations && scenario_.tag_rolls) roll_group_ = roll_groups_of(directions_);
   for (std::size_t k = 0; k + 1 < directions_.size(); ++k) passages_.emplace_back(directions_[k], directions_[k + 1]);
   for (int i = 0; i < scenario_.tool.datasheet.size; ++i) {
     noise_.emplace_back(scenario_.seed, Purpose::noise, static_cast<std::uint32_t>(i));
@@ -143,6 +173,8 @@ Sample Simulator::healthy(const Place& place, const Truth& truth) const noexcept
   sample.temperature_degc = scenario_.temperature.at(place.moment.time_s - scenario_.start_s);
   sample.delivered = SensorSet::first(tool.datasheet.size);
   sample.station = scenario_.tag_stations && !place.moving ? truth.station : 0;
+  if (!roll_group_.empty() && !place.moving)
+    sample.roll_group = roll_group_[static_cast<std::size_t>(place.moment.station - 1)];
   const auto raw = tool.model.raw_from(accel_mps2, sample.temperature_degc);
   if (!raw) return sample;  // refused by `make`: the cross-axis matrix does not depend on temperature
   for (int i = 0; i < tool.datasheet.size; ++i) {

@@ -99,14 +99,35 @@ TEST(Acceptance, AllScalesOffTogetherIsRefusedAsSuch) {
   }
 }
 
+TEST(Acceptance, GravityOnePercentOffOnEarthIsNamedByTheScales) {
+  // 9.764 m/s^2 on a mountain, 9.8616 stated: on Earth, and one percent off. Only the datasheet's scales can tell.
+  for (const double factor : {1.01, 0.99}) {
+    Bench b;
+    const double real = factor > 1.0 ? 9.764 : 9.85;
+    for (int i = 0; i < 4; ++i) {
+      b.truth.w[at(i)] = b.sheet.sensor[at(i)].row.axis;
+      b.sheet.sensor[at(i)].prior.scale = 0.004;  // 0.2 % of the mean of four
+    }
+    b.stations = random_stations(b.sheet, b.truth, 48, b.noise, kSigma, real);
+    b.gravity.g_mps2 = real;
+    EXPECT_EQ(b.run().error.code, Errc::ok) << factor;
+    b.gravity.g_mps2 = real * factor;
+    ASSERT_EQ(plumb::judge_gravity(b.gravity).error.code, Errc::ok);
+    const plumb::Judgement j = b.run();
+    EXPECT_EQ(j.concern, Concern::common_scale) << factor;
+    EXPECT_NEAR(j.error.value, 1.0 / factor - 1.0, 2e-4);
+    EXPECT_NEAR(j.error.limit, 0.008, 1e-9);
+  }
+}
+
 TEST(Acceptance, OneScaleFarOffIsNotACommonOne) {
   Bench b;
   b.truth.w[2] = plumb::scaled(b.sheet.sensor[2].row.axis, 1.2);
   b.stations = random_stations(b.sheet, b.truth, 48, b.noise, kSigma);
   const auto fit = plumb::calibrate(b.sheet, b.gravity, b.stations.data(), b.count());
   ASSERT_TRUE(fit.has_value());
-  const plumb::CommonScale c = plumb::common_scale(b.sheet, *fit);
-  EXPECT_GT(c.prior_sigmas, 2.0);
+  const plumb::CommonScale& c = fit->report.common_scale;
+  EXPECT_GT(c.sigmas(), 4.0);
   EXPECT_GT(c.scatter, c.mean);
   EXPECT_EQ(b.run().error.code, Errc::ok);
 }
@@ -195,6 +216,24 @@ TEST(HoldOut, SaysSoWhereTheRestIsNotEnough) {
   b.run();
   EXPECT_EQ(b.held_out.judged, 0);
   EXPECT_EQ(b.held_out.not_judged, 10);
+}
+
+TEST(HoldOut, DoesNotPredictReadingsAtFullScale) {
+  Bench b;
+  const double full_scale = 2.8;  // of 3 V/g0
+  int clipped = 0;
+  for (int i = 0; i < 4; ++i) b.sheet.sensor[at(i)].full_scale_raw = full_scale;
+  for (plumb::Station& s : b.stations) {
+    for (int i = 0; i < 4; ++i) {
+      if (std::fabs(s.mean[at(i)]) < full_scale) continue;
+      s.mean[at(i)] = std::copysign(full_scale, s.mean[at(i)]);
+      ++clipped;
+    }
+  }
+  ASSERT_GE(clipped, 4);
+  EXPECT_EQ(b.run().error.code, Errc::ok);
+  EXPECT_EQ(b.held_out.judged, 48);
+  EXPECT_LT(b.held_out.sigmas, 1.5);
 }
 
 TEST(HoldOut, NamesTheStationThatWasDisturbed) {

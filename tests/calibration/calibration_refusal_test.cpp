@@ -198,6 +198,21 @@ TEST(CalibrationRefusal, TwoChannelsOfOneSensor) {
   EXPECT_EQ(twin.refusal(), plumb::Errc::axes_rank_deficient);
 }
 
+TEST(CalibrationRefusal, TheSameNumbersInTwoColumns) {
+  plumb::AxisList axes{};
+  plumb::orthogonal_triad(axes);
+  axes[3] = axes[2];  // the datasheet has two sensors along z, the log has one of them twice
+  Bench b;
+  b.sheet = datasheet_of(axes, 4, kSigma);
+  b.truth = draw_truth(b.sheet, b.noise);
+  b.stations = random_stations(b.sheet, b.truth, 48, b.noise, kSigma);
+  EXPECT_EQ(b.refusal(), plumb::Errc::ok) << "two sensors along one axis are none of it";
+  for (plumb::Station& s : b.stations) s.mean[3] = s.mean[2];
+  const auto c = b.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::implausible, 3, 0.0, 0.0}));
+}
+
 TEST(CalibrationRefusal, SaturatedReadingsAreLeftOutAndCounted) {
   Bench b;
   const double full_scale = 2.8;  // of 3 V/g0: clipped where a sensor points along gravity
@@ -225,11 +240,11 @@ TEST(CalibrationRefusal, GravityOffByOnePercentIsACommonScale) {
   for (int i = 0; i < 4; ++i) b.truth.w[at(i)] = b.sheet.sensor[at(i)].row.axis;
   b.stations = random_stations(b.sheet, b.truth, 48, b.noise, kSigma);
   ASSERT_TRUE(b.run().has_value());
-  EXPECT_NEAR(b.report.common_scale, 0.0, 1e-4);
-  EXPECT_NEAR(b.report.common_scale_sigma, 0.0115 / 2.0, 1e-9);
+  EXPECT_NEAR(b.report.common_scale.mean, 0.0, 1e-4);
+  EXPECT_NEAR(b.report.common_scale.sigma, 0.0115 / 2.0, 1e-9);
   b.gravity.g_mps2 *= 1.01;
   ASSERT_TRUE(b.run().has_value());
-  EXPECT_NEAR(b.report.common_scale, 1.0 / 1.01 - 1.0, 2e-4);
+  EXPECT_NEAR(b.report.common_scale.mean, 1.0 / 1.01 - 1.0, 2e-4);
 }
 
 TEST(CalibrationRefusal, DatasheetThatIsNoArray) {

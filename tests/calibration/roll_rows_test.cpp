@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "calibration_support.hpp"
 
@@ -199,6 +200,62 @@ TEST(RollRows, RefusesTooManyGroupsAndAnAxisThatIsNone) {
     const auto c = fit(d, stations, o);
     ASSERT_FALSE(c.has_value());
     EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::out_of_range, 0, 0.0, 0.0}));
+  }
+}
+
+TEST(RollRows, TheSigmaOfAnInclinationIsWhatItIs) {
+  const RollSet set = {{0.0, 45.0, 90.0}, 8};
+  double with = 0.0, said = 0.0, without = 0.0, said_without = 0.0;
+  constexpr int kRuns = 100;
+  for (std::uint64_t seed = 300; seed < 300 + kRuns; ++seed) {
+    Noise noise(seed);
+    const plumb::Datasheet d = paper_tool(kSigma);
+    const Truth truth = draw_truth(d, noise);
+    std::vector<plumb::Station> stations = stations_of(set, d, truth, noise);
+    const auto c = fit(d, stations, options_of(set));
+    forget_groups(stations);
+    const auto plain = fit(d, stations, options_of(set));
+    ASSERT_TRUE(c.has_value() && plain.has_value());
+    EXPECT_EQ(c->report.roll_axis, (Vec3{0.0, 0.0, 1.0}));
+    EXPECT_EQ(plain->report.roll_axis, Vec3{});
+    with += inclination_error(set, d, truth, *c) / kRuns;
+    said += std::pow(c->report.inclination_sigma_rad, 2) / kRuns;
+    without += inclination_error(set, d, truth, *plain) / kRuns;
+    said_without += std::pow(plain->report.inclination_sigma_rad, 2) / kRuns;
+  }
+  EXPECT_LE(std::sqrt(with), 0.3e-3);
+  EXPECT_NEAR(std::sqrt(said / with), 1.0, 0.25);
+  EXPECT_NEAR(std::sqrt(said_without / without), 1.0, 0.25);
+  std::cout << "[ measured ] inclination " << std::sqrt(with) << " rad, said " << std::sqrt(said) << "; without rows "
+            << std::sqrt(without) << ", said " << std::sqrt(said_without) << '\n';
+}
+
+TEST(RollRows, GroupsOfOneAreCounted) {
+  const RollSet set = {{0.0, 45.0, 90.0}, 8};
+  Noise noise(9);
+  const plumb::Datasheet d = paper_tool(kSigma);
+  const Truth truth = draw_truth(d, noise);
+  std::vector<plumb::Station> stations = stations_of(set, d, truth, noise);
+  stations[3].roll_group = 77;
+  const auto c = fit(d, stations, options_of(set));
+  ASSERT_TRUE(c.has_value());
+  EXPECT_EQ(c->report.roll_groups, 4);
+  EXPECT_EQ(c->report.lone_rolls, 1);
+  EXPECT_EQ(c->report.rank, 15);
+}
+
+TEST(RollRows, RefusesAWobbleThatIsNone) {
+  const RollSet set = {{0.0, 45.0, 90.0}, 8};
+  Noise noise(10);
+  const plumb::Datasheet d = paper_tool(kSigma);
+  const Truth truth = draw_truth(d, noise);
+  const std::vector<plumb::Station> stations = stations_of(set, d, truth, noise);
+  for (const double wobble : {-0.001, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    plumb::FitOptions o = options_of(set);
+    o.roll_wobble_rad = wobble;
+    const auto c = fit(d, stations, o);
+    ASSERT_FALSE(c.has_value());
+    EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::out_of_range, 2, 0.0, 0.0}));
   }
 }
 

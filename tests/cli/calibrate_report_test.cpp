@@ -183,7 +183,8 @@ TEST(CalibrateRefuses, AllScalesOffTogether) {
   scale_log(where, 0.94);
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 4);
-  EXPECT_TRUE(says(outcome.err, {"all scale factors moved together by -", "`unit`"}));
+  EXPECT_TRUE(says(outcome.err,
+                   {"gravity reference or common scale off by", "all scale factors moved together by -", "`unit`"}));
 }
 
 TEST(CalibrateReport, SaysHowFarAllScalesMovedTogether) {
@@ -191,7 +192,7 @@ TEST(CalibrateReport, SaysHowFarAllScalesMovedTogether) {
   scale_log(where, 0.985);
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"all scale factors moved together by -", "gravity reference or unit wrong?"}));
+  EXPECT_TRUE(says(outcome.out, {"all scale factors moved together by -", "gravity reference or common scale off by"}));
 }
 
 TEST(CalibrateRefuses, TheFaultySensorByName) {

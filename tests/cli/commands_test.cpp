@@ -102,6 +102,16 @@ TEST(Monitor, JsonIsOneObjectALine) {
   EXPECT_EQ(objects[3]["summary"]["samples"], 4100);
 }
 
+TEST(Monitor, EventsToStandardOutputAndJsonAreOneStream) {
+  const std::vector<std::string> plain = {"monitor",          "--array", "array.toml",   "--calibration",
+                                          "calibration.json", "--log",   "drilling.csv", "--json"};
+  std::vector<std::string> both = plain;
+  both.insert(both.end(), {"--events", "-"});
+  const Outcome once = run(example_files(), plain);
+  EXPECT_NE(once.out.find("\"sequence\":1,"), std::string::npos);
+  EXPECT_EQ(run(example_files(), both).out, once.out) << "every change once, then the summary";
+}
+
 TEST(Monitor, VerdictsPerBlockOrPerSample) {
   const Workshop where;
   const std::vector<std::string> quietly =

@@ -107,7 +107,7 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
     const BlockEvidence block = episode.block(scaled(noise.direction(), kG0_mps2), noise);
     isolation.vote(tool.array, tool.gravity, tool.limits, block);
     const FaultSetScan scan =
-        isolation.scan(tool.array, tool.gravity, tool.limits, block, tool.array.all(), 1, 1, 1, 4.9);
+        isolation.scan(tool.array, tool.gravity, tool.limits, block, tool.array.all(), 1, 1, {1, 4.9, 0.0});
     count.add(episode.faulty(), scan.asserted, false);
   }
   EXPECT_EQ(count.wrong, 0U);
@@ -116,7 +116,7 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
 
 /// One fault in a tool of five to eight, and a reference that is off by far more than its sigma: by a constant
 /// (gravity), or by something else at every station (steady acceleration).
-// Verifies: REQ-065
+// Verifies: REQ-061
 TEST(ReferenceDoubt, OneFaultAndAWrongReferenceBlameNobodyHealthy) {
   for (int n = 5; n <= kCapacity; ++n) {
     const TrialTool tool = exact_tool(n);
@@ -144,7 +144,7 @@ TEST(ReferenceDoubt, OneFaultAndAWrongReferenceBlameNobodyHealthy) {
 }
 
 /// Two biases that a quad with them hides from parity: it doubts gravity wherever they turn out to matter.
-// Negative: REQ-065
+// Negative: REQ-061
 TEST(ReferenceDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
   const TrialTool tool = exact_tool(6);
   const SensorSet chance(0b001111);

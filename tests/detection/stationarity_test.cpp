@@ -186,4 +186,23 @@ TEST(StationFinder, TagsSeparateStationsWithoutMotion) {
   EXPECT_EQ(found, 3);
 }
 
+// Negative: REQ-039
+TEST(StationFinder, AnotherRollGroupEndsAStationLikeAnotherTag) {
+  const SensorArray array = plumb_test::tetrahedron(kSigma);
+  StationFinder finder(array, kG0_mps2, {});
+  Noise noise(11);
+  std::vector<std::uint32_t> groups;
+  Station st;
+  for (int k = 0; k < 3 * 192; ++k) {
+    Sample s;
+    s.time_s = 0.01 * k;
+    s.roll_group = static_cast<std::uint32_t>(5 + k / 192);
+    Readings y{};
+    for (int i = 0; i < 4; ++i) y[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2 + kSigma * noise.normal();
+    if (finder.add(s, y, array.all(), st)) groups.push_back(st.roll_group);
+  }
+  if (finder.finish(st)) groups.push_back(st.roll_group);
+  EXPECT_EQ(groups, (std::vector<std::uint32_t>{5, 6, 7}));
+}
+
 }  // namespace

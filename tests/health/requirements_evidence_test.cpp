@@ -156,7 +156,7 @@ TEST(RequirementVotes, AreTakenAtBlocks1And2And4And8And16Only) {
     int block = 0;
     for (int k = 0; k < 40; ++k) {
       const Verdict& v = rig.stay(u);
-      if (block > 0 || v.margin < 0.0) ++block;  // counted from the alarm
+      if (block > 0 || v.state != HealthState::nominal) ++block;  // counted from the alarm
       if (v.live_hypotheses == before) continue;
       EXPECT_TRUE(block == 1 || block == 2 || block == 4 || block == 8 || block == 16) << seed << ", block " << block;
       changes += block > 1 ? 1 : 0;
@@ -199,11 +199,14 @@ TEST(RequirementGravityBetweenSteps, NonsenseIsRefusedAndChangesNothing) {
   auto twin = std::make_unique<HealthMonitor>(rig.monitor);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const GravityReference& bad :
-       {GravityReference{nan, 1e-3, GravityModel::value}, GravityReference{0.9, 1e-3, GravityModel::value},
-        GravityReference{kG0_mps2, nan, GravityModel::value}, GravityReference{kG0_mps2, -1e-9, GravityModel::value}}) {
+       {GravityReference{nan, 1e-3, GravityModel::value}, GravityReference{1.0, 1e-3, GravityModel::value},
+        GravityReference{9.49, 1e-3, GravityModel::value}, GravityReference{32.2, 1e-3, GravityModel::value},
+        GravityReference{kG0_mps2, nan, GravityModel::value}, GravityReference{kG0_mps2, -1e-9, GravityModel::value},
+        GravityReference{kG0_mps2, 0.11, GravityModel::value}}) {
     const auto refused = rig.monitor.set_gravity(bad);
     ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, Errc::out_of_range);
+    EXPECT_EQ(refused.error().code, Errc::implausible_gravity);
+    EXPECT_EQ(refused.error().index, std::isfinite(bad.g_mps2) && bad.g_mps2 == kG0_mps2 ? 1 : 0) << "length or sigma";
   }
   for (int k = 0; k < 64; ++k) {
     const Sample s = rig.sample(direction_at(50, 90.0 * (k / 32)), kG0_mps2);

@@ -36,6 +36,7 @@ TEST(ArrayFile, ReadsEveryPart) {
   EXPECT_EQ(first.full_scale_raw, 5.0);
   EXPECT_EQ(file.datasheet.sensor[1].prior.axis_rad, Prior().axis_rad) << "defaults where no prior is given";
   EXPECT_DOUBLE_EQ(file.datasheet.sensor[3].prior.scale, 0.02);
+  EXPECT_EQ(file.datasheet.sensor[3].prior.scale_t, Prior().scale_t);
   EXPECT_EQ(file.output_frame, kIdentity3);
 }
 
@@ -47,6 +48,7 @@ TEST(ArrayFile, ReadsTemperatureFilterAndFrame) {
       "bias = \"12 mg\"",
       "bias = \"6 mV\"\nbias_t = [\"0.1 mg/degC\", \"2 ug/degC^2\"]\nscale_t = [\"200 ppm/degC\"]\nt_ref = \"30 degC\"",
       text);
+  text = changed("axis = \"2 deg\"", "axis = \"2 deg\", bias_t = [\"50 ug0/degC\", \"3 ug0/degC^2\"]", text);
   text += "[output]\nframe = [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]\n";
   const ArrayFile file = array_of(text);
   const SensorCoefficients& c = file.datasheet.sensor[0].coefficients;
@@ -55,6 +57,10 @@ TEST(ArrayFile, ReadsTemperatureFilterAndFrame) {
   EXPECT_DOUBLE_EQ(c.bias[0], 2e-3 * kG0_mps2);
   EXPECT_DOUBLE_EQ(c.bias[2], 2e-6 * kG0_mps2);
   EXPECT_EQ(c.reference_degc, 30.0);
+  const Prior& drift = file.datasheet.sensor[3].prior;
+  EXPECT_DOUBLE_EQ(drift.bias_t_mps2[0], 50e-6 * kG0_mps2);
+  EXPECT_DOUBLE_EQ(drift.bias_t_mps2[1], 3e-6 * kG0_mps2);
+  EXPECT_EQ(drift.bias_t_mps2[2], Prior().bias_t_mps2[2]);
   EXPECT_DOUBLE_EQ(file.datasheet.sensor[0].full_scale_raw, 5000.0);
   ASSERT_EQ(file.input.where.size(), 2U);
   EXPECT_DOUBLE_EQ(file.input.time_unit_s, 1e-3);
@@ -116,8 +122,7 @@ TEST(ArrayFileRefuses, UnknownKeysWithTheNearestName) {
   expect_refused(changed("[monitor]", "[monitro]"), 6, "monitro", {"did you mean \"monitor\"?"});
   expect_refused(changed("scale = \"2 %\"", "scael = \"2 %\""), 41, "sensor[4].prior.scael",
                  {"did you mean \"scale\"?"});
-  expect_refused(changed("sigma = ", "latitude = \"3 deg\"\nsigma = "), 5, "gravity.latitude",
-                 {"not used by model \"value\""});
+  expect_refused(changed("sigma = ", "layers = []\nsigma = "), 5, "gravity.layers", {"not used by model \"value\""});
 }
 
 TEST(ArrayFileRefuses, MissingKeys) {
@@ -189,6 +194,10 @@ TEST(ArrayFileRefuses, ValuesOutOfRange) {
   expect_refused(changed("id = \"A1\"", "id = \"a name far too long\""), 16, "sensor[1].id", {"longer than 15"});
   expect_refused(changed("id = \"A1\"", "id = \" \""), 16, "sensor[1].id", {"is empty"});
   expect_refused(changed("bias = \"20 mg\"", "bias = \"0 mg\""), 41, "sensor[4].prior.bias", {"above zero"});
+  const auto drift = [](const std::string& terms) { return changed("axis = \"2 deg\"", "axis = \"2 deg\", " + terms); };
+  expect_refused(drift("scale_t = [\"-200 ppm/degC\"]"), 41, "sensor[4].prior.scale_t", {"above zero"});
+  expect_refused(drift("bias_t = [\"1 ug0/degC\", \"0 ug0/degC^2\"]"), 41, "sensor[4].prior.bias_t", {"above zero"});
+  expect_refused(drift("bias_t = \"1 ug0/degC\""), 41, "sensor[4].prior.bias_t", {"list of one to three"});
   expect_refused(changed("9.81 m/s^2", "1.62 m/s^2"), 4, "gravity.value", {"1.62"});
   expect_refused(changed("window = 16", "window = 0"), 7, "monitor.window", {"is 0, out of range", "at least 1"});
   expect_refused(changed("window = 16", "window = 16\nfalse_alarm_rate = nan"), 8, "monitor.false_alarm_rate",
@@ -217,6 +226,23 @@ TEST(ArrayFile, GravityModels) {
   expect_refused(changed(value, "model = \"normal\"\n"), 2, "gravity.latitude", {"is missing"});
 }
 
+TEST(ArrayFile, AGravityThatIsGivenIsComparedWithThatOfThePlace) {
+  const auto given = [](const std::string& value, const std::string& place) {
+    return changed("value = \"9.81 m/s^2\"\n", "value = \"" + value + " m/s^2\"\n" + place);
+  };
+  const std::string equator = "latitude = \"0 deg\"\n";  // 9.7803 m/s^2; 9.7649 at 5 km
+  EXPECT_EQ(array_of(given("9.79", equator)).gravity.g_mps2, 9.79);
+  EXPECT_EQ(array_of(given("9.7649", equator + "elevation = \"5 km\"\n")).gravity.model, GravityModel::value);
+  for (const char* off : {"9.8781", "9.6825"})
+    expect_refused(given(off, equator), 4, "gravity.value", {"gravity reference off by 1 %", "9.78033", "latitude"});
+  expect_refused(given("9.8625", equator + "elevation = \"5 km\"\n"), 4, "gravity.value", {"off by 1 %"});
+  expect_refused(given("9.81", "depth = \"1 km\"\n"), 5, "gravity.depth", {"without latitude"});
+  const std::string table =
+      "model = \"table\"\nlatitude = \"0 deg\"\ntable = [{depth = \"0 m\", g = \"9.88 m/s^2\"}, {depth = \"2 km\", g = "
+      "\"9.89 m/s^2\"}]\n";
+  expect_refused(changed("model = \"value\"\nvalue = \"9.81 m/s^2\"\n", table), 5, "gravity.table", {"off by 1 %"});
+}
+
 TEST(ArrayFile, PaperModeHasThePapersLimitUnlessAnotherIsGiven) {
   const std::string both = "window = 16\ndelta_f = \"0.05 g0\"";
   const ArrayFile paper = array_of(changed(both, "mode = \"paper\""));
@@ -242,6 +268,19 @@ TEST(ArrayFile, RecalibrationIsAskedForInTheMonitorTable) {
                  {"always", "never", "after-exclusion"});
   expect_refused(changed("window = 16", "drift_bias = \"0 mg\""), 7, "monitor.drift_bias", {"at least 1e-06 m/s^2"});
   expect_refused(changed("window = 16", "drift_scale = \"20 %\""), 7, "monitor.drift_scale", {"at most 0.1"});
+}
+
+TEST(ArrayFile, TheMeaningOfTheRateIsChosenInTheMonitorTable) {
+  EXPECT_EQ(array_of().monitor.alarm_form, AlarmForm::every_tool);
+  EXPECT_EQ(array_of().monitor.triple_false_alarm_rate, 0.0);
+  const MonitorConfig given =
+      array_of(changed("window = 16", "alarm_form = \"average-tool\"\ntriple_false_alarm_rate = 1e-4")).monitor;
+  EXPECT_EQ(given.alarm_form, AlarmForm::average_tool);
+  EXPECT_EQ(given.triple_false_alarm_rate, 1e-4);
+  EXPECT_EQ(array_of(changed("window = 16", "alarm_form = \"every-tool\"")).monitor.alarm_form, AlarmForm::every_tool);
+  expect_refused(changed("window = 16", "alarm_form = \"some\""), 7, "monitor.alarm_form", {"some", "average-tool"});
+  expect_refused(changed("window = 16", "triple_false_alarm_rate = 0.5"), 7, "monitor.triple_false_alarm_rate",
+                 {"at most 0.01"});
 }
 
 // Negative: REQ-170

@@ -149,6 +149,27 @@ TEST(CalibrationFile, HoldsThePapersParametersOrSaysWhyNot) {
   EXPECT_NE(none["paper_parameters"]["why_not"].get<std::string>().find("unique"), std::string::npos);
 }
 
+TEST(CalibrationFile, KeepsWhatTheRollGroupsWereOnlyWhereThereWereSome) {
+  const ArrayFile array = array_of();
+  const auto in = calibration_of(array, &third);
+  EXPECT_EQ(nlohmann::json::parse(calibration_json(*in, array, context_of(array)))["report"].count("roll"), 0U);
+  in->report.roll_groups = 4;
+  in->report.lone_rolls = 1;
+  in->report.roll_axis = {0.6, 0.0, 0.8};
+  in->report.roll_wobble_rad = 1.0 / 3000.0;
+  in->report.inclination_sigma_rad = 1.0 / 7000.0;
+  const auto file = read_calibration(written("cal.json", calibration_json(*in, array, context_of(array))), array);
+  ASSERT_TRUE(file.has_value()) << file.error().text();
+  const FitReport& out = file->calibration.report;
+  EXPECT_EQ(out.roll_groups, 4);
+  EXPECT_EQ(out.lone_rolls, 1);
+  EXPECT_EQ(out.roll_axis, in->report.roll_axis);
+  EXPECT_EQ(out.roll_wobble_rad, in->report.roll_wobble_rad);
+  EXPECT_EQ(out.inclination_sigma_rad, in->report.inclination_sigma_rad);
+  EXPECT_EQ(calibration_json(file->calibration, array, context_of(array)),
+            calibration_json(*in, array, context_of(array)));
+}
+
 TEST(CalibrationFile, WhiteSpaceMayChange) {
   std::string json = good_json();
   for (std::size_t at = json.find('\n'); at != std::string::npos; at = json.find('\n', at + 2)) json.insert(at, "\r");

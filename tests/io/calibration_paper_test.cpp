@@ -1,6 +1,7 @@
 /// The section of the calibration file that holds the paper's own fits.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -31,11 +32,11 @@ PaperFit fit_of(const ArrayFile& array, SensorSet used, double seed) {
   for (int i = 0; i < array.array.size(); ++i) {
     if (!used.has(i)) continue;
     const auto a = static_cast<std::size_t>(i);
-    fit.model.sensor[a].scale[0] *= 1.0 + seed / 300.0;
-    fit.model.sensor[a].bias[0] += seed / 11.0;
+    fit.model.sensor[a].scale[0] *= 1.0 + seed / 3000.0;
+    fit.model.sensor[a].bias[0] += seed / 1100.0;
     for (int j = 0; j < array.array.size(); ++j) {
       if (used.has(j) && i != j)
-        fit.model.misalignment[a * kCapacity + static_cast<std::size_t>(j)] = seed * (i - 1.7 * j) / 900.0;
+        fit.model.misalignment[a * kCapacity + static_cast<std::size_t>(j)] = seed * (i - 1.7 * j) / 90000.0;
     }
   }
   return fit;
@@ -150,6 +151,34 @@ TEST(CalibrationFilePaperRefuses, AnotherVersionAndOtherSensors) {
   expect_words(refused([](Json& r) { r["paper"]["all"]["bias_mps2"][0][0] = "lots"; }), "paper.all.bias_mps2",
                "not a number");
   expect_words(refused([](Json& r) { r["paper"] = 7; }), "version", "is missing");
+}
+
+TEST(CalibrationFilePaperRefuses, CoefficientsThatContradictTheCalibrationBesideThem) {
+  const ArrayFile array = array_of();
+  const std::string json = json_of(array, paper_of(array).get());
+  const auto refused = [&json](auto edit) { return refusal_of(resealed(json, edit)); };
+  expect_words(refused([](Json& r) { r["paper"]["all"]["scale"][1][0] = 3.4 / kG0_mps2; }), "paper.all",
+               "contradicts the calibration beside it: gravity");
+  expect_words(refused([](Json& r) { r["paper"]["triples"][1]["bias_mps2"][0][0] = 5.0; }), "paper.triples[2]",
+               "gravity comes out");
+  expect_words(refused([](Json& r) { r["paper"]["triples"][3]["misalignment"][0][1] = 1e9; }), "paper.triples[4]",
+               "gravity comes out");
+  expect_words(refused([](Json& r) { r["paper"]["all"]["scale"][1][0] = "nan"; }), "paper.all", "gravity comes out");
+  // A turn of the frame keeps the length: all axes by 20 deg about z, where the first three are x, y and z.
+  expect_words(refused([](Json& r) {
+                 Json& m = r["paper"]["triples"][0]["misalignment"];
+                 const double c = std::cos(0.35), s = std::sin(0.35);
+                 m[0][1] = s / c;
+                 m[1][0] = -s / c;
+                 for (std::size_t i = 0; i < 2; ++i)
+                   r["paper"]["triples"][0]["scale"][i][0] = r["paper"]["triples"][0]["scale"][i][0].get<double>() / c;
+               }),
+               "paper.triples[1]", "down comes out 20");
+  // One that is not sound has no say, whatever it holds.
+  EXPECT_TRUE(
+      read_calibration(
+          written("cal.json", resealed(json, [](Json& r) { r["paper"]["triples"][2]["scale"][0][0] = 1e9; })), array)
+          .has_value());
 }
 
 }  // namespace

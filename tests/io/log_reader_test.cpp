@@ -115,6 +115,18 @@ TEST(LogReader, StationsCountsTemperatureAndFilters) {
   EXPECT_EQ(log.statistics.rows_filtered, 2U);
 }
 
+TEST(LogReader, RollGroupsAreTagsLikeThoseOfStations) {
+  const ArrayFile array = array_of(changed("time = \"t_s\"", "time = \"t_s\"\nroll_group = \"ring\""));
+  const LogContent log =
+      content_of("t_s,ring,a1_v,a2_v,a3_v,a4_v\n0,0,1,2,3,4\n1,12,1,2,3,4\n2,,1,2,3,4\n3,-1,1,2,3,4\n", array);
+  ASSERT_EQ(log.samples.size(), 4U);
+  EXPECT_EQ(log.samples[0].roll_group, tag_of_label(0));
+  EXPECT_EQ(log.samples[1].roll_group, tag_of_label(12));
+  EXPECT_EQ(log.samples[2].roll_group, 0U);
+  EXPECT_EQ(log.samples[3].roll_group, 0U);
+  EXPECT_EQ(log.samples[1].station, 0U);
+}
+
 TEST(LogReader, RateGivesTimeAlsoAcrossBadRows) {
   const ArrayFile array = array_of(changed("time = \"t_s\"", "rate = \"50 Hz\""));
   const LogContent log = content_of("a1_v,a2_v,a3_v,a4_v\n1,2,3,4\n1,2,x,4\n1,2,3,4\n", array, BadRowPolicy::skip);
@@ -166,6 +178,10 @@ TEST(LogReaderRefuses, BadTagsCountsAndTemperatures) {
   expect_bad(header + "0,1,0,20,1,2,3,4\n", 2, "n (column 3)", {"is not a number of samples"}, array);
   expect_bad(header + "0,1,1,warm,1,2,3,4\n", 2, "T (column 4)", {"is not a temperature"}, array);
   expect_bad(header + "0,1,1,,1,2,3,4\n", 2, "T (column 4)", {"no temperature yet"}, array);
+  const ArrayFile rolled = array_of(changed("time = \"t_s\"", "time = \"t_s\"\nroll_group = \"ring\""));
+  for (const char* label : {"1.5", "-2", "nan", "one", "4294967295"})
+    expect_bad("t_s,ring,a1_v,a2_v,a3_v,a4_v\n0," + std::string(label) + ",1,2,3,4\n", 2, "ring (column 2)",
+               {"is not the number of a roll group"}, rolled);
 }
 
 // Verifies: REQ-174

@@ -29,10 +29,12 @@ std::string written_log(const ArrayFile& array, const std::vector<Sample>& sampl
 }
 
 TEST(LogWriter, WritesTheColumnsOfTheArrayFile) {
-  const ArrayFile array = array_of(
-      changed("time = \"t_s\"",
-              "time = \"t_s\"\nstation = \"att\"\ncount = \"n\"\ntemperature = \"T\"\nwhere = {exp = 2, att = 5}"));
+  const ArrayFile array =
+      array_of(changed("time = \"t_s\"",
+                       "time = \"t_s\"\nstation = \"att\"\nroll_group = \"ring\"\ncount = \"n\"\ntemperature = "
+                       "\"T\"\nwhere = {exp = 2, att = 5}"));
   Sample sample;
+  sample.roll_group = tag_of_label(7);
   sample.time_s = 0.1;
   sample.station = tag_of_label(5);
   sample.count = 3;
@@ -41,7 +43,7 @@ TEST(LogWriter, WritesTheColumnsOfTheArrayFile) {
   sample.delivered = SensorSet::first(3);
   const auto text = read_file(written_log(array, {sample}));
   ASSERT_TRUE(text.has_value());
-  EXPECT_EQ(*text, "t_s,att,n,T,exp,a1_v,a2_v,a3_v,a4_v\n0.1,5,3,20.5,2,1,nan,0.30000000000000004,\n");
+  EXPECT_EQ(*text, "t_s,att,ring,n,T,exp,a1_v,a2_v,a3_v,a4_v\n0.1,5,7,3,20.5,2,1,nan,0.30000000000000004,\n");
 }
 
 TEST(LogWriter, SaysWhyItCannotWrite) {

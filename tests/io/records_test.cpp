@@ -108,6 +108,7 @@ TEST(Records, VerdictCarriesEverything) {
                           "latest_mps2",
                           "protection_available",
                           "alert",
+                          "snapshot_refused",
                           "inclination_sigma_deg",
                           "toolface_sigma_deg"}) {
     EXPECT_TRUE(object.contains(key)) << key;
@@ -144,10 +145,36 @@ TEST(Records, RecalibrationIsAnObjectWhileItGoesOnOrWasRefused) {
 
 TEST(Records, EveryQualifierHasItsName) {
   Verdict v;
-  v.qualifiers = 127;
+  v.qualifiers = 255;
   const Json object = Json::parse(verdict_json(v, array_of().array));
   EXPECT_EQ(object["qualifiers"], Json({"unproven", "moving", "initial_calibration", "provisional", "no_redundancy",
-                                        "exhausted", "three_sensor_fit"}));
+                                        "exhausted", "three_sensor_fit", "inhibited"}));
+}
+
+TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
+  const ArrayFile file = array_of();
+  Verdict v = some_verdict();
+  const Json plain = Json::parse(verdict_json(v, file.array));
+  EXPECT_TRUE(plain["rotation"].is_null());
+  EXPECT_TRUE(plain["reference"].is_null());
+  EXPECT_EQ(plain["sensor_cause"].size(), 4U);
+  v.rotation = {true, {0.0, 1.0, 0.0}, 0.5, 0.1};
+  v.reference.kind = ReferenceKind::common_bias;
+  v.reference.attitudes = 7;
+  v.reference.bias_mps2 = {0.0, 2.0, 0.0};
+  v.sensor_cause[2] = Cause::noisy;
+  v.drift_mps2_per_h[1] = 0.25F;
+  const Mat3 turned = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+  const Json object = Json::parse(verdict_json(v, file.array, turned));
+  EXPECT_EQ(object["rotation"]["along"], Json({0.0, 0.0, 1.0}));
+  EXPECT_EQ(object["rotation"]["change_mps2"], 0.5);
+  EXPECT_EQ(object["reference"]["kind"], "common_bias");
+  EXPECT_EQ(object["reference"]["bias_mps2"], Json({0.0, 0.0, 2.0}));
+  EXPECT_TRUE(object["reference"]["turn_deg"].is_null());
+  EXPECT_EQ(object["sensor_cause"], Json({"none", "none", "noisy", "none"}));
+  EXPECT_EQ(object["drift_mps2_per_h"], Json({0.0, 0.25, 0.0, 0.0}));
+  v.rotation.change_mps2 = 0.0;
+  EXPECT_TRUE(Json::parse(verdict_json(v, file.array))["rotation"]["along"].is_null()) << "any turn does";
 }
 
 TEST(Records, NoVectorNoAngles) {

@@ -14,7 +14,7 @@ namespace plumb {
 namespace {
 
 constexpr double kSentinel = -12345.0;
-constexpr int kLargest = 4 * kCapacity;
+constexpr int kLargest = plumb::kMaxEigenSize;
 
 struct Problem {
   int n = 0;

@@ -61,7 +61,7 @@ TEST(SymmetricEigenvalues, RefusesWhatIsNoMatrix) {
   EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), 4, 4, nullptr));
   EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), 0, 4, values.data()));
   EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), 4, 3, values.data()));
-  EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), 4 * plumb::kCapacity + 1, 1000, values.data()));
+  EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), plumb::kMaxEigenSize + 1, 1000, values.data()));
   a[5] = std::nan("");
   EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), 4, 4, values.data()));
   a[5] = std::numeric_limits<double>::infinity();

@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <iostream>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "plumb/core/units.hpp"
+#include "support/long_run.hpp"
 
 namespace plumb {
 namespace {
@@ -176,8 +178,9 @@ TEST(HalfNormalMeanQuantile, TableOfTheNote) {
   }
 }
 
+// Verifies: REQ-054
 TEST(HalfNormalMeanQuantile, IsWithinHalfAPercentOfConvolution) {
-  const double alphas[5] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-9};
+  const double alphas[8] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
   double worst = 0.0;
   const auto compare = [&](const Lattice& sum, int n) {
     for (const double alpha : alphas) {
@@ -196,6 +199,55 @@ TEST(HalfNormalMeanQuantile, IsWithinHalfAPercentOfConvolution) {
     compare(sum, n);
   }
   RecordProperty("largest_relative_difference", std::to_string(worst));
+}
+
+/// The same for every n, one more half-normal at a time: up to 48, in the long run (PLUMB_LONG=1) up to 1024.
+TEST(HalfNormalMeanQuantile, IsWithinHalfAPercentOfConvolutionAtEveryCount) {
+  const int last = plumb_test::long_run() ? 1024 : 48;
+  Lattice one = half_normal(0.02);
+  Lattice sum = one;
+  double worst = 0.0;
+  for (int n = 2; n <= last; ++n) {
+    sum = sum_of(one, sum);
+    for (double alpha = 1e-2; alpha > 5e-10; alpha *= 0.1) {
+      const double off = half_normal_mean_quantile(n, alpha) / (quantile(sum, alpha) / n) - 1.0;
+      ASSERT_LE(std::fabs(off), 0.005) << "n = " << n << ", alpha = " << alpha << ": " << off;
+      worst = std::fmax(worst, std::fabs(off));
+    }
+  }
+  std::cout << "[ measured ] largest relative difference up to n = " << last << ": " << worst << '\n';
+}
+
+/// What the saddlepoint is for: a limit from mean and variance alone is exceeded several times as often as asked.
+// Negative: REQ-054
+TEST(HalfNormalMeanQuantile, TheNormalApproximationIsUnsafe) {
+  Lattice sum = half_normal(0.02);
+  const Lattice one = sum;
+  for (int n = 1; n <= 48; ++n) {
+    if (n > 1) sum = sum_of(one, sum);
+    double margin_before = 0.0;
+    for (double alpha = 1e-2; alpha > 5e-10; alpha *= 0.1) {
+      const double spread = std::sqrt((1.0 - 2.0 / kPi) / n);
+      const double normal = std::sqrt(2.0 / kPi) + normal_tail_quantile(alpha) * spread;
+      const double margin = quantile(sum, alpha) / n - normal;
+      EXPECT_GT(margin, 0.0) << n << ", " << alpha;
+      EXPECT_GT(margin, margin_before) << n << ", " << alpha << ": worse the rarer the alarm";
+      margin_before = margin;
+    }
+  }
+  // In rates: at 32 samples and a request of 1e-5 the limit of the normal approximation lets 5 times as many through.
+  Lattice window = half_normal(0.01);
+  for (int n = 2; n <= 32; n *= 2) {
+    while (window.mass.size() > 1500) coarsen(window);
+    window = sum_of(window, window);
+  }
+  const double limit = 32.0 * (std::sqrt(2.0 / kPi) + normal_tail_quantile(1e-5) * std::sqrt((1.0 - 2.0 / kPi) / 32.0));
+  double tail = 0.0;
+  for (std::size_t k = 0; k < window.mass.size(); ++k) {
+    if (window.origin + window.step * static_cast<double>(k) > limit) tail += window.mass[k];
+  }
+  std::cout << "[ measured ] normal approximation at N = 32, asked for 1e-5: " << tail << '\n';
+  EXPECT_GT(tail, 4e-5);
 }
 
 TEST(HalfNormalMeanQuantile, Edges) {

@@ -106,6 +106,27 @@ TEST(Simulator, SeedsTellRunsApartAndFaultsDoNotDisturbTheRest) {
   }
 }
 
+TEST(Simulator, StationsOfOneInclinationGetARollGroup) {
+  Scenario scenario = drilling_run(paper_tool(5), 5);
+  std::vector<Vec3> directions;
+  for (const double inclination_deg : {45.0, 0.0, 45.0, 90.0, 90.0, 10.0}) {
+    const double toolface_rad = 0.7 * static_cast<double>(directions.size());
+    directions.push_back(gravity_direction({rad_from_deg(inclination_deg), 0.0, toolface_rad}));
+  }
+  scenario.attitudes = DirectionList{directions};
+  scenario.tag_stations = true;
+  const std::uint32_t groups[] = {1, 0, 1, 2, 2, 0};
+  for (const bool tagged : {true, false}) {
+    scenario.tag_rolls = tagged;
+    Simulator run = simulator(scenario);
+    Sample sample;
+    while (run.next(sample)) {
+      const std::uint32_t expected = tagged && !run.truth().moving ? groups[run.truth().station - 1] : 0U;
+      ASSERT_EQ(sample.roll_group, expected) << sample.time_s;
+    }
+  }
+}
+
 TEST(Simulator, WithoutNoiseItIsTheSensorModelOfHg) {
   Scenario scenario = drilling_run(paper_tool(9), 9);
   scenario.noise = {0.0, false, false};

@@ -7,6 +7,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/error.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
 
@@ -35,6 +36,13 @@ struct RowUncertainty {
   /// Covariance of the errors of sensors i and j at gravity vector g [m/s^2]: z' Cov_ij z with
   /// z = (g, 1), plus misfit^2 where i == j. Safety note 10. [(m/s^2)^2]
   double at(int i, int j, const Vec3& g_mps2) const noexcept;
+
+  static constexpr int packed_size(int sensors) noexcept { return 4 * sensors * (4 * sensors + 1) / 2; }
+  /// No variance below zero, no covariance beyond what its two variances allow, but for rounding.
+  bool is_covariance() const noexcept;
+  static constexpr auto fields() noexcept {
+    return field_list(leading(&RowUncertainty::covariance, &packed_size), per_sensor(&RowUncertainty::misfit_mps2));
+  }
 };
 
 /// Three sensors and what they can do together.
@@ -81,6 +89,13 @@ class SensorArray {
   void set_uncertainty(const RowUncertainty& u) noexcept { uncertainty_ = u; }
 
  private:
+  friend struct FieldsOf;
+  /// Axes and noise are configured; only what calibration leaves changes in flight.
+  static constexpr auto fields() noexcept {
+    return field_list(not_stored(&SensorArray::rows_), not_stored(&SensorArray::triples_), &SensorArray::uncertainty_,
+                      not_stored(&SensorArray::size_));
+  }
+
   std::array<SensorRow, kCapacity> rows_{};
   std::array<Triple, kTripleCapacity> triples_{};
   RowUncertainty uncertainty_{};

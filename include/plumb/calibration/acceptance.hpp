@@ -10,22 +10,13 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// The part of all scale changes that the sensors share, which is all that a wrong length of gravity or a wrong unit
-/// does to a calibration (the direction is not affected).
-struct CommonScale {
-  double mean = 0.0;          ///< relative to the datasheet, mean over the sensors
-  double scatter = 0.0;       ///< standard deviation of the single changes about it
-  double prior_sigmas = 0.0;  ///< mean over the rms prior of the scales; 0 where that is zero
-};
-CommonScale common_scale(const Datasheet& datasheet, const Calibration& calibration) noexcept;
-
 /// Where the length of gravity lies on Earth, from mountain tops to ten kilometres of borehole, with margin.
 inline constexpr double kEarthGravityMin_mps2 = 9.74;
 inline constexpr double kEarthGravityMax_mps2 = 9.87;
 
 struct AcceptanceLimits {
-  double max_common_scale_sigmas = 2.0;    ///< of the datasheet prior of one scale: implausible beyond
-  double told_common_scale_sigmas = 0.45;  ///< told beyond it, 1 % where the prior is 2 %
+  double max_common_scale_sigmas = 4.0;   ///< `CommonScale::sigmas`: implausible beyond; 4 % for four sensors of 2 %
+  double told_common_scale_sigmas = 1.0;  ///< told beyond it
   double max_parity_rms_mps2 = 0.05;
   double max_hold_out_mps2 = 0.05;   ///< norm or parity rms of stations not used
   double max_hold_out_sigmas = 3.0;  ///< rms of what was predicted, in sigmas that the fit claims

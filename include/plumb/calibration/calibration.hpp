@@ -46,6 +46,19 @@ struct Outlier {
 };
 inline constexpr int kMaxOutliers = 16;
 
+/// Residuals that the declared noise explains with less than this probability are something else.
+inline constexpr double kNoNoise = 1e-6;
+
+/// The part of all scale changes that the sensors share, which is all that a wrong length of gravity or a wrong unit
+/// does to a calibration (the direction is not affected).
+struct CommonScale {
+  double mean = 0.0;     ///< of |W_i| - 1 over the sensors
+  double scatter = 0.0;  ///< standard deviation of the single changes about it
+  double sigma = 0.0;    ///< what the datasheet expects of `mean`: rms prior of a scale over sqrt(n)
+  /// `mean` in units of `sigma`; 0 where all scales are frozen.
+  double sigmas() const noexcept { return sigma > 0.0 ? mean / sigma : 0.0; }
+};
+
 struct FitReport {
   int stations = 0;         ///< used: outliers left out
   int parameters = 0;       ///< 4n
@@ -75,12 +88,25 @@ struct FitReport {
   int clipped = 0;            ///< readings at or beyond the full scale, left out
   SensorSet clipped_sensors;  ///< whose they were
   int roll_groups = 0;        ///< groups of stations that share an inclination
+  int lone_rolls = 0;         ///< of them those with a single station, which say nothing
+  Vec3 roll_axis{};           ///< as the fit took it; zero where no two stations share a group
+  double roll_wobble_rad = 0.0;
+  /// 1 sigma of an inclination about `FitOptions::roll_axis` at the stations' own attitudes, as far as calibration
+  /// goes; without roll rows the part of the nominal axes, which no station sees, included.
+  double inclination_sigma_rad = 0.0;
+  /// The sensor whose residuals exceed those of the others beyond chance where they are no noise (p < `kNoNoise`), by
+  /// what factor (rms), and the noise beyond the datasheet's that is its own. All sigmas are widened, named or not; -1
+  /// where there is none, or where too little is left over to tell.
+  int loud_sensor = -1;
+  double loud_excess = 1.0;
+  double loud_misfit_mps2 = 0.0;
   /// Part of the stations' squared residuals, in the weights of the fit, that goes without a sensor's readings; for
   /// healthy sensors all alike, about 1 / (n - 2). 0 with three sensors.
   std::array<double, kCapacity> residual_share{};
-  /// Mean of |W_i| - 1 over the sensors: a length of gravity that is off by as much looks just the same.
-  double common_scale = 0.0;
-  double common_scale_sigma = 0.0;       ///< of what the datasheet expects of it
+  /// Of one sample about the mean of its station, pooled over the stations that know (`Station::scatter`); 0 where
+  /// none.
+  std::array<double, kCapacity> sample_noise_mps2{};
+  CommonScale common_scale;
   FitStart start = FitStart::datasheet;  ///< where it really started
   int iterations = 0;
   StopReason stop = StopReason::none;
@@ -109,9 +135,13 @@ struct FitOptions {
   /// clean data pay nothing for it, and so it is on.
   bool reject_outliers = true;
   double max_outlier_share = 0.25;  ///< of the stations; poor_fit beyond it: that is a fault, not an outlier
-  /// Of one sensor's residuals over those of the others, rms; poor_fit beyond it. Needs four sensors and some twenty
-  /// stations. However noisy a sensor, it drags the fit of the others along, so that the ratio stays near 4.
+  /// Of one sensor's residuals over those of the others, rms; poor_fit beyond it, where p < 1e-3. Needs four sensors
+  /// and some twenty stations. However noisy a sensor, it drags the fit of the others along, so that the ratio stays
+  /// near 4.
   double max_sensor_excess = 3.0;
+  /// Of a sensor's own samples over the declared noise; poor_fit beyond it where the residuals are no noise either
+  /// (p < `kNoNoise`). The limits of a monitor are made of the declared noise, and no misfit mends those.
+  double max_noise_factor = 2.0;
   Vec3 roll_axis{0.0, 0.0, 1.0};  ///< about which stations of one `Station::roll_group` are rolled; unit, tool frame
   double roll_wobble_rad = 0.0;   ///< 1 sigma by which the inclination differs from roll to roll
 };
@@ -133,16 +163,23 @@ class Calibrator {
   void iterate(const Station* stations, int count) noexcept;
   bool done() const noexcept { return stop_ != StopReason::none; }
   int iterations() const noexcept { return iterations_; }
+  const GravityReference& gravity() const noexcept { return gravity_; }
+  /// After its state has been read back: goes on with the datasheet and the options that it was made with.
+  void resume(const Datasheet& datasheet, const FitOptions& options) noexcept;
   double cost() const noexcept { return cost_; }
   /// Where the fit stands: per sensor W and b [m/s^2], in the frame it has drifted to (`finish` turns it back).
   std::array<double, kFitParameters> parameters() const noexcept;
 
+  /// Whether the fit has set this station aside as an outlier: for any number of them, where a report lists only
+  /// kMaxOutliers.
+  bool sets_aside(const Station& station) const noexcept;
+
   /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`; not_finite
   /// (index = sensor: scale factor 0 or no number); out_of_range (index 0: roll axis not of unit length, 1: more than
-  /// kMaxRollGroups roll groups); too_few_stations; diverged (not finite: index = station where one is to blame; or not
-  /// converged); unobservable (value = rank, limit = rank needed); implausible (index = sensor); poor_fit (index =
-  /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
-  /// called again.
+  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite: index =
+  /// station where one is to blame; or not converged); unobservable (value = rank, limit = rank needed); implausible
+  /// (index = sensor; value = limit = 0 where it holds the same numbers as another); poor_fit (index = sensor where one
+  /// is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be called again.
   Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) noexcept;
 
  private:
@@ -188,6 +225,22 @@ class Calibrator {
   Phase phase_ = Phase::start;
   FitStart started_ = FitStart::datasheet;
   StopReason stop_ = StopReason::none;
+
+  friend struct FieldsOf;
+  /// Between two iterations. What the fit is made from is given anew; the last step and the sums are made anew.
+  static constexpr int parameter_count(int sensors) noexcept { return 4 * sensors; }
+  static constexpr auto fields() noexcept {
+    using C = Calibrator;
+    return field_list(not_stored(&C::datasheet_), &C::gravity_, not_stored(&C::options_),
+                      leading(any(&C::theta_), &parameter_count), not_stored(&C::step_),
+                      leading(any(&C::best_), &parameter_count), leading(any(&C::screen_), &parameter_count),
+                      not_stored(&C::normal_), not_stored(&C::scratch_), any(&C::cost_), any(&C::damping_),
+                      any(&C::misfit_mps2_), any(&C::screen_misfit_mps2_), within(&C::misfit_rounds_, 0, 100),
+                      within(&C::robust_steps_, 0, 1000), within(&C::freedom_, -kFitParameters, 1000000), &C::looked_,
+                      within(&C::iterations_, 0, 100000), within(&C::rises_, 0, 1000),
+                      within(&C::bad_station_, -1, 1000000), &C::fresh_, up_to(&C::phase_, Phase::screened),
+                      up_to(&C::started_, FitStart::closed_form), up_to(&C::stop_, StopReason::not_finite));
+  }
 };
 
 /// Runs a Calibrator to its end.

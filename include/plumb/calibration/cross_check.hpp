@@ -2,7 +2,7 @@
 /// bounded number of fits.
 #pragma once
 
-#include "plumb/calibration/calibration.hpp"
+#include "plumb/calibration/temperature_fit.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -44,6 +44,13 @@ struct HoldOut {
 HoldOut hold_out(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations, int count,
                  const HoldOutPlan& plan, const FitOptions& options, Station* scratch,
                  StationPrediction* each = nullptr) noexcept;
+
+/// The same by fits over temperature; give the order that the fit to all stations has, for the automatic one may differ
+/// from fold to fold. `more_scratch` holds `count` stations too.
+HoldOut hold_out_over_temperature(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
+                                  int count, const HoldOutPlan& plan, const TemperatureOptions& options,
+                                  Station* scratch, Station* more_scratch, TemperatureWork& work,
+                                  StationPrediction* each = nullptr) noexcept;
 
 /// The sensor without which the rest agrees.
 struct OddSensor {

@@ -17,6 +17,9 @@ struct Prior {
   double bias_mps2 = 0.02 * 9.80665;
   double scale = 0.02;      ///< relative
   double axis_rad = 0.035;  ///< about each of the two directions across the axis (2 deg)
+  /// Of the coefficients of (T_S - T_C)^k, k = 1..3 [m/s^2 per degC^k]: `temperature_fit.hpp` alone estimates them.
+  std::array<double, 3> bias_t_mps2{1e-4 * 9.80665, 1e-6 * 9.80665, 2e-8 * 9.80665};
+  std::array<double, 3> scale_t{2e-4, 2e-6, 3e-8};  ///< the same, relative to the scale [per degC^k]
 };
 
 struct DatasheetSensor {

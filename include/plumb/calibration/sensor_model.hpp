@@ -15,6 +15,11 @@ struct SensorCoefficients {
   std::array<double, 4> scale{1.0, 0.0, 0.0, 0.0};  ///< SF, SFT1..3: raw unit per m/s^2 [per degC^k]; SF != 0
   std::array<double, 4> bias{};                     ///< B, BT1..3 [m/s^2 per degC^k]
   double reference_degc = 25.0;                     ///< T_C, the calibration temperature
+
+  static constexpr auto fields() noexcept {
+    return field_list(&SensorCoefficients::scale, &SensorCoefficients::bias,
+                      not_stored(&SensorCoefficients::reference_degc));
+  }
 };
 
 /// Which way the sensors count. Inside plumb the vector is gravity, positive down.
@@ -40,6 +45,12 @@ struct SensorModel {
   /// The inverse of `apply`: raw values that a sensor with these coefficients shows for the given
   /// accelerations along its axes (gravity sense). Error: not_invertible if I - M is singular.
   Expected<std::array<double, kCapacity>> raw_from(const Readings& accel_mps2, double temperature_degc) const noexcept;
+
+  /// Scale factors and biases alone change in flight.
+  static constexpr auto fields() noexcept {
+    return field_list(not_stored(&SensorModel::size), not_stored(&SensorModel::reads), per_sensor(&SensorModel::sensor),
+                      not_stored(&SensorModel::misalignment));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -34,7 +35,18 @@ enum class Errc : std::uint8_t {
   wrong_state,          ///< the state machine does not take this request now: value = state (HealthState)
   not_confirmed,        ///< a station held out of the fit contradicts it: index = station, value = statistic
   not_unique,           ///< many parameter sets say the same: value = sensors, limit = most that give one set
+  too_few_levels,       ///< temperature levels below those that the order needs: value = given, limit = needed
+  implausible_gravity,  ///< not gravity near the Earth's surface: index 0 = length, 1 = sigma; value, limit [m/s^2]
+  buffer_too_small,     ///< value = bytes given, limit = bytes needed
+  snapshot_truncated,   ///< value = bytes given, limit = bytes that the snapshot claims to have
+  snapshot_damaged,     ///< no snapshot at all, or its check sum does not fit
+  snapshot_older,       ///< value = its format, limit = the format that is read
+  snapshot_newer,       ///< value = its format, limit = the format that is read
+  snapshot_capacity,    ///< value = its capacity, limit = that of this build
+  snapshot_foreign,     ///< of another configuration, array or calibration
+  snapshot_implausible  ///< intact, yet nothing that a monitor can have remembered
 };
+inline constexpr Errc kLastErrc = Errc::snapshot_implausible;
 
 struct Error {
   Errc code = Errc::ok;
@@ -44,6 +56,10 @@ struct Error {
 
   friend constexpr bool operator==(const Error& a, const Error& b) noexcept {
     return a.code == b.code && a.index == b.index;
+  }
+  static constexpr auto fields() noexcept {
+    return field_list(up_to(&Error::code, kLastErrc), within(&Error::index, -1, 1000), any(&Error::value),
+                      any(&Error::limit));
   }
 };
 

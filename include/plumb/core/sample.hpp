@@ -19,6 +19,7 @@ struct Sample {
   double temperature_degc = 0.0;        ///< sensor temperature T_S
   std::uint32_t station = 0;            ///< station tag, 0 = none: plumb finds stations by itself
   std::uint32_t count = 1;              ///< raw samples behind this one (a station mean has many)
+  std::uint32_t roll_group = 0;         ///< tag of `Station::roll_group`, 0 = none
 };
 
 /// Mean of the raw channels over one station: a row of the calibration problem.

@@ -5,10 +5,17 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sample.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+/// Counters stop at the top instead of wrapping: a wrapped counter would deny a broken channel.
+template <class T>
+constexpr void count_up(T& counter) noexcept {
+  if (counter != static_cast<T>(~T{0})) ++counter;
+}
 
 /// Facts about the channels of one sample.
 struct GateResult {
@@ -35,18 +42,49 @@ class ChannelMonitor {
   /// Forgets that the channels had been lost (the monitor has taken note).
   void welcome(SensorSet channels) noexcept;
 
+  /// Channels that were at full scale in more than `share` of the samples since `begin_block`.
+  SensorSet clipped_beyond(double share) const noexcept;
+  /// Channels that have read one and the same number, bit for bit, in at least `samples` samples in a row.
+  SensorSet repeating(int samples) const noexcept;
+  /// Channels that have not changed their reading since `begin_block`.
+  SensorSet unchanged() const noexcept { return SensorSet::first(size_) - changed_; }
+  void begin_block() noexcept;
+
   struct Counters {
-    std::uint32_t not_finite = 0, missing = 0, clipped = 0;
+    std::uint32_t not_finite = 0, missing = 0, clipped = 0;                ///< samples
+    std::uint32_t noisy_blocks = 0, stuck_blocks = 0, clipped_blocks = 0;  ///< blocks in which the fact stood
+    static constexpr auto fields() noexcept {
+      using C = Counters;
+      return field_list(&C::not_finite, &C::missing, &C::clipped, &C::noisy_blocks, &C::stuck_blocks,
+                        &C::clipped_blocks);
+    }
   };
+  /// Counts one block for each fact.
+  void count_facts(SensorSet noisy, SensorSet stuck, SensorSet clipped) noexcept;
   const Counters& counters(int i) const noexcept { return counters_[static_cast<std::size_t>(i)]; }
 
  private:
   std::array<double, kCapacity> full_scale_raw_{};
   std::array<Counters, kCapacity> counters_{};
   std::array<std::uint16_t, kCapacity> bad_run_{}, good_run_{};
+  std::array<double, kCapacity> last_raw_{};
+  std::array<std::uint16_t, kCapacity> repeats_{}, clipped_in_block_{};
+  SensorSet changed_;
+  int block_samples_ = 0;  ///< counted up to kMostBlockSamples
+  static constexpr int kMostBlockSamples = 1000000;
   SensorSet lost_, back_;
   int size_ = 0;
   int confirm_ = 3;
+
+  friend struct FieldsOf;
+  bool plausible() const noexcept { return lost_.contains(back_); }
+  static constexpr auto fields() noexcept {
+    using C = ChannelMonitor;
+    return field_list(not_stored(&C::full_scale_raw_), per_sensor(&C::counters_), per_sensor(&C::bad_run_),
+                      per_sensor(&C::good_run_), per_sensor(any(&C::last_raw_)), per_sensor(&C::repeats_),
+                      per_sensor(&C::clipped_in_block_), &C::changed_, within(&C::block_samples_, 0, kMostBlockSamples),
+                      &C::lost_, &C::back_, not_stored(&C::size_), not_stored(&C::confirm_));
+  }
 };
 
 }  // namespace PLUMB_ABI

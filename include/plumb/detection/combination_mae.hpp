@@ -60,6 +60,9 @@ class CombinationMae {
   static double mean(std::int64_t sum, int count) noexcept {
     return count > 0 ? static_cast<double>(sum) / count * kMaeUnit_mps2 : 0.0;
   }
+  std::size_t row(int slot) const noexcept {
+    return static_cast<std::size_t>(slot) * static_cast<std::size_t>(triples_);
+  }
   static void replace(std::int32_t& slot, std::int32_t value, std::int64_t& sum, std::uint16_t& count) noexcept;
 
   // Slot-major, so that one sample touches one contiguous row; -1 = absent.
@@ -72,6 +75,18 @@ class CombinationMae {
   int triples_ = 0;
   int window_ = 1;
   int head_ = 0;
+
+  friend struct FieldsOf;
+  int used_slots() const noexcept { return triples_ * window_; }
+  void rebuild() noexcept;  ///< the sums, from the ring
+  bool plausible() const noexcept { return head_ < window_; }
+  static constexpr auto fields() noexcept {
+    using C = CombinationMae;
+    return field_list(counted(within(&C::ring_, -1, kMaeClamp), &C::used_slots), not_stored(&C::sum_),
+                      not_stored(&C::count_), counted(within(&C::all_ring_, -1, kMaeClamp), &C::window),
+                      not_stored(&C::all_sum_), not_stored(&C::all_count_), not_stored(&C::triples_),
+                      not_stored(&C::window_), within(&C::head_, 0, kWindowCapacity - 1));
+  }
 };
 
 }  // namespace PLUMB_ABI

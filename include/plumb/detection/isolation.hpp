@@ -40,6 +40,12 @@ struct IsolationAnswer {
   bool contradiction = false;  ///< some sensor is redundant and no voting set is alive
   bool norm_void = false;      ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
   bool full_alive = false;     ///< the empty fault set still explains everything
+
+  static constexpr auto fields() noexcept {
+    using A = IsolationAnswer;
+    return field_list(&A::strict, &A::parity, &A::asserted, within(&A::live, 0, kVotingCapacity),
+                      within(&A::voting, 0, kVotingCapacity), &A::contradiction, &A::norm_void, &A::full_alive);
+  }
 };
 
 /// Outcome of scanning the fault sets of at most kScanDepth members.
@@ -50,6 +56,20 @@ struct FaultSetScan {
   int least = 255;              ///< size of the smallest live fault set
   double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members
   bool protection_available = false;
+
+  bool plausible() const noexcept { return protection_rad >= 0.0; }
+  static constexpr auto fields() noexcept {
+    using S = FaultSetScan;
+    return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255), &S::protection_rad,
+                      &S::protection_available);
+  }
+};
+
+/// What the protection level covers beside the separation of the live explanations.
+struct ProtectionTerms {
+  int faults = 1;                  ///< fault sets of at most so many members
+  double k_integrity = 0.0;        ///< sigmas of noise and calibration
+  double common_drift_mps2 = 0.0;  ///< bias that all sensors may share
 };
 
 class Isolation {
@@ -57,6 +77,8 @@ class Isolation {
   /// Poses the problem on the sensors `posed` (those not latched out). Dead sets stay dead as long as
   /// the voting size is unchanged and they consist of posed sensors (projection); otherwise all live.
   void pose(const SensorArray& array, SensorSet posed) noexcept;
+  /// After the dead sets have been read back: poses the problem to which they belong.
+  void resume(const SensorArray& array, SensorSet posed) noexcept;
   /// Forgets all evidence: a new episode.
   void clear() noexcept;
 
@@ -72,10 +94,11 @@ class Isolation {
 
   /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
   /// protection level is the largest separation from the estimate of `in_service` (solution
-  /// separation) plus `k_integrity` sigmas of noise and calibration.
+  /// separation) plus `k_integrity` sigmas of noise and calibration, plus what a bias that all sensors share does to
+  /// the direction, |(I - uu') H^+ 1| b / G.
   FaultSetScan scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                     const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
-                    int protection_faults, double k_integrity) const noexcept;
+                    const ProtectionTerms& protect) const noexcept;
 
   int live() const noexcept;
   int voting() const noexcept { return voting_; }
@@ -102,6 +125,14 @@ class Isolation {
   int coplanarity_ = 2;
   int strict_ = 0;
   int parity_ = 0;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using I = Isolation;
+    return field_list(&I::dead_, &I::claims_, not_stored(&I::posed_), not_stored(&I::universe_),
+                      not_stored(&I::voting_size_), not_stored(&I::voting_), not_stored(&I::coplanarity_),
+                      not_stored(&I::strict_), not_stored(&I::parity_));
+  }
 };
 
 }  // namespace PLUMB_ABI

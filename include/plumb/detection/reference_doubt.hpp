@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 
 namespace plumb {
@@ -54,6 +55,13 @@ class ReferenceClaims {
   /// Between what a wrong gravity would have to lie, over the stations heard.
   std::array<float, static_cast<std::size_t>(kMax)> low_{}, high_{};
   std::array<bool, static_cast<std::size_t>(kMax)> heard_{};
+
+  friend struct FieldsOf;
+  static constexpr int slots(int sensors) noexcept { return sensors <= kAllSets ? 1 << sensors : kMax; }
+  static constexpr auto fields() noexcept {
+    using C = ReferenceClaims;
+    return field_list(leading(any(&C::low_), &slots), leading(any(&C::high_), &slots), leading(&C::heard_, &slots));
+  }
 };
 
 }  // namespace PLUMB_ABI

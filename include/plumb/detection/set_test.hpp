@@ -18,6 +18,12 @@ struct BlockEvidence {
   SensorSet usable;             ///< channels that delivered in at least half of the samples
   double samples = 0.0;         ///< N behind the mean
   double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
+
+  bool plausible() const noexcept { return samples >= 0.0 && spread_mps2_sq >= 0.0; }
+  static constexpr auto fields() noexcept {
+    using E = BlockEvidence;
+    return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq);
+  }
 };
 
 /// Quantiles in standard deviations, precomputed from the rates of the configuration.
@@ -63,6 +69,13 @@ struct SetTest {
 
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;
+
+/// True where `set`, which passes parity, may speak about gravity: every member is checked by the parity of the others
+/// (leverage of at least 0.05), or the length is off without it as well, by more than the rejection limit. Otherwise a
+/// member that nobody checks may be at fault: mikoff5's z axes, four of them with three coplanar, pass parity whatever
+/// the fourth reads. `test` is that of the set at `block`.
+bool vouches_for_norm(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+                      const BlockEvidence& block, SensorSet set, const SetTest& test) noexcept;
 
 /// Covariance of x over the set that calibration leaves at this attitude [(m/s^2)^2]; zero where the
 /// set was not tested.

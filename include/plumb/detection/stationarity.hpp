@@ -36,14 +36,45 @@ class BlockAccumulator {
   SensorSet usable_;                      ///< seen at all
   double inverse_count_ = 0.0;            ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples
   int size_ = 0;
+
+  friend struct FieldsOf;
+  static constexpr int pairs(int sensors) noexcept { return sensors * (sensors + 1) / 2; }
+  bool plausible() const noexcept;
+  static constexpr auto fields() noexcept {
+    using B = BlockAccumulator;
+    return field_list(per_sensor(&B::origin_), per_sensor(&B::sum_), leading(&B::product_, &pairs),
+                      per_sensor(within(&B::present_, 0, kWindowCapacity)), &B::usable_, &B::inverse_count_,
+                      within(&B::size_, 0, kWindowCapacity));
+  }
 };
 
 /// How a block looked.
 struct BlockJudgement {
   bool quiet = false;
-  SensorSet restless;  ///< channels whose scatter is above their own noise limit
-  SensorSet noisy;     ///< restless ones that the quiet others contradict: a channel, not the tool, moves
+  SensorSet restless;           ///< channels whose scatter is above their own noise limit
+  SensorSet noisy;              ///< restless ones that the quiet others contradict: a channel, not the tool, moves
+  SensorSet noisy_for_certain;  ///< noisy whichever others may be faulty, up to the parity grade and three
   BlockEvidence evidence;
+};
+
+/// What the residuals of restless channels have shown over the last blocks. The noise of a channel at twice its sigma
+/// hides in the residual of one block, which carries the noise of the others too; over a few it does not.
+struct ScatterRecord {
+  std::array<double, kCapacity> residual{};  ///< sum over blocks of variance / expected variance * degrees of freedom
+  std::array<double, kCapacity> freedom{};   ///< degrees of freedom in it; halved beyond kMostFreedom
+  std::array<double, kCapacity> own_excess{}, residual_excess{};  ///< sums of variance beyond noise [(m/s^2)^2]
+  static constexpr double kMostFreedom = 512.0;
+
+  void clear() noexcept { *this = ScatterRecord{}; }
+  void forget(int i, double keep) noexcept;
+  void add(int i, double ratio, double degrees, double own, double left) noexcept;
+
+  bool plausible() const noexcept;
+  static constexpr auto fields() noexcept {
+    using S = ScatterRecord;
+    return field_list(per_sensor(any(&S::residual)), per_sensor(&S::freedom), per_sensor(any(&S::own_excess)),
+                      per_sensor(any(&S::residual_excess)));
+  }
 };
 
 /// Scatter limit of a channel over its own variance: shared by n channels, the chance that any healthy
@@ -54,11 +85,13 @@ double restless_factor(int n, int size, double rate) noexcept;
 /// are not restless have rank 3 and the residual of every restless one against their estimate is itself
 /// restless: then it is the channel that shakes, not the tool (safety note 12). A block of one sample
 /// (a station mean) has no scatter and is quiet. Only channels in `considered` are judged, so that an
-/// excluded one cannot stop the evidence. `factor` comes from `restless_factor`.
+/// excluded one cannot stop the evidence. `factor` comes from `restless_factor`. With a `record` of the blocks before,
+/// a channel is noisy as well where its residual is restless over all of them, and at least half of its scatter is
+/// found in the residual: of a movement of the tool the others would have predicted it.
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
-                           double g_mps2) noexcept;
+                           double g_mps2, ScatterRecord* record = nullptr) noexcept;
 
-/// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag or by a
+/// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag, by roll group or by a
 /// change of direction. Serves calibration from continuous logs. The first and the last quiet block of
 /// a stretch are left out: they hold the settling and the onset of motion that noise still covers.
 class StationFinder {
@@ -87,7 +120,7 @@ class StationFinder {
     std::array<double, kCapacity> variance{};  ///< sum of squares while collecting
     SensorSet usable;
     double temperature_degc = 0.0, begin_s = 0.0, end_s = 0.0;
-    std::uint32_t tag = 0, count = 0;
+    std::uint32_t tag = 0, roll_group = 0, count = 0;
     Vec3 direction{};
     bool present = false;
   };

@@ -6,6 +6,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/error.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
@@ -22,6 +23,13 @@ struct GravityReference {
   double g_mps2 = kG0_mps2;
   double sigma_mps2 = kDefaultGravitySigma_mps2;
   GravityModel model = GravityModel::value;
+
+  /// Numbers that a monitor can work with.
+  bool plausible() const noexcept;
+  static constexpr auto fields() noexcept {
+    return field_list(&GravityReference::g_mps2, &GravityReference::sigma_mps2,
+                      up_to(&GravityReference::model, GravityModel::table));
+  }
 };
 
 /// A layer of rock or water above the tool, from the surface down.

@@ -5,8 +5,10 @@
 #include <array>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/health/monitor_config.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -29,13 +31,20 @@ class DirectionRecord {
   }
 
  private:
-  std::array<Vec3, kMax> direction_{};
   int size_ = 0;
+  std::array<Vec3, kMax> direction_{};
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    return field_list(within(&DirectionRecord::size_, 0, kMax),
+                      counted(&DirectionRecord::direction_, &DirectionRecord::size));
+  }
 };
 
 struct Episode {
   bool open = false;         ///< an alarm is on record
-  DirectionRecord stations;  ///< excited stations since the first alarm (patience)
+  DirectionRecord stations;  ///< excited stations in doubt (patience); kept without an alarm too
+  int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where patience counts them
   SensorSet candidate;       ///< the unique strict answer so far
   DirectionRecord agreeing;  ///< excited stations at which it was the answer (E)
   DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
@@ -43,9 +52,15 @@ struct Episode {
   void clear() noexcept {
     open = false;
     stations.clear();
+    doubtful_blocks = 0;
     candidate = SensorSet{};
     agreeing.clear();
     clean.clear();
+  }
+  static constexpr auto fields() noexcept {
+    using E = Episode;
+    return field_list(&E::open, &E::stations, within(&E::doubtful_blocks, 0, kMostPatienceBlocks), &E::candidate,
+                      &E::agreeing, &E::clean);
   }
 };
 
@@ -56,9 +71,14 @@ struct StationTrack {
   std::uint32_t tag = 0;
   Vec3 direction{};  ///< of its first block
   Vec3 last{};       ///< of its last block
-  int blocks = 0;
+  int blocks = 0;    ///< counted up to kMostBlocks
 
+  static constexpr int kMostBlocks = 1000;
   void clear() noexcept { *this = StationTrack{}; }
+  static constexpr auto fields() noexcept {
+    using S = StationTrack;
+    return field_list(&S::open, &S::tag, &S::direction, &S::last, within(&S::blocks, 0, kMostBlocks));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -1,9 +1,11 @@
 /// `HealthMonitor`: one `step(sample)` at a time it says which sensors may be believed, which way is
 /// down and within what bound. No heap, no exceptions, no clock, no global state; bounded work in every
-/// step; plain copyable state, so a snapshot is an assignment and a replay is a loop.
+/// step; plain copyable state, so a copy is an assignment and a replay is a loop. What outlives a power cycle is
+/// written by `snapshot` and taken up by `restore` (health/snapshot.hpp).
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "plumb/calibration/calibration.hpp"
@@ -16,6 +18,10 @@
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/recalibration.hpp"
+#include "plumb/health/reference_study.hpp"
+#include "plumb/health/rotation.hpp"
+#include "plumb/health/snapshot.hpp"
+#include "plumb/health/trend.hpp"
 #include "plumb/health/verdict.hpp"
 
 namespace plumb {
@@ -29,10 +35,32 @@ struct MonitorSetup {
   MonitorConfig config;
   std::array<double, kCapacity> full_scale_raw{};  ///< 0 = unknown
   Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
+  std::array<Vec3, kCapacity> lever_arm_m{};       ///< of each sensor from the axis of rotation, tool frame
+  bool lever_arms_known = false;                   ///< else evidence is locked out while the tool turns
 };
 
+/// What was not used, and why.
+struct MonitorCounters {
+  std::uint32_t samples = 0;          ///< offered
+  std::uint32_t time_refused = 0;     ///< time not finite or not increasing
+  std::uint32_t gaps = 0;             ///< longer than the longest gap, or no channel at all
+  std::uint32_t temperature_out = 0;  ///< outside the calibrated span and its margin, or not finite
+  std::uint32_t moving_blocks = 0;
+  std::uint32_t rotating_blocks = 0;
+
+  static constexpr auto fields() noexcept {
+    using C = MonitorCounters;
+    return field_list(&C::samples, &C::time_refused, &C::gaps, &C::temperature_out, &C::moving_blocks,
+                      &C::rotating_blocks);
+  }
+};
+
+/// A length of gravity in feet, in g0 or from elsewhere would make every healthy sensor look off. Error:
+/// implausible_gravity outside what `given_gravity` takes.
+Expected<void> plausible(const GravityReference& gravity) noexcept;
+
 /// Checks a setup but for its configuration. Errors: too_few_sensors; not_calibrated; range_too_small; out_of_range
-/// (index = sensor whose sigma is too large beside the least, 0: gravity).
+/// (index = sensor whose sigma is too large beside the least); implausible_gravity.
 Expected<void> checked(const MonitorSetup& setup) noexcept;
 
 class HealthMonitor {
@@ -45,6 +73,20 @@ class HealthMonitor {
   /// range_too_small (index = sensor) where a full scale does not reach gravity plus
   /// kFullScaleMargin beside the bias (value = reach, limit = needed [m/s^2]).
   Expected<void> configure(const MonitorSetup& setup) noexcept;
+
+  /// `configure`, then takes up what `snapshot` wrote under an equal setup, but for gravity: that in force is the
+  /// snapshot's until `set_gravity`. The next step answers as the monitor that wrote it would have, bit for bit. Bytes
+  /// behind the snapshot are not read. Errors: those of `configure`, with the monitor left unconfigured; snapshot_...,
+  /// with the monitor as after `configure`, unproven, and the cause in its verdict (`snapshot_refusal`).
+  Expected<void> restore(const MonitorSetup& setup, const std::uint8_t* bytes, std::size_t size) noexcept;
+
+  /// Writes all that the monitor remembers; returns the bytes written. Not during a step. Errors: not_calibrated (not
+  /// configured: there is nothing to write); buffer_too_small.
+  Expected<std::size_t> snapshot(std::uint8_t* to, std::size_t room) const noexcept;
+  /// Bytes that `snapshot` would write now. It varies with what there is to remember.
+  std::size_t snapshot_size() const noexcept;
+  /// Never more than so many bytes.
+  static constexpr std::size_t snapshot_size_max() noexcept;
 
   /// One sample in, one verdict out. Accepts any bit pattern. The reference stays valid until the next call.
   const Verdict& step(const Sample& sample) noexcept;
@@ -59,9 +101,19 @@ class HealthMonitor {
   /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare.
   Expected<void> request_recalibration() noexcept;
 
-  /// Another length of gravity (depth has changed). Error: out_of_range.
+  /// Another length of gravity (depth has changed). Error: implausible_gravity; then nothing changes.
   Expected<void> set_gravity(const GravityReference& gravity) noexcept;
 
+  /// How the tool turns. Error: not_finite (rate). With known lever arms and a known constant rate what the sensors
+  /// feel of it is taken off; else evidence rests while the tool turns by more than kStillRate_radps.
+  static constexpr double kStillRate_radps = 0.02;  ///< 0.04 mm/s^2 at 0.1 m
+  Expected<void> set_rotation(const Rotation& rotation) noexcept;
+
+  /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
+  /// released. Never held back: a lost channel, rank < 3, failed. Either is recorded as a notice.
+  void inhibit(bool frozen) noexcept;
+
+  const MonitorCounters& counters() const noexcept { return counters_; }
   const SensorArray& array() const noexcept { return array_; }
   const SensorModel& model() const noexcept { return model_; }
   const Recalibration& recalibration() const noexcept { return recalibration_; }
@@ -72,27 +124,59 @@ class HealthMonitor {
 
  private:
   struct BlockView;  // what one quiet block said
+  /// What a block said is a level: a channel event that ranks before it must not make it unsaid.
+  static constexpr EventMask kKeptEvents =
+      bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
 
   // health_monitor.cpp: the flow of one step
   void power_on(const MonitorSetup& setup) noexcept;
   void empty_windows() noexcept;
-  void publish(const Sample& sample, bool tick) noexcept;
+  void refuse(const Sample& sample) noexcept;
+  void collect_sample(const Sample& sample, GateResult& gate) noexcept;
+  EventMask allowed(EventMask raised) const noexcept;
+  void take_rotation_off(Readings& y, SensorSet usable) const noexcept;
+
+  // publish.cpp: the verdict
+  void give_notice(double time_s) noexcept;
+  std::uint16_t usable_bits() const noexcept;
   Validity validity() const noexcept;
+  void publish_decision(const BlockView& view) noexcept;
   void publish_vector() noexcept;
+  void publish(const Sample& sample, bool tick) noexcept;
 
   // evidence.cpp: one block
   EventMask tick(const Sample& sample) noexcept;
   double clear_fraction() const noexcept;
   BlockView judge(const BlockEvidence& evidence) const noexcept;
   void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
-  void follow_station(const Sample& sample, const Vec3& direction) noexcept;
-  void vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
-  void count_clean(const BlockView& view) noexcept;
+  void note_block() noexcept;
+  void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
+  void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
+
+  // facts.cpp: what single channels did
+  double predicted(int sensor, const BlockEvidence& evidence) const noexcept;
+  bool note_facts(const BlockJudgement& judged, bool moving) noexcept;
+  void note_stuck(const BlockEvidence& evidence) noexcept;
+  void name_causes(SensorSet named, Cause cause) noexcept;
+  SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
+
+  // rotation_request.cpp, reference: what the host could do about it
+  void study_reference(const BlockView& view) noexcept;
+  double proving_change_mps2(int sensor) const noexcept;
+  RotationRequest rotation_request() const noexcept;
+  RotationRequest proving_turn() const noexcept;
+  RotationRequest resolving_turn() const noexcept;
+
+  // record.cpp: what is kept from block to block
+  void follow_station(const Sample& sample, const Vec3& direction) noexcept;
+  Vec3 vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
+  void count_doubt(const BlockView& view, const Vec3& direction) noexcept;
+  bool patience_is_over() const noexcept;
+  void count_clean(const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockEvidence& evidence, const BlockView& view) noexcept;
   void rescan() noexcept;
-  void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
 
   // recalibrating.cpp: the shadow fit
   bool may_recalibrate() const noexcept;
@@ -110,6 +194,14 @@ class HealthMonitor {
   void sets_changed() noexcept;
   SizeClass classify(SensorSet set) const noexcept;
 
+  // snapshot.cpp: what outlives a power cycle
+  std::uint64_t identity(const MonitorSetup& setup) const noexcept;
+  Expected<void> take_up(const MonitorSetup& setup, const std::uint8_t* bytes, std::size_t size) noexcept;
+  bool resume(const MonitorSetup& setup) noexcept;
+  bool sets_are_plausible() const noexcept;
+  bool mode_is_plausible() const noexcept;
+  bool verdict_is_plausible() const noexcept;
+
   // What was configured.
   MonitorConfig config_;
   SensorModel model_;
@@ -123,6 +215,7 @@ class HealthMonitor {
   int protection_faults_ = 1;
   int asserted_left_ = -1;
   bool configured_ = false;
+  std::uint64_t identity_ = 0;  ///< of the setup, gravity left out
 
   // What is remembered.
   Mode mode_ = Mode::suspect;
@@ -131,7 +224,7 @@ class HealthMonitor {
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_, banned_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
-  bool partial_ = false;  ///< a sensor in service was silent in the last block: nobody vouches for it
+  bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   SampleClock clock_;
@@ -156,7 +249,25 @@ class HealthMonitor {
   bool three_sensor_fit_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
 
+  // Facts about single channels.
+  std::array<Cause, kCapacity> sensor_cause_{};
+  std::array<std::uint8_t, kCapacity> noisy_run_{};  ///< quiet blocks in a row for certain
+  std::array<double, kCapacity> stuck_since_{};      ///< what the others predicted when the reading stopped changing
+  SensorSet noisy_, stuck_, full_scale_;             ///< the others insist on it
+  SensorSet noise_confirmed_, calm_, stuck_watch_, aside_;
+  MonitorCounters counters_;
+
+  // What the host said.
+  std::array<Vec3, kCapacity> lever_arm_m_{};
+  Rotation rotation_;
+  bool lever_arms_known_ = false, rotation_locked_ = false;
+  bool inhibited_ = false, inhibit_notice_ = false;
+  ReferenceKind told_reference_ = ReferenceKind::none, reference_notice_ = ReferenceKind::none;
+
   // Evidence.
+  ScatterRecord scatter_;
+  ReferenceStudy reference_study_;
+  Trend trend_;
   ChannelMonitor gate_;
   BlockAccumulator block_;
   RawBlock raw_;  ///< the same samples before the sensor model
@@ -171,7 +282,42 @@ class HealthMonitor {
   SensorSet clipped_, not_finite_;
   Recalibration recalibration_;
   Verdict verdict_;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using M = HealthMonitor;
+    return field_list(
+        // configured
+        not_stored(&M::config_), &M::model_, &M::array_, &M::gravity_, not_stored(&M::frame_), not_stored(&M::limits_),
+        not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
+        not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::configured_),
+        not_stored(&M::identity_),
+        // remembered
+        up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
+        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::banned_, &M::unproven_,
+        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::evidence_time_s_,
+        &M::last_temperature_degc_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_,
+        within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks),
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_,
+        &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
+        up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
+        &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_,
+        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::noise_confirmed_, &M::calm_,
+        &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        up_to(&M::told_reference_, ReferenceKind::common_bias),
+        up_to(&M::reference_notice_, ReferenceKind::common_bias),
+        // evidence
+        &M::scatter_, &M::reference_study_, &M::trend_, &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_,
+        &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_, &M::scan_, &M::clipped_,
+        &M::not_finite_, &M::recalibration_, &M::verdict_);
+  }
 };
+
+constexpr std::size_t HealthMonitor::snapshot_size_max() noexcept {
+  return kSnapshotFrameSize + stored_size_max<HealthMonitor>();
+}
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -7,6 +7,7 @@
 
 #include "plumb/calibration/sensor_model.hpp"
 #include "plumb/detection/channel_monitor.hpp"
+#include "plumb/health/monitor_config.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -23,6 +24,9 @@ enum class Arrival : std::uint8_t {
   new_time_base  ///< samples that increase among themselves have been refused for so long that they are the truth now
 };
 
+/// So many refused samples that increase among themselves are a new time base, not a glitch.
+inline constexpr int kNewTimeBase = 16;
+
 /// Strictly increasing time, from the samples alone.
 class SampleClock {
  public:
@@ -36,6 +40,12 @@ class SampleClock {
   double last_refused_s_ = 0.0;
   int refused_run_ = 0;
   bool started_ = false;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using C = SampleClock;
+    return field_list(&C::last_s_, &C::last_refused_s_, within(&C::refused_run_, 0, kNewTimeBase - 1), &C::started_);
+  }
 };
 
 /// Readings of the usable channels [m/s^2], clamped; a channel whose reading is not finite is taken out of
@@ -53,6 +63,11 @@ class SilenceCounter {
 
  private:
   std::array<int, kCapacity> run_{};
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    return field_list(per_sensor(within(&SilenceCounter::run_, 0, kMostConfirm)));
+  }
 };
 
 }  // namespace PLUMB_ABI

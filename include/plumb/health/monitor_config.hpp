@@ -5,7 +5,9 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/error.hpp"
+#include "plumb/core/fields.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/detection/alarm_form.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,15 +15,20 @@ inline namespace PLUMB_ABI {
 /// Whose decisions: `HealthMonitor` takes plumb, `PaperMonitor` takes paper.
 enum class MonitorMode : std::uint8_t { plumb, paper };
 
+/// Largest values of settings that bound a counter.
+inline constexpr int kMostConfirm = 60000;
+inline constexpr int kMostCleanBlocks = 1000;
+inline constexpr int kMostPatienceBlocks = 1000000;
+
 struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
   int window = 32;                 ///< samples per block and length of the sliding MAE window, 1 .. kWindowCapacity
   double delta_f_mps2 = 0.0;       ///< given MAE limit (the paper's); 0 = computed from noise and geometry
-  double false_alarm_rate = 1e-5;  ///< per block, each test, 1e-9 .. 1e-2
+  double false_alarm_rate = 1e-5;  ///< per block: of parity, of the norm, of all triples' MAE together; 1e-9 .. 1e-2
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
   int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
-  int patience = 6;                ///< P: excited stations on record before suspect must justify itself
+  int patience = 6;                ///< P: excited stations in doubt before suspect must justify itself
   int clean_blocks = 3;            ///< R: clean blocks in a row that end suspicion
   int forget_blocks = 3;           ///< M: clean excited blocks that end an episode
   int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
@@ -43,6 +50,27 @@ struct MonitorConfig {
   /// with margin. MEMS need more.
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
+  int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
+  /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
+  /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
+  double common_drift_mps2 = 1e-4 * kG0_mps2;
+  AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
+  double triple_false_alarm_rate = 0.0;          ///< per block, of each triple's MAE alone; 0 = its share of the above
+
+  /// What a snapshot is bound to: all of it, but never stored.
+  static constexpr auto fields() noexcept {
+    using C = MonitorConfig;
+    return field_list(up_to(&C::mode, MonitorMode::paper), within(&C::window, 1, kWindowCapacity), &C::delta_f_mps2,
+                      &C::false_alarm_rate, &C::rejection_rate, within(&C::asserted_faults, -1, 3),
+                      within(&C::isolation_stations, 1, 20), within(&C::patience, 1, 24),
+                      within(&C::clean_blocks, 1, kMostCleanBlocks), within(&C::forget_blocks, 1, 24),
+                      within(&C::probation_stations, 1, 24), within(&C::missing_confirm, 1, kMostConfirm),
+                      &C::max_gap_s, &C::max_age_s, &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction,
+                      &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
+                      &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
+                      within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2,
+                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate);
+  }
 };
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above.

@@ -65,10 +65,15 @@ class Recalibration {
              bool doubted) noexcept;
 
   SensorSet sensors() const noexcept { return sensors_; }
+  bool adopted() const noexcept { return adopted_; }  ///< a fit, since `configure`
   RecalibrationProgress progress(const SensorArray& array) const noexcept;
   std::uint32_t iterations() const noexcept { return iterations_; }  ///< of all fits since `configure`
   /// Stations to be entered before a fit over n sensors is tried, those held out among them.
   static int stations_needed(int n) noexcept;
+
+  /// After its state has been read back. False where it cannot have come about under `in_force`, which must then not be
+  /// used: coefficients beyond the bounds of a fit, or a fit over nothing.
+  bool resume(const InForce& in_force) noexcept;
 
  private:
   struct ReadingError {
@@ -85,6 +90,7 @@ class Recalibration {
   Outcome judge(const InForce& in_force, double time_s) noexcept;
   Error read_fit(const InForce& in_force) noexcept;
   Error check_bounds(const SensorModel& model, double time_s) const noexcept;
+  bool coefficients_are_plausible(const SensorModel& model) const noexcept;
   Error check_stations(const InForce& in_force) const noexcept;
   void write_coefficients(SensorModel& model) const noexcept;
   void add_whole_change(const SensorArray& array, RowUncertainty& uncertainty) const noexcept;
@@ -104,6 +110,17 @@ class Recalibration {
   std::uint32_t iterations_ = 0;
   Error refusal_;
   Calibrator calibrator_{Datasheet{}, GravityReference{}, FitOptions{}};
+
+  friend struct FieldsOf;
+  bool fitting() const noexcept { return phase_ == RecalibrationPhase::fitting; }
+  static constexpr auto fields() noexcept {
+    using R = Recalibration;
+    return field_list(&R::store_, not_stored(&R::drift_), not_stored(&R::commissioned_scale_),
+                      not_stored(&R::commissioned_bias_mps2_), per_sensor(any(&R::length_)),
+                      per_sensor(any(&R::shift_mps2_)), any(&R::inflation_), &R::adopted_s_, &R::adopted_, &R::untried_,
+                      up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_, &R::iterations_,
+                      &R::refusal_, only_when(&R::calibrator_, &R::fitting));
+  }
 };
 
 }  // namespace PLUMB_ABI

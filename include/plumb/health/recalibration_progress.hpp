@@ -21,6 +21,13 @@ struct RecalibrationProgress {
   SensorSet lacking;        ///< sensors along whose axis gravity has not changed enough to tell bias from scale
   Vec3 wanted_direction{};  ///< unit vector of gravity that would help most; zero where nothing is asked for
   Error last_refusal;       ///< why the last fit was not accepted; `ok` where none was refused
+
+  static constexpr auto fields() noexcept {
+    using P = RecalibrationProgress;
+    return field_list(up_to(&P::phase, RecalibrationPhase::accepted), within(&P::stations, 0, 1000),
+                      within(&P::held_out, 0, 1000), within(&P::stations_wanted, 0, 1000), &P::lacking,
+                      &P::wanted_direction, &P::last_refusal);
+  }
 };
 
 }  // namespace PLUMB_ABI

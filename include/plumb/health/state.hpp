@@ -54,7 +54,17 @@ enum class Cause : std::uint8_t {
   time_fault,    ///< time not increasing; the sample was refused
   gap,
   clean,
+  noisy,             ///< a channel scatters by itself: the others are quiet
+  stuck,             ///< a channel repeats one value while the others predict a change
+  clipped,           ///< a channel is at full scale while the others predict it inside its range
+  rotating,          ///< the tool turns and what that does to the readings is not known
+  inhibited,         ///< the host froze exclusion and recalibration
+  released,          ///< ... and let them go
+  common_scale,      ///< reference told: common scale or gravity, direction usable
+  common_bias,       ///< reference told: a bias that the sensors share, direction not usable
+  snapshot_refused,  ///< switched on without its history: the snapshot that was offered is of no use
 };
+inline constexpr Cause kLastCause = Cause::snapshot_refused;
 const char* to_string(Cause cause) noexcept;
 
 /// The cause that an event stands for; `of_block` is what the last block said, for an alarm.
@@ -72,8 +82,9 @@ struct Qualifier {
   static constexpr std::uint8_t provisional = 8;
   static constexpr std::uint8_t no_redundancy = 16;
   static constexpr std::uint8_t exhausted = 32;
-  static constexpr std::uint8_t three_sensor_fit =
-      64;  ///< the coefficients in force come from a fit that none could check
+  /// The coefficients in force come from a fit that none could check.
+  static constexpr std::uint8_t three_sensor_fit = 64;
+  static constexpr std::uint8_t inhibited = 128;  ///< the host froze exclusion and recalibration
 };
 
 /// Grade of an exclusion (design, section 4).

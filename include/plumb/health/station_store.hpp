@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sample.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/core/vec3.hpp"
@@ -18,6 +19,12 @@ struct StationMean {
   Vec3 direction{};  ///< of gravity, unit vector in the tool frame, by the calibration in force
   double temperature_degc = 0.0;
   double samples = 0.0;  ///< N behind the means; 0 = nothing here
+
+  bool plausible() const noexcept { return samples >= 0.0; }
+  static constexpr auto fields() noexcept {
+    using S = StationMean;
+    return field_list(per_sensor(any(&S::raw)), any(&S::direction), any(&S::temperature_degc), &S::samples);
+  }
 };
 
 /// Collects the raw values of one block.
@@ -34,6 +41,13 @@ class RawBlock {
   SensorSet complete_;
   double temperature_sum_ = 0.0;
   int size_ = 0;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using B = RawBlock;
+    return field_list(per_sensor(any(&B::sum_)), &B::complete_, any(&B::temperature_sum_),
+                      within(&B::size_, 0, kWindowCapacity));
+  }
 };
 
 class StationStore {
@@ -69,11 +83,18 @@ class StationStore {
   void enter(const StationMean& mean) noexcept;
   int crowded_slot(int nearest, double nearest_cosine) const noexcept;
 
-  std::array<StationMean, kMax> station_{};
-  StationMean current_, waiting_;
-  double same_rad_;
   int size_ = 0;
   std::uint32_t entries_ = 0;
+  double same_rad_;
+  std::array<StationMean, kMax> station_{};
+  StationMean current_, waiting_;
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using S = StationStore;
+    return field_list(within(&S::size_, 0, kMax), &S::entries_, not_stored(&S::same_rad_),
+                      counted(&S::station_, &S::size), &S::current_, &S::waiting_);
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -95,7 +95,7 @@ constexpr Row kInService = {
     go(T::by_size, A::mark_absent),
     go(T::stay, A::mark_back),
     go(T::by_size, A::exclude),
-    go(T::suspect, A::set_aside),
+    go(T::suspect_or_failed, A::set_aside),
     impossible(),
     go(T::suspect),
     go(T::suspect),
@@ -112,7 +112,7 @@ constexpr Row kSuspect = {
     go(T::stay_or_failed, A::mark_absent),
     go(T::stay, A::mark_back),
     go(T::by_size_if_proven, A::exclude),
-    go(T::stay, A::set_aside),
+    go(T::stay_or_failed, A::set_aside),
     go(T::by_protection, A::exhausted),
     go(T::stay, A::count),
     go(T::stay, A::count),
@@ -146,7 +146,7 @@ constexpr Row kRecalibrating = {
     go(T::suspect_or_failed, A::mark_absent | A::discard_fit),
     go(T::stay, A::mark_back),
     go(T::by_size_if_proven, A::exclude | A::discard_fit),
-    go(T::suspect, A::set_aside | A::discard_fit),
+    go(T::suspect_or_failed, A::set_aside | A::discard_fit),
     go(T::base, A::discard_fit),
     go(T::suspect, A::discard_fit),
     go(T::suspect, A::discard_fit),
@@ -304,7 +304,7 @@ constexpr bool rank_loss_fails() {
   facts.size = SizeClass::rank_lost;
   facts.calibrated = true;
   for (int m = 0; m < kModeCount; ++m) {
-    for (HealthEvent e : {HealthEvent::channel_lost, HealthEvent::culprit}) {
+    for (HealthEvent e : {HealthEvent::channel_lost, HealthEvent::culprit, HealthEvent::set_aside}) {
       const Cell& cell = cell_of(static_cast<Mode>(m), e);
       if (cell.kind == CellKind::ignored || cell.kind == CellKind::impossible) continue;
       if (resolve(static_cast<Mode>(m), cell.target, facts) != Mode::failed) return false;

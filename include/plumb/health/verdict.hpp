@@ -6,13 +6,18 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/detection/isolation.hpp"
+#include "plumb/health/episode.hpp"
 #include "plumb/health/recalibration_progress.hpp"
+#include "plumb/health/reference_study.hpp"
+#include "plumb/health/rotation.hpp"
 #include "plumb/health/state.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Written once per change of state or of a mask (property S15).
+/// Written once per change of state or of a mask (property S15). A notice (event none, from = to) records what the host
+/// or the evidence said without changing either: inhibited, released, common scale, common bias.
 struct TransitionRecord {
   std::uint32_t sequence = 0;  ///< 1, 2, 3, ... ; 0 = no record in this verdict
   double time_s = 0.0;
@@ -24,13 +29,35 @@ struct TransitionRecord {
   SensorSet sensors;  ///< sensors that the event names (excluded, lost, back)
   double statistic = 0.0;
   double limit = 0.0;
+
+  static constexpr auto fields() noexcept {
+    using R = TransitionRecord;
+    return field_list(&R::sequence, &R::time_s, up_to(&R::from, HealthState::failed),
+                      up_to(&R::to, HealthState::failed), up_to(&R::event, HealthEvent::none),
+                      up_to(&R::cause, kLastCause), up_to(&R::grade, Grade::asserted), &R::sensors, any(&R::statistic),
+                      any(&R::limit));
+  }
 };
 
 /// s_i value that stands for "no live hypothesis keeps sensor i healthy".
 inline constexpr std::uint8_t kNoHypothesis = 255;
 
+/// What of a verdict may be used, one bit each; `validity` says how far.
+struct Usable {
+  static constexpr std::uint16_t vector = 1;
+  static constexpr std::uint16_t inclination = 2;
+  static constexpr std::uint16_t toolface = 4;          ///< inclination at least 3 deg away from vertical
+  static constexpr std::uint16_t protection_level = 8;  ///< available
+  static constexpr std::uint16_t monitored = 16;        ///< the sensors in service check one another
+  static constexpr std::uint16_t stationary = 32;
+  static constexpr std::uint16_t temperature = 64;   ///< within the calibrated span and its margin
+  static constexpr std::uint16_t calibration = 128;  ///< accepted, and not one that none could check
+  static constexpr std::uint16_t reference = 256;    ///< the length of gravity is not in doubt
+};
+
 struct Verdict {
   double time_s = 0.0;
+  std::uint32_t sample = 0;  ///< samples offered since power-on, those refused included
   HealthState state = HealthState::suspect;
   std::uint8_t qualifiers = 0;  ///< bits of Qualifier
   Validity validity = Validity::invalid;
@@ -48,14 +75,17 @@ struct Verdict {
   // Who. configured = in service + set aside + excluded + absent (property S4).
   SensorSet configured, in_service, set_aside, excluded, absent;
   SensorSet suspects;                                   ///< sensors that some live hypothesis accuses
-  SensorSet clipped, restless, not_finite;              ///< channel facts of this block
+  SensorSet clipped, restless, not_finite;              ///< of this block: channels that did so at all
+  SensorSet noisy, stuck, contradicted_clip;            ///< facts of the last quiet block on which the others insist
+  std::array<Cause, kCapacity> sensor_cause{};          ///< why a sensor is out of service or doubted; none = it is not
   std::array<std::uint8_t, kCapacity> fewest_faults{};  ///< s_i: fewest faults that explain the data with i healthy
   Grade grade = Grade::none;                            ///< of the last exclusion
   int strict_grade = 0;                                 ///< m_strict of the sensors not latched out
   int parity_grade = 0;
   int live_hypotheses = 0;      ///< voting sets still alive in this episode
-  int stations_on_record = 0;   ///< excited stations of this episode
-  bool wants_rotation = false;  ///< another attitude would help
+  int stations_on_record = 0;   ///< excited stations in doubt, on which patience runs out
+  bool wants_rotation = false;  ///< another attitude would help: `rotation` says which
+  RotationRequest rotation;
 
   RecalibrationProgress recalibration;  ///< `wanted_direction` in the output frame
 
@@ -65,7 +95,13 @@ struct Verdict {
   double mae_worst_limit_mps2 = 0.0;
   double parity = 0.0;  ///< whitened parity residual of the last block
   double parity_limit = 0.0;
-  double norm_error_mps2 = 0.0;  ///< |x| - G of the last block
+  double norm_error_mps2 = 0.0;                             ///< |x| - G of the last block
+  double reference_mps2 = 0.0, reference_sigma_mps2 = 0.0;  ///< G and its 1 sigma
+  ReferenceFinding reference;  ///< what the length being off means; bias in the output frame
+  /// Slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0 = none told.
+  std::array<float, kCapacity> drift_mps2_per_h{};
+  double temperature_degc = 0.0;  ///< last finite one
+  int block_fill = 0;             ///< samples of the block that is being collected
 
   // Which way is down.
   Vec3 gravity_mps2{};  ///< last quiet block, sensors in service, positive down, output frame
@@ -75,8 +111,30 @@ struct Verdict {
   // Bound on the angle between gravity_mps2 and the truth, both in the frame of the calibrated axes. How that frame
   // sits in the housing is not observable from gravity (a common rotation of all axes) and is not covered.
   double protection_level_rad = 0.0;
-  bool protection_available = false;  ///< never with three sensors or none to spare: nothing checks direction then
-  bool alert = true;                  ///< protection level beyond the alert limit, or none available where valid
+  double toolface_protection_rad = 0.0;  ///< what it means for the toolface: asin(sin PL / sin I), pi near vertical
+  std::uint16_t usable = 0;              ///< bits of Usable
+  bool protection_available = false;     ///< never with three sensors or none to spare: nothing checks direction then
+  bool alert = true;                     ///< protection level beyond the alert limit, or none available where valid
+
+  Errc snapshot_refusal = Errc::ok;  ///< why the monitor runs without the history that was offered to it
+
+  static constexpr auto fields() noexcept {
+    using V = Verdict;
+    return field_list(
+        any(&V::time_s), &V::sample, up_to(&V::state, HealthState::failed), &V::qualifiers,
+        up_to(&V::validity, Validity::invalid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted, &V::transition,
+        up_to(&V::decided_by, kLastCause), &V::statistic, &V::limit, &V::margin, &V::configured, &V::in_service,
+        &V::set_aside, &V::excluded, &V::absent, &V::suspects, &V::clipped, &V::restless, &V::not_finite, &V::noisy,
+        &V::stuck, &V::contradicted_clip, within(&V::sensor_cause, 0, static_cast<int>(kLastCause)), &V::fewest_faults,
+        up_to(&V::grade, Grade::asserted), within(&V::strict_grade, 0, kCapacity),
+        within(&V::parity_grade, 0, kCapacity), within(&V::live_hypotheses, 0, kVotingCapacity),
+        within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
+        &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::parity, &V::parity_limit,
+        &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference, any(&V::drift_mps2_per_h),
+        &V::temperature_degc, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance, &V::age_s,
+        &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable, &V::protection_available,
+        &V::alert, up_to(&V::snapshot_refusal, kLastErrc));
+  }
 };
 
 }  // namespace PLUMB_ABI

@@ -36,6 +36,7 @@ struct InputSpec {
   double time_unit_s = 1.0;        ///< seconds per unit of the time column
   double rate_hz = 0.0;            ///< 0: not given
   std::string station_column;      ///< empty: none
+  std::string roll_group_column;   ///< empty: none; stations of one group share an inclination
   std::string count_column;        ///< empty: every row stands for one sample
   std::string temperature_column;  ///< empty: every row gets `default_temperature_degc`
   double default_temperature_degc = 25.0;

@@ -25,8 +25,8 @@ namespace io {
 /// --on-bad-row
 enum class BadRowPolicy : std::uint8_t { stop, skip };
 
-/// Station column <-> Sample::station. 0 means "none" in a Sample but is a common first label in logs,
-/// so every label v >= 0 becomes the tag v + 1; an empty cell or -1 means none.
+/// Station and roll group columns <-> Sample::station and roll_group. 0 means "none" in a Sample but is a common first
+/// label in logs, so every label v >= 0 becomes the tag v + 1; an empty cell or -1 means none.
 constexpr std::uint32_t tag_of_label(std::int64_t label) noexcept {
   return label < 0 || label >= 0xFFFFFFFFLL ? 0U : static_cast<std::uint32_t>(label + 1);
 }

@@ -7,11 +7,14 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+/// Ten parameters a sensor are the most that anything here fits.
+inline constexpr int kMaxEigenSize = 10 * kCapacity;
+
 /// Householder tridiagonalisation, then rational QL (Pal, Walker and Kahan). Every value is good to rounding relative
 /// to the largest, not to itself: use `symmetric_eigen` where small ones of a graded matrix matter. No allocation,
 /// bounded.
 ///
-/// `a` is n x n, row-major with leading dimension `stride`, 1 <= n <= 4 * kCapacity; both triangles must agree; it is
+/// `a` is n x n, row-major with leading dimension `stride`, 1 <= n <= kMaxEigenSize; both triangles must agree; it is
 /// destroyed. `values` receives n eigenvalues in ascending order. False where an argument is out of range, an entry is
 /// not finite, or the iteration did not suffice; `values` is then not to be used.
 bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcept;

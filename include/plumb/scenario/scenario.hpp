@@ -38,6 +38,7 @@ struct Scenario {
   double vibration_mps2 = 0.0;  ///< rms per axis of the tool frame, while moving
   bool record_motion = true;    ///< false: the log has the dwells only, with time gaps between them
   bool tag_stations = false;    ///< true: samples at rest carry the tag 1, 2, ...; moving ones none
+  bool tag_rolls = false;       ///< true: and the number of the inclination that they share with other stations
   double start_s = 0.0;         ///< time of the first sample
   NoiseLaw noise;
   TemperatureLaw temperature;
@@ -90,6 +91,7 @@ class Simulator {
   Scenario scenario_;
   std::vector<Vec3> directions_;
   std::vector<Passage> passages_;
+  std::vector<std::uint32_t> roll_group_;  ///< by station; empty: no tags
   std::vector<Stream> noise_;
   Stream vibration_;
   Injector injector_;

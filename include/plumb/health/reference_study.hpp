@@ -1,0 +1,74 @@
+/// Parity good, length off: is it gravity or a common scale, which leave the direction alone, or a bias that all
+/// sensors share, which turns it? One attitude cannot tell; several can, and where they cannot, the answer is
+/// "undecided".
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/fields.hpp"
+#include "plumb/core/vec3.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+enum class ReferenceKind : std::uint8_t {
+  none,          ///< the length is not off
+  undecided,     ///< too few attitudes, or neither explanation holds alone
+  common_scale,  ///< common scale or gravity: the direction is usable within `turn_rad`
+  common_bias,   ///< a bias along `bias_mps2`: the direction is not usable
+};
+const char* to_string(ReferenceKind kind) noexcept;
+
+struct ReferenceFinding {
+  ReferenceKind kind = ReferenceKind::none;
+  int attitudes = 0;
+  double length_mps2 = 0.0;  ///< kappa G: what is off alike at every attitude
+  Vec3 bias_mps2{};          ///< a: what is off along a direction, tool frame
+  double turn_rad = 0.0;     ///< most that `a` within its bounds can turn the direction; 0 = no bound yet
+
+  static constexpr int kMostAttitudes = 12;
+  static constexpr auto fields() noexcept {
+    using F = ReferenceFinding;
+    return field_list(up_to(&F::kind, ReferenceKind::common_bias), within(&F::attitudes, 0, kMostAttitudes),
+                      any(&F::length_mps2), any(&F::bias_mps2), any(&F::turn_rad));
+  }
+};
+
+/// |x| - G at up to kMax attitudes against kappa G + a.u. Errors are taken as bounded, not as random: what calibration
+/// leaves is the same at every block, and averages away over none.
+class ReferenceStudy {
+ public:
+  static constexpr int kMax = ReferenceFinding::kMostAttitudes;
+  /// Four parameters and two attitudes that can contradict them.
+  static constexpr int kLeast = 6;
+
+  void clear() noexcept { *this = ReferenceStudy{}; }
+  bool empty() const noexcept { return size_ == 0; }
+  /// `bound_mps2`: largest error of |x| - G that noise and calibration explain. An attitude nearer than `apart_rad` to
+  /// one on record is not news.
+  void add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad) noexcept;
+  /// `gravity_bound_mps2`: largest credible error of the gravity reference. `usable_rad`: turn that the user can bear.
+  ReferenceFinding find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
+
+ private:
+  struct Entry {
+    Vec3 u{};
+    double off_mps2 = 0.0, bound_mps2 = 0.0;
+
+    bool plausible() const noexcept { return bound_mps2 > 0.0; }
+    static constexpr auto fields() noexcept { return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2); }
+  };
+  int size_ = 0;
+  std::array<Entry, kMax> entry_{};
+
+  friend struct FieldsOf;
+  int size() const noexcept { return size_; }
+  static constexpr auto fields() noexcept {
+    return field_list(within(&ReferenceStudy::size_, 0, kMax), counted(&ReferenceStudy::entry_, &ReferenceStudy::size));
+  }
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

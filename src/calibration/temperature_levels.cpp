@@ -1,0 +1,88 @@
+/// At which temperatures the stations are, and at which they are not.
+#include <cmath>
+
+#include "plumb/calibration/temperature_fit.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+constexpr double kStep_degc = 5.0;
+constexpr int kMostSteps = 400;
+
+/// The lowest temperature at or above `from`; false where there is none.
+bool next_above(const Station* stations, int count, double from, double& found) noexcept {
+  bool any = false;
+  for (int k = 0; k < count; ++k) {
+    const double t = stations[k].temperature_degc;
+    if (stations[k].count == 0 || !std::isfinite(t) || !(t >= from)) continue;
+    if (!any || t < found) found = t;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+TemperatureLevels temperature_levels(const Station* stations, int count) noexcept {
+  TemperatureLevels out;
+  if (stations == nullptr) return out;
+  double begin = 0.0;
+  bool more = next_above(stations, count, -HUGE_VAL, begin);
+  out.lowest_degc = begin;
+  while (more && out.count < kMaxTemperatureLevels) {
+    double sum = 0.0;
+    int members = 0;
+    for (int k = 0; k < count; ++k) {
+      const double t = stations[k].temperature_degc;
+      if (stations[k].count == 0 || !(t >= begin) || !(t < begin + kLevelsApart_degc)) continue;
+      sum += t;
+      ++members;
+    }
+    out.degc[static_cast<std::size_t>(out.count)] = sum / members;
+    out.stations[static_cast<std::size_t>(out.count)] = members;
+    ++out.count;
+    more = next_above(stations, count, begin + kLevelsApart_degc, begin);
+  }
+  out.highest_degc = out.lowest_degc;
+  for (int k = 0; k < count; ++k) {
+    const double t = stations[k].temperature_degc;
+    if (stations[k].count > 0 && std::isfinite(t)) out.highest_degc = std::fmax(out.highest_degc, t);
+  }
+  return out;
+}
+
+int missing_levels(const TemperatureLevels& levels, const ChebyshevSpan& use_degc, int wanted,
+                   std::array<double, kMaxTemperatureOrder + 1>& degc) noexcept {
+  int found = 0;
+  while (levels.count + found < wanted && found < static_cast<int>(degc.size())) {
+    double best = use_degc.highest, farthest = -1.0;
+    for (int step = 0; step <= kMostSteps; ++step) {
+      // The ends of the span first, then the multiples between.
+      double t = step == 0 ? use_degc.highest : use_degc.lowest;
+      if (step > 1) t = kStep_degc * (std::ceil(use_degc.lowest / kStep_degc) + step - 2);
+      if (t > use_degc.highest) break;
+      double nearest = HUGE_VAL;
+      for (int k = 0; k < levels.count; ++k) nearest = std::fmin(nearest, std::fabs(t - levels.degc[at(k)]));
+      for (int k = 0; k < found; ++k) nearest = std::fmin(nearest, std::fabs(t - degc[at(k)]));
+      if (nearest > farthest) {
+        farthest = nearest;
+        best = t;
+      }
+    }
+    degc[static_cast<std::size_t>(found++)] = best;
+  }
+  for (int k = 1; k < found; ++k) {
+    for (int l = k; l > 0 && degc[at(l)] < degc[at(l - 1)]; --l) {
+      const double kept = degc[at(l)];
+      degc[at(l)] = degc[at(l - 1)];
+      degc[at(l - 1)] = kept;
+    }
+  }
+  return found;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,90 @@
+#include "temperature_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit_words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json levels_json(const TemperatureLevels& levels) {
+  Json out = Json::array();
+  for (int k = 0; k < levels.count; ++k) {
+    const auto a = static_cast<std::size_t>(k);
+    out.push_back({{"degc", levels.degc[a]}, {"stations", levels.stations[a]}});
+  }
+  return out;
+}
+
+Json null_json(const TemperatureNull& null, const io::ArrayFile& array) {
+  Json out = Json::array();
+  const char* const kinds[] = {"bias", "scale", "axis"};
+  for (int k = 0; k < null.terms; ++k) {
+    const TemperatureTerm& term = null.term[static_cast<std::size_t>(k)];
+    out.push_back({{"kind", kinds[static_cast<int>(term.kind)]},
+                   {"order", term.order},
+                   {"sensor", id_of(array, term.sensor)},
+                   {"prior_sigmas", term.amount}});
+  }
+  return out;
+}
+
+Json coefficients_json(const std::array<TemperatureCoefficient, kMaxTemperatureOrder + 1>& c, int order) {
+  Json values = Json::array(), sigmas = Json::array(), shares = Json::array();
+  for (int k = 0; k <= order; ++k) {
+    const TemperatureCoefficient& one = c[static_cast<std::size_t>(k)];
+    values.push_back(finite(one.value));
+    sigmas.push_back(finite(one.sigma));
+    shares.push_back(finite(one.data_share));
+  }
+  return {{"value", std::move(values)}, {"sigma", std::move(sigmas)}, {"data_share", std::move(shares)}};
+}
+
+}  // namespace
+
+Json temperature_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  const TemperatureReport& t = run.temperature;
+  Json out = {{"order", t.order}, {"levels", levels_json(t.levels)}};
+  Json missing = Json::array();
+  for (int k = 0; k < t.missing; ++k) missing.push_back(t.missing_degc[static_cast<std::size_t>(k)]);
+  out["missing_degc"] = std::move(missing);
+  out["follows_inclination"] = t.follows_inclination;
+  if (t.order == 0) return out;
+  out["use_degc"] = {t.use_degc.lowest, t.use_degc.highest};
+  out["parameters"] = t.parameters;
+  out["rank"] = t.rank;
+  out["gauge"] = t.gauge;
+  out["condition"] = finite(t.condition);
+  Json nulls = Json::array();
+  for (int k = 0; k < std::min(t.null_directions, kMaxNullDirections); ++k)
+    nulls.push_back(null_json(t.null[static_cast<std::size_t>(k)], array));
+  out["null_directions"] = t.null_directions;
+  out["null"] = std::move(nulls);
+  if (!run.accepted) return out;
+  out["inflation"] = finite(t.inflation);
+  for (const TemperatureForecast& f : t.forecast) {
+    out["expected_error"].push_back({{"degc", f.degc},
+                                     {"reading_mps2", finite(f.reading_mps2)},
+                                     {"sensor", id_of(array, f.sensor)},
+                                     {"direction_rad", finite(f.tilt_rad)}});
+  }
+  for (int i = 0; i < array.array.size(); ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    out["sensors"].push_back({{"id", id_of(array, i)},
+                              {"reference_degc", run.accepted->model.sensor[a].reference_degc},
+                              {"SF_per_mps2", coefficients_json(t.sensor[a].scale, t.order)},
+                              {"B_mps2", coefficients_json(t.sensor[a].bias, t.order)}});
+  }
+  return out;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

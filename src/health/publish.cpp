@@ -1,0 +1,143 @@
+// What a verdict says: the figures of the last block, who is in and who is out, what may be used.
+#include <cmath>
+
+#include "block_view.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+using std::size_t;
+
+namespace {
+
+/// Nearer to vertical than this, toolface is noise.
+constexpr double kLeastInclination_rad = rad_from_deg(3.0);
+
+}  // namespace
+
+void HealthMonitor::publish_decision(const BlockView& view) noexcept {
+  verdict_.decided_by = view.decided_by;
+  verdict_.statistic = view.statistic;
+  verdict_.limit = view.limit;
+  verdict_.margin = view.limit > 0.0 ? 1.0 - view.statistic / view.limit : 0.0;
+  verdict_.parity = view.used.parity;
+  verdict_.parity_limit = view.used.parity_rows > 0 ? view.used.parity_alarm_limit(limits_) : 0.0;
+  verdict_.mae_worst_mps2 = view.mae_worst_mps2;
+  verdict_.mae_worst_limit_mps2 = view.mae_limit_mps2;
+  const LeastSquares map = least_squares(array_, in_service_ & evidence_.usable);
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double check = in_service_.has(i) ? 1.0 - dot(array_.axis(i), map.column[a]) : 0.0;
+    verdict_.drift_mps2_per_h[a] = static_cast<float>(trend_.rate_mps2_per_h(i, check));
+  }
+}
+
+void HealthMonitor::give_notice(double time_s) noexcept {
+  Cause cause = Cause::none;
+  if (inhibit_notice_) {
+    cause = inhibited_ ? Cause::inhibited : Cause::released;
+    inhibit_notice_ = false;
+  } else if (reference_notice_ != ReferenceKind::none) {
+    cause = reference_notice_ == ReferenceKind::common_scale ? Cause::common_scale : Cause::common_bias;
+    reference_notice_ = ReferenceKind::none;
+  }
+  if (cause == Cause::none) return;
+  TransitionRecord& record = verdict_.transition;
+  record.sequence = ++sequence_;
+  record.time_s = time_s;
+  record.from = record.to = state_of(mode_);
+  record.cause = cause;
+  record.statistic = verdict_.statistic;
+  record.limit = verdict_.limit;
+}
+
+std::uint16_t HealthMonitor::usable_bits() const noexcept {
+  const bool vector = verdict_.validity == Validity::valid || verdict_.validity == Validity::degraded;
+  const double across = std::hypot(verdict_.gravity_mps2[0], verdict_.gravity_mps2[1]);
+  const bool toolface = across >= std::sin(kLeastInclination_rad) * norm(verdict_.gravity_mps2);
+  const bool reference = verdict_.reference.kind == ReferenceKind::none && suspicion_ != Cause::reference;
+  const auto when = [](bool holds, std::uint16_t which) { return holds ? static_cast<unsigned>(which) : 0U; };
+  return static_cast<std::uint16_t>(
+      when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
+      when(verdict_.protection_available, Usable::protection_level) |
+      when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
+      when(!moving_ && have_evidence_, Usable::stationary) | when(!temperature_out_, Usable::temperature) |
+      when(mode_ != Mode::initial && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
+}
+
+Validity HealthMonitor::validity() const noexcept {
+  if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
+  if (moving_ || clock_.last_s() - evidence_time_s_ > config_.max_age_s) return Validity::held;
+  const Mode mode = published_mode();
+  if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
+  if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
+  return mode == Mode::degraded ? Validity::degraded : Validity::valid;
+}
+
+void HealthMonitor::publish_vector() noexcept {
+  const SensorSet used = in_service_ & evidence_.usable;
+  const SetTest t = test_set(array_, gravity_, limits_, evidence_, used);
+  if (!t.tested) return;
+  Mat3 covariance = calibration_covariance(array_, t, used);
+  for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
+  verdict_.covariance = turned_covariance(frame_, covariance);
+  verdict_.gravity_mps2 = times(frame_, t.x_mps2);
+  verdict_.norm_error_mps2 = t.norm_error_mps2;
+}
+
+void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
+  Verdict& v = verdict_;
+  v.time_s = sample.time_s;
+  v.tick = ticked && !moving_;
+  v.state = state_of(mode_);
+  v.qualifiers = static_cast<std::uint8_t>(
+      (unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
+      (mode_ == Mode::initial ? Qualifier::initial_calibration : 0) |
+      (!set_aside_.empty() ? Qualifier::provisional : 0) | (exhausted_ ? Qualifier::exhausted : 0) |
+      (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
+      (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0));
+  v.sample = counters_.samples;
+  v.configured = array_.all();
+  v.in_service = in_service_;
+  v.set_aside = set_aside_;
+  v.excluded = excluded_;
+  v.absent = absent_;
+  v.clipped = clipped_;
+  v.not_finite = not_finite_;
+  v.noisy = noisy_ & in_service_;
+  v.stuck = stuck_ & in_service_;
+  v.contradicted_clip = full_scale_ & in_service_;
+  if (ticked) name_causes(SensorSet{}, Cause::none);
+  v.sensor_cause = sensor_cause_;
+  v.suspects = episode_.open ? scan_.suspects : SensorSet{};
+  v.fewest_faults = scan_.fewest_faults;
+  v.grade = last_grade_;
+  v.strict_grade = isolation_.strict_grade();
+  v.parity_grade = isolation_.parity_grade();
+  v.live_hypotheses = live_;
+  v.stations_on_record = episode_.stations.size();
+  v.recalibration = recalibration_.progress(array_);
+  v.recalibration.wanted_direction = times(frame_, v.recalibration.wanted_direction);
+  if (ticked || v.transition.sequence != 0) v.rotation = rotation_request();
+  v.wants_rotation = v.rotation.wanted || (mode_ == Mode::recalibrating && v.recalibration.stations_wanted > 0);
+  v.reference_mps2 = gravity_.g_mps2;
+  v.reference_sigma_mps2 = gravity_.sigma_mps2;
+  v.temperature_degc = last_temperature_degc_;
+  v.block_fill = block_.size();
+  v.mae_all_mps2 = mae_.all_mps2();
+  v.validity = validity();
+  v.age_s = have_evidence_ ? clock_.last_s() - evidence_time_s_ : 0.0;
+  v.protection_available = scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
+                           published_mode() != Mode::degraded;
+  v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
+  const double sine = std::hypot(v.gravity_mps2[0], v.gravity_mps2[1]) / std::fmax(norm(v.gravity_mps2), 1e-9);
+  const bool told =
+      v.protection_available && v.protection_level_rad < 0.5 * kPi && std::sin(v.protection_level_rad) < sine;
+  v.toolface_protection_rad = told ? std::asin(std::sin(v.protection_level_rad) / sine) : kPi;
+  v.usable = usable_bits();
+  v.alert =
+      !v.protection_available || v.protection_level_rad > config_.alert_limit_rad || v.validity != Validity::valid;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

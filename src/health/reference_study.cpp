@@ -1,0 +1,104 @@
+#include "plumb/health/reference_study.hpp"
+
+#include <cmath>
+
+#include "plumb/numeric/cholesky.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+namespace {
+
+constexpr int kParameters = 4;  // kappa G, a
+constexpr std::size_t kSquare = 16;
+
+constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+const char* to_string(ReferenceKind kind) noexcept {
+  switch (kind) {
+    case ReferenceKind::none: return "none";
+    case ReferenceKind::undecided: return "undecided";
+    case ReferenceKind::common_scale: return "common_scale";
+    case ReferenceKind::common_bias: return "common_bias";
+  }
+  return "?";
+}
+
+void ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double bound_mps2,
+                         double apart_rad) noexcept {
+  const double length = norm(direction);
+  if (size_ == kMax || !(length > 0.0) || !(bound_mps2 > 0.0)) return;
+  const Vec3 u = scaled(direction, 1.0 / length);
+  for (int k = 0; k < size_; ++k) {
+    if (!(angle_between_rad(entry_[at(k)].u, u) >= apart_rad)) return;
+  }
+  entry_[at(size_)] = {u, length_error_mps2, bound_mps2};
+  ++size_;
+}
+
+ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept {
+  ReferenceFinding out;
+  out.attitudes = size_;
+  out.kind = size_ > 0 ? ReferenceKind::undecided : ReferenceKind::none;
+  if (size_ < kLeast) return out;
+
+  // Least squares with rows (1, u), weighted by the bounds.
+  std::array<double, kSquare> m{};
+  std::array<double, kParameters> p{};
+  const auto row = [this](int k, int j) { return j == 0 ? 1.0 : entry_[at(k)].u[at(j - 1)]; };
+  for (int k = 0; k < size_; ++k) {
+    const double weight = 1.0 / (entry_[at(k)].bound_mps2 * entry_[at(k)].bound_mps2);
+    for (int i = 0; i < kParameters; ++i) {
+      p[at(i)] += weight * row(k, i) * entry_[at(k)].off_mps2;
+      for (int j = 0; j < kParameters; ++j) m[at(kParameters * i + j)] += weight * row(k, i) * row(k, j);
+    }
+  }
+  if (!cholesky_factor(m.data(), kParameters, kParameters)) return out;
+  cholesky_solve(m.data(), kParameters, kParameters, p.data());
+  cholesky_inverse(m.data(), kParameters, kParameters);
+  const Vec3 a = {p[1], p[2], p[3]};
+
+  // How far bounded errors may have bent each parameter, and how well the model explains what was seen. A bias across
+  // gravity lengthens the vector by its square over 2 G, which the model leaves out.
+  std::array<double, kParameters> bend{};
+  double low = -1e9, high = 1e9;
+  bool explained = true;
+  const double curve = dot(a, a) / (2.0 * g_mps2);
+  for (int k = 0; k < size_; ++k) {
+    const Entry& e = entry_[at(k)];
+    const double bound = e.bound_mps2 + curve;
+    const double weight = 1.0 / (e.bound_mps2 * e.bound_mps2);
+    for (int i = 0; i < kParameters; ++i) {
+      double gain = 0.0;
+      for (int j = 0; j < kParameters; ++j) gain += m[at(kParameters * i + j)] * row(k, j) * weight;
+      bend[at(i)] += std::fabs(gain) * bound;
+    }
+    if (!(std::fabs(e.off_mps2 - p[0] - dot(a, e.u)) <= bound)) explained = false;
+    low = std::fmax(low, e.off_mps2 - e.bound_mps2);
+    high = std::fmin(high, e.off_mps2 + e.bound_mps2);
+  }
+  if (!explained) return out;
+  double most = 0.0, least = 0.0;
+  for (int i = 1; i < kParameters; ++i) {
+    const double size = std::fabs(p[at(i)]);
+    most += (size + bend[at(i)]) * (size + bend[at(i)]);
+    const double sure = std::fmax(0.0, size - bend[at(i)]);
+    least += sure * sure;
+  }
+  out.length_mps2 = p[0];
+  out.bias_mps2 = a;
+  out.turn_rad = std::asin(std::fmin(1.0, std::sqrt(most) / g_mps2));
+  const bool one_length = low <= high;
+  const bool off = low > 0.0 || high < 0.0;
+  if (one_length && off && out.turn_rad <= usable_rad) {
+    out.kind = ReferenceKind::common_scale;
+  } else if (!one_length && least > 0.0 && std::fabs(p[0]) <= gravity_bound_mps2 + bend[0]) {
+    out.kind = ReferenceKind::common_bias;
+  }
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

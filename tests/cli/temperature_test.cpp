@@ -1,0 +1,169 @@
+// plumb calibrate over temperature: orders found, orders refused, and the file that a monitor uses.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tool_runner.hpp"
+
+namespace {
+
+using namespace plumb_test;
+using Json = nlohmann::json;
+
+/// The oven of examples/, simulated once; `hottest` leaves out the rows above.
+class Oven : public Directory {
+ public:
+  explicit Oven(double hottest_degc = 1e9, double coldest_degc = -1e9) {
+    std::filesystem::create_directory_symlink(PLUMB_SOURCE_DIR "/examples/", *this / "examples");
+    EXPECT_EQ(run(*this, {"simulate", "examples/oven.toml", "--out", "whole.csv"}).code, 0);
+    std::istringstream in(read_text(*this / "whole.csv"));
+    std::string line, kept;
+    std::getline(in, line);
+    kept = line + "\n";
+    const std::size_t column = static_cast<std::size_t>(
+        std::count(line.begin(), line.begin() + static_cast<long>(line.find("temp_degc")), ','));
+    while (std::getline(in, line)) {
+      std::size_t begin = 0;
+      for (std::size_t k = 0; k < column; ++k) begin = line.find(',', begin) + 1;
+      const double degc = std::strtod(line.c_str() + begin, nullptr);
+      if (degc <= hottest_degc && degc >= coldest_degc) kept += line + "\n";
+    }
+    write_text(*this / "oven.csv", kept);
+  }
+
+  Outcome calibrate(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"calibrate", "--array",  "examples/oven_tool.toml", "--log", "oven.csv",
+                                          "--out",     "oven.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(*this, arguments);
+  }
+  Json report(std::vector<std::string> more = {}) const {
+    more.emplace_back("--json");
+    return Json::parse(calibrate(more).out);
+  }
+};
+
+TEST(ToolTemperature, CubicsAreFoundAndWritten) {
+  const Oven where;
+  const Outcome done = where.calibrate();
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(says(done.out, {"rank", "37 of 40 parameters", "temperature", "levels", "order", "3,", "expected error",
+                              "at 20", "at 150", "degC^3", "accepted"}));
+  const Json told = where.report();
+  EXPECT_EQ(told["temperature"]["order"], 3);
+  EXPECT_EQ(told["temperature"]["rank"], 37);
+  EXPECT_EQ(told["fit"]["parameters"], 40);
+  EXPECT_LT(told["temperature"]["condition"], 30.0);
+  EXPECT_EQ(told["hold_out"]["judged"], 96);
+  EXPECT_LT(told["hold_out"]["sigmas"], 1.5);
+  // What examples/oven.toml says of a1.
+  const Json& a1 = told["temperature"]["sensors"][0];
+  const double slope = a1["SF_per_mps2"]["value"][1].get<double>() / a1["SF_per_mps2"]["value"][0].get<double>();
+  const double sigma = a1["SF_per_mps2"]["sigma"][1].get<double>() / a1["SF_per_mps2"]["value"][0].get<double>();
+  EXPECT_LT(sigma, 2e-5);
+  EXPECT_NEAR(slope, -150e-6, 4.0 * sigma);
+  // The file holds the same numbers, bit for bit.
+  const Json file = Json::parse(read_text(where / "oven.json"));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Json& sensor = told["temperature"]["sensors"][i];
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(file["sensors"][i]["scale"][k].get<double>(), sensor["SF_per_mps2"]["value"][k].get<double>(), 1e-13);
+      EXPECT_NEAR(file["sensors"][i]["bias_mps2"][k].get<double>(), sensor["B_mps2"]["value"][k].get<double>(), 1e-12);
+    }
+  }
+  EXPECT_EQ(file["report"]["rank"], 37);
+}
+
+/// The paper's own fits know no temperature: they are made with the drift that plumb found.
+TEST(ToolTemperature, ThePapersFitsTakeTheDrift) {
+  const Oven where;
+  const Json told = where.report({"--paper"});
+  ASSERT_EQ(told["paper"].size(), 5);
+  for (const Json& fit : told["paper"]) {
+    EXPECT_TRUE(fit["sound"]);
+    EXPECT_LT(fit["length_error_rms_mps2"].get<double>(), 1e-3);
+  }
+}
+
+TEST(ToolTemperature, AMonitorUsesItOverTheWholeSpan) {
+  const Oven where;
+  ASSERT_EQ(where.calibrate().code, 0);
+  const auto watch = [&where](const char* calibration) {
+    return run(where, {"monitor", "--array", "examples/oven_tool.toml", "--calibration", calibration, "--log",
+                       "whole.csv", "--events", "events.jsonl"});
+  };
+  const Outcome good = watch("oven.json");
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_TRUE(says(good.out, {"nominal"}));
+  EXPECT_EQ(read_text(where / "events.jsonl").find("parity"), std::string::npos);
+  // By the datasheet's coefficients alone the cold third of the log is another tool than the hot one.
+  const Oven cold(60.0);
+  ASSERT_EQ(cold.calibrate({"--temperature-order", "0", "--keep-outliers"}).code, 0);
+  std::filesystem::copy_file(cold / "oven.json", where / "cold.json");
+  watch("cold.json");
+  EXPECT_NE(read_text(where / "events.jsonl").find("suspect"), std::string::npos);
+}
+
+TEST(ToolTemperature, AnOrderWithoutItsLevelsIsRefusedByName) {
+  const Oven where(33.0);  // 20 to 33 degC: two levels
+  const Outcome refused = where.calibrate({"--temperature-order", "3", "--use-range-degc", "20,150"});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.out, {"NOT ACCEPTED", "order 3 need 4 temperature levels", "have 2", "add stations near",
+                                 "150 degC", "--temperature-order 1"}));
+  EXPECT_FALSE(std::filesystem::exists(where / "oven.json"));
+  const Json told = where.report({"--temperature-order", "3", "--use-range-degc", "20,150"});
+  EXPECT_FALSE(told["accepted"]);
+  EXPECT_EQ(told["temperature"]["missing_degc"].size(), 2);
+  EXPECT_EQ(told["temperature"]["levels"].size(), 2);
+}
+
+/// A well that is the flatter the deeper and the hotter it is.
+TEST(ToolTemperature, ATemperatureThatFollowsTheInclinationIsRefusedByName) {
+  const Oven where;
+  write_text(where / "well.toml",
+             "name = \"well\"\narray = \"examples/oven_tool.toml\"\nseed = 1\n[truth]\nlaw = \"uniform\"\n"
+             "[attitude]\nlaw = \"drilling-path\"\nstations = 40\ninclination = \"2 deg\"\nbuild = \"2.2 deg\"\n"
+             "dwell = \"1 s\"\nrecord_motion = false\ntag_stations = true\n"
+             "[temperature]\nlaw = \"linear\"\nstart = \"20 degC\"\nrate = \"97 degC/min\"\n");
+  ASSERT_EQ(run(where, {"simulate", "well.toml", "--out", "oven.csv"}).code, 0);
+  const Outcome refused = where.calibrate({"--temperature-order", "3"});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.out, {"rank", "34 of 40", "not determined", "cubic scale of", " against ", "NOT ACCEPTED",
+                                 "follows their inclination", "34 of the 37", "hotter or colder"}));
+  const Json told = where.report({"--temperature-order", "3"});
+  EXPECT_TRUE(told["temperature"]["follows_inclination"]);
+  EXPECT_EQ(told["temperature"]["null_directions"], 3);
+  EXPECT_EQ(told["temperature"]["null"][0][0]["order"], 3);
+  // By itself the tool takes the order that these stations do support, and says why it is no higher.
+  const Outcome lower = where.calibrate();
+  EXPECT_EQ(lower.code, 0) << lower.err;
+  EXPECT_TRUE(says(lower.out, {"21 of 24", "the temperature follows the inclination", "accepted"}));
+}
+
+TEST(ToolTemperature, ARangeFarBeyondTheLevelsIsTold) {
+  const Oven where(62.0);
+  const Json near = where.report({"--temperature-order", "3"});
+  const Json far = where.report({"--temperature-order", "3", "--use-range-degc", "20,150"});
+  ASSERT_TRUE(near["accepted"]);
+  ASSERT_TRUE(far["accepted"]);
+  EXPECT_LT(near["temperature"]["condition"], 100.0);
+  EXPECT_GT(far["temperature"]["condition"], 300.0);
+  EXPECT_GT(far["temperature"]["expected_error"][2]["direction_rad"].get<double>(),
+            10.0 * near["temperature"]["expected_error"][2]["direction_rad"].get<double>());
+  EXPECT_TRUE(says(where.calibrate({"--temperature-order", "3", "--use-range-degc", "20,150"}).out,
+                   {"extrapolated", "far wider than what was recorded", "expected error"}));
+}
+
+TEST(ToolTemperature, BadOptionsAreRefused) {
+  const Directory where;
+  const auto refused = [&where](const char* option, const char* value) {
+    return run(where, {"calibrate", "--array", "a", "--log", "b", "--out", "c", option, value});
+  };
+  for (const char* order : {"4", "-1", "cubic", ""}) EXPECT_EQ(refused("--temperature-order", order).code, 2) << order;
+  for (const char* range : {"20", "150,20", "20,25", "a,b", "20,150,3", "20,nan"}) {
+    EXPECT_EQ(refused("--use-range-degc", range).code, 2) << range;
+  }
+}
+
+}  // namespace

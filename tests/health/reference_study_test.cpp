@@ -1,0 +1,94 @@
+// Parity good, length off: told apart where the attitudes can, and never wrongly.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "support/simulated_tool.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::direction_at;
+using plumb_test::Noise;
+using plumb_test::random_direction;
+using plumb_test::Rig;
+
+// Verifies: REQ-062
+TEST(ReferenceStudy, AWrongGravityIsToldAndTheDirectionStaysUsable) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.prove();
+  Noise noise(4);
+  for (int k = 0; k < 14; ++k) rig.stay(random_direction(noise), 1, 1.005 * kG0_mps2);
+  const ReferenceFinding& found = rig.monitor.verdict().reference;
+  EXPECT_EQ(found.kind, ReferenceKind::common_scale);
+  EXPECT_NEAR(found.length_mps2, 0.005 * kG0_mps2, 1e-3);
+  EXPECT_LT(found.turn_rad, rad_from_deg(1.0));
+  bool noticed = false;
+  for (const TransitionRecord& r : rig.records) noticed = noticed || r.cause == Cause::common_scale;
+  EXPECT_TRUE(noticed);
+  EXPECT_NE(rig.monitor.verdict().validity, Validity::valid);
+}
+
+// Verifies: REQ-062
+TEST(ReferenceStudy, ASharedBiasOfAConeIsToldWithItsDirection) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.prove();
+  rig.distort = [](int, double r, int) { return r + 0.03 * kG0_mps2; };  // no parity: it is in the range of the axes
+  Noise noise(4);
+  for (int k = 0; k < 16; ++k) rig.stay(random_direction(noise));
+  const ReferenceFinding& found = rig.monitor.verdict().reference;
+  ASSERT_EQ(found.kind, ReferenceKind::common_bias);
+  EXPECT_NEAR(found.bias_mps2[2], 0.03 * kG0_mps2 * std::sqrt(3.0), 0.02);
+  EXPECT_NEAR(std::hypot(found.bias_mps2[0], found.bias_mps2[1]), 0.0, 0.02);
+  EXPECT_TRUE(rig.ever_blamed.empty());
+}
+
+// Negative: REQ-062
+TEST(ReferenceStudy, OneCircleOfRollsCannotTellAndSaysSo) {
+  for (const double scale : {1.004, 1.0}) {
+    Rig rig(plumb_test::cone_array(6));
+    rig.prove();
+    if (scale == 1.0) rig.distort = [](int, double r, int) { return r + 0.03 * kG0_mps2; };
+    for (int k = 0; k < 20; ++k) rig.stay(direction_at(40, 18.0 * k), 1, scale * kG0_mps2);
+    EXPECT_EQ(rig.monitor.verdict().reference.kind, ReferenceKind::undecided);
+    EXPECT_GE(rig.monitor.verdict().reference.attitudes, ReferenceStudy::kLeast);
+  }
+}
+
+/// Wide and honest: whatever the truth (scale, bias, both, or lengths that follow no rule), attitudes and errors within
+/// the bound, no confident answer is wrong.
+// Negative: REQ-062
+RC_GTEST_PROP(ReferenceStudyLaw, NoConfidentAnswerIsWrong, ()) {
+  Noise noise(*rc::gen::arbitrary<std::uint64_t>());
+  const int truth = *rc::gen::inRange(0, 4);
+  const int attitudes = *rc::gen::inRange(3, ReferenceStudy::kMax + 1);
+  const bool narrow = *rc::gen::arbitrary<bool>();
+  const double bound = 1e-3 * std::pow(10.0, 1.5 * noise.uniform());
+  const double usable = rad_from_deg(1.0);
+  const double scale = 0.3 * (2.0 * noise.uniform() - 1.0);
+  const Vec3 shared = scaled(random_direction(noise), 0.5 * noise.uniform());
+  const double kappa = truth == 1 ? 0.0 : scale;
+  const Vec3 bias = truth == 0 ? Vec3{} : shared;
+  const Vec3 centre = random_direction(noise);
+  ReferenceStudy study;
+  for (int k = 0; k < attitudes; ++k) {
+    Vec3 u = random_direction(noise);
+    if (narrow) u = plus(centre, scaled(u, 0.4));
+    u = scaled(u, 1.0 / norm(u));
+    double off = norm(plus(scaled(u, kG0_mps2 + kappa), bias)) - kG0_mps2;
+    if (truth == 3) off = 0.3 * noise.normal();
+    off += bound * (2.0 * noise.uniform() - 1.0);
+    study.add(plus(scaled(u, kG0_mps2 + kappa), bias), off, bound, rad_from_deg(5.0));
+  }
+  const ReferenceFinding found = study.find(kG0_mps2, 3e-4 * kG0_mps2, usable);
+  RC_CLASSIFY(found.kind == ReferenceKind::common_scale, "scale");
+  RC_CLASSIFY(found.kind == ReferenceKind::common_bias, "bias");
+  if (found.kind == ReferenceKind::common_scale && truth != 3) {
+    RC_ASSERT(std::asin(norm(bias) / kG0_mps2) <= found.turn_rad);
+    RC_ASSERT(found.turn_rad <= usable);
+  }
+  if (found.kind == ReferenceKind::common_bias) RC_ASSERT(truth != 0);
+}
+
+}  // namespace
