@@ -1,6 +1,8 @@
-// plumb_isolation_rates WHAT [--scale X] [--seed S]: how often isolation is right, undecided, wrong, with 95 %
-// Clopper-Pearson intervals, as Markdown. WHAT is soundness, beyond, strict, rivals, parity or asserted; --scale
-// multiplies the numbers of trials. docs/isolation.md holds what it printed.
+// plumb_isolation_rates WHAT [--scale X] [--seed S] [--from N] [--to N]: how often isolation is right, undecided,
+// wrong, with 95 % Clopper-Pearson intervals, as Markdown. WHAT is soundness, beyond, strict, rivals, trouble, parity
+// or asserted;
+// --scale multiplies the numbers of trials, --from and --to bound the numbers of sensors of soundness.
+// docs/isolation.md holds what it printed.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -16,6 +18,7 @@ using namespace plumb_bench;
 struct Settings {
   double scale = 1.0;
   std::uint64_t seed = 20180227;
+  int from = 4, to = 16;  ///< sensors, of the soundness study
   std::uint64_t trials(double wanted) const { return static_cast<std::uint64_t>(wanted * scale) + 1; }
 };
 
@@ -70,6 +73,7 @@ void soundness(const Settings& s) {
   SoundCount sum;
   std::fputs(kSoundHead, stdout);
   for (const Share& part : kShares) {
+    if (part.n < s.from || part.n > s.to) continue;
     for (const bool fitted : {false, true}) {
       SoundnessJob job;
       job.n = part.n;
@@ -130,6 +134,37 @@ void rates(const Settings& s, bool rivals) {
   }
 }
 
+/// The same rules where the faults are in league, and where gravity is off by no more than its sigma allows.
+void trouble(const Settings& s) {
+  std::printf("| n | m | trouble | trials |");
+  for (int r = 0; r < kRules; ++r) std::printf(" %s |", name(static_cast<Rule>(r)));
+  std::printf("\n|---|---|---|---|---|---|---|---|---|\n");
+  struct Trouble {
+    const char* name;
+    Lie lie;
+    double gravity_error;
+  };
+  for (const Trouble& t : {Trouble{"gravity 2 sigma off", Lie::bias, 2.0}, Trouble{"colluding", Lie::colluding, 0.0},
+                           Trouble{"mirrored", Lie::mirrored, 0.0}}) {
+    for (int n = 4; n <= 8; ++n) {
+      for (int m = 1; m <= n - 3; ++m) {
+        const auto seed = s.seed + static_cast<std::uint64_t>(1000 * n + 100 * m) + static_cast<std::uint64_t>(t.lie);
+        const std::uint64_t trials = s.trials(1e3);
+        const RuleCounts counts = cap8::eight_attitudes({n, m, 30.0, 100.0, trials, seed, t.lie, t.gravity_error});
+        std::printf("| %d | %d | %s | %llu |", n, m, t.name, static_cast<unsigned long long>(trials));
+        for (const Count& c : counts) {
+          const auto percent = [&c](std::uint64_t k) {
+            return 100.0 * static_cast<double>(k) / static_cast<double>(c.trials);
+          };
+          std::printf(" %.1f / %.1f / %.1f |", percent(c.correct), percent(c.undecided), percent(c.wrong));
+        }
+        std::printf("\n");
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
 void parity(const Settings& s) {
   std::printf("| n | m | fault | trials | correct, %% | undecided, %% | wrong, %% |\n|---|---|---|---|---|---|---|\n");
   constexpr const char* kNames[] = {"bias 0.02-1 g0", "stuck", "colluding", "mirrored"};
@@ -137,8 +172,7 @@ void parity(const Settings& s) {
     for (int m = 1; m <= n - 4; ++m) {
       for (int f = 0; f < 4; ++f) {
         const auto seed = s.seed + static_cast<std::uint64_t>(1000 * n + 100 * m + f);
-        const Count c =
-            cap8::parity_at_one_station({n, m, 40.0, 2000.0, s.trials(2e4), seed}, static_cast<ParityFault>(f));
+        const Count c = cap8::parity_at_one_station({n, m, 40.0, 2000.0, s.trials(2e4), seed, static_cast<Lie>(f)});
         std::printf("| %d | %d | %s | %llu | %s | %s | %s |\n", n, m, kNames[f],
                     static_cast<unsigned long long>(c.trials), share(c.correct, c.trials).c_str(),
                     share(c.undecided, c.trials).c_str(), share(c.wrong, c.trials).c_str());
@@ -161,8 +195,10 @@ void asserted(const Settings& s) {
 }
 
 int usage() {
-  std::fputs("usage: plumb_isolation_rates soundness|beyond|strict|rivals|parity|asserted [--scale X] [--seed S]\n",
-             stderr);
+  std::fputs(
+      "usage: plumb_isolation_rates soundness|beyond|strict|rivals|trouble|parity|asserted [--scale X] [--seed S] "
+      "[--from N] [--to N]\n",
+      stderr);
   return 2;
 }
 
@@ -175,6 +211,10 @@ int main(int argc, char** argv) {
     const std::string option = argv[i];
     if (option == "--scale") {
       settings.scale = std::strtod(argv[i + 1], nullptr);
+    } else if (option == "--from") {
+      settings.from = std::atoi(argv[i + 1]);
+    } else if (option == "--to") {
+      settings.to = std::atoi(argv[i + 1]);
     } else if (option == "--seed") {
       settings.seed = std::strtoull(argv[i + 1], nullptr, 10);
     } else {
@@ -190,6 +230,8 @@ int main(int argc, char** argv) {
     rates(settings, false);
   } else if (what == "rivals") {
     rates(settings, true);
+  } else if (what == "trouble") {
+    trouble(settings);
   } else if (what == "parity") {
     parity(settings);
   } else if (what == "asserted") {

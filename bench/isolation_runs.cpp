@@ -31,6 +31,12 @@ std::vector<TrialTool> tools_for(const SoundnessJob& job, TrialNoise& noise) {
 
 Count plain(const TrialCount& c) { return {c.trials, c.correct, c.undecided, c.wrong}; }
 
+TrialEpisode episode_of(const TrialTool& tool, const RatesJob& job, TrialNoise& noise) {
+  constexpr FaultLaw kLaw[] = {FaultLaw::bias, FaultLaw::stuck, FaultLaw::colluding, FaultLaw::mirrored};
+  return TrialEpisode(tool, job.faults, kLaw[static_cast<std::size_t>(job.lie)], job.least * kTrialSigma_mps2,
+                      job.most * kTrialSigma_mps2, noise);
+}
+
 /// The samples of one block, and their mean.
 StationSamples sampled(const TrialTool& tool, TrialEpisode& episode, const plumb::Vec3& g, TrialNoise& noise) {
   StationSamples out;
@@ -69,14 +75,14 @@ RuleCounts eight_attitudes(const RatesJob& job) {
   Rivals rivals(tool.array, tool.gravity.g_mps2, kStations, static_cast<int>(kTrialSamples));
   std::array<TrialCount, kRules> count;
   for (std::uint64_t t = 0; t < job.trials; ++t) {
-    TrialEpisode episode(tool, job.faults, FaultLaw::bias, job.least * kTrialSigma_mps2, job.most * kTrialSigma_mps2,
-                         noise);
+    TrialEpisode episode = episode_of(tool, job, noise);
     plumb::Isolation isolation = tool.posed;
     plumb::IsolationAnswer answer;
     bool blamed = false;
     rivals.clear();
     for (int k = 0; k < kStations; ++k) {
-      const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
+      const double length = tool.gravity.g_mps2 + job.gravity_error * tool.gravity.sigma_mps2;
+      const plumb::Vec3 g = plumb::scaled(noise.direction(), length);
       const StationSamples station = sampled(tool, episode, g, noise);
       rivals.add(station);
       answer = isolation.vote(tool.array, tool.gravity, tool.limits, station.block);
@@ -93,14 +99,12 @@ RuleCounts eight_attitudes(const RatesJob& job) {
   return out;
 }
 
-Count parity_at_one_station(const RatesJob& job, ParityFault fault) {
+Count parity_at_one_station(const RatesJob& job) {
   TrialNoise noise(job.seed);
   const TrialTool tool = exact_tool(job.n);
-  constexpr FaultLaw kLaw[] = {FaultLaw::bias, FaultLaw::stuck, FaultLaw::colluding, FaultLaw::mirrored};
   TrialCount count;
   for (std::uint64_t t = 0; t < job.trials; ++t) {
-    TrialEpisode episode(tool, job.faults, kLaw[static_cast<std::size_t>(fault)], job.least * kTrialSigma_mps2,
-                         job.most * kTrialSigma_mps2, noise);
+    TrialEpisode episode = episode_of(tool, job, noise);
     plumb::Isolation isolation = tool.posed;
     const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
     const plumb::IsolationAnswer answer =
@@ -115,8 +119,7 @@ Count asserted_at_one_block(const RatesJob& job) {
   const TrialTool tool = exact_tool(job.n);
   TrialCount count;
   for (std::uint64_t t = 0; t < job.trials; ++t) {
-    TrialEpisode episode(tool, job.faults, FaultLaw::bias, job.least * kTrialSigma_mps2, job.most * kTrialSigma_mps2,
-                         noise);
+    TrialEpisode episode = episode_of(tool, job, noise);
     plumb::Isolation isolation = tool.posed;
     const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
     const plumb::BlockEvidence block = episode.block(g, noise);

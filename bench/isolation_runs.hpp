@@ -27,24 +27,26 @@ struct SoundnessJob {
   int stations = 0;  ///< 0: one to four
 };
 
-/// Biases, log-uniform from `least` to `most` sigmas of one sample, constant over the stations.
+/// How the faulty sensors of a study of rates lie.
+enum class Lie : std::uint8_t { bias, stuck, colluding, mirrored };
+
+/// Biases are log-uniform from `least` to `most` sigmas of one sample, constant over the stations.
 struct RatesJob {
   int n = 4, faults = 1;
   double least = 10.0, most = 30.0;
   std::uint64_t trials = 0, seed = 0;
+  Lie lie = Lie::bias;
+  double gravity_error = 0.0;  ///< sigmas of the reference; every rule is told the reference
 };
 
 enum class Rule : std::uint8_t { strict, paper, glt, leave_out, best_fit };
 inline constexpr int kRules = 5;
 using RuleCounts = std::array<Count, kRules>;
 
-/// Faults of the study of the parity grade.
-enum class ParityFault : std::uint8_t { bias, stuck, colluding, mirrored };
-
-#define PLUMB_BENCH_ISOLATION_RUNS                                     \
-  SoundCount soundness(const SoundnessJob& job);                       \
-  RuleCounts eight_attitudes(const RatesJob& job);                     \
-  Count parity_at_one_station(const RatesJob& job, ParityFault fault); \
+#define PLUMB_BENCH_ISOLATION_RUNS                  \
+  SoundCount soundness(const SoundnessJob& job);    \
+  RuleCounts eight_attitudes(const RatesJob& job);  \
+  Count parity_at_one_station(const RatesJob& job); \
   Count asserted_at_one_block(const RatesJob& job);
 
 namespace cap8 {

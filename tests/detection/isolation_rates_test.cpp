@@ -2,16 +2,17 @@
 // hundred times as many. bench/isolation_rates counts further (docs/isolation.md).
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <cstdint>
 
 #include "support/isolation_trials.hpp"
+#include "support/long_run.hpp"
 
 namespace {
 
 using namespace plumb;
 using namespace plumb_test;
 
-std::uint64_t trials(std::uint64_t few) { return std::getenv("PLUMB_LONG") != nullptr ? 100 * few : few; }
+std::uint64_t trials(std::uint64_t few) { return long_run() ? 100 * few : few; }
 
 TrialCount strict_over_eight(int n, int m, double least, double most, std::uint64_t count) {
   const TrialTool tool = exact_tool(n);

@@ -3,13 +3,13 @@
 // invariant and the properties are written from the design's text and share nothing with the table.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "plumb/health/decision.hpp"
+#include "support/long_run.hpp"
 
 namespace {
 
@@ -293,7 +293,7 @@ TEST(Induction, EveryStepFromEveryStateOfTheInvariantKeepsItAndTheProperties) {
     Size size;
     int histories;
   };
-  const bool thorough = std::getenv("PLUMB_LONG") != nullptr;
+  const bool thorough = plumb_test::long_run();
   for (const Case& c : {Case{4, general_position, thorough ? 4 : 2}, Case{5, general_position, thorough ? 3 : 1},
                         Case{6, general_position, thorough ? 1 : 0}, Case{6, two_triads, 0}}) {
     Induction induction(kTransitionTable, c.n, c.size, c.histories);
