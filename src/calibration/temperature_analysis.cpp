@@ -102,16 +102,22 @@ void note_coefficients(const JointAnalysis& a, const double* prior, const double
 
 }  // namespace
 
+bool to_posterior(const Joint& joint, const Parameters& theta, double* information) noexcept {
+  const int size = joint.parameters();
+  for (int k = 0; k < size; ++k) information[k * size + k] += 1.0;
+  if (!cholesky_factor(information, size, size)) return false;
+  cholesky_inverse(information, size, size);
+  to_natural(joint, theta, information);
+  return true;
+}
+
 bool analyse(const JointAnalysis& a, TemperatureWork& work, TemperatureReport& report, FitReport& fit) noexcept {
   const Joint& joint = a.joint;
   const int size = joint.parameters(), per = joint.per_sensor();
   double* const information = work.information.data();
   double* const prior = work.vectors.data();
   if (!find_rank(a, work, report)) return false;
-  for (int k = 0; k < size; ++k) information[k * size + k] += 1.0;
-  if (!cholesky_factor(information, size, size)) return false;
-  cholesky_inverse(information, size, size);
-  to_natural(joint, a.state.theta, information);
+  if (!to_posterior(joint, a.state.theta, information)) return false;
   for (int k = 0; k < size * size; ++k) prior[k] = 0.0;
   for (int k = 0; k < size; ++k) prior[k * size + k] = 1.0;
   to_natural(joint, a.state.theta, prior);

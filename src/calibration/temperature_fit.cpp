@@ -77,7 +77,8 @@ class Attempt {
         scratch_(scratch),
         work_(work),
         told_(told),
-        report_(report) {}
+        report_(report),
+        whole_(datasheet, told.use_degc, kMaxTemperatureOrder) {}
 
   Expected<Calibration> run(int order) noexcept {
     const fit::Joint joint(datasheet_, told_.use_degc, order);
@@ -145,7 +146,22 @@ class Attempt {
       factor = report_.chi2 / freedom;
     }
     widen(factor, joint, information);
-    fit::note_forecast(joint, state, gravity_.g_mps2, report_.misfit_mps2, work_, told_);
+    return doubt_higher_orders(joint, descent, factor);
+  }
+
+  /// What the orders above that of the fit may do is not nothing: the covariance is that of a fit of the third order
+  /// that found nothing in them, where the prior speaks wherever the stations do not.
+  bool doubt_higher_orders(const fit::Joint& joint, const fit::Descent& descent, double factor) noexcept {
+    double* const information = work_.information.data();
+    const fit::JointState& state = descent.state();
+    if (joint.order < kMaxTemperatureOrder) {
+      fit::JointSums sums;
+      fit::accumulate(whole_, state, descent.problem(), descent.misfit_variance(), fit::Loss::squares, information,
+                      sums);
+      if (!fit::to_posterior(whole_, state.theta, information)) return false;
+      for (int k = 0; k < whole_.parameters() * whole_.parameters(); ++k) information[k] *= factor;
+    }
+    fit::note_forecast(whole_, state, gravity_.g_mps2, report_.misfit_mps2, work_, told_);
     return true;
   }
 
@@ -161,9 +177,11 @@ class Attempt {
 
   Expected<Calibration> compose(const fit::Joint& joint, const fit::JointState& state,
                                 const fit::Fitted& fitted) noexcept {
-    const ChebyshevSpan span = {told_.levels.lowest_degc - kLevelMargin_degc,
-                                told_.levels.highest_degc + kLevelMargin_degc};
-    told_.inflation = fit::covering_covariance(joint, state, span, work_);
+    const ChebyshevSpan seen = confirmed_span(stations_, count_, told_.levels);
+    report_.temperature_min_degc = seen.lowest;
+    report_.temperature_max_degc = seen.highest;
+    const ChebyshevSpan span = {seen.lowest - kLevelMargin_degc, seen.highest + kLevelMargin_degc};
+    told_.inflation = fit::covering_covariance(whole_, state, span, work_);
     if (!(told_.inflation > 0.0)) return fail(Errc::diverged);
     return fit::compose(fit::with_polynomials(joint, state), gravity_, fitted.theta, work_.vectors.data(), report_);
   }
@@ -204,6 +222,7 @@ class Attempt {
   TemperatureWork& work_;
   TemperatureReport& told_;
   FitReport& report_;
+  fit::Joint whole_;  ///< of every order that there may be
 };
 
 Error refused_options(const TemperatureOptions& options) noexcept {
@@ -294,6 +313,12 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
   told.condition = r.condition;
   told.iterations = r.iterations;
   told.null_directions = r.null_directions;
+  if (out && automatic && told.levels.count > 1) {
+    // No drift could be estimated, so one level speaks for itself alone.
+    const ChebyshevSpan seen = fullest_level(stations, count, told.levels);
+    r.temperature_min_degc = out->report.temperature_min_degc = seen.lowest;
+    r.temperature_max_degc = out->report.temperature_max_degc = seen.highest;
+  }
   return out;
 }
 

@@ -54,6 +54,47 @@ TemperatureLevels temperature_levels(const Station* stations, int count) noexcep
   return out;
 }
 
+namespace {
+
+/// Temperatures of the stations of those levels that `counts(level)`.
+template <class Counts>
+ChebyshevSpan span_of_levels(const Station* stations, int count, const TemperatureLevels& levels,
+                             Counts&& counts) noexcept {
+  ChebyshevSpan out = {levels.highest_degc, levels.lowest_degc};
+  for (int k = 0; k < count; ++k) {
+    const double t = stations[k].temperature_degc;
+    if (stations[k].count == 0 || !std::isfinite(t)) continue;
+    int nearest = 0;
+    for (int level = 1; level < levels.count; ++level) {
+      if (std::fabs(t - levels.degc[static_cast<std::size_t>(level)]) <
+          std::fabs(t - levels.degc[static_cast<std::size_t>(nearest)])) {
+        nearest = level;
+      }
+    }
+    if (!counts(nearest)) continue;
+    out.lowest = std::fmin(out.lowest, t);
+    out.highest = std::fmax(out.highest, t);
+  }
+  return out.lowest <= out.highest ? out : ChebyshevSpan{levels.lowest_degc, levels.highest_degc};
+}
+
+}  // namespace
+
+ChebyshevSpan confirmed_span(const Station* stations, int count, const TemperatureLevels& levels) noexcept {
+  constexpr int kNotAlone = 2;  // one station, or one slip of the thermometer, is no level
+  return span_of_levels(stations, count, levels,
+                        [&levels](int level) { return levels.stations[static_cast<std::size_t>(level)] >= kNotAlone; });
+}
+
+ChebyshevSpan fullest_level(const Station* stations, int count, const TemperatureLevels& levels) noexcept {
+  int fullest = 0;
+  for (int level = 1; level < levels.count; ++level) {
+    if (levels.stations[static_cast<std::size_t>(level)] > levels.stations[static_cast<std::size_t>(fullest)])
+      fullest = level;
+  }
+  return span_of_levels(stations, count, levels, [fullest](int level) { return level == fullest; });
+}
+
 int missing_levels(const TemperatureLevels& levels, const ChebyshevSpan& use_degc, int wanted,
                    std::array<double, kMaxTemperatureOrder + 1>& degc) noexcept {
   int found = 0;

@@ -76,6 +76,9 @@ struct JointAnalysis {
 /// Rank, gauge, condition and null directions; `work.information` (lower triangle) is kept. False where the
 /// eigenvalues could not be had.
 bool find_rank(const JointAnalysis& analysis, TemperatureWork& work, TemperatureReport& report) noexcept;
+/// From the sum over the stations to the posterior covariance in natural units with the common rotation taken out, both
+/// triangles.
+bool to_posterior(const Joint& joint, const Parameters& theta, double* information) noexcept;
 /// The same, and the coefficients with their sigmas. `work.information` is the sum over the stations;
 /// left there: the posterior covariance in natural units with the common rotation taken out, both triangles.
 bool analyse(const JointAnalysis& analysis, TemperatureWork& work, TemperatureReport& report, FitReport& fit) noexcept;

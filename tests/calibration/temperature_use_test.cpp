@@ -165,4 +165,52 @@ TEST(TemperatureUse, ACovarianceThatCoversTheSpanIsAlwaysHad) {
   }
 }
 
+/// Two temperatures say nothing of what a drift does between them: the prior of the orders that were not estimated
+/// does.
+TEST(TemperatureUse, OrdersThatWereNotEstimatedAreDoubted) {
+  double squares = 0.0, said = 0.0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Noise noise(seed);
+    const plumb::Datasheet sheet = paper_sheet();
+    const Truth truth = temperature_test::draw_truth(sheet, noise);
+    const auto stations = on_levels(truth, {20.0, 150.0}, noise);
+    const Fit f = fit_of(sheet, stations, options_of(plumb::kAutomaticOrder, 20.0, 150.0));
+    ASSERT_TRUE(f.made.has_value()) << seed;
+    ASSERT_EQ(f.report.order, 1);
+    const double between = tilt_rms(truth, *f.made, 84.0, 86.0);
+    EXPECT_LT(between, 5.0 * f.report.forecast[1].tilt_rad) << seed;
+    squares += between * between;
+    said += f.report.forecast[1].tilt_rad * f.report.forecast[1].tilt_rad;
+  }
+  RecordProperty("said_over_found", std::to_string(std::sqrt(said / squares)));
+  EXPECT_GT(said, 0.3 * squares) << "these tools bend somewhat more than the prior says";
+}
+
+/// One station in the heat, or one slip of the thermometer, must not make a monitor trust all that lies below.
+TEST(TemperatureUse, ALevelOfOneStationConfirmsNothing) {
+  Noise noise(5);
+  const plumb::Datasheet sheet = paper_sheet();
+  const Truth truth = temperature_test::draw_truth(sheet, noise);
+  auto stations = on_levels(truth, {20.0}, noise);
+  const auto hot = on_levels(truth, {150.0}, noise);
+  stations.push_back(hot[0]);
+  const Fit one = fit_of(sheet, stations, options_of(plumb::kAutomaticOrder, 20.0, 150.0));
+  ASSERT_TRUE(one.made.has_value());
+  EXPECT_EQ(one.report.order, 0);
+  EXPECT_LT(one.made->report.temperature_max_degc, 30.0);
+  // Two more do not make a drift either.
+  stations.push_back(hot[1]);
+  stations.push_back(hot[2]);
+  const Fit three = fit_of(sheet, stations, options_of(plumb::kAutomaticOrder, 20.0, 150.0));
+  if (three.made.has_value() && three.report.order == 0) {
+    EXPECT_LT(three.made->report.temperature_max_degc, 30.0);
+  }
+  // Beside levels that stand, one that does not is left out of the span.
+  auto levels = on_levels(truth, {20.0, 60.0}, noise);
+  levels.push_back(hot[0]);
+  const Fit more = fit_of(sheet, levels, options_of(1, 20.0, 150.0));
+  ASSERT_TRUE(more.made.has_value());
+  EXPECT_LT(more.made->report.temperature_max_degc, 70.0);
+}
+
 }  // namespace

@@ -51,7 +51,7 @@ bool publishes(const Machine& m) {
 class Induction {
  public:
   Induction(const TransitionTable& table, int n, Size size, int histories)
-      : table_(table), n_(n), size_(size), histories_(histories), all_(SensorSet::first(n)) {
+      : table_(table), n_(n), histories_(histories), all_(SensorSet::first(n)) {
     for (std::uint32_t bits = 0; bits <= all_.bits; ++bits) class_.push_back(size(SensorSet(bits), n));
   }
 
@@ -278,7 +278,6 @@ class Induction {
 
   const TransitionTable& table_;
   int n_;
-  Size size_;
   int histories_;  ///< sensors of one state that may have come back before
   SensorSet all_;
   std::vector<SizeClass> class_;

@@ -36,6 +36,11 @@ struct TemperatureLevels {
   double highest_degc = 0.0;
 };
 TemperatureLevels temperature_levels(const Station* stations, int count) noexcept;
+/// From the lowest to the highest station [degC], those aside that are alone at their level: a single station, or a
+/// slip of the thermometer, confirms nothing.
+ChebyshevSpan confirmed_span(const Station* stations, int count, const TemperatureLevels& levels) noexcept;
+/// The same, of the level that has the most stations.
+ChebyshevSpan fullest_level(const Station* stations, int count, const TemperatureLevels& levels) noexcept;
 
 /// Temperatures to record next so that `wanted` levels cover the span; returns their number, at most `wanted` less
 /// those there are. Multiples of 5 degC, or ends of the span; each as far from all others as can be.
