@@ -1,5 +1,6 @@
 #include "plumb/array/sensor_array.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -94,10 +95,7 @@ bool RowUncertainty::is_covariance() const noexcept {
       if (!(square <= (1.0 + kRounding) * entry(a, a) * entry(b, b) + largest * floor)) return false;
     }
   }
-  for (const double sigma : misfit_mps2) {
-    if (!(sigma >= 0.0)) return false;
-  }
-  return true;
+  return std::all_of(misfit_mps2.begin(), misfit_mps2.end(), [](double sigma) { return sigma >= 0.0; });
 }
 
 Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {

@@ -76,10 +76,11 @@ void transpose(double* a, int m) noexcept {
 /// The lower factor of `a`, which gets as much of a ridge as it takes.
 bool factor_of(double* a, int m, double* factor) noexcept {
   double ridge = kRidge;
-  for (int k = 0; k < kRidges; ++k, ridge *= 10.0) {
+  for (int k = 0; k < kRidges; ++k) {
     for (int i = 0; i < m; ++i) a[i * m + i] *= 1.0 + ridge;
     for (int i = 0; i < m * m; ++i) factor[i] = a[i];
     if (cholesky_factor(factor, m, m)) return true;
+    ridge *= 10.0;
   }
   return false;
 }

@@ -107,10 +107,8 @@ void ScatterRecord::add(int i, double ratio, double degrees, double own, double 
 }
 
 bool ScatterRecord::plausible() const noexcept {
-  for (const double f : freedom) {
-    if (!(f >= 0.0 && f <= kMostFreedom + kWindowCapacity)) return false;
-  }
-  return true;
+  return std::all_of(freedom.begin(), freedom.end(),
+                     [](double f) { return f >= 0.0 && f <= kMostFreedom + kWindowCapacity; });
 }
 
 void BlockAccumulator::clear() noexcept { *this = BlockAccumulator{}; }

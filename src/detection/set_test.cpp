@@ -185,6 +185,7 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
   const Vec3 u = length > 0.0 ? scaled(x, 1.0 / length) : Vec3{0.0, 0.0, 1.0};
   const Vec3 cu = times(c, u);
   const double sigma_norm = std::sqrt(dot(u, cu));  // of |x| for one sample [m/s^2]
+  if (!(sigma_norm > 0.0)) return out;              // readings beyond all bounds, as a forged snapshot may hold them
 
   Projection p;
   double rss = 0.0;
