@@ -81,7 +81,7 @@ Expected<SnapshotHeader> snapshot_header(const std::uint8_t* bytes, size_t size)
   SnapshotHeader header;
   header.format = static_cast<std::uint16_t>(in.get_bits(2));
   header.capacity = static_cast<std::uint16_t>(in.get_bits(2));
-  header.library_version = static_cast<std::uint32_t>(in.get_bits(4));
+  header.plumb_version = static_cast<std::uint32_t>(in.get_bits(4));
   header.identity = in.get_bits(8);
   header.size = static_cast<std::uint32_t>(in.get_bits(4));
   if (header.size < kSnapshotFrameSize) return fail(Errc::snapshot_damaged);

@@ -177,7 +177,7 @@ TEST(Snapshot, TellsWhoWroteIt) {
   ASSERT_TRUE(header.has_value());
   EXPECT_EQ(header->format, kSnapshotFormat);
   EXPECT_EQ(header->capacity, kCapacity);
-  EXPECT_EQ(header->library_version, kLibraryVersion);
+  EXPECT_EQ(header->plumb_version, kLibraryVersion);
   EXPECT_EQ(header->size, bytes.size());
   bytes[12] = 0x77;
   seal(bytes);

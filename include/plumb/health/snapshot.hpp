@@ -28,7 +28,7 @@ inline constexpr std::size_t kSnapshotFrameSize = kSnapshotHeaderSize + 8;
 struct SnapshotHeader {
   std::uint16_t format = kSnapshotFormat;
   std::uint16_t capacity = kCapacity;
-  std::uint32_t library_version = 0;
+  std::uint32_t plumb_version = 0;
   std::uint64_t identity = 0;
   std::uint32_t size = 0;
 };
