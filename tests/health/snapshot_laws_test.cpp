@@ -24,7 +24,7 @@ RC_GTEST_PROP(SnapshotLaw, IsTransparentAtAnyStepOfAnyLife, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   const auto other_seed = *rc::gen::arbitrary<std::uint64_t>();
-  const int every = *rc::gen::inRange(1, 400);
+  const int every = *rc::gen::inRange(15, 400);
   Life life(n, seed);
   Life other(n, other_seed);
   HealthMonitor& monitor = life.tool.rig.monitor;

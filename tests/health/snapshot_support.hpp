@@ -56,7 +56,7 @@ class Life {
     }
     const bool shaken = moving;
     const plumb::Vec3 u = shaken ? random_direction(luck) : direction;
-    plumb::Sample s = tool.rig.sample(u, plumb::kG0_mps2);
+    plumb::Sample s = tool.rig.sample(u, g_mps2);
     s.time_s += skew_s;
     s.delivered = s.delivered - missing;
     s.temperature_degc = temperature_degc;
@@ -84,7 +84,9 @@ class Life {
     direction = random_direction(luck);
     moving = pick < 0.05;
     if (pick > 0.05 && pick < 0.08) skew_s += 20.0;
-    temperature_degc = pick > 0.98 ? 1e9 : 25.0;
+    temperature_degc = pick > 0.98   ? 3e9
+                       : pick > 0.96 ? std::numeric_limits<double>::quiet_NaN()
+                                     : 20.0 + 10.0 * luck.uniform();
     const int n = tool.rig.setup.array.size();
     const double trouble = luck.uniform();
     if (trouble < 0.04) {
@@ -93,11 +95,13 @@ class Life {
     }
     if (trouble > 0.04 && trouble < 0.10) faulty = -1;
     if (trouble > 0.10 && trouble < 0.12) missing = plumb::SensorSet::of(static_cast<int>(luck.uniform() * n));
+    if (trouble > 0.20 && trouble < 0.23) g_mps2 = 1.002 * plumb::kG0_mps2;
+    if (trouble > 0.23 && trouble < 0.28) g_mps2 = plumb::kG0_mps2;
     if (trouble > 0.12 && trouble < 0.2) missing = plumb::SensorSet{};
   }
   void ask(const std::vector<plumb::HealthMonitor*>& asked) {
     const double pick = luck.uniform();
-    const double g_mps2 = plumb::kG0_mps2 * (1.0 + 2e-4 * (luck.uniform() - 0.5));
+    const double told_mps2 = plumb::kG0_mps2 * (1.0 + 2e-4 * (luck.uniform() - 0.5));
     for (plumb::HealthMonitor* monitor : asked) {
       if (pick < 0.1) monitor->request_recalibration();
       if (pick > 0.1 && pick < 0.13) monitor->reset(monitor->config().reset_key, monitor->array().all());
@@ -106,7 +110,7 @@ class Life {
       if (pick > 0.24 && pick < 0.26) monitor->set_rotation({true, false, {}});
       if (pick > 0.26 && pick < 0.30) monitor->set_rotation({});
       if (pick > 0.13 && pick < 0.15) {
-        monitor->set_gravity({g_mps2, 1e-4 * plumb::kG0_mps2, plumb::GravityModel::value});
+        monitor->set_gravity({told_mps2, 1e-4 * plumb::kG0_mps2, plumb::GravityModel::value});
       }
     }
   }
@@ -115,6 +119,7 @@ class Life {
   int left = 0;
   bool moving = false;
   double skew_s = 0.0;
+  double g_mps2 = plumb::kG0_mps2;
   double temperature_degc = 25.0;
   int faulty = -1;
   int kind = 0;
