@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "column_facts.hpp"
 #include "fit_words.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
@@ -158,22 +159,18 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
   return {worst.empty() ? fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor,
                                       e.value, e.limit)
                         : worst + ", which is physically implausible",
-          "check the channel, the sign of its axis and its scale in the array file; if all is right, the sensor is "
+          "check its `column`, the sign of its `axis` and its `scale` in the array file; if all is right, the sensor is "
           "faulty: leave it out"};
 }
 
-/// A unit that is wrong by a factor spoils everything that a fit could say.
-constexpr double kWrongUnit = 2.0;
-
-/// Whether the numbers of the log cannot be in the unit stated; fills the refusal.
-bool wrong_unit(const CalibrationRun& run, const io::ArrayFile& array, Refusal& out) {
+/// The numbers of the log cannot be in the unit stated.
+Refusal wrong_unit(const CalibrationRun& run, const io::ArrayFile& array) {
   const double factor = length_factor(array, run.stations);
-  if (!(factor > 0.0) || (factor < kWrongUnit && factor > 1.0 / kWrongUnit)) return false;
-  out = {fmt::format("the vector is {:.3g} times as long as gravity, so the numbers of the log are not in {} or not of "
-                     "the `scale` stated{}",
-                     factor, array.input.unit.name, likely_unit(array, factor)),
-         "correct `unit` in [input], or `scale` and `bias` of the sensors"};
-  return true;
+  return {
+      fmt::format("the vector is {:.3g} times as long as gravity, so the numbers of the log are not in {} or not of "
+                  "the `scale` stated{}",
+                  factor, array.input.unit.name, likely_unit(array, factor)),
+      "correct `unit` in [input], or `scale` and `bias` of the sensors"};
 }
 
 Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -251,34 +248,58 @@ Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
   const std::vector<std::string> absent = absent_words(run, array);
   if (!absent.empty()) return {"the fit did not settle: " + joined(absent, "; "), "look at the channel in the log"};
   return {"the fit did not settle",
-          "check axes, scales and `reads` in the array file against the log; then " + more_attitudes(run)};
+          "check `column`, `axis` and `scale` of the sensors in the array file against the log; then " +
+              more_attitudes(run)};
+}
+
+/// Of a log that determines too little: the columns that lacked numbers are likely why.
+Refusal too_little(Refusal refusal, const CalibrationRun& run, const io::ArrayFile& array) {
+  std::string columns;
+  for (const ColumnFact& fact : column_facts(run, array)) {
+    if (fact.of != "roll_group") refusal.reason += "; the column " + fact.words;
+    if (fact.of != "roll_group") columns += (columns.empty() ? "" : ", ") + ("`" + fact.column + "`");
+  }
+  if (!columns.empty()) refusal.next = "fill in " + columns + " where it is empty; or " + refusal.next;
+  return refusal;
+}
+
+/// The refusal of values that do not fit together, with the one mistake of the array file that would explain them.
+Refusal explained(Refusal refusal, const CalibrationRun& run, const io::ArrayFile& array) {
+  if (!run.second_look.found()) return refusal;
+  return {refusal.reason + second_look_words(run.second_look, array), second_look_remedy(run.second_look, array)};
 }
 
 }  // namespace
 
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
-  if (const std::optional<Refusal> temperature = temperature_refusal(run)) return *temperature;
-  Refusal unit;
   const bool of_values = e.code == Errc::implausible || e.code == Errc::poor_fit || e.code == Errc::diverged;
-  if (of_values && run.concern != Concern::gravity && wrong_unit(run, array, unit)) return unit;
+  const bool of_amount = e.code == Errc::too_few_stations || e.code == Errc::unobservable;
+  const std::optional<Refusal> columns = column_refusal(run, array);
+  if (columns && (of_values || of_amount) && run.concern != Concern::gravity) return *columns;
+  if (const std::optional<Refusal> temperature = temperature_refusal(run)) return *temperature;
+  if (of_values && run.concern != Concern::gravity && of_another_unit(array, run.stations))
+    return wrong_unit(run, array);
   switch (e.code) {
     case Errc::too_few_stations:
-      if (!run.log_findings.empty()) return no_stations(run);
-      return {fmt::format("{} station{} found, {} are needed", run.stations.size(),
-                          run.stations.size() == 1 ? " was" : "s were", e.limit),
-              more_attitudes(run)};
+      if (!run.log_findings.empty()) return too_little(no_stations(run), run, array);
+      return too_little({fmt::format("{} station{} found, {} are needed", run.stations.size(),
+                                     run.stations.size() == 1 ? " was" : "s were", e.limit),
+                         more_attitudes(run)},
+                        run, array);
     case Errc::unobservable:
-      return {fmt::format(
-                  "the stations determine {} of the {} parameters that they must (the report names what is missing)",
-                  e.value, e.limit),
-              more_attitudes(run) + (run.report.roll_axis == Vec3{}
-                                         ? ""
-                                         : "; with more rolls to a group, or without `roll_group`, where it is "
-                                           "the common rotation that is missing")};
-    case Errc::implausible: return implausible(run, array);
-    case Errc::poor_fit: return poor_fit(run, array);
-    case Errc::diverged: return did_not_settle(run, array);
+      return too_little(
+          {fmt::format(
+               "the stations determine {} of the {} parameters that they must (the report names what is missing)",
+               e.value, e.limit),
+           more_attitudes(run) + (run.report.roll_axis == Vec3{}
+                                      ? ""
+                                      : "; with more rolls to a group, or without `roll_group`, where it is "
+                                        "the common rotation that is missing")},
+          run, array);
+    case Errc::implausible: return explained(implausible(run, array), run, array);
+    case Errc::poor_fit: return explained(poor_fit(run, array), run, array);
+    case Errc::diverged: return explained(did_not_settle(run, array), run, array);
     case Errc::out_of_range:  // axis and wobble come from the command line, which checks them
       return {fmt::format("the log has more than {} roll groups", kMaxRollGroups),
               "join groups of like inclination, or leave some stations without"};

@@ -18,6 +18,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/scenario/host_request.hpp"
+#include "second_look.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -34,13 +35,15 @@ struct LogSpec {
 struct CalibrationRun {
   std::vector<Station> stations;
   io::LogStatistics log;
-  bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
+  int without_temperature = 0;  ///< stations left out because nothing says how hot they were
+  bool interrupted = false;     ///< Ctrl-C: the stations up to then were used
   FitOptions options;
   FitReport report;
   TemperatureReport temperature;  ///< of the fit, whichever order it had
   FitStudy study;
   Error refusal;                          ///< why it was not accepted
   Concern concern = Concern::none;        ///< what exactly, where the code alone does not say
+  SecondLook second_look;                 ///< what would have made the fit settle; of values that do not fit only
   std::vector<std::string> log_findings;  ///< why no still stretch was found; empty where there were some
   std::unique_ptr<Calibration> accepted;  ///< null where it was not
   /// The paper's own fits, where they were asked for and plumb's was accepted; null where they could not be made.

@@ -72,6 +72,7 @@ struct LogReader::State {
   bool fill_tags(Sample& sample);
   bool fill_temperature(Sample& sample);
   bool fill_sensors(Sample& sample);
+  void note_value(std::size_t sensor, double value);
   bool selected() const noexcept;
   FileError nothing_usable() const;
 };
@@ -261,9 +262,17 @@ bool LogReader::State::fill_sensors(Sample& sample) {
       ++statistics.missing[i];
     } else if (!std::isfinite(sample.raw[i])) {
       ++statistics.not_finite[i];
+    } else {
+      note_value(i, sample.raw[i]);
     }
   }
   return true;
+}
+
+void LogReader::State::note_value(std::size_t sensor, double value) {
+  const bool first = statistics.missing[sensor] + statistics.not_finite[sensor] == statistics.rows;
+  if (first) statistics.first_value[sensor] = value;
+  if (value != statistics.first_value[sensor]) statistics.varied.bits |= 1U << static_cast<unsigned>(sensor);
 }
 
 bool LogReader::State::fill(Sample& sample) {

@@ -41,7 +41,10 @@ struct LogStatistics {
   std::uint64_t temperature_held = 0;                 ///< rows without a temperature, which got the one before
   std::array<std::uint64_t, kCapacity> missing{};     ///< empty cells per sensor
   std::array<std::uint64_t, kCapacity> not_finite{};  ///< nan or inf per sensor
-  std::vector<FileError> bad_rows;                    ///< the first kBadRowsKept of them
+  /// First number of each sensor's column, and which sensors have had another one since.
+  std::array<double, kCapacity> first_value{};
+  SensorSet varied;
+  std::vector<FileError> bad_rows;  ///< the first kBadRowsKept of them
   double first_time_s = 0.0;
   double last_time_s = 0.0;
   std::uint64_t bytes = 0;  ///< read so far
