@@ -156,11 +156,12 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
   }
   const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "a sensor";
   const std::string worst = worst_value(run, array);
-  return {worst.empty() ? fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor,
-                                      e.value, e.limit)
-                        : worst + ", which is physically implausible",
-          "check its `column`, the sign of its `axis` and its `scale` in the array file; if all is right, the sensor is "
-          "faulty: leave it out"};
+  return {
+      worst.empty()
+          ? fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor, e.value, e.limit)
+          : worst + ", which is physically implausible",
+      "check its `column`, the sign of its `axis` and its `scale` in the array file; if all is right, the sensor is "
+      "faulty: leave it out"};
 }
 
 /// The numbers of the log cannot be in the unit stated.
@@ -244,6 +245,13 @@ Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
     return {fmt::format("station {} holds a reading that no sensor gives ({})", k + 1,
                         largest_reading(run.stations[static_cast<std::size_t>(k)], array)),
             "mend the row or leave it out"};
+  }
+  if (const FollowedDirection follows = followed_direction(run); follows.axis != 0) {
+    return {
+        fmt::format("the fit did not settle: the temperature of the stations follows the {} direction of gravity, so "
+                    "that drift and attitude cannot be told apart",
+                    follows.axis),
+        "record some of the attitudes again, hotter or colder by 30 degC or more; or give --temperature-order 0"};
   }
   const std::vector<std::string> absent = absent_words(run, array);
   if (!absent.empty()) return {"the fit did not settle: " + joined(absent, "; "), "look at the channel in the log"};

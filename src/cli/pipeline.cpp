@@ -9,6 +9,7 @@
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/io/records.hpp"
 #include "temperature_gaps.hpp"
+#include "temperature_words.hpp"
 #include "tool.hpp"
 #include "unit_guess.hpp"
 
@@ -109,12 +110,13 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   run.concern = judged.concern;
 }
 
-/// Whether the values do not fit together, and neither a dead channel nor another unit nor a single row is why.
+/// Whether the values do not fit together, and no dead channel, other unit, single row or temperature is why.
 bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) {
   const Errc code = run.refusal.code;
   const bool of_values = code == Errc::diverged || code == Errc::implausible || code == Errc::poor_fit;
   const bool of_one_row = code == Errc::diverged && run.refusal.index >= 0;
-  if (!of_values || of_one_row || run.concern == Concern::gravity || of_another_unit(array, run.stations)) return false;
+  if (!of_values || of_one_row || run.concern != Concern::none || of_another_unit(array, run.stations)) return false;
+  if (followed_direction(run).axis != 0) return false;
   for (int i = 0; i < array.array.size(); ++i) {
     if (dead_channel(run.log, i)) return false;
   }

@@ -164,6 +164,13 @@ TEST(ToolTemperature, BadOptionsAreRefused) {
   for (const char* range : {"20", "150,20", "20,25", "a,b", "20,150,3", "20,nan"}) {
     EXPECT_EQ(refused("--use-range-degc", range).code, 2) << range;
   }
+  for (const char* range : {"-1e308,1e308", "0,1e6", "-101,20", "20,401"}) {
+    const Outcome outcome =
+        run(where, {"calibrate", "--array", "a", "--log", "b", "--out", "c", std::string("--use-range-degc=") + range});
+    EXPECT_EQ(outcome.code, 2) << range;
+    EXPECT_TRUE(says(outcome.err, {"reaches beyond -100 to 400 degC"})) << range;
+  }
+  EXPECT_TRUE(says(refused("--use-range-degc", "150,20").err, {"does not rise"}));
 }
 
 }  // namespace

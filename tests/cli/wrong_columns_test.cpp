@@ -167,6 +167,26 @@ TEST(WrongColumns, KelvinAndFahrenheitAreAskedFor) {
   EXPECT_TRUE(report(fahrenheit)["temperature_unit"].is_null());
 }
 
+TEST(WrongColumns, ATemperatureThatFollowsADirectionIsTold) {
+  const Workshop where;
+  where.put("array.toml", with(where.text("array.toml"), "[input]\n", "[input]\ntemperature = \"T\"\n"));
+  rewrite(where, "calibration.csv", [](std::size_t row, Cells& cells) {
+    const auto volt = [&cells](std::size_t i) { return std::stod(cells[kA1 + i]); };
+    // Along x of the paper's tool, +1 to -1 for 3 V/g0.
+    cells.push_back(row == 0 ? "T" : std::to_string(60.0 + 40.0 * (2.0 * volt(0) - volt(1) - volt(2)) / 8.485));
+  });
+  const Json json = report(where);
+  EXPECT_GE(json["temperature"]["order"], 1);
+  EXPECT_EQ(json["temperature"]["follows_direction"], "x");
+  EXPECT_TRUE(
+      says(flat(calibrate(where).out), {"the temperature follows the x direction of gravity (correlation 1.000)"}));
+  EXPECT_TRUE(says(calibrate(where).err, {"the temperature of the stations follows the x direction", "30 degC"}));
+  const Json none = report(where, {"--temperature-order", "0"});
+  EXPECT_TRUE(none["temperature"]["follows_direction"].is_null());
+  const WarmBench steady([](double part) { return std::to_string(20.0 + 80.0 * part); });
+  EXPECT_TRUE(report(steady)["temperature"]["follows_direction"].is_null());
+}
+
 TEST(WrongColumns, ExchangedOnesAreNamedAsAPair) {
   const Workshop where;
   std::string array = with(where.text("array.toml"), "id = \"a1\"\n", "id = \"a1\"\ncolumn = \"a4\"\n");

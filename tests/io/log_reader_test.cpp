@@ -86,6 +86,16 @@ TEST(LogReader, MissingAndNotFiniteCellsAreFactsNotBadRows) {
   EXPECT_EQ(log.statistics.rows_bad, 0U);
 }
 
+TEST(LogReader, KnowsWhichColumnsSaidTheSameInEveryRow) {
+  const LogStatistics log = content_of(kHeader + "0,,5,nan,1\n1,7,5,2,1\n2,7,5,3,1.5\n").statistics;
+  EXPECT_FALSE(log.varied.has(0));
+  EXPECT_EQ(log.first_value[0], 7.0);
+  EXPECT_FALSE(log.varied.has(1));
+  EXPECT_TRUE(log.varied.has(2));
+  EXPECT_EQ(log.first_value[2], 2.0);
+  EXPECT_TRUE(log.varied.has(3));
+}
+
 TEST(LogReader, NumbersAreCorrectlyRounded) {
   const LogContent log = content_of(kHeader + "0,0.1,9007199254740993,2.2250738585072011e-308,4.9e-324\n");
   EXPECT_EQ(log.samples[0].raw[0], 0.1);
