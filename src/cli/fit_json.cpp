@@ -58,6 +58,8 @@ Json fit_object(const CalibrationRun& run) {
           {"roll_axis", r.roll_axis == Vec3{} ? Json() : Json(r.roll_axis)},
           {"roll_wobble_rad", r.roll_axis == Vec3{} ? Json() : Json(r.roll_wobble_rad)},
           {"inclination_sigma_rad", r.null_directions == 0 ? known(r.inclination_sigma_rad) : Json()},
+          {"common_turn_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.rad) : Json()},
+          {"common_turn_sigma_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.sigma_rad) : Json()},
           {"norm_rms_mps2", known(r.norm_rms_mps2)},
           {"parity_rms_mps2", known(r.parity_rms_mps2)},
           {"misfit_mps2", known(r.misfit_mps2)},

@@ -133,6 +133,15 @@ int same_as(const CalibrationRun& run, const io::ArrayFile& array, int sensor) {
   return -1;
 }
 
+Refusal wrong_roll_axis(const CalibrationRun& run) {
+  const Vec3& axis = run.told().roll_axis;
+  return {fmt::format("the roll axis ({:.3g}, {:.3g}, {:.3g}) is likely not the one that the tool was rolled about: to "
+                      "agree with the roll groups all axes were turned together by {:.3g} deg (at most {:.3g} allowed)",
+                      axis[0], axis[1], axis[2], deg_from_rad(run.refusal.value), deg_from_rad(run.refusal.limit)),
+          "check --roll-axis and [output] frame against the drawing, and that nothing but the roll changes within a "
+          "group; if all nominal axes are really so far off, widen `prior`"};
+}
+
 Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
   switch (run.concern) {
@@ -146,12 +155,20 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
                           100.0 * std::fabs(e.value), 100.0 * e.value, 100.0 * e.limit, array.array.size()),
               "check [gravity], `unit` and `scale`: a wrong one does just this; if all sensors really are so, state "
               "their `scale` as it is or widen `prior`"};
+    case Concern::roll_axis: return wrong_roll_axis(run);
     default: break;
   }
   if (const int twin = same_as(run, array, e.index); twin >= 0) {
     return {fmt::format("{} and {} hold the same numbers at every station, which two sensors never do",
                         id_of(array, std::min(twin, e.index)), id_of(array, std::max(twin, e.index))),
             "look at `column` of both in the array file, and at how the log was written"};
+  }
+  if (e.index < 0 && run.report.common_turn.sigma_rad > 0.0) return wrong_roll_axis(run);
+  if (run.report.suspects.size() > 1) {
+    return {fmt::format("{} is physically implausible; which, these stations cannot tell",
+                        one_of(run.report.suspects, array)),
+            "check channel, sign of the axis and scale of each in the array file; if all is right, record more "
+            "attitudes"};
   }
   const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "a sensor";
   const std::string worst = worst_value(run, array);
@@ -187,6 +204,12 @@ Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
                       odd_sensor_words(run.study.odd), in_mg0(e.limit)),
           "look at the channel of " + sensor + " in the log; leave the sensor out or replace it, then record again"};
     }
+    case Concern::level_of_a_sensor:
+      return {fmt::format("{} (allowed {:.3g} mg0)", level_words(run.told(), array), in_mg0(e.limit)),
+              run.temperature.order < kMaxTemperatureOrder
+                  ? "record at more temperatures, so that a higher order can be fitted; or replace the sensor"
+                  : "use the tool where the sensor follows a cubic (--use-range-degc, and stations of that range "
+                    "only), or replace the sensor"};
     case Concern::parity:
       return {fmt::format("the sensors contradict one another by {:.3g} mg0 rms (allowed {:.3g})", in_mg0(e.value),
                           in_mg0(e.limit)),
@@ -244,6 +267,12 @@ std::string largest_reading(const Station& station, const io::ArrayFile& array) 
 
 Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
   if (const int k = run.refusal.index; k >= 0 && k < static_cast<int>(run.stations.size())) {
+    const double degc = run.stations[static_cast<std::size_t>(k)].temperature_degc;
+    if (degc < kPlausibleMin_degc || degc > kPlausibleMax_degc) {
+      return {fmt::format("station {} has a temperature of {:.4g} degC, which no tool has (from {:g} to {:g})", k + 1,
+                          degc, kPlausibleMin_degc, kPlausibleMax_degc),
+              "mend the temperature column, or leave the rows out"};
+    }
     return {fmt::format("station {} holds a reading that no sensor gives ({})", k + 1,
                         largest_reading(run.stations[static_cast<std::size_t>(k)], array)),
             "mend the row or leave it out"};

@@ -97,6 +97,7 @@ std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
   out += line("rank", rank);
   if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
   if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
+  if (const std::string axis = roll_axis_words(r); !axis.empty()) out += line("roll axis", axis);
   const std::vector<std::string> unseen = unobservable(run, array);
   out += unseen.empty() ? line("not determined", "nothing") : lines("not determined", unseen);
   out +=
@@ -143,6 +144,7 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
   }
   if (!odd.empty()) out += line("stand out", listed(odd));
   const std::vector<std::string> outliers = outlier_words(run, array);
+  if (const std::string level = level_words(r, array); !level.empty()) out += line("bends", level);
   if (!outliers.empty()) out += line("set aside", listed(outliers) + "; the values come from the other stations");
   if (r.clipped > 0)
     out += line("at full scale", fmt::format("{} readings of {}, not used", r.clipped, clipped_names(r, array)));

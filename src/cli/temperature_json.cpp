@@ -56,6 +56,7 @@ Json temperature_json(const CalibrationRun& run, const io::ArrayFile& array) {
   for (int k = 0; k < t.missing; ++k) missing.push_back(t.missing_degc[static_cast<std::size_t>(k)]);
   out["missing_degc"] = std::move(missing);
   out["follows_inclination"] = t.follows_inclination;
+  out["follows_time"] = t.follows_time;
   if (t.order == 0) return out;
   out["use_degc"] = {t.use_degc.lowest, t.use_degc.highest};
   out["parameters"] = t.parameters;

@@ -14,7 +14,6 @@ namespace cli {
 namespace {
 
 constexpr double kMicroG0_mps2 = 1e-6 * kG0_mps2;
-constexpr double kAbsoluteZero_degc = -273.15;
 constexpr std::size_t kNamedTerms = 4;
 constexpr std::size_t kNamedDirections = 6;
 constexpr std::size_t kNamedLevels = 5;
@@ -88,7 +87,8 @@ std::string read_use_range(const std::string& text, ChebyshevSpan& use_degc) {
   }
   if (!(read.highest - read.lowest >= kLevelsApart_degc))
     return fmt::format("\"{}\" must rise by {:g} degC or more", text, kLevelsApart_degc);
-  if (!(read.lowest > kAbsoluteZero_degc)) return "\"" + text + "\" begins below absolute zero, -273.15 degC";
+  if (!(read.lowest >= kPlausibleMin_degc && read.highest <= kPlausibleMax_degc))
+    return fmt::format("\"{}\" is not within {:g} to {:g} degC", text, kPlausibleMin_degc, kPlausibleMax_degc);
   use_degc = read;
   return "";
 }
@@ -173,6 +173,12 @@ std::vector<TemperatureFact> temperature_facts(const CalibrationRun& run, const 
   }
   if (t.follows_inclination)
     out.push_back({"", "the temperature follows the inclination: record some attitudes again at another temperature"});
+  if (t.follows_time && t.order > 0) {
+    out.push_back({"drift in time",
+                   fmt::format("cannot be told from drift with temperature, which went one way from the first station "
+                               "to the last: record some attitudes again near {:.3g} degC, after the others",
+                               run.stations.front().temperature_degc)});
+  }
   if (run.accepted && t.missing > 0) {
     out.push_back({"a higher order", fmt::format("needs {} more level{}: near {}", t.missing, t.missing == 1 ? "" : "s",
                                                  degc_words(t.missing_degc.data(), t.missing))});
