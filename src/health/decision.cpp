@@ -109,7 +109,10 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState
   unproven_ = after.unproven;
   clean_run_ = after.clean_run;
   if ((actions & Action::unproven) != 0) have_predictions_ = false;
-  if (before != in_service_) recalibration_.forget();  // its stations were those of other sensors
+  if (before != in_service_) {
+    recalibration_.forget();  // its stations were those of other sensors
+    if (recalibration_.offered()) drop_request();
+  }
   const bool posed_changed = posed_before != (in_service_ | set_aside_);
   if (posed_changed) {
     // The question is another one now: what was answered, and over how many stations, does not carry over.
@@ -136,7 +139,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const HealthEvent event = decision.event;
   const Mode from = mode_;
   const double statistic = verdict_.statistic, limit = verdict_.limit;
-  const bool by_noise = event == HealthEvent::set_aside && noise_confirmed_.contains(aside_);
+  const bool by_noise = event == HealthEvent::set_aside && noise_confirmed().contains(aside_);
   const SensorSet named = carry_out(decision, state);
   mode_ = state.mode;
   if (reset_pending_) {

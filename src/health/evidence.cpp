@@ -22,6 +22,8 @@ void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) co
     const double mae = mae_.triple_mps2(k);
     if (mae > limit.clear_mps2(clear_fraction())) view.mae_clean = false;
     const double ratio = limit.ratio(mae);
+    view.triples_tested.add(k);
+    if (!(ratio > 1.0)) view.triples_passed.add(k);
     if (ratio > view.mae_ratio || view.mae_limit_mps2 == 0.0) {
       view.mae_ratio = ratio;
       view.mae_worst_mps2 = mae;
@@ -96,7 +98,7 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
   }
   if (accuses) {
     const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
-    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed_) & in_service_;
+    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
     const bool enough = rank_of(array_, in_service_ - aside_) == 3;
     if (!aside_.empty() && enough) raised |= bit(HealthEvent::set_aside);
   }
@@ -152,6 +154,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const SensorSet posed = in_service_ | set_aside_;
   const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_);
   note_block();
+  temperature_rate_.add(sample.time_s, last_temperature_degc_);
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();

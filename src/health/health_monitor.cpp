@@ -82,6 +82,10 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   array_ = setup.array;
   gravity_ = setup.gravity;
   frame_ = setup.output_frame;
+  for (int i = 0; i < array_.size(); ++i) {
+    const double scale = model_.scale_at(i, model_.sensor[static_cast<size_t>(i)].reference_degc);
+    resolution_mps2_[static_cast<size_t>(i)] = std::fabs(setup.resolution_raw[static_cast<size_t>(i)] / scale);
+  }
   lever_arm_m_ = setup.lever_arm_m;
   lever_arms_known_ = setup.lever_arms_known;
   const int n = array_.size();
@@ -127,7 +131,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   sensor_cause_.fill(Cause::none);
   noisy_run_.fill(0);
   stuck_since_.fill(0.0);
-  noisy_ = stuck_ = full_scale_ = noise_confirmed_ = calm_ = stuck_watch_ = aside_ = SensorSet{};
+  noisy_ = stuck_ = full_scale_ = calm_ = stuck_watch_ = aside_ = SensorSet{};
   counters_ = MonitorCounters{};
   rotation_ = Rotation{};
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
@@ -135,6 +139,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   scatter_.clear();
   reference_study_.clear();
   trend_.clear();
+  temperature_rate_.clear();
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
@@ -272,6 +277,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   if (arrival == Arrival::new_time_base) {
     have_evidence_ = false;  // its age cannot be told any more
     trend_.clear();
+    temperature_rate_.clear();
   }
   GateResult gate = gate_.gate(sample);
   if (arrival != Arrival::in_order || gate.gap) {

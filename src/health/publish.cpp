@@ -24,6 +24,8 @@ void HealthMonitor::publish_decision(const BlockView& view) noexcept {
   verdict_.parity_limit = view.used.parity_rows > 0 ? view.used.parity_alarm_limit(limits_) : 0.0;
   verdict_.mae_worst_mps2 = view.mae_worst_mps2;
   verdict_.mae_worst_limit_mps2 = view.mae_limit_mps2;
+  verdict_.triples_tested = view.triples_tested;
+  verdict_.triples_passed = view.triples_passed;
   const LeastSquares map = least_squares(array_, in_service_ & evidence_.usable);
   for (int i = 0; i < array_.size(); ++i) {
     const auto a = static_cast<size_t>(i);
@@ -61,7 +63,8 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
       when(verdict_.protection_available, Usable::protection_level) |
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(!moving_ && have_evidence_, Usable::stationary) | when(!temperature_out_, Usable::temperature) |
+      when(!moving_ && have_evidence_, Usable::stationary) |
+      when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
       when(mode_ != Mode::initial && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
 }
 
@@ -97,6 +100,7 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
       (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
       (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0));
   v.sample = counters_.samples;
+  v.config_hash = identity_;
   v.configured = array_.all();
   v.in_service = in_service_;
   v.set_aside = set_aside_;
@@ -123,6 +127,7 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.reference_mps2 = gravity_.g_mps2;
   v.reference_sigma_mps2 = gravity_.sigma_mps2;
   v.temperature_degc = last_temperature_degc_;
+  v.temperature_rate_degc_per_min = temperature_rate_.degc_per_min();
   v.block_fill = block_.size();
   v.mae_all_mps2 = mae_.all_mps2();
   v.validity = validity();
