@@ -155,9 +155,12 @@ std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibra
     config.temperature_max_degc = calibration.report.temperature_max_degc;
   // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
   for (int i = 0; i < array.datasheet.size; ++i) {
-    setup->full_scale_raw[static_cast<std::size_t>(i)] =
-        array.datasheet.sensor[static_cast<std::size_t>(i)].full_scale_raw;
+    const auto a = static_cast<std::size_t>(i);
+    setup->full_scale_raw[a] = array.datasheet.sensor[a].full_scale_raw;
+    setup->resolution_raw[a] = array.datasheet.sensor[a].resolution_raw;
+    if (!array.lever_arm_m.empty()) setup->lever_arm_m[a] = array.lever_arm_m[a];
   }
+  setup->lever_arms_known = !array.lever_arm_m.empty();
   return setup;
 }
 
@@ -304,6 +307,7 @@ io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& 
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    if (watch.turn && !array.input.rotation_columns.empty()) watch.turn(reader->rotation());
     const Verdict& verdict = watch.step(sample);
     ++run.samples;
     if (verdict.tick) ++run.blocks;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "fit_study.hpp"
@@ -148,7 +149,8 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
 /// What a run needs of a monitor, whichever it is.
 struct Watch {
   std::function<const Verdict&(const Sample&)> step;
-  const Verdict& now;  ///< the monitor's verdict
+  const Verdict& now;                         ///< the monitor's verdict
+  std::function<void(const Rotation&)> turn;  ///< where the monitor makes use of it
 };
 
 /// Steps all samples of the log through the monitor; `run_monitor` lets `host` ask of it what it has to ask. An error
@@ -163,7 +165,11 @@ io::FileExpected<MonitorRun> run_monitor(Monitor& monitor, const io::ArrayFile& 
     host.before(sample.time_s, monitor);
     return monitor.step(sample);
   };
-  return run_watch({step, monitor.verdict()}, array, log, sinks);
+  std::function<void(const Rotation&)> turn;
+  if constexpr (std::is_same_v<Monitor, HealthMonitor>) {
+    turn = [&monitor](const Rotation& rotation) { (void)monitor.set_rotation(rotation); };  // the reader's are finite
+  }
+  return run_watch({step, monitor.verdict(), turn}, array, log, sinks);
 }
 
 }  // namespace cli

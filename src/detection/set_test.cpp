@@ -229,7 +229,13 @@ bool vouches_for_norm(const SensorArray& array, const GravityReference& gravity,
                             (array.sigma_mps2(i) * array.sigma_mps2(i));
     if (1.0 - whitened >= kMinLeverage) continue;
     const SetTest others = test_set(array, gravity, limits, block, set.without(i));
-    if (!others.tested || !(std::fabs(others.norm) > others.norm_reject_limit(limits))) return false;
+    if (!others.tested) return false;
+    const double limit = others.norm_reject_limit(limits);
+    const bool off_too = std::fabs(others.norm) > limit;
+    // Where the others know the length so badly that it may be what the set says, a steady acceleration explains all.
+    const double apart_mps2 = std::fabs(others.norm_error_mps2 - test.norm_error_mps2);
+    const bool deny = apart_mps2 * std::sqrt(block.samples) > limit * others.norm_sigma_mps2;
+    if (!off_too && deny) return false;
   }
   return true;
 }

@@ -141,6 +141,41 @@ TEST(Isolation, AnAccelerationThatTheOthersShowTooIsNoFaultOfAWeaklyCheckedMembe
   }
 }
 
+/// Where the others know the length too badly to deny the acceleration, it is no fault of the precise one either; a
+/// reading that they do deny is.
+// Negative: REQ-061
+TEST(Isolation, WhatTheOthersCannotDenyIsNoFaultOfAWeaklyCheckedMember) {
+  std::array<SensorRow, kCapacity> rows{};
+  AxisList axes{};
+  const int n = cone_with_axis(axes, 6);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    rows[i].id = make_id(("a" + std::to_string(i)).c_str());
+    rows[i].axis = axes[i];
+    rows[i].sigma_mps2 = i == 5 ? 0.01 * kSigma : kSigma;
+  }
+  Case c(*SensorArray::make(rows.data(), n), 29);
+  const Vec3 along = c.array.axis(5);
+  int shown_by_all_only = 0, denied = 0;
+  for (int station = 0; station < 40; ++station) {
+    const Vec3 u = plumb_test::direction_at(1.0 + 0.1 * station, 31.0 * station);
+    std::array<double, kCapacity> steady{}, fault{};
+    for (int i = 0; i < n; ++i) steady[static_cast<std::size_t>(i)] = 3.6e-3 * dot(c.array.axis(i), along);
+    fault[5] = 0.02 * kG0_mps2;
+    const BlockEvidence block = c.block(u, steady);
+    const SetTest t = test_set(c.array, kGravity, c.limits, block, c.array.all());
+    const SetTest without = test_set(c.array, kGravity, c.limits, block, c.array.all().without(5));
+    const bool alone = std::fabs(t.norm) > t.norm_reject_limit(c.limits) &&
+                       std::fabs(without.norm) < without.norm_reject_limit(c.limits);
+    shown_by_all_only += alone && t.parity_alive(c.limits) ? 1 : 0;
+    c.isolation.clear();
+    EXPECT_TRUE(c.isolation.vote(c.array, kGravity, c.limits, block).strict.empty()) << station;
+    c.isolation.clear();
+    denied += c.isolation.vote(c.array, kGravity, c.limits, c.block(u, fault)).strict == SensorSet::of(5) ? 1 : 0;
+  }
+  EXPECT_GT(shown_by_all_only, 10);
+  EXPECT_GT(denied, 30);
+}
+
 /// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
 /// Counter-example: four of mikoff5's z axes with three coplanar pass parity whatever the fourth reads;
 /// taken literally, its fault would void the norm for ever. Only sets whose members are all checked may.

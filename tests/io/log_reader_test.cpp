@@ -115,6 +115,33 @@ TEST(LogReader, StationsCountsTemperatureAndFilters) {
   EXPECT_EQ(log.statistics.rows_filtered, 2U);
 }
 
+// Verifies: REQ-065
+TEST(LogReader, HowTheToolTurnsIsToldRowByRow) {
+  const char* const kColumns = "time = \"t_s\"\nrotation_radps = [\"wx\", \"wy\", \"wz\"]";
+  const ArrayFile array = array_of(changed("time = \"t_s\"", kColumns));
+  const std::string path =
+      written("log.csv",
+              "t_s,wx,wy,wz,a1_v,a2_v,a3_v,a4_v\n0,0,0,0,1,2,3,4\n1,0,0.5,-2,1,2,3,4\n2,0,,1,1,2,3,4\n"
+              "3,0,nan,1,1,2,3,4\n4,0,fast,1,1,2,3,4\n");
+  auto reader = LogReader::open(path, array, BadRowPolicy::stop);
+  ASSERT_TRUE(reader.has_value());
+  Sample sample;
+  ASSERT_EQ(reader->next(sample), LogReader::Next::row);
+  EXPECT_FALSE(reader->rotation().turning);
+  EXPECT_TRUE(reader->rotation().rate_known);
+  ASSERT_EQ(reader->next(sample), LogReader::Next::row);
+  EXPECT_TRUE(reader->rotation().turning && reader->rotation().rate_known);
+  EXPECT_EQ(reader->rotation().rate_radps, (Vec3{0.0, 0.5, -2.0}));
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_EQ(reader->next(sample), LogReader::Next::row);
+    EXPECT_TRUE(reader->rotation().turning) << "at a rate that is not known";
+    EXPECT_FALSE(reader->rotation().rate_known);
+    EXPECT_EQ(reader->rotation().rate_radps, Vec3{});
+  }
+  EXPECT_EQ(reader->next(sample), LogReader::Next::error);
+  EXPECT_EQ(reader->error().field, "wy (column 3)");
+}
+
 TEST(LogReader, RollGroupsAreTagsLikeThoseOfStations) {
   const ArrayFile array = array_of(changed("time = \"t_s\"", "time = \"t_s\"\nroll_group = \"ring\""));
   const LogContent log =

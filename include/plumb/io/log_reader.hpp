@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plumb/core/sample.hpp"
+#include "plumb/health/rotation.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/file_error.hpp"
 
@@ -64,6 +65,9 @@ class LogReader {
   /// The next sample; `end` at the end of the input, `error` at a bad row under BadRowPolicy::stop, when
   /// reading fails, or at the end of a log without a single usable row.
   Next next(Sample& sample);
+  /// How the tool turned at the sample delivered last, where the log says so (InputSpec::rotation_columns): an empty
+  /// cell, nan or inf means that it turns at a rate that is not known.
+  const Rotation& rotation() const noexcept;
   const FileError& error() const noexcept;
   const LogStatistics& statistics() const noexcept;
   /// Line of the sample delivered last.
