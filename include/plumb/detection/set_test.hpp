@@ -70,10 +70,10 @@ struct SetTest {
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;
 
-/// True where `set`, which passes parity, may speak about gravity: the parity of the others checks every member (leverage
-/// of at least 0.05), or the others do not deny it: the length is off without that member too, or may be, both by the
-/// rejection limit. Otherwise a member that nobody checks may be at fault: mikoff5's z axes, four of them with three
-/// coplanar, pass parity whatever the fourth reads. `test` is that of the set at `block`.
+/// True where `set`, which passes parity, may speak about gravity: the parity of the others checks every member
+/// (leverage of at least 0.05), or the others do not deny it: the length is off without that member too, or may be,
+/// both by the rejection limit. Otherwise a member that nobody checks may be at fault: mikoff5's z axes, four of them
+/// with three coplanar, pass parity whatever the fourth reads. `test` is that of the set at `block`.
 bool vouches_for_norm(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                       const BlockEvidence& block, SensorSet set, const SetTest& test) noexcept;
 

@@ -5,7 +5,7 @@
 ///        8     2  format: which fields in which order; grows with every change of `fields()` or of its meaning
 ///       10     2  capacity of the build
 ///       12     4  version of plumb that wrote it; told, not judged
-///       16     8  identity: CRC-64 of configuration, axes, noise, calibration, ranges, resolutions, output frame, lever arms
+///       16     8  identity: CRC-64 of configuration, axes, noise, calibration, ranges, codes, frame, lever arms
 ///       24     4  bytes of the whole snapshot
 ///       28     .  the fields of `HealthMonitor`, doubles as IEEE 754
 ///        .     8  CRC-64/XZ of all before it
