@@ -35,14 +35,16 @@ byte regime;             /* how the run goes on for ever, for liveness: */
 #define FAULTY    5
 byte broken;             /* FAULTY: the sensors with a constant fault */
 
-/* Any subset of a universe; of sensors that stand alike, and that `split` does not tell apart, only how many. */
-inline pick(universe, split, set) {
+/* Any subset of a universe; of sensors that stand alike only how many. What this step has told apart stands no longer
+   alike (the breadth-first search found the states that were lost without it). */
+#define APART(s) ((s) ^ ((s) << 1))
+inline pick(universe, set) {
   set = 0; i = 0;
   do
   :: i < SENSORS ->
        if
        :: skip
-       :: HAS(universe, i) && (HAS(rep | (split) ^ ((split) << 1), i) || (i > 0 && HAS(set, i - 1))) ->
+       :: HAS(universe, i) && (HAS(rep | APART(ever) | APART(accused) | APART(lost), i) || (i > 0 && HAS(set, i - 1))) ->
             set = set | (1 << i)
        fi;
        i++
@@ -64,11 +66,15 @@ inline pick(universe, split, set) {
 /* All that has been the matter with a sensor in this run and has left a trace. */
 #define TOUCHED (ever | out | absent | readmitted)
 #define MOST_FAULTS (SENSORS - 3)
-/* With four and five sensors one channel more may fall silent than sensors may be wrong, so that the rank can be lost. */
+/* With four and five sensors one channel more may fall silent than sensors may be wrong, so that the rank can be lost,
+   and sensors return by probation. With six it is the sets of three faults that matter: one channel may be silent at a
+   time, and returns are left to the smaller arrays. */
 #if SENSORS == 6
-#define MOST_SILENT MOST_FAULTS
+#define BEARABLE(silent) (COUNT(absent | (silent)) <= 1 && COUNT(TOUCHED | (silent)) <= MOST_FAULTS)
+#define RETURNS 0
 #else
-#define MOST_SILENT (SENSORS - 2)
+#define BEARABLE(silent) (COUNT(TOUCHED | (silent)) <= MOST_FAULTS + 1)
+#define RETURNS 1
 #endif
 #define SOUND_PARITY HEALTHY_THROUGHOUT >= 4
 
@@ -88,7 +94,7 @@ inline block_kind() {
 
 /* How many sensors are wrong at once never exceeds the bound. */
 inline onset() {
-  pick(POSED & ~ever, 0, wrong);
+  pick(POSED & ~ever, wrong);
 #ifdef MOVING
   if :: COUNT(POSED & ~wrong) >= 3 || wrong == 0 -> ever = ever | wrong :: else -> wrong = 0 fi
 #else
@@ -106,7 +112,7 @@ inline ballot() {
   if
   :: regime == FAULTY -> ever = ever | (broken & POSED); culprits = broken & POSED & ~accused; wrong = 0
   :: else ->
-       if :: COUNT(POSED) >= 4 && SOUND_STRICT && regime != VIOLATED -> among = ACCUSABLE; pick(among & ~accused, wrong, culprits); among = 0
+       if :: COUNT(POSED) >= 4 && SOUND_STRICT && regime != VIOLATED -> among = ACCUSABLE; pick(among & ~accused, culprits); among = 0
           :: else -> culprits = 0
        fi
   fi;
@@ -156,8 +162,8 @@ inline count_clean() {
        :: else
        fi;
        if
-       :: !open && !unproven && RECORDS && mode != SUSPECT && regime == FREE ->
-            pick((out | aside) & ~(banned | absent), 0, proven);
+       :: !open && !unproven && RECORDS && mode != SUSPECT && regime == FREE && RETURNS ->
+            pick((out | aside) & ~(banned | absent), proven);
             if
             :: probation & proven -> probation = probation & proven
             :: else -> probation = proven; probation_stations = 0
@@ -194,7 +200,7 @@ inline quiet_block() {
   :: ACCUSES && open && kind == ALARMING && COUNT(POSED) >= 5 && (regime == FREE || regime == DOUBTING) &&
      result == 0 && !(lost | back) ->
        among = (SOUND_PARITY -> serving & ever : serving);
-       pick(among, 0, to_aside); among = 0;
+       pick(among, to_aside); among = 0;
        if :: to_aside != 0 && COUNT(serving & ~to_aside) >= 3 -> raised = raised | BIT(SET_ASIDE)
           :: else -> to_aside = 0
        fi
@@ -229,11 +235,11 @@ inline quiet_block() {
 /* Between blocks one thing happens at a time; the pairs of events that matter arise at the end of a block. */
 inline sample() {
   if
-  :: pick(ALL & ~absent, 0, lost);
-     if :: lost && COUNT(TOUCHED | lost) <= MOST_SILENT -> raised = BIT(CHANNEL_LOST) :: else -> lost = 0 fi
-  :: absent -> pick(absent, 0, back);
+  :: pick(ALL & ~absent, lost);
+     if :: lost && BEARABLE(lost) -> raised = BIT(CHANNEL_LOST) :: else -> lost = 0 fi
+  :: absent -> pick(absent, back);
      if :: back -> raised = BIT(CHANNEL_BACK) :: else fi
-  :: mode == FAILED -> pick(ALL, 0, named); raised = BIT(RESET)
+  :: mode == FAILED -> pick(ALL, named); raised = BIT(RESET)
   :: mode != FAILED -> named = ALL; raised = BIT(RESET)
   :: open && RECORDS -> onset()
   :: MAY_RECALIBRATE -> raised = BIT(RECALIBRATE)
@@ -267,7 +273,7 @@ inline coincidence() {
        :: HAS(rep & ~absent, 5) -> lost = 32
        :: else
        fi;
-       if :: COUNT(TOUCHED | lost) <= MOST_SILENT -> raised = BIT(CHANNEL_LOST) :: else -> lost = 0 fi
+       if :: BEARABLE(lost) -> raised = BIT(CHANNEL_LOST) :: else -> lost = 0 fi
   :: regime == FREE && absent -> back = absent; raised = BIT(CHANNEL_BACK)
   fi
 }

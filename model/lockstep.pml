@@ -1,11 +1,13 @@
 /* The specification in its environment, and with -DCODE the decision layer of the library in lock-step: both take every
    reachable step, and must agree on the event, the sensors it moves, whether a record is due, and everything kept.
-   MATCHED is "Matched", so that the library's state is part of the model checker's; with "UnMatched" states are missed
-   without a word, which the counts of states.txt notice. */
+   The library's state is part of the model checker's ("Matched"); with UNTRACKED states are missed without a word, which
+   the counts of states.txt notice. */
 #ifndef SENSORS
 #define SENSORS 4
 #endif
-#ifndef MATCHED
+#ifdef UNTRACKED
+#define MATCHED "UnMatched"
+#else
 #define MATCHED "Matched"
 #endif
 
@@ -108,7 +110,11 @@ active proctype tool() {
        :: regime = UNSEEN
        :: regime = VIOLATED
        :: !open && doubt == 0 && PUBLISHES(mode) && aside == 0 && COUNT(serving) > 3 ->
-            pick(serving, 0, broken); broken != 0 && COUNT(serving & ~broken) >= 3 -> regime = FAULTY
+            pick(serving, broken);
+            if
+            :: broken != 0 && COUNT(serving & ~broken) >= 3 -> regime = FAULTY
+            :: else -> broken = 0; regime = UNSEEN
+            fi
        fi;
        d_step { c_code { plumb_sort(); } }
      }

@@ -73,8 +73,8 @@ inline judge() {
   /* S17: doubt, and no evidence, are never published as valid */
   assert(!DOUBTED || !VALID);
   assert(!(kind == NO_EVIDENCE) || !VALID);
-  assert(!unproven || !PUBLISHES(SHOWN));
-#ifndef KNOWN_PATIENCE
+  assert(!unproven || !SHOWS_OUTPUT);
+#ifndef KNOWN_PATIENCE  /* see README.md, what the model has found */
   assert(!(kind == ALARMING || kind == OFF_GRAVITY) || event == CULPRIT || !VALID || event <= CHANNEL_BACK);
 #endif
   /* S19 */
@@ -84,7 +84,7 @@ inline judge() {
   assert(!(m0_ == SUSPECT && PUBLISHES(mode)) || event == CULPRIT ||
          (event == CLEAN_BLOCK && run0_ >= R_BLOCKS && !unproven0_));
   assert(event != RESET || mode == FAILED || (unproven && !PUBLISHES(mode)));
-#ifndef KNOWN_RESET
+#ifndef KNOWN_RESET  /* likewise */
   assert(event != RESET || m0_ != FAILED || mode == FAILED || clean_run == 0);
 #endif
   if :: does & (START_FIT | DISCARD_FIT | RESTART_FIT | ADOPT_FIT) || (mode != RECALIBRATING && mode != INITIAL) -> alarmed = 0
@@ -92,12 +92,20 @@ inline judge() {
 }
 
 #ifdef CLAIMS
-ltl L1 { [] (regime == FAULTY -> <> (WITHIN(broken, out) && mode != FAILED)) }
-ltl L2 { [] (regime == CALM -> <> [] (mode != SUSPECT)) }
-ltl L3 { [] (regime == DOUBTING && mode == SUSPECT -> <> (mode != SUSPECT || exhausted)) }
-ltl L4 { [] (regime == CALM -> <> (mode != RECALIBRATING && mode != INITIAL)) }
-ltl L5 { [] (regime == UNSEEN -> <> [] !VALID) }
-ltl L6 { [] (regime == VIOLATED && LEFT == 3 && calibrated -> <> (mode == FAILED)) }
-/* must fail: the model can exclude a sensor and go on */
-ltl never_isolated { [] (mode != ISOLATED) }
+#define L1_HOLDS ([] (regime == FAULTY -> <> (WITHIN(broken, out) && mode != FAILED)))
+#define L2_HOLDS ([] (regime == CALM -> <> [] (mode != SUSPECT)))
+#define L3_HOLDS ([] (regime == DOUBTING && mode == SUSPECT -> <> (mode != SUSPECT || exhausted)))
+#define L4_HOLDS ([] (regime == CALM -> <> (mode != RECALIBRATING && mode != INITIAL)))
+#define L5_HOLDS ([] (regime == UNSEEN -> <> [] !VALID))
+#define L6_HOLDS ([] (regime == VIOLATED && LEFT == 3 && calibrated -> <> (mode == FAILED)))
+ltl L1 { L1_HOLDS }
+ltl L2 { L2_HOLDS }
+ltl L3 { L3_HOLDS }
+ltl L4 { L4_HOLDS }
+ltl L5 { L5_HOLDS }
+ltl L6 { L6_HOLDS }
+/* All at once: the ways in which a run may go on for ever exclude each other. */
+ltl liveness { L1_HOLDS && L2_HOLDS && L3_HOLDS && L4_HOLDS && L5_HOLDS && L6_HOLDS }
+/* must fail: the model can lose a sensor and go on with three */
+ltl never_degraded { [] (mode != DEGRADED) }
 #endif

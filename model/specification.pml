@@ -230,8 +230,9 @@ bit held;                /* no evidence for good */
 
 #define POSED (serving | aside)
 #define PUBLISHES(m) ((m) == NOMINAL || (m) == ISOLATED || (m) == DEGRADED)
-#define SHOWN ((mode == RECALIBRATING) -> base : mode)
-#define VALID (PUBLISHES(SHOWN) && !held && kind != NO_EVIDENCE)
+/* Recalibrating is published as the state it came from, the first calibration as nothing. */
+#define SHOWS_OUTPUT (PUBLISHES(mode) || (mode == RECALIBRATING && base != SUSPECT))
+#define VALID (SHOWS_OUTPUT && !held && kind != NO_EVIDENCE)
 
 /* --- One step of the machine: the first event in rank order that the mode neither ignores nor holds. ------------ */
 

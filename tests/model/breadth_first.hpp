@@ -90,7 +90,10 @@ class Search {
     return w.ever | w.machine.excluded | w.machine.absent | w.machine.readmitted;
   }
   int most_faults() const { return n_ - 3; }
-  int most_silent() const { return n_ == 6 ? most_faults() : n_ - 2; }
+  bool bearable(const World& w, Set silent) const {
+    const int in_all = count(touched(w) | silent);
+    return n_ == 6 ? count(w.machine.absent | silent) <= 1 && in_all <= most_faults() : in_all <= most_faults() + 1;
+  }
   bool answerable(const World& w) const {
     return w.accused != 0 && count(posed(w)) >= 4 && count(posed(w) & ~w.accused) >= 3;
   }
@@ -132,7 +135,7 @@ class Search {
     };
     take(s);
     subsets(all_ & ~w.machine.absent, [&](Set lost) {
-      if (lost == 0 || count(touched(w) | lost) > most_silent()) return;
+      if (lost == 0 || !bearable(w, lost)) return;
       Step t = raise(channel_lost);
       t.in.lost = lost;
       take(t);
@@ -177,7 +180,7 @@ class Search {
     attitude(s);
     for (int i = 0; i < n_; ++i) {
       const Set one = static_cast<Set>(1U << i);
-      if ((w.machine.absent & one) != 0 || count(touched(w) | one) > most_silent()) continue;
+      if ((w.machine.absent & one) != 0 || !bearable(w, one)) continue;
       Step t = s;
       t.in.lost = one;
       t.in.raised = bit(channel_lost);
@@ -270,7 +273,7 @@ class Search {
 
   void probe(const Step& s, bool excited) {
     const plumb_model_state& m = s.w.machine;
-    if (s.w.open || m.unproven || !records(s.w) || m.mode == suspect) return raise(s, false);
+    if (s.w.open || m.unproven || !records(s.w) || m.mode == suspect || n_ == 6) return raise(s, false);
     const Set asked = static_cast<Set>((m.excluded | m.set_aside) & ~(m.banned | m.absent));
     subsets(asked, [&](Set fine) {
       Step t = s;
