@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# model/check.sh LIBRARY: the model checker's whole account. LIBRARY is libplumb_8.a of a build: the decision layer that
+# model/check.sh [--quick] LIBRARY: the model checker's whole account. LIBRARY is libplumb_8.a of a build: the decision layer that
 # runs in lock-step. One line per item: verdict <tab> name <tab> figure <tab> seconds. Exit 0 only if every item holds; 77
-# where spin is absent. Trails of what should not have failed are left in build/model for model/replay.
+# where spin is absent. --quick: four sensors only, but for what needs five. Trails of what should not have failed are left in build/model for model/replay.
 set -euo pipefail
 
 model="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 root="$(dirname "$model")"
-[[ $# -eq 1 && -r "$1" ]] || { echo "usage: model/check.sh LIBRARY (libplumb_8.a of a build)" >&2; exit 2; }
+quick=""
+if [[ "${1:-}" == --quick ]]; then quick=yes; shift; fi
+[[ $# -eq 1 && -r "$1" ]] || { echo "usage: model/check.sh [--quick] LIBRARY (libplumb_8.a of a build)" >&2; exit 2; }
 library="$(realpath "$1")"
 command -v spin >/dev/null || { echo "skipped: spin is not installed (Debian package spin)"; exit 77; }
 work="$root/build/model"
@@ -111,9 +113,10 @@ run_items() {
     "item untracked_state_is_noticed untracked untracked" \
     "item finding_alarm_and_patience must_fail patience 5 -DKNOWN_RESET '' '(kind==4)||(kind==5)'" \
     "item finding_reset_and_clean_run must_fail reset 4 -DKNOWN_PATIENCE '' '(mode==6))||(clean_run==0)'" \
+    | if [[ -n "$quick" ]]; then grep -zvE 'item (lockstep|liveness)_[56]'; else cat; fi \
     | xargs -0 -P 2 -I{} bash -c '{}'
 }
 run_items | tee "$work/items.txt"
 total="$(wc -l <"$work/items.txt")"
 printf 'figure: %d of %d items\n' "$(grep -c '^proved' "$work/items.txt" || true)" "$total"
-[[ "$total" -eq 12 ]] && ! grep -q '^refused' "$work/items.txt"
+[[ "$total" -eq "$([[ -n "$quick" ]] && echo 8 || echo 12)" ]] && ! grep -q '^refused' "$work/items.txt"
