@@ -1,5 +1,5 @@
-// The real decision layer behind model/shim.h. With PLUMB_MODEL_DEFECT one cell of the table is wrong: the lock-step must
-// notice.
+// The real decision layer behind model/shim.h. With PLUMB_MODEL_DEFECT one cell of the table is wrong: the lock-step
+// must notice.
 #include "shim.h"
 
 #include "plumb/health/decision.hpp"

@@ -1,5 +1,6 @@
 /* The decision layer for C, as the lock-step model and the breadth-first search call it: bytes without padding, no
-   pointers, sensors in general position. Masks are sets of sensors, numbers of modes and events are those of the model. */
+   pointers, sensors in general position. Masks are sets of sensors, numbers of modes and events are those of the model.
+ */
 #ifndef PLUMB_MODEL_SHIM_H
 #define PLUMB_MODEL_SHIM_H
 

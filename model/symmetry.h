@@ -7,8 +7,9 @@
 
 extern int readtrail; /* of pan.c: a trail is being replayed */
 
-#define PLUMB_MASKS(use) \
-  use(serving) use(aside) use(out) use(absent) use(readmitted) use(banned) use(ever) use(accused) use(probation) use(broken)
+#define PLUMB_MASKS(use)                                                                                         \
+  use(serving) use(aside) use(out) use(absent) use(readmitted) use(banned) use(ever) use(accused) use(probation) \
+      use(broken)
 
 static int plumb_order[8];
 static int plumb_names[8] = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -56,13 +57,13 @@ static void plumb_sort(void) {
 
 /* --- A step in words, for model/replay. -------------------------------------------------------------------------- */
 
-static const char* plumb_modes[] = {"nominal", "isolated", "suspect", "degraded", "recalibrating", "first calibration",
-                                    "failed"};
-static const char* plumb_events[] = {"reset", "channel lost", "channel back", "culprit", "set aside", "patience over",
-                                     "contradiction", "alarm", "reference", "fit accepted", "fit rejected",
-                                     "probation passed", "recalibrate", "clean block", "none"};
-static const char* plumb_kinds[] = {"a sample", "no evidence", "a clean block", "a block short of clean",
-                                    "an alarming block", "a block off gravity"};
+static const char* plumb_modes[] = {"nominal",       "isolated",          "suspect", "degraded",
+                                    "recalibrating", "first calibration", "failed"};
+static const char* plumb_events[] = {"reset",         "channel lost",     "channel back", "culprit",     "set aside",
+                                     "patience over", "contradiction",    "alarm",        "reference",   "fit accepted",
+                                     "fit rejected",  "probation passed", "recalibrate",  "clean block", "none"};
+static const char* plumb_kinds[] = {
+    "a sample", "no evidence", "a clean block", "a block short of clean", "an alarming block", "a block off gravity"};
 
 static void plumb_set(const char* what, unsigned mask) {
   int i;
@@ -84,8 +85,10 @@ static void plumb_tell(void) {
   plumb_set("; accused:", accused0_);
   printf("\n|      %s", plumb_events[now.event]);
   plumb_set(":", now.moved);
-  if (m0_ != now.mode) printf(", %s -> %s", plumb_modes[m0_], plumb_modes[now.mode]);
-  else printf(", stays %s", plumb_modes[now.mode]);
+  if (m0_ != now.mode)
+    printf(", %s -> %s", plumb_modes[m0_], plumb_modes[now.mode]);
+  else
+    printf(", stays %s", plumb_modes[now.mode]);
   plumb_set("; in service", now.serving);
   plumb_set("; set aside", now.aside);
   plumb_set("; excluded", now.out);

@@ -59,7 +59,8 @@ TEST(Assurance, EveryTheoremNamedIsProved) {
 }
 
 TEST(Assurance, EveryItemOfTheModelIsRun) {
-  expect_known(names(table(), "`([a-z0-9_]+)` \\(spin\\)"), names(text_of(kRoot / "model/check.sh"), "\"item (\\w+) "), 8);
+  expect_known(names(table(), "`([a-z0-9_]+)` \\(spin\\)"), names(text_of(kRoot / "model/check.sh"), "\"item (\\w+) "),
+               8);
 }
 
 TEST(Assurance, EveryPropertyHasItsRow) {

@@ -1,6 +1,6 @@
-/// A breadth-first search over the same closed loop as model/lockstep.pml: the compiled decision layer behind model/shim.h,
-/// in an environment written a second time, in C++ and without the model's shortcuts (every subset of sensors is tried,
-/// not one of each kind). It counts what the model checker must have stored.
+/// A breadth-first search over the same closed loop as model/lockstep.pml: the compiled decision layer behind
+/// model/shim.h, in an environment written a second time, in C++ and without the model's shortcuts (every subset of
+/// sensors is tried, not one of each kind). It counts what the model checker must have stored.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include "shim.h"
 
@@ -18,8 +19,21 @@ namespace plumb_model {
 
 enum Mode : std::uint8_t { nominal, isolated, suspect, degraded, recalibrating, initial, failed };
 enum Event : std::uint8_t {
-  reset, channel_lost, channel_back, culprit, set_aside, patience_over, contradiction, alarm, reference, fit_accepted,
-  fit_rejected, probation_passed, recalibrate, clean_block, none
+  reset,
+  channel_lost,
+  channel_back,
+  culprit,
+  set_aside,
+  patience_over,
+  contradiction,
+  alarm,
+  reference,
+  fit_accepted,
+  fit_rejected,
+  probation_passed,
+  recalibrate,
+  clean_block,
+  none
 };
 enum class Block : std::uint8_t { sample, no_evidence, clean, soft, alarming, off_gravity };
 enum Doubt : std::uint8_t { other, of_gravity, none_alive };
@@ -43,8 +57,7 @@ static_assert(sizeof(World) == sizeof(plumb_model_state) + 13, "no padding: stat
 
 class Search {
  public:
-  Search(int sensors, Limits limits)
-      : n_(sensors), all_(static_cast<Set>((1U << sensors) - 1U)), limits_(limits) {}
+  Search(int sensors, Limits limits) : n_(sensors), all_(static_cast<Set>((1U << sensors) - 1U)), limits_(limits) {}
 
   std::uint64_t states() const { return seen_.size(); }
   std::uint64_t steps() const { return steps_; }
@@ -86,9 +99,7 @@ class Search {
   static bool expected(const World& w, Doubt what) {
     return w.machine.mode == recalibrating && w.machine.base == suspect && w.suspicion == what;
   }
-  static Set touched(const World& w) {
-    return w.ever | w.machine.excluded | w.machine.absent | w.machine.readmitted;
-  }
+  static Set touched(const World& w) { return w.ever | w.machine.excluded | w.machine.absent | w.machine.readmitted; }
   int most_faults() const { return n_ - 3; }
   bool bearable(const World& w, Set silent) const {
     const int in_all = count(touched(w) | silent);
@@ -164,8 +175,7 @@ class Search {
   void onset(const Step& s, Next&& next) {
     subsets(posed(s.w) & ~s.w.ever, [&](Set wrong) {
       Step t = s;
-      const bool bounded =
-          healthy_throughout(s.w) - count(wrong) >= 3 && count(touched(s.w) | wrong) <= most_faults();
+      const bool bounded = healthy_throughout(s.w) - count(wrong) >= 3 && count(touched(s.w) | wrong) <= most_faults();
       if (bounded) t.w.ever |= wrong;
       next(t);
     });
@@ -208,16 +218,15 @@ class Search {
     }
   }
   void prove(const Step& s, bool excited) {
-    const bool may = s.kind == Block::clean && s.w.machine.unproven && excited &&
-                     s.w.machine.clean_run + 1 >= limits_.clean_blocks;
+    const bool may =
+        s.kind == Block::clean && s.w.machine.unproven && excited && s.w.machine.clean_run + 1 >= limits_.clean_blocks;
     ballot(s, excited, false);
     if (may) ballot(s, excited, true);
   }
 
   void ballot(const Step& s, bool excited, bool proves) {
     const bool channel = (s.in.lost | s.in.back) != 0;
-    if (!(s.w.open && records(s.w)) || s.kind == Block::off_gravity || channel)
-      return contradict(s, excited, proves);
+    if (!(s.w.open && records(s.w)) || s.kind == Block::off_gravity || channel) return contradict(s, excited, proves);
     const bool sound = count(posed(s.w)) >= 4 && healthy_throughout(s.w) >= 3;
     const Set accusable = sound ? static_cast<Set>(posed(s.w) & s.w.ever & ~s.w.accused) : Set{0};
     subsets(accusable, [&](Set grown) {
@@ -319,8 +328,7 @@ class Search {
     lose_patience(s);
     if (!(accuses(s.w) && s.w.open && s.kind == Block::alarming && count(posed(s.w)) >= 5) || nothing_alive || channel)
       return;
-    const Set accusable =
-        healthy_throughout(s.w) >= 4 ? static_cast<Set>(m.in_service & s.w.ever) : Set{m.in_service};
+    const Set accusable = healthy_throughout(s.w) >= 4 ? static_cast<Set>(m.in_service & s.w.ever) : Set{m.in_service};
     subsets(accusable, [&](Set aside) {
       if (aside == 0 || count(m.in_service & ~aside) < 3) return;
       Step t = s;
@@ -381,8 +389,8 @@ class Search {
     const plumb_model_answer answer = plumb_model_step(&w.machine, &s.in);
     const int event = answer.event;
     const bool taken = event != none;
-    const bool forgets = taken && (event == culprit || event == reset || answer.adopted) &&
-                         (event != culprit || before.mode != failed);
+    const bool forgets =
+        taken && (event == culprit || event == reset || answer.adopted) && (event != culprit || before.mode != failed);
     const Set now_posed = posed(w);
     if (forgets) {
       w.open = w.accused = w.standing = w.agree = w.doubt = w.clean_stations = 0;
@@ -430,10 +438,12 @@ class Search {
                                                 &m.banned,     &w.ever,      &w.accused,  &w.probation};
     std::array<unsigned, 8> columns{};
     for (int i = 0; i < n_; ++i) {
-      for (std::size_t k = 0; k < sets.size(); ++k)
-        columns[static_cast<std::size_t>(i)] |= ((*sets[k] >> i) & 1U) << k;
+      for (std::size_t k = 0; k < sets.size(); ++k) columns[static_cast<std::size_t>(i)] |= ((*sets[k] >> i) & 1U) << k;
     }
-    std::sort(columns.begin(), columns.begin() + n_);
+    for (int i = 1; i < n_; ++i) {
+      for (auto k = static_cast<std::size_t>(i); k > 0 && columns[k] < columns[k - 1]; --k)
+        std::swap(columns[k], columns[k - 1]);
+    }
     for (std::size_t k = 0; k < sets.size(); ++k) {
       unsigned set = 0;
       for (int i = 0; i < n_; ++i) set |= ((columns[static_cast<std::size_t>(i)] >> k) & 1U) << i;
