@@ -109,7 +109,8 @@ Table printed() {
   for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, got);
   pclose(pipe);
   Table table;
-  for (const auto& cell : nlohmann::json::parse(text).at("cells")) {
+  const auto model = nlohmann::json::parse(text);
+  for (const auto& cell : model.at("cells")) {
     if (cell.at("event") == "none") continue;
     const std::string where = cell.at("mode").get<std::string>() + " / " + cell.at("event").get<std::string>();
     table[where] = {cell.at("kind"), cell.at("target"), cell.at("actions").get<std::set<std::string>>()};
@@ -137,6 +138,7 @@ TEST(Specification, IsTheTableThatTheToolPrints) {
 
 TEST(Specification, EveryChangedCellIsNoticed) {
   const Table tool = printed();
+  ASSERT_EQ(tool.size(), 7U * 14U);
   for (const auto& [where, cell] : tool) {
     for (int what = 0; what < 3; ++what) {
       Table changed = tool;
