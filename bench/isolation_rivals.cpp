@@ -55,7 +55,7 @@ void Rivals::add(const StationSamples& station) {
     norm_variance_[at(k)] += t.norm_sigma_mps2 * t.norm_sigma_mps2;
     for (const plumb::Readings& y : station.sample) {
       const double square =
-          plumb::squared_length(triple.form, y[triple.sensors[0]], y[triple.sensors[1]], y[triple.sensors[2]]);
+          plumb::squared_length(array_.form(k), y[triple.sensors[0]], y[triple.sensors[1]], y[triple.sensors[2]]);
       mae_sum_[at(k)] += std::fabs(std::sqrt(std::fmax(square, 0.0)) - gravity_.g_mps2);
     }
   }

@@ -85,7 +85,7 @@ RuleCounts eight_attitudes(const RatesJob& job) {
       const plumb::Vec3 g = plumb::scaled(noise.direction(), length);
       const StationSamples station = sampled(tool, episode, g, noise);
       rivals.add(station);
-      answer = isolation.vote(tool.array, tool.gravity, tool.limits, station.block);
+      answer = isolation.vote({tool.array, tool.gravity, tool.limits, station.block});
       blamed = blamed || !episode.faulty().contains(answer.strict);
     }
     for (int r = 0; r < kRules; ++r) {
@@ -108,7 +108,7 @@ Count parity_at_one_station(const RatesJob& job) {
     plumb::Isolation isolation = tool.posed;
     const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
     const plumb::IsolationAnswer answer =
-        isolation.vote(tool.array, tool.gravity, tool.limits, episode.block(g, noise));
+        isolation.vote({tool.array, tool.gravity, tool.limits, episode.block(g, noise)});
     count.add(episode.faulty(), answer.parity, false);
   }
   return plain(count);
@@ -123,8 +123,8 @@ Count asserted_at_one_block(const RatesJob& job) {
     plumb::Isolation isolation = tool.posed;
     const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
     const plumb::BlockEvidence block = episode.block(g, noise);
-    isolation.vote(tool.array, tool.gravity, tool.limits, block);
-    const plumb::FaultSetScan scan = isolation.scan(tool.array, tool.gravity, tool.limits, block, tool.array.all(),
+    isolation.vote({tool.array, tool.gravity, tool.limits, block});
+    const plumb::FaultSetScan scan = isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(),
                                                     job.faults, job.faults, {1, 4.9, 0.0});
     count.add(episode.faulty(), scan.asserted, false);
   }

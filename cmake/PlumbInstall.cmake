@@ -1,5 +1,6 @@
 # cmake --install: headers, libraries, tool, licence, and the package plumb for find_package(plumb CONFIG).
-#   find_package(plumb CONFIG)                  -> plumb::plumb (8 sensors), plumb::plumb_4, _8, _16, _24
+#   find_package(plumb CONFIG)                  -> plumb::plumb (8 sensors), plumb::plumb_4, _8, _16, _24;
+#                                                  plumb::c (the C functions, 8 sensors), plumb::c_4, _8, _16, _24
 #   find_package(plumb CONFIG COMPONENTS host)  -> plumb::scenario, plumb::study, plumb::io, plumb::report as well
 
 include(CMakePackageConfigHelpers)
@@ -7,9 +8,11 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
 
 set(core_targets ${PLUMB_CAPACITIES})
 list(TRANSFORM core_targets PREPEND plumb_)
-install(TARGETS ${core_targets} EXPORT plumbTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+set(c_targets ${PLUMB_CAPACITIES})
+list(TRANSFORM c_targets PREPEND plumb_c_)
+install(TARGETS ${core_targets} ${c_targets} EXPORT plumbTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
-set(rooms ${PLUMB_CORE_ROOMS})
+set(rooms ${PLUMB_CORE_ROOMS} c)
 
 set(PLUMB_INSTALLED_HOST FALSE)
 foreach(name IN ITEMS scenario study io report)

@@ -49,6 +49,16 @@ foreach(capacity IN LISTS PLUMB_CAPACITIES)
 endforeach()
 add_library(plumb::plumb ALIAS plumb_8)
 
+# --- The C functions: the same monitor for programs in C, one library per capacity; a program links one of them. ---
+plumb_sources(c_sources c)
+foreach(capacity IN LISTS PLUMB_CAPACITIES)
+  add_library(plumb_c_${capacity} STATIC ${c_sources})
+  plumb_library(plumb_c_${capacity} c_${capacity})
+  target_compile_options(plumb_c_${capacity} PRIVATE -fno-exceptions -fno-rtti)
+  target_link_libraries(plumb_c_${capacity} PUBLIC plumb_${capacity})
+endforeach()
+add_library(plumb::c ALIAS plumb_c_8)
+
 # --- Host libraries, always with 24 sensors. ----------------------------------------------------------------
 if(NOT PLUMB_BUILD_HOST)
   return()

@@ -14,11 +14,12 @@ endif()
 
 # plumb_compile_settings(TARGET): C++17 without extensions, warnings as errors, no fused multiply-add
 # contraction (results must not depend on the compiler's choice of instructions, and the rounding that proofs/ bounds
-# is that of separate multiplications and additions).
+# is that of separate multiplications and additions). Nobody reads errno or the floating-point flags: without that promise
+# the compiler may not take a root, or choose by a comparison, for several triples at once.
 function(plumb_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE ${PLUMB_WARNINGS})
+  target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -fno-math-errno -fno-trapping-math ${PLUMB_WARNINGS})
 endfunction()

@@ -11,7 +11,7 @@ Length = sqrt(Square);
 error double= length - G;
 Error = Length - G;
 units double= error / unit;
-stored = int<na>(units);             # std::lround: halves away from zero
+stored = int<ne>(units);             # halves to even
 
 { |square - Square| <= 0x1.35p-25 /\ Square in [16, 90000] /\ G in [9, 10]
   -> |stored - Error / unit| <= 0x1.1p-1 /\ stored in [-2140000000, 2140000000] }

@@ -5,7 +5,7 @@
 error = double(error_);
 unit = 0x1.39d013a92a305p-23;
 units double= error / unit;
-stored = int<na>(units);
+stored = int<ne>(units);
 
 { units in [0, 2140000000] -> |stored - error / unit| <= 0x1.000004p-1 /\ stored in [0, 2140000000] }
 

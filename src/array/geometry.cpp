@@ -111,6 +111,7 @@ LeastSquares solve(const SensorArray& array, SensorSet used, Weights weights) no
     out.column[index(s.sensor[index(r)])] = scaled(times(t.inverse, q.row[index(r)]), s.weight[index(r)]);
   }
   out.valid = true;
+  out.used = used & array.all();
   return out;
 }
 
@@ -231,10 +232,9 @@ int rank_of(const SensorArray& array, SensorSet used) noexcept {
 
 Vec3 LeastSquares::estimate(const Readings& y) const noexcept {
   Vec3 x{};
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    // Not used: its reading may be NaN, and 0 * NaN is NaN.
-    if (column[i] == Vec3{}) continue;
-    x = plus(x, scaled(column[i], y[i]));
+  // One that is not used is not read: it may be NaN, and 0 * NaN is NaN.
+  for (std::size_t i = 0; (used.bits >> i) != 0 && i < column.size(); ++i) {
+    if (used.has(static_cast<int>(i))) x = plus(x, scaled(column[i], y[i]));
   }
   return x;
 }

@@ -37,7 +37,7 @@ Error check_row(const SensorRow& row, int i) noexcept {
   return Error{};
 }
 
-Triple make_triple(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+Triple make_triple(const Vec3& a, const Vec3& b, const Vec3& c, TripleForm& form) noexcept {
   Triple t;
   t.det = det3(a, b, c);
   array_detail::Rows rows;
@@ -52,12 +52,18 @@ Triple make_triple(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   t.condition = s[0] / s[2];
   t.votes = std::fabs(t.det) >= kMinTripleDet;
   const auto w = array_detail::inverse_columns(a, b, c, t.det);
-  t.form = {dot(w[0], w[0]),       dot(w[1], w[1]),       dot(w[2], w[2]),
-            2.0 * dot(w[0], w[1]), 2.0 * dot(w[0], w[2]), 2.0 * dot(w[1], w[2])};
+  form = {dot(w[0], w[0]),       dot(w[1], w[1]),       dot(w[2], w[2]),
+          2.0 * dot(w[0], w[1]), 2.0 * dot(w[0], w[2]), 2.0 * dot(w[1], w[2])};
   return t;
 }
 
 }  // namespace
+
+TripleForm SensorArray::form(int k) const noexcept {
+  TripleForm out{};
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = form_[c][index(k)];
+  return out;
+}
 
 SensorId make_id(const char* text) noexcept {
   SensorId id{};
@@ -66,16 +72,23 @@ SensorId make_id(const char* text) noexcept {
   return id;
 }
 
-double RowUncertainty::at(int i, int j, const Vec3& g_mps2) const noexcept {
+AttitudeProducts::AttitudeProducts(const Vec3& g_mps2) noexcept {
   const std::array<double, 4> z = {g_mps2[0], g_mps2[1], g_mps2[2], 1.0};
+  for (std::size_t p = 0; p < 4; ++p) {
+    for (std::size_t q = 0; q < 4; ++q) value[4 * p + q] = z[p] * z[q];
+  }
+}
+
+double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const noexcept {
+  const std::size_t rows = 4 * index(i >= j ? i : j), columns = 4 * index(i >= j ? j : i);
   double sum = 0.0;
-  for (int p = 0; p < 4; ++p) {
-    for (int q = 0; q < 4; ++q) {
-      const int a = 4 * i + p;
-      const int b = 4 * j + q;
-      const int hi = a >= b ? a : b;
-      const int lo = a >= b ? b : a;
-      sum += z[index(p)] * z[index(q)] * covariance[index(hi * (hi + 1) / 2 + lo)];
+  for (std::size_t p = 0; p < 4; ++p) {
+    const std::size_t row = (rows + p) * (rows + p + 1) / 2 + columns;
+    if (i != j) {
+      for (std::size_t q = 0; q < 4; ++q) sum += attitude.value[4 * p + q] * covariance[row + q];
+    } else {
+      for (std::size_t q = 0; q < p; ++q) sum += 2.0 * attitude.value[4 * p + q] * covariance[row + q];
+      sum += attitude.value[5 * p] * covariance[row + p];
     }
   }
   if (i == j) sum += misfit_mps2[index(i)] * misfit_mps2[index(i)];
@@ -123,9 +136,12 @@ Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       for (int k = j + 1; k < n; ++k) {
-        Triple& t = array.triples_[next++];
-        t = make_triple(array.axis(i), array.axis(j), array.axis(k));
+        Triple& t = array.triples_[next];
+        TripleForm form{};
+        t = make_triple(array.axis(i), array.axis(j), array.axis(k), form);
         t.sensors = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), static_cast<std::uint8_t>(k)};
+        for (std::size_t c = 0; c < form.size(); ++c) array.form_[c][next] = form[c];
+        ++next;
       }
     }
   }

@@ -16,6 +16,18 @@ Judgement refuse(Concern concern, Errc code, int index, double value, double lim
   return {Error{code, index, value, limit}, concern};
 }
 
+/// Of the misfit that one sensor causes.
+double allowed_of(const DatasheetSensor& s, const AcceptanceLimits& limits) noexcept {
+  return std::fmin(limits.odd_bias_share * s.prior.bias_mps2, limits.odd_sample_sigmas * s.row.sigma_mps2);
+}
+
+Judgement judge_level(const Datasheet& datasheet, const LevelMisfit& level, const AcceptanceLimits& limits) noexcept {
+  if (level.sensor < 0 || level.sensor >= datasheet.size) return {};
+  const double allowed = allowed_of(datasheet.sensor[at(level.sensor)], limits), mean = std::fabs(level.mean_mps2);
+  if (!(mean > allowed)) return {};
+  return refuse(Concern::level_of_a_sensor, Errc::poor_fit, level.sensor, mean, allowed);
+}
+
 }  // namespace
 
 const char* to_string(Concern concern) noexcept {
@@ -27,6 +39,8 @@ const char* to_string(Concern concern) noexcept {
     case Concern::parity: return "parity";
     case Concern::hold_out: return "hold_out";
     case Concern::hold_out_claim: return "hold_out_claim";
+    case Concern::roll_axis: return "roll_axis";
+    case Concern::level_of_a_sensor: return "level_of_a_sensor";
   }
   return "unknown";
 }
@@ -41,9 +55,7 @@ Judgement judge_gravity(const GravityReference& gravity) noexcept {
 
 Judgement judge_odd_sensor(const Datasheet& datasheet, const OddSensor& odd, const AcceptanceLimits& limits) noexcept {
   if (odd.sensor < 0 || odd.sensor >= datasheet.size) return {};
-  const DatasheetSensor& s = datasheet.sensor[at(odd.sensor)];
-  const double allowed =
-      std::fmin(limits.odd_bias_share * s.prior.bias_mps2, limits.odd_sample_sigmas * s.row.sigma_mps2);
+  const double allowed = allowed_of(datasheet.sensor[at(odd.sensor)], limits);
   if (!(odd.with_mps2 > allowed)) return {};
   return refuse(Concern::odd_sensor, Errc::poor_fit, odd.sensor, odd.with_mps2, allowed);
 }
@@ -55,6 +67,12 @@ Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, con
   // Before the rest: what one sensor spoils shows everywhere.
   const Judgement alone = judge_odd_sensor(datasheet, odd, limits);
   if (alone.error.code != Errc::ok) return alone;
+  const Judgement level = judge_level(datasheet, calibration.report.level_misfit, limits);
+  if (level.error.code != Errc::ok) return level;
+  const CommonTurn& turn = calibration.report.common_turn;
+  if (turn.sigmas() > limits.max_common_turn_sigmas && turn.sensor < 0) {
+    return refuse(Concern::roll_axis, Errc::implausible, -1, turn.rad, limits.max_common_turn_sigmas * turn.sigma_rad);
+  }
   const CommonScale& common = calibration.report.common_scale;
   if (std::fabs(common.sigmas()) > limits.max_common_scale_sigmas &&
       std::fabs(common.mean) > kTogether * common.scatter) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fit_report.hpp"
+#include "plumb/calibration/temperature_fit.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -116,6 +117,11 @@ Error refused_input(const Datasheet& datasheet, const GravityReference& gravity,
   if (report.stations < needed) {
     return Error{Errc::too_few_stations, -1, static_cast<double>(report.stations), static_cast<double>(needed)};
   }
+  for (int k = 0; k < problem.count; ++k) {
+    const double t = stations[k].temperature_degc;
+    if (stations[k].count == 0 || (t >= kPlausibleMin_degc && t <= kPlausibleMax_degc) || std::isnan(t)) continue;
+    return Error{Errc::diverged, k, t, t < kPlausibleMin_degc ? kPlausibleMin_degc : kPlausibleMax_degc};
+  }
   return same_numbers(problem);
 }
 
@@ -158,6 +164,10 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   }
   r.degrees_of_freedom = sums.rows - 2 * r.stations - r.rank;
   r.p_value = r.degrees_of_freedom >= 1 ? chi2_tail(r.chi2, r.degrees_of_freedom) : 1.0;
+  if (problem.roll.used) r.common_turn = fit::common_turn(datasheet_, problem.roll.axis, fitted.theta);
+  if (r.temperature_max_degc - r.temperature_min_degc >= kLevelsApart_degc) {
+    r.level_misfit = fit::level_misfit(problem, fitted.theta);
+  }
   double factor = 1.0;
   if (options_.estimate_misfit) {
     factor = fit::note_loud_sensor(problem, fitted.tally, r);
@@ -168,7 +178,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   return true;
 }
 
-Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, const FitReport& r) const noexcept {
+Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, FitReport& r) const noexcept {
   const int needed = r.parameters - (problem.roll.used ? 1 : 3);
   if (options_.require_full_rank && r.rank < needed) {
     return Error{Errc::unobservable, -1, static_cast<double>(r.rank), static_cast<double>(needed)};

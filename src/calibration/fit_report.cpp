@@ -213,27 +213,82 @@ void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitR
   report.common_scale = out;
 }
 
-Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
-                  const Parameters& theta) noexcept {
-  const Error worst = furthest_off(datasheet, options, theta, -1);
-  if (worst.code == Errc::ok || roll.used) return worst;
-  // One axis that is far off (a sign, a swapped channel) turns the frame of all, or mirrors it, which gravity does not
-  // show. Leave each out in turn: where the others then fit, it is the one.
-  for (int k = 0; k < 2 * datasheet.size; ++k) {
-    const int i = k / 2;
-    Parameters turned = theta;
-    for (int p = 0; p < 4 * datasheet.size && k % 2 == 1; ++p) turned[at(p)] *= p % 4 == 3 ? 1.0 : -1.0;
-    turn_to_datasheet(datasheet, roll, turned, i);
-    if (furthest_off(datasheet, options, turned, i).code != Errc::ok) continue;
-    const Error alone = furthest_off(datasheet, options, turned, -1);
-    if (alone.code != Errc::ok) return alone;
+namespace {
+
+/// By chi^2, the worse explanation of two is as good as none: the odds are 1000 to 1.
+constexpr double kSeparable = 13.8;
+
+/// Squared deviations from the datasheet in prior sigmas, but those of `left_out`.
+double prior_chi2(const Datasheet& datasheet, const Parameters& theta, int left_out) noexcept {
+  double sum = 0.0;
+  for (int i = 0; i < datasheet.size; ++i) {
+    if (i == left_out) continue;
+    const Deviation d = deviation_of(datasheet, theta, i);
+    const Prior& prior = datasheet.sensor[at(i)].prior;
+    const std::array<double, 3> value = {d.scale, d.axis_rad, d.bias_mps2};
+    const std::array<double, 3> sigma = {prior.scale, prior.axis_rad, prior.bias_mps2};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (sigma[k] > 0.0) sum += value[k] * value[k] / (sigma[k] * sigma[k]);
+    }
   }
-  return worst;
+  return sum;
 }
 
-Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
-                    const FitReport& r) noexcept {
-  const Error error = implausible(problem.datasheet, problem.roll, options, fitted.theta);
+/// With every sensor left out in turn, of either hand: where the others then fit, it is the one.
+struct Alone {
+  Error error;
+  double chi2 = kInfinity;
+};
+
+Alone alone(const Datasheet& datasheet, const Roll& roll, const FitOptions& options, const Parameters& theta,
+            int i) noexcept {
+  Alone out;
+  for (const double hand : {1.0, -1.0}) {
+    Parameters turned = theta;
+    for (int p = 0; p < 4 * datasheet.size; ++p) turned[at(p)] *= p % 4 == 3 ? 1.0 : hand;
+    turn_to_datasheet(datasheet, roll, turned, i);
+    if (furthest_off(datasheet, options, turned, i).code != Errc::ok) continue;
+    const Error own = furthest_off(datasheet, options, turned, -1);
+    const double chi2 = prior_chi2(datasheet, turned, i);
+    if (own.code == Errc::ok || !(chi2 < out.chi2)) continue;
+    out = {own, chi2};
+  }
+  return out;
+}
+
+}  // namespace
+
+Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options, const Parameters& theta,
+                  SensorSet& suspects) noexcept {
+  suspects = {};
+  const Error worst = furthest_off(datasheet, options, theta, -1);
+  if (worst.code == Errc::ok) return worst;
+  if (roll.used) {
+    const CommonTurn turn = common_turn(datasheet, roll.axis, theta);
+    Parameters turned = theta;
+    turn_to_datasheet(datasheet, Roll{}, turned);
+    const bool all_together = furthest_off(datasheet, options, turned, -1).code == Errc::ok && turn.sensor < 0;
+    return all_together ? Error{Errc::implausible, -1, turn.rad, options.max_axis_change_rad} : worst;
+  }
+  // One axis that is far off (a sign, a swapped channel) turns the frame of all, or mirrors it, which gravity does not
+  // show.
+  Alone best;
+  std::array<double, kCapacity> chi2{};
+  for (int i = 0; i < datasheet.size; ++i) {
+    const Alone own = alone(datasheet, roll, options, theta, i);
+    chi2[at(i)] = own.chi2;
+    if (own.chi2 < best.chi2) best = own;
+  }
+  if (best.error.code == Errc::ok) return worst;
+  for (int i = 0; i < datasheet.size; ++i) {
+    if (chi2[at(i)] < best.chi2 + kSeparable) suspects = suspects.with(i);
+  }
+  if (suspects.size() > 1) best.error.index = -1;
+  return best.error;
+}
+
+Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted, FitReport& r) noexcept {
+  const Error error = implausible(problem.datasheet, problem.roll, options, fitted.theta, r.suspects);
   if (error.code != Errc::ok) return error;
   const double most = options.max_outlier_share * (r.stations + r.outliers);
   if (static_cast<double>(r.outliers) > most) {

@@ -30,14 +30,18 @@ void note_outliers(const Problem& problem, FitReport& report) noexcept;
 int most_blamed(const Problem& problem) noexcept;
 void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitReport& report) noexcept;
 
+/// By the axes of theta, turned about the roll axis as near to the nominal ones as can be.
+CommonTurn common_turn(const Datasheet& datasheet, const Vec3& roll_axis, const Parameters& theta) noexcept;
+LevelMisfit level_misfit(const Problem& problem, const Parameters& theta) noexcept;
+
 /// The parameter that is furthest beyond its physical bound, or ok; that of the one sensor without which all is well,
-/// where there is one.
-Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options,
-                  const Parameters& theta) noexcept;
+/// where there is one. `suspects` gets all of which that is so about as well.
+Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions& options, const Parameters& theta,
+                  SensorSet& suspects) noexcept;
 
 /// A fit of full rank, judged by its own figures.
 Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
-                    const FitReport& report) noexcept;
+                    FitReport& report) noexcept;
 /// `loud_sensor` and what goes with it; by what factor its residuals widen every variance (>= 1).
 double note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& report) noexcept;
 

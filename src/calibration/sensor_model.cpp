@@ -80,18 +80,27 @@ double SensorModel::bias_at(int i, double temperature_degc) const noexcept {
   return fit::cubic(c.bias, temperature_degc - c.reference_degc);
 }
 
-Readings SensorModel::apply(const std::array<double, kCapacity>& raw, double temperature_degc,
-                            SensorSet delivered) const noexcept {
+Readings SensorModel::without_misalignment(const std::array<double, kCapacity>& raw, double temperature_degc,
+                                           SensorSet delivered) const noexcept {
   const double sign = reads == Reads::gravity ? 1.0 : -1.0;
-  Readings direct{};
+  Readings out{};
   for (int i = 0; i < size; ++i) {
     if (!delivered.has(i)) continue;
+    const SensorCoefficients& c = sensor[at(i)];
+    const double t = temperature_degc - c.reference_degc;
+    const double scale = fit::cubic(c.scale, t);
     // A cubic scale factor may pass through zero far from its calibrated span: no reading then, rather than infinity.
-    const double scale = scale_at(i, temperature_degc);
-    direct[at(i)] =
-        scale != 0.0 ? raw[at(i)] / scale - bias_at(i, temperature_degc) : std::numeric_limits<double>::quiet_NaN();
+    const double felt =
+        scale != 0.0 ? raw[at(i)] / scale - fit::cubic(c.bias, t) : std::numeric_limits<double>::quiet_NaN();
+    out[at(i)] = sign * felt;
   }
-  Readings out{};
+  return out;
+}
+
+Readings SensorModel::apply(const std::array<double, kCapacity>& raw, double temperature_degc,
+                            SensorSet delivered) const noexcept {
+  const Readings direct = without_misalignment(raw, temperature_degc, delivered);
+  Readings out = direct;
   for (int i = 0; i < size; ++i) {
     if (!delivered.has(i)) continue;
     double cross_terms = 0.0;
@@ -100,7 +109,7 @@ Readings SensorModel::apply(const std::array<double, kCapacity>& raw, double tem
       // Zero terms are skipped, not multiplied: 0 * NaN of a broken neighbour would leak.
       if (m != 0.0) cross_terms += m * direct[at(k)];
     }
-    out[at(i)] = sign * (direct[at(i)] - cross_terms);
+    out[at(i)] = direct[at(i)] - cross_terms;
   }
   return out;
 }

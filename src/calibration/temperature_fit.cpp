@@ -139,6 +139,7 @@ class Attempt {
     report_.degrees_of_freedom = sums.sums.rows - 2 * report_.stations - told_.rank;
     const int freedom = report_.degrees_of_freedom;
     report_.p_value = freedom >= 1 ? chi2_tail(report_.chi2, freedom) : 1.0;
+    report_.level_misfit = fit::level_misfit(problem, state.theta);
     double factor = 1.0;
     if (options_.estimate_misfit) {
       factor = fit::note_loud_sensor(problem, fitted.tally, report_);
@@ -200,7 +201,7 @@ class Attempt {
     return {};
   }
 
-  Error judge(const fit::Joint& joint, const fit::Descent& descent, const fit::Fitted& fitted) const noexcept {
+  Error judge(const fit::Joint& joint, const fit::Descent& descent, const fit::Fitted& fitted) noexcept {
     const int needed = joint.parameters() - 3;
     if (options_.require_full_rank && told_.rank < needed) {
       return {Errc::unobservable, -1, static_cast<double>(told_.rank), static_cast<double>(needed)};
@@ -235,9 +236,11 @@ Error refused_options(const TemperatureOptions& options) noexcept {
   }
   const ChebyshevSpan& use = options.use_degc;
   const bool given = use.lowest != use.highest;
-  if (given && !(use.highest - use.lowest >= kLevelsApart_degc && std::isfinite(use.highest - use.lowest))) {
+  if (given && !(use.highest - use.lowest >= kLevelsApart_degc)) {
     return {Errc::out_of_range, 3, use.highest - use.lowest, kLevelsApart_degc};
   }
+  if (given && !(use.lowest >= kPlausibleMin_degc)) return {Errc::out_of_range, 3, use.lowest, kPlausibleMin_degc};
+  if (given && !(use.highest <= kPlausibleMax_degc)) return {Errc::out_of_range, 3, use.highest, kPlausibleMax_degc};
   return {};
 }
 
@@ -287,6 +290,7 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
                                                                     : options.max_order;
   for (int order = automatic ? supported : options.order; order > 0; --order) {
     if (!free_terms(datasheet, order)) return fail(Errc::out_of_range, 4);
+    told.follows_time = one_way(stations, count);
     FitReport attempt;
     const Error wrong = fit::refused_input(datasheet, gravity, options.fit, stations, count, attempt);
     r = attempt;
@@ -303,6 +307,7 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
     }
   }
   told.order = 0;
+  told.follows_time = false;
   if (automatic && options.max_order > 0 && !told.rolls) {
     told.missing = missing_levels(told.levels, told.use_degc, 2, told.missing_degc);
   }

@@ -42,6 +42,7 @@ TemperatureLevels temperature_levels(const Station* stations, int count) noexcep
       ++members;
     }
     out.degc[static_cast<std::size_t>(out.count)] = sum / members;
+    out.begin_degc[static_cast<std::size_t>(out.count)] = begin;
     out.stations[static_cast<std::size_t>(out.count)] = members;
     ++out.count;
     more = next_above(stations, count, begin + kLevelsApart_degc, begin);
@@ -93,6 +94,22 @@ ChebyshevSpan fullest_level(const Station* stations, int count, const Temperatur
       fullest = level;
   }
   return span_of_levels(stations, count, levels, [fullest](int level) { return level == fullest; });
+}
+
+bool one_way(const Station* stations, int count) noexcept {
+  double lowest = 0.0, highest = 0.0, fell = 0.0, rose = 0.0;
+  bool any = false;
+  for (int k = 0; k < count && stations != nullptr; ++k) {
+    const double t = stations[k].temperature_degc;
+    if (stations[k].count == 0 || !std::isfinite(t)) continue;
+    if (!any) lowest = highest = t;
+    any = true;
+    lowest = std::fmin(lowest, t);
+    highest = std::fmax(highest, t);
+    fell = std::fmax(fell, highest - t);
+    rose = std::fmax(rose, t - lowest);
+  }
+  return highest - lowest >= kLevelsApart_degc && (fell < kLevelsApart_degc || rose < kLevelsApart_degc);
 }
 
 int missing_levels(const TemperatureLevels& levels, const ChebyshevSpan& use_degc, int wanted,

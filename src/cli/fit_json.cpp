@@ -3,7 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "column_facts.hpp"
 #include "fit_summary.hpp"
+#include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
 #include "temperature_json.hpp"
 
@@ -17,6 +19,35 @@ using Json = nlohmann::ordered_json;
 constexpr double kMilliG0_mps2 = 1e-3 * kG0_mps2;
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json columns_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  Json out = Json::array();
+  for (const ColumnFact& fact : column_facts(run, array)) {
+    out.push_back({{"column", fact.column},
+                   {"of", fact.of},
+                   {"rows_without", fact.rows_without},
+                   {"dead", fact.dead},
+                   {"words", fact.words}});
+  }
+  return out;
+}
+
+/// What would have made a refused fit settle; null where nothing was found.
+Json second_look_json(const CalibrationRun& run, const io::ArrayFile& array) {
+  const SecondLook& look = run.second_look;
+  if (!look.found()) return {};
+  Json exchanged = Json::array();
+  Json reversed = Json::array();
+  for (const auto& [i, j] : look.exchanged) {
+    if (i == j) reversed.push_back(id_of(array, i));
+    if (i != j) exchanged.push_back(Json::array({id_of(array, i), id_of(array, j)}));
+  }
+  return {{"columns_exchanged", std::move(exchanged)},
+          {"sign_reversed", std::move(reversed)},
+          {"without_roll_group", look.groups},
+          {"roll_axis", look.roll_axis ? Json(*look.roll_axis) : Json()},
+          {"without_roll_groups", look.without_groups}};
+}
 
 Json stations_json(const CalibrationRun& run) {
   Json out = Json::array();
@@ -58,6 +89,8 @@ Json fit_object(const CalibrationRun& run) {
           {"roll_axis", r.roll_axis == Vec3{} ? Json() : Json(r.roll_axis)},
           {"roll_wobble_rad", r.roll_axis == Vec3{} ? Json() : Json(r.roll_wobble_rad)},
           {"inclination_sigma_rad", r.null_directions == 0 ? known(r.inclination_sigma_rad) : Json()},
+          {"common_turn_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.rad) : Json()},
+          {"common_turn_sigma_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.sigma_rad) : Json()},
           {"norm_rms_mps2", known(r.norm_rms_mps2)},
           {"parity_rms_mps2", known(r.parity_rms_mps2)},
           {"misfit_mps2", known(r.misfit_mps2)},
@@ -198,12 +231,20 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["accepted"] = run.accepted != nullptr;
   if (!run.accepted) {
     const Refusal refusal = refusal_of(run, array);
-    out["refusal"] = {{"reason", refusal.reason}, {"concern", to_string(run.concern)}, {"next", refusal.next}};
+    out["refusal"] = {{"reason", refusal.reason},
+                      {"concern", to_string(run.concern)},
+                      {"next", refusal.next},
+                      {"would_settle", second_look_json(run, array)}};
   }
   out["interrupted"] = run.interrupted;
   out["rows"] = run.log.rows;
   out["rows_bad"] = run.log.rows_bad;
   out["log_findings"] = run.log_findings;
+  out["columns"] = columns_json(run, array);
+  out["stations_without_temperature"] = run.without_temperature;
+  const std::string unit = temperature_unit_words(run, array);
+  out["temperature_unit"] = unit.empty() ? Json() : Json(unit);
+  out["hidden_wirings"] = hidden_wiring_count(array);
   out["stations"] = stations_json(run);
   out["fit"] = fit_object(run);
   out["outliers"] = outliers_json(run, array);

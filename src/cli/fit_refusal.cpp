@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "column_facts.hpp"
 #include "fit_words.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
@@ -133,6 +134,15 @@ int same_as(const CalibrationRun& run, const io::ArrayFile& array, int sensor) {
   return -1;
 }
 
+Refusal wrong_roll_axis(const CalibrationRun& run) {
+  const Vec3& axis = run.told().roll_axis;
+  return {fmt::format("the roll axis ({:.3g}, {:.3g}, {:.3g}) is likely not the one that the tool was rolled about: to "
+                      "agree with the roll groups all axes were turned together by {:.3g} deg (at most {:.3g} allowed)",
+                      axis[0], axis[1], axis[2], deg_from_rad(run.refusal.value), deg_from_rad(run.refusal.limit)),
+          "check --roll-axis and [output] frame against the drawing, and that nothing but the roll changes within a "
+          "group; if all nominal axes are really so far off, widen `prior`"};
+}
+
 Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
   switch (run.concern) {
@@ -146,6 +156,7 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
                           100.0 * std::fabs(e.value), 100.0 * e.value, 100.0 * e.limit, array.array.size()),
               "check [gravity], `unit` and `scale`: a wrong one does just this; if all sensors really are so, state "
               "their `scale` as it is or widen `prior`"};
+    case Concern::roll_axis: return wrong_roll_axis(run);
     default: break;
   }
   if (const int twin = same_as(run, array, e.index); twin >= 0) {
@@ -153,27 +164,31 @@ Refusal implausible(const CalibrationRun& run, const io::ArrayFile& array) {
                         id_of(array, std::min(twin, e.index)), id_of(array, std::max(twin, e.index))),
             "look at `column` of both in the array file, and at how the log was written"};
   }
+  if (e.index < 0 && run.report.common_turn.sigma_rad > 0.0) return wrong_roll_axis(run);
+  if (run.report.suspects.size() > 1) {
+    return {fmt::format("{} is physically implausible; which, these stations cannot tell",
+                        one_of(run.report.suspects, array)),
+            "check channel, sign of the axis and scale of each in the array file; if all is right, record more "
+            "attitudes"};
+  }
   const std::string sensor = e.index >= 0 && e.index < array.array.size() ? id_of(array, e.index) : "a sensor";
   const std::string worst = worst_value(run, array);
-  return {worst.empty() ? fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor,
-                                      e.value, e.limit)
-                        : worst + ", which is physically implausible",
-          "check the channel, the sign of its axis and its scale in the array file; if all is right, the sensor is "
-          "faulty: leave it out"};
+  return {
+      worst.empty()
+          ? fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor, e.value, e.limit)
+          : worst + ", which is physically implausible",
+      "check its `column`, the sign of its `axis` and its `scale` in the array file; if all is right, the sensor is "
+      "faulty: leave it out"};
 }
 
-/// A unit that is wrong by a factor spoils everything that a fit could say.
-constexpr double kWrongUnit = 2.0;
-
-/// Whether the numbers of the log cannot be in the unit stated; fills the refusal.
-bool wrong_unit(const CalibrationRun& run, const io::ArrayFile& array, Refusal& out) {
+/// The numbers of the log cannot be in the unit stated.
+Refusal wrong_unit(const CalibrationRun& run, const io::ArrayFile& array) {
   const double factor = length_factor(array, run.stations);
-  if (!(factor > 0.0) || (factor < kWrongUnit && factor > 1.0 / kWrongUnit)) return false;
-  out = {fmt::format("the vector is {:.3g} times as long as gravity, so the numbers of the log are not in {} or not of "
-                     "the `scale` stated{}",
-                     factor, array.input.unit.name, likely_unit(array, factor)),
-         "correct `unit` in [input], or `scale` and `bias` of the sensors"};
-  return true;
+  return {
+      fmt::format("the vector is {:.3g} times as long as gravity, so the numbers of the log are not in {} or not of "
+                  "the `scale` stated{}",
+                  factor, array.input.unit.name, likely_unit(array, factor)),
+      "correct `unit` in [input], or `scale` and `bias` of the sensors"};
 }
 
 Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -187,6 +202,12 @@ Refusal poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
                       odd_sensor_words(run.study.odd), in_mg0(e.limit)),
           "look at the channel of " + sensor + " in the log; leave the sensor out or replace it, then record again"};
     }
+    case Concern::level_of_a_sensor:
+      return {fmt::format("{} (allowed {:.3g} mg0)", level_words(run.told(), array), in_mg0(e.limit)),
+              run.temperature.order < kMaxTemperatureOrder
+                  ? "record at more temperatures, so that a higher order can be fitted; or replace the sensor"
+                  : "use the tool where the sensor follows a cubic (--use-range-degc, and stations of that range "
+                    "only), or replace the sensor"};
     case Concern::parity:
       return {fmt::format("the sensors contradict one another by {:.3g} mg0 rms (allowed {:.3g})", in_mg0(e.value),
                           in_mg0(e.limit)),
@@ -244,41 +265,78 @@ std::string largest_reading(const Station& station, const io::ArrayFile& array) 
 
 Refusal did_not_settle(const CalibrationRun& run, const io::ArrayFile& array) {
   if (const int k = run.refusal.index; k >= 0 && k < static_cast<int>(run.stations.size())) {
+    const double degc = run.stations[static_cast<std::size_t>(k)].temperature_degc;
+    if (degc < kPlausibleMin_degc || degc > kPlausibleMax_degc) {
+      return {fmt::format("station {} has a temperature of {:.4g} degC, which no tool has (from {:g} to {:g})", k + 1,
+                          degc, kPlausibleMin_degc, kPlausibleMax_degc),
+              "mend the temperature column, or leave the rows out"};
+    }
     return {fmt::format("station {} holds a reading that no sensor gives ({})", k + 1,
                         largest_reading(run.stations[static_cast<std::size_t>(k)], array)),
             "mend the row or leave it out"};
   }
+  if (const FollowedDirection follows = followed_direction(run); follows.axis != 0) {
+    return {
+        fmt::format("the fit did not settle: the temperature of the stations follows the {} direction of gravity, so "
+                    "that drift and attitude cannot be told apart",
+                    follows.axis),
+        "record some of the attitudes again, hotter or colder by 30 degC or more; or give --temperature-order 0"};
+  }
   const std::vector<std::string> absent = absent_words(run, array);
   if (!absent.empty()) return {"the fit did not settle: " + joined(absent, "; "), "look at the channel in the log"};
   return {"the fit did not settle",
-          "check axes, scales and `reads` in the array file against the log; then " + more_attitudes(run)};
+          "check `column`, `axis` and `scale` of the sensors in the array file against the log; then " +
+              more_attitudes(run)};
+}
+
+/// Of a log that determines too little: the columns that lacked numbers are likely why.
+Refusal too_little(Refusal refusal, const CalibrationRun& run, const io::ArrayFile& array) {
+  std::string columns;
+  for (const ColumnFact& fact : column_facts(run, array)) {
+    if (fact.of != "roll_group") refusal.reason += "; the column " + fact.words;
+    if (fact.of != "roll_group") columns += (columns.empty() ? "" : ", ") + ("`" + fact.column + "`");
+  }
+  if (!columns.empty()) refusal.next = "fill in " + columns + " where it is empty; or " + refusal.next;
+  return refusal;
+}
+
+/// The refusal of values that do not fit together, with the one mistake of the array file that would explain them.
+Refusal explained(Refusal refusal, const CalibrationRun& run, const io::ArrayFile& array) {
+  if (!run.second_look.found()) return refusal;
+  return {refusal.reason + second_look_words(run.second_look, array), second_look_remedy(run.second_look, array)};
 }
 
 }  // namespace
 
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   const Error& e = run.refusal;
-  if (const std::optional<Refusal> temperature = temperature_refusal(run)) return *temperature;
-  Refusal unit;
   const bool of_values = e.code == Errc::implausible || e.code == Errc::poor_fit || e.code == Errc::diverged;
-  if (of_values && run.concern != Concern::gravity && wrong_unit(run, array, unit)) return unit;
+  const bool of_amount = e.code == Errc::too_few_stations || e.code == Errc::unobservable;
+  const std::optional<Refusal> columns = column_refusal(run, array);
+  if (columns && (of_values || of_amount) && run.concern != Concern::gravity) return *columns;
+  if (const std::optional<Refusal> temperature = temperature_refusal(run)) return *temperature;
+  if (of_values && run.concern != Concern::gravity && of_another_unit(array, run.stations))
+    return wrong_unit(run, array);
   switch (e.code) {
     case Errc::too_few_stations:
-      if (!run.log_findings.empty()) return no_stations(run);
-      return {fmt::format("{} station{} found, {} are needed", run.stations.size(),
-                          run.stations.size() == 1 ? " was" : "s were", e.limit),
-              more_attitudes(run)};
+      if (!run.log_findings.empty()) return too_little(no_stations(run), run, array);
+      return too_little({fmt::format("{} station{} found, {} are needed", run.stations.size(),
+                                     run.stations.size() == 1 ? " was" : "s were", e.limit),
+                         more_attitudes(run)},
+                        run, array);
     case Errc::unobservable:
-      return {fmt::format(
-                  "the stations determine {} of the {} parameters that they must (the report names what is missing)",
-                  e.value, e.limit),
-              more_attitudes(run) + (run.report.roll_axis == Vec3{}
-                                         ? ""
-                                         : "; with more rolls to a group, or without `roll_group`, where it is "
-                                           "the common rotation that is missing")};
-    case Errc::implausible: return implausible(run, array);
-    case Errc::poor_fit: return poor_fit(run, array);
-    case Errc::diverged: return did_not_settle(run, array);
+      return too_little(
+          {fmt::format(
+               "the stations determine {} of the {} parameters that they must (the report names what is missing)",
+               e.value, e.limit),
+           more_attitudes(run) + (run.report.roll_axis == Vec3{}
+                                      ? ""
+                                      : "; with more rolls to a group, or without `roll_group`, where it is "
+                                        "the common rotation that is missing")},
+          run, array);
+    case Errc::implausible: return explained(implausible(run, array), run, array);
+    case Errc::poor_fit: return explained(poor_fit(run, array), run, array);
+    case Errc::diverged: return explained(did_not_settle(run, array), run, array);
     case Errc::out_of_range:  // axis and wobble come from the command line, which checks them
       return {fmt::format("the log has more than {} roll groups", kMaxRollGroups),
               "join groups of like inclination, or leave some stations without"};

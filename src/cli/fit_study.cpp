@@ -16,6 +16,8 @@ constexpr int kFewStations = 16;
 constexpr int kDefaultFolds = 4;
 /// Samples behind a proposed station where none is recorded yet: 10 s at 100 Hz.
 constexpr double kDefaultSamples = 1000.0;
+/// A smaller fraction of any recording that can be made holds out nothing.
+constexpr double kLeastFraction = 0.001;
 constexpr int kMostIterations = 10000;
 
 HoldOutPlan plan_of(const HoldOutChoice& choice, int stations) {
@@ -153,7 +155,7 @@ std::string read_hold_out(const std::string& text, HoldOutChoice& choice) {
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, value);
   if (read.ec == std::errc{} && read.ptr == end) {
-    if (value > 0.0 && value <= 0.5) {
+    if (value >= kLeastFraction && value <= 0.5) {
       choice.folds = static_cast<int>(std::lround(1.0 / value));
       choice.once = true;
       return "";
@@ -164,7 +166,7 @@ std::string read_hold_out(const std::string& text, HoldOutChoice& choice) {
     }
   }
   return "\"" + text +
-         "\" is neither a number of folds (2 or more), nor a fraction of the stations (up to 0.5), nor `one` (each "
+         "\" is neither a number of folds (2 or more), nor a fraction of the stations (0.001 to 0.5), nor `one` (each "
          "station alone), nor `none`";
 }
 

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "column_facts.hpp"
 #include "fit_summary.hpp"
+#include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/words.hpp"
 #include "temperature_words.hpp"
+#include "unit_guess.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -78,6 +81,13 @@ std::string clipped_names(const FitReport& report, const io::ArrayFile& array) {
   return report::sensor_names(report.clipped_sensors, array.array);
 }
 
+std::string columns_section(const CalibrationRun& run, const io::ArrayFile& array) {
+  std::vector<std::string> words;
+  for (const ColumnFact& fact : column_facts(run, array)) words.push_back(fact.words);
+  if (const std::string unit = temperature_unit_words(run, array); !unit.empty()) words.push_back(unit);
+  return lines("columns", words);
+}
+
 std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
   const FitReport& r = run.told();
   std::string out = "\nfit\n";
@@ -97,6 +107,13 @@ std::string fit_section(const CalibrationRun& run, const io::ArrayFile& array) {
   out += line("rank", rank);
   if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
   if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
+  if (const int hidden = hidden_wiring_count(array); hidden > 0) {
+    out +=
+        line("wiring", fmt::format("{} mistake{} of wiring (exchanged or reversed channels) show{} in no recording of "
+                                   "this array: see `plumb geometry`, and check one known attitude by hand",
+                                   hidden, hidden == 1 ? "" : "s", hidden == 1 ? "s" : ""));
+  }
+  if (const std::string axis = roll_axis_words(r); !axis.empty()) out += line("roll axis", axis);
   const std::vector<std::string> unseen = unobservable(run, array);
   out += unseen.empty() ? line("not determined", "nothing") : lines("not determined", unseen);
   out +=
@@ -143,6 +160,7 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
   }
   if (!odd.empty()) out += line("stand out", listed(odd));
   const std::vector<std::string> outliers = outlier_words(run, array);
+  if (const std::string level = level_words(r, array); !level.empty()) out += line("bends", level);
   if (!outliers.empty()) out += line("set aside", listed(outliers) + "; the values come from the other stations");
   if (r.clipped > 0)
     out += line("at full scale", fmt::format("{} readings of {}, not used", r.clipped, clipped_names(r, array)));
@@ -151,7 +169,9 @@ std::string residual_section(const CalibrationRun& run, const io::ArrayFile& arr
                 id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
   }
   if (const std::string loud = loud_words(r, array); !loud.empty()) out += line("stands out", loud);
-  for (int i = 0; i < array.array.size(); ++i) {
+  // Noise in another unit is no noise to declare.
+  const bool unit_is_right = !of_another_unit(array, run.stations);
+  for (int i = 0; i < array.array.size() && unit_is_right; ++i) {
     if (noise_factor(r, array, i) > kToldNoise)
       out += line("noise", noise_words(r, array, i) + ": declare it as it is, the limits of a monitor are made of it");
   }
@@ -244,6 +264,7 @@ std::string fit_text(const CalibrationRun& run, const io::ArrayFile& array, cons
                                 array.array.size(), array.gravity.g_mps2, to_string(array.gravity.model));
   out += fmt::format("log         {} rows used, {} bad rows skipped, {} stations\n", run.log.rows, run.log.rows_bad,
                      run.stations.size());
+  out += columns_section(run, array);
   if (parts.stations) out += stations_text(run);
   out += fit_section(run, array) + temperature_section(run, array) + residual_section(run, array) +
          sensors_section(run, array) + temperature_table(run, array) + paper_parameters_section(run, array);

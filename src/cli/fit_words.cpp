@@ -274,7 +274,40 @@ std::string inclination_words(const FitReport& report) {
   return fmt::format("known to {:.3g} deg (1 sigma) in itself, {}", deg_from_rad(report.inclination_sigma_rad),
                      report.roll_axis == Vec3{} ? "by the nominal axes alone: gravity shows its changes only, unless "
                                                   "`roll_group` says which stations share one"
-                                                : "by the stations that share one");
+                                                : "by the stations that share one, about the roll axis as stated");
+}
+
+std::string roll_axis_words(const FitReport& report) {
+  const CommonTurn& turn = report.common_turn;
+  if (!(turn.sigma_rad > 0.0)) return "";
+  std::string out = fmt::format(
+      "by it all axes are turned together by {:.3g} deg from the nominal ones, which know it to {:.3g} deg: {:.1f} "
+      "sigma",
+      deg_from_rad(turn.rad), deg_from_rad(turn.sigma_rad), turn.sigmas());
+  if (turn.sigmas() > AcceptanceLimits{}.told_common_turn_sigmas) {
+    out +=
+        ". Is the roll axis the one stated (--roll-axis, [output] frame)? Every inclination is off by as much as it "
+        "is not";
+  }
+  return out;
+}
+
+std::string one_of(const SensorSet& suspects, const io::ArrayFile& array) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (suspects.has(i)) ids.push_back(id_of(array, i));
+  }
+  return ids.size() > 1 ? "one of " + listed(ids) : listed(ids);
+}
+
+std::string level_words(const FitReport& report, const io::ArrayFile& array) {
+  const LevelMisfit& level = report.level_misfit;
+  if (level.sensor < 0) return "";
+  return fmt::format(
+      "{} bends over temperature as the fit does not: near {:.0f} degC its residuals have a mean of {:+.3g} mg0, "
+      "{:.1f} "
+      "sigma from none",
+      one_of(level.suspects, array), level.degc, 1e3 * g0_from_mps2(level.mean_mps2), level.sigmas());
 }
 
 std::string roll_words(const FitReport& report) {

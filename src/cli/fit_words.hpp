@@ -50,6 +50,9 @@ std::string loud_words(const FitReport& report, const io::ArrayFile& array);
 std::string inclination_words(const FitReport& report);
 
 /// What the roll groups of the log were good for; empty where there are none.
+std::string roll_axis_words(const FitReport& report);                          ///< empty without roll groups
+std::string one_of(const SensorSet& suspects, const io::ArrayFile& array);     ///< "a2", "one of a1 and a2"
+std::string level_words(const FitReport& report, const io::ArrayFile& array);  ///< empty where no sensor stands out
 std::string roll_words(const FitReport& report);
 
 /// "with it 4.5 mg0 remain beyond the noise, without it 0.01 mg0".

@@ -122,10 +122,7 @@ io::FileExpected<void> read_subject(const Options& options, GeometrySubject& sub
   subject.array = file->array;
   subject.model = file->datasheet.model();
   subject.gravity = file->gravity;
-  subject.settings.samples = file->monitor.window;
-  subject.settings.false_alarm_rate = file->monitor.false_alarm_rate;
-  subject.settings.rejection_rate = file->monitor.rejection_rate;
-  subject.settings.integrity_risk = file->monitor.integrity_risk;
+  subject.settings = settings_of(*file);
   if (!options.calibration.empty()) {
     const io::FileExpected<io::CalibrationFile> found = io::read_calibration(options.calibration, *file);
     if (!found) return tl::unexpected<io::FileError>(found.error());

@@ -63,14 +63,14 @@ void find_remounts(const SensorArray& array, std::vector<SensorStudy>& sensors) 
 }
 
 /// Reversals, exchanges of two, turns of three: those that stay below the limits of a block.
-std::vector<HiddenWiring> hidden_wirings(const GeometrySubject& subject, const ErrorBudget& budget) {
-  const SensorArray& array = subject.array;
+std::vector<HiddenWiring> hidden_wirings(const SensorArray& array, const GravityReference& gravity,
+                                         const ErrorBudget& budget) {
   const int n = array.size();
   double noise = 0.0;
   for (int i = 0; i < n; ++i) noise = std::fmax(noise, budget.noise_mps2[at(i)] + budget.calibration_mps2[at(i)]);
-  const double parity = n > 3 ? budget.limits.parity_alarm[at(n - 3)] * noise / subject.gravity.g_mps2 : 0.0;
+  const double parity = n > 3 ? budget.limits.parity_alarm[at(n - 3)] * noise / gravity.g_mps2 : 0.0;
   const double gain = figures_of_merit(array).gdop;
-  const double length = (budget.limits.norm_alarm * gain * noise + budget.gravity_mps2) / subject.gravity.g_mps2;
+  const double length = (budget.limits.norm_alarm * gain * noise + budget.gravity_mps2) / gravity.g_mps2;
   std::vector<HiddenWiring> out;
   const auto consider = [&](const Wiring& wiring, const std::string& what) {
     const WiringEffect effect = wiring_effect(array, wiring);
@@ -198,6 +198,20 @@ void find_limits(const GeometrySubject& subject, GeometryStudy& study) {
 
 }  // namespace
 
+TestSettings settings_of(const io::ArrayFile& array) {
+  TestSettings out;
+  out.samples = array.monitor.window;
+  out.false_alarm_rate = array.monitor.false_alarm_rate;
+  out.rejection_rate = array.monitor.rejection_rate;
+  out.integrity_risk = array.monitor.integrity_risk;
+  return out;
+}
+
+int hidden_wiring_count(const io::ArrayFile& array) {
+  const ErrorBudget budget = error_budget(array.array, array.gravity, settings_of(array));
+  return static_cast<int>(hidden_wirings(array.array, array.gravity, budget).size());
+}
+
 GeometryStudy study_geometry(const GeometrySubject& subject) {
   const SensorArray& array = subject.array;
   GeometryStudy out;
@@ -211,7 +225,7 @@ GeometryStudy study_geometry(const GeometrySubject& subject) {
   out.collusion_grade = spare > 0 ? spare / 2 : 0;
   out.sensors = sensors_of(subject);
   find_remounts(array, out.sensors);
-  out.hidden = hidden_wirings(subject, out.budget);
+  out.hidden = hidden_wirings(array, subject.gravity, out.budget);
   out.levels = levels_of(subject);
   if (out.merit.strict_grade > 0) {
     const auto one = std::make_unique<OneAttitude>(array, subject.gravity, out.budget);

@@ -78,6 +78,12 @@ struct GeometryStudy {
   std::vector<Finding> limits;    ///< known limits of such an array
 };
 
+/// How the array file has its array judged.
+TestSettings settings_of(const io::ArrayFile& array);
+
+/// How many mistakes of wiring show at no attitude, by the nominal axes.
+int hidden_wiring_count(const io::ArrayFile& array);
+
 GeometryStudy study_geometry(const GeometrySubject& subject);
 
 std::string geometry_text(const GeometrySubject& subject, const GeometryStudy& study);

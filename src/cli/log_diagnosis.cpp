@@ -91,13 +91,15 @@ void LogDiagnosis::judge_noise(std::vector<std::string>& out) const {
       loud > 1 ? fmt::format(" ({} of {} sensors exceed theirs)", loud, array_->array.size()) : ""));
 }
 
-void LogDiagnosis::judge_length(std::vector<std::string>& out) const {
+bool LogDiagnosis::judge_length(std::vector<std::string>& out) const {
   const double factor = quantile(length_mps2_, 0.5) / array_->gravity.g_mps2;
-  if (length_mps2_.empty() || (factor > 1.0 / kLengthFactor && factor < kLengthFactor)) return;
+  if (length_mps2_.empty() || (factor > 1.0 / kLengthFactor && factor < kLengthFactor)) return false;
+  const std::string unit = likely_unit(*array_, factor);
   out.push_back(
       fmt::format("`unit` and `scale`: the vector is {:.3g} times as long as gravity (median), so the numbers "
                   "of the log are not in the unit or not of the scale that the array file states{}",
-                  factor, likely_unit(*array_, factor)));
+                  factor, unit));
+  return !unit.empty();
 }
 
 void LogDiagnosis::judge_time(std::vector<std::string>& out) const {
@@ -118,9 +120,10 @@ std::vector<std::string> LogDiagnosis::findings() const {
                     "attitudes, set rows = \"stations\"",
                     rows_, 4 * kBlock));
   }
-  judge_length(out);
+  const bool other_unit = judge_length(out);
   judge_time(out);
-  judge_noise(out);
+  // In another unit the noise is off by the same factor, and to declare it so would be wrong.
+  if (!other_unit) judge_noise(out);
   if (out.empty()) {
     out.push_back(
         "noise, unit and time column look as declared, so the tool did not rest: hold it still for 10 s at each "

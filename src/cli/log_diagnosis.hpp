@@ -27,7 +27,7 @@ class LogDiagnosis {
  private:
   void end_block();
   void judge_noise(std::vector<std::string>& out) const;
-  void judge_length(std::vector<std::string>& out) const;
+  bool judge_length(std::vector<std::string>& out) const;  ///< whether it names another unit
   void judge_time(std::vector<std::string>& out) const;
 
   const io::ArrayFile* array_;

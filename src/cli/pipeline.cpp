@@ -1,12 +1,17 @@
 #include "pipeline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "column_facts.hpp"
 #include "log_diagnosis.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/io/records.hpp"
+#include "temperature_gaps.hpp"
+#include "temperature_words.hpp"
 #include "tool.hpp"
+#include "unit_guess.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -48,7 +53,9 @@ class StationCollector {
       finder_ = std::make_unique<StationFinder>(array.array, array.gravity.g_mps2, settings);
   }
 
-  void add(const Sample& sample) {
+  /// `held`: the temperature is that of a row before.
+  void add(const Sample& sample, bool held) {
+    gaps_.add(sample.time_s, sample.temperature_degc, held);
     const SensorSet usable = finite_channels(sample, size_);
     if (!finder_) {
       stations_.push_back(station_of_row(sample, usable));
@@ -64,6 +71,11 @@ class StationCollector {
     Station finished;
     if (finder_ && finder_->finish(finished)) stations_.push_back(finished);
     if (finder_ && stations_.empty()) run.log_findings = diagnosis_.findings();
+    gaps_.finish();
+    const auto guessed = [this](const Station& station) { return gaps_.cover(station); };
+    const auto kept = std::remove_if(stations_.begin(), stations_.end(), guessed);
+    run.without_temperature = static_cast<int>(stations_.end() - kept);
+    stations_.erase(kept, stations_.end());
     run.stations = std::move(stations_);
   }
 
@@ -72,6 +84,7 @@ class StationCollector {
   SensorModel model_;
   int size_;
   LogDiagnosis diagnosis_;
+  TemperatureGaps gaps_;
   std::unique_ptr<StationFinder> finder_;
   std::vector<Station> stations_;
 };
@@ -95,6 +108,19 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   }
   run.refusal = judged.error;
   run.concern = judged.concern;
+}
+
+/// Whether the values do not fit together, and no dead channel, other unit, single row or temperature is why.
+bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Errc code = run.refusal.code;
+  const bool of_values = code == Errc::diverged || code == Errc::implausible || code == Errc::poor_fit;
+  const bool of_one_row = code == Errc::diverged && run.refusal.index >= 0;
+  if (!of_values || of_one_row || run.concern != Concern::none || of_another_unit(array, run.stations)) return false;
+  if (followed_direction(run).axis != 0) return false;
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (dead_channel(run.log, i)) return false;
+  }
+  return true;
 }
 
 io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool live) {
@@ -155,9 +181,12 @@ std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibra
     config.temperature_max_degc = calibration.report.temperature_max_degc;
   // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
   for (int i = 0; i < array.datasheet.size; ++i) {
-    setup->full_scale_raw[static_cast<std::size_t>(i)] =
-        array.datasheet.sensor[static_cast<std::size_t>(i)].full_scale_raw;
+    const auto a = static_cast<std::size_t>(i);
+    setup->full_scale_raw[a] = array.datasheet.sensor[a].full_scale_raw;
+    setup->resolution_raw[a] = array.datasheet.sensor[a].resolution_raw;
+    if (!array.lever_arm_m.empty()) setup->lever_arm_m[a] = array.lever_arm_m[a];
   }
+  setup->lever_arms_known = !array.lever_arm_m.empty();
   return setup;
 }
 
@@ -190,8 +219,10 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
     Progress progress("reading " + log.path);
     Sample sample;
     io::LogReader::Next status = reader->next(sample);
+    std::uint64_t held = 0;
     for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
-      collector.add(sample);
+      collector.add(sample, reader->statistics().temperature_held != held);
+      held = reader->statistics().temperature_held;
       progress.at(reader->statistics().rows, sample.time_s);
     }
     if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
@@ -214,6 +245,9 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   over.order = run.temperature.order;
   run.study = study_fit(array, run.stations, fit, run.report, over, choice.hold_out);
   settle(run, fit);
+  TemperatureOptions again = choice.temperature;
+  again.fit = run.options;
+  if (worth_a_second_look(run, array)) run.second_look = second_look(array, run.stations, again);
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
   return run;
 }
@@ -304,6 +338,7 @@ io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& 
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    if (watch.turn && !array.input.rotation_columns.empty()) watch.turn(reader->rotation());
     const Verdict& verdict = watch.step(sample);
     ++run.samples;
     if (verdict.tick) ++run.blocks;

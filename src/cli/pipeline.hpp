@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "fit_study.hpp"
@@ -18,6 +19,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/scenario/host_request.hpp"
+#include "second_look.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -34,13 +36,15 @@ struct LogSpec {
 struct CalibrationRun {
   std::vector<Station> stations;
   io::LogStatistics log;
-  bool interrupted = false;  ///< Ctrl-C: the stations up to then were used
+  int without_temperature = 0;  ///< stations left out because nothing says how hot they were
+  bool interrupted = false;     ///< Ctrl-C: the stations up to then were used
   FitOptions options;
   FitReport report;
   TemperatureReport temperature;  ///< of the fit, whichever order it had
   FitStudy study;
   Error refusal;                          ///< why it was not accepted
   Concern concern = Concern::none;        ///< what exactly, where the code alone does not say
+  SecondLook second_look;                 ///< what would have made the fit settle; of values that do not fit only
   std::vector<std::string> log_findings;  ///< why no still stretch was found; empty where there were some
   std::unique_ptr<Calibration> accepted;  ///< null where it was not
   /// The paper's own fits, where they were asked for and plumb's was accepted; null where they could not be made.
@@ -148,7 +152,8 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
 /// What a run needs of a monitor, whichever it is.
 struct Watch {
   std::function<const Verdict&(const Sample&)> step;
-  const Verdict& now;  ///< the monitor's verdict
+  const Verdict& now;                         ///< the monitor's verdict
+  std::function<void(const Rotation&)> turn;  ///< where the monitor makes use of it
 };
 
 /// Steps all samples of the log through the monitor; `run_monitor` lets `host` ask of it what it has to ask. An error
@@ -163,7 +168,11 @@ io::FileExpected<MonitorRun> run_monitor(Monitor& monitor, const io::ArrayFile& 
     host.before(sample.time_s, monitor);
     return monitor.step(sample);
   };
-  return run_watch({step, monitor.verdict()}, array, log, sinks);
+  std::function<void(const Rotation&)> turn;
+  if constexpr (std::is_same_v<Monitor, HealthMonitor>) {
+    turn = [&monitor](const Rotation& rotation) { (void)monitor.set_rotation(rotation); };  // the reader's are finite
+  }
+  return run_watch({step, monitor.verdict(), turn}, array, log, sinks);
 }
 
 }  // namespace cli

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fit_words.hpp"
+#include "temperature_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -56,6 +57,9 @@ Json temperature_json(const CalibrationRun& run, const io::ArrayFile& array) {
   for (int k = 0; k < t.missing; ++k) missing.push_back(t.missing_degc[static_cast<std::size_t>(k)]);
   out["missing_degc"] = std::move(missing);
   out["follows_inclination"] = t.follows_inclination;
+  const FollowedDirection follows = followed_direction(run);
+  out["follows_direction"] = follows.axis != 0 ? Json(std::string(1, follows.axis)) : Json();
+  out["follows_time"] = t.follows_time;
   if (t.order == 0) return out;
   out["use_degc"] = {t.use_degc.lowest, t.use_degc.highest};
   out["parameters"] = t.parameters;

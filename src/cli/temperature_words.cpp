@@ -14,13 +14,15 @@ namespace cli {
 namespace {
 
 constexpr double kMicroG0_mps2 = 1e-6 * kG0_mps2;
-constexpr double kAbsoluteZero_degc = -273.15;
 constexpr std::size_t kNamedTerms = 4;
 constexpr std::size_t kNamedDirections = 6;
 constexpr std::size_t kNamedLevels = 5;
 /// Told where the condition is above the one and the span of use wider than what was recorded by the other.
 constexpr double kExtrapolated = 100.0;
 constexpr double kWider = 1.2;
+/// Told where the temperature is so nearly a linear function of one component of the direction, over enough stations.
+constexpr double kFollows = 0.99;
+constexpr double kFollowStations = 6.0;
 
 std::string term_words(const TemperatureTerm& term, const io::ArrayFile& array) {
   const char* const orders[] = {"constant", "linear", "quadratic", "cubic"};
@@ -86,9 +88,13 @@ std::string read_use_range(const std::string& text, ChebyshevSpan& use_degc) {
       !number(text, second, text.size(), read.highest)) {
     return "\"" + text + "\" is not two temperatures in degC: write for example 20,150";
   }
+  if (read.lowest < kPlausibleMin_degc || read.highest > kPlausibleMax_degc) {
+    return fmt::format("\"{}\" reaches beyond {:g} to {:g} degC, where no accelerometer is used; is it in degC?", text,
+                       kPlausibleMin_degc, kPlausibleMax_degc);
+  }
+  if (!(read.lowest < read.highest)) return "\"" + text + "\" does not rise: write the lower temperature first";
   if (!(read.highest - read.lowest >= kLevelsApart_degc))
     return fmt::format("\"{}\" must rise by {:g} degC or more", text, kLevelsApart_degc);
-  if (!(read.lowest > kAbsoluteZero_degc)) return "\"" + text + "\" begins below absolute zero, -273.15 degC";
   use_degc = read;
   return "";
 }
@@ -173,9 +179,44 @@ std::vector<TemperatureFact> temperature_facts(const CalibrationRun& run, const 
   }
   if (t.follows_inclination)
     out.push_back({"", "the temperature follows the inclination: record some attitudes again at another temperature"});
+  if (const FollowedDirection f = followed_direction(run); f.axis != 0) {
+    out.push_back({"", fmt::format("the temperature follows the {} direction of gravity (correlation {:.3f}), so that "
+                                   "drift and attitude are hardly told apart: record some attitudes again at another "
+                                   "temperature",
+                                   f.axis, f.correlation)});
+  }
+  if (t.follows_time && t.order > 0) {
+    out.push_back({"drift in time",
+                   fmt::format("cannot be told from drift with temperature, which went one way from the first station "
+                               "to the last: record some attitudes again near {:.3g} degC, after the others",
+                               run.stations.front().temperature_degc)});
+  }
   if (run.accepted && t.missing > 0) {
     out.push_back({"a higher order", fmt::format("needs {} more level{}: near {}", t.missing, t.missing == 1 ? "" : "s",
                                                  degc_words(t.missing_degc.data(), t.missing))});
+  }
+  return out;
+}
+
+FollowedDirection followed_direction(const CalibrationRun& run) {
+  FollowedDirection out;
+  if (run.temperature.order < 1) return out;
+  for (std::size_t p = 0; p < 3; ++p) {
+    double n = 0.0, x = 0.0, t = 0.0, xx = 0.0, tt = 0.0, xt = 0.0;
+    for (std::size_t k = 0; k < run.stations.size(); ++k) {
+      const Vec3& u = run.study.attitudes[k].direction;
+      if (!(norm(u) > 0.0)) continue;
+      const double degc = run.stations[k].temperature_degc - run.stations.front().temperature_degc;
+      n += 1.0;
+      x += u[p];
+      t += degc;
+      xx += u[p] * u[p];
+      tt += degc * degc;
+      xt += u[p] * degc;
+    }
+    const double spread = std::sqrt((n * xx - x * x) * (n * tt - t * t));
+    const double r = n >= kFollowStations && spread > 0.0 ? (n * xt - x * t) / spread : 0.0;
+    if (std::fabs(r) > std::fmax(kFollows, std::fabs(out.correlation))) out = {"xyz"[p], r};
   }
   return out;
 }

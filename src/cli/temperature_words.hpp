@@ -36,6 +36,14 @@ std::vector<TemperatureFact> temperature_facts(const CalibrationRun& run, const 
 /// The coefficients of the orders above zero, one row each; empty where there are none.
 std::string temperature_table(const CalibrationRun& run, const io::ArrayFile& array);
 
+/// The direction whose component of gravity says the temperature of the stations; axis 0 where none does, or where
+/// nothing was estimated over temperature.
+struct FollowedDirection {
+  char axis = 0;  ///< 'x', 'y' or 'z' of the tool frame
+  double correlation = 0.0;
+};
+FollowedDirection followed_direction(const CalibrationRun& run);
+
 }  // namespace cli
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -12,6 +12,8 @@ namespace {
 
 /// A datasheet and its unit are right where they give the length of gravity within this factor.
 constexpr double kNear = 1.2;
+/// A unit that is wrong by a factor spoils everything that a fit could say.
+constexpr double kWrongUnit = 2.0;
 /// Numbers of a converter: beyond what any voltage shows.
 constexpr double kCounts = 50.0;
 
@@ -38,6 +40,11 @@ double length_factor(const io::ArrayFile& array, const std::vector<Station>& sta
   const auto middle = length.begin() + static_cast<std::ptrdiff_t>(length.size() / 2);
   std::nth_element(length.begin(), middle, length.end());
   return *middle / array.gravity.g_mps2;
+}
+
+bool of_another_unit(const io::ArrayFile& array, const std::vector<Station>& stations) {
+  const double factor = length_factor(array, stations);
+  return factor >= kWrongUnit || (factor > 0.0 && factor <= 1.0 / kWrongUnit);
 }
 
 std::string likely_unit(const io::ArrayFile& array, double factor) {

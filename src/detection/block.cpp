@@ -22,8 +22,10 @@ constexpr size_t packed(int i, int j) noexcept {
 double functional_variance(const BlockAccumulator& block, const std::array<double, kCapacity>& l, int n) noexcept {
   double sum = 0.0;
   for (int i = 0; i < n; ++i) {
-    if (l[static_cast<size_t>(i)] == 0.0) continue;
-    for (int j = 0; j < n; ++j) sum += l[static_cast<size_t>(i)] * l[static_cast<size_t>(j)] * block.covariance(i, j);
+    const double own = l[static_cast<size_t>(i)];
+    if (own == 0.0) continue;
+    for (int j = 0; j < i; ++j) sum += 2.0 * own * l[static_cast<size_t>(j)] * block.covariance(i, j);
+    sum += own * own * block.covariance(i, i);
   }
   return sum;
 }
@@ -75,18 +77,21 @@ bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, Se
 
 /// v of the systematic limit: variance of the vector inside the block beyond what noise explains.
 double vector_spread(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& ls) noexcept {
-  double total = 0.0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    std::array<double, kCapacity> l{};
-    double expected = 0.0;
-    for (int j = 0; j < array.size(); ++j) {
-      const double weight = ls.column[static_cast<size_t>(j)][axis];
-      l[static_cast<size_t>(j)] = weight;
-      expected += weight * weight * array.sigma_mps2(j) * array.sigma_mps2(j);
+  Vec3 excess{};
+  for (int i = 0; i < array.size(); ++i) {
+    if (!ls.used.has(i)) continue;
+    const Vec3& own = ls.column[static_cast<size_t>(i)];
+    for (int j = 0; j <= i; ++j) {
+      if (!ls.used.has(j)) continue;
+      const double noise = i == j ? array.sigma_mps2(i) * array.sigma_mps2(i) : 0.0;
+      const double times = i == j ? 1.0 : 2.0;
+      const double beyond = times * (block.covariance(i, j) - noise);
+      const Vec3& other = ls.column[static_cast<size_t>(j)];
+      for (size_t axis = 0; axis < 3; ++axis) excess[axis] += own[axis] * other[axis] * beyond;
     }
-    const double excess = functional_variance(block, l, array.size()) - expected;
-    if (excess > 0.0) total += excess;
   }
+  double total = 0.0;
+  for (const double e : excess) total += e > 0.0 ? e : 0.0;
   return total;
 }
 
@@ -114,24 +119,19 @@ bool ScatterRecord::plausible() const noexcept {
 void BlockAccumulator::clear() noexcept { *this = BlockAccumulator{}; }
 
 void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double count) noexcept {
-  if (size_ == 0) {
-    usable_ = usable;
-    for (int i = 0; i < kCapacity; ++i)
-      origin_[static_cast<size_t>(i)] = usable.has(i) ? y_mps2[static_cast<size_t>(i)] : 0.0;
-  }
-  // A channel that first delivers later in the block starts its origin then.
-  for (int i = 0; i < kCapacity; ++i) {
-    if (usable.has(i) && !usable_.has(i)) origin_[static_cast<size_t>(i)] = y_mps2[static_cast<size_t>(i)];
-  }
+  // A channel's origin is where it first delivers in the block.
+  const SensorSet fresh = usable - usable_;
   usable_ = usable_ | usable;
   std::array<double, kCapacity> d{};
-  for (int i = 0; i < kCapacity; ++i) {
-    const auto a = static_cast<size_t>(i);
+  for (int i = 0; (usable.bits >> static_cast<unsigned>(i)) != 0 && i < kCapacity; ++i) {
     if (!usable.has(i)) continue;
+    double* row = &product_[packed(i, 0)];
+    const auto a = static_cast<size_t>(i);
+    if (fresh.has(i)) origin_[a] = y_mps2[a];
     ++present_[a];
     d[a] = y_mps2[a] - origin_[a];
     sum_[a] += d[a];
-    for (int j = 0; j <= i; ++j) product_[packed(i, j)] += d[a] * d[static_cast<size_t>(j)];
+    for (size_t j = 0; j <= a; ++j) row[j] += d[a] * d[j];
   }
   inverse_count_ += 1.0 / count;
   ++size_;
@@ -188,14 +188,17 @@ double restless_factor(int n, int size, double rate) noexcept {
 namespace {
 
 /// Sorts the restless channels: noisy ones, and whether the rest leaves the tool quiet.
-void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, SensorSet calm, double factor,
-                            ScatterRecord* record, BlockJudgement& out) noexcept {
-  const LeastSquares ls = least_squares(array, calm);
-  out.quiet = ls.valid;
-  if (!ls.valid) return;
+void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& ls,
+                            double factor, ScatterRecord* record, BlockJudgement& out) noexcept {
+  const SensorSet calm = ls.used;
+  if (record != nullptr) {
+    for (int i = 0; i < array.size(); ++i) {
+      if (calm.has(i)) record->forget(i, 0.5);
+    }
+  }
+  if (out.restless.empty()) return;
   const int grade = std::min(parity_grade(array, calm | out.restless), kMostDoubted);
   for (int i = 0; i < array.size(); ++i) {
-    if (record != nullptr && calm.has(i)) record->forget(i, 0.5);
     if (!out.restless.has(i)) continue;
     const ResidualScatter r = residual_scatter(array, block, ls, i);
     bool noisy = r.ratio > factor;
@@ -219,15 +222,15 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
 }  // namespace
 
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
-                           double g_mps2, ScatterRecord* record) noexcept {
+                           double g_mps2, ScatterRecord* record, const LeastSquares* known) noexcept {
   BlockJudgement out;
   out.evidence.mean_mps2 = block.mean();
   out.evidence.usable = block.usable() & array.all();
   out.evidence.samples = block.samples(out.evidence.usable & considered);
   const SensorSet judged = out.evidence.usable & considered;
-  if (block.size() == 0 || rank_of(array, judged) < 3) return out;
+  if (block.size() == 0) return out;
   if (block.size() == 1) {
-    out.quiet = true;
+    out.quiet = rank_of(array, judged) == 3;
     return out;
   }
   for (int i = 0; i < array.size(); ++i) {
@@ -236,9 +239,16 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
     if (block.covariance(i, i) > limit) out.restless = out.restless.with(i);
   }
   const SensorSet calm = judged - out.restless;
-  tell_noise_from_motion(array, block, calm, factor, record, out);
+  const bool at_hand = known != nullptr && known->valid && known->used == calm;
+  const LeastSquares ls = at_hand ? *known : least_squares(array, calm);
+  out.quiet = ls.valid;
+  if (ls.valid) {
+    tell_noise_from_motion(array, block, ls, factor, record, out);
+  } else if (rank_of(array, judged) < 3) {
+    out.restless = SensorSet{};  // too few sensors to say anything
+  }
   if (out.quiet) {
-    out.evidence.spread_mps2_sq = vector_spread(array, block, least_squares(array, calm));
+    out.evidence.spread_mps2_sq = vector_spread(array, block, ls);
     // A vector that swings by more than 0.1 g0 inside a block is motion whatever its noise class says.
     out.quiet = out.evidence.spread_mps2_sq < 0.01 * g_mps2 * g_mps2;
   }

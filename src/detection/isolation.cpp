@@ -53,13 +53,14 @@ void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
 }
 
 /// Turn of the estimate over `set` that a bias shared by all its sensors makes.
-double common_drift_turn_rad(const SensorArray& array, SensorSet set, const Vec3& x_mps2, double bias_mps2) noexcept {
-  const double length = norm(x_mps2);
+double common_drift_turn_rad(const SensorArray& array, SensorSet set, const SetTest& test, double bias_mps2) noexcept {
+  const double length = norm(test.x_mps2);
   if (!(bias_mps2 > 0.0) || !(length > 0.0)) return 0.0;
-  Readings shared{};
-  shared.fill(bias_mps2);
-  const Vec3 moved = least_squares(array, set).estimate(shared);
-  const Vec3 u = scaled(x_mps2, 1.0 / length);
+  Vec3 moved{};
+  for (int i = 0; i < array.size(); ++i) {
+    if (set.has(i)) moved = plus(moved, scaled(estimate_column(array, test, i), bias_mps2));
+  }
+  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
   const double across = dot(moved, moved) - dot(moved, u) * dot(moved, u);
   return across > 0.0 ? std::atan2(std::sqrt(across), std::fmax(0.0, length - norm(moved))) : 0.0;
 }
@@ -103,10 +104,14 @@ int Isolation::live() const noexcept {
   return count;
 }
 
-bool Isolation::has_dead_subset(SensorSet set) const noexcept {
+bool Isolation::any_dead() const noexcept {
   std::uint64_t any = 0;
   for (const std::uint64_t word : dead_) any |= word;
-  if (strict_ < 1 || any == 0) return false;
+  return any != 0;
+}
+
+bool Isolation::has_dead_subset(SensorSet set) const noexcept {
+  if (strict_ < 1) return false;
   const SensorSet all = SensorSet::first(universe_);
   int index = 0;
   for (SensorSet s = SensorSet::first(voting_size_); all.contains(s); s = next_of_same_size(s), ++index) {
@@ -115,16 +120,17 @@ bool Isolation::has_dead_subset(SensorSet set) const noexcept {
   return false;
 }
 
-ReferenceDoubt Isolation::doubt_reference(const SensorArray& array, const GravityReference& gravity,
-                                          const TestLimits& limits, const BlockEvidence& block,
-                                          ReferenceClaims* record) const noexcept {
+ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClaims* record) const noexcept {
+  const GravityReference& gravity = tests.gravity();
+  const TestLimits& limits = tests.limits();
+  const BlockEvidence& block = tests.block();
   ReferenceDoubt doubt;
   const SensorSet posed = posed_ & block.usable;
   bool agrees = false;
   const auto ask = [&](SensorSet set, int rank) {
-    const SetTest t = test_set(array, gravity, limits, block, set);
+    const SetTest t = tests.of(set);
     if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
-    if (t.least_leverage < kMinLeverage && !vouches_for_norm(array, gravity, limits, block, set, t)) return;
+    if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
     const double limit = t.norm_reject_limit(limits);
     const bool doubts = off > kDoubtShare * limit;
@@ -153,16 +159,16 @@ ReferenceDoubt Isolation::doubt_reference(const SensorArray& array, const Gravit
   return doubt;
 }
 
-SensorSet Isolation::convict_by_parity(const SensorArray& array, const GravityReference& gravity,
-                                       const TestLimits& limits, const BlockEvidence& block) const noexcept {
+SensorSet Isolation::convict_by_parity(const BlockTests& tests) const noexcept {
+  const TestLimits& limits = tests.limits();
   // Where a posed sensor did not deliver, the published grade does not hold for the rest: nobody is convicted.
   const SensorSet asked = posed_;
   const int grade = parity_;
-  if (grade < 1 || !block.usable.contains(asked)) return {};
+  if (grade < 1 || !tests.block().usable.contains(asked)) return {};
   SensorSet cleared;
   const auto hear = [&](SensorSet s) {
     if (cleared.contains(s)) return;
-    if (test_set(array, gravity, limits, block, s).parity_alive(limits)) cleared = cleared | s;
+    if (tests.of(s).parity_alive(limits)) cleared = cleared | s;
   };
   if (universe_ <= kStrictCapacity) {
     const int size = asked.size() - grade;
@@ -173,22 +179,22 @@ SensorSet Isolation::convict_by_parity(const SensorArray& array, const GravityRe
   for_each_fault_set(asked, universe_, grade < kScanDepth ? grade : kScanDepth, [&](SensorSet f) { hear(asked - f); });
   const SensorSet convicted = asked - cleared;
   if (convicted.empty() || convicted.size() > grade) return {};
-  const SetTest rest = test_set(array, gravity, limits, block, asked - convicted);
+  const SetTest rest = tests.of(asked - convicted);
   return rest.tested && rest.parity_alive(limits) ? convicted : SensorSet{};
 }
 
-IsolationAnswer Isolation::vote(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                                const BlockEvidence& block) noexcept {
+IsolationAnswer Isolation::vote(const BlockTests& tests) noexcept {
+  const TestLimits& limits = tests.limits();
   IsolationAnswer out;
   out.voting = voting_;
-  const ReferenceDoubt doubt = doubt_reference(array, gravity, limits, block, &claims_);
+  const ReferenceDoubt doubt = doubt_reference(tests, &claims_);
   out.norm_void = doubt.any();
-  out.parity = convict_by_parity(array, gravity, limits, block);
+  out.parity = convict_by_parity(tests);
   const auto alive_here = [&](SensorSet s) {
-    const SetTest t = test_set(array, gravity, limits, block, s);
+    const SetTest t = tests.of(s);
     return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(s));
   };
-  out.full_alive = !has_dead_subset(posed_) && alive_here(posed_);
+  out.full_alive = !(any_dead() && has_dead_subset(posed_)) && alive_here(posed_);
   if (strict_ < 1) return out;
 
   SensorSet innocent;
@@ -205,34 +211,36 @@ IsolationAnswer Isolation::vote(const SensorArray& array, const GravityReference
   const SensorSet accused = posed_ - innocent;
   if (!out.contradiction && !accused.empty() && accused.size() <= strict_) {
     const SensorSet survivors = posed_ - accused;
-    const bool tested = test_set(array, gravity, limits, block, survivors).tested;
+    const bool tested = tests.of(survivors).tested;
     if (tested && alive_here(survivors)) out.strict = accused;
   }
   return out;
 }
 
-FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                             const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
+FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                              const ProtectionTerms& protect) const noexcept {
+  const SensorArray& array = tests.array();
+  const TestLimits& limits = tests.limits();
   FaultSetScan out;
   out.fewest_faults.fill(255);
-  const SensorSet posed = posed_ & block.usable;
-  const SetTest used = test_set(array, gravity, limits, block, in_service & block.usable);
-  const ReferenceDoubt doubt = doubt_reference(array, gravity, limits, block, nullptr);
+  const SensorSet posed = posed_ & tests.block().usable;
+  const SetTest used = tests.of(in_service & tests.block().usable);
+  const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
   out.protection_available = used.tested && protect.faults <= kScanDepth && used.parity_rows > 0;
+  const bool deaths = any_dead();
   bool any_protected = false, any_asserted = false;
   SensorSet common = posed;
   for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
     const int size = f.size();
     const SensorSet rest = posed - f;
-    const SetTest t = test_set(array, gravity, limits, block, rest);
+    const SetTest t = tests.of(rest);
     if (!t.tested) {
       // What is left cannot determine a vector, so this hypothesis bounds nothing.
       if (size <= protect.faults) out.protection_available = false;
       return;
     }
     const bool explains = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
-    if (!explains || has_dead_subset(rest)) return;
+    if (!explains || (deaths && has_dead_subset(rest))) return;
     for (int i = 0; i < universe_; ++i) {
       if (rest.has(i) && size < out.fewest_faults[static_cast<size_t>(i)])
         out.fewest_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
@@ -252,14 +260,14 @@ FaultSetScan Isolation::scan(const SensorArray& array, const GravityReference& g
       const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
       const double left = tilt_sigma_rad(t.x_mps2, calibration_covariance(array, t, rest));
       const double spread = std::sqrt(noise * noise + left * left);
-      const double shared = common_drift_turn_rad(array, rest, t.x_mps2, protect.common_drift_mps2);
+      const double shared = common_drift_turn_rad(array, rest, t, protect.common_drift_mps2);
       const double level = angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;
       if (level > out.protection_rad) out.protection_rad = level;
     }
   });
   out.protection_available = out.protection_available && any_protected;
   if (any_asserted && !common.empty()) {
-    const SetTest rest = test_set(array, gravity, limits, block, posed - common);
+    const SetTest rest = tests.of(posed - common);
     const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubt.excuses(posed - common));
     if (rest.tested && alive) out.asserted = common;
   }

@@ -11,9 +11,6 @@ namespace {
 
 using std::size_t;
 
-/// A member whose fault shows in parity with less than the root of this is one that nobody checks.
-constexpr double kMinLeverage = 0.05;
-
 /// Members of a set with their whitened rows and readings.
 struct Rows {
   int count = 0;
@@ -87,48 +84,75 @@ struct Systematic {
   double parity = 0.0, norm = 0.0, both = 0.0;
 };
 
+/// Adds u v' to a 3x3 matrix.
+void add_outer(Mat3& m, const Vec3& u, const Vec3& v) noexcept {
+  for (size_t r = 0; r < 3; ++r) {
+    for (size_t q = 0; q < 3; ++q) m[3 * r + q] += u[r] * v[q];
+  }
+}
+
+double trace_of_product(const Mat3& a, const Mat3& b) noexcept {
+  double sum = 0.0;
+  for (size_t r = 0; r < 3; ++r) {
+    for (size_t q = 0; q < 3; ++q) sum += a[3 * r + q] * b[3 * q + r];
+  }
+  return sum;
+}
+
+/// What the calibration covariance C of the rows, whitened, does to the axes, to their C a_i and to the norm row.
+struct Products {
+  std::array<Vec3, kCapacity> on_a{}, on_ca{};
+  std::array<double, kCapacity> on_w{};
+  double trace = 0.0, square = 0.0;  ///< of C and of C C
+};
+
+Products products_of(const SensorArray& array, const Rows& rows, const Projection& p, const Vec3& x) noexcept {
+  Products out;
+  const AttitudeProducts attitude(x);
+  for (int i = 0; i < rows.count; ++i) {
+    const auto a = static_cast<size_t>(i);
+    for (int j = 0; j <= i; ++j) {
+      const auto b = static_cast<size_t>(j);
+      const double c = array.uncertainty().at(rows.sensor[a], rows.sensor[b], attitude) * rows.inverse_sigma[a] *
+                       rows.inverse_sigma[b];
+      out.on_a[a] = plus(out.on_a[a], scaled(rows.a[b], c));
+      out.on_ca[a] = plus(out.on_ca[a], scaled(p.ca[b], c));
+      out.on_w[a] += c * p.w[b];
+      out.square += c * c;
+      if (i == j) {
+        out.trace += c;
+        continue;
+      }
+      out.on_a[b] = plus(out.on_a[b], scaled(rows.a[a], c));
+      out.on_ca[b] = plus(out.on_ca[b], scaled(p.ca[a], c));
+      out.on_w[b] += c * p.w[a];
+      out.square += c * c;
+    }
+  }
+  return out;
+}
+
+/// With P = I - A K', A the rows and K the C a_i, everything about P C follows from products of n x 3 matrices:
+/// tr(PC) = tr C - tr(K'CA), tr(PCPC) = tr CC - 2 tr(K'C CA) + tr(K'CA K'CA), w'C P C w = |Cw|^2 - (A'Cw).(K'Cw).
 Systematic calibration_bound(const SensorArray& array, const Rows& rows, const Projection& p, const Vec3& x) noexcept {
   const int s = rows.count;
-  std::array<std::array<double, kCapacity>, kCapacity> cal{};
-  for (int i = 0; i < s; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      const auto a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-      cal[a][b] =
-          array.uncertainty().at(rows.sensor[a], rows.sensor[b], x) * rows.inverse_sigma[a] * rows.inverse_sigma[b];
-      cal[b][a] = cal[a][b];
-    }
-  }
-  // D = P C with P the projector onto the parity space; its trace and that of its square bound lambda_max.
+  const Products c = products_of(array, rows, p, x);
   double norm_row = 0.0, trace = 0.0, square = 0.0, cross_term = 0.0;
-  std::array<std::array<double, kCapacity>, kCapacity> d{};
-  std::array<double, kCapacity> cw{};
-  for (int i = 0; i < s; ++i) {
-    const auto a = static_cast<size_t>(i);
-    for (int j = 0; j < s; ++j) cw[a] += cal[a][static_cast<size_t>(j)] * p.w[static_cast<size_t>(j)];
-    norm_row += p.w[a] * cw[a];
-  }
+  for (int i = 0; i < s; ++i) norm_row += p.w[static_cast<size_t>(i)] * c.on_w[static_cast<size_t>(i)];
   if (s > 3) {
+    Mat3 once{}, twice{};  // K'CA and K'C CA
+    Vec3 along_a{}, along_ca{};
     for (int i = 0; i < s; ++i) {
-      for (int j = 0; j < s; ++j) {
-        double sum = cal[static_cast<size_t>(i)][static_cast<size_t>(j)];
-        for (int k = 0; k < s; ++k) {
-          sum -= dot(rows.a[static_cast<size_t>(i)], p.ca[static_cast<size_t>(k)]) *
-                 cal[static_cast<size_t>(k)][static_cast<size_t>(j)];
-        }
-        d[static_cast<size_t>(i)][static_cast<size_t>(j)] = sum;
-      }
-      trace += d[static_cast<size_t>(i)][static_cast<size_t>(i)];
+      const auto a = static_cast<size_t>(i);
+      add_outer(once, p.ca[a], c.on_a[a]);
+      add_outer(twice, c.on_ca[a], c.on_a[a]);
+      along_a = plus(along_a, scaled(rows.a[a], c.on_w[a]));
+      along_ca = plus(along_ca, scaled(p.ca[a], c.on_w[a]));
+      cross_term += c.on_w[a] * c.on_w[a];
     }
-    for (int i = 0; i < s; ++i) {
-      for (int j = 0; j < s; ++j) {
-        square += d[static_cast<size_t>(i)][static_cast<size_t>(j)] * d[static_cast<size_t>(j)][static_cast<size_t>(i)];
-      }
-      double projected = cw[static_cast<size_t>(i)];
-      for (int k = 0; k < s; ++k) {
-        projected -= dot(rows.a[static_cast<size_t>(i)], p.ca[static_cast<size_t>(k)]) * cw[static_cast<size_t>(k)];
-      }
-      cross_term += projected * cw[static_cast<size_t>(i)];
-    }
+    trace = c.trace - (once[0] + once[4] + once[8]);
+    square = c.square - 2.0 * (twice[0] + twice[4] + twice[8]) + trace_of_product(once, once);
+    cross_term -= dot(along_a, along_ca);
   }
   // With the norm row: trace adds w'Cw; trace of the square adds (w'Cw)^2 + 2 |P C w|^2 (P is a projector).
   Systematic out;
@@ -202,6 +226,7 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
   const double root_n = std::sqrt(block.samples);
   out.tested = true;
   out.x_mps2 = x;
+  out.samples = block.samples;
   out.parity_rows = rows.count - 3;
   out.parity = out.parity_rows > 0 ? std::sqrt(rss) * root_n : 0.0;
   out.norm_error_mps2 = length - gravity.g_mps2;
@@ -219,35 +244,28 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
   return out;
 }
 
-bool vouches_for_norm(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                      const BlockEvidence& block, SensorSet set, const SetTest& test) noexcept {
-  if (!test.tested || test.parity_rows < 1) return false;
-  if (test.least_leverage >= kMinLeverage) return true;
-  for (int i = 0; i < array.size(); ++i) {
-    if (!set.has(i)) continue;
-    const double whitened = dot(array.axis(i), times(test.covariance, array.axis(i))) * block.samples /
-                            (array.sigma_mps2(i) * array.sigma_mps2(i));
-    if (1.0 - whitened >= kMinLeverage) continue;
-    const SetTest others = test_set(array, gravity, limits, block, set.without(i));
-    if (!others.tested || !(std::fabs(others.norm) > others.norm_reject_limit(limits))) return false;
-  }
-  return true;
+Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexcept {
+  const double sigma = array.sigma_mps2(i);
+  return scaled(times(test.covariance, array.axis(i)), test.samples / (sigma * sigma));
 }
 
 Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {
   Mat3 cal{};
   if (!test.tested) return cal;
-  const LeastSquares ls = least_squares(array, set);
+  const AttitudeProducts attitude(test.x_mps2);
+  std::array<Vec3, kCapacity> column{};
   for (int i = 0; i < array.size(); ++i) {
-    for (int j = 0; j < array.size(); ++j) {
-      if (!set.has(i) || !set.has(j)) continue;
-      const double c = array.uncertainty().at(i, j, test.x_mps2);
-      const Vec3& a = ls.column[static_cast<size_t>(i)];
-      const Vec3& b = ls.column[static_cast<size_t>(j)];
-      for (size_t r = 0; r < 3; ++r) {
-        for (size_t q = 0; q < 3; ++q) cal[3 * r + q] += a[r] * c * b[q];
-      }
+    if (!set.has(i)) continue;
+    Vec3& own = column[static_cast<size_t>(i)];
+    own = estimate_column(array, test, i);
+    Vec3 carried{};
+    for (int j = 0; j < i; ++j) {
+      if (set.has(j))
+        carried = plus(carried, scaled(column[static_cast<size_t>(j)], array.uncertainty().at(i, j, attitude)));
     }
+    add_outer(cal, own, carried);
+    add_outer(cal, carried, own);
+    add_outer(cal, scaled(own, array.uncertainty().at(i, i, attitude)), own);
   }
   return cal;
 }

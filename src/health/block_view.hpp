@@ -15,6 +15,7 @@ struct HealthMonitor::BlockView {
   Cause decided_by = Cause::none;
   double parity_ratio = 0.0, norm_ratio = 0.0, mae_ratio = 0.0;
   double mae_worst_mps2 = 0.0, mae_limit_mps2 = 0.0;
+  TripleSet triples_tested, triples_passed;
   bool mae_clean = true;  ///< all voting triples below clear_fraction of their noise limit, systematic part on top
   double statistic = 0.0, limit = 0.0;
 

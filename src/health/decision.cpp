@@ -18,12 +18,13 @@ void HealthMonitor::sets_changed() noexcept {
   trend_.clear();
   scatter_.clear();
   reference_study_.clear();
-  rescan();
+  const BlockTests tests(array_, gravity_, limits_, evidence_);
+  rescan(tests);
   partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
   if (!have_evidence_) return;
-  publish_vector();
+  publish_vector(tests);
   // What the last block says about the sensors that are left: the record of the change keeps what changed it.
-  const BlockView view = judge(evidence_);
+  const BlockView view = judge(tests);
   if (view.used.tested) publish_decision(view);
 }
 
@@ -109,7 +110,10 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState
   unproven_ = after.unproven;
   clean_run_ = after.clean_run;
   if ((actions & Action::unproven) != 0) have_predictions_ = false;
-  if (before != in_service_) recalibration_.forget();  // its stations were those of other sensors
+  if (before != in_service_) {
+    recalibration_.forget();  // its stations were those of other sensors
+    if (recalibration_.offered()) drop_request();
+  }
   const bool posed_changed = posed_before != (in_service_ | set_aside_);
   if (posed_changed) {
     // The question is another one now: what was answered, and over how many stations, does not carry over.
@@ -136,7 +140,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const HealthEvent event = decision.event;
   const Mode from = mode_;
   const double statistic = verdict_.statistic, limit = verdict_.limit;
-  const bool by_noise = event == HealthEvent::set_aside && noise_confirmed_.contains(aside_);
+  const bool by_noise = event == HealthEvent::set_aside && noise_confirmed().contains(aside_);
   const SensorSet named = carry_out(decision, state);
   mode_ = state.mode;
   if (reset_pending_) {

@@ -9,19 +9,33 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept {
+void HealthMonitor::judge_mae(const BlockTests& tests, BlockView& view) const noexcept {
+  const BlockEvidence& evidence = tests.block();
   for (int k = 0; k < array_.triple_count(); ++k) {
     const Triple& triple = array_.triple(k);
     if (!triple.votes || !(in_service_ & evidence.usable).contains(triple.set()) ||
         mae_.triple_samples(k) != config_.window)
       continue;
-    const SetTest t = test_set(array_, gravity_, limits_, evidence, triple.set());
-    if (!t.tested) continue;
-    const MaeLimit limit = config_.delta_f_mps2 > 0.0 ? given_mae_limit(config_.delta_f_mps2)
-                                                      : computed_mae_limit(t, evidence, config_.window, mae_quantile_);
     const double mae = mae_.triple_mps2(k);
+    MaeLimit limit = given_mae_limit(config_.delta_f_mps2);
+    if (!(config_.delta_f_mps2 > 0.0)) {
+      const MaeLimit least = least_mae_limit(array_, triple, evidence, config_.window, mae_quantile_);
+      const double ratio = std::fmax(least.ratio(mae), 0.0);
+      if (view.mae_limit_mps2 != 0.0 && mae <= least.clear_mps2(clear_fraction()) && ratio <= 1.0 &&
+          ratio <= view.mae_ratio) {
+        // Clean, and not the worst: the systematic part would only take it farther from the limit.
+        view.triples_tested.add(k);
+        view.triples_passed.add(k);
+        continue;
+      }
+      const SetTest t = tests.of(triple.set());
+      if (!t.tested) continue;
+      limit = computed_mae_limit(t, evidence, config_.window, mae_quantile_);
+    }
     if (mae > limit.clear_mps2(clear_fraction())) view.mae_clean = false;
     const double ratio = limit.ratio(mae);
+    view.triples_tested.add(k);
+    if (!(ratio > 1.0)) view.triples_passed.add(k);
     if (ratio > view.mae_ratio || view.mae_limit_mps2 == 0.0) {
       view.mae_ratio = ratio;
       view.mae_worst_mps2 = mae;
@@ -32,10 +46,11 @@ void HealthMonitor::judge_mae(const BlockEvidence& evidence, BlockView& view) co
 
 double HealthMonitor::clear_fraction() const noexcept { return mode_ == Mode::suspect ? config_.clear_fraction : 1.0; }
 
-HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) const noexcept {
+HealthMonitor::BlockView HealthMonitor::judge(const BlockTests& tests) const noexcept {
+  const BlockEvidence& evidence = tests.block();
   using Kind = BlockView::Kind;
   BlockView view;
-  view.used = test_set(array_, gravity_, limits_, evidence, in_service_ & evidence.usable);
+  view.used = tests.of(in_service_ & evidence.usable);
   if (!view.used.tested) return view;
   if (config_.alarm_form == AlarmForm::average_tool)
     view.used = in_quadrature(array_, gravity_, evidence, in_service_ & evidence.usable, view.used);
@@ -43,7 +58,7 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
   const bool has_parity = t.parity_rows > 0;
   if (has_parity) view.parity_ratio = t.parity / t.parity_alarm_limit(limits_);
   view.norm_ratio = std::fabs(t.norm) / t.norm_alarm_limit(limits_);
-  judge_mae(evidence, view);
+  judge_mae(tests, view);
 
   const auto decided = [&view](Kind kind, Cause cause, Cause by, double statistic, double limit) {
     view.kind = kind;
@@ -56,7 +71,7 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockEvidence& evidence) con
     decided(Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
   } else if (view.norm_ratio > 1.0) {
     const SensorSet used = in_service_ & evidence.usable;
-    const bool vouched = vouches_for_norm(array_, gravity_, limits_, evidence, used, t);
+    const bool vouched = tests.vouches_for_norm(used, t);
     decided(vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, Cause::norm,
             std::fabs(t.norm), t.norm_alarm_limit(limits_));
   } else if (view.mae_ratio > 1.0) {
@@ -96,9 +111,8 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
   }
   if (accuses) {
     const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
-    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed_) & in_service_;
-    const bool enough = rank_of(array_, in_service_ - aside_) == 3;
-    if (!aside_.empty() && enough) raised |= bit(HealthEvent::set_aside);
+    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
+    if (!aside_.empty() && rank_of(array_, in_service_ - aside_) == 3) raised |= bit(HealthEvent::set_aside);
   }
   if (view.kind != Kind::reference && patience_is_over()) raised |= bit(HealthEvent::patience_over);
   if (view.kind == Kind::alarm) {
@@ -150,8 +164,10 @@ void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
 EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
-  const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_);
+  const BlockJudgement judged =
+      judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
   note_block();
+  temperature_rate_.add(sample.time_s, last_temperature_degc_);
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();
@@ -160,7 +176,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   rotation_locked_ = false;
   moving_ = !note_facts(judged, !judged.quiet || turning);
   partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
-  const BlockView view = moving_ ? BlockView{} : judge(judged.evidence);
+  const BlockTests tests(array_, gravity_, limits_, judged.evidence);
+  const BlockView view = moving_ ? BlockView{} : judge(tests);
   if (moving_ || !view.used.tested) {  // a block that cannot be tested is no evidence, and its vector no news
     moving_ = true;
     verdict_.cause = turning ? Cause::rotating : Cause::moving;
@@ -175,8 +192,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   verdict_.cause = temperature_out_ ? Cause::temperature : view.cause;
   publish_decision(view);
   if (temperature_out_) {  // all sensors leave their model together: nothing dies, nothing latches
-    rescan();
-    publish_vector();
+    rescan(tests);
+    publish_vector(tests);
     return 0;
   }
   if (view.kind == Kind::alarm && !episode_.open) {
@@ -184,19 +201,19 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     station_.clear();  // votes are counted from the alarm
   }
   const SensorSet voters = episode_.candidate.empty() ? in_service_ : posed - episode_.candidate;
-  const SetTest pose = test_set(array_, gravity_, limits_, evidence_, voters & evidence_.usable);
+  const SetTest pose = tests.of(voters & evidence_.usable);
   follow_station(sample, pose.tested ? pose.x_mps2 : view.used.x_mps2);
   const bool voting = episode_.open && view.kind != Kind::reference;
-  count_doubt(view, voting ? vote(evidence_, view) : view.used.x_mps2);
-  count_clean(view);
-  rescan();
+  count_doubt(view, voting ? vote(tests, view) : view.used.x_mps2);
+  count_clean(tests, view);
+  rescan(tests);
   count_unbounded(view);
-  examine_probation(evidence_, view);
+  examine_probation(tests, view);
   study_reference(view);
   if (view.kind == Kind::clean) trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
-  publish_vector();
+  publish_vector(tests);
   return raised;
 }
 

@@ -14,8 +14,9 @@ namespace {
 /// A reading that repeats so often is worth a question to the others.
 constexpr int kRepeats = 64;
 /// The others must have predicted a change by this part of gravity while the reading stood still. A sensor whose
-/// resolution is coarser than its noise repeats at rest; none is so coarse that it would sleep through this.
+/// resolution is coarser than its noise repeats at rest, and over one code where that is known to be coarser still.
 constexpr double kStuckShare = 0.02;
+constexpr double kStuckCodes = 2.0;
 /// A prediction below this part of the reading is inside the range by a margin: gravity alone reaches 1 / 1.05 of it.
 constexpr double kInsideShare = 0.96;
 /// A noisy channel is set aside after so many quiet blocks in a row.
@@ -29,6 +30,14 @@ double HealthMonitor::predicted(int sensor, const BlockEvidence& evidence) const
   return others.valid ? dot(array_.axis(sensor), others.estimate(evidence.mean_mps2)) : std::nan("");
 }
 
+SensorSet HealthMonitor::noise_confirmed() const noexcept {
+  SensorSet out;
+  for (int i = 0; i < array_.size(); ++i) {
+    if (noisy_run_[static_cast<size_t>(i)] >= kNoiseConfirm) out = out.with(i);
+  }
+  return out;
+}
+
 void HealthMonitor::note_stuck(const BlockEvidence& evidence) noexcept {
   const int samples = config_.window > kRepeats ? config_.window : kRepeats;
   const SensorSet repeating = gate_.repeating(samples) & in_service_ & evidence.usable;
@@ -39,7 +48,8 @@ void HealthMonitor::note_stuck(const BlockEvidence& evidence) noexcept {
     if (!stuck_watch_.has(i)) {
       stuck_since_[a] = now;
       stuck_watch_ = stuck_watch_.with(i);
-    } else if (std::fabs(now - stuck_since_[a]) > kStuckShare * gravity_.g_mps2) {
+    } else if (std::fabs(now - stuck_since_[a]) >
+               std::fmax(kStuckShare * gravity_.g_mps2, kStuckCodes * resolution_mps2_[a])) {
       stuck_ = stuck_.with(i);
     }
   }
@@ -57,7 +67,6 @@ bool HealthMonitor::note_facts(const BlockJudgement& judged, bool moving) noexce
   for (int i = 0; i < array_.size(); ++i) {
     const auto a = static_cast<size_t>(i);
     noisy_run_[a] = judged.noisy_for_certain.has(i) ? static_cast<std::uint8_t>(std::min(noisy_run_[a] + 1, 255)) : 0;
-    noise_confirmed_ = noisy_run_[a] >= kNoiseConfirm ? noise_confirmed_.with(i) : noise_confirmed_.without(i);
     if (!at_full_scale.has(i)) continue;
     const double reading = std::fabs(judged.evidence.mean_mps2[a]);
     const double expected = std::fabs(predicted(i, judged.evidence));

@@ -82,6 +82,10 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   array_ = setup.array;
   gravity_ = setup.gravity;
   frame_ = setup.output_frame;
+  for (int i = 0; i < array_.size(); ++i) {
+    const double scale = model_.scale_at(i, model_.sensor[static_cast<size_t>(i)].reference_degc);
+    resolution_mps2_[static_cast<size_t>(i)] = std::fabs(setup.resolution_raw[static_cast<size_t>(i)] / scale);
+  }
   lever_arm_m_ = setup.lever_arm_m;
   lever_arms_known_ = setup.lever_arms_known;
   const int n = array_.size();
@@ -127,7 +131,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   sensor_cause_.fill(Cause::none);
   noisy_run_.fill(0);
   stuck_since_.fill(0.0);
-  noisy_ = stuck_ = full_scale_ = noise_confirmed_ = calm_ = stuck_watch_ = aside_ = SensorSet{};
+  noisy_ = stuck_ = full_scale_ = calm_ = stuck_watch_ = aside_ = SensorSet{};
   counters_ = MonitorCounters{};
   rotation_ = Rotation{};
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
@@ -135,6 +139,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   scatter_.clear();
   reference_study_.clear();
   trend_.clear();
+  temperature_rate_.clear();
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
@@ -249,9 +254,10 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   if (outside) count_up(counters_.temperature_out);
   temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
   if (std::isfinite(t)) last_temperature_degc_ = t;
-  const bool map_usable = gate.usable.contains(in_service_);
-  mae_.add(array_, y, gate.usable, map_usable ? map_ : LeastSquares{}, gravity_.g_mps2);
-  if (map_usable && map_.valid) verdict_.latest_mps2 = times(frame_, map_.estimate(y));
+  const bool map_usable = map_.valid && gate.usable.contains(in_service_);
+  const Vec3 latest = map_usable ? map_.estimate(y) : Vec3{};
+  mae_.add(array_, y, gate.usable, map_usable ? &latest : nullptr, gravity_.g_mps2);
+  if (map_usable) verdict_.latest_mps2 = times(frame_, latest);
   block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
   raw_.add(sample.raw, gate.usable, last_temperature_degc_);
   verdict_.accepted = true;
@@ -272,6 +278,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   if (arrival == Arrival::new_time_base) {
     have_evidence_ = false;  // its age cannot be told any more
     trend_.clear();
+    temperature_rate_.clear();
   }
   GateResult gate = gate_.gate(sample);
   if (arrival != Arrival::in_order || gate.gap) {
@@ -294,11 +301,15 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   }
   raised |= advance_recalibration(sample.time_s);
   raised = allowed(raised | pending_);
-  const HealthEvent taken = decide(raised, sample.time_s);
+  const HealthEvent taken = raised != 0 ? decide(raised, sample.time_s) : HealthEvent::none;
   if (verdict_.transition.sequence == 0) give_notice(sample.time_s);
   const bool channel = taken == HealthEvent::channel_lost || taken == HealthEvent::channel_back;
   pending_ = channel || taken == HealthEvent::reset ? raised & kKeptEvents : 0;
-  publish(sample, ticked);
+  if (ticked || raised != 0 || arrival != Arrival::in_order || news()) {
+    publish(sample, ticked);
+  } else {
+    publish_sample(sample);
+  }
   return verdict_;
 }
 

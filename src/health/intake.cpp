@@ -28,7 +28,7 @@ Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
 Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
                      GateResult& gate) noexcept {
   const bool known = std::isfinite(sample.temperature_degc);
-  Readings y = model.apply(sample.raw, known ? sample.temperature_degc : temperature_degc, gate.usable);
+  Readings y = model.without_misalignment(sample.raw, known ? sample.temperature_degc : temperature_degc, gate.usable);
   for (int i = 0; i < model.size; ++i) {
     double& v = y[static_cast<size_t>(i)];
     if (!std::isfinite(v)) {

@@ -24,7 +24,10 @@ void HealthMonitor::publish_decision(const BlockView& view) noexcept {
   verdict_.parity_limit = view.used.parity_rows > 0 ? view.used.parity_alarm_limit(limits_) : 0.0;
   verdict_.mae_worst_mps2 = view.mae_worst_mps2;
   verdict_.mae_worst_limit_mps2 = view.mae_limit_mps2;
-  const LeastSquares map = least_squares(array_, in_service_ & evidence_.usable);
+  verdict_.triples_tested = view.triples_tested;
+  verdict_.triples_passed = view.triples_passed;
+  const bool whole = evidence_.usable.contains(in_service_);
+  const LeastSquares map = whole ? map_ : least_squares(array_, in_service_ & evidence_.usable);
   for (int i = 0; i < array_.size(); ++i) {
     const auto a = static_cast<size_t>(i);
     const double check = in_service_.has(i) ? 1.0 - dot(array_.axis(i), map.column[a]) : 0.0;
@@ -61,7 +64,8 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
       when(verdict_.protection_available, Usable::protection_level) |
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(!moving_ && have_evidence_, Usable::stationary) | when(!temperature_out_, Usable::temperature) |
+      when(!moving_ && have_evidence_, Usable::stationary) |
+      when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
       when(mode_ != Mode::initial && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
 }
 
@@ -74,9 +78,14 @@ Validity HealthMonitor::validity() const noexcept {
   return mode == Mode::degraded ? Validity::degraded : Validity::valid;
 }
 
-void HealthMonitor::publish_vector() noexcept {
+bool HealthMonitor::protected_now() const noexcept {
+  return scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
+         published_mode() != Mode::degraded;
+}
+
+void HealthMonitor::publish_vector(const BlockTests& tests) noexcept {
   const SensorSet used = in_service_ & evidence_.usable;
-  const SetTest t = test_set(array_, gravity_, limits_, evidence_, used);
+  const SetTest t = tests.of(used);
   if (!t.tested) return;
   Mat3 covariance = calibration_covariance(array_, t, used);
   for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
@@ -85,9 +94,34 @@ void HealthMonitor::publish_vector() noexcept {
   verdict_.norm_error_mps2 = t.norm_error_mps2;
 }
 
-void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
+/// What every sample changes.
+void HealthMonitor::publish_sample(const Sample& sample) noexcept {
   Verdict& v = verdict_;
   v.time_s = sample.time_s;
+  v.sample = counters_.samples;
+  v.clipped = clipped_;
+  v.not_finite = not_finite_;
+  v.temperature_degc = last_temperature_degc_;
+  v.temperature_rate_degc_per_min = temperature_rate_.degc_per_min();
+  v.block_fill = block_.size();
+  v.mae_all_mps2 = mae_.all_mps2();
+  v.age_s = have_evidence_ ? clock_.last_s() - evidence_time_s_ : 0.0;
+}
+
+/// Whether anything but that has changed since the last verdict though neither a block nor an event says so: by the
+/// host, by time alone, or in the fit that is being made.
+bool HealthMonitor::news() const noexcept {
+  const bool temperature_fine = (verdict_.usable & Usable::temperature) != 0;
+  const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
+  return verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now() ||
+         mode_ == Mode::recalibrating || verdict_.validity != validity() ||
+         temperature_fine != (!temperature_out_ && temperature_rate_.slow()) || inhibited != inhibited_ ||
+         verdict_.reference_mps2 != gravity_.g_mps2 || verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
+}
+
+void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
+  publish_sample(sample);
+  Verdict& v = verdict_;
   v.tick = ticked && !moving_;
   v.state = state_of(mode_);
   v.qualifiers = static_cast<std::uint8_t>(
@@ -96,14 +130,12 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
       (!set_aside_.empty() ? Qualifier::provisional : 0) | (exhausted_ ? Qualifier::exhausted : 0) |
       (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
       (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0));
-  v.sample = counters_.samples;
+  v.config_hash = identity_;
   v.configured = array_.all();
   v.in_service = in_service_;
   v.set_aside = set_aside_;
   v.excluded = excluded_;
   v.absent = absent_;
-  v.clipped = clipped_;
-  v.not_finite = not_finite_;
   v.noisy = noisy_ & in_service_;
   v.stuck = stuck_ & in_service_;
   v.contradicted_clip = full_scale_ & in_service_;
@@ -122,13 +154,8 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.wants_rotation = v.rotation.wanted || (mode_ == Mode::recalibrating && v.recalibration.stations_wanted > 0);
   v.reference_mps2 = gravity_.g_mps2;
   v.reference_sigma_mps2 = gravity_.sigma_mps2;
-  v.temperature_degc = last_temperature_degc_;
-  v.block_fill = block_.size();
-  v.mae_all_mps2 = mae_.all_mps2();
   v.validity = validity();
-  v.age_s = have_evidence_ ? clock_.last_s() - evidence_time_s_ : 0.0;
-  v.protection_available = scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
-                           published_mode() != Mode::degraded;
+  v.protection_available = protected_now();
   v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
   const double sine = std::hypot(v.gravity_mps2[0], v.gravity_mps2[1]) / std::fmax(norm(v.gravity_mps2), 1e-9);
   const bool told =

@@ -23,6 +23,7 @@ bool HealthMonitor::may_recalibrate() const noexcept {
 
 Expected<void> HealthMonitor::request_recalibration() noexcept {
   if (!may_recalibrate()) return fail(Errc::wrong_state, -1, static_cast<double>(state_of(mode_)));
+  recalibration_.withdraw_offer();
   recalibration_asked_ = true;
   return {};
 }
@@ -31,6 +32,19 @@ Expected<void> HealthMonitor::request_recalibration() noexcept {
 bool HealthMonitor::expected(HealthEvent event) const noexcept {
   return mode_ == Mode::recalibrating && base_ == Mode::suspect && suspicion_ == cause_of(event, verdict_.cause) &&
          (event == HealthEvent::reference || event == HealthEvent::contradiction);
+}
+
+Expected<void> HealthMonitor::offer_calibration(const SensorModel& model, const SensorArray& array) noexcept {
+  if (!may_recalibrate()) return fail(Errc::wrong_state, -1, static_cast<double>(state_of(mode_)));
+  const Expected<void> taken =
+      recalibration_.offer({model_, array_, gravity_, limits_}, model, array, in_service_, clock_.last_s());
+  recalibration_asked_ = taken.has_value();  // the host's last word counts
+  return taken;
+}
+
+void HealthMonitor::drop_request() noexcept {
+  recalibration_asked_ = false;
+  recalibration_.withdraw_offer();
 }
 
 EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
@@ -95,7 +109,7 @@ void HealthMonitor::follow_suspicion(HealthEvent event, Mode from) noexcept {
   if (mode_ != Mode::suspect && mode_ != Mode::recalibrating) suspicion_ = Cause::none;
   // Once per exclusion, and only while there are sensors to spare; a request does not outlive the state that took it.
   if (mode_ == Mode::nominal || mode_ == Mode::degraded || mode_ == Mode::failed) recalibration_due_ = false;
-  if (mode_ != from && event != HealthEvent::recalibrate) recalibration_asked_ = false;
+  if (mode_ != from && event != HealthEvent::recalibrate) drop_request();
 }
 
 }  // namespace PLUMB_ABI

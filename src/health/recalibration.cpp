@@ -52,6 +52,7 @@ void Recalibration::configure(const SensorModel& commissioning, const DriftSigma
   adopted_s_ = 0.0;
   iterations_ = 0;
   refusal_ = Error{};
+  offered_s_ = 0.0;
   stop();
 }
 
@@ -76,11 +77,13 @@ void Recalibration::start(SensorSet sensors) noexcept {
   refusal_ = Error{};
   untried_ = true;
   phase_ = RecalibrationPhase::collecting;
+  if (offered()) store_.clear();  // the host may have made it from what was seen until now
 }
 
 void Recalibration::stop() noexcept {
   forget();
   phase_ = RecalibrationPhase::idle;
+  offered_sensors_ = 0;
 }
 
 int Recalibration::stations_needed(int n) noexcept {
@@ -98,6 +101,7 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
     case RecalibrationPhase::idle: return refusal_.code == Errc::ok ? Outcome::none : Outcome::rejected;
     case RecalibrationPhase::accepted: return Outcome::accepted;
     case RecalibrationPhase::collecting:
+      if (offered()) return examine_offer(in_force, time_s);
       if (untried_ && store_.size() >= stations_needed(sensors_.size()) && ready(in_force)) {
         calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options());
         phase_ = RecalibrationPhase::fitting;
@@ -116,8 +120,7 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
                           bool doubted) noexcept {
   if (phase_ != RecalibrationPhase::accepted) return;
   RowUncertainty uncertainty;
-  SensorSet lacking;
-  const bool known = uncertainty_of_fit(array, gravity, uncertainty, lacking);
+  const bool known = uncertainty_after(array, gravity, uncertainty);
   if (!known) uncertainty = array.uncertainty();
   if (doubted) add_whole_change(array, uncertainty);
   if (known || doubted) array.set_uncertainty(uncertainty);
@@ -129,13 +132,14 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
 
 bool Recalibration::resume(const InForce& in_force) noexcept {
   if (!coefficients_are_plausible(in_force.model)) return false;
+  if (offered() && !offer_is_plausible(in_force)) return false;
   switch (phase_) {
     case RecalibrationPhase::idle:
     case RecalibrationPhase::collecting: return true;
     case RecalibrationPhase::fitting:
     case RecalibrationPhase::accepted: break;
   }
-  if (sensors_.size() < 3 || store_.size() < stations_needed(sensors_.size())) return false;
+  if (sensors_.size() < 3 || store_.size() < stations_due()) return false;
   if (phase_ == RecalibrationPhase::accepted) {
     const double any_time_s = std::numeric_limits<double>::infinity();
     return check_bounds(in_force.model, any_time_s).code == Errc::ok && std::isfinite(inflation_) && inflation_ >= 1.0;
@@ -177,11 +181,12 @@ Vec3 Recalibration::wanted_direction(const SensorArray& array) const noexcept {
 RecalibrationProgress Recalibration::progress(const SensorArray& array) const noexcept {
   RecalibrationProgress out;
   out.phase = phase_;
-  out.stations = store_.fit_count();
-  out.held_out = store_.held_out_count();
+  out.offered = offered();
+  out.stations = offered() ? 0 : store_.fit_count();
+  out.held_out = offered() ? store_.size() : store_.held_out_count();
   out.last_refusal = refusal_;
   if (phase_ != RecalibrationPhase::collecting) return out;
-  const int missing = stations_needed(sensors_.size()) - store_.size();
+  const int missing = stations_due() - store_.size();
   out.lacking = lacking_;
   out.stations_wanted = missing > 0 ? missing : lacking_.empty() ? 0 : 1;
   if (out.stations_wanted > 0) out.wanted_direction = wanted_direction(array);

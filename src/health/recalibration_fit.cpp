@@ -16,6 +16,9 @@ constexpr double kLeastDataShare = 0.75;
 /// How seldom the residuals of a good fit may be so large. A refusal costs time only.
 constexpr double kLeastProbability = 1e-4;
 
+/// Not fmax, for which a NaN is no number: here it breaks every bound.
+double larger(double a, double b) noexcept { return std::isnan(a) || b <= a ? a : b; }
+
 }  // namespace
 
 int Recalibration::fit_stations(Stations& out) const noexcept {
@@ -85,7 +88,7 @@ bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityRe
   fit.direction = direction.data();
   fit.inflation = inflation_;
   for (int k = 0; k < store_.size(); ++k) {
-    if (!StationStore::held_out(k)) direction[at(fit.count++)] = store_.station(k).direction;
+    if (offered() || !StationStore::held_out(k)) direction[at(fit.count++)] = store_.station(k).direction;
   }
   fit.noise_share = 0.0;
   for (int i = 0; i < array.size(); ++i) {
@@ -155,6 +158,16 @@ void Recalibration::write_coefficients(SensorModel& model) const noexcept {
   }
 }
 
+bool Recalibration::uncertainty_after(const SensorArray& array, const GravityReference& gravity,
+                                      RowUncertainty& out) const noexcept {
+  if (offered()) {
+    uncertainty_of_offer(array, out);
+    return true;
+  }
+  SensorSet lacking;
+  return uncertainty_of_fit(array, gravity, out, lacking);
+}
+
 /// If the old coefficients were right after all, the new ones err by exactly the change: scale along the axis, and
 /// bias.
 void Recalibration::add_whole_change(const SensorArray& array, RowUncertainty& uncertainty) const noexcept {
@@ -182,11 +195,11 @@ Error Recalibration::check_bounds(const SensorModel& model, double time_s) const
     if (!sensors_.has(i)) continue;
     const SensorCoefficients& to = next.sensor[at(i)];
     const SensorCoefficients& from = model.sensor[at(i)];
-    const double since_last = std::fmax(std::fabs(to.scale[0] / from.scale[0] - 1.0) / drift_.scale,
-                                        std::fabs(to.bias[0] - from.bias[0]) / drift_.bias_mps2);
+    const double since_last = larger(std::fabs(to.scale[0] / from.scale[0] - 1.0) / drift_.scale,
+                                     std::fabs(to.bias[0] - from.bias[0]) / drift_.bias_mps2);
     const double since_commissioning =
-        std::fmax(std::fabs(to.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_.scale,
-                  std::fabs(to.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_.bias_mps2);
+        larger(std::fabs(to.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_.scale,
+               std::fabs(to.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_.bias_mps2);
     if (!(since_last <= last)) return Error{Errc::implausible, i, since_last, last};
     if (!(since_commissioning <= kCommissioningSigmas)) {
       return Error{Errc::implausible, i, since_commissioning, kCommissioningSigmas};
@@ -212,8 +225,7 @@ Error Recalibration::check_stations(const InForce& in_force) const noexcept {
   SensorModel model = in_force.model;
   SensorArray array = in_force.array;
   RowUncertainty uncertainty;
-  SensorSet lacking;
-  if (!uncertainty_of_fit(in_force.array, in_force.gravity, uncertainty, lacking)) return Error{Errc::diverged, -1};
+  if (!uncertainty_after(in_force.array, in_force.gravity, uncertainty)) return Error{Errc::diverged, -1};
   array.set_uncertainty(uncertainty);
   write_coefficients(model);
   int proofs = 0;
@@ -224,7 +236,7 @@ Error Recalibration::check_stations(const InForce& in_force) const noexcept {
     evidence.usable = sensors_;
     evidence.samples = station.samples;
     const SetTest test = test_set(array, in_force.gravity, in_force.limits, evidence, sensors_);
-    const bool held_out = StationStore::held_out(k);
+    const bool held_out = is_proof(k);
     const Errc code = held_out ? Errc::not_confirmed : Errc::poor_fit;
     if (!test.tested) return Error{code, k};
     const double parity_limit = test.parity_rows > 0 ? test.parity_alarm_limit(in_force.limits) : 0.0;
@@ -238,7 +250,7 @@ Error Recalibration::check_stations(const InForce& in_force) const noexcept {
 }
 
 Recalibration::Outcome Recalibration::judge(const InForce& in_force, double time_s) noexcept {
-  Error error = read_fit(in_force);
+  Error error = offered() ? Error{} : read_fit(in_force);
   if (error.code == Errc::ok) error = check_bounds(in_force.model, time_s);
   if (error.code == Errc::ok) error = check_stations(in_force);
   if (error.code == Errc::ok) {

@@ -34,31 +34,31 @@ void HealthMonitor::follow_station(const Sample& sample, const Vec3& direction) 
 }
 
 /// Where the tool points, by the sensors that the answer leaves.
-Vec3 HealthMonitor::vote(const BlockEvidence& evidence, const BlockView& view) noexcept {
+Vec3 HealthMonitor::vote(const BlockTests& tests, const BlockView& view) noexcept {
+  const BlockEvidence& evidence = tests.block();
   const int blocks = station_.blocks;
   // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
   const bool testable = evidence.usable.contains(isolation_.posed());
   const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
   Vec3 direction = view.used.x_mps2;
   if (due) {
-    answer_ = isolation_.vote(array_, gravity_, limits_, evidence);
+    answer_ = isolation_.vote(tests);
     const SensorSet posed = isolation_.posed();
-    const SetTest full = test_set(array_, gravity_, limits_, evidence, posed & evidence.usable);
+    const SetTest full = tests.of(posed & evidence.usable);
     const bool visible = full.tested && !(full.alive(limits_) && full.parity_alive(limits_));
     if (answer_.strict != episode_.candidate) {
       episode_.candidate = answer_.strict;
       episode_.agreeing.clear();
     }
     if (!answer_.strict.empty()) {
-      const SetTest survivors =
-          test_set(array_, gravity_, limits_, evidence, (posed - answer_.strict) & evidence.usable);
+      const SetTest survivors = tests.of((posed - answer_.strict) & evidence.usable);
       if (survivors.tested) direction = survivors.x_mps2;
       // A station at which the fault cannot be seen confirms nothing.
       if (visible) episode_.agreeing.add(direction, config_.excitation_angle_rad);
     }
   } else if (!episode_.candidate.empty()) {
     const SensorSet rest = (isolation_.posed() - episode_.candidate) & evidence.usable;
-    const SetTest survivors = test_set(array_, gravity_, limits_, evidence, rest);
+    const SetTest survivors = tests.of(rest);
     if (survivors.tested) direction = survivors.x_mps2;
   }
   return direction;
@@ -87,7 +87,7 @@ double HealthMonitor::proving_change_mps2(int sensor) const noexcept {
                    kProvingSigmas * array_.sigma_mps2(sensor) / std::sqrt(evidence_.samples));
 }
 
-void HealthMonitor::count_clean(const BlockView& view) noexcept {
+void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) noexcept {
   using Kind = BlockView::Kind;
   if (view.kind != Kind::clean) {
     clean_run_ = 0;
@@ -115,7 +115,7 @@ void HealthMonitor::count_clean(const BlockView& view) noexcept {
   }
   // While a sensor is set aside the episode ends only when it, too, agrees again.
   const SensorSet posed = isolation_.posed() & evidence_.usable;
-  const SetTest all = test_set(array_, gravity_, limits_, evidence_, posed);
+  const SetTest all = tests.of(posed);
   if (!(all.alive(limits_) && all.parity_alive(limits_))) return;
   episode_.clean.add(view.used.x_mps2, config_.excitation_angle_rad);
   const bool on_record = episode_.open || episode_.stations.size() > 0;
@@ -133,7 +133,8 @@ SensorSet HealthMonitor::culprits() const noexcept {
   return episode_.agreeing.size() >= needed ? episode_.candidate : SensorSet{};
 }
 
-void HealthMonitor::examine_probation(const BlockEvidence& evidence, const BlockView& view) noexcept {
+void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& view) noexcept {
+  const BlockEvidence& evidence = tests.block();
   if (view.kind != BlockView::Kind::clean || episode_.open || unproven_ || mode_ == Mode::failed ||
       mode_ == Mode::suspect)
     return;
@@ -141,7 +142,7 @@ void HealthMonitor::examine_probation(const BlockEvidence& evidence, const Block
   SensorSet fine;
   for (int i = 0; i < array_.size(); ++i) {
     if (!asked.has(i)) continue;
-    const SetTest t = test_set(array_, gravity_, limits_, evidence, (in_service_ & evidence.usable).with(i));
+    const SetTest t = tests.of((in_service_ & evidence.usable).with(i));
     if (t.tested && t.alive(limits_) && t.parity <= config_.clear_fraction * t.parity_alarm_limit(limits_))
       fine = fine.with(i);
   }
@@ -151,13 +152,13 @@ void HealthMonitor::examine_probation(const BlockEvidence& evidence, const Block
   if (!on_probation_.empty()) probation_.add(view.used.x_mps2, config_.excitation_angle_rad);
 }
 
-void HealthMonitor::rescan() noexcept {
+void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   live_ = isolation_.live();
   if (!have_evidence_) return;
   int depth = protection_faults_;
   if (asserted_left_ > depth) depth = asserted_left_;
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
-  scan_ = isolation_.scan(array_, gravity_, limits_, evidence_, in_service_, depth, asserted_left_,
+  scan_ = isolation_.scan(tests, in_service_, depth, asserted_left_,
                           {protection_faults_, k_integrity_, config_.common_drift_mps2});
   // The vector is that of a block: what the tool turned since the one before, and inside it, comes on top.
   scan_.protection_rad += drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;

@@ -23,7 +23,7 @@ const std::vector<std::string>& known_sections() {
 
 const std::vector<std::string>& known_input_keys() {
   static const std::vector<std::string> names = {"rows",  "time",  "time_unit",   "rate",  "station", "roll_group",
-                                                 "count", "where", "temperature", "reads", "unit"};
+                                                 "count", "where", "temperature", "reads", "unit",    "rotation_radps"};
   return names;
 }
 
@@ -53,6 +53,19 @@ void read_time(const TomlTable& table, InputSpec& input) {
   }
   if (input.rows == RowKind::samples && !has_rate && input.time_column.empty()) {
     table.fail(table.line(), "time", "is missing", "name the time column, time = \"t_s\", or give rate = \"100 Hz\"");
+  }
+}
+
+void read_rotation(const TomlTable& table, InputSpec& input) {
+  const TomlNode* list = table.find("rotation_radps");
+  if (list == nullptr) return;
+  const std::string form = "name the columns of the three components: rotation_radps = [\"wx\", \"wy\", \"wz\"]";
+  if (list->kind != TomlNode::Kind::array || list->items.size() != 3)
+    table.fail(list->line, "rotation_radps", "must be a list of three columns", form);
+  for (const TomlNode& item : list->items) {
+    if (item.kind != TomlNode::Kind::text || item.text.empty())
+      table.fail(list->line, "rotation_radps", "holds something that is not the name of a column", form);
+    input.rotation_columns.push_back(item.text);
   }
 }
 
@@ -171,6 +184,7 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   input.roll_group_column = table.text("roll_group", "");
   input.count_column = table.text("count", "");
   input.temperature_column = table.text("temperature", "");
+  read_rotation(table, input);
   read_where(table, input);
   return input;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -12,12 +13,14 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_keys() {
-  static const std::vector<std::string> names = {"id",      "column", "axis",  "scale", "bias",       "bias_t",
-                                                 "scale_t", "t_ref",  "noise", "prior", "full_scale", "resolution"};
+  static const std::vector<std::string> names = {"id",         "column",     "axis",       "scale", "bias",
+                                                 "bias_t",     "scale_t",    "t_ref",      "noise", "prior",
+                                                 "full_scale", "resolution", "lever_arm_m"};
   return names;
 }
 
 constexpr std::size_t kLongestId = 15;
+constexpr double kLongestArm_m = 100.0;
 
 /// Everything that reading one sensor needs besides its table.
 struct Surroundings {
@@ -213,6 +216,21 @@ SensorArray built_array(const std::vector<TomlTable>& tables, const Datasheet& s
   tables[i].fail(tables[i].line(), "", words.what, words.remedy);
 }
 
+/// Where the sensors sit: of all of them, or of none.
+std::vector<Vec3> read_lever_arms(const std::vector<TomlTable>& tables) {
+  const auto given = [](const TomlTable& table) { return table.has("lever_arm_m"); };
+  std::vector<Vec3> out;
+  if (std::none_of(tables.begin(), tables.end(), given)) return out;
+  const std::string form =
+      "give every sensor its place from the axis of rotation in m: lever_arm_m = [0.02, 0.0, 0.35]";
+  for (const TomlTable& table : tables) {
+    out.push_back(table.need_vec3("lever_arm_m", form));
+    const bool sound = norm(out.back()) <= kLongestArm_m;
+    if (!sound) table.fail(table.line_of("lever_arm_m"), "lever_arm_m", "is longer than 100 m, or no number", form);
+  }
+  return out;
+}
+
 /// Without a temperature in the log, nothing may depend on it, and every row gets the reference.
 void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& sheet, InputSpec& input) {
   if (!input.temperature_column.empty()) return;
@@ -245,6 +263,7 @@ void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out)
   refuse_twins(tables, columns, "column", "two sensors that read one column are one sensor: name the column of each");
   out.array = built_array(tables, out.datasheet);
   settle_temperature(tables, out.datasheet, out.input);
+  out.lever_arm_m = read_lever_arms(tables);
   out.input.sensor_columns = columns;
 }
 

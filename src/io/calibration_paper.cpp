@@ -70,6 +70,10 @@ PaperFit fit_from(const Source& source, const Json& object, const std::string& n
   fit.rank = source.whole_of<int>(object, "rank");
   fit.start_cost = source.number_of(object, "start_cost_m4ps8");
   fit.cost = source.number_of(object, "cost_m4ps8");
+  if (fit.iterations < 0) source.fail(0, name + ".iterations", "is negative", kMakeAnew);
+  if (fit.rank < 0) source.fail(0, name + ".rank", "is negative", kMakeAnew);
+  if (fit.sound() && !(fit.cost >= 0.0 && std::isfinite(fit.cost)))
+    source.fail(0, name + ".cost_m4ps8", "is " + shortest(fit.cost) + ", must be 0 or more", kMakeAnew);
   const std::vector<int> used = members(expected);
   const Json& scale = source.list(source.member(object, "scale"), name + ".scale", used.size());
   const Json& bias = source.list(source.member(object, "bias_mps2"), name + ".bias_mps2", used.size());

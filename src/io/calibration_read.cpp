@@ -241,6 +241,7 @@ FileExpected<CalibrationFile> read_calibration(const std::string& path, const Ar
     CalibrationFile out;
     out.calibration = read_content(source, root, array);
     out.context = read_context(source, root);
+    check_content(source, out);
     if (root.contains("paper")) {
       out.paper = read_paper(source, root["paper"], array);
       check_paper(source, *out.paper, out.calibration, array);

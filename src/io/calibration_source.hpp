@@ -7,10 +7,12 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "calibration_json.hpp"
 #include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/io/array_file.hpp"
+#include "plumb/io/calibration_file.hpp"
 #include "refusal.hpp"
 #include "text_tools.hpp"
 
@@ -55,6 +57,11 @@ struct Source {
   T whole_of(const Json& object, const std::string& key) const {
     const Json& value = member(object, key);
     if (!value.is_number_integer()) fail(0, key, "is not a whole number", kMakeAnew);
+    const bool fits = value.is_number_unsigned()
+                          ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<T>::max())
+                          : std::is_signed_v<T> &&
+                                value.get<std::int64_t>() >= static_cast<std::int64_t>(std::numeric_limits<T>::min());
+    if (!fits) fail(line_of(key, key), key, "is " + value.dump() + ", out of range", kMakeAnew);
     return value.get<T>();
   }
   std::string text_of(const Json& object, const std::string& key) const {
@@ -90,6 +97,9 @@ void check_paper(const Source& source, const PaperCalibration& paper, const Cali
 
 /// The section `paper`: the fits by the paper's method, in the order of the triples of the array.
 std::shared_ptr<const PaperCalibration> read_paper(const Source& source, const Json& section, const ArrayFile& array);
+
+/// Refuses figures that no calibration has: not finite, negative counts and sigmas, covariances beyond their variances.
+void check_content(const Source& source, const CalibrationFile& file);
 
 }  // namespace io
 }  // namespace PLUMB_ABI

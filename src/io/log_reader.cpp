@@ -45,6 +45,8 @@ struct LogReader::State {
   std::size_t temperature = kNoColumn;
   std::vector<std::size_t> sensors;
   std::vector<std::size_t> filters;
+  std::vector<std::size_t> rates;
+  Rotation rotation;
   int line = 0;
   std::uint64_t index = 0;  ///< of the row among those not filtered out, bad ones included
   double last_temperature_degc = 0.0;
@@ -71,7 +73,9 @@ struct LogReader::State {
   bool fill_tag(std::size_t column, const char* what, std::uint32_t& tag);
   bool fill_tags(Sample& sample);
   bool fill_temperature(Sample& sample);
+  bool fill_rotation();
   bool fill_sensors(Sample& sample);
+  void note_value(std::size_t sensor, double value);
   bool selected() const noexcept;
   FileError nothing_usable() const;
 };
@@ -155,6 +159,11 @@ FileExpected<void> LogReader::State::map_columns() {
     const FileExpected<std::size_t> column = column_of(filter.column, "input.where");
     if (!column) return tl::unexpected<FileError>(column.error());
     filters.push_back(*column);
+  }
+  for (const std::string& name : input.rotation_columns) {
+    const FileExpected<std::size_t> column = column_of(name, "input.rotation_radps");
+    if (!column) return tl::unexpected<FileError>(column.error());
+    rates.push_back(*column);
   }
   for (std::size_t i = 0; i < input.sensor_columns.size(); ++i) {
     const FileExpected<std::size_t> column =
@@ -242,6 +251,24 @@ bool LogReader::State::fill_temperature(Sample& sample) {
   return true;
 }
 
+bool LogReader::State::fill_rotation() {
+  rotation = Rotation{};
+  if (rates.empty()) return true;
+  rotation.rate_known = true;
+  for (std::size_t k = 0; k < rates.size(); ++k) {
+    double value = 0.0;
+    const CellKind kind = parse_cell(cells[rates[k]], value);
+    if (kind == CellKind::text) return refuse(rates[k], in_quotes(cells[rates[k]]) + " is not a rate of turn");
+    if (kind != CellKind::number || !std::isfinite(value)) {
+      rotation = Rotation{true, false, {}};
+      return true;
+    }
+    rotation.rate_radps[k] = value;
+    rotation.turning = rotation.turning || value != 0.0;
+  }
+  return true;
+}
+
 bool LogReader::State::fill_sensors(Sample& sample) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     double value = 0.0;
@@ -261,14 +288,22 @@ bool LogReader::State::fill_sensors(Sample& sample) {
       ++statistics.missing[i];
     } else if (!std::isfinite(sample.raw[i])) {
       ++statistics.not_finite[i];
+    } else {
+      note_value(i, sample.raw[i]);
     }
   }
   return true;
 }
 
+void LogReader::State::note_value(std::size_t sensor, double value) {
+  const bool first = statistics.missing[sensor] + statistics.not_finite[sensor] == statistics.rows;
+  if (first) statistics.first_value[sensor] = value;
+  if (value != statistics.first_value[sensor]) statistics.varied.bits |= 1U << static_cast<unsigned>(sensor);
+}
+
 bool LogReader::State::fill(Sample& sample) {
   sample = Sample();
-  return fill_time(sample) && fill_tags(sample) && fill_temperature(sample) && fill_sensors(sample);
+  return fill_time(sample) && fill_tags(sample) && fill_temperature(sample) && fill_rotation() && fill_sensors(sample);
 }
 
 FileError LogReader::State::nothing_usable() const {
@@ -289,6 +324,8 @@ LogReader::LogReader(std::unique_ptr<State> state) noexcept : state_(std::move(s
 LogReader::LogReader(LogReader&& other) noexcept = default;
 LogReader& LogReader::operator=(LogReader&& other) noexcept = default;
 LogReader::~LogReader() = default;
+
+const Rotation& LogReader::rotation() const noexcept { return state_->rotation; }
 
 FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {
   auto state = std::make_unique<State>();

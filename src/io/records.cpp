@@ -121,6 +121,47 @@ class Object {
     }
     out_ += ']';
   }
+  /// What of the verdict may be used.
+  void usable(const char* key, std::uint16_t bits) {
+    static constexpr const char* kNames[] = {"vector",           "inclination", "toolface",
+                                             "protection_level", "monitored",   "stationary",
+                                             "temperature",      "calibration", "reference"};
+    name(key);
+    out_ += '[';
+    bool first = true;
+    for (unsigned k = 0; k < 9; ++k) {
+      if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
+      if (!first) out_ += ',';
+      first = false;
+      out_.append("\"").append(kNames[k]).append("\"");
+    }
+    out_ += ']';
+  }
+  /// Those tested and not passed, each by its three sensors.
+  void failing_triples(const char* key, const Verdict& verdict, const SensorArray& array) {
+    name(key);
+    out_ += '[';
+    bool first = true;
+    for (int k = 0; k < array.triple_count(); ++k) {
+      if (!verdict.triples_tested.has(k) || verdict.triples_passed.has(k)) continue;
+      for (std::size_t s = 0; s < 3; ++s) {
+        out_ += s > 0 ? "," : first ? "[" : ",[";
+        append_json_string(out_, array.row(array.triple(k).sensors[s]).id.data());
+      }
+      first = false;
+      out_ += ']';
+    }
+    out_ += ']';
+  }
+  /// Sixteen hexadecimal digits: no number of JSON holds 64 bits. null where it is not known.
+  void hash(const char* key, std::uint64_t value) {
+    if (value == 0) return nothing(key);
+    static constexpr char kHex[] = "0123456789abcdef";
+    name(key);
+    out_ += '"';
+    for (unsigned k = 0; k < 16; ++k) out_ += kHex[value >> (60U - 4U * k) & 15U];
+    out_ += '"';
+  }
   void drifts(const char* key, const Verdict& verdict, int size) {
     name(key);
     out_ += '[';
@@ -219,6 +260,7 @@ void append_recalibration(Object& object, const Verdict& v, const SensorArray& a
   }
   Object inner = object.object("recalibration");
   inner.word("phase", to_string(p.phase));
+  inner.flag("offered", p.offered);
   inner.whole("stations", p.stations);
   inner.whole("held_out", p.held_out);
   inner.whole("stations_wanted", p.stations_wanted);
@@ -230,6 +272,12 @@ void append_recalibration(Object& object, const Verdict& v, const SensorArray& a
     inner.nothing("refused");
   }
   inner.close();
+}
+
+int triple_count(const TripleSet& set, const SensorArray& array) {
+  int count = 0;
+  for (int k = 0; k < array.triple_count(); ++k) count += set.has(k) ? 1 : 0;
+  return count;
 }
 
 void append_vector(Object& object, const Verdict& v, const Mat3& frame) {
@@ -330,17 +378,23 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.number("mae_all_mps2", v.mae_all_mps2);
   object.number("mae_worst_mps2", v.mae_worst_mps2);
   object.number("mae_worst_limit_mps2", v.mae_worst_limit_mps2);
+  object.whole("triples_tested", triple_count(v.triples_tested, array));
+  object.failing_triples("triples_failing", v, array);
   object.number("parity", v.parity);
   object.number("parity_limit", v.parity_limit);
   object.number("norm_error_mps2", v.norm_error_mps2);
   append_reference(object, v, frame);
   object.drifts("drift_mps2_per_h", v, array.size());
+  object.number("temperature_degc", v.temperature_degc);
+  object.number("temperature_rate_degc_per_min", v.temperature_rate_degc_per_min);
+  object.usable("usable", v.usable);
   append_vector(object, v, frame);
   if (v.snapshot_refusal == Errc::ok) {
     object.nothing("snapshot_refused");
   } else {
     object.word("snapshot_refused", describe(v.snapshot_refusal));
   }
+  object.hash("config_hash", v.config_hash);
   object.close();
 }
 

@@ -19,6 +19,12 @@ constexpr const char* kAttitudes = "fit-attitudes.svg";
 
 /// Names of more sensors than this are written aslant.
 constexpr std::size_t kUprightNames = 12;
+/// Up to so many have room for a sentence each.
+constexpr std::size_t kWideNames = 5;
+/// Costs that span less are drawn from zero up, where a logarithmic axis would have no tic to read.
+constexpr double kManyTimes = 100.0;
+/// Up to so many costs are written beside their points.
+constexpr std::size_t kFewCosts = 8;
 
 /// Colours that are readable on white and on black.
 constexpr const char* kColours =
@@ -87,7 +93,8 @@ std::string residual_script(const FitPictures& p) {
   std::string out = terminal(kResiduals, 1000, 720);
   out += fmt::format(
       "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen {}\nset xrange [0.5:{}.5]\n"
-      "set grid ytics lw 0.4 lc rgb '#999999'\nset xzeroaxis lw 0.8 lc rgb prior\n",
+      "set grid ytics lw 0.4 lc rgb '#999999'\nset xzeroaxis lw 0.8 lc rgb prior\n"
+      "set offsets 0,0,graph 0.07,graph 0.07\n",  // no ring is cut at the edge
       p.sensors.size() > kUprightNames ? 0.77 : 0.85, p.stations.size());
   const auto panel = [](double top, double bottom, const char* title) {
     return fmt::format(
@@ -121,13 +128,23 @@ std::string residual_script(const FitPictures& p) {
   return out;
 }
 
+/// A good sigma is too small to be seen beside that of the datasheet: it is written above the point, with what part of
+/// the value comes from the log where there is room.
+std::string sigma_label(std::size_t sensors, int column) {
+  if (sensors > kWideNames) return fmt::format("sprintf('±%.2g', ${})", column + 1);
+  return fmt::format("sprintf('±%.2g, %.0f %% from the log', ${0}, ${1} > 0 ? 100*(1 - (${0}/${1})**2) : 0)",
+                     column + 1, column + 2);
+}
+
 std::string parameter_script(const FitPictures& p) {
   std::string out = terminal(kParameters, 1000, 780);
   out += fmt::format(
       "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.975\nset xrange [0.4:{}.6]\n"
       "set grid ytics lw 0.4 lc rgb '#999999'\nset xzeroaxis lw 0.8 lc rgb prior\n"
-      "set style fill solid 0.2 noborder\nset offsets 0,0,graph 0.08,graph 0.08\nset xtics noenhanced{}\n",
-      p.sensors.size(), p.sensors.size() > kUprightNames ? " rotate by -60" : "");
+      "set style fill solid 0.2 noborder\nset offsets 0,0,graph {},graph 0.08\nset encoding utf8\nset xtics "
+      "noenhanced{}\n",
+      p.sensors.size(), p.sensors.size() > kUprightNames ? 0.7 : 0.25,
+      p.sensors.size() > kUprightNames ? " rotate by -60" : "");
   const struct {
     double top, bottom;
     const char *title, *unit;
@@ -148,18 +165,26 @@ std::string parameter_script(const FitPictures& p) {
     out += fmt::format(
         "plot 'fit-parameters.csv' skip 1 using 1:(0):($1-0.35):($1+0.35):({1}):{0} with boxxyerror lc rgb prior title "
         "'datasheet, 1 sigma', '' skip 1 using 1:{2}:{3}{4} with yerrorbars pt 7 ps 0.6 lw 1.4 lc rgb found title "
-        "'found, with 1 sigma'\n",
-        c + 2, c == 9 ? "0" : fmt::format("-${}", c + 2), c, c + 1, c == 9 ? ":xtic(2)" : "");
+        "'found, with 1 sigma', '' skip 1 using 1:{2}:({5}) with labels {6} font ',11' notitle\n",
+        c + 2, c == 9 ? "0" : fmt::format("-${}", c + 2), c, c + 1, c == 9 ? ":xtic(2)" : "",
+        sigma_label(p.sensors.size(), c), p.sensors.size() > kUprightNames ? "rotate left offset 0,0.7" : "offset 0,1");
   }
   return out + "unset multiplot\nunset output\n";
 }
 
-std::string convergence_script() {
-  return terminal(kConvergence, 800, 460) +
-         "set label 1 'cost of the fit by iteration, in squared sigmas' at graph 0, graph 1 "
-         "offset 0,0.8 left\nset tmargin 3\nset logscale y\nset format y '%g'\nset xlabel 'iteration'\nset xtics 1\n"
-         "set autoscale xfix\nset offsets 0.3,0.3,0,0\nunset key\nset grid ytics lw 0.4 lc rgb '#999999'\n"
-         "plot 'fit-cost.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.7 lw 1.4 lc rgb found\nunset output\n";
+std::string convergence_script(const FitPictures& p) {
+  const auto [least, most] = std::minmax_element(p.cost.begin(), p.cost.end());
+  const bool wide = *least > 0.0 && *most > kManyTimes * *least;
+  std::string out = terminal(kConvergence, 800, 460);
+  out += fmt::format(
+      "set label 1 'cost of the fit by iteration, in squared sigmas' at graph 0, graph 1 offset 0,0.8 left\n"
+      "set tmargin 3\n{}set format y '%g'\nset xlabel 'iteration'\nset xtics 1\n"
+      "set autoscale xfix\nset offsets 0.3,0.3,graph 0.15,0\nunset key\nset grid ytics lw 0.4 lc rgb '#999999'\n"
+      "plot 'fit-cost.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.7 lw 1.4 lc rgb found",
+      wide ? "set logscale y\n" : "set yrange [0:*]\n");
+  if (p.cost.size() <= kFewCosts)
+    out += ", '' skip 1 using 1:2:(sprintf('%.4g', $2)) with labels offset 0,1 font ',12'";
+  return out + "\nunset output\n";
 }
 
 /// Two discs of equal area: the half of the sphere about z, and the other half.
@@ -228,7 +253,7 @@ std::vector<PlotFile> fit_plot_files(const FitPictures& pictures) {
   }
   if (!pictures.cost.empty()) {
     out.push_back({"fit-cost.csv", cost_csv(pictures)});
-    script += convergence_script();
+    script += convergence_script(pictures);
   }
   if (!pictures.stations.empty()) {
     if (!pictures.proposed_down.empty()) out.push_back({"fit-next.csv", next_csv(pictures)});

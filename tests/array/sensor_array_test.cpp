@@ -73,7 +73,7 @@ TEST(SensorArray, OrthogonalTriadHasConditionOneAndTheUnitForm) {
   const SensorArray array = built(axes.data(), 3);
   EXPECT_EQ(array.triple(0).det, 1.0);
   EXPECT_EQ(array.triple(0).condition, 1.0);
-  EXPECT_EQ(array.triple(0).form, (std::array<double, 6>{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}));
+  EXPECT_EQ(array.form(0), (std::array<double, 6>{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}));
 }
 
 TEST(SensorArray, ConditionOfASkewedTripleIsTheRatioOfItsSingularValues) {
@@ -92,7 +92,7 @@ TEST(SensorArray, ACoplanarTripleAmongOthersIsSingularAndDoesNotVote) {
   const Triple& flat = array.triple(array.triple_index(0, 1, 2));
   EXPECT_FALSE(flat.votes);
   EXPECT_EQ(flat.condition, kInfinity);
-  EXPECT_EQ(flat.form, (std::array<double, 6>{}));
+  EXPECT_EQ(array.form(array.triple_index(0, 1, 2)), (std::array<double, 6>{}));
   EXPECT_TRUE(array.triple(array.triple_index(0, 1, 3)).votes);
 }
 
@@ -102,7 +102,7 @@ TEST(SensorArray, NearSingularTripleHasAFormButNoVote) {
   const Vec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, std::sqrt(1.0 - d * d), d}};
   const SensorArray array = built(axes, 3);
   EXPECT_FALSE(array.triple(0).votes);
-  EXPECT_GT(array.triple(0).form[2], 1.0);
+  EXPECT_GT(array.form(0)[2], 1.0);
   EXPECT_LT(array.triple(0).condition, 100.0);
 }
 
@@ -242,10 +242,11 @@ RC_GTEST_PROP(SensorArrayLaw, TheFormIsTheSquaredLengthOfTheMappedReadings, ()) 
     const Triple& t = array.triple(k);
     if (std::isinf(t.condition)) continue;
     const Vec3 v = {y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]};
-    const double by_form = t.form[0] * v[0] * v[0] + t.form[1] * v[1] * v[1] + t.form[2] * v[2] * v[2] +
-                           t.form[3] * v[0] * v[1] + t.form[4] * v[0] * v[2] + t.form[5] * v[1] * v[2];
+    const TripleForm form = array.form(k);
+    const double by_form = form[0] * v[0] * v[0] + form[1] * v[1] * v[1] + form[2] * v[2] * v[2] +
+                           form[3] * v[0] * v[1] + form[4] * v[0] * v[2] + form[5] * v[1] * v[2];
     const Vec3 x = times(triple_map(array, k), v);
-    const double scale = (t.form[0] + t.form[1] + t.form[2]) * dot(v, v);
+    const double scale = (form[0] + form[1] + form[2]) * dot(v, v);
     RC_ASSERT(std::fabs(by_form - dot(x, x)) <= 4e-15 * scale);
   }
 }

@@ -247,6 +247,41 @@ TEST(CalibrationRefusal, GravityOffByOnePercentIsACommonScale) {
   EXPECT_NEAR(b.report.common_scale.mean, 1.0 / 1.01 - 1.0, 2e-4);
 }
 
+/// An axis that is far off turns the frame of all, so that others leave their bounds with it.
+TEST(CalibrationRefusal, TheAxisThatIsFarOffIsNamedAndNoOther) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    for (int sensor = 0; sensor < 4; ++sensor) {
+      Bench b;
+      b.noise = Noise(seed);
+      b.truth = draw_truth(b.sheet, b.noise);
+      b.stations = random_stations(b.sheet, b.truth, 48, b.noise, kSigma);
+      Vec3& axis = b.sheet.sensor[at(sensor)].row.axis;
+      const Vec3 across = plumb::cross(axis, b.noise.direction());
+      axis = turned(axis, plumb::scaled(across, plumb::rad_from_deg(30.0) / plumb::norm(across)));
+      const auto c = b.run();
+      ASSERT_FALSE(c.has_value()) << seed;
+      EXPECT_EQ(c.error().code, plumb::Errc::implausible) << seed;
+      EXPECT_EQ(c.error().index, sensor) << seed;
+      EXPECT_EQ(b.report.suspects, plumb::SensorSet().with(sensor)) << seed;
+    }
+  }
+}
+
+TEST(CalibrationRefusal, WhereTwoExplainItAsWellNeitherIsNamed) {
+  // The axes are hardly known, so that one far off may as well be the others turned about it.
+  Bench b;
+  for (int i = 0; i < 4; ++i) b.sheet.sensor[at(i)].prior.axis_rad = 0.3;
+  Vec3& axis = b.sheet.sensor[1].row.axis;
+  const Vec3 across = plumb::cross(axis, Vec3{0.0, 0.0, 1.0});
+  axis = turned(axis, plumb::scaled(across, plumb::rad_from_deg(30.0) / plumb::norm(across)));
+  const auto c = b.run();
+  ASSERT_FALSE(c.has_value());
+  EXPECT_EQ(c.error().code, plumb::Errc::implausible);
+  EXPECT_EQ(c.error().index, -1);
+  EXPECT_TRUE(b.report.suspects.has(1));
+  EXPECT_GT(b.report.suspects.size(), 1);
+}
+
 TEST(CalibrationRefusal, DatasheetThatIsNoArray) {
   Bench twin;
   twin.sheet.sensor[1].row.id = twin.sheet.sensor[0].row.id;

@@ -148,18 +148,34 @@ TEST(TemperatureUse, TheFitAtOneTemperatureFindsTheSameByTheFittedDrift) {
   }
 }
 
-/// Rotations, which carry no variance but rounding, once made half of the good fits fail; which half was chance.
+/// A hundred samples a station while an oven warms: the less noise there is, the more of the covariance is rounding.
+std::vector<plumb::Station> warming(const Truth& truth, Noise& noise, double sigma_mps2) {
+  std::vector<plumb::Station> out;
+  for (int k = 0; k < 96; ++k) {
+    const Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
+    const double degc = kLow_degc + (kHigh_degc - kLow_degc) * k / 95.0;
+    out.push_back(station_at(truth, g, degc, noise, 0.1 * sigma_mps2));
+    out.back().count = 100;
+  }
+  return out;
+}
+
+/// Rotations, which carry no variance but rounding, once made good fits fail: with a ridge of 1e-9 of the diagonal and
+/// no second try, 25 to 28 of 30 of those with little noise; which ones was chance.
 TEST(TemperatureUse, ACovarianceThatCoversTheSpanIsAlwaysHad) {
   for (const double sigma_mps2 : {2e-4 * plumb::kG0_mps2, 1e-5 * plumb::kG0_mps2}) {
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
       Noise noise(seed);
       const plumb::Datasheet sheet = paper_sheet(sigma_mps2);
       const Truth truth = temperature_test::draw_truth(sheet, noise);
-      const auto stations = on_levels(truth, {25.0, 60.0, 105.0, 150.0}, noise, sigma_mps2);
-      for (const double low : {-20.0, 20.0, 25.0}) {
-        const Fit f = fit_of(sheet, stations, options_of(3, low, 150.0 + low));
-        ASSERT_TRUE(f.made.has_value()) << seed << ' ' << low << ' ' << plumb::describe(f.made.error().code);
-        EXPECT_LT(f.report.inflation, 20.0) << seed;
+      const auto ramp = warming(truth, noise, sigma_mps2);
+      const auto levels = on_levels(truth, {25.0, 60.0, 105.0, 150.0}, noise, sigma_mps2);
+      for (const plumb::ChebyshevSpan& use : {plumb::ChebyshevSpan{20.0, 150.0}, {-20.0, 175.0}}) {
+        for (const auto* stations : {&ramp, &levels}) {
+          const Fit f = fit_of(sheet, *stations, options_of(3, use.lowest, use.highest));
+          ASSERT_TRUE(f.made.has_value()) << seed << ' ' << use.lowest << ' ' << plumb::describe(f.made.error().code);
+          EXPECT_LT(f.report.inflation, 20.0) << seed;
+        }
       }
     }
   }

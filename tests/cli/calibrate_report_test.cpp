@@ -118,7 +118,7 @@ TEST(HoldOutOption, TakesFoldsFractionOneOrNone) {
   EXPECT_EQ(fraction["judged"], 12);
   EXPECT_EQ(report_of(where, {"--hold-out", "one"})["hold_out"]["folds"], 48);
   EXPECT_TRUE(report_of(where, {"--hold-out", "none"})["hold_out"].is_null());
-  for (const char* wrong : {"1", "0", "-3", "0.7", "2.5", "half", "", "nan"}) {
+  for (const char* wrong : {"1", "0", "-3", "0.7", "2.5", "half", "", "nan", "1e-9", "1e-12"}) {
     const Outcome outcome = calibrate(where, {"--hold-out", wrong});
     EXPECT_EQ(outcome.code, 2) << wrong;
     EXPECT_TRUE(says(outcome.err, {"--hold-out", "number of folds"})) << wrong;
@@ -251,7 +251,9 @@ TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {
   EXPECT_TRUE(says(calibrate(noise).err, {"no still stretch", "`noise`", "a1", "times the"}));
   const Workshop unit;
   scale_log(unit, 1000.0);
-  EXPECT_TRUE(says(calibrate(unit).err, {"no still stretch", "`unit` and `scale`", "times as long as gravity"}));
+  const std::string named = calibrate(unit).err;
+  EXPECT_TRUE(says(named, {"no still stretch", "`unit` and `scale`", "times as long as gravity", "they look like mV"}));
+  EXPECT_EQ(named.find("`noise`"), std::string::npos) << "in another unit it is no noise to declare: " << named;
   const Workshop time;
   time.put("array.toml", with(time.text("array.toml"), "[input]\n", "[monitor]\nmax_gap = \"1 ms\"\n\n[input]\n"));
   EXPECT_TRUE(says(calibrate(time).err, {"no still stretch", "`time`", "max_gap"}));

@@ -109,6 +109,46 @@ TEST(RollGroups, TheAxisIsTheOneThatInclinationIsCountedFrom) {
   EXPECT_EQ(json["fit"]["roll_axis"], Json({0.0, 0.0, 1.0}));
 }
 
+TEST(RollGroups, AWrongAxisIsNamedWithTheRightOne) {
+  const RollBench where;
+  for (const char* axis : {"1,0,0", "0,1,0"}) {
+    const Outcome outcome = where.calibrate({"--roll-axis", axis});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_TRUE(says(outcome.err, {"rolled about 0,0,1 all would be well", "give --roll-axis 0,0,1"}));
+  }
+  EXPECT_EQ(where.report({"--roll-axis", "1,0,0"})["refusal"]["would_settle"]["roll_axis"], Json({0.0, 0.0, 1.0}));
+}
+
+TEST(RollGroups, AStationInTheWrongGroupIsFoundByItsGroup) {
+  const RollBench where({0, 45, 90, 120}, 8);
+  std::string log = where.text("calibration.csv");
+  // Station 12 was recorded at 45 deg and is numbered with those at 0 deg.
+  for (std::size_t at = log.find(",12,1,"); at != std::string::npos; at = log.find(",12,1,", at))
+    log.replace(at, 6, ",12,0,");
+  where.put("calibration.csv", log);
+  const Outcome outcome = where.calibrate();
+  EXPECT_EQ(outcome.code, 4) << outcome.out;
+  EXPECT_TRUE(says(outcome.err, {"without roll group 0 all would be well", "column `ring`"}));
+  EXPECT_EQ(where.report()["refusal"]["would_settle"]["without_roll_group"], Json::array({0}));
+}
+
+TEST(RollGroups, AnEmptyColumnIsTold) {
+  const RollBench where;
+  std::istringstream in(where.text("calibration.csv"));
+  std::string line, log;
+  for (int row = 0; std::getline(in, line); ++row) {
+    const std::size_t second = line.find(',', line.find(',') + 1), third = line.find(',', second + 1);
+    log += (row == 0 ? line : line.substr(0, second + 1) + line.substr(third)) + "\n";
+  }
+  where.put("calibration.csv", log);
+  const Outcome outcome = where.calibrate();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"`ring` (roll_group) is empty or -1 at all", "share"}));
+  const Json json = where.report();
+  ASSERT_EQ(json["columns"].size(), 1U);
+  EXPECT_EQ(json["columns"][0]["of"], "roll_group");
+}
+
 TEST(RollGroups, OfOneStationAreTold) {
   const RollBench where;
   std::string log = where.text("calibration.csv");

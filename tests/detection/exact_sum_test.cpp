@@ -51,16 +51,15 @@ TEST(ExactSum, EqualsAFreshSumAfterAnyNumberOfUpdates) {
   std::vector<Shadow> shadow(static_cast<std::size_t>(array.triple_count()));
   for (Shadow& s : shadow) s.ring.assign(kWindowCapacity, 0);
   Noise noise(20180227);
-  const LeastSquares none;
   std::int64_t clamped = 0;
   Readings y{};
   for (std::int64_t step = 1; step <= updates; ++step) {
     for (int i = 0; i < array.size(); ++i)
       y[static_cast<std::size_t>(i)] = any_reading(noise, array.axis(i)[2] * kG0_mps2);
-    mae->add(array, y, array.all(), none, kG0_mps2);
+    mae->add(array, y, array.all(), nullptr, kG0_mps2);
     for (int k = 0; k < array.triple_count(); ++k) {
       const Triple& t = array.triple(k);
-      const double square = squared_length(t.form, y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]);
+      const double square = squared_length(array.form(k), y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]);
       const std::int32_t units = to_mae_units(std::sqrt(square < 0.0 ? 0.0 : square) - kG0_mps2);
       clamped += units == kMaeClamp ? 1 : 0;
       shadow[static_cast<std::size_t>(k)].push(units);

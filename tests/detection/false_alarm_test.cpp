@@ -53,7 +53,6 @@ Counts count_alarms(const SensorArray& array, int window, double rate, std::int6
   const double shared = half_normal_mean_quantile(window, triple_share(array, rate));
   auto mae = std::make_unique<CombinationMae>();
   mae->configure(array.triple_count(), window);
-  const LeastSquares none;
   Noise noise(seed);
   Counts out;
   out.blocks = blocks;
@@ -70,7 +69,7 @@ Counts count_alarms(const SensorArray& array, int window, double rate, std::int6
         y[a] = dot(array.axis(i), g) + array.sigma_mps2(i) * noise.normal();
         evidence.mean_mps2[a] += y[a] / window;
       }
-      mae->add(array, y, array.all(), none, kG0_mps2);
+      mae->add(array, y, array.all(), nullptr, kG0_mps2);
     }
     const SetTest all = test_set(array, gravity, limits, evidence, array.all());
     out.parity += all.parity > all.parity_alarm_limit(limits) ? 1 : 0;

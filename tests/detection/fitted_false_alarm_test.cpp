@@ -72,7 +72,7 @@ BlockEvidence block_of(const Datasheet& d, const calibration_test::Truth& truth,
     for (std::size_t i = 0; i < static_cast<std::size_t>(d.size); ++i) block.mean_mps2[i] += y[i] / samples;
     for (int k = 0; k < c.array.triple_count(); ++k) {
       const Triple& t = c.array.triple(k);
-      const double square = squared_length(t.form, y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]);
+      const double square = squared_length(c.array.form(k), y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]);
       mae[static_cast<std::size_t>(k)] += std::fabs(std::sqrt(std::fmax(square, 0.0)) - kG0_mps2) / samples;
     }
   }

@@ -84,12 +84,12 @@ TEST(IsolationRates, ParityGradeAtOneStationNamesStuckSensorsAndNobodyElse) {
         const Vec3 g = scaled(noise.direction(), kG0_mps2);
         TrialEpisode stuck(tool, m, FaultLaw::stuck, noise);
         Isolation isolation = tool.posed;
-        count.add(stuck.faulty(), isolation.vote(tool.array, tool.gravity, tool.limits, stuck.block(g, noise)).parity,
+        count.add(stuck.faulty(), isolation.vote({tool.array, tool.gravity, tool.limits, stuck.block(g, noise)}).parity,
                   false);
         TrialEpisode colluding(tool, m, noise.below(2) == 0 ? FaultLaw::colluding : FaultLaw::mirrored, noise);
         isolation = tool.posed;
         lies.add(colluding.faulty(),
-                 isolation.vote(tool.array, tool.gravity, tool.limits, colluding.block(g, noise)).parity, false);
+                 isolation.vote({tool.array, tool.gravity, tool.limits, colluding.block(g, noise)}).parity, false);
       }
       EXPECT_EQ(count.wrong + lies.wrong, 0U) << n << " sensors, " << m << " faulty";
       EXPECT_GE(100 * count.correct, 95 * count.trials) << n << " sensors, " << m << " faulty";
@@ -106,9 +106,9 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
     TrialEpisode episode(tool, 1, FaultLaw::bias, 0.06 * kG0_mps2, kG0_mps2, noise);
     Isolation isolation = tool.posed;
     const BlockEvidence block = episode.block(scaled(noise.direction(), kG0_mps2), noise);
-    isolation.vote(tool.array, tool.gravity, tool.limits, block);
+    isolation.vote({tool.array, tool.gravity, tool.limits, block});
     const FaultSetScan scan =
-        isolation.scan(tool.array, tool.gravity, tool.limits, block, tool.array.all(), 1, 1, {1, 4.9, 0.0});
+        isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(), 1, 1, {1, 4.9, 0.0});
     count.add(episode.faulty(), scan.asserted, false);
   }
   EXPECT_EQ(count.wrong, 0U);
@@ -134,7 +134,7 @@ TEST(ReferenceDoubt, OneFaultAndAWrongReferenceBlameNobodyHealthy) {
           const Vec3 u = noise.direction();
           const Vec3 extra = scaled(steady ? u : noise.direction(), size);
           const BlockEvidence block = episode.block(plus(scaled(u, kG0_mps2), extra), noise);
-          answer = isolation.vote(tool.array, tool.gravity, tool.limits, block);
+          answer = isolation.vote({tool.array, tool.gravity, tool.limits, block});
           ASSERT_TRUE(episode.faulty().contains(answer.strict)) << n << " sensors, trial " << t << ", station " << k;
         }
         right += answer.strict == episode.faulty() ? 1 : 0;
@@ -164,7 +164,7 @@ TEST(ReferenceDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
     block.samples = kTrialSamples;
     for (int i = 0; i < 6; ++i) block.mean_mps2[slot(i)] = dot(tool.array.axis(i), g) + bias[slot(i)];
     ASSERT_TRUE(test_set(tool.array, tool.gravity, tool.limits, block, chance).parity_alive(tool.limits));
-    answer = isolation.vote(tool.array, tool.gravity, tool.limits, block);
+    answer = isolation.vote({tool.array, tool.gravity, tool.limits, block});
     if (k == 0) {
       EXPECT_TRUE(answer.strict.empty()) << "one station cannot tell it from a healthy set in a wrong gravity";
     }

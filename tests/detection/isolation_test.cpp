@@ -55,7 +55,7 @@ TEST(Isolation, OneStationConvictsTheFaultOfAFiveSensorConeByParityAlone) {
   Case c(plumb_test::cone_array(5, kSigma), 7);
   std::array<double, kCapacity> fault{};
   fault[3] = 0.5;
-  const IsolationAnswer answer = c.isolation.vote(c.array, kGravity, c.limits, c.block({0.6, 0.0, 0.8}, fault));
+  const IsolationAnswer answer = c.isolation.vote({c.array, kGravity, c.limits, c.block({0.6, 0.0, 0.8}, fault)});
   EXPECT_EQ(answer.parity, SensorSet::of(3));
   EXPECT_FALSE(answer.full_alive);
 }
@@ -69,7 +69,7 @@ TEST(Isolation, MirrorAtEveryStationNeverConvictsTheInnocentAtTheStrictGrade) {
     const Vec3 u = plumb_test::random_direction(c.noise);
     std::array<double, kCapacity> fault{};
     fault[0] = -2.0 * kG0_mps2 * dot(u, w) / dot(w, w);
-    const IsolationAnswer answer = c.isolation.vote(c.array, kGravity, c.limits, c.block(u, fault));
+    const IsolationAnswer answer = c.isolation.vote({c.array, kGravity, c.limits, c.block(u, fault)});
     EXPECT_TRUE((answer.strict - SensorSet::of(0)).empty());
   }
   EXPECT_GE(c.isolation.live(), 2) << "truth {2,3,4} and mirror {1,2,4} both explain everything";
@@ -84,10 +84,10 @@ TEST(Isolation, MoreStationsAtOneAttitudeDoNotResolveAnotherAttitudeDoes) {
   std::array<double, kCapacity> fault{};
   fault[0] = -2.0 * kG0_mps2 * dot(u, w) / dot(w, w);  // a constant bias, exactly mirrored here
   for (int k = 0; k < 20; ++k) {
-    EXPECT_TRUE(c.isolation.vote(c.array, kGravity, c.limits, c.block(u, fault)).strict.empty());
+    EXPECT_TRUE(c.isolation.vote({c.array, kGravity, c.limits, c.block(u, fault)}).strict.empty());
   }
   const IsolationAnswer answer =
-      c.isolation.vote(c.array, kGravity, c.limits, c.block(plumb_test::direction_at(20, 50), fault));
+      c.isolation.vote({c.array, kGravity, c.limits, c.block(plumb_test::direction_at(20, 50), fault)});
   EXPECT_EQ(answer.strict, SensorSet::of(0));
 }
 
@@ -99,7 +99,7 @@ TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
     for (int station = 0; station < 10; ++station) {
       std::array<double, kCapacity> none{};
       const auto answer =
-          c.isolation.vote(c.array, wrong, c.limits, c.block(plumb_test::random_direction(c.noise), none));
+          c.isolation.vote({c.array, wrong, c.limits, c.block(plumb_test::random_direction(c.noise), none)});
       EXPECT_TRUE(answer.norm_void);
       EXPECT_TRUE(answer.strict.empty());
       EXPECT_TRUE(answer.parity.empty());
@@ -135,10 +135,45 @@ TEST(Isolation, AnAccelerationThatTheOthersShowTooIsNoFaultOfAWeaklyCheckedMembe
     const SetTest without = test_set(c.array, kGravity, c.limits, block, c.array.all().without(5));
     const bool shown = std::fabs(t.norm) > t.norm_reject_limit(c.limits) &&
                        std::fabs(without.norm) > without.norm_reject_limit(c.limits);
-    const auto answer = c.isolation.vote(c.array, kGravity, c.limits, block);
+    const auto answer = c.isolation.vote({c.array, kGravity, c.limits, block});
     EXPECT_TRUE(answer.norm_void || !shown) << station;
     EXPECT_TRUE(answer.strict.empty()) << station;
   }
+}
+
+/// Where the others know the length too badly to deny the acceleration, it is no fault of the precise one either; a
+/// reading that they do deny is.
+// Negative: REQ-061
+TEST(Isolation, WhatTheOthersCannotDenyIsNoFaultOfAWeaklyCheckedMember) {
+  std::array<SensorRow, kCapacity> rows{};
+  AxisList axes{};
+  const int n = cone_with_axis(axes, 6);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    rows[i].id = make_id(("a" + std::to_string(i)).c_str());
+    rows[i].axis = axes[i];
+    rows[i].sigma_mps2 = i == 5 ? 0.01 * kSigma : kSigma;
+  }
+  Case c(*SensorArray::make(rows.data(), n), 29);
+  const Vec3 along = c.array.axis(5);
+  int shown_by_all_only = 0, denied = 0;
+  for (int station = 0; station < 40; ++station) {
+    const Vec3 u = plumb_test::direction_at(1.0 + 0.1 * station, 31.0 * station);
+    std::array<double, kCapacity> steady{}, fault{};
+    for (int i = 0; i < n; ++i) steady[static_cast<std::size_t>(i)] = 3.6e-3 * dot(c.array.axis(i), along);
+    fault[5] = 0.02 * kG0_mps2;
+    const BlockEvidence block = c.block(u, steady);
+    const SetTest t = test_set(c.array, kGravity, c.limits, block, c.array.all());
+    const SetTest without = test_set(c.array, kGravity, c.limits, block, c.array.all().without(5));
+    const bool alone = std::fabs(t.norm) > t.norm_reject_limit(c.limits) &&
+                       std::fabs(without.norm) < without.norm_reject_limit(c.limits);
+    shown_by_all_only += alone && t.parity_alive(c.limits) ? 1 : 0;
+    c.isolation.clear();
+    EXPECT_TRUE(c.isolation.vote({c.array, kGravity, c.limits, block}).strict.empty()) << station;
+    c.isolation.clear();
+    denied += c.isolation.vote({c.array, kGravity, c.limits, c.block(u, fault)}).strict == SensorSet::of(5) ? 1 : 0;
+  }
+  EXPECT_GT(shown_by_all_only, 10);
+  EXPECT_GT(denied, 30);
 }
 
 /// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
@@ -162,7 +197,7 @@ TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
   SensorSet convicted;
   for (int station = 0; station < 6; ++station) {
     const auto answer =
-        c.isolation.vote(c.array, kGravity, c.limits, c.block(plumb_test::random_direction(c.noise), fault));
+        c.isolation.vote({c.array, kGravity, c.limits, c.block(plumb_test::random_direction(c.noise), fault)});
     EXPECT_FALSE(answer.norm_void);
     convicted = answer.strict;
   }
@@ -197,7 +232,7 @@ RC_GTEST_PROP(IsolationLaw, NeverConvictsASensorHealthyThroughout, ()) {
       if (kind == 3) f = 0.02 + 0.3 * c.noise.uniform();                  // small bias
       fault[static_cast<std::size_t>(i)] = f;
     }
-    const auto answer = c.isolation.vote(c.array, kGravity, c.limits, c.block(u, fault));
+    const auto answer = c.isolation.vote({c.array, kGravity, c.limits, c.block(u, fault)});
     RC_ASSERT(faulty.contains(answer.strict));
     // The parity grade is lower: it promises nothing beyond its own m.
     if (m <= c.isolation.parity_grade()) RC_ASSERT(faulty.contains(answer.parity));
@@ -209,7 +244,7 @@ TEST(Isolation, LosingAChannelProjectsTheHypotheses) {
   Case c(plumb_test::cone_array(6, kSigma), 23);
   std::array<double, kCapacity> fault{};
   fault[0] = 2.0;
-  c.isolation.vote(c.array, kGravity, c.limits, c.block(plumb_test::random_direction(c.noise), fault));
+  c.isolation.vote({c.array, kGravity, c.limits, c.block(plumb_test::random_direction(c.noise), fault)});
   const int live = c.isolation.live();
   EXPECT_LT(live, 20);
   c.isolation.pose(c.array, c.array.all().without(5));
@@ -225,8 +260,8 @@ TEST(Isolation, ScanNamesTheFewestFaults) {
   std::array<double, kCapacity> fault{};
   fault[2] = 1.0;
   const BlockEvidence block = c.block(plumb_test::direction_at(70, 10), fault);
-  c.isolation.vote(c.array, kGravity, c.limits, block);
-  const FaultSetScan scan = c.isolation.scan(c.array, kGravity, c.limits, block, c.array.all(), 3, 1, {1, 4.9, 0.0});
+  c.isolation.vote({c.array, kGravity, c.limits, block});
+  const FaultSetScan scan = c.isolation.scan({c.array, kGravity, c.limits, block}, c.array.all(), 3, 1, {1, 4.9, 0.0});
   EXPECT_EQ(scan.least, 1);
   EXPECT_EQ(scan.suspects, SensorSet::of(2));
   EXPECT_EQ(scan.asserted, SensorSet::of(2));

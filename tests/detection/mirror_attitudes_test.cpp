@@ -48,7 +48,7 @@ BlockEvidence evidence(const SensorArray& array, const Vec3& unit_g) {
 /// |length of the triple's estimate - G|, by the kernel of the monitor.
 double norm_error(const SensorArray& array, const Readings& y, int k) {
   const Triple& t = array.triple(k);
-  const double square = squared_length(t.form, y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]);
+  const double square = squared_length(array.form(k), y[t.sensors[0]], y[t.sensors[1]], y[t.sensors[2]]);
   return std::fabs(std::sqrt(std::fmax(square, 0.0)) - kG0_mps2);
 }
 
@@ -82,7 +82,7 @@ TEST(MirrorAttitudes, ParitySeesEveryOneAndNobodyIsBlamedThere) {
     EXPECT_GT(all.parity, all.parity_alarm_limit(limits));
     Isolation isolation;
     isolation.pose(array, array.all());
-    const IsolationAnswer answer = isolation.vote(array, kGravity, limits, block);
+    const IsolationAnswer answer = isolation.vote({array, kGravity, limits, block});
     const int mirrors = int{point.mirror_124} + int{point.mirror_134} + int{point.mirror_123};
     EXPECT_EQ(answer.live, 1 + mirrors);
     EXPECT_EQ(answer.strict, mirrors == 0 ? SensorSet::of(0) : SensorSet{});
@@ -109,7 +109,7 @@ TEST(MirrorAttitudes, AFaultThatMovesDefeatsTheStrictRuleAsProved) {
     const double length = norm(gravity[k]);
     BlockEvidence block = evidence(array, scaled(gravity[k], 1.0 / length));
     block.mean_mps2[k] += fault[k] / norm(raw[k]) / length * kG0_mps2;
-    answer = isolation.vote(array, kGravity, limits, block);
+    answer = isolation.vote({array, kGravity, limits, block});
   }
   EXPECT_EQ(answer.live, 1);
   EXPECT_EQ(answer.strict, SensorSet::of(2));

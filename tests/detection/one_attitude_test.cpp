@@ -128,7 +128,7 @@ RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolatedByTheVote, ())
   block.mean_mps2[static_cast<std::size_t>(i)] += f;
   Isolation isolation;
   isolation.pose(array, array.all());
-  const SensorSet strict = isolation.vote(array, truth, budget.limits, block).strict;
+  const SensorSet strict = isolation.vote({array, truth, budget.limits, block}).strict;
   RC_ASSERT(strict.empty() || strict == SensorSet::of(i));
   const double parity_floor = t.sure.fault[static_cast<std::size_t>(array.size() - 3)][static_cast<std::size_t>(i)];
   if (one.isolates(down, i, f) && std::fabs(f) > parity_floor) RC_ASSERT(strict == SensorSet::of(i));

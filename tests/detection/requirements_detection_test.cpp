@@ -105,7 +105,7 @@ TEST(RequirementConviction, SetsThatCouldNotBeTestedStayAlive) {
   BlockEvidence block = block_at(array, plumb_test::direction_at(70, 10), kG0_mps2, 32.0);
   block.mean_mps2[2] += 2.0;
   block.usable = array.all().without(5);
-  const IsolationAnswer answer = isolation.vote(array, gravity, limits, block);
+  const IsolationAnswer answer = isolation.vote({array, gravity, limits, block});
   EXPECT_GE(answer.live, 10) << "the ten triples with sensor 5 had no vote";
   EXPECT_TRUE(answer.strict.empty()) << "and one of them may still clear sensor 2";
   EXPECT_TRUE(answer.parity.empty());
@@ -124,7 +124,7 @@ TEST(RequirementContradiction, WhenNothingIsAliveItSaysSoAndConvictsNobody) {
     BlockEvidence block = block_at(array, plumb_test::random_direction(noise), kG0_mps2, 32.0);
     block.mean_mps2[0] = 20.0 * (noise.uniform() - 0.5);
     block.mean_mps2[1] = 20.0 * (noise.uniform() - 0.5);
-    answer = isolation.vote(array, gravity, limits, block);
+    answer = isolation.vote({array, gravity, limits, block});
     EXPECT_EQ(answer.contradiction, answer.live == 0);
     EXPECT_TRUE(answer.strict.empty() && answer.parity.empty());
   }
@@ -145,7 +145,7 @@ RC_GTEST_PROP(RequirementEpisodeLaw, WhatDiedStaysDeadWhateverFollows, ()) {
     const bool faulty = noise.uniform() < 0.5;
     BlockEvidence block = block_at(array, plumb_test::random_direction(noise), kG0_mps2, 32.0);
     if (faulty) block.mean_mps2[static_cast<std::size_t>(noise.uniform() * n)] += 3.0 * noise.uniform();
-    const IsolationAnswer answer = isolation.vote(array, gravity, limits, block);
+    const IsolationAnswer answer = isolation.vote({array, gravity, limits, block});
     RC_ASSERT(answer.live <= before);
     RC_ASSERT(answer.live == isolation.live());
     before = answer.live;

@@ -139,13 +139,13 @@ RC_GTEST_PROP(RoundingLaw, SampleInTheWindowIsWithinItsProvedBound, ()) {
   const double g_mps2 = test::any_in(9.0, 10.0);
   auto mae = std::make_unique<CombinationMae>();
   mae->configure(array.triple_count(), 1);
-  mae->add(array, y, array.all(), LeastSquares{}, g_mps2);
+  mae->add(array, y, array.all(), nullptr, g_mps2);
   for (int k = 0; k < array.triple_count(); ++k) {
     const Triple& triple = array.triple(k);
     if (!triple.votes) continue;
     const auto& s = triple.sensors;
-    const Exact square = exact_form(triple.form, y[s[0]], y[s[1]], y[s[2]]);
-    const double computed = squared_length(triple.form, y[s[0]], y[s[1]], y[s[2]]);
+    const Exact square = exact_form(array.form(k), y[s[0]], y[s[1]], y[s[2]]);
+    const double computed = squared_length(array.form(k), y[s[0]], y[s[1]], y[s[2]]);
     const long double form_error = std::fabs(wide(computed) - square.value);
     RC_ASSERT(form_error <= wide(plumb_test::kFormErrorInRange_m2ps4) + kReferenceError_u * kU * square.size);
     if (!(square.value >= 16.0L && square.value <= 90000.0L)) continue;

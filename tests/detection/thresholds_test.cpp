@@ -133,7 +133,7 @@ TEST(SetAsideBias, IsConvictedByTheVoteOnEveryGeometry) {
       block.mean_mps2[static_cast<std::size_t>(i)] += t.sensor[static_cast<std::size_t>(i)].set_aside_mps2;
       isolation.clear();
       isolation.pose(array, array.all());
-      const SensorSet convicted = isolation.vote(array, kExact, limits, block).parity;
+      const SensorSet convicted = isolation.vote({array, kExact, limits, block}).parity;
       if (convicted != SensorSet::of(i)) ++missed;
       if (!(SensorSet::of(i).contains(convicted))) ++wrong;
     }
@@ -225,7 +225,7 @@ RC_GTEST_PROP(SureFaultLaw, IsToldFromEveryOtherWhereTwiceTheFaultsAreAllowedFor
   }
   Isolation isolation;
   isolation.pose(array, array.all());
-  const FaultSetScan scan = isolation.scan(array, kExact, budget.limits, block, array.all(), m, m, {1, 5.0, 0.0});
+  const FaultSetScan scan = isolation.scan({array, kExact, budget.limits, block}, array.all(), m, m, {1, 5.0, 0.0});
   RC_ASSERT(scan.asserted == faulty);
 }
 

@@ -156,6 +156,38 @@ TEST(ChannelFacts, ACoarseSensorThatRepeatsAtEveryAttitudeIsNotStuck) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(rig.monitor.channels().counters(i).stuck_blocks, 0U);
 }
 
+/// One sensor of 12 bits over +-100 g0: its code covers 4.9 % of gravity, more than the change by which others are told
+/// to be stuck.
+// Negative: REQ-145
+TEST(ChannelFacts, WithinItsKnownResolutionASensorMayRepeat) {
+  const double code = 0.0488 * kG0_mps2;
+  for (const bool known : {true, false}) {
+    Rig rig(plumb_test::cone_array(5, 0.1 * kG0_mps2));  // no test of the readings sees any of this
+    if (known) rig.setup.resolution_raw[1] = code;
+    rig.restart();
+    rig.distort = [code](int i, double r, int) { return i == 1 ? code * std::round(r / code) : r; };
+    rig.setup.array = plumb_test::cone_array(5, 1e-9);  // what the samples are drawn with
+    const Vec3& h = rig.setup.array.axis(1);
+    const Vec3 aside = cross(h, {0.0, 0.0, 1.0});
+    const Vec3 across = scaled(aside, 1.0 / norm(aside));
+    const auto at_reading = [&](double share) {
+      return plus(scaled(h, share), scaled(across, std::sqrt(1.0 - share * share)));
+    };
+    // From near one edge of the code to near the other.
+    const double edge = 0.0488 * (std::round(0.5 / 0.0488) - 0.45);
+    rig.stay(at_reading(edge), 4);
+    rig.stay(at_reading(edge + 0.9 * 0.0488), 2);
+    EXPECT_EQ(rig.monitor.verdict().stuck, known ? SensorSet{} : SensorSet::of(1));
+    rig.stay(at_reading(edge + 0.9 * 0.0488 + 0.06), 2);  // another code: it lives
+    EXPECT_TRUE(rig.monitor.verdict().stuck.empty());
+    const double frozen = code * std::round(0.5 * kG0_mps2 / code);
+    rig.distort = [frozen](int i, double r, int) { return i == 1 ? frozen : r; };
+    rig.stay(at_reading(0.5), 4);
+    rig.stay(at_reading(0.62), 2);
+    EXPECT_EQ(rig.monitor.verdict().stuck, SensorSet::of(1)) << "beyond two codes nobody is excused";
+  }
+}
+
 Rig with_range(double full_scale_mps2) {
   Rig rig(plumb_test::tetrahedron());
   rig.setup.full_scale_raw.fill(full_scale_mps2);

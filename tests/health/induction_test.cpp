@@ -161,8 +161,7 @@ class Induction {
       // Nobody is convicted unless the others still make a vector, and set-asides are acquitted by a conviction.
       subsets_of(posed, m, HealthEvent::culprit, &NamedSensors::culprits,
                  [&](SensorSet z) { return left(posed - z) != SizeClass::rank_lost; });
-      subsets_of(s.in_service, m, HealthEvent::set_aside, &NamedSensors::accused,
-                 [&](SensorSet z) { return left(s.in_service - z) != SizeClass::rank_lost; });
+      subsets_of(s.in_service, m, HealthEvent::set_aside, &NamedSensors::accused, any);
     }
     subsets_of(all_ - s.absent, m, HealthEvent::channel_lost, &NamedSensors::lost, any);
     subsets_of(s.absent, m, HealthEvent::channel_back, &NamedSensors::back, any);

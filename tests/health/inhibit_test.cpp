@@ -67,6 +67,30 @@ TEST(Inhibit, DoesNotHoldBackLostChannelsOrFailed) {
   EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::failed);
 }
 
+/// Frozen, the monitor may not take the faulty sensor out; where its bound is beyond what the user can bear, patience
+/// still ends in failed, and where it is not, in a doubt that says so.
+// Negative: REQ-107
+TEST(Inhibit, DoesNotHoldBackPatience) {
+  for (const double limit_rad : {1e-5, 0.5}) {
+    MonitorConfig config;
+    config.alert_limit_rad = limit_rad;
+    Rig rig(plumb_test::tetrahedron(), config);
+    rig.prove();
+    rig.monitor.inhibit(true);
+    rig.distort = [](int i, double r, int) { return i == 1 ? r + 0.1 : r; };
+    for (int k = 0; k < 12; ++k) rig.stay(direction_at(20.0 + 12.0 * k, 75.0 * k));
+    const Verdict& v = rig.monitor.verdict();
+    EXPECT_TRUE(v.excluded.empty());
+    if (limit_rad < 0.1) {
+      EXPECT_EQ(v.state, HealthState::failed);
+      EXPECT_EQ(rig.records.back().event, HealthEvent::patience_over);
+    } else {
+      EXPECT_EQ(v.state, HealthState::suspect);
+      EXPECT_TRUE(v.qualifiers & Qualifier::exhausted);
+    }
+  }
+}
+
 /// Steady turn about the vertical with every sensor 0.1 m or more off the axis.
 Rig turning(bool arms, double rate_radps) {
   Rig rig(plumb_test::tetrahedron());

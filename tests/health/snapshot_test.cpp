@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
+#include <memory>
 
 #include "plumb/core/version.hpp"
 #include "snapshot_support.hpp"
@@ -42,6 +44,59 @@ TEST(Snapshot, AnExclusionOutlivesThePowerCycle) {
   EXPECT_EQ(bits_of(tool.after.verdict()), bits_of(tool.rig.monitor.verdict()));
   EXPECT_EQ(tool.after.verdict().excluded, SensorSet::of(2));
   EXPECT_EQ(tool.after.verdict().snapshot_refusal, Errc::ok);
+}
+
+/// Goes on from a snapshot beside the monitor that wrote it; how many verdicts differ.
+int differences_after(Rig& rig, int samples) {
+  const Bytes bytes = snapshot_of(rig.monitor);
+  auto twin = std::make_unique<HealthMonitor>();
+  EXPECT_TRUE(twin->restore(rig.setup, bytes.data(), bytes.size()).has_value());
+  int differences = 0;
+  for (int k = 0; k < samples; ++k) {
+    const Sample sample = rig.sample(direction_at(45, 200), kG0_mps2);
+    const Verdict& v = twin->step(sample);
+    differences += bits_of(v) == bits_of(rig.step(sample)) ? 0 : 1;
+  }
+  return differences;
+}
+
+/// A channel is lost at the very sample that ends a block in alarm: the alarm waits for the next step, which comes
+/// after the power cycle.
+// Verifies: REQ-163
+TEST(Snapshot, AnAlarmThatWaitsIsNotForgotten) {
+  Rig rig(cone_array(6));
+  rig.prove();
+  int left = 32;
+  rig.distort = [&left](int i, double r, int) {
+    if (i == 0 && left <= 3) return std::numeric_limits<double>::quiet_NaN();
+    return i == 2 ? r + 0.3 : r;
+  };
+  for (; left > 0; --left) rig.step(rig.sample(direction_at(45, 200), kG0_mps2));
+  ASSERT_EQ(rig.monitor.verdict().transition.event, HealthEvent::channel_lost);
+  EXPECT_EQ(differences_after(rig, 1), 0);
+  EXPECT_EQ(rig.monitor.verdict().transition.event, HealthEvent::alarm);
+  EXPECT_EQ(differences_after(rig, 100), 0);
+}
+
+/// The host's word at the same sample goes first; what the attitudes have told of gravity is said at the next.
+// Verifies: REQ-163
+TEST(Snapshot, ANoticeThatWaitsIsNotForgotten) {
+  Rig rig(cone_array(6));
+  rig.prove();
+  auto before = std::make_unique<HealthMonitor>();
+  for (int k = 0; k < 14 * 32; ++k) {
+    const Vec3 u = direction_at(10.0 + 11.0 * (k / 32), 67.0 * (k / 32));
+    const Sample sample = rig.sample(u, 1.005 * kG0_mps2);
+    *before = rig.monitor;
+    if (rig.step(sample).transition.cause != Cause::common_scale) continue;
+    rig.monitor = *before;
+    rig.monitor.inhibit(true);
+    ASSERT_EQ(rig.step(sample).transition.cause, Cause::inhibited);
+    EXPECT_EQ(differences_after(rig, 1), 0);
+    EXPECT_EQ(rig.monitor.verdict().transition.cause, Cause::common_scale);
+    return;
+  }
+  FAIL() << "gravity was never told";
 }
 
 /// The clock of an instrument starts anew: the history stays, the last vector is not published as of today.

@@ -14,6 +14,40 @@ using namespace plumb;
 using namespace plumb::io;
 using namespace io_test;
 
+// Verifies: REQ-065
+TEST(ArrayFile, ReadsHowTheToolTurnsAndWhereTheSensorsSit) {
+  EXPECT_TRUE(array_of().lever_arm_m.empty());
+  EXPECT_TRUE(array_of().input.rotation_columns.empty());
+  std::string text = changed("time = \"t_s\"", "time = \"t_s\"\nrotation_radps = [\"wx\", \"wy\", \"wz\"]");
+  EXPECT_EQ(array_of(text).input.rotation_columns, (std::vector<std::string>{"wx", "wy", "wz"}));
+  for (int i = 4; i >= 1; --i) {
+    const std::string id = "id = \"A" + std::to_string(i) + "\"";
+    const std::string arm = "\nlever_arm_m = [0." + std::to_string(i) + ", 0, -0.25]";
+    text = changed(id, id + arm, text);
+    if (i > 1) {
+      const auto some = parse_array_text(text, "array.toml");
+      ASSERT_FALSE(some.has_value()) << "of every sensor or of none";
+      EXPECT_EQ(some.error().field, "sensor[1].lever_arm_m");
+    }
+  }
+  const ArrayFile file = array_of(text);
+  ASSERT_EQ(file.lever_arm_m.size(), 4U);
+  EXPECT_EQ(file.lever_arm_m[2], (Vec3{0.3, 0.0, -0.25}));
+  const auto refused = [&text](const std::string& from, const std::string& to, const std::string& field) {
+    const auto answer = parse_array_text(changed(from, to, text), "array.toml");
+    EXPECT_FALSE(answer.has_value()) << to;
+    if (!answer) {
+      EXPECT_EQ(answer.error().field, field);
+    }
+  };
+  refused("lever_arm_m = [0.3, 0, -0.25]", "lever_arm_m = [0.3, 0]", "sensor[3].lever_arm_m");
+  refused("lever_arm_m = [0.3, 0, -0.25]", "lever_arm_m = [300, 0, 0]", "sensor[3].lever_arm_m");
+  refused("lever_arm_m = [0.3, 0, -0.25]", "lever_arm_m = [nan, 0, 0]", "sensor[3].lever_arm_m");
+  refused("[\"wx\", \"wy\", \"wz\"]", "\"wz\"", "input.rotation_radps");
+  refused("[\"wx\", \"wy\", \"wz\"]", "[\"wx\", \"wy\"]", "input.rotation_radps");
+  refused("[\"wx\", \"wy\", \"wz\"]", "[\"wx\", \"wy\", 3]", "input.rotation_radps");
+}
+
 TEST(ArrayFile, ReadsEveryPart) {
   const ArrayFile file = array_of();
   EXPECT_EQ(file.name, "four on a tool");

@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
+#include <iomanip>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io_test_support.hpp"
+#include "plumb/io/hash.hpp"
 #include "plumb/io/output_file.hpp"
 
 namespace {
@@ -23,7 +27,10 @@ using namespace io_test;
 
 using Draw = double (*)();
 
-/// A calibration of `array` whose free numbers come from `draw`.
+/// From 0 to 1, whatever the number.
+double share(double value) { return std::isfinite(value) ? std::fabs(std::fmod(value, 1.0)) : 0.5; }
+
+/// A calibration of `array` whose free numbers come from `draw`, those that a bound holds by way of `share`.
 std::unique_ptr<Calibration> calibration_of(const ArrayFile& array, Draw draw) {
   auto out = std::make_unique<Calibration>();
   const int n = array.array.size();
@@ -36,29 +43,33 @@ std::unique_ptr<Calibration> calibration_of(const ArrayFile& array, Draw draw) {
       out->model.sensor[k].scale[t] = draw();
       out->model.sensor[k].bias[t] = draw();
     }
-    out->report.e_cal_mps2[k] = draw();
-    out->report.residual_rms_mps2[k] = draw();
+    out->report.e_cal_mps2[k] = share(draw());
+    out->report.residual_rms_mps2[k] = share(draw());
     for (std::size_t t = 4 * k; t < 4 * k + 4; ++t) {
-      out->report.sigma[t] = draw();
-      out->report.data_share[t] = draw();
+      out->report.sigma[t] = share(draw());
+      out->report.data_share[t] = share(draw());
     }
   }
   out->array = *SensorArray::make(rows.data(), n);
   RowUncertainty uncertainty;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(2 * n * (4 * n + 1)); ++k) uncertainty.covariance[k] = draw();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) uncertainty.misfit_mps2[k] = draw();
+  for (std::size_t a = 0; a < static_cast<std::size_t>(4 * n); ++a) {
+    for (std::size_t b = 0; b <= a; ++b)
+      uncertainty.covariance[a * (a + 1) / 2 + b] = (a == b ? 1.0 : 0.0) + share(draw());
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) uncertainty.misfit_mps2[k] = share(draw());
   out->array.set_uncertainty(uncertainty);
   out->model.size = n;
   out->model.reads = array.datasheet.reads;
   FitReport& report = out->report;
   report.stations = 48;
+  report.parameters = 4 * n;
   report.rank = 4 * n - 3;
   report.null_directions = 2;
   for (std::size_t k = 0; k < static_cast<std::size_t>(4 * n); ++k) report.null_direction[1].component[k] = draw();
-  for (double* value :
-       {&report.condition, &report.norm_rms_mps2, &report.parity_rms_mps2, &report.misfit_mps2, &report.chi2,
-        &report.p_value, &report.excitation, &report.temperature_min_degc, &report.temperature_max_degc})
-    *value = draw();
+  for (double* value : {&report.condition, &report.norm_rms_mps2, &report.parity_rms_mps2, &report.misfit_mps2,
+                        &report.chi2, &report.p_value, &report.excitation, &report.temperature_min_degc})
+    *value = share(draw());
+  report.temperature_max_degc = report.temperature_min_degc + share(draw());
   report.stop = StopReason::converged;
   return out;
 }
@@ -230,6 +241,95 @@ TEST(CalibrationFileRefuses, AnotherArrayByWhatDiffers) {
                  {"has 4 sensors", "has 5"});
 }
 
+/// The file with one value put in the place of another and the checksum made right again, as an attacker would.
+std::string resealed(const std::string& json, const std::vector<std::string>& path,
+                     const nlohmann::ordered_json& value) {
+  nlohmann::ordered_json root = nlohmann::ordered_json::parse(json);
+  nlohmann::ordered_json* at = &root;
+  for (const std::string& step : path) {
+    at = at->is_array() ? &(*at)[static_cast<std::size_t>(std::stoi(step))] : &(*at)[step];
+  }
+  *at = value;
+  root.erase("checksum");
+  const std::string text = root.dump();
+  std::ostringstream sum;
+  sum << "fnv1a64:" << std::hex << std::setw(16) << std::setfill('0') << fnv1a(text.data(), text.size());
+  root["checksum"] = sum.str();
+  return root.dump(1);
+}
+
+// Negative: REQ-037
+TEST(CalibrationFileRefuses, FiguresThatNoCalibrationHas) {
+  using J = nlohmann::ordered_json;
+  const std::string json = good_json();
+  ASSERT_TRUE(read_calibration(written("cal.json", resealed(json, {"report", "rank"}, 12)), array_of()).has_value());
+  const struct {
+    std::vector<std::string> path;
+    std::vector<J> values;
+    const char* field;
+  } cases[] = {{{"report", "rank"}, {17, -1}, "report.rank"},
+               {{"report", "parameters"}, {-16, 15, 41}, "report.parameters"},
+               {{"report", "gauge"}, {-1, 4}, "report.gauge"},
+               {{"report", "stations"}, {-1}, "report.stations"},
+               {{"report", "iterations"}, {-1}, "report.iterations"},
+               {{"report", "degrees_of_freedom"}, {-1}, "report.degrees_of_freedom"},
+               {{"report", "condition"}, {"nan", "inf", -1.0, 1e308}, "report.condition"},
+               {{"report", "norm_rms_mps2"}, {"nan", -1.0, 1e308}, "report.norm_rms_mps2"},
+               {{"report", "parity_rms_mps2"}, {"nan", -1.0, 1e308}, "report.parity_rms_mps2"},
+               {{"report", "misfit_mps2"}, {"nan", -1.0, 1e308}, "report.misfit_mps2"},
+               {{"report", "chi2"}, {"nan", -1.0, 1e308}, "report.chi2"},
+               {{"report", "p_value"}, {"nan", -0.1, 1.1}, "report.p_value"},
+               {{"report", "excitation"}, {"nan", -1.0, 1e308}, "report.excitation"},
+               {{"report", "temperature_min_degc"}, {"nan", 900.0, -1e308}, "report.temperature_m"},
+               {{"report", "temperature_max_degc"}, {"inf", -200.0}, "report.temperature_max_degc"},
+               {{"report", "null_direction", "1", "3"}, {"nan", 1e308}, "report.null_direction"},
+               {{"sensors", "1", "misfit_mps2"}, {"nan", -1.0, 1e308}, "sensors[2].misfit_mps2"},
+               {{"sensors", "1", "e_cal_mps2"}, {"nan", -1.0, 1e308}, "sensors[2].e_cal_mps2"},
+               {{"sensors", "1", "residual_rms_mps2"}, {"nan", -1.0}, "sensors[2].residual_rms_mps2"},
+               {{"sensors", "1", "sigma_mps2"}, {1e308}, "sensors[2].sigma_mps2"},
+               {{"sensors", "1", "scale", "0"}, {"nan", 0.0, 1e308}, "sensors[2].scale"},
+               {{"sensors", "1", "bias_mps2", "3"}, {"nan", 1e308}, "sensors[2].bias_mps2"},
+               {{"sensors", "1", "reference_degc"}, {"nan", 1e308}, "sensors[2].reference_degc"},
+               {{"sensors", "1", "fit_sigma", "2"}, {"nan", -1.0, 1e308}, "sensors[2].fit_sigma"},
+               {{"sensors", "1", "data_share", "2"}, {"nan", -0.1, 1.1}, "sensors[2].data_share"},
+               {{"covariance", "4", "4"}, {"nan", -1.0, 1e308}, "covariance[5][5]"},
+               {{"covariance", "4", "1"}, {"nan", 9.0, -9.0}, "covariance[5][2]"},
+               {{"gravity", "g_mps2"}, {"nan", -9.8, 98.0}, "gravity.g_mps2"},
+               {{"gravity", "sigma_mps2"}, {"nan", -1.0, 1e308}, "gravity.sigma_mps2"},
+               {{"provenance", "stations"}, {-1}, "provenance.stations"}};
+  for (const auto& one : cases) {
+    for (const J& value : one.values) {
+      const FileError error = refusal_of(resealed(json, one.path, value));
+      EXPECT_EQ(error.field.rfind(one.field, 0), 0U) << error.text();
+      EXPECT_FALSE(error.remedy.empty());
+      EXPECT_EQ(error.code, ExitCode::invalid_input);
+    }
+  }
+  // Whole numbers that no counter holds.
+  for (const char* key : {"stations", "rank", "null_directions"})
+    EXPECT_EQ(refusal_of(resealed(json, {"report", key}, 4294967297)).field, key);
+  EXPECT_EQ(refusal_of(resealed(json, {"provenance", "log_bytes"}, -1)).field, "log_bytes");
+}
+
+TEST(CalibrationFileRefuses, RollGroupsThatNoFitHas) {
+  using J = nlohmann::ordered_json;
+  const ArrayFile array = array_of();
+  const auto in = calibration_of(array, &third);
+  in->report.roll_groups = 4;
+  in->report.roll_axis = {0.6, 0.0, 0.8};
+  const std::string json = calibration_json(*in, array, context_of(array));
+  ASSERT_TRUE(read_calibration(written("cal.json", json), array).has_value());
+  const std::pair<const char*, J> cases[] = {{"groups", -1},
+                                             {"groups", 17},
+                                             {"lone", 5},
+                                             {"wobble_rad", -0.1},
+                                             {"wobble_rad", "nan"},
+                                             {"axis", J{0.6, 0.0, 0.9}},
+                                             {"inclination_sigma_rad", -1.0}};
+  for (const auto& [key, value] : cases)
+    EXPECT_EQ(refusal_of(resealed(json, {"report", "roll", key}, value)).field, std::string("report.roll.") + key);
+}
+
 TEST(CalibrationFile, DoesNotWriteWhereItCannot) {
   const ArrayFile array = array_of();
   const auto done =
@@ -238,11 +338,14 @@ TEST(CalibrationFile, DoesNotWriteWhereItCannot) {
   EXPECT_EQ(done.error().code, ExitCode::other);
 }
 
+/// Any that a calibration may hold: of either sign, with any digits, down to the smallest.
 double any_double() {
   const std::uint64_t bits = *rc::gen::arbitrary<std::uint64_t>();
   double value = 0.0;
   std::memcpy(&value, &bits, sizeof value);
-  return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+  if (!std::isfinite(value) || value == 0.0) return 1.0;
+  int exponent = 0;
+  return std::fabs(value) < 1e15 ? value : std::frexp(value, &exponent);
 }
 
 template <class T>

@@ -57,7 +57,10 @@ std::string json_of(const ArrayFile& array, const PaperCalibration* paper) {
   Calibration calibration;
   calibration.model = array.datasheet.model();
   calibration.array = array.array;
-  return calibration_json(calibration, array, CalibrationContext{}, paper);
+  calibration.report.parameters = 4 * array.array.size();
+  CalibrationContext context;
+  context.gravity = array.gravity;
+  return calibration_json(calibration, array, context, paper);
 }
 
 /// Edits the content and seals it again: what only a program that means it can do.

@@ -86,6 +86,16 @@ TEST(LogReader, MissingAndNotFiniteCellsAreFactsNotBadRows) {
   EXPECT_EQ(log.statistics.rows_bad, 0U);
 }
 
+TEST(LogReader, KnowsWhichColumnsSaidTheSameInEveryRow) {
+  const LogStatistics log = content_of(kHeader + "0,,5,nan,1\n1,7,5,2,1\n2,7,5,3,1.5\n").statistics;
+  EXPECT_FALSE(log.varied.has(0));
+  EXPECT_EQ(log.first_value[0], 7.0);
+  EXPECT_FALSE(log.varied.has(1));
+  EXPECT_TRUE(log.varied.has(2));
+  EXPECT_EQ(log.first_value[2], 2.0);
+  EXPECT_TRUE(log.varied.has(3));
+}
+
 TEST(LogReader, NumbersAreCorrectlyRounded) {
   const LogContent log = content_of(kHeader + "0,0.1,9007199254740993,2.2250738585072011e-308,4.9e-324\n");
   EXPECT_EQ(log.samples[0].raw[0], 0.1);
@@ -113,6 +123,33 @@ TEST(LogReader, StationsCountsTemperatureAndFilters) {
   EXPECT_EQ(log.samples[1].temperature_degc, 21.0) << "held from the row before";
   EXPECT_EQ(log.statistics.temperature_held, 1U);
   EXPECT_EQ(log.statistics.rows_filtered, 2U);
+}
+
+// Verifies: REQ-065
+TEST(LogReader, HowTheToolTurnsIsToldRowByRow) {
+  const char* const kColumns = "time = \"t_s\"\nrotation_radps = [\"wx\", \"wy\", \"wz\"]";
+  const ArrayFile array = array_of(changed("time = \"t_s\"", kColumns));
+  const std::string path =
+      written("log.csv",
+              "t_s,wx,wy,wz,a1_v,a2_v,a3_v,a4_v\n0,0,0,0,1,2,3,4\n1,0,0.5,-2,1,2,3,4\n2,0,,1,1,2,3,4\n"
+              "3,0,nan,1,1,2,3,4\n4,0,fast,1,1,2,3,4\n");
+  auto reader = LogReader::open(path, array, BadRowPolicy::stop);
+  ASSERT_TRUE(reader.has_value());
+  Sample sample;
+  ASSERT_EQ(reader->next(sample), LogReader::Next::row);
+  EXPECT_FALSE(reader->rotation().turning);
+  EXPECT_TRUE(reader->rotation().rate_known);
+  ASSERT_EQ(reader->next(sample), LogReader::Next::row);
+  EXPECT_TRUE(reader->rotation().turning && reader->rotation().rate_known);
+  EXPECT_EQ(reader->rotation().rate_radps, (Vec3{0.0, 0.5, -2.0}));
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_EQ(reader->next(sample), LogReader::Next::row);
+    EXPECT_TRUE(reader->rotation().turning) << "at a rate that is not known";
+    EXPECT_FALSE(reader->rotation().rate_known);
+    EXPECT_EQ(reader->rotation().rate_radps, Vec3{});
+  }
+  EXPECT_EQ(reader->next(sample), LogReader::Next::error);
+  EXPECT_EQ(reader->error().field, "wy (column 3)");
 }
 
 TEST(LogReader, RollGroupsAreTagsLikeThoseOfStations) {

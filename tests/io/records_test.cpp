@@ -130,7 +130,7 @@ TEST(Records, RecalibrationIsAnObjectWhileItGoesOnOrWasRefused) {
   const Json object = Json::parse(verdict_json(v, file.array, turned))["recalibration"];
   std::string keys;
   for (const auto& item : object.items()) keys += item.key() + " ";
-  EXPECT_EQ(keys, "phase stations held_out stations_wanted lacking wanted_direction refused ");
+  EXPECT_EQ(keys, "phase offered stations held_out stations_wanted lacking wanted_direction refused ");
   EXPECT_EQ(object["phase"], "collecting");
   EXPECT_EQ(object["stations"], 5);
   EXPECT_EQ(object["held_out"], 1);
@@ -175,6 +175,27 @@ TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
   EXPECT_EQ(object["drift_mps2_per_h"], Json({0.0, 0.25, 0.0, 0.0}));
   v.rotation.change_mps2 = 0.0;
   EXPECT_TRUE(Json::parse(verdict_json(v, file.array))["rotation"]["along"].is_null()) << "any turn does";
+}
+
+TEST(Records, TriplesUseTemperatureAndConfigurationAreNamed) {
+  const ArrayFile file = array_of();
+  Verdict v = some_verdict();
+  EXPECT_TRUE(Json::parse(verdict_json(v, file.array))["config_hash"].is_null());
+  v.triples_tested.add(0);
+  v.triples_tested.add(1);
+  v.triples_tested.add(3);
+  v.triples_passed.add(1);
+  v.usable = Usable::vector | Usable::toolface | Usable::reference;
+  v.temperature_degc = 81.5;
+  v.temperature_rate_degc_per_min = -0.25;
+  v.config_hash = 0x0123456789abcdefULL;
+  const Json object = Json::parse(verdict_json(v, file.array));
+  EXPECT_EQ(object["triples_tested"], 3);
+  EXPECT_EQ(object["triples_failing"], Json::parse(R"([["A1","A2","A3"],["A2","A3","A4"]])"));
+  EXPECT_EQ(object["usable"], Json({"vector", "toolface", "reference"}));
+  EXPECT_EQ(object["temperature_degc"], 81.5);
+  EXPECT_EQ(object["temperature_rate_degc_per_min"], -0.25);
+  EXPECT_EQ(object["config_hash"], "0123456789abcdef");
 }
 
 TEST(Records, NoVectorNoAngles) {

@@ -48,6 +48,31 @@ TEST(FitPlot, TheScriptDrawsEveryPictureNamed) {
   EXPECT_NE(script.find("stands out"), std::string::npos);
 }
 
+TEST(FitPlot, EverySigmaIsWrittenAndNoRingCut) {
+  const std::string script = text_of(pictures(), report::kFitScript);
+  for (const char* part : {"sprintf('±%.2g, %.0f %% from the log', $4, $5 > 0 ?", "$7, $8 > 0 ?", "$10, $11 > 0 ?"})
+    EXPECT_NE(script.find(part), std::string::npos) << part;
+  const std::size_t residuals = script.find("fit-residuals.svg");
+  EXPECT_LT(script.find("set offsets 0,0,graph 0.07,graph 0.07", residuals), script.find("\nplot", residuals));
+  report::FitPictures many = pictures();
+  many.sensors.resize(6, many.sensors.front());
+  for (auto& s : many.stations) s.residual_mg0.resize(6);
+  EXPECT_EQ(text_of(many, report::kFitScript).find("from the log"), std::string::npos) << "no room";
+}
+
+TEST(FitPlot, AFewCostsNearOneAnotherAreReadFromZeroUp) {
+  report::FitPictures p = pictures();
+  p.cost = {81.0, 80.6};
+  const std::string near = text_of(p, report::kFitScript);
+  EXPECT_EQ(near.find("set logscale y"), std::string::npos);
+  EXPECT_NE(near.find("set yrange [0:*]"), std::string::npos);
+  EXPECT_NE(near.find("sprintf('%.4g', $2)"), std::string::npos);
+  p.cost = {1e6, 80.6};
+  EXPECT_NE(text_of(p, report::kFitScript).find("set logscale y"), std::string::npos);
+  p.cost.assign(30, 80.6);
+  EXPECT_EQ(text_of(p, report::kFitScript).find("sprintf('%.4g', $2)"), std::string::npos) << "no room";
+}
+
 TEST(FitPlot, LeavesOutWhatIsNotKnown) {
   report::FitPictures p = pictures();
   for (auto& s : p.stations) {

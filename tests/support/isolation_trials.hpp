@@ -329,7 +329,7 @@ inline void strict_trial(const TrialTool& tool, TrialEpisode& episode, int stati
   bool blamed = false;
   for (int k = 0; k < stations; ++k) {
     const plumb::Vec3 g = plumb::scaled(noise.direction(), plumb::kG0_mps2);
-    answer = isolation.vote(tool.array, tool.gravity, tool.limits, episode.block(g, noise));
+    answer = isolation.vote({tool.array, tool.gravity, tool.limits, episode.block(g, noise)});
     blamed = blamed || !episode.faulty().contains(answer.strict);
   }
   count.add(episode.faulty(), answer.strict, blamed);
@@ -359,12 +359,12 @@ inline void soundness_trial(const TrialTool& tool, double gravity_error, int hea
   plumb::SensorSet last;
   for (int k = 0; k < stations; ++k) {
     const plumb::BlockEvidence block = episode.block(plumb::scaled(attitudes.next(noise), length), noise);
-    const plumb::IsolationAnswer answer = isolation.vote(tool.array, tool.gravity, tool.limits, block);
+    const plumb::IsolationAnswer answer = isolation.vote({tool.array, tool.gravity, tool.limits, block});
     strict = strict || !episode.faulty().contains(answer.strict);
     if (ask_parity) parity = parity || !episode.faulty().contains(answer.parity);
     if (ask_asserted) {
       const plumb::FaultSetScan scan =
-          isolation.scan(tool.array, tool.gravity, tool.limits, block, tool.array.all(), m, m, {1, 4.9, 0.0});
+          isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(), m, m, {1, 4.9, 0.0});
       asserted = asserted || !episode.faulty().contains(scan.asserted);
     }
     last = answer.strict;

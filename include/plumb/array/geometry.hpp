@@ -18,6 +18,7 @@ int rank_of(const SensorArray& array, SensorSet used) noexcept;
 /// the sigmas differ) and what follows from it. `valid` is false where rank(used) < 3.
 struct LeastSquares {
   bool valid = false;
+  SensorSet used;
   std::array<Vec3, kCapacity> column{};  ///< column i of the pseudo-inverse; zero for sensors not used
   Mat3 covariance{};                     ///< of x for one sample [(m/s^2)^2]
   Vec3 estimate(const Readings& y) const noexcept;

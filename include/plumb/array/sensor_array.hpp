@@ -25,6 +25,12 @@ struct SensorRow {
   double sigma_mps2 = 0.0;  ///< white noise of one sample, 1 sigma
 };
 
+/// z_p z_q of z = (g, 1), row by row.
+struct AttitudeProducts {
+  explicit AttitudeProducts(const Vec3& g_mps2) noexcept;
+  std::array<double, 16> value{};
+};
+
 /// What calibration leaves in every row: covariance of (axis error [m/s^2 per m/s^2], offset error
 /// [m/s^2]), four numbers a sensor, packed lower triangle over 4n; plus a per-sensor misfit that no
 /// parameter explains. All zero for a perfectly known array.
@@ -35,7 +41,9 @@ struct RowUncertainty {
 
   /// Covariance of the errors of sensors i and j at gravity vector g [m/s^2]: z' Cov_ij z with
   /// z = (g, 1), plus misfit^2 where i == j. Safety note 10. [(m/s^2)^2]
-  double at(int i, int j, const Vec3& g_mps2) const noexcept;
+  double at(int i, int j, const Vec3& g_mps2) const noexcept { return at(i, j, AttitudeProducts(g_mps2)); }
+  /// The same for many pairs at one attitude.
+  double at(int i, int j, const AttitudeProducts& attitude) const noexcept;
 
   static constexpr int packed_size(int sensors) noexcept { return 4 * sensors * (4 * sensors + 1) / 2; }
   /// No variance below zero, no covariance beyond what its two variances allow, but for rounding.
@@ -48,15 +56,17 @@ struct RowUncertainty {
 /// Three sensors and what they can do together.
 struct Triple {
   std::array<std::uint8_t, 3> sensors{};
-  bool votes = false;            ///< |det| >= kMinTripleDet: may raise a MAE alarm
-  double det = 0.0;              ///< determinant of the three axes
-  double condition = 0.0;        ///< ratio of the extreme singular values
-  std::array<double, 6> form{};  ///< |x|^2 = y'Ay: A11, A22, A33, 2 A12, 2 A13, 2 A23 (eqs 22-25)
+  bool votes = false;      ///< |det| >= kMinTripleDet: may raise a MAE alarm
+  double det = 0.0;        ///< determinant of the three axes
+  double condition = 0.0;  ///< ratio of the extreme singular values
 
   SensorSet set() const noexcept {
     return SensorSet::of(sensors[0]) | SensorSet::of(sensors[1]) | SensorSet::of(sensors[2]);
   }
 };
+
+/// |x|^2 = y'Ay of a triple: A11, A22, A33, 2 A12, 2 A13, 2 A23 (eqs 22-25).
+using TripleForm = std::array<double, 6>;
 
 inline constexpr double kMinTripleDet = 0.05;
 /// A third axis within this sine of the plane of two others counts as lying in it (coplanarity c).
@@ -82,6 +92,9 @@ class SensorArray {
   /// All C(n,3) triples in lexicographic order, near-singular ones included.
   int triple_count() const noexcept { return triple_count_of(size_); }
   const Triple& triple(int k) const noexcept { return triples_[static_cast<std::size_t>(k)]; }
+  TripleForm form(int k) const noexcept;
+  /// Coefficient c of the forms of all triples, one after the other: the kernel takes several triples at once.
+  const double* form_coefficients(std::size_t c) const noexcept { return form_[c].data(); }
   /// Index of the triple {i,j,k}, i < j < k; -1 where the three are no triple of this array.
   int triple_index(int i, int j, int k) const noexcept;
 
@@ -92,12 +105,13 @@ class SensorArray {
   friend struct FieldsOf;
   /// Axes and noise are configured; only what calibration leaves changes in flight.
   static constexpr auto fields() noexcept {
-    return field_list(not_stored(&SensorArray::rows_), not_stored(&SensorArray::triples_), &SensorArray::uncertainty_,
-                      not_stored(&SensorArray::size_));
+    return field_list(not_stored(&SensorArray::rows_), not_stored(&SensorArray::triples_),
+                      not_stored(&SensorArray::form_), &SensorArray::uncertainty_, not_stored(&SensorArray::size_));
   }
 
   std::array<SensorRow, kCapacity> rows_{};
   std::array<Triple, kTripleCapacity> triples_{};
+  std::array<std::array<double, kTripleCapacity>, 6> form_{};
   RowUncertainty uncertainty_{};
   int size_ = 0;
 };

@@ -59,6 +59,32 @@ struct CommonScale {
   double sigmas() const noexcept { return sigma > 0.0 ? mean / sigma : 0.0; }
 };
 
+/// The rotation across the roll axis by which roll groups turned all axes together from the nominal ones: what a roll
+/// axis that is not the one stated does. The nominal axes, each by its prior, know it within `sigma_rad`.
+struct CommonTurn {
+  double rad = 0.0;
+  double sigma_rad = 0.0;  ///< 1 sigma of the nominal axes, in the direction of the turn; 0 where none was judged
+  int sensor = -1;         ///< whose own axis, off alone, explains the axes better than a common turn; -1 none
+  double sigmas() const noexcept { return sigma_rad > 0.0 ? rad / sigma_rad : 0.0; }
+};
+
+/// The mean residual of one sensor over the stations of one temperature level, where it is beyond what noise and misfit
+/// leave: in fewer than 1e-4 of fits to sensors that follow the model.
+struct LevelMisfit {
+  int sensor = -1;  ///< -1: none
+  double degc = 0.0;
+  double mean_mps2 = 0.0;
+  double sigma_mps2 = 0.0;
+  SensorSet suspects;  ///< it, and those whose own mean explains the stations about as well: it is one of these
+  double sigmas() const noexcept {
+    return sigma_mps2 > 0.0 ? (mean_mps2 < 0.0 ? -mean_mps2 : mean_mps2) / sigma_mps2 : 0.0;
+  }
+};
+
+/// A station hotter or colder has no thermometer that works [degC].
+inline constexpr double kPlausibleMin_degc = -100.0;
+inline constexpr double kPlausibleMax_degc = 400.0;
+
 struct FitReport {
   int stations = 0;         ///< used: outliers left out
   int parameters = 0;       ///< 4n
@@ -94,6 +120,11 @@ struct FitReport {
   /// 1 sigma of an inclination about `FitOptions::roll_axis` at the stations' own attitudes, as far as calibration
   /// goes; without roll rows the part of the nominal axes, which no station sees, included.
   double inclination_sigma_rad = 0.0;
+  CommonTurn common_turn;    ///< with roll groups only
+  LevelMisfit level_misfit;  ///< over two temperature levels or more
+  /// Of a value that is implausible: the sensors of which any one alone, wrongly described, explains the stations about
+  /// as well. More than one: it is one of these.
+  SensorSet suspects;
   /// The sensor whose residuals exceed those of the others beyond chance where they are no noise (p < `kNoNoise`), by
   /// what factor (rms), and the noise beyond the datasheet's that is its own. All sigmas are widened, named or not; -1
   /// where there is none, or where too little is left over to tell.
@@ -176,10 +207,13 @@ class Calibrator {
 
   /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`; not_finite
   /// (index = sensor: scale factor 0 or no number); out_of_range (index 0: roll axis not of unit length, 1: more than
-  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite: index =
-  /// station where one is to blame; or not converged); unobservable (value = rank, limit = rank needed); implausible
-  /// (index = sensor; value = limit = 0 where it holds the same numbers as another); poor_fit (index = sensor where one
-  /// is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be called again.
+  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite, or a
+  /// temperature outside kPlausibleMin_degc .. kPlausibleMax_degc: index = station where one is to blame; or not
+  /// converged); unobservable (value = rank, limit = rank needed); implausible
+  /// (index = sensor, -1 where it is one of report.suspects, or where roll groups turned all axes beyond what the
+  /// nominal ones allow, value = turn; value = limit = 0 where it holds the same numbers as another); poor_fit (index =
+  /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
+  /// called again.
   Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) noexcept;
 
  private:
@@ -199,7 +233,7 @@ class Calibrator {
 
   Error refused(const Station* stations, int count, FitReport& report) const noexcept;
   bool describe(const fit::Problem& problem, fit::Fitted& fitted, FitReport& report) noexcept;
-  Error judge(const fit::Problem& problem, const fit::Fitted& fitted, const FitReport& report) const noexcept;
+  Error judge(const fit::Problem& problem, const fit::Fitted& fitted, FitReport& report) const noexcept;
 
   Datasheet datasheet_;
   GravityReference gravity_;

@@ -42,6 +42,10 @@ struct SensorModel {
   /// 0.
   Readings apply(const std::array<double, kCapacity>& raw, double temperature_degc, SensorSet delivered) const noexcept;
 
+  /// `apply` for a model in the common-frame form; what stands in `misalignment` is not looked at.
+  Readings without_misalignment(const std::array<double, kCapacity>& raw, double temperature_degc,
+                                SensorSet delivered) const noexcept;
+
   /// The inverse of `apply`: raw values that a sensor with these coefficients shows for the given
   /// accelerations along its axes (gravity sense). Error: not_invertible if I - M is singular.
   Expected<std::array<double, kCapacity>> raw_from(const Readings& accel_mps2, double temperature_degc) const noexcept;

@@ -31,6 +31,7 @@ inline constexpr int kMaxTemperatureLevels = 16;
 struct TemperatureLevels {
   int count = 0;
   std::array<double, kMaxTemperatureLevels> degc{};
+  std::array<double, kMaxTemperatureLevels> begin_degc{};  ///< its lowest station; it reaches kLevelsApart_degc up
   std::array<int, kMaxTemperatureLevels> stations{};
   double lowest_degc = 0.0;  ///< of all stations
   double highest_degc = 0.0;
@@ -41,6 +42,10 @@ TemperatureLevels temperature_levels(const Station* stations, int count) noexcep
 ChebyshevSpan confirmed_span(const Station* stations, int count, const TemperatureLevels& levels) noexcept;
 /// The same, of the level that has the most stations.
 ChebyshevSpan fullest_level(const Station* stations, int count, const TemperatureLevels& levels) noexcept;
+
+/// Whether the temperature went one way from the first station to the last, never back by a level: whatever changed
+/// with time then looks like a drift with temperature.
+bool one_way(const Station* stations, int count) noexcept;
 
 /// Temperatures to record next so that `wanted` levels cover the span; returns their number, at most `wanted` less
 /// those there are. Multiples of 5 degC, or ends of the span; each as far from all others as can be.
@@ -98,6 +103,9 @@ struct TemperatureReport {
   std::array<double, kMaxTemperatureOrder + 1> missing_degc{};
   /// The temperature of the stations is a function of their inclination, so that the two cannot be told apart.
   bool follows_inclination = false;
+  /// The temperature only rose, or only fell, from station to station: a fit of an order above 0 cannot tell what time
+  /// did from what temperature did.
+  bool follows_time = false;
   bool rolls = false;  ///< roll groups are in use: they fix a frame of their own, at order 0 only
 
   int parameters = 0;  ///< (4 + 2 order) n
@@ -128,7 +136,8 @@ struct TemperatureWork {
 /// with sigma and data_share of W and b at the mean over the span of use.
 ///
 /// Errors, in this order: those of `Calibrator::finish`, where they apply; out_of_range (index 2: order or max_order,
-/// 3: the span of use is not finite or narrower than kLevelsApart_degc where an order above 0 is asked for, 4: a prior
+/// 3: the span of use is outside kPlausibleMin_degc .. kPlausibleMax_degc, or narrower than kLevelsApart_degc where it
+/// is given, 4: a prior
 /// is not above 0, 5: an order above 0 beside roll groups); too_few_levels (value = levels, limit = order + 1;
 /// report.missing_degc says where); unobservable; implausible (index = sensor: its scale factor leaves the bound at
 /// some temperature of the span of use). An automatic order is refused only where order 0 is. `report` and

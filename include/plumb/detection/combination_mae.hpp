@@ -20,13 +20,16 @@ inline constexpr std::int32_t kMaeClamp = 2140000000;
 /// Squared length of the vector that three readings make, by the six coefficients of their triple:
 /// q0 a a + q1 b b + q2 c c + q3 a b + q4 a c + q5 b c, evaluated left to right in double. Its rounding error is
 /// proved (proofs/rounding, proofs/form.g) for exactly this order without fused multiply-add (-ffp-contract=off),
-/// so it stays a scalar expression. May be negative by that error. [(m/s^2)^2]
-inline double squared_length(const std::array<double, 6>& q, double a_mps2, double b_mps2, double c_mps2) noexcept {
-  const double a = a_mps2, b = b_mps2, c = c_mps2;
-  return q[0] * a * a + q[1] * b * b + q[2] * c * c + q[3] * a * b + q[4] * a * c + q[5] * b * c;
+/// so it stays as it is; `T` is a double, or several side by side. May be negative by that error. [(m/s^2)^2]
+template <class T>
+constexpr T squared_length(T q0, T q1, T q2, T q3, T q4, T q5, T a, T b, T c) noexcept {
+  return q0 * a * a + q1 * b * b + q2 * c * c + q3 * a * b + q4 * a * c + q5 * b * c;
+}
+inline double squared_length(const TripleForm& q, double a_mps2, double b_mps2, double c_mps2) noexcept {
+  return squared_length(q[0], q[1], q[2], q[3], q[4], q[5], a_mps2, b_mps2, c_mps2);
 }
 
-/// Absolute error as an integer number of units, clamped; a NaN becomes the clamp.
+/// Absolute error as an integer number of units, to the nearest, ties to even; clamped; a NaN becomes the clamp.
 std::int32_t to_mae_units(double error_mps2) noexcept;
 
 class CombinationMae {
@@ -39,8 +42,8 @@ class CombinationMae {
   void clear_all_sensor() noexcept;
 
   /// Adds one sample. Triples with a member outside `usable` are marked absent in this slot.
-  /// `in_service` is the least-squares map of the sensors in service (invalid: slot absent).
-  void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const LeastSquares& in_service,
+  /// `in_service` is the estimate of the sensors in service (null: slot absent).
+  void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
            double g_mps2) noexcept;
 
   /// Eqs (26)-(29): MAE of triple k over the samples present in the window [m/s^2]; 0 where there are none.

@@ -9,8 +9,8 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/detection/block_tests.hpp"
 #include "plumb/detection/reference_doubt.hpp"
-#include "plumb/detection/set_test.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -89,15 +89,13 @@ class Isolation {
 
   /// One station's pooled block: kills what it contradicts and answers. Sets with a member that is not
   /// usable are not tested and stay alive.
-  IsolationAnswer vote(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                       const BlockEvidence& block) noexcept;
+  IsolationAnswer vote(const BlockTests& tests) noexcept;
 
   /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
   /// protection level is the largest separation from the estimate of `in_service` (solution
   /// separation) plus `k_integrity` sigmas of noise and calibration, plus what a bias that all sensors share does to
   /// the direction, |(I - uu') H^+ 1| b / G.
-  FaultSetScan scan(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                    const BlockEvidence& block, SensorSet in_service, int depth, int asserted_faults,
+  FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                     const ProtectionTerms& protect) const noexcept;
 
   int live() const noexcept;
@@ -110,11 +108,10 @@ class Isolation {
   void kill(int index) noexcept {
     dead_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
   }
+  bool any_dead() const noexcept;
   bool has_dead_subset(SensorSet set) const noexcept;
-  ReferenceDoubt doubt_reference(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                                 const BlockEvidence& block, ReferenceClaims* record) const noexcept;
-  SensorSet convict_by_parity(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                              const BlockEvidence& block) const noexcept;
+  ReferenceDoubt doubt_reference(const BlockTests& tests, ReferenceClaims* record) const noexcept;
+  SensorSet convict_by_parity(const BlockTests& tests) const noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
   ReferenceClaims claims_;

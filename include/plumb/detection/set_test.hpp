@@ -39,11 +39,12 @@ struct TestLimits {
 
 /// All statistics and limits are in standard deviations of the block mean (whitened, times sqrt(N)).
 struct SetTest {
-  bool tested = false;  ///< rank 3 and all members usable
-  Vec3 x_mps2{};        ///< weighted least squares over the set
-  Mat3 covariance{};    ///< of x, noise of the block mean [(m/s^2)^2]
-  double parity = 0.0;  ///< |parity residual|, |S|-3 degrees of freedom
-  double norm = 0.0;    ///< (|x| - G), signed, in its own sigma
+  bool tested = false;   ///< rank 3 and all members usable
+  Vec3 x_mps2{};         ///< weighted least squares over the set
+  Mat3 covariance{};     ///< of x, noise of the block mean [(m/s^2)^2]
+  double samples = 0.0;  ///< N behind it
+  double parity = 0.0;   ///< |parity residual|, |S|-3 degrees of freedom
+  double norm = 0.0;     ///< (|x| - G), signed, in its own sigma
   double norm_error_mps2 = 0.0;
   double norm_sigma_mps2 = 0.0;    ///< s_T: 1 sigma of |x| for one sample
   double parity_systematic = 0.0;  ///< b_S of the parity rows alone
@@ -70,16 +71,12 @@ struct SetTest {
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;
 
-/// True where `set`, which passes parity, may speak about gravity: every member is checked by the parity of the others
-/// (leverage of at least 0.05), or the length is off without it as well, by more than the rejection limit. Otherwise a
-/// member that nobody checks may be at fault: mikoff5's z axes, four of them with three coplanar, pass parity whatever
-/// the fourth reads. `test` is that of the set at `block`.
-bool vouches_for_norm(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
-                      const BlockEvidence& block, SensorSet set, const SetTest& test) noexcept;
-
 /// Covariance of x over the set that calibration leaves at this attitude [(m/s^2)^2]; zero where the
 /// set was not tested.
 Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept;
+
+/// What the reading of sensor i adds to x, for a member of the tested set: a column of the least-squares map.
+Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexcept;
 
 /// 1-sigma of the direction of x from a covariance, in rad: root of the part across x over its length.
 /// pi where x has no length.

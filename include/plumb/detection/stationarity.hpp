@@ -88,8 +88,10 @@ double restless_factor(int n, int size, double rate) noexcept;
 /// excluded one cannot stop the evidence. `factor` comes from `restless_factor`. With a `record` of the blocks before,
 /// a channel is noisy as well where its residual is restless over all of them, and at least half of its scatter is
 /// found in the residual: of a movement of the tool the others would have predicted it.
+/// `known`: a map at hand, used where it is that of the calm channels.
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
-                           double g_mps2, ScatterRecord* record = nullptr) noexcept;
+                           double g_mps2, ScatterRecord* record = nullptr,
+                           const LeastSquares* known = nullptr) noexcept;
 
 /// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag, by roll group or by a
 /// change of direction. Serves calibration from continuous logs. The first and the last quiet block of

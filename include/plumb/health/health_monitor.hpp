@@ -21,6 +21,7 @@
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
 #include "plumb/health/snapshot.hpp"
+#include "plumb/health/temperature_rate.hpp"
 #include "plumb/health/trend.hpp"
 #include "plumb/health/verdict.hpp"
 
@@ -34,6 +35,7 @@ struct MonitorSetup {
   GravityReference gravity;
   MonitorConfig config;
   std::array<double, kCapacity> full_scale_raw{};  ///< 0 = unknown
+  std::array<double, kCapacity> resolution_raw{};  ///< one code: within it a reading may repeat; 0 = unknown
   Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
   std::array<Vec3, kCapacity> lever_arm_m{};       ///< of each sensor from the axis of rotation, tool frame
   bool lever_arms_known = false;                   ///< else evidence is locked out while the tool turns
@@ -101,6 +103,14 @@ class HealthMonitor {
   /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare.
   Expected<void> request_recalibration() noexcept;
 
+  /// Offers a calibration made elsewhere, both parts of it, over all configured sensors. Biases and scales of the
+  /// sensors in service are tried in the shadow at stations visited from now on, by every test that a fit of the
+  /// monitor's own must pass, and adopted or refused; the calibration in force is untouched until then. What is wrong
+  /// with it at sight is refused at once: errors those of `request_recalibration`, then those of
+  /// `Recalibration::offer`. It takes the place of a request that
+  /// waits, lapses as one does, and after a day without the stations to try it.
+  Expected<void> offer_calibration(const SensorModel& model, const SensorArray& array) noexcept;
+
   /// Another length of gravity (depth has changed). Error: implausible_gravity; then nothing changes.
   Expected<void> set_gravity(const GravityReference& gravity) noexcept;
 
@@ -110,7 +120,8 @@ class HealthMonitor {
   Expected<void> set_rotation(const Rotation& rotation) noexcept;
 
   /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
-  /// released. Never held back: a lost channel, rank < 3, failed. Either is recorded as a notice.
+  /// released. Never held back: a lost channel, rank < 3, failed. Patience goes on, too: who freezes the way out of a
+  /// doubt has not ended it, and beyond the alert limit nothing else would warn. Either is recorded as a notice.
   void inhibit(bool frozen) noexcept;
 
   const MonitorCounters& counters() const noexcept { return counters_; }
@@ -141,14 +152,17 @@ class HealthMonitor {
   std::uint16_t usable_bits() const noexcept;
   Validity validity() const noexcept;
   void publish_decision(const BlockView& view) noexcept;
-  void publish_vector() noexcept;
+  void publish_vector(const BlockTests& tests) noexcept;
+  bool protected_now() const noexcept;
+  void publish_sample(const Sample& sample) noexcept;
+  bool news() const noexcept;
   void publish(const Sample& sample, bool tick) noexcept;
 
   // evidence.cpp: one block
   EventMask tick(const Sample& sample) noexcept;
   double clear_fraction() const noexcept;
-  BlockView judge(const BlockEvidence& evidence) const noexcept;
-  void judge_mae(const BlockEvidence& evidence, BlockView& view) const noexcept;
+  BlockView judge(const BlockTests& tests) const noexcept;
+  void judge_mae(const BlockTests& tests, BlockView& view) const noexcept;
   void note_block() noexcept;
   void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
@@ -157,6 +171,7 @@ class HealthMonitor {
   // facts.cpp: what single channels did
   double predicted(int sensor, const BlockEvidence& evidence) const noexcept;
   bool note_facts(const BlockJudgement& judged, bool moving) noexcept;
+  SensorSet noise_confirmed() const noexcept;
   void note_stuck(const BlockEvidence& evidence) noexcept;
   void name_causes(SensorSet named, Cause cause) noexcept;
   SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
@@ -170,16 +185,17 @@ class HealthMonitor {
 
   // record.cpp: what is kept from block to block
   void follow_station(const Sample& sample, const Vec3& direction) noexcept;
-  Vec3 vote(const BlockEvidence& evidence, const BlockView& view) noexcept;
+  Vec3 vote(const BlockTests& tests, const BlockView& view) noexcept;
   void count_doubt(const BlockView& view, const Vec3& direction) noexcept;
   bool patience_is_over() const noexcept;
-  void count_clean(const BlockView& view) noexcept;
+  void count_clean(const BlockTests& tests, const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
-  void examine_probation(const BlockEvidence& evidence, const BlockView& view) noexcept;
-  void rescan() noexcept;
+  void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
+  void rescan(const BlockTests& tests) noexcept;
 
   // recalibrating.cpp: the shadow fit
   bool may_recalibrate() const noexcept;
+  void drop_request() noexcept;
   bool expected(HealthEvent event) const noexcept;
   EventMask advance_recalibration(double time_s) noexcept;
   SensorSet serve_fit(Action::Bits actions) noexcept;
@@ -208,6 +224,7 @@ class HealthMonitor {
   SensorArray array_;
   GravityReference gravity_;
   Mat3 frame_{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::array<double, kCapacity> resolution_mps2_{};
   TestLimits limits_;
   double restless_factor_ = 0.0;
   double mae_quantile_ = 0.0;
@@ -254,7 +271,7 @@ class HealthMonitor {
   std::array<std::uint8_t, kCapacity> noisy_run_{};  ///< quiet blocks in a row for certain
   std::array<double, kCapacity> stuck_since_{};      ///< what the others predicted when the reading stopped changing
   SensorSet noisy_, stuck_, full_scale_;             ///< the others insist on it
-  SensorSet noise_confirmed_, calm_, stuck_watch_, aside_;
+  SensorSet calm_, stuck_watch_, aside_;
   MonitorCounters counters_;
 
   // What the host said.
@@ -268,6 +285,7 @@ class HealthMonitor {
   ScatterRecord scatter_;
   ReferenceStudy reference_study_;
   Trend trend_;
+  TemperatureRate temperature_rate_;
   ChannelMonitor gate_;
   BlockAccumulator block_;
   RawBlock raw_;  ///< the same samples before the sensor model
@@ -288,10 +306,10 @@ class HealthMonitor {
     using M = HealthMonitor;
     return field_list(
         // configured
-        not_stored(&M::config_), &M::model_, &M::array_, &M::gravity_, not_stored(&M::frame_), not_stored(&M::limits_),
-        not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
-        not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::configured_),
-        not_stored(&M::identity_),
+        not_stored(&M::config_), &M::model_, &M::array_, &M::gravity_, not_stored(&M::frame_),
+        not_stored(&M::resolution_mps2_), not_stored(&M::limits_), not_stored(&M::restless_factor_),
+        not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_), not_stored(&M::protection_faults_),
+        within(&M::asserted_left_, -1, 3), not_stored(&M::configured_), not_stored(&M::identity_),
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
         &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::banned_, &M::unproven_,
@@ -303,15 +321,15 @@ class HealthMonitor {
         up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
         &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_,
         within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
-        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::noise_confirmed_, &M::calm_,
-        &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
-        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
+        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_, not_stored(&M::lever_arms_known_),
+        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
         up_to(&M::told_reference_, ReferenceKind::common_bias),
         up_to(&M::reference_notice_, ReferenceKind::common_bias),
         // evidence
-        &M::scatter_, &M::reference_study_, &M::trend_, &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_,
-        &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_, &M::scan_, &M::clipped_,
-        &M::not_finite_, &M::recalibration_, &M::verdict_);
+        &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
+        &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_,
+        &M::scan_, &M::clipped_, &M::not_finite_, &M::recalibration_, &M::verdict_);
   }
 };
 

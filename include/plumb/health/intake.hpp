@@ -48,8 +48,8 @@ class SampleClock {
   }
 };
 
-/// Readings of the usable channels [m/s^2], clamped; a channel whose reading is not finite is taken out of
-/// `gate.usable`. `temperature_degc` stands in where the sample has none.
+/// Readings of the usable channels [m/s^2] by a model in the common-frame form, clamped; a channel whose reading is not
+/// finite is taken out of `gate.usable`. `temperature_degc` stands in where the sample has none.
 Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
                      GateResult& gate) noexcept;
 

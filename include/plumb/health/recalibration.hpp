@@ -2,6 +2,7 @@
 /// the calibration in force; axes and temperature coefficients are held. Axes stay those of the commissioning
 /// calibration because gravity cannot tell a common turn of the axes from none: a fit that is free to turn them
 /// launders a shifted mount, one with frozen axes shows it in the parity residual (design, section 5).
+/// A calibration that the host brings goes the same way, with its biases and scales in the place of the fitted ones.
 #pragma once
 
 #include <array>
@@ -40,6 +41,12 @@ class Recalibration {
   static constexpr double kSigmasPerHour = 1.0;
   static constexpr double kLeastHours = 0.25;
   static constexpr int kHeldOutNeeded = 2;
+  /// A calibration that was offered is tried at so many stations, all of them visited after the offer: nobody can have
+  /// made it from them. The axes must be those in force but for so much: five sigmas of the commissioning calibration,
+  /// or this where that claims to be better.
+  static constexpr int kOfferStations = 8;
+  static constexpr double kOfferAxis_rad = 2e-4;
+  static constexpr double kOfferLife_s = 24.0 * 3600.0;  ///< on trial no longer than that
 
   /// Remembers the commissioning calibration. Empties everything.
   void configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad) noexcept;
@@ -50,6 +57,18 @@ class Recalibration {
   void drop_last() noexcept { store_.drop_last(); }
   void forget() noexcept;  ///< every station, and the fit over them
   const StationStore& store() const noexcept { return store_; }
+
+  // ---- What the host offers
+  /// Not while a fit is made. Takes biases and scales of `sensors` from another calibration, for the next `start` to
+  /// try in place of a fit. Axes and temperature coefficients stay those in force, at whose reference temperatures it
+  /// is read. Errors: not_calibrated (its size, or misalignment terms in the model); implausible (index = sensor,
+  /// value, limit): an axis further off than `kOfferAxis_rad` says [rad], a bias or a scale beyond the bounds of a fit
+  /// [drift sigmas], a sigma of either that is not above zero or beyond the drift sigma [drift sigmas].
+  Expected<void> offer(const InForce& in_force, const SensorModel& model, const SensorArray& array, SensorSet sensors,
+                       double time_s) noexcept;
+  /// An offer that has not been started lapses; `last_refusal` is then wrong_state.
+  void withdraw_offer() noexcept;
+  bool offered() const noexcept { return offered_sensors_ > 0; }  ///< waiting or on trial
 
   // ---- The fit
   void start(SensorSet sensors) noexcept;
@@ -80,6 +99,7 @@ class Recalibration {
     double noise_mps2_sq = 0.0, total_mps2_sq = 0.0;
   };
   using Stations = std::array<Station, StationStore::kMax>;
+  static constexpr int kOfferSize = kCapacity * (2 * kCapacity + 1);
 
   int fit_stations(Stations& out) const noexcept;
   ReadingError reading_error(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
@@ -87,6 +107,15 @@ class Recalibration {
   bool uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
                           SensorSet& lacking) const noexcept;
   bool ready(const InForce& in_force) noexcept;
+  bool is_proof(int station) const noexcept { return offered() || StationStore::held_out(station); }
+  int stations_due() const noexcept { return offered() ? kOfferStations : stations_needed(sensors_.size()); }
+  Outcome examine_offer(const InForce& in_force, double time_s) noexcept;
+  Error read_offer(const InForce& in_force, const SensorModel& model, const SensorArray& array, int i) noexcept;
+  void keep_offered_covariance(const SensorArray& array) noexcept;
+  double offered_variance(int parameter) const noexcept;
+  void uncertainty_of_offer(const SensorArray& array, RowUncertainty& out) const noexcept;
+  bool uncertainty_after(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out) const noexcept;
+  bool offer_is_plausible(const InForce& in_force) const noexcept;
   Outcome judge(const InForce& in_force, double time_s) noexcept;
   Error read_fit(const InForce& in_force) noexcept;
   Error check_bounds(const SensorModel& model, double time_s) const noexcept;
@@ -109,17 +138,22 @@ class Recalibration {
   SensorSet sensors_, lacking_;
   std::uint32_t iterations_ = 0;
   Error refusal_;
+  int offered_sensors_ = 0;  ///< of the array whose calibration was offered; 0 = none was, `length_` is a fit's
+  double offered_s_ = 0.0;
+  std::array<double, kOfferSize> offered_covariance_{};  ///< of scale and bias per sensor, lower triangle by rows
   Calibrator calibrator_{Datasheet{}, GravityReference{}, FitOptions{}};
 
   friend struct FieldsOf;
   bool fitting() const noexcept { return phase_ == RecalibrationPhase::fitting; }
+  int offer_size() const noexcept { return offered_sensors_ * (2 * offered_sensors_ + 1); }
   static constexpr auto fields() noexcept {
     using R = Recalibration;
     return field_list(&R::store_, not_stored(&R::drift_), not_stored(&R::commissioned_scale_),
                       not_stored(&R::commissioned_bias_mps2_), per_sensor(any(&R::length_)),
                       per_sensor(any(&R::shift_mps2_)), any(&R::inflation_), &R::adopted_s_, &R::adopted_, &R::untried_,
                       up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_, &R::iterations_,
-                      &R::refusal_, only_when(&R::calibrator_, &R::fitting));
+                      &R::refusal_, within(&R::offered_sensors_, 0, kCapacity), any(&R::offered_s_),
+                      counted(any(&R::offered_covariance_), &R::offer_size), only_when(&R::calibrator_, &R::fitting));
   }
 };
 

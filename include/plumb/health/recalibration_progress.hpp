@@ -15,6 +15,7 @@ const char* to_string(RecalibrationPhase phase) noexcept;
 
 struct RecalibrationProgress {
   RecalibrationPhase phase = RecalibrationPhase::idle;
+  bool offered = false;     ///< the host's calibration is on trial: no fit is made, every station is a proof
   int stations = 0;         ///< entered and used by the fit
   int held_out = 0;         ///< entered and kept for the proof
   int stations_wanted = 0;  ///< still missing, of either kind; 0 unless collecting
@@ -24,7 +25,7 @@ struct RecalibrationProgress {
 
   static constexpr auto fields() noexcept {
     using P = RecalibrationProgress;
-    return field_list(up_to(&P::phase, RecalibrationPhase::accepted), within(&P::stations, 0, 1000),
+    return field_list(up_to(&P::phase, RecalibrationPhase::accepted), &P::offered, within(&P::stations, 0, 1000),
                       within(&P::held_out, 0, 1000), within(&P::stations_wanted, 0, 1000), &P::lacking,
                       &P::wanted_direction, &P::last_refusal);
   }

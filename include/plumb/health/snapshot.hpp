@@ -5,7 +5,7 @@
 ///        8     2  format: which fields in which order; grows with every change of `fields()` or of its meaning
 ///       10     2  capacity of the build
 ///       12     4  version of plumb that wrote it; told, not judged
-///       16     8  identity: CRC-64 of configuration, axes, noise, calibration, full scales, output frame, lever arms
+///       16     8  identity: CRC-64 of configuration, axes, noise, calibration, ranges, codes, frame, lever arms
 ///       24     4  bytes of the whole snapshot
 ///       28     .  the fields of `HealthMonitor`, doubles as IEEE 754
 ///        .     8  CRC-64/XZ of all before it
@@ -20,7 +20,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-inline constexpr std::uint16_t kSnapshotFormat = 1;
+inline constexpr std::uint16_t kSnapshotFormat = 2;
 inline constexpr std::size_t kSnapshotHeaderSize = 28;
 inline constexpr std::size_t kSnapshotFrameSize = kSnapshotHeaderSize + 8;
 

@@ -7,6 +7,7 @@
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/vec3.hpp"
 #include "plumb/detection/isolation.hpp"
+#include "plumb/detection/triple_set.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/recalibration_progress.hpp"
 #include "plumb/health/reference_study.hpp"
@@ -50,7 +51,7 @@ struct Usable {
   static constexpr std::uint16_t protection_level = 8;  ///< available
   static constexpr std::uint16_t monitored = 16;        ///< the sensors in service check one another
   static constexpr std::uint16_t stationary = 32;
-  static constexpr std::uint16_t temperature = 64;   ///< within the calibrated span and its margin
+  static constexpr std::uint16_t temperature = 64;   ///< within the calibrated span and its margin, and not in a hurry
   static constexpr std::uint16_t calibration = 128;  ///< accepted, and not one that none could check
   static constexpr std::uint16_t reference = 256;    ///< the length of gravity is not in doubt
 };
@@ -93,6 +94,8 @@ struct Verdict {
   double mae_all_mps2 = 0.0;    ///< of the sensors in service
   double mae_worst_mps2 = 0.0;  ///< largest over the voting triples in service
   double mae_worst_limit_mps2 = 0.0;
+  TripleSet triples_tested,
+      triples_passed;   ///< of the last block: in service, well-conditioned, window full; within limit
   double parity = 0.0;  ///< whitened parity residual of the last block
   double parity_limit = 0.0;
   double norm_error_mps2 = 0.0;                             ///< |x| - G of the last block
@@ -100,8 +103,9 @@ struct Verdict {
   ReferenceFinding reference;  ///< what the length being off means; bias in the output frame
   /// Slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0 = none told.
   std::array<float, kCapacity> drift_mps2_per_h{};
-  double temperature_degc = 0.0;  ///< last finite one
-  int block_fill = 0;             ///< samples of the block that is being collected
+  double temperature_degc = 0.0;               ///< last finite one
+  double temperature_rate_degc_per_min = 0.0;  ///< over the last half to whole minute; 0 = not known yet
+  int block_fill = 0;                          ///< samples of the block that is being collected
 
   // Which way is down.
   Vec3 gravity_mps2{};  ///< last quiet block, sensors in service, positive down, output frame
@@ -117,6 +121,9 @@ struct Verdict {
   bool alert = true;                     ///< protection level beyond the alert limit, or none available where valid
 
   Errc snapshot_refusal = Errc::ok;  ///< why the monitor runs without the history that was offered to it
+  /// Of what the monitor was configured with (`SnapshotHeader::identity`): equal setups, gravity apart, have equal
+  /// ones.
+  std::uint64_t config_hash = 0;
 
   static constexpr auto fields() noexcept {
     using V = Verdict;
@@ -129,11 +136,12 @@ struct Verdict {
         up_to(&V::grade, Grade::asserted), within(&V::strict_grade, 0, kCapacity),
         within(&V::parity_grade, 0, kCapacity), within(&V::live_hypotheses, 0, kVotingCapacity),
         within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
-        &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::parity, &V::parity_limit,
-        &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference, any(&V::drift_mps2_per_h),
-        &V::temperature_degc, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance, &V::age_s,
-        &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable, &V::protection_available,
-        &V::alert, up_to(&V::snapshot_refusal, kLastErrc));
+        &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::triples_tested, &V::triples_passed,
+        &V::parity, &V::parity_limit, &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference,
+        any(&V::drift_mps2_per_h), &V::temperature_degc, &V::temperature_rate_degc_per_min,
+        within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance, &V::age_s, &V::latest_mps2,
+        &V::protection_level_rad, &V::toolface_protection_rad, &V::usable, &V::protection_available, &V::alert,
+        up_to(&V::snapshot_refusal, kLastErrc), not_stored(&V::config_hash));
   }
 };
 

@@ -40,6 +40,7 @@ struct InputSpec {
   std::string count_column;        ///< empty: every row stands for one sample
   std::string temperature_column;  ///< empty: every row gets `default_temperature_degc`
   double default_temperature_degc = 25.0;
+  std::vector<std::string> rotation_columns;  ///< x, y, z of the rate of turn [rad/s], tool frame; empty: not logged
   std::vector<ColumnFilter> where;
   RawUnit unit;
   std::vector<std::string> sensor_columns;  ///< one per sensor, in the order of the array
@@ -55,6 +56,7 @@ struct ArrayFile {
   GravityReference gravity;
   MonitorConfig monitor;
   InputSpec input;
+  std::vector<Vec3> lever_arm_m;   ///< of each sensor from the axis of rotation, tool frame; empty: not known
   Mat3 output_frame = kIdentity3;  ///< rows; applied to vectors at output only
   std::uint64_t fingerprint = 0;   ///< binds a calibration to this array, see fingerprint_of
   std::string text;                ///< the file as read

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plumb/core/sample.hpp"
+#include "plumb/health/rotation.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/file_error.hpp"
 
@@ -41,7 +42,10 @@ struct LogStatistics {
   std::uint64_t temperature_held = 0;                 ///< rows without a temperature, which got the one before
   std::array<std::uint64_t, kCapacity> missing{};     ///< empty cells per sensor
   std::array<std::uint64_t, kCapacity> not_finite{};  ///< nan or inf per sensor
-  std::vector<FileError> bad_rows;                    ///< the first kBadRowsKept of them
+  /// First number of each sensor's column, and which sensors have had another one since.
+  std::array<double, kCapacity> first_value{};
+  SensorSet varied;
+  std::vector<FileError> bad_rows;  ///< the first kBadRowsKept of them
   double first_time_s = 0.0;
   double last_time_s = 0.0;
   std::uint64_t bytes = 0;  ///< read so far
@@ -64,6 +68,9 @@ class LogReader {
   /// The next sample; `end` at the end of the input, `error` at a bad row under BadRowPolicy::stop, when
   /// reading fails, or at the end of a log without a single usable row.
   Next next(Sample& sample);
+  /// How the tool turned at the sample delivered last, where the log says so (InputSpec::rotation_columns): an empty
+  /// cell, nan or inf means that it turns at a rate that is not known.
+  const Rotation& rotation() const noexcept;
   const FileError& error() const noexcept;
   const LogStatistics& statistics() const noexcept;
   /// Line of the sample delivered last.

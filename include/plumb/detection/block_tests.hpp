@@ -1,0 +1,49 @@
+/// The tests of one block: whichever part of the monitor asks for a set of sensors, it is tested once.
+#pragma once
+
+#include <array>
+
+#include "plumb/detection/set_test.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Refers to what it is made of: it lives within one step, on the stack, and must not outlive any of the four.
+class BlockTests {
+ public:
+  BlockTests(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
+             const BlockEvidence& block) noexcept
+      : array_(array), gravity_(gravity), limits_(limits), block_(block) {}
+
+  const SensorArray& array() const noexcept { return array_; }
+  const GravityReference& gravity() const noexcept { return gravity_; }
+  const TestLimits& limits() const noexcept { return limits_; }
+  const BlockEvidence& block() const noexcept { return block_; }
+
+  /// `test_set` of the set at the block.
+  SetTest of(SensorSet set) const noexcept;
+
+  /// True where `set`, which passes parity, may speak about gravity: the parity of the others checks every member
+  /// (leverage of at least 0.05), or the others do not deny it: the length is off without that member too, or may be,
+  /// both by the rejection limit. Otherwise a member that nobody checks may be at fault: mikoff5's z axes, four of them
+  /// with three coplanar, pass parity whatever the fourth reads. `test` is that of the set.
+  bool vouches_for_norm(SensorSet set, const SetTest& test) const noexcept;
+
+ private:
+  /// Enough for the whole set and every set without one sensor, each mostly in a place of its own.
+  static constexpr unsigned kPlacesLog2 = kCapacity <= 4 ? 3 : kCapacity <= 8 ? 4 : 5;
+  struct Place {
+    SensorSet set;
+    SetTest test;
+  };
+
+  const SensorArray& array_;
+  const GravityReference& gravity_;
+  const TestLimits& limits_;
+  const BlockEvidence& block_;
+  /// What was asked before; a later set may take the place of an earlier one.
+  mutable std::array<Place, std::size_t{1} << kPlacesLog2> known_{};
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

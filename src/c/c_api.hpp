@@ -1,0 +1,58 @@
+/// What the C functions share: errors as they cross the border, the workspace, the two conversions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "plumb/c/plumb.h"
+#include "plumb/health/health_monitor.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace c_api {
+
+using std::size_t;
+
+/// Setting up needs more room than running, and only once.
+struct Workspace {
+  MonitorSetup setup;
+  RowUncertainty uncertainty;
+  std::array<SensorRow, kCapacity> rows{};
+};
+
+inline plumb_error answer(std::int32_t code, std::int32_t index = -1, double value = 0.0, double limit = 0.0) noexcept {
+  return {code, index, value, limit};
+}
+inline plumb_error answer(const Error& e) noexcept {
+  return answer(static_cast<std::int32_t>(e.code), e.index, e.value, e.limit);
+}
+inline plumb_error answer(const Expected<void>& result) noexcept {
+  return result ? answer(PLUMB_OK) : answer(result.error());
+}
+inline plumb_error missing(int argument) noexcept { return answer(PLUMB_NULL_POINTER, argument); }
+
+/// A pointer to a struct of this header, or what is wrong with it.
+template <class T>
+plumb_error check_struct(const T* given, int argument) noexcept {
+  if (given == nullptr) return missing(argument);
+  if (given->struct_size == sizeof(T)) return answer(PLUMB_OK);
+  return answer(PLUMB_WRONG_STRUCT, argument, static_cast<double>(given->struct_size), sizeof(T));
+}
+
+/// From the caller's configuration to a setup in the workspace. Errors: those of `SensorArray::make`, and of the
+/// header.
+plumb_error prepare(const plumb_config* given, Workspace& work) noexcept;
+
+/// Copies a verdict out. Errors: null pointer, wrong struct, with `argument`.
+plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept;
+
+}  // namespace c_api
+}  // namespace PLUMB_ABI
+}  // namespace plumb
+
+/// What stands in the storage of the caller.
+struct plumb_monitor {
+  std::uint64_t alive = 0;
+  plumb::HealthMonitor monitor;
+};

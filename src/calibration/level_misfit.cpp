@@ -1,0 +1,94 @@
+/// A sensor that bends over temperature as no polynomial of the fit does: the mean of its residuals at one temperature
+/// level.
+#include <cmath>
+
+#include "fit_report.hpp"
+#include "plumb/calibration/temperature_fit.hpp"
+#include "plumb/numeric/tails.hpp"
+#include "station_solver.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace fit {
+namespace {
+
+/// By chance alone some mean of some sensor at some level is named in so many fits.
+constexpr double kChance = 1e-4;
+/// Stations beyond one a level that tell how much a sensor scatters within its levels.
+constexpr double kScatterFreedom = 10.0;
+/// A row below this part of its weight has no residual of its own.
+constexpr double kOwnResidual = 1e-6;
+
+/// By chi^2: what explains worse by this much, at odds of 1000 to 1, is no explanation beside the best.
+constexpr double kSeparable = 13.8;
+
+struct Means {
+  std::array<double, kCapacity> pull{}, weight{}, square{};
+  std::array<int, kCapacity> stations{};
+};
+
+/// Sums over the stations of one level. The residual of a reading is (M e)_k / M_kk with weight M_kk, M the projector
+/// across the fitted direction.
+Means means_of(Screening& screening, const Problem& problem, StationSolver& solver, double lowest_degc) noexcept {
+  Means out;
+  for (int s = 0; s < problem.count; ++s) {
+    const Station& station = problem.stations[s];
+    if (!(station.temperature_degc >= lowest_degc && station.temperature_degc < lowest_degc + kLevelsApart_degc)) {
+      continue;
+    }
+    if (screening.out(station) || solver.solve(station) != Loaded::used) continue;
+    for (int k = 0; k < solver.rows; ++k) {
+      const double weight = solver.projector(k, k), pull = solver.projected(k);
+      if (!(weight > kOwnResidual * solver.weight[at(k)])) continue;
+      const std::size_t i = at(solver.sensor[at(k)]);
+      out.pull[i] += pull;
+      out.weight[i] += weight;
+      out.square[i] += pull * pull / weight;
+      ++out.stations[i];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+LevelMisfit level_misfit(const Problem& problem, const Parameters& theta) noexcept {
+  LevelMisfit out;
+  const TemperatureLevels levels = temperature_levels(problem.stations, problem.count);
+  if (levels.count < 2) return out;
+  const int n = problem.datasheet.size;
+  Screening screening(problem);
+  StationSolver solver(problem, theta, 0.0);
+  std::array<LevelMisfit, kCapacity> most{};
+  std::array<double, kCapacity> scatter{}, freedom{};
+  for (int level = 0; level < levels.count; ++level) {
+    const Means m = means_of(screening, problem, solver, levels.begin_degc[at(level)]);
+    for (int i = 0; i < n; ++i) {
+      if (m.stations[at(i)] < 2) continue;
+      const double mean = m.pull[at(i)] / m.weight[at(i)], sigma = 1.0 / std::sqrt(m.weight[at(i)]);
+      scatter[at(i)] += m.square[at(i)] - mean * m.pull[at(i)];
+      freedom[at(i)] += m.stations[at(i)] - 1.0;
+      if (!(std::fabs(mean) > most[at(i)].sigmas() * sigma)) continue;
+      most[at(i)] = {i, levels.degc[at(level)], mean, sigma, {}};
+    }
+  }
+  // A fit bends towards its stations, so that a mean scatters by less than its sigma, never more: the bound holds.
+  const double chance = kChance / (n * levels.count);
+  for (int i = 0; i < n; ++i) {
+    if (freedom[at(i)] < kScatterFreedom) continue;
+    // A sensor that is unruly within its levels too has means that are. The misfit of the fit does not say it: a bend
+    // is part of that.
+    most[at(i)].sigma_mps2 *= std::sqrt(std::fmax(scatter[at(i)] / freedom[at(i)], 1.0));
+    const double z = most[at(i)].sigmas();
+    if (z > out.sigmas() && chi2_tail(z * z, 1) < chance) out = most[at(i)];
+  }
+  for (int i = 0; i < n && out.sensor >= 0; ++i) {
+    const double z = most[at(i)].sigmas(), best = out.sigmas();
+    if (z * z > best * best - kSeparable) out.suspects = out.suspects.with(i);
+  }
+  return out;
+}
+
+}  // namespace fit
+}  // namespace PLUMB_ABI
+}  // namespace plumb

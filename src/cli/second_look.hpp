@@ -1,0 +1,41 @@
+/// A refused fit tried again with one mistake of the array file mended at a time: columns exchanged, a sign reversed, a
+/// roll group left out, another roll axis. What then settles is named.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plumb/calibration/temperature_fit.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+struct SecondLook {
+  /// Sensors that have each other's columns; both the same where it is the sign. The best fit first; to gravity some of
+  /// these mistakes are the same.
+  std::vector<std::pair<int, int>> exchanged;
+  std::vector<std::int64_t> groups;  ///< roll groups, as in the log, without any one of which it settles
+  std::optional<Vec3> roll_axis;     ///< about which it settles
+  bool without_groups = false;       ///< settles only with all roll groups left out
+
+  bool found() const { return !exchanged.empty() || !groups.empty() || roll_axis || without_groups; }
+};
+
+/// All signs and all exchanges of two columns: n (n + 1) / 2 fits; and, where there are roll groups, at most
+/// kMaxRollGroups + 4.
+SecondLook second_look(const io::ArrayFile& array, const std::vector<Station>& stations,
+                       const TemperatureOptions& options);
+
+/// "; with the columns of a1 and a4 exchanged it would", to follow the reason.
+std::string second_look_words(const SecondLook& look, const io::ArrayFile& array);
+/// What to do about it.
+std::string second_look_remedy(const SecondLook& look, const io::ArrayFile& array);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb
