@@ -298,5 +298,11 @@ inline choose() {
        :: skip
        fi
   fi;
-  raised = raised | (pending << CONTRADICTION)
+  raised = raised | (pending << CONTRADICTION);
+#ifndef OLD_PATIENCE  /* patience does not lead past what speaks against the tool; without this S17 falls */
+  if :: mode == RECALIBRATING && (raised & (BIT(CONTRADICTION) | BIT(ALARM) | BIT(REFERENCE))) ->
+       raised = raised & ~BIT(PATIENCE_OVER)
+     :: else
+  fi
+#endif
 }

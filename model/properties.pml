@@ -74,9 +74,7 @@ inline judge() {
   assert(!DOUBTED || !VALID);
   assert(!(kind == NO_EVIDENCE) || !VALID);
   assert(!unproven || !SHOWS_OUTPUT);
-#ifndef KNOWN_PATIENCE  /* see README.md, what the model has found */
   assert(!(kind == ALARMING || kind == OFF_GRAVITY) || event == CULPRIT || !VALID || event <= CHANNEL_BACK);
-#endif
   /* S19 */
   assert(calibrated || mode == INITIAL || mode == FAILED);
   /* S20: adopted means suspect and unproven, and out of suspect only what has been clean for long enough */
@@ -84,9 +82,7 @@ inline judge() {
   assert(!(m0_ == SUSPECT && PUBLISHES(mode)) || event == CULPRIT ||
          (event == CLEAN_BLOCK && run0_ >= R_BLOCKS && !unproven0_));
   assert(event != RESET || mode == FAILED || (unproven && !PUBLISHES(mode)));
-#ifndef KNOWN_RESET  /* likewise */
   assert(event != RESET || m0_ != FAILED || mode == FAILED || clean_run == 0);
-#endif
   if :: does & (START_FIT | DISCARD_FIT | RESTART_FIT | ADOPT_FIT) || (mode != RECALIBRATING && mode != INITIAL) -> alarmed = 0
      :: else fi
 }

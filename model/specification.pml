@@ -328,7 +328,11 @@ inline machine() {
   if :: does & START_FIT -> base = was_ :: else fi;
   if :: does & DISTRUST -> unproven = 1 :: else fi;
   if :: does & (EXCLUDE | RETURN_NAMED | ADOPT_FIT) -> exhausted = 0 :: does & EXHAUST -> exhausted = 1 :: else fi;
+#ifdef OLD_RESET  /* a reset that brings nobody back kept the clean run: S20 falls */
   if :: serving != in_was_ || (does & ADOPT_FIT) -> clean_run = 0 :: else fi;
+#else
+  if :: serving != in_was_ || (does & (ADOPT_FIT | RETURN_NAMED)) -> clean_run = 0 :: else fi;
+#endif
   if :: does & ADOPT_FIT -> calibrated = 1 :: else fi;
   lead()
 }

@@ -385,6 +385,7 @@ class Search {
     s.in.clean_blocks = static_cast<unsigned char>(limits_.clean_blocks);
     s.in.sensors = static_cast<unsigned char>(n_);
     constexpr unsigned kKept = 1U << contradiction | 1U << alarm | 1U << reference;
+    if (before.mode == recalibrating && (s.in.raised & kKept) != 0) s.in.raised &= ~bit(patience_over);
     if ((s.in.raised & kKept) != 0) w.alarmed = collects(w) ? 1 : 0;
     const plumb_model_answer answer = plumb_model_step(&w.machine, &s.in);
     const int event = answer.event;
