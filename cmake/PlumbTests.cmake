@@ -1,5 +1,5 @@
 # Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels: core, host, compile,
-# proof, trace.
+# model, proof, trace.
 
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
@@ -55,6 +55,18 @@ if(PLUMB_BUILD_HOST)
     add_dependencies(plumb_host_tests plumb_tool)
     target_compile_definitions(plumb_host_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
   endif()
+endif()
+
+# The model's states counted without the model checker, and its table against the tool's.
+add_library(plumb_model_shim STATIC EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/model/shim.cpp")
+plumb_compile_settings(plumb_model_shim)
+target_include_directories(plumb_model_shim PUBLIC "${PROJECT_SOURCE_DIR}/model")
+target_link_libraries(plumb_model_shim PUBLIC plumb_8)
+if(PLUMB_BUILD_HOST AND TARGET plumb_tool)
+  plumb_test_executable(plumb_model_tests LABEL model ROOMS model LIBRARIES plumb_model_shim)
+  add_dependencies(plumb_model_tests plumb_tool)
+  target_compile_definitions(plumb_model_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
+  target_link_libraries(plumb_model_tests PRIVATE nlohmann_json::nlohmann_json)
 endif()
 
 include(PlumbCompileChecks)
