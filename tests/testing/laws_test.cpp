@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <fstream>
+#include <set>
+#include <string>
+
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/testing/monitor_laws.hpp"
 
@@ -51,6 +55,28 @@ TEST(MonitorLaws, AMonitorThatWaitsTooLongIsFound) {
   EXPECT_TRUE(result.applies) << result.reason;
   EXPECT_FALSE(result.holds);
   EXPECT_NE(result.reason.find("faulty: a1, a2, a3, a4"), std::string::npos) << result.reason;
+}
+
+/// The page that teaches it quotes the example line by line.
+TEST(PropertyTestingPage, QuotesTheExample) {
+  const std::string root = PLUMB_SOURCE_DIR;
+  std::set<std::string> example;
+  std::string line;
+  std::ifstream source(root + "/examples/property_test/cone_test.cpp");
+  while (std::getline(source, line)) example.insert(line);
+  std::ifstream page(root + "/docs/property-testing.md");
+  bool code = false;
+  int quoted = 0;
+  while (std::getline(page, line)) {
+    if (line.rfind("```", 0) == 0) {
+      code = line == "```cpp";
+      continue;
+    }
+    if (!code) continue;
+    ++quoted;
+    EXPECT_EQ(example.count(line), 1U) << line;
+  }
+  EXPECT_GT(quoted, 20);
 }
 
 RC_GTEST_PROP(TestingLaw, TheTomlOfACaseReplaysItBitForBit, ()) {

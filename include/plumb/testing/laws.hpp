@@ -20,9 +20,9 @@ struct LawResult {
 /// No sensor that was healthy throughout is latched out by at most m_strict faults, or set aside by at most the parity
 /// grade (design, S1).
 LawResult never_blames_the_innocent(const Case& c);
-/// Constant and held faults, at most n - 3 of them, are out at the end, and nobody else is. Applies where every three
-/// axes are independent and every triple that holds a faulty sensor misses the length of gravity by far at one of the
-/// stations, six stations before the end.
+/// Constant and held faults, at most n - 3 of them, are out at the end, and nobody else is. Other faults of the case
+/// and its systematic errors are left out. Applies where every three axes are independent and every triple that holds a
+/// faulty sensor misses the length of gravity by far at one of the stations, six stations before the end.
 LawResult isolates_what_can_be_told(const Case& c);
 /// One fault whose parity is far above the limit at its first station is not plainly valid from there on.
 LawResult detects_above_the_threshold(const Case& c);
