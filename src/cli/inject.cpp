@@ -64,11 +64,13 @@ io::FileExpected<io::LogStatistics> copy(const Options& options, const io::Array
   if (!writer) return tl::unexpected<io::FileError>(writer.error());
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
-  const auto deliver = [&delivery, &writer]() -> io::FileExpected<void> {
+  std::uint64_t rows = 0;
+  const auto deliver = [&delivery, &writer, &rows]() -> io::FileExpected<void> {
     scenario::Delivery::Parcel parcel;
     while (delivery.pop(parcel)) {
       const io::FileExpected<void> written = writer->write(parcel.sample);
       if (!written) return written;
+      ++rows;
     }
     return {};
   };
@@ -84,7 +86,9 @@ io::FileExpected<io::LogStatistics> copy(const Options& options, const io::Array
   const io::FileExpected<void> kept = writer->commit();
   if (!kept) return tl::unexpected<io::FileError>(kept.error());
   if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
-  return reader->statistics();
+  io::LogStatistics done = reader->statistics();
+  done.rows = rows;  // some were lost or doubled on their way
+  return done;
 }
 
 io::ExitCode run(const Options& options) {
