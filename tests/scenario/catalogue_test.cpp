@@ -106,8 +106,8 @@ TEST_P(CatalogueCourse, EndsAsExpected) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CatalogueCourse, testing::Range(0, 29), [](const auto& info) {
-  return std::string(catalogue()[static_cast<std::size_t>(info.param)].id);
+INSTANTIATE_TEST_SUITE_P(All, CatalogueCourse, testing::Range(0, 29), [](const auto& which) {
+  return std::string(catalogue()[static_cast<std::size_t>(which.param)].id);
 });
 
 TEST(Course, WithoutAFaultItStaysNominal) {
