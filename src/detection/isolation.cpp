@@ -258,7 +258,7 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
     if (size <= protect.faults && used.tested) {
       any_protected = true;
       const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
-      const double left = tilt_sigma_rad(t.x_mps2, calibration_covariance(array, t, rest));
+      const double left = calibration_tilt_sigma_rad(array, t, rest);
       const double spread = std::sqrt(noise * noise + left * left);
       const double shared = common_drift_turn_rad(array, rest, t, protect.common_drift_mps2);
       const double level = angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;

@@ -270,6 +270,28 @@ Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, Senso
   return cal;
 }
 
+double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {
+  const double length = norm(test.x_mps2);
+  if (!test.tested) return 0.0;
+  if (!(length > 0.0)) return kPi;
+  const AttitudeProducts attitude(test.x_mps2);
+  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
+  std::array<Vec3, kCapacity> across{};
+  double variance = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!set.has(i)) continue;
+    const Vec3 column = estimate_column(array, test, i);
+    Vec3& own = across[static_cast<size_t>(i)];
+    own = minus(column, scaled(u, dot(u, column)));
+    for (int j = 0; j < i; ++j) {
+      if (set.has(j))
+        variance += 2.0 * array.uncertainty().at(i, j, attitude) * dot(own, across[static_cast<size_t>(j)]);
+    }
+    variance += array.uncertainty().at(i, i, attitude) * dot(own, own);
+  }
+  return variance > 0.0 ? std::sqrt(variance) / length : 0.0;
+}
+
 double tilt_sigma_rad(const Vec3& x_mps2, const Mat3& covariance) noexcept {
   const double length = norm(x_mps2);
   if (!(length > 0.0)) return kPi;

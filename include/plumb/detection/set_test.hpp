@@ -75,6 +75,9 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
 /// set was not tested.
 Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept;
 
+/// 1-sigma of the direction of x that calibration leaves: `tilt_sigma_rad` of the above, without making it.
+double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test, SensorSet set) noexcept;
+
 /// What the reading of sensor i adds to x, for a member of the tested set: a column of the least-squares map.
 Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexcept;
 
