@@ -2,6 +2,7 @@
 #   find_package(plumb CONFIG)                  -> plumb::plumb (8 sensors), plumb::plumb_4, _8, _16, _24;
 #                                                  plumb::c (the C functions, 8 sensors), plumb::c_4, _8, _16, _24
 #   find_package(plumb CONFIG COMPONENTS host)  -> plumb::scenario, plumb::study, plumb::io, plumb::report as well
+#   find_package(plumb CONFIG COMPONENTS testing) -> plumb::testing, with RapidCheck and GoogleTest
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
@@ -24,6 +25,12 @@ foreach(name IN ITEMS scenario study io report)
 endforeach()
 if(PLUMB_INSTALLED_HOST)
   install(EXPORT plumbHostTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
+endif()
+
+if(TARGET plumb_testing)
+  install(TARGETS plumb_testing EXPORT plumbTestingTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(EXPORT plumbTestingTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
+  list(APPEND rooms testing)
 endif()
 
 foreach(room IN LISTS rooms)

@@ -93,6 +93,15 @@ if(io_sources)
   endif()
 endif()
 
+# What users test their own arrays with. The library itself needs neither RapidCheck nor GoogleTest: its headers do.
+plumb_sources(testing_sources testing)
+if(testing_sources)
+  add_library(plumb_testing STATIC ${testing_sources})
+  plumb_library(plumb_testing testing)
+  target_link_libraries(plumb_testing PUBLIC plumb_io plumb_scenario plumb_24
+    "$<INSTALL_INTERFACE:rapidcheck>" "$<INSTALL_INTERFACE:GTest::gtest>")
+endif()
+
 plumb_sources(report_sources report)
 if(report_sources)
   plumb_find_header(TARGET plumb_mustache HEADER kainjow/mustache.hpp DEBIAN libkainjow-mustache-dev)

@@ -1,5 +1,5 @@
 # Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels: core, host, compile,
-# proof, trace.
+# model, proof, trace.
 
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
@@ -49,12 +49,24 @@ plumb_test_executable(plumb_trace_tests LABEL trace ROOMS trace)  # requirements
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
-    ROOMS scenario study io report cli recordings docs
-    LIBRARIES plumb_report plumb_io plumb_study plumb_scenario plumb_24)
+    ROOMS scenario study io testing report cli recordings docs
+    LIBRARIES plumb_testing plumb_report plumb_io plumb_study plumb_scenario plumb_24)
   if(TARGET plumb_host_tests AND TARGET plumb_tool)
     add_dependencies(plumb_host_tests plumb_tool)
     target_compile_definitions(plumb_host_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
   endif()
+endif()
+
+# The model's states counted without the model checker, and its table against the tool's.
+add_library(plumb_model_shim STATIC EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/model/shim.cpp")
+plumb_compile_settings(plumb_model_shim)
+target_include_directories(plumb_model_shim PUBLIC "${PROJECT_SOURCE_DIR}/model")
+target_link_libraries(plumb_model_shim PUBLIC plumb_8)
+if(PLUMB_BUILD_HOST AND TARGET plumb_tool)
+  plumb_test_executable(plumb_model_tests LABEL model ROOMS model LIBRARIES plumb_model_shim)
+  add_dependencies(plumb_model_tests plumb_tool)
+  target_compile_definitions(plumb_model_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
+  target_link_libraries(plumb_model_tests PRIVATE nlohmann_json::nlohmann_json)
 endif()
 
 include(PlumbCompileChecks)
@@ -77,6 +89,16 @@ set_tests_properties(example.monitor_loop_c PROPERTIES LABELS core TIMEOUT 60
 add_test(NAME example.guide_quotes_it
   COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/guide.md | grep -Fxv -f examples/embed/monitor_loop.cpp"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+
+# A user's project against what would be installed.
+if(TARGET plumb_testing AND TARGET plumb_tool AND PLUMB_INSTALL)
+  add_test(NAME example.property_test
+    COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DSOURCE=${PROJECT_SOURCE_DIR}/examples/property_test"
+            "-DWORK=${PROJECT_BINARY_DIR}/property_test" "-DCXX=${CMAKE_CXX_COMPILER}" "-DFLAGS=${CMAKE_CXX_FLAGS}"
+            -P "${PROJECT_SOURCE_DIR}/cmake/RunConsumer.cmake")
+  set_tests_properties(example.property_test PROPERTIES LABELS host TIMEOUT 900
+    ENVIRONMENT "RC_PARAMS=seed=7 max_success=20")
+endif()
 
 # --- Proofs: each script exits with 77 where its tool is absent (scripts/assure installs them all). --------
 # plumb_proof(NAME SCRIPT argument...)

@@ -8,6 +8,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/scenario/delivery.hpp"
 #include "plumb/scenario/fault_text.hpp"
 #include "plumb/scenario/injector.hpp"
 #include "tool.hpp"
@@ -28,7 +29,7 @@ struct Options {
 
 constexpr const char* kAbout =
     "Put faults into a recorded log and write the log anew: what would the monitor have said, had this sensor\n"
-    "died at that moment? Rows and times stay as they are; only the named channels change.";
+    "died at that moment? Rows and times stay as they are but for faults of the whole log (`log:`).";
 constexpr const char* kNotes =
     "A fault is SENSOR:KIND[=SIZE]@ONSET[+DURATION]:\n"
     "  a2:stuck=0V@12s          stands at 0 V from t = 12 s on (also 3V, FS, -FS, 12count, 1g0)\n"
@@ -36,7 +37,13 @@ constexpr const char* kNotes =
     "  a1:random=-3V..3V@20s    a new random value every row; held= draws one value and keeps it\n"
     "  a2:bias=50mg0@30s+10s    reads 50 mg0 too much for ten seconds\n"
     "  a1:drift=1mg0/s@10s      the error grows; also per min, per h\n"
-    "  a4:scale=1.1@10s         scale factor times 1.1\n"
+    "  a4:scale=1.1@10s         scale factor times 1.1; scale=-1 is a reversed wire\n"
+    "  noise=5mg0, spikes=0.5g0*1%, chatter=50mg0*10s, warmup=2mg0*5min, clip=-1V..4V, coarse=16LSB, bit=12,\n"
+    "  pattern=nan, missing=30%, late=5, slow=10, exchange=a3, cross=a3*1%, turned=2deg, ghost=5deg, mirror=a1*a3\n"
+    "  log:shake=0.1g0@10s      the whole log: gravity=3mg0, temperature=20degC, drop=10%, repeat, swap, late=5,\n"
+    "                           back=2s\n"
+    "  a2:F04@12s               an entry of the fault catalogue (docs/fault-catalogue.md) by id or name, or one of\n"
+    "                           PX4's: off, garbage, wrong, slow, delayed, intermittent, and stuck without a size\n"
     "ONSET: a time on the log's own time axis (12s, 2min), a row (#5), a station (station6, needs station tags).\n\n"
     "Example (inject, then watch):\n"
     "  plumb inject --array tool.toml --log run.csv --fault \"a2:stuck=0V@12s\" --out - |\n"
@@ -49,7 +56,7 @@ io::FileError fault_error(std::string what) {
 
 /// Copies the log row by row through the injector.
 io::FileExpected<io::LogStatistics> copy(const Options& options, const io::ArrayFile& array,
-                                         scenario::Injector& injector) {
+                                         scenario::Injector& injector, scenario::Delivery& delivery) {
   io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
@@ -57,15 +64,31 @@ io::FileExpected<io::LogStatistics> copy(const Options& options, const io::Array
   if (!writer) return tl::unexpected<io::FileError>(writer.error());
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
+  std::uint64_t rows = 0;
+  const auto deliver = [&delivery, &writer, &rows]() -> io::FileExpected<void> {
+    scenario::Delivery::Parcel parcel;
+    while (delivery.pop(parcel)) {
+      const io::FileExpected<void> written = writer->write(parcel.sample);
+      if (!written) return written;
+      ++rows;
+    }
+    return {};
+  };
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     injector.apply(sample);
-    const io::FileExpected<void> written = writer->write(sample);
+    delivery.push(sample, injector.now());
+    const io::FileExpected<void> written = deliver();
     if (!written) return tl::unexpected<io::FileError>(written.error());
   }
+  delivery.finish();
+  const io::FileExpected<void> rest = deliver();
+  if (!rest) return tl::unexpected<io::FileError>(rest.error());
   const io::FileExpected<void> kept = writer->commit();
   if (!kept) return tl::unexpected<io::FileError>(kept.error());
   if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
-  return reader->statistics();
+  io::LogStatistics done = reader->statistics();
+  done.rows = rows;  // some were lost or doubled on their way
+  return done;
 }
 
 io::ExitCode run(const Options& options) {
@@ -77,15 +100,16 @@ io::ExitCode run(const Options& options) {
   const scenario::FaultContext context = io::fault_context(*array);
   std::vector<scenario::Fault> faults;
   for (const std::string& text : options.faults) {
-    const tl::expected<scenario::Fault, std::string> fault = scenario::parse_fault(text, context);
-    if (!fault) return report(fault_error(fault.error()));
-    faults.push_back(*fault);
+    const tl::expected<std::vector<scenario::Fault>, std::string> named = scenario::parse_faults(text, context);
+    if (!named) return report(fault_error(named.error()));
+    faults.insert(faults.end(), named->begin(), named->end());
   }
   tl::expected<scenario::Injector, std::string> injector =
       scenario::Injector::make(array->datasheet, array->datasheet.model(), faults, options.seed);
   if (!injector) return report(fault_error(injector.error()));
+  scenario::Delivery delivery(faults, options.seed);
   watch_interrupts();
-  const io::FileExpected<io::LogStatistics> done = copy(options, *array, *injector);
+  const io::FileExpected<io::LogStatistics> done = copy(options, *array, *injector, delivery);
   if (!done) return report(done.error());
   const bool to_pipe = options.out == "-";
   if (!to_pipe) {
@@ -96,7 +120,7 @@ io::ExitCode run(const Options& options) {
     print_error(fmt::format(
         "plumb: --fault \"{}\" changed nothing: the log (t = {:.3f} to {:.3f} s) has no such time or station, or the "
         "channel did not deliver.\n",
-        options.faults[static_cast<std::size_t>(k)], done->first_time_s, done->last_time_s));
+        scenario::to_text(faults[static_cast<std::size_t>(k)], context), done->first_time_s, done->last_time_s));
   }
   if (!interrupted()) return io::ExitCode::done;
   print_error(fmt::format("plumb: interrupted; the rows up to t = {:.3f} s are written.\n", done->last_time_s));

@@ -180,7 +180,8 @@ class Play {
     Progress progress("simulating " + file_.name);
     Sample sample;
     scenario::Moment now;
-    for (; !interrupted() && simulator_.next(sample); ++now.row) {
+    while (!interrupted() && simulator_.next(sample)) {
+      now.row = simulator_.row();
       const scenario::Truth& truth = simulator_.truth();
       now.time_s = last_time_s_ = sample.time_s;
       now.station = truth.station;

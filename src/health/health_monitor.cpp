@@ -199,7 +199,10 @@ void HealthMonitor::inhibit(bool frozen) noexcept {
 
 /// What the host's freeze leaves of the events: it holds back what moves sensors on evidence and what replaces the
 /// calibration. Both are levels or come again with the next block.
+/// Patience that ends recalibration leads back to where that began, but not past what speaks against the tool at the
+/// same time (S17; the model in model/ found it).
 EventMask HealthMonitor::allowed(EventMask raised) const noexcept {
+  if (mode_ == Mode::recalibrating && (raised & kKeptEvents) != 0) raised &= ~bit(HealthEvent::patience_over);
   constexpr EventMask kFrozen = bit(HealthEvent::culprit) | bit(HealthEvent::set_aside) |
                                 bit(HealthEvent::probation_passed) | bit(HealthEvent::recalibrate) |
                                 bit(HealthEvent::fit_accepted);

@@ -132,7 +132,9 @@ Mat3 read_frame(const TomlNode& root, const std::string& file) {
   return out;
 }
 
-ArrayFile parsed(const TomlNode& root, const std::string& text, const std::string& path) {
+}  // namespace
+
+ArrayFile array_of(const TomlNode& root, const std::string& text, const std::string& path) {
   const TomlTable top(root, path, "", known_sections());
   ArrayFile out;
   out.path = path;
@@ -147,6 +149,8 @@ ArrayFile parsed(const TomlNode& root, const std::string& text, const std::strin
   out.fingerprint = fingerprint_of(out.datasheet);
   return out;
 }
+
+namespace {
 
 std::uint64_t hashed(double value, std::uint64_t hash) noexcept {
   const double plain = value == 0.0 ? 0.0 : value;  // -0 and 0 are the same nominal value
@@ -193,7 +197,7 @@ FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::str
   try {
     const FileExpected<TomlNode> root = parse_toml(text, path);
     if (!root) return tl::unexpected<FileError>(root.error());
-    return parsed(*root, text, path);
+    return array_of(*root, text, path);
   } catch (const Refusal& refusal) {
     return tl::unexpected<FileError>(refusal.error());
   } catch (const std::exception& error) {

@@ -29,7 +29,8 @@ std::vector<std::string> keys_of(std::size_t law) {
       {"stations"},
       {"stations", "inclination", "toolface"},
       {"stations", "inclination", "azimuth", "toolface", "build", "turn", "toolface_step", "toolface_jitter"}};
-  std::vector<std::string> keys = {"law", "dwell", "motion", "vibration", "record_motion", "tag_stations"};
+  std::vector<std::string> keys = {"law",           "dwell",       "motion", "vibration", "rest_vibration",
+                                   "record_motion", "tag_stations"};
   keys.insert(keys.end(), own[law].begin(), own[law].end());
   return keys;
 }
@@ -148,6 +149,9 @@ void read_attitude(const ScenarioSource& source, scenario::Scenario& out) {
   out.vibration_mps2 =
       within(table, "vibration", table.quantity(Quantity::acceleration, "vibration", out.vibration_mps2), 0.0, 1e6,
              "give the rms per axis while moving, 0 or more, as in \"0.1 g0\"");
+  out.rest_vibration_mps2 =
+      within(table, "rest_vibration", table.quantity(Quantity::acceleration, "rest_vibration", out.rest_vibration_mps2),
+             0.0, 1e6, "give the rms per axis while at rest, 0 or more, as in \"1 mg0\"");
   out.record_motion = read_flag(table, "record_motion", out.record_motion);
   out.tag_stations = read_flag(table, "tag_stations", out.tag_stations);
 }

@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "array_parts.hpp"
 #include "plumb/io/output_file.hpp"
 #include "refusal.hpp"
 #include "scenario_parts.hpp"
@@ -14,9 +15,9 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_sections() {
-  static const std::vector<std::string> names = {"name",        "array", "tool",  "seed",         "gravity",
-                                                 "rate",        "start", "truth", "sensor_truth", "attitude",
-                                                 "temperature", "noise", "fault"};
+  static const std::vector<std::string> names = {"name",        "array", "tool",     "seed",         "gravity",
+                                                 "rate",        "start", "truth",    "sensor_truth", "attitude",
+                                                 "temperature", "noise", "rotation", "depth",        "fault"};
   return names;
 }
 
@@ -51,52 +52,19 @@ ArrayFile named_array(const TomlTable& top) {
   return *std::move(array);
 }
 
+/// [array]: what an array file would hold, in the scenario itself.
+ArrayFile inline_array(const TomlTable& top, const TomlNode& node) {
+  return array_of(node, toml_text(node), top.file());
+}
+
 ArrayFile read_tool(const TomlTable& top) {
-  const bool array = top.has("array");
-  if (array && top.has("tool")) top.fail(top.line_of("tool"), "tool", "and array both name the sensors", "keep one");
-  if (array) return named_array(top);
+  const TomlNode* array = top.find("array");
+  if (array != nullptr && top.has("tool"))
+    top.fail(top.line_of("tool"), "tool", "and array both name the sensors", "keep one");
+  if (array != nullptr) return array->kind == TomlNode::Kind::table ? inline_array(top, *array) : named_array(top);
   if (top.has("tool")) return paper_array(top);
   top.fail(0, "array", "is missing",
            "name the sensors: array = \"my_tool.toml\" (an array file), or tool = \"paper\" for the paper's tool");
-}
-
-/// "3 degC/min" -> degC per s.
-double read_temperature_rate(const TomlTable& table) {
-  const std::string form = "write it with a unit of time, as in rate = \"3 degC/min\"";
-  const TomlNode& value = table.need("rate", form);
-  const std::string text = table.text_with_unit(value, "rate", "degC/s, degC/min, degC/h");
-  const std::size_t slash = text.rfind('/');
-  if (slash == std::string::npos) table.fail(value.line, "rate", in_quotes(text) + " is not a rate", form);
-  const double degc = table.checked(parse_quantity(Quantity::temperature, text.substr(0, slash)), "rate", value);
-  const std::string unit(trimmed(std::string_view(text).substr(slash + 1)));
-  return degc / table.checked(parse_quantity(Quantity::time, "1 " + unit), "rate", value);
-}
-
-scenario::TemperatureLaw read_temperature(const ScenarioSource& source, double reference_degc) {
-  const TomlTable table = section_of(source, "temperature", {"law", "value", "start", "rate"});
-  const std::vector<std::string> laws = {"constant", "linear"};
-  const int law = table.choice("law", laws, 0);
-  refuse_unused(table, laws[static_cast<std::size_t>(law)],
-                law == 0 ? std::vector<std::string>{"law", "value"} : std::vector<std::string>{"law", "start", "rate"});
-  const char* key = law == 0 ? "value" : "start";
-  scenario::TemperatureLaw out;
-  out.start_degc = within(table, key, table.quantity(Quantity::temperature, key, reference_degc), -273.15, 1e4,
-                          "give a temperature of the sensors, as in \"25 degC\"");
-  if (law == 1) {
-    out.rate_degc_per_s =
-        within(table, "rate", read_temperature_rate(table), -1e3, 1e3, "give a slower change, as in \"3 degC/min\"");
-  }
-  return out;
-}
-
-scenario::NoiseLaw read_noise(const ScenarioSource& source) {
-  const TomlTable table = section_of(source, "noise", {"factor", "quantise", "clip"});
-  scenario::NoiseLaw noise;
-  noise.white = within(table, "factor", table.quantity(Quantity::ratio, "factor", noise.white), 0.0, 1e6,
-                       "give a factor on the datasheet's noise: 1 as declared, 0 none");
-  noise.quantise = read_flag(table, "quantise", noise.quantise);
-  noise.clip = read_flag(table, "clip", noise.clip);
-  return noise;
 }
 
 std::vector<scenario::Fault> read_faults(const ScenarioSource& source, const ArrayFile& array) {
@@ -104,12 +72,12 @@ std::vector<scenario::Fault> read_faults(const ScenarioSource& source, const Arr
   const scenario::FaultContext context = fault_context(array);
   for (const TomlTable& table : tables_of(source, "fault", {"spec"})) {
     const std::string text = table.need_text("spec", "write what breaks and when: spec = \"a2:stuck=0V@12s\"");
-    const tl::expected<scenario::Fault, std::string> fault = scenario::parse_fault(text, context);
-    if (!fault) {
-      const auto [what, remedy] = without_remedy(fault.error());
+    const tl::expected<std::vector<scenario::Fault>, std::string> named = scenario::parse_faults(text, context);
+    if (!named) {
+      const auto [what, remedy] = without_remedy(named.error());
       table.fail(table.line_of("spec"), "spec", what, remedy);
     }
-    faults.push_back(*fault);
+    faults.insert(faults.end(), named->begin(), named->end());
   }
   return faults;
 }
@@ -150,7 +118,9 @@ ScenarioFile parsed(const TomlNode& root, const std::string& path) {
   const std::string file_name = last_part(path);
   out.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
   out.array = read_tool(top);
-  out.array_path = top.text("array", "");
+  const TomlNode* array = top.find("array");
+  out.array_inline = array != nullptr && array->kind == TomlNode::Kind::table;
+  if (!out.array_inline) out.array_path = top.text("array", "");
   scenario::Scenario& scenario = out.scenario;
   const double declared_hz = out.array.input.rate_hz;
   scenario.seed = read_seed(top, "seed", scenario.seed);
@@ -164,6 +134,8 @@ ScenarioFile parsed(const TomlNode& root, const std::string& path) {
   scenario.tool = read_truth(source, out.array);
   scenario.temperature = read_temperature(source, out.array.datasheet.sensor[0].coefficients.reference_degc);
   scenario.noise = read_noise(source);
+  scenario.turning = read_rotation(source);
+  scenario.depth = read_depth(source);
   scenario.faults = read_faults(source, out.array);
   scenario.tag_rolls = scenario.tag_stations && !out.array.input.roll_group_column.empty();
   refuse_what_the_log_cannot_hold(top, source, out.array, scenario);
@@ -185,7 +157,8 @@ FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const st
                   "say what is simulated: array = \"my_tool.toml\" (or tool = \"paper\") and [attitude] with its law"});
   }
   try {
-    const FileExpected<TomlNode> root = parse_toml(text, path);
+    const bool json = text[text.find_first_not_of(" \t\r\n")] == '{';
+    const FileExpected<TomlNode> root = json ? parse_json_tree(text, path) : parse_toml(text, path);
     if (!root) return tl::unexpected<FileError>(root.error());
     return parsed(*root, path);
   } catch (const Refusal& refusal) {

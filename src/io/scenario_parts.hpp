@@ -23,6 +23,12 @@ void read_attitude(const ScenarioSource& source, scenario::Scenario& out);
 /// [truth] and [[sensor_truth]]: what the sensors of the array really are.
 scenario::Tool read_truth(const ScenarioSource& source, const ArrayFile& array);
 
+/// [temperature], [noise], [rotation], [depth].
+scenario::TemperatureLaw read_temperature(const ScenarioSource& source, double reference_degc);
+scenario::NoiseLaw read_noise(const ScenarioSource& source);
+scenario::Turning read_rotation(const ScenarioSource& source);
+scenario::DepthLaw read_depth(const ScenarioSource& source);
+
 // ---- what the sections share ---------------------------------------------------------------------
 
 /// A section that may be left out; then it is an empty table.

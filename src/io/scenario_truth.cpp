@@ -22,7 +22,8 @@ const std::vector<std::string>& truth_keys() {
 }
 
 const std::vector<std::string>& sensor_keys() {
-  static const std::vector<std::string> names = {"id", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref", "cross"};
+  static const std::vector<std::string> names = {"id",      "axis",  "scale", "bias",     "bias_t",
+                                                 "scale_t", "t_ref", "cross", "lever_arm"};
   return names;
 }
 
@@ -118,6 +119,22 @@ void read_cross(const TomlTable& table, int sensor, SensorModel& model) {
   }
 }
 
+/// Three lengths with their units.
+Vec3 read_lever_arm(const TomlTable& table) {
+  const std::string form =
+      "write where the sensor sits beside the axis of rotation: lever_arm = [\"0.012 m\", \"0 m\", \"0 m\"]";
+  const TomlNode* list = list_at(table, "lever_arm", 3, 3, "three lengths", form);
+  Vec3 arm{};
+  for (std::size_t k = 0; list != nullptr && k < 3; ++k) {
+    const TomlNode& item = list->items[k];
+    const std::string name = "lever_arm[" + std::to_string(k + 1) + "]";
+    const std::string text = table.text_with_unit(item, name.c_str(), accepted_units(Quantity::length));
+    arm[k] = table.checked(parse_quantity(Quantity::length, text), name.c_str(), *list);
+    if (!(std::abs(arm[k]) <= 1e3)) table.fail(list->line, name, "is beyond 1 km", form);
+  }
+  return arm;
+}
+
 void read_scale(const TomlTable& table, const RawUnit& unit, SensorCoefficients& out) {
   const TomlNode* value = table.find("scale");
   if (value == nullptr) return;
@@ -140,6 +157,7 @@ void read_sensor(const TomlTable& table, int sensor, const RawUnit& unit, Tool& 
   read_slopes(table, unit, c);
   c.reference_degc = table.quantity(Quantity::temperature, "t_ref", c.reference_degc);
   read_cross(table, sensor, tool.model);
+  if (table.has("lever_arm")) tool.lever_arm_m[s] = read_lever_arm(table);
 }
 
 }  // namespace

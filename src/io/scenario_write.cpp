@@ -1,10 +1,12 @@
 // The scenario file, written: every double as the text that reads back as the same double.
+#include <cmath>
 #include <initializer_list>
 #include <limits>
 
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "toml_tree.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -33,6 +35,7 @@ std::string exact(Quantity quantity, double si, std::initializer_list<const char
 std::string acceleration(double mps2) { return exact(Quantity::acceleration, mps2, {"mg0", "g0", "m/s^2"}); }
 std::string angle(double rad) { return exact(Quantity::angle, rad, {"deg", "rad"}); }
 std::string seconds(double s) { return exact(Quantity::time, s, {"s"}); }
+std::string metres(double m) { return exact(Quantity::length, m, {"m"}); }
 std::string degc(double value) { return exact(Quantity::temperature, value, {"degC"}); }
 
 /// A TOML number that stays a floating one, the sign of a zero included.
@@ -112,6 +115,34 @@ std::string sensor_text(const scenario::Tool& tool, int sensor, const RawUnit& u
   bool crossed = false;
   for (int k = 0; k < tool.model.size; ++k) crossed = crossed || cross[k] != 0.0;
   if (crossed) out += line("cross", numbers(cross, static_cast<std::size_t>(tool.model.size)));
+  const Vec3& arm = tool.lever_arm_m[s];
+  if (arm != Vec3{})
+    out += line("lever_arm", "[" + metres(arm[0]) + ", " + metres(arm[1]) + ", " + metres(arm[2]) + "]");
+  return out;
+}
+
+/// What is left out where it is not there: wander, rotation, depth.
+std::string surroundings(const scenario::Scenario& s) {
+  std::string out;
+  const scenario::InstabilityLaw& wander = s.noise.instability;
+  if (wander.sigma_mps2 != 0.0) out += line("instability", acceleration(wander.sigma_mps2));
+  if (wander.correlation_s != scenario::InstabilityLaw().correlation_s) {
+    out += line("correlation", seconds(wander.correlation_s));
+  }
+  if (wander.walk_mps2 != 0.0) out += line("walk", acceleration(wander.walk_mps2));
+  const scenario::Turning& turning = s.turning;
+  if (turning.rate_radps != 0.0) {
+    out += "\n[rotation]\n" + line("rate", "\"" + shortest(turning.rate_radps) + " rad/s\"");
+    out += line("axis", direction(turning.axis));
+    if (turning.from_s != 0.0) out += line("from", seconds(turning.from_s));
+    if (std::isfinite(turning.until_s)) out += line("until", seconds(turning.until_s));
+  }
+  const scenario::DepthLaw& depth = s.depth;
+  if (depth.stand_m != 0.0) {
+    out += "\n[depth]\n" + line("stand", metres(depth.stand_m));
+    if (depth.gravity_per_s2 != 0.0) out += line("gravity", "\"" + shortest(depth.gravity_per_s2) + " m/s^2/m\"");
+    if (depth.heat_degc_per_m != 0.0) out += line("heat", "\"" + shortest(depth.heat_degc_per_m) + " degC/m\"");
+  }
   return out;
 }
 
@@ -121,13 +152,16 @@ std::string scenario_text(const ScenarioFile& file) {
   const scenario::Scenario& s = file.scenario;
   const auto flag = [](bool value) { return std::string(value ? "true" : "false"); };
   std::string out = line("name", quoted(file.name));
-  out += file.array_path.empty() ? line("tool", "\"paper\"") : line("array", quoted(file.array_path));
+  if (!file.array_inline) {
+    out += file.array_path.empty() ? line("tool", "\"paper\"") : line("array", quoted(file.array_path));
+  }
   out += line("seed", seed_text(s.seed)) + line("gravity", acceleration(s.gravity_mps2));
   out += line("rate", exact(Quantity::rate, s.rate_hz, {"kHz", "Hz"}));
   if (s.start_s != 0.0) out += line("start", seconds(s.start_s));
   out += "\n[attitude]\n" + std::visit(LawText(), s.attitudes);
   out += line("dwell", seconds(s.dwell_s)) + line("motion", seconds(s.move_s));
   out += line("vibration", acceleration(s.vibration_mps2));
+  if (s.rest_vibration_mps2 != 0.0) out += line("rest_vibration", acceleration(s.rest_vibration_mps2));
   out += line("record_motion", flag(s.record_motion)) + line("tag_stations", flag(s.tag_stations));
   const bool constant = s.temperature.rate_degc_per_s == 0.0;
   out += "\n[temperature]\n" + line("law", constant ? "\"constant\"" : "\"linear\"");
@@ -135,6 +169,7 @@ std::string scenario_text(const ScenarioFile& file) {
   if (!constant) out += line("rate", "\"" + shortest(s.temperature.rate_degc_per_s) + " degC/s\"");
   out += "\n[noise]\n" + line("factor", number(s.noise.white)) + line("quantise", flag(s.noise.quantise)) +
          line("clip", flag(s.noise.clip));
+  out += surroundings(s);
   const scenario::FaultContext context = fault_context(file.array);
   for (const scenario::Fault& fault : s.faults) {
     out += "\n[[fault]]\n" + line("spec", quoted(scenario::to_text(fault, context)));
@@ -142,11 +177,22 @@ std::string scenario_text(const ScenarioFile& file) {
   // Last, because it is the longest: what was drawn, spelled out.
   out += "\n[truth]\n" + line("law", "\"none\"");
   for (int i = 0; i < s.tool.datasheet.size; ++i) out += sensor_text(s.tool, i, file.array.input.unit);
+  if (file.array_inline) {
+    const FileExpected<TomlNode> array = parse_toml(file.array.text, file.array.path);
+    if (array) out += "\n" + toml_text(*array, "array");
+  }
   return out;
 }
 
+std::string scenario_json(const ScenarioFile& file) {
+  const FileExpected<TomlNode> tree = parse_toml(scenario_text(file), file.path);
+  return tree ? json_text(*tree) : std::string();
+}
+
 FileExpected<void> write_scenario(const std::string& path, const ScenarioFile& file) {
-  return write_file(path, scenario_text(file));
+  const std::string ending = ".json";
+  const bool json = path.size() >= ending.size() && path.substr(path.size() - ending.size()) == ending;
+  return write_file(path, json ? scenario_json(file) : scenario_text(file));
 }
 
 }  // namespace io

@@ -32,6 +32,14 @@ struct TomlNode {
 /// Errors: empty file, syntax (with its line).
 FileExpected<TomlNode> parse_toml(const std::string& text, const std::string& path);
 
+/// The same tree from JSON, without line numbers. Errors: syntax, null, what is no table.
+FileExpected<TomlNode> parse_json_tree(const std::string& text, const std::string& path);
+
+/// A table as TOML text, its own tables named "prefix.key"; reads back as the same tree.
+std::string toml_text(const TomlNode& table, const std::string& prefix = "");
+/// The tree as JSON text, indented by two.
+std::string json_text(const TomlNode& table);
+
 }  // namespace io
 }  // namespace PLUMB_ABI
 }  // namespace plumb

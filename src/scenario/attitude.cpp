@@ -1,5 +1,6 @@
 #include "plumb/scenario/attitude.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "plumb/scenario/portable_math.hpp"
@@ -98,6 +99,18 @@ Attitude attitude_at(const DrillingPath& path, int station, const Stream& stream
 }
 
 Directions directions_of(const AttitudeLaw& law, std::uint64_t seed) { return std::visit(Lay{seed}, law); }
+
+double Turning::angle_rad(double time_s) const noexcept {
+  return rate_radps * (std::min(std::max(time_s, from_s), until_s) - from_s);
+}
+
+Vec3 seen_from_turned(const Vec3& vector, const Vec3& axis, double angle_rad) noexcept {
+  // Whole turns first: sine and cosine are good to 1e6 rad only.
+  const double turns = std::floor(angle_rad / (2.0 * kPi));
+  const SinCos turn = portable_sincos(angle_rad - turns * (2.0 * kPi));
+  const Vec3 along = scaled(axis, dot(axis, vector) * (1.0 - turn.cos));
+  return plus(plus(scaled(vector, turn.cos), scaled(cross(vector, axis), turn.sin)), along);
+}
 
 Vec3 perpendicular_to(const Vec3& unit) noexcept {
   // Cross with the coordinate axis that lies furthest away: never near zero.

@@ -1,9 +1,11 @@
 #include "plumb/scenario/fault_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "quantity_text.hpp"
+#include "fault_parts.hpp"
+#include "plumb/scenario/catalogue.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -28,15 +30,6 @@ const DatasheetSensor& sensor_of(const FaultContext& context, int i) {
   return context.datasheet.sensor[static_cast<std::size_t>(i)];
 }
 
-std::string id_of(const FaultContext& context, int i) {
-  std::string id;
-  for (const char c : sensor_of(context, i).row.id) {
-    if (c == '\0') break;
-    id += c;
-  }
-  return id;
-}
-
 int sensor_named(const FaultContext& context, Text name) {
   for (int i = 0; i < context.datasheet.size; ++i) {
     if (id_of(context, i) == name) return i;
@@ -45,6 +38,7 @@ int sensor_named(const FaultContext& context, Text name) {
 }
 
 Result<int> find_sensor(const FaultContext& context, Text text) {
+  if (trimmed(text) == "log" && sensor_named(context, "log") < 0) return kWholeLog;
   int found = sensor_named(context, text);
   if (found < 0) found = sensor_named(context, trimmed(text));
   if (found >= 0) return found;
@@ -55,29 +49,7 @@ Result<int> find_sensor(const FaultContext& context, Text text) {
   }
   std::string known;
   for (int i = 0; i < context.datasheet.size; ++i) known += (i == 0 ? "" : ", ") + id_of(context, i);
-  return refuse("no sensor " + quoted(trimmed(text)) + ". Remedy: name one of " + known);
-}
-
-/// Units for levels in the log's own unit; that unit itself comes first, with the factor 1.
-TextUnits level_units(const FaultContext& context, int sensor) {
-  TextUnits units = {{context.raw_unit, 1.0}};
-  switch (context.raw) {
-    case FaultContext::Raw::voltage:
-      for (const auto& [name, volt] : {std::pair<const char*, double>{"V", 1.0}, {"mV", 1e-3}, {"uV", 1e-6}}) {
-        units.push_back({name, volt / context.base_per_raw});
-      }
-      break;
-    case FaultContext::Raw::count: units.push_back({"count", 1.0 / context.base_per_raw}); break;
-    case FaultContext::Raw::acceleration:
-      for (const TextUnit& unit : acceleration_units()) {
-        units.push_back({unit.name, unit.factor / context.base_per_raw, unit.print});
-      }
-      break;
-  }
-  if (sensor_of(context, sensor).resolution_raw > 0.0) {
-    units.push_back({"LSB", sensor_of(context, sensor).resolution_raw, false});
-  }
-  return units;
+  return refuse("no sensor " + quoted(trimmed(text)) + ". Remedy: name one of " + known + ", or log for all of it");
 }
 
 /// A level: in raw units, as full scale, or as the acceleration that the sensor would seem to read by its
@@ -126,31 +98,112 @@ Result<Fault> read_range(const FaultContext& context, Fault fault, Text text) {
   return fault;
 }
 
-Result<double> read_factor(Text text) {
+Result<double> read_bare(Text text, const char* what, const char* example) {
   const auto number = read_number(text);
   if (!number) return tl::unexpected<std::string>(number.error());
   if (number->rest.empty()) return number->value;
-  return refuse(quoted(text) + " is not a plain factor. Remedy: write it without a unit, as in scale=1.1");
+  return refuse(quoted(text) + " is not a plain " + what + ". Remedy: write it without a unit, as in " + example);
+}
+
+/// A step of the output: in the log's unit, or as what it means in acceleration.
+Result<double> read_step(const FaultContext& context, int sensor, Text text) {
+  auto step = read_quantity(text, level_units(context, sensor), "step");
+  if (step || context.raw == FaultContext::Raw::acceleration) return step;
+  const auto acceleration = read_quantity(text, acceleration_units(), "step");
+  if (!acceleration) return step;
+  return std::abs(sensor_of(context, sensor).coefficients.scale[0]) * *acceleration;
+}
+
+Result<double> read_pattern(Text text) {
+  for (int k = 0; k < kBitPatterns; ++k) {
+    if (text == to_string(static_cast<BitPattern>(k))) return static_cast<double>(k);
+  }
+  return refuse("unknown pattern " + quoted(text) + ". Remedy: write nan, inf, -inf, huge, denormal or -0");
+}
+
+Result<double> read_other(const FaultContext& context, Text text) {
+  const auto sensor = find_sensor(context, text);
+  if (!sensor) return tl::unexpected<std::string>(sensor.error());
+  return static_cast<double>(*sensor);
+}
+
+/// The two parts of "50mg0*10s" by readers of their own.
+template <class First, class Second>
+Result<Fault> read_pair(Fault fault, Text text, const char* example, First read_first, Second read_second) {
+  const std::size_t star = text.find('*');
+  if (star == Text::npos) {
+    return refuse(quoted(text) + " is one number, two are needed. Remedy: write them as in " + example);
+  }
+  const Result<double> first = read_first(trimmed(text.substr(0, star)));
+  if (!first) return tl::unexpected<std::string>(first.error());
+  const Result<double> second = read_second(trimmed(text.substr(star + 1)));
+  if (!second) return tl::unexpected<std::string>(second.error());
+  fault.magnitude = *first;
+  fault.upper = *second;
+  return fault;
+}
+
+Result<Fault> read_two(const FaultContext& context, Fault fault, Text text) {
+  const auto acceleration = [](Text t) { return read_quantity(t, acceleration_units(), "size"); };
+  const auto share = [](Text t) { return read_quantity(t, share_units(), "share"); };
+  const auto time = [](Text t) { return read_quantity(t, time_units(), "time"); };
+  const auto angle = [](Text t) { return read_quantity(t, angle_units(), "angle"); };
+  const auto other = [&context](Text t) { return read_other(context, t); };
+  switch (form_of(fault.kind)) {
+    case SizeForm::acceleration_share: return read_pair(fault, text, "spikes=0.5g0*1%", acceleration, share);
+    case SizeForm::acceleration_time: return read_pair(fault, text, "chatter=50mg0*10s", acceleration, time);
+    case SizeForm::sensor_share: return read_pair(fault, text, "cross=a3*1%", other, share);
+    case SizeForm::sensor_sensor: return read_pair(fault, text, "mirror=a1*a3", other, other);
+    default: break;
+  }
+  if (text.find('*') != Text::npos) return read_pair(fault, text, "turned=2deg*90deg", angle, angle);
+  const Result<double> only = angle(text);
+  if (!only) return tl::unexpected<std::string>(only.error());
+  fault.magnitude = *only;
+  return fault;
+}
+
+Result<double> read_one(const FaultContext& context, const Fault& fault, Text text) {
+  switch (form_of(fault.kind)) {
+    case SizeForm::level: return read_level(context, fault.sensor, text);
+    case SizeForm::dither: return read_dither(context, fault.sensor, text);
+    case SizeForm::step: return read_step(context, fault.sensor, text);
+    case SizeForm::acceleration: return read_quantity(text, acceleration_units(), "size");
+    case SizeForm::drift: return read_quantity(text, drift_units(), "drift");
+    case SizeForm::share: return read_quantity(text, share_units(), "share");
+    case SizeForm::pattern: return read_pattern(text);
+    case SizeForm::sensor: return read_other(context, text);
+    case SizeForm::temperature: return read_quantity(text, {{"degC", 1.0}}, "temperature");
+    case SizeForm::time: return read_quantity(text, time_units(), "time");
+    case SizeForm::factor: return read_bare(text, "factor", "scale=1.1");
+    default: return read_bare(text, "number", "late=5");
+  }
+}
+
+bool may_lack_size(SizeForm form) {
+  return form == SizeForm::none || form == SizeForm::dither || form == SizeForm::share;
 }
 
 /// Reads what stands behind the '='.
 Result<Fault> read_size(const FaultContext& context, Fault fault, bool given, Text text) {
-  Result<double> size = 0.0;
-  if (fault.kind == FaultKind::stuck_last && !given) return fault;
-  if (!given || text.empty()) {
+  const SizeForm form = form_of(fault.kind);
+  if (form == SizeForm::share) fault.magnitude = 1.0;
+  if (may_lack_size(form) && !given) return fault;
+  if (form == SizeForm::none) {
+    return refuse("a fault of kind " + quoted(to_string(fault.kind)) + " has no size. Remedy: leave '=' and size out");
+  }
+  if (text.empty()) {
     return refuse("a fault of kind " + quoted(to_string(fault.kind)) +
                   " needs a size. Remedy: write it as in stuck=0V, random=-3V..3V, bias=50mg0, drift=1mg0/s or "
                   "scale=1.1");
   }
-  switch (fault.kind) {
-    case FaultKind::stuck_level: size = read_level(context, fault.sensor, text); break;
-    case FaultKind::stuck_last: size = read_dither(context, fault.sensor, text); break;
-    case FaultKind::random_range:
-    case FaultKind::random_level: return read_range(context, fault, text);
-    case FaultKind::bias_step: size = read_quantity(text, acceleration_units(), "bias"); break;
-    case FaultKind::drift: size = read_quantity(text, drift_units(), "drift"); break;
-    case FaultKind::scale_change: size = read_factor(text); break;
+  if (fault.sensor == kWholeLog && !needs_whole_log(fault.kind) && fault.kind != FaultKind::late) {
+    return refuse("a fault of kind " + quoted(to_string(fault.kind)) +
+                  " is one sensor's. Remedy: name the sensor in the place of log");
   }
+  if (form == SizeForm::range) return read_range(context, fault, text);
+  if (form >= SizeForm::acceleration_share) return read_two(context, fault, text);
+  const Result<double> size = read_one(context, fault, text);
   if (!size) return tl::unexpected<std::string>(size.error());
   fault.magnitude = *size;
   return fault;
@@ -201,6 +254,38 @@ Result<Fault> read_times(Fault fault, Text text) {
   return fault;
 }
 
+/// What a fault's text falls into: "SENSOR:KIND[=SIZE]@WHEN".
+struct Pieces {
+  Text sensor, kind, size, when;
+  bool sized = false;
+};
+
+Result<Pieces> pieces_of(Text text) {
+  const std::size_t at = text.rfind('@');
+  if (at == Text::npos) return refuse("no onset. Remedy: say when the fault begins, as in a2:stuck=0V@12s");
+  const Text head = text.substr(0, at);
+  const std::size_t colon = head.rfind(':');
+  if (colon == Text::npos) return refuse("no sensor. Remedy: begin with it, as in a2:stuck=0V@12s");
+  const Text body = head.substr(colon + 1);
+  const std::size_t equals = body.find('=');
+  Pieces pieces;
+  pieces.sensor = head.substr(0, colon);
+  pieces.kind = trimmed(body.substr(0, equals));
+  pieces.sized = equals != Text::npos;
+  if (pieces.sized) pieces.size = trimmed(body.substr(equals + 1));
+  pieces.when = trimmed(text.substr(at + 1));
+  return pieces;
+}
+
+/// A whole fault of the fault language, so that no name of the catalogue is meant.
+bool is_kind(Text word, bool sized) {
+  for (int k = 0; k < kFaultKinds; ++k) {
+    const auto kind = static_cast<FaultKind>(k);
+    if (word == to_string(kind)) return sized || may_lack_size(form_of(kind));
+  }
+  return false;
+}
+
 Result<Fault> read_kind(Fault fault, Text text) {
   std::string known;
   for (int k = 0; k < kFaultKinds; ++k) {
@@ -208,104 +293,70 @@ Result<Fault> read_kind(Fault fault, Text text) {
     if (text == to_string(fault.kind)) return fault;
     known += (k == 0 ? "" : ", ") + std::string(to_string(fault.kind));
   }
-  return refuse("unknown kind of fault " + quoted(text) + ". Remedy: write one of " + known);
+  return refuse("unknown kind of fault " + quoted(text) + ". Remedy: write one of " + known +
+                ", or a name of the fault catalogue (F01 to F29, off, garbage, ...)");
 }
 
-Result<Fault> parse(Text text, const FaultContext& context) {
-  const std::size_t at = text.rfind('@');
-  if (at == Text::npos) return refuse("no onset. Remedy: say when the fault begins, as in a2:stuck=0V@12s");
-  const Text head = text.substr(0, at);
-  const std::size_t colon = head.rfind(':');
-  if (colon == Text::npos) return refuse("no sensor. Remedy: begin with it, as in a2:stuck=0V@12s");
-
+Result<Fault> parse(const Pieces& pieces, const FaultContext& context) {
   Fault fault;
-  const auto sensor = find_sensor(context, head.substr(0, colon));
+  const auto sensor = find_sensor(context, pieces.sensor);
   if (!sensor) return tl::unexpected<std::string>(sensor.error());
   fault.sensor = *sensor;
-  const Text body = head.substr(colon + 1);
-  const std::size_t equals = body.find('=');
-  const bool given = equals != Text::npos;
-  const Text size = given ? trimmed(body.substr(equals + 1)) : Text();
-  auto result = read_kind(fault, trimmed(body.substr(0, equals)));
-  if (result) result = read_size(context, *result, given, size);
-  if (result) result = read_times(*result, trimmed(text.substr(at + 1)));
+  auto result = read_kind(fault, pieces.kind);
+  if (result) result = read_size(context, *result, pieces.sized, pieces.size);
+  if (result) result = read_times(*result, pieces.when);
   if (!result) return result;
   const auto checked = check(*result, context.datasheet.size);
   if (!checked) return tl::unexpected<std::string>(checked.error());
   return result;
 }
 
-/// "12s", "#5", "station6"; for a sentence "12 s", "5", "6".
-std::string when_text(Clock clock, double value, bool sentence) {
-  if (clock == Clock::time) return quantity_text(value, time_units(), sentence ? " " : "");
-  if (sentence) return shortest_text(value);
-  return (clock == Clock::row ? "#" : "station") + shortest_text(value);
+Result<Fault> parse(Text text, const FaultContext& context) {
+  const auto pieces = pieces_of(text);
+  return pieces ? parse(*pieces, context) : tl::unexpected<std::string>(pieces.error());
 }
 
-std::string level_text(const FaultContext& context, int sensor, double raw, const char* gap) {
-  return quantity_text(raw, level_units(context, sensor), gap);
-}
-
-std::string size_text(const Fault& fault, const FaultContext& context, const char* gap, const char* between) {
-  switch (fault.kind) {
-    case FaultKind::stuck_last:
-    case FaultKind::stuck_level: return level_text(context, fault.sensor, fault.magnitude, gap);
-    case FaultKind::random_range:
-    case FaultKind::random_level:
-      return level_text(context, fault.sensor, fault.magnitude, gap) + between +
-             level_text(context, fault.sensor, fault.upper, gap);
-    case FaultKind::bias_step: return quantity_text(fault.magnitude, acceleration_units(), gap);
-    case FaultKind::drift: return quantity_text(fault.magnitude, drift_units(), gap);
-    case FaultKind::scale_change: break;
-  }
-  return shortest_text(fault.magnitude);
-}
-
-std::string happening(const Fault& fault, const FaultContext& context) {
-  const std::string size = size_text(fault, context, " ", " to ");
-  switch (fault.kind) {
-    case FaultKind::stuck_level: return "stands at " + size;
-    case FaultKind::stuck_last:
-      return "stands at its last value" + (fault.magnitude > 0.0 ? " with a dither of +-" + size : std::string());
-    case FaultKind::random_range: return "delivers random values from " + size + ", new in every row";
-    case FaultKind::random_level: return "stands at a random value from " + size;
-    case FaultKind::bias_step: return "reads " + size + " too much";
-    case FaultKind::drift: return "drifts by " + size;
-    case FaultKind::scale_change: break;
-  }
-  return "has its scale factor multiplied by " + size;
+/// The faults of a catalogue entry, on the named sensor and, where it takes more, on those behind it.
+Result<std::vector<Fault>> from_catalogue(const CatalogueEntry& entry, const Pieces& pieces,
+                                          const FaultContext& context) {
+  const auto sensor = find_sensor(context, pieces.sensor);
+  if (!sensor) return tl::unexpected<std::string>(sensor.error());
+  Fault times;
+  times.sensor = *sensor;
+  const auto when = read_times(times, pieces.when);
+  if (!when) return tl::unexpected<std::string>(when.error());
+  CatalogueOptions options;
+  options.sensor = std::max(0, *sensor);
+  options.clock = when->clock;
+  options.onset = when->onset;
+  options.duration = when->duration;
+  if (pieces.sized) options.size = std::string(pieces.size);
+  return faults_of(entry, options, context);
 }
 
 }  // namespace
+
+tl::expected<std::vector<Fault>, std::string> parse_faults(std::string_view text, const FaultContext& context) {
+  const auto named = [text](const std::string& why) { return refuse("fault " + quoted(text) + ": " + why); };
+  const auto pieces = pieces_of(text);
+  if (!pieces) return named(pieces.error());
+  // A word of the fault language comes first: "stuck" with a size is a level, without one it is PX4's stuck.
+  if (!is_kind(pieces->kind, pieces->sized)) {
+    if (const std::optional<CatalogueEntry> entry = find_entry(pieces->kind)) {
+      auto faults = from_catalogue(*entry, *pieces, context);
+      if (!faults) return named(faults.error());
+      return faults;
+    }
+  }
+  const auto fault = parse(*pieces, context);
+  if (!fault) return named(fault.error());
+  return std::vector<Fault>{*fault};
+}
 
 tl::expected<Fault, std::string> parse_fault(std::string_view text, const FaultContext& context) {
   auto fault = parse(text, context);
   if (!fault) return refuse("fault " + quoted(text) + ": " + fault.error());
   return fault;
-}
-
-std::string to_text(const Fault& fault, const FaultContext& context) {
-  std::string text = id_of(context, fault.sensor) + ":" + to_string(fault.kind);
-  if (fault.kind != FaultKind::stuck_last || fault.magnitude > 0.0) text += "=" + size_text(fault, context, "", "..");
-  text += "@" + when_text(fault.clock, fault.onset, false);
-  if (std::isfinite(fault.duration)) text += "+" + when_text(fault.clock, fault.duration, false);
-  return text;
-}
-
-std::string describe_effect(const Fault& fault, const FaultContext& context) {
-  return id_of(context, fault.sensor) + " " + happening(fault, context);
-}
-
-std::string describe(const Fault& fault, const FaultContext& context) {
-  static constexpr const char* kFrom[] = {"t = ", "row ", "station "};
-  static constexpr const char* kUnit[] = {"", " rows", " stations"};
-  const auto clock = static_cast<std::size_t>(fault.clock);
-  std::string text =
-      describe_effect(fault, context) + " from " + kFrom[clock] + when_text(fault.clock, fault.onset, true) + " on";
-  if (std::isfinite(fault.duration)) {
-    text += ", for " + when_text(fault.clock, fault.duration, true) + kUnit[clock];
-  }
-  return text;
 }
 
 }  // namespace scenario

@@ -53,6 +53,16 @@ const TextUnits& time_units() {
   return units;
 }
 
+const TextUnits& angle_units() {
+  static const TextUnits units = {{"rad", 1.0}, {"deg", kPi / 180.0}, {"mrad", 1e-3, false}};
+  return units;
+}
+
+const TextUnits& share_units() {
+  static const TextUnits units = {{"", 1.0}, {"%", 0.01}, {"ppm", 1e-6, false}};
+  return units;
+}
+
 TextUnits drift_units() {
   TextUnits units;
   for (const TextUnit& per : time_units()) {

@@ -23,6 +23,8 @@ using TextUnits = std::vector<TextUnit>;
 
 const TextUnits& acceleration_units();  ///< -> m/s^2
 const TextUnits& time_units();          ///< -> s
+const TextUnits& angle_units();         ///< -> rad
+const TextUnits& share_units();         ///< -> 1
 TextUnits drift_units();                ///< -> m/s^2 per s
 
 /// A number and the text behind it. A leading '+' is allowed.

@@ -22,6 +22,32 @@ std::uint64_t rows_of(double time_s, double rate_hz) noexcept {
 }
 
 /// Empty where all is well.
+std::string surroundings_wrong(const Scenario& s) {
+  const InstabilityLaw& wander = s.noise.instability;
+  if (!within(s.rest_vibration_mps2, 0.0, 1e6)) {
+    return "the vibration at rest is not usable. Remedy: give its rms in m/s^2";
+  }
+  if (!within(wander.sigma_mps2, 0.0, 1e6) || !within(wander.walk_mps2, 0.0, 1e6)) {
+    return "the bias instability is negative or not finite. Remedy: give 1 sigma in m/s^2, 0 for none";
+  }
+  if (!within(wander.correlation_s, 1e-9, 1e12)) {
+    return "the correlation time is not above zero. Remedy: give it in seconds, as in 100";
+  }
+  const Turning& turning = s.turning;
+  if (!within(turning.rate_radps, -1e5, 1e5) || !std::isfinite(turning.from_s) ||
+      !(turning.until_s >= turning.from_s)) {
+    return "the rotation is not usable. Remedy: give a rate in rad/s and an end that is not before its begin";
+  }
+  if (!within(norm(turning.axis), 1.0 - 1e-6, 1.0 + 1e-6)) {
+    return "the axis of rotation is not of unit length. Remedy: divide it by its length";
+  }
+  if (!within(s.depth.stand_m, -1e6, 1e6) || !within(s.depth.gravity_per_s2, -1.0, 1.0) ||
+      !within(s.depth.heat_degc_per_m, -1e3, 1e3)) {
+    return "the depth is not usable. Remedy: give the stand in m, gravity in m/s^2 and heat in degC per m";
+  }
+  return {};
+}
+
 std::string numbers_wrong(const Scenario& s) {
   if (!within(s.rate_hz, 1e-6, 1e9)) return "the sample rate is not usable. Remedy: give it in Hz, as in 100";
   if (!within(s.dwell_s, 0.0, 1e9) || !within(s.move_s, 0.0, 1e9)) {
@@ -36,13 +62,18 @@ std::string numbers_wrong(const Scenario& s) {
   if (!within(s.temperature.start_degc, -273.15, 1e4) || !within(s.temperature.rate_degc_per_s, -1e3, 1e3)) {
     return "the temperature is not usable. Remedy: give degC and degC per second";
   }
-  return {};
+  return surroundings_wrong(s);
 }
 
 std::string tool_wrong(const Tool& tool) {
   if (tool.datasheet.size < 3 || tool.datasheet.size > kCapacity || tool.model.size != tool.datasheet.size) {
     return "the tool has " + std::to_string(tool.datasheet.size) + " sensors. Remedy: give it 3 to " +
            std::to_string(kCapacity) + ", the same number in datasheet and model";
+  }
+  for (int i = 0; i < tool.datasheet.size; ++i) {
+    const Vec3& arm = tool.lever_arm_m[static_cast<std::size_t>(i)];
+    if (within(arm[0], -1e3, 1e3) && within(arm[1], -1e3, 1e3) && within(arm[2], -1e3, 1e3)) continue;
+    return "a lever arm is not usable. Remedy: give it in m, in the tool frame";
   }
   if (!tool.model.raw_from(Readings{}, tool.datasheet.sensor[0].coefficients.reference_degc)) {
     return "the cross-axis matrix of the tool cannot be inverted. Remedy: keep its entries well below 1";
@@ -86,8 +117,10 @@ tl::expected<Simulator, std::string> Simulator::make(Scenario scenario) {
   if (!wrong.empty()) return refuse(std::move(wrong));
   auto directions = directions_of(scenario.attitudes, scenario.seed);
   if (!directions) return refuse(directions.error());
-  auto injector =
-      Injector::make(scenario.tool.datasheet, scenario.tool.model, scenario.faults, scenario.seed, scenario.noise);
+  // Faults of direction mean the true axes.
+  Datasheet real = scenario.tool.datasheet;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(real.size); ++i) real.sensor[i].row.axis = scenario.tool.axes[i];
+  auto injector = Injector::make(real, scenario.tool.model, scenario.faults, scenario.seed, scenario.noise);
   if (!injector) return refuse(injector.error());
   return Simulator(std::move(scenario), std::move(*directions), std::move(*injector));
 }
@@ -97,6 +130,7 @@ Simulator::Simulator(Scenario scenario, std::vector<Vec3> directions, Injector i
       directions_(std::move(directions)),
       vibration_(scenario_.seed, Purpose::vibration),
       injector_(std::move(injector)),
+      delivery_(scenario_.faults, scenario_.seed),
       dwell_rows_(std::max<std::uint64_t>(1, rows_of(scenario_.dwell_s, scenario_.rate_hz))),
       move_rows_(rows_of(scenario_.move_s, scenario_.rate_hz)) {
   if (scenario_.tag_stations && scenario_.tag_rolls) roll_group_ = roll_groups_of(directions_);
@@ -105,23 +139,63 @@ Simulator::Simulator(Scenario scenario, std::vector<Vec3> directions, Injector i
     noise_.emplace_back(scenario_.seed, Purpose::noise, static_cast<std::uint32_t>(i));
   }
   const std::uint64_t stations = directions_.size();
+  if (scenario_.noise.instability.any()) {
+    const std::uint64_t ticks = stations * (dwell_rows_ + move_rows_);
+    for (int i = 0; i < scenario_.tool.datasheet.size; ++i) {
+      instability_.emplace_back(scenario_.noise.instability, ticks, 1.0 / scenario_.rate_hz, scenario_.seed, i);
+    }
+  }
   rows_ = stations * dwell_rows_ + (scenario_.record_motion ? (stations - 1) * move_rows_ : 0);
   remember_onsets();
 }
 
 double Simulator::duration_s() const noexcept { return place_of(rows_ - 1).moment.time_s - scenario_.start_s; }
 
-bool Simulator::next(Sample& sample) noexcept {
-  if (cursor_ >= rows_) return false;
-  sample = at(cursor_++, &truth_);
+bool Simulator::next(Sample& sample) {
+  if (!delivery_.any()) {
+    if (cursor_ >= rows_) return false;
+    row_ = cursor_++;
+    sample = at(row_, &truth_);
+    return true;
+  }
+  Delivery::Parcel parcel;
+  while (!delivery_.pop(parcel)) {
+    if (cursor_ > rows_) return false;
+    if (cursor_ == rows_) {
+      delivery_.finish();
+    } else {
+      delivery_.push(at(cursor_), place_of(cursor_).moment);
+    }
+    ++cursor_;
+  }
+  row_ = parcel.row;
+  at(row_, &truth_);
+  sample = parcel.sample;
   return true;
 }
+
+void Simulator::rewind() {
+  cursor_ = 0;
+  delivery_ = Delivery(scenario_.faults, scenario_.seed);
+}
+
+class Simulator::Healthy final : public Injector::Past {
+ public:
+  explicit Healthy(const Simulator& simulator) noexcept : simulator_(&simulator) {}
+  double raw(int sensor, std::uint64_t row) const noexcept override {
+    const Place place = simulator_->place_of(row);
+    return simulator_->healthy(place, simulator_->truth_at(place)).raw[static_cast<std::size_t>(sensor)];
+  }
+
+ private:
+  const Simulator* simulator_;
+};
 
 Sample Simulator::at(std::uint64_t row, Truth* truth) const noexcept {
   const Place place = place_of(row);
   Truth real = truth_at(place);
   Sample sample = healthy(place, real);
-  real.faulty = injector_.inject(sample, place.moment);
+  real.faulty = injector_.inject(sample, place.moment, Healthy(*this));
   if (truth != nullptr) *truth = real;
   return sample;
 }
@@ -135,7 +209,8 @@ Simulator::Place Simulator::place_of(std::uint64_t row) const noexcept {
   Place place;
   place.moment.row = row;
   place.moment.station = station + 1;
-  place.moment.time_s = scenario_.start_s + static_cast<double>(station * period + within_station) / scenario_.rate_hz;
+  place.tick = station * period + within_station;
+  place.moment.time_s = scenario_.start_s + static_cast<double>(place.tick) / scenario_.rate_hz;
   place.moving = within_station >= dwell_rows_;
   if (place.moving) {
     const std::uint64_t step = within_station - dwell_rows_ + 1;
@@ -146,14 +221,19 @@ Simulator::Place Simulator::place_of(std::uint64_t row) const noexcept {
 
 Truth Simulator::truth_at(const Place& place) const noexcept {
   const auto station = static_cast<std::size_t>(place.moment.station - 1);
-  const Vec3 down = place.moving ? passages_[station].at(place.part) : directions_[station];
+  Vec3 down = place.moving ? passages_[station].at(place.part) : directions_[station];
   Truth truth;
-  truth.gravity_mps2 = scaled(down, scenario_.gravity_mps2);
+  const Turning& turning = scenario_.turning;
+  if (turning.rate_radps != 0.0) {
+    down = seen_from_turned(down, turning.axis, turning.angle_rad(place.moment.time_s));
+    if (turning.at_work(place.moment.time_s)) truth.rate_radps = scaled(turning.axis, turning.rate_radps);
+  }
+  truth.depth_m = scenario_.depth.stand_m * (static_cast<double>(station) + place.part);
+  truth.gravity_mps2 = scaled(down, scenario_.gravity_mps2 + scenario_.depth.gravity_per_s2 * truth.depth_m);
   truth.station = static_cast<std::uint32_t>(place.moment.station);
   truth.moving = place.moving;
-  if (place.moving && scenario_.vibration_mps2 > 0.0) {
-    truth.body_acceleration_mps2 = vibration(vibration_, place.moment.row, scenario_.vibration_mps2);
-  }
+  const double rms_mps2 = place.moving ? scenario_.vibration_mps2 : scenario_.rest_vibration_mps2;
+  if (rms_mps2 > 0.0) truth.body_acceleration_mps2 = vibration(vibration_, place.moment.row, rms_mps2);
   return truth;
 }
 
@@ -161,16 +241,23 @@ Sample Simulator::healthy(const Place& place, const Truth& truth) const noexcept
   const Tool& tool = scenario_.tool;
   // An accelerometer cannot tell gravity from the body accelerating the other way.
   const Vec3 felt = minus(truth.gravity_mps2, truth.body_acceleration_mps2);
+  const bool turns = dot(truth.rate_radps, truth.rate_radps) > 0.0;
   Readings accel_mps2{};
   for (int i = 0; i < tool.datasheet.size; ++i) {
     const auto s = static_cast<std::size_t>(i);
     accel_mps2[s] = dot(tool.axes[s], felt);
+    if (turns) {
+      const Vec3 inward = cross(truth.rate_radps, cross(truth.rate_radps, tool.lever_arm_m[s]));
+      accel_mps2[s] -= dot(tool.axes[s], inward);
+    }
+    if (!instability_.empty()) accel_mps2[s] += instability_[s].at(place.tick);
     const double sigma_mps2 = scenario_.noise.white * tool.datasheet.sensor[s].row.sigma_mps2;
     if (sigma_mps2 > 0.0) accel_mps2[s] += sigma_mps2 * noise_[s].normal(place.moment.row);
   }
   Sample sample;
   sample.time_s = place.moment.time_s;
-  sample.temperature_degc = scenario_.temperature.at(place.moment.time_s - scenario_.start_s);
+  sample.temperature_degc = scenario_.temperature.at(place.moment.time_s - scenario_.start_s) +
+                            scenario_.depth.heat_degc_per_m * truth.depth_m;
   sample.delivered = SensorSet::first(tool.datasheet.size);
   sample.station = scenario_.tag_stations && !place.moving ? truth.station : 0;
   if (!roll_group_.empty() && !place.moving)
@@ -213,7 +300,11 @@ void Simulator::remember_onsets() noexcept {
     FaultMemory memory;
     memory.begun = true;
     memory.begun_s = fault.clock == Clock::time && onset.row > 0 ? fault.onset : place.moment.time_s;
-    memory.has_last = true;
+    memory.has_last = fault.sensor != kWholeLog;
+    if (!memory.has_last) {
+      injector_.remember(onset.fault, memory);
+      continue;
+    }
     const Sample last = onset.row > 0 ? at(onset.row - 1) : healthy(place, truth_at(place));
     memory.last_raw = last.raw[static_cast<std::size_t>(fault.sensor)];
     injector_.remember(onset.fault, memory);

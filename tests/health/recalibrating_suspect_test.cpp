@@ -39,7 +39,7 @@ TEST(RecalibratingSuspect, AFitForAContradictionIsMadeAndAdoptedThoughTheContrad
   EXPECT_TRUE(tool.rig.ever_blamed.empty());
 }
 
-TEST(RecalibratingSuspect, PatienceGoesBackToSuspectAndDiscardsTheFit) {
+TEST(RecalibratingSuspect, PatienceGivesWayToTheAlarmAndTheFitIsDiscarded) {
   MonitorConfig config;
   config.patience = Drifted().rig.monitor.verdict().stations_on_record + 1;
   Drifted tool(config);
@@ -54,7 +54,7 @@ TEST(RecalibratingSuspect, PatienceGoesBackToSuspectAndDiscardsTheFit) {
     tool.rig.stay(plumb_test::random_direction(tool.directions));
   }
   EXPECT_EQ(tool.rig.records.back().from, HealthState::recalibrating);
-  EXPECT_EQ(tool.rig.records.back().event, HealthEvent::patience_over);
+  EXPECT_EQ(tool.rig.records.back().event, HealthEvent::alarm) << "though patience is over as well";
   EXPECT_EQ(tool.state(), HealthState::suspect);
   EXPECT_EQ(tool.rig.monitor.recalibration().store().size(), 0);
   EXPECT_TRUE(tool.calibration_untouched());

@@ -52,6 +52,7 @@ void expect_same_tool(const Tool& a, const Tool& b) {
     EXPECT_EQ(s.prior.axis_rad, t.prior.axis_rad) << i;
     EXPECT_EQ(s.coefficients.scale, t.coefficients.scale) << i;
     EXPECT_TRUE(same_bits(a.axes[i], b.axes[i])) << i;
+    EXPECT_TRUE(same_bits(a.lever_arm_m[i], b.lever_arm_m[i])) << i;
     EXPECT_TRUE(same_bits(a.model.sensor[i].bias, b.model.sensor[i].bias)) << i;
     EXPECT_TRUE(same_bits(a.model.sensor[i].scale, b.model.sensor[i].scale)) << i;
     EXPECT_EQ(a.model.sensor[i].reference_degc, b.model.sensor[i].reference_degc) << i;
@@ -79,6 +80,17 @@ void expect_same(const Scenario& a, const Scenario& b) {
   EXPECT_EQ(a.noise.clip, b.noise.clip);
   EXPECT_EQ(a.temperature.start_degc, b.temperature.start_degc);
   EXPECT_EQ(a.temperature.rate_degc_per_s, b.temperature.rate_degc_per_s);
+  EXPECT_EQ(a.noise.instability.sigma_mps2, b.noise.instability.sigma_mps2);
+  EXPECT_EQ(a.noise.instability.correlation_s, b.noise.instability.correlation_s);
+  EXPECT_EQ(a.noise.instability.walk_mps2, b.noise.instability.walk_mps2);
+  EXPECT_EQ(a.rest_vibration_mps2, b.rest_vibration_mps2);
+  EXPECT_EQ(a.turning.rate_radps, b.turning.rate_radps);
+  EXPECT_TRUE(same_bits(a.turning.axis, b.turning.axis));
+  EXPECT_EQ(a.turning.from_s, b.turning.from_s);
+  EXPECT_EQ(a.turning.until_s, b.turning.until_s);
+  EXPECT_EQ(a.depth.stand_m, b.depth.stand_m);
+  EXPECT_EQ(a.depth.gravity_per_s2, b.depth.gravity_per_s2);
+  EXPECT_EQ(a.depth.heat_degc_per_m, b.depth.heat_degc_per_m);
   EXPECT_EQ(a.faults, b.faults);
   EXPECT_EQ(a.seed, b.seed);
 }
@@ -91,6 +103,13 @@ void expect_round_trip(const ScenarioFile& file, const std::string& path = "scen
   EXPECT_EQ(back.array_path, file.array_path);
   expect_same(back.scenario, file.scenario);
   EXPECT_EQ(scenario_text(back), text);
+  // JSON says the same.
+  const std::string json = scenario_json(file);
+  ASSERT_EQ(json.substr(0, 1), "{");
+  const ScenarioFile from_json = scenario_of(json, path);
+  expect_same(from_json.scenario, file.scenario);
+  EXPECT_EQ(scenario_text(from_json), text);
+  EXPECT_EQ(scenario_json(from_json), json);
 }
 
 TEST(ScenarioFile, ShortestFileHasTheDefaultsOfTheLibrary) {
@@ -128,6 +147,145 @@ TEST(ScenarioFile, DrillsOfTheExamplesAreThoseOfTheLibrary) {
     Scenario expected = scenario;
     expected.seed = file->scenario.seed;  // of the noise: the library derives it
     expect_same(file->scenario, expected);
+  }
+}
+
+/// Two triads, one of them turned, with what the tool is exposed to; the array stands in the scenario itself.
+const std::string kTwoTriads = R"(
+name = "two triads"
+seed = 3
+[array]
+name = "triads"
+[array.gravity]
+model = "value"
+value = "9.81 m/s^2"
+sigma = "0.1 mg0"
+[array.input]
+time = "t_s"
+reads = "specific-force"
+unit = "m/s^2"
+[[array.sensor]]
+id = "x1"
+column = "x1"
+axis = [1.0, 0.0, 0.0]
+scale = "1"
+noise = "0.2 mg0"
+prior = {bias = "20 mg", scale = "2 %", axis = "2 deg"}
+[[array.sensor]]
+id = "y1"
+column = "y1"
+axis = [0.0, 1.0, 0.0]
+scale = "1"
+noise = "0.2 mg0"
+[[array.sensor]]
+id = "z1"
+column = "z1"
+axis = [0.0, 0.0, 1.0]
+scale = "1"
+noise = "0.2 mg0"
+[[array.sensor]]
+id = "x2"
+column = "x2"
+axis = [0.6, 0.8, 0.0]
+scale = "1"
+noise = "0.2 mg0"
+[[array.sensor]]
+id = "y2"
+column = "y2"
+axis = [-0.8, 0.6, 0.0]
+scale = "1"
+noise = "0.2 mg0"
+[[array.sensor]]
+id = "z2"
+column = "z2"
+axis = [0.0, 0.0, 1.0]
+scale = "1"
+noise = "0.2 mg0"
+[attitude]
+law = "drilling-path"
+rest_vibration = "0.1 mg0"
+[noise]
+instability = "20 ug0"
+correlation = "30 s"
+walk = "1 ug0"
+[rotation]
+rate = "60 deg/s"
+axis = [0.0, 0.6, 0.8]
+from = "2 s"
+until = "8 s"
+[depth]
+stand = "28 m"
+gravity = "0.084 mGal/m"
+heat = "0.03 degC/m"
+[[sensor_truth]]
+id = "x2"
+lever_arm = ["12 mm", "0 m", "-0.5 m"]
+[[fault]]
+spec = "x2:clip=-1g0..2g0@3s"
+[[fault]]
+spec = "log:swap@#300+#20"
+[[fault]]
+spec = "log:late=5@#400+#1"
+[[fault]]
+spec = "y1:F22@station4"
+)";
+
+TEST(ScenarioFile, TriadsAndSurroundingsAreReadWrittenAndReplayedAlikeInTomlAndJson) {
+  std::string text = kTwoTriads;
+  text.replace(text.find("12 mm"), 5, "0.012 m");
+  const ScenarioFile file = scenario_of(text);
+  const Scenario& s = file.scenario;
+  EXPECT_EQ(file.array.array.size(), 6);
+  EXPECT_EQ(s.tool.lever_arm_m[3], (Vec3{0.012, 0.0, -0.5}));
+  EXPECT_DOUBLE_EQ(s.turning.rate_radps, rad_from_deg(60.0));
+  EXPECT_EQ(s.turning.until_s, 8.0);
+  EXPECT_DOUBLE_EQ(s.depth.gravity_per_s2, 8.4e-7);
+  EXPECT_EQ(s.noise.instability.correlation_s, 30.0);
+  EXPECT_DOUBLE_EQ(s.noise.instability.walk_mps2, 1e-6 * kG0_mps2);
+  EXPECT_DOUBLE_EQ(s.rest_vibration_mps2, 1e-4 * kG0_mps2);
+  ASSERT_EQ(s.faults.size(), 5U) << "F22 is two";
+  expect_round_trip(file);
+  auto one = Simulator::make(s);
+  auto two = Simulator::make(scenario_of(scenario_json(file)).scenario);
+  ASSERT_TRUE(one && two);
+  Sample a, b;
+  std::uint64_t rows = 0;
+  while (one->next(a)) {
+    ASSERT_TRUE(two->next(b));
+    ASSERT_TRUE(same_bits(a.raw, b.raw));
+    ASSERT_EQ(a.time_s, b.time_s);
+    ASSERT_EQ(a.delivered, b.delivered);
+    ++rows;
+  }
+  EXPECT_FALSE(two->next(b));
+  EXPECT_EQ(rows, one->size());
+}
+
+TEST(ScenarioFile, BadSurroundingsAreRefusedWithFieldAndRemedy) {
+  const std::tuple<const char*, const char*, const char*> cases[] = {
+      {"rate = \"60 deg/s\"", "rate = \"60 deg\"", "rotation.rate"},
+      {"axis = [0.0, 0.6, 0.8]", "axis = [0.0, 0.6, 0.9]", "rotation.axis"},
+      {"until = \"8 s\"", "until = \"1 s\"", "rotation.until"},
+      {"stand = \"28 m\"", "stand = 28", "depth.stand"},
+      {"heat = \"0.03 degC/m\"", "heat = \"0.03 degC\"", "depth.heat"},
+      {"correlation = \"30 s\"", "correlation = \"0 s\"", "noise.correlation"},
+      {"walk = \"1 ug0\"", "walk = \"-1 ug0\"", "noise.walk"},
+      {"\"12 mm\"", "\"12 s\"", "sensor_truth[1].lever_arm[1]"},
+      {"[array.input]", "[array.inptu]", "inptu"},
+      {"log:swap", "log:stop", "fault[2].spec"}};
+  for (const auto& [good, bad, field] : cases) {
+    std::string text = kTwoTriads;
+    text.replace(text.find("12 mm"), 5, good == std::string("\"12 mm\"") ? "12 mm" : "0.012 m");
+    text.replace(text.find(good), std::string(good).size(), bad);
+    const auto file = parse_scenario_text(text, "bad.toml");
+    ASSERT_FALSE(file) << bad;
+    EXPECT_NE(file.error().text().find(field), std::string::npos) << file.error().text();
+    EXPECT_FALSE(file.error().remedy.empty());
+  }
+  for (const char* json : {"{\"tool\": ", "{\"tool\": null}", "{}"}) {
+    const auto file = parse_scenario_text(json, "bad.json");
+    ASSERT_FALSE(file) << json;
+    EXPECT_FALSE(file.error().remedy.empty());
   }
 }
 

@@ -147,7 +147,8 @@ TEST(ScenarioPage, TheOfTheDocumentationIsTrue) {
     return at == std::string::npos ? std::string() : remedy.substr(at + 17);
   };
   std::string keys = known_keys("zzzzzzzz = 1\n" + kShortest) + ", ";
-  for (const char* section : {"", "[truth]\n", "[[sensor_truth]]\n", "[temperature]\n", "[noise]\n", "[[fault]]\n"}) {
+  for (const char* section : {"", "[truth]\n", "[[sensor_truth]]\n", "[temperature]\n", "[noise]\n", "[rotation]\n",
+                              "[depth]\n", "[[fault]]\n"}) {
     keys += known_keys(kShortest + section + "zzzzzzzz = 1\n") + ", ";
   }
   std::istringstream in(keys);
@@ -161,7 +162,7 @@ TEST(ScenarioPage, TheOfTheDocumentationIsTrue) {
                         page->find("`[[" + key + "]]`") != std::string::npos;
     EXPECT_TRUE(stands) << key;
   }
-  EXPECT_EQ(count, 50) << "of seven sections";
+  EXPECT_EQ(count, 64) << "of nine sections";
 }
 
 }  // namespace

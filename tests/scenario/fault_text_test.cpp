@@ -205,11 +205,47 @@ rc::Gen<double> any_size() {
   });
 }
 
+/// Numbers that a kind can have; others stay as they were drawn.
+void fit(Fault& fault, double second) {
+  const int other = (fault.sensor + 1) % 4;
+  switch (fault.kind) {
+    case FaultKind::noise:
+    case FaultKind::shake:
+    case FaultKind::coarse:
+    case FaultKind::stuck_last: fault.magnitude = std::abs(fault.magnitude); break;
+    case FaultKind::scale_change: fault.magnitude = fault.magnitude == 1.0 ? 2.0 : fault.magnitude; break;
+    case FaultKind::random_range:
+    case FaultKind::random_level:
+    case FaultKind::clip: fault.upper = fault.magnitude + 2.0 * std::abs(fault.magnitude); break;
+    case FaultKind::spikes: fault.upper = 1.0 / (1.0 + std::abs(second)); break;
+    case FaultKind::chatter:
+    case FaultKind::warm_up: fault.upper = std::abs(second); break;
+    case FaultKind::missing:
+    case FaultKind::drop: fault.magnitude = 1.0 / (1.0 + std::abs(second)); break;
+    case FaultKind::late:
+    case FaultKind::slow: fault.magnitude = 1 + static_cast<int>(std::fmod(std::abs(second), 100.0)); break;
+    case FaultKind::bit_flip: fault.magnitude = static_cast<int>(std::fmod(std::abs(second), 41.0)); break;
+    case FaultKind::pattern: fault.magnitude = static_cast<int>(std::fmod(std::abs(second), kBitPatterns)); break;
+    case FaultKind::exchange: fault.magnitude = other; break;
+    case FaultKind::mirror: fault.upper = (other + 1) % 4; [[fallthrough]];
+    case FaultKind::cross_talk:
+      fault.magnitude = other;
+      if (fault.kind == FaultKind::cross_talk) fault.upper = second;
+      break;
+    case FaultKind::turned:
+    case FaultKind::ghost: fault.upper = second; break;
+    case FaultKind::repeat:
+    case FaultKind::swap: fault.magnitude = 0.0; break;
+    default: break;
+  }
+}
+
 rc::Gen<Fault> any_fault() {
   return rc::gen::exec([] {
     Fault fault;
     fault.kind = static_cast<FaultKind>(*rc::gen::inRange(0, kFaultKinds));
     fault.sensor = *rc::gen::inRange(0, 4);
+    if (needs_whole_log(fault.kind)) fault.sensor = kWholeLog;
     fault.clock = static_cast<Clock>(*rc::gen::inRange(0, 3));
     const bool counted = fault.clock != Clock::time;
     fault.onset = counted ? *rc::gen::inRange(1, 1000000) : *any_size();
@@ -217,11 +253,7 @@ rc::Gen<Fault> any_fault() {
       fault.duration = counted ? *rc::gen::inRange(1, 1000000) : std::abs(*any_size());
     }
     fault.magnitude = *any_size();
-    if (fault.kind == FaultKind::stuck_last) fault.magnitude = std::abs(fault.magnitude);
-    if (fault.kind == FaultKind::scale_change && fault.magnitude == 1.0) fault.magnitude = 2.0;
-    if (fault.kind == FaultKind::random_range || fault.kind == FaultKind::random_level) {
-      fault.upper = fault.magnitude + 2.0 * std::abs(fault.magnitude);
-    }
+    fit(fault, *any_size());
     return fault;
   });
 }
@@ -237,6 +269,42 @@ RC_GTEST_PROP(FaultTextLaw, ToTextParsesBackToTheIdenticalFault, ()) {
     RC_ASSERT(*back == fault);
     RC_ASSERT(!describe(fault, context).empty());
   }
+}
+
+TEST(FaultText, ReadsTheKindsWithTwoNumbersAndThoseOfTheWholeLog) {
+  const Fault spikes = parsed("a1:spikes=0.5g0*1%@1s", volts());
+  EXPECT_DOUBLE_EQ(spikes.magnitude, 0.5 * kG0_mps2);
+  EXPECT_DOUBLE_EQ(spikes.upper, 0.01);
+  EXPECT_EQ(parsed("a1:chatter=50mg0*10s@1s", volts()).upper, 10.0);
+  EXPECT_EQ(parsed("a1:warmup=2mg0*5min@1s", volts()).upper, 300.0);
+  EXPECT_EQ(parsed("a1:cross=a3*1%@1s", volts()).magnitude, 2.0);
+  EXPECT_EQ(parsed("a1:mirror=a2*a3@1s", volts()).upper, 2.0);
+  EXPECT_DOUBLE_EQ(parsed("a1:turned=2deg@1s", volts()).magnitude, rad_from_deg(2.0));
+  EXPECT_DOUBLE_EQ(parsed("a1:turned=2deg*90deg@1s", volts()).upper, rad_from_deg(90.0));
+  EXPECT_EQ(parsed("a1:missing@1s", volts()).magnitude, 1.0);
+  EXPECT_DOUBLE_EQ(parsed("a1:missing=30%@1s", volts()).magnitude, 0.3);
+  EXPECT_EQ(parsed("a1:pattern=-inf@1s", volts()).magnitude, 2.0);
+  EXPECT_DOUBLE_EQ(parsed("a1:coarse=1mg0@1s", volts()).magnitude, 0.003);
+  const Fault back = parsed("log:back=2s@#5", volts());
+  EXPECT_EQ(back.sensor, kWholeLog);
+  EXPECT_EQ(back.magnitude, 2.0);
+  EXPECT_EQ(parsed("log:late=5@#5", volts()).sensor, kWholeLog);
+  EXPECT_EQ(parsed("a2:late=5@#5", volts()).sensor, 1);
+  for (const char* bad :
+       {"log:bias=1mg0@1s",  "log:last@1s",      "a1:shake=1g0@1s",    "a1:swap@1s",          "a1:late=101@1s",
+        "a1:late=0@1s",      "a1:missing=0%@1s", "a1:missing=101%@1s", "a1:exchange=a1@1s",   "a1:mirror=a2*a2@1s",
+        "a1:bit=41@1s",      "a1:bit=-1@1s",     "a1:spikes=1g0@1s",   "a1:spikes=1g0*0%@1s", "a1:chatter=1g0*0s@1s",
+        "a1:clip=2V..1V@1s", "log:swap=3@1s",    "a1:pattern=none@1s", "a1:noise=0mg0@1s",    "a1:cross=a9*1%@1s"}) {
+    const auto fault = parse_fault(bad, volts());
+    ASSERT_FALSE(fault) << bad;
+    EXPECT_NE(fault.error().find("Remedy: "), std::string::npos) << fault.error();
+  }
+}
+
+TEST(FaultText, ASensorThatIsCalledLogIsASensor) {
+  FaultContext context = volts();
+  context.datasheet.sensor[2].row.id = make_id("log");
+  EXPECT_EQ(parsed("log:bias=1mg0@1s", context).sensor, 2);
 }
 
 RC_GTEST_PROP(FaultTextLaw, AnyTextIsParsedOrRefusedWithARemedy, ()) {

@@ -175,9 +175,9 @@ TEST(Simulator, EveryKindOfFaultAtOnsetBeforeAndAfter) {
   Scenario scenario;
   scenario.tool = perfect_tool(paper_datasheet());
   scenario.dwell_s = 10.0;
-  scenario.noise = {1.0, false, true};
+  scenario.noise.quantise = false;
   const Simulator healthy = simulator(scenario);
-  for (int kind = 0; kind < kFaultKinds; ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(FaultKind::scale_change); ++kind) {
     Fault fault = make(static_cast<FaultKind>(kind), 2, 4.0, 0.5, 0.75);
     fault.duration = 3.0;
     scenario.faults = {fault};
@@ -201,6 +201,7 @@ TEST(Simulator, EveryKindOfFaultAtOnsetBeforeAndAfter) {
         case FaultKind::bias_step: ASSERT_NEAR(raw, whole + 0.5 * kPaperScale_VpMps2, 1e-12); break;
         case FaultKind::drift: ASSERT_NEAR(raw, whole + 0.5 * passed_s * kPaperScale_VpMps2, 1e-12); break;
         case FaultKind::scale_change: ASSERT_NEAR(raw, 0.5 * whole, 1e-12); break;
+        default: FAIL() << "channel_faults_test.cpp has the others";
       }
     }
   }

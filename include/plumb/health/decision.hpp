@@ -68,7 +68,8 @@ Decision decide(const TransitionTable& table, DecisionState& state, const Decisi
   if ((cell.actions & Action::unproven) != 0) state.unproven = true;
   if ((cell.actions & (Action::exclude | Action::rearm | Action::adopt_fit)) != 0) state.exhausted = false;
   if ((cell.actions & Action::exhausted) != 0) state.exhausted = true;
-  if (before.in_service != state.sensors.in_service || (cell.actions & Action::adopt_fit) != 0) state.clean_run = 0;
+  const bool anew = (cell.actions & (Action::adopt_fit | Action::rearm)) != 0;
+  if (anew || before.in_service != state.sensors.in_service) state.clean_run = 0;
 
   TargetFacts facts;
   facts.size = size_of(state.sensors.in_service);

@@ -15,8 +15,9 @@ namespace io {
 struct ScenarioFile {
   std::string path;
   std::string name;
-  std::string array_path;  ///< as the scenario names it, relative to the scenario file; empty: tool = "paper"
-  ArrayFile array;         ///< read from there, or the one of the paper's tool: what sensors, how the log looks
+  std::string array_path;  ///< as the scenario names it, relative to the scenario file; empty: inline or tool = "paper"
+  bool array_inline = false;  ///< [array] in the scenario itself holds what an array file would
+  ArrayFile array;            ///< read from there, or the one of the paper's tool: what sensors, how the log looks
   scenario::Scenario scenario;
 };
 
@@ -24,12 +25,16 @@ struct ScenarioFile {
 /// could not show (another sampling rate than the array file declares, say).
 FileExpected<ScenarioFile> read_scenario(const std::string& path);
 
-/// The same from text; `path` is used in messages, and to find the array file beside it.
+/// The same from text, TOML or (where it begins with a brace) JSON; `path` is used in messages, and to find the array
+/// file beside it.
 FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const std::string& path);
 
 /// The text that reads back as the identical scenario, bit for bit, every drawn error of the sensors
 /// spelled out. The tool's datasheet must be that of `file.array`; it is not written, only named.
 std::string scenario_text(const ScenarioFile& file);
+/// The same in JSON: the tables and keys of the TOML, which `parse_scenario_text` reads alike.
+std::string scenario_json(const ScenarioFile& file);
+/// JSON where the name ends in .json, else TOML.
 FileExpected<void> write_scenario(const std::string& path, const ScenarioFile& file);
 
 /// The array file of the paper's tool (`scenario::paper_datasheet`), as a person would write it: volts,

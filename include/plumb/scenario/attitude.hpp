@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tl/expected.hpp>
 #include <variant>
@@ -78,6 +79,21 @@ class Passage {
   Vec3 across_;
   double angle_rad_ = 0.0;
 };
+
+/// The tool turns about an axis of its own at a constant rate for a while, on top of the attitude law, and keeps the
+/// angle that it has then. What starting and stopping accelerate is left out.
+struct Turning {
+  double rate_radps = 0.0;
+  Vec3 axis{0.0, 0.0, 1.0};  ///< unit vector, tool frame
+  double from_s = 0.0;       ///< on the log's own time axis
+  double until_s = std::numeric_limits<double>::infinity();
+
+  bool at_work(double time_s) const noexcept { return rate_radps != 0.0 && time_s >= from_s && time_s < until_s; }
+  double angle_rad(double time_s) const noexcept;
+};
+
+/// What the vector becomes in the frame of a tool that has turned by the angle about the unit axis.
+Vec3 seen_from_turned(const Vec3& vector, const Vec3& axis, double angle_rad) noexcept;
 
 /// A unit vector perpendicular to the given one: the same for the same input everywhere.
 Vec3 perpendicular_to(const Vec3& unit) noexcept;

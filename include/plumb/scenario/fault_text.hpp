@@ -7,7 +7,19 @@
 ///   a1:random=-3V..3V@20s     a new random value every row; held= draws one value and keeps it
 ///   a2:bias=50mg0@30s+10s     reads 50 mg0 too much for ten seconds
 ///   a1:drift=1mg0/s@10s       error grows; also per min, per h
-///   a4:scale=1.1@10s          scale factor times 1.1
+///   a4:scale=1.1@10s          scale factor times 1.1; scale=-1 is a reversed wire
+///   a2:noise=5mg0@10s         white noise on top
+///   a2:spikes=0.5g0*1%@10s    one row in a hundred is off by so much
+///   a2:chatter=50mg0*10s@60s  a bias that comes and goes every ten seconds
+///   a2:warmup=2mg0*5min@0s    an error that dies away
+///   a2:clip=-1V..4V@10s       limited, not alike on both sides
+///   a2:coarse=16LSB@10s       low bits lost; bit=12 inverts bit 12; pattern=nan, inf, huge, denormal, -0
+///   a2:missing=30%@10s        does not deliver; late=5 comes five rows late, slow=10 changes every tenth row only
+///   a2:exchange=a3@10s        two channels have changed places; cross=a3*1% picks up some of a3
+///   a2:turned=2deg*90deg@10s  axis turned; ghost=5deg shows a turned gravity, mirror=a1*a3 a mirrored one
+///   log:shake=0.1g0@10s       the whole log: gravity=3mg0, temperature=20degC, drop=10%, repeat, swap, late=5, back=2s
+///
+/// In the place of KIND a name of the fault catalogue may stand (`a2:F04@12s`, `a2:off@12s`): see catalogue.hpp.
 ///
 /// SENSOR is an id, or the number of a sensor counted from 1 where no id reads like it. ONSET is a time
 /// (s, ms, us, min, h) on the log's own time axis, `#5` the fifth row, `station6` the sixth station;
@@ -18,6 +30,7 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "plumb/calibration/datasheet.hpp"
 #include "plumb/core/config.hpp"
@@ -38,6 +51,9 @@ struct FaultContext {
 
 /// Errors are texts that say what was found and end in a remedy.
 tl::expected<Fault, std::string> parse_fault(std::string_view text, const FaultContext& context);
+
+/// The same where a name of the fault catalogue may stand for several faults.
+tl::expected<std::vector<Fault>, std::string> parse_faults(std::string_view text, const FaultContext& context);
 
 /// The inverse: parses back to the identical value (the fault must pass `check`). Levels are given in
 /// the unit of the log.

@@ -21,12 +21,27 @@ namespace scenario {
 /// list acts on what comes earlier. A changed channel is digitised again (resolution, full scale), except
 /// in station means (`Sample::count` > 1), which are not codes. Channels that did not deliver stay so.
 ///
+/// Delivery faults (rows lost, doubled, out of order, times) are not acted out here but by `Delivery`, which comes
+/// after.
+///
+/// Kinds that speak of gravity (turned, ghost, mirror) take it from the least squares over all channels as they are
+/// before any fault; late, slow and exchange likewise take older rows and other channels from before any fault.
 /// A sensor that is stuck at its last value keeps the last finite one from before the onset, other faults
 /// included; with none, the value at the onset.
 class Injector {
  public:
+  /// Raw value of a channel at an older row (counted from 0), before any fault: for late and slow channels.
+  class Past {
+   public:
+    virtual double raw(int sensor, std::uint64_t row) const noexcept = 0;
+
+   protected:
+    ~Past() = default;
+  };
+
   /// `model` gives the scale factors: of the truth in a simulation, of the datasheet for a recorded log.
-  /// Refuses faults that `check` refuses; the text says which.
+  /// The axes of `datasheet` are those that faults of direction mean. Refuses faults that `check` refuses; the text
+  /// says which.
   static tl::expected<Injector, std::string> make(const Datasheet& datasheet, const SensorModel& model,
                                                   std::vector<Fault> faults, std::uint64_t seed,
                                                   const NoiseLaw& converter = {});
@@ -36,18 +51,35 @@ class Injector {
   SensorSet apply(Sample& sample) noexcept;
 
   const std::vector<Fault>& faults() const noexcept { return faults_; }
+  /// Where in the log the row was that `apply` saw last.
+  const Moment& now() const noexcept { return last_; }
   /// Positions in the list of the faults that no row has shown yet. After the last row: those outside the
   /// log's time, by station in a log without tags, or on a channel that did not deliver.
   std::vector<int> without_effect() const;
 
   /// For simulators, which know where they are and may jump: the faults at one moment, with the memory as
   /// it stands. `remember` must have been called for every stuck or drifting fault in effect.
-  SensorSet inject(Sample& sample, const Moment& now) const noexcept;
+  SensorSet inject(Sample& sample, const Moment& now, const Past& past) const noexcept;
   void remember(int fault, const FaultMemory& memory) noexcept;
 
  private:
   Injector(const Datasheet& datasheet, const SensorModel& model, std::vector<Fault> faults, std::uint64_t seed,
            const NoiseLaw& converter);
+
+  /// The last rows of a log, as they came in.
+  class Ring final : public Past {
+   public:
+    double raw(int sensor, std::uint64_t row) const noexcept override;
+    void keep(const Sample& sample, std::uint64_t row);
+
+   private:
+    std::vector<std::array<double, kCapacity>> rows_;
+    std::uint64_t next_ = 0;
+  };
+  struct Scene;  // one sample before any fault
+  void disturb(Sample& sample, const Fault& fault, const Moment& now, const Stream& stream) const noexcept;
+  double faulty_value(std::size_t k, const Sample& sample, const Moment& now, const Scene& scene, const Past& past,
+                      const Stream& stream) const noexcept;
 
   Datasheet datasheet_;
   SensorModel model_;
@@ -56,7 +88,10 @@ class Injector {
   std::uint64_t seed_;
   NoiseLaw converter_;
   Moment now_;
+  Moment last_;
   std::uint32_t tag_ = 0;
+  Ring ring_;
+  bool looks_back_ = false;  ///< some channel is late or slow
 };
 
 }  // namespace scenario

@@ -7,6 +7,7 @@
 #include "plumb/calibration/datasheet.hpp"
 #include "plumb/core/config.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/scenario/instability.hpp"
 #include "plumb/scenario/random.hpp"
 
 namespace plumb {
@@ -17,6 +18,7 @@ struct NoiseLaw {
   double white = 1.0;    ///< times the datasheet's noise of one sample; 0 = none
   bool quantise = true;  ///< round to the datasheet's resolution, where it is known
   bool clip = true;      ///< limit to the datasheet's full scale, where it is known
+  InstabilityLaw instability{};
 };
 
 /// Nearest multiple of `resolution` (raw unit); unchanged where resolution <= 0 or not finite.

@@ -24,6 +24,9 @@ enum class Purpose : std::uint8_t {
   fault = 5,      ///< random faults; sub-stream = position in the list of faults
   seed = 6,       ///< seeds derived from seeds
   test = 7,
+  instability = 8,  ///< slow wander of a bias; sub-stream = sensor
+  walk = 9,         ///< random walk of a bias; sub-stream = sensor
+  link = 10,        ///< rows that are lost; sub-stream = position in the list of faults
 };
 
 class Stream {

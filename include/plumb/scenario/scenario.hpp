@@ -11,6 +11,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/core/vec3.hpp"
 #include "plumb/scenario/attitude.hpp"
+#include "plumb/scenario/delivery.hpp"
 #include "plumb/scenario/fault.hpp"
 #include "plumb/scenario/injector.hpp"
 #include "plumb/scenario/noise.hpp"
@@ -28,18 +29,28 @@ struct TemperatureLaw {
   double at(double time_s) const noexcept { return start_degc + rate_degc_per_s * time_s; }
 };
 
+/// How deep the tool is: it is lowered by a stand between two stations, and what depends on depth with it.
+struct DepthLaw {
+  double stand_m = 0.0;          ///< between two stations
+  double gravity_per_s2 = 0.0;   ///< growth of gravity with depth [m/s^2 per m]: 8.4e-7 in rock of 2670 kg/m^3
+  double heat_degc_per_m = 0.0;  ///< growth of temperature with depth: 0.03 is ordinary
+};
+
 struct Scenario {
   Tool tool;
-  double gravity_mps2 = kG0_mps2;
+  double gravity_mps2 = kG0_mps2;  ///< at the first station
   AttitudeLaw attitudes = FixedAttitude{};
   double rate_hz = 100.0;
-  double dwell_s = 2.0;         ///< at rest at every station
-  double move_s = 1.0;          ///< between two stations, turning along the great circle
-  double vibration_mps2 = 0.0;  ///< rms per axis of the tool frame, while moving
-  bool record_motion = true;    ///< false: the log has the dwells only, with time gaps between them
-  bool tag_stations = false;    ///< true: samples at rest carry the tag 1, 2, ...; moving ones none
-  bool tag_rolls = false;       ///< true: and the number of the inclination that they share with other stations
-  double start_s = 0.0;         ///< time of the first sample
+  double dwell_s = 2.0;              ///< at rest at every station
+  double move_s = 1.0;               ///< between two stations, turning along the great circle
+  double vibration_mps2 = 0.0;       ///< rms per axis of the tool frame, while moving
+  double rest_vibration_mps2 = 0.0;  ///< the same at rest
+  Turning turning;                   ///< on top of the attitudes; sensors feel it through their lever arms
+  DepthLaw depth;
+  bool record_motion = true;  ///< false: the log has the dwells only, with time gaps between them
+  bool tag_stations = false;  ///< true: samples at rest carry the tag 1, 2, ...; moving ones none
+  bool tag_rolls = false;     ///< true: and the number of the inclination that they share with other stations
+  double start_s = 0.0;       ///< time of the first sample
   NoiseLaw noise;
   TemperatureLaw temperature;
   std::vector<Fault> faults;  ///< Clock::station counts the stations of the law, the motion behind one included
@@ -50,6 +61,8 @@ struct Scenario {
 struct Truth {
   Vec3 gravity_mps2{};            ///< in the tool frame, positive down; vibration left out
   Vec3 body_acceleration_mps2{};  ///< vibration, in the tool frame
+  Vec3 rate_radps{};              ///< how the tool turns (`Scenario::turning` alone), tool frame
+  double depth_m = 0.0;           ///< below the first station
   std::uint32_t station = 0;      ///< counted from 1; while moving: the one left behind
   bool moving = false;
   SensorSet faulty;  ///< sensors in fault
@@ -60,16 +73,17 @@ class Simulator {
   /// Refuses, with a remedy, a scenario that cannot be played: sensors, rates, counts, attitudes, faults.
   static tl::expected<Simulator, std::string> make(Scenario scenario);
 
-  /// Number of samples of the whole run.
+  /// Number of samples of the whole run, as measured; delivery faults lose or double some on their way.
   std::uint64_t size() const noexcept { return rows_; }
   double duration_s() const noexcept;
 
-  /// The next sample; false at the end. `truth()` then belongs to it.
-  bool next(Sample& sample) noexcept;
+  /// The next sample that arrives; false at the end. `truth()` then belongs to it, and `row()` is its number.
+  bool next(Sample& sample);
   const Truth& truth() const noexcept { return truth_; }
-  void rewind() noexcept { cursor_ = 0; }
+  std::uint64_t row() const noexcept { return row_; }
+  void rewind();
 
-  /// Sample `row` < size(), whatever was asked for before: a pure function of scenario and row.
+  /// Sample `row` < size() as measured, whatever was asked for before: a pure function of scenario and row.
   Sample at(std::uint64_t row, Truth* truth = nullptr) const noexcept;
 
   const Scenario& scenario() const noexcept { return scenario_; }
@@ -81,8 +95,10 @@ class Simulator {
   struct Place {
     Moment moment;
     bool moving = false;
-    double part = 0.0;  ///< of the way to the next station
+    double part = 0.0;       ///< of the way to the next station
+    std::uint64_t tick = 0;  ///< sample periods since the first row, unrecorded ones included
   };
+  class Healthy;  // rows before any fault, for channels that are late
   Place place_of(std::uint64_t row) const noexcept;
   Truth truth_at(const Place& place) const noexcept;
   Sample healthy(const Place& place, const Truth& truth) const noexcept;
@@ -93,12 +109,15 @@ class Simulator {
   std::vector<Passage> passages_;
   std::vector<std::uint32_t> roll_group_;  ///< by station; empty: no tags
   std::vector<Stream> noise_;
+  std::vector<Instability> instability_;  ///< by sensor; empty: none
   Stream vibration_;
   Injector injector_;
+  Delivery delivery_;
   std::uint64_t dwell_rows_ = 0;
   std::uint64_t move_rows_ = 0;
   std::uint64_t rows_ = 0;
   std::uint64_t cursor_ = 0;
+  std::uint64_t row_ = 0;
   Truth truth_;
 };
 

@@ -19,7 +19,8 @@ namespace scenario {
 struct Tool {
   Datasheet datasheet;
   SensorModel model;
-  std::array<Vec3, kCapacity> axes{};  ///< true unit axes in the tool frame
+  std::array<Vec3, kCapacity> axes{};         ///< true unit axes in the tool frame
+  std::array<Vec3, kCapacity> lever_arm_m{};  ///< of each sensor from the axis of rotation, tool frame
 };
 
 /// How far a truth may lie from the datasheet (defaults: calibration note). `uniform` draws within

@@ -1,0 +1,123 @@
+/* The specification in its environment, and with -DCODE the decision layer of the library in lock-step: both take every
+   reachable step, and must agree on the event, the sensors it moves, whether a record is due, and everything kept.
+   The library's state is part of the model checker's ("Matched"); with UNTRACKED states are missed without a word, which
+   the counts of states.txt notice. */
+#ifndef SENSORS
+#define SENSORS 4
+#endif
+#ifdef UNTRACKED
+#define MATCHED "UnMatched"
+#else
+#define MATCHED "Matched"
+#endif
+
+#ifdef CODE
+c_decl {
+\#include "shim.h"
+extern plumb_model_state S;
+extern plumb_model_input I;
+extern plumb_model_answer A;
+static plumb_model_state T;
+static plumb_model_answer B;
+}
+c_track "&S" "sizeof(plumb_model_state)" MATCHED
+#endif
+
+#include "specification.pml"
+#include "environment.pml"
+#include "properties.pml"
+
+c_code {
+\#include "symmetry.h"
+}
+
+bit changed, agreed;
+
+inline run_code() {
+#ifdef CODE
+  c_code {
+    S.unproven = now.unproven; S.exhausted = now.exhausted; S.clean_run = now.clean_run;
+    I.raised = now.raised;
+    I.culprits = now.culprits; I.accused = now.to_aside; I.lost = now.lost; I.back = now.back;
+    I.proven = now.proven; I.reset = now.named;
+    I.protection_within = now.within; I.clean_blocks = R_BLOCKS; I.sensors = SENSORS;
+    /* What recalibrating was entered from must be read in recalibrating alone: elsewhere another value changes nothing. */
+    T = S;
+    T.base = NOMINAL;
+    A = plumb_model_step(&S, &I);
+    B = plumb_model_step(&T, &I);
+    T.base = S.base;
+    now.agreed = now.mode == RECALIBRATING || (memcmp(&S, &T, sizeof S) == 0 && memcmp(&A, &B, sizeof A) == 0);
+  }
+#else
+  skip
+#endif
+}
+
+inline compare() {
+#ifdef CODE
+  changed = CHANGED;
+  c_code {
+    now.agreed = now.agreed && A.event == now.event && A.moved == now.moved && A.changed == now.changed && S.mode == now.mode &&
+                 S.base == now.base && S.in_service == now.serving && S.set_aside == now.aside &&
+                 S.excluded == now.out && S.absent == now.absent && S.readmitted == now.readmitted &&
+                 S.banned == now.banned && S.unproven == now.unproven && S.exhausted == now.exhausted &&
+                 S.clean_run == now.clean_run && S.calibrated == now.calibrated;
+  }
+  assert(agreed);
+  changed = 0; agreed = 0
+#else
+  skip
+#endif
+}
+
+inline tidy() {
+  raised = 0; culprits = 0; to_aside = 0; lost = 0; back = 0; proven = 0; named = 0; within = 0;
+  event = NONE; does = 0; moved = 0; kind = SAMPLE; excited = 0; shows = 0; vote = 0; wrong = 0; result = 0;
+  ever = (open -> ever & POSED : 0);
+  if :: mode != RECALIBRATING -> base = SUSPECT :: else fi;
+#ifdef CODE
+  c_code { S.base = now.base; };
+#endif
+  c_code { plumb_sort(); }
+}
+
+active proctype tool() {
+  atomic {
+    if
+    :: calibrated = 1
+    :: mode = INITIAL
+    fi;
+    d_step {
+      write_table();
+      serving = ALL; unproven = 1; event = NONE;
+#ifdef CODE
+      c_code { S.mode = now.mode; S.base = now.base; S.in_service = now.serving; S.unproven = 1; S.calibrated = now.calibrated; };
+#endif
+      c_code { plumb_sort(); }
+    }
+  }
+  do
+  :: atomic {
+       choose();
+       d_step { look(); run_code(); machine(); follow(); c_code { plumb_tell(); }; judge(); compare(); tidy() }
+     }
+#ifdef CLAIMS
+  :: atomic { regime == FREE ->
+       if
+       :: regime = CALM
+       :: regime = DOUBTING
+       :: regime = UNSEEN
+       :: regime = VIOLATED
+       :: !open && doubt == 0 && PUBLISHES(mode) && aside == 0 && COUNT(serving) > 3 ->
+            pick(serving, broken);
+            if
+            :: broken != 0 && COUNT(serving & ~broken) >= 3 -> regime = FAULTY
+            :: else -> broken = 0; regime = UNSEEN
+            fi
+       fi;
+       d_step { c_code { plumb_sort(); } }
+     }
+#endif
+  od
+}

@@ -1,0 +1,107 @@
+/* What must hold at every step (assertions, by the names of docs/properties.md) and of every run (claims).
+   The values before the step are taken by `look`, those after it are judged by `judge`. */
+
+hidden byte m0_, serving0_, aside0_, out0_, absent0_, readmitted0_, banned0_, ever0_, accused0_, open0_, run0_, posed0_;
+hidden byte unproven0_, fit0_;
+bit alarmed;      /* a block spoke against the tool since the collection of stations began */
+
+inline look() {
+  m0_ = mode; serving0_ = serving; aside0_ = aside; out0_ = out; absent0_ = absent; posed0_ = POSED;
+  readmitted0_ = readmitted; banned0_ = banned; ever0_ = ever; accused0_ = accused; open0_ = open;
+  run0_ = clean_run; unproven0_ = unproven; fit0_ = fit;
+  if
+  :: raised & (BIT(ALARM) | BIT(CONTRADICTION) | BIT(REFERENCE)) -> alarmed = (mode == RECALIBRATING || mode == INITIAL)
+  :: else
+  fi
+}
+
+#define LEFT_SERVICE (serving0_ & ~serving)
+#define CAME_BACK    (serving & ~serving0_)
+#define DOUBTED (event == ALARM || event == CONTRADICTION || event == REFERENCE || event == SET_ASIDE)
+#define CHANGED (mode != m0_ || serving != serving0_ || aside != aside0_ || out != out0_ || absent != absent0_)
+
+inline judge() {
+  /* S4: one place for every sensor */
+  assert((serving | aside | out | absent) == ALL && COUNT(serving) + COUNT(aside) + COUNT(out) + COUNT(absent) == SENSORS);
+  /* S3: fewer than three in service is failed; failed publishes nothing */
+  assert(LEFT >= 3 || mode == FAILED);
+  assert(mode != FAILED || !VALID);
+  /* what the states mean */
+  assert(mode != NOMINAL || serving == ALL);
+  assert(mode != ISOLATED || (LEFT > 3 && serving != ALL));
+  assert(mode != DEGRADED || LEFT == 3);
+  assert(event == NONE || kind_of[m0_ * EVENTS + event] != IMPOSSIBLE);
+  /* S5 */
+  assert(m0_ != FAILED || mode == FAILED || event == RESET);
+  /* S1: an exclusion takes nobody who was healthy throughout the episode (who was to stay out already may be counted
+     among the excluded with it); nor does setting aside while four are healthy */
+  if
+  :: event == CULPRIT ->
+       assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, ever0_ | banned0_))
+  :: event == SET_ASIDE && COUNT(posed0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
+  :: else
+  fi;
+  /* S6: only the accused, after their stations, and never so that fewer than three are left */
+  if
+  :: event == CULPRIT -> assert(moved == accused0_ && moved != 0 && open0_ && COUNT(posed0_ & ~moved) >= 3)
+  :: else
+  fi;
+  /* S6, S7: nobody leaves the service but by a culprit, a set-aside, a silence */
+  assert(WITHIN(LEFT_SERVICE, (event == CULPRIT || event == SET_ASIDE || event == CHANNEL_LOST -> moved : 0)));
+  assert(!(kind == NO_EVIDENCE && event == NONE) || !CHANGED);
+  /* S8: adopted only what was collected since the last word against the tool, and only on acceptance */
+  if
+  :: does & ADOPT_FIT -> assert(event == FIT_ACCEPTED && (m0_ == RECALIBRATING || m0_ == INITIAL) && !alarmed && fit0_)
+  :: else
+  fi;
+  /* S9: back by probation, by acquittal of who was only set aside, or by the operator out of failed */
+  assert(WITHIN(CAME_BACK, (event == PROBATION_PASSED || (event == RESET && m0_ == FAILED) -> moved :
+                            (event == CULPRIT -> aside0_ : 0))));
+  assert(event != PROBATION_PASSED || COUNT(CAME_BACK) <= 1);
+  /* S10: who was convicted after a return does not come back */
+  assert(event == RESET || WITHIN(CAME_BACK, ALL & ~banned0_));
+  assert(WITHIN(readmitted0_, readmitted) && WITHIN(banned0_, banned) && WITHIN(banned, readmitted));
+  /* S12: patience over is bounded by the protection level, or failed */
+  assert(event != PATIENCE_OVER || m0_ != SUSPECT || (within -> (mode == SUSPECT && exhausted) : mode == FAILED));
+  /* S14: within an episode the accused only grow, but for those that are gone, and for a sensor that joined */
+  assert(!(open0_ && open) || CAME_BACK & ~posed0_ || WITHIN(accused0_ & POSED, accused));
+  /* S15: a step that changes something has an event to record */
+  assert(!CHANGED || event != NONE);
+  /* S16: an alarm ends recalibration, and nothing collected outlives it */
+  assert(!(DOUBTED && m0_ == RECALIBRATING) || (mode != RECALIBRATING && !fit));
+  assert(!(DOUBTED && m0_ == INITIAL) || !fit);
+  /* S17: doubt, and no evidence, are never published as valid */
+  assert(!DOUBTED || !VALID);
+  assert(!(kind == NO_EVIDENCE) || !VALID);
+  assert(!unproven || !SHOWS_OUTPUT);
+  assert(!(kind == ALARMING || kind == OFF_GRAVITY) || event == CULPRIT || !VALID || event <= CHANNEL_BACK);
+  /* S19 */
+  assert(calibrated || mode == INITIAL || mode == FAILED);
+  /* S20: adopted means suspect and unproven, and out of suspect only what has been clean for long enough */
+  assert(!(does & ADOPT_FIT) || (mode == SUSPECT && unproven && clean_run == 0));
+  assert(!(m0_ == SUSPECT && PUBLISHES(mode)) || event == CULPRIT ||
+         (event == CLEAN_BLOCK && run0_ >= R_BLOCKS && !unproven0_));
+  assert(event != RESET || mode == FAILED || (unproven && !PUBLISHES(mode)));
+  assert(event != RESET || m0_ != FAILED || mode == FAILED || clean_run == 0);
+  if :: does & (START_FIT | DISCARD_FIT | RESTART_FIT | ADOPT_FIT) || (mode != RECALIBRATING && mode != INITIAL) -> alarmed = 0
+     :: else fi
+}
+
+#ifdef CLAIMS
+#define L1_HOLDS ([] (regime == FAULTY -> <> (WITHIN(broken, out) && mode != FAILED)))
+#define L2_HOLDS ([] (regime == CALM -> <> [] (mode != SUSPECT)))
+#define L3_HOLDS ([] (regime == DOUBTING && mode == SUSPECT -> <> (mode != SUSPECT || exhausted)))
+#define L4_HOLDS ([] (regime == CALM -> <> (mode != RECALIBRATING && mode != INITIAL)))
+#define L5_HOLDS ([] (regime == UNSEEN -> <> [] !VALID))
+#define L6_HOLDS ([] (regime == VIOLATED && LEFT == 3 && calibrated -> <> (mode == FAILED)))
+ltl L1 { L1_HOLDS }
+ltl L2 { L2_HOLDS }
+ltl L3 { L3_HOLDS }
+ltl L4 { L4_HOLDS }
+ltl L5 { L5_HOLDS }
+ltl L6 { L6_HOLDS }
+/* All at once: the ways in which a run may go on for ever exclude each other. */
+ltl liveness { L1_HOLDS && L2_HOLDS && L3_HOLDS && L4_HOLDS && L5_HOLDS && L6_HOLDS }
+/* must fail: the model can lose a sensor and go on with three */
+ltl never_degraded { [] (mode != DEGRADED) }
+#endif

@@ -1,0 +1,84 @@
+// The real decision layer behind model/shim.h. With PLUMB_MODEL_DEFECT one cell of the table is wrong: the lock-step
+// must notice.
+#include "shim.h"
+
+#include "plumb/health/decision.hpp"
+
+namespace {
+
+using namespace plumb;
+
+static_assert(sizeof(plumb_model_state) == 12, "no padding: the model checker compares bytes");
+static_assert(static_cast<int>(Mode::nominal) == 0 && static_cast<int>(Mode::isolated) == 1 &&
+              static_cast<int>(Mode::suspect) == 2 && static_cast<int>(Mode::degraded) == 3 &&
+              static_cast<int>(Mode::recalibrating) == 4 && static_cast<int>(Mode::initial) == 5 &&
+              static_cast<int>(Mode::failed) == 6 && kModeCount == 7);
+static_assert(static_cast<int>(HealthEvent::reset) == 0 && static_cast<int>(HealthEvent::channel_lost) == 1 &&
+              static_cast<int>(HealthEvent::channel_back) == 2 && static_cast<int>(HealthEvent::culprit) == 3 &&
+              static_cast<int>(HealthEvent::set_aside) == 4 && static_cast<int>(HealthEvent::patience_over) == 5 &&
+              static_cast<int>(HealthEvent::contradiction) == 6 && static_cast<int>(HealthEvent::alarm) == 7 &&
+              static_cast<int>(HealthEvent::reference) == 8 && static_cast<int>(HealthEvent::fit_accepted) == 9 &&
+              static_cast<int>(HealthEvent::fit_rejected) == 10 &&
+              static_cast<int>(HealthEvent::probation_passed) == 11 &&
+              static_cast<int>(HealthEvent::recalibrate) == 12 && static_cast<int>(HealthEvent::clean_block) == 13 &&
+              static_cast<int>(HealthEvent::none) == 14);
+
+#ifdef PLUMB_MODEL_DEFECT
+TransitionTable table_with_a_defect() {
+  TransitionTable table = kTransitionTable;
+  table[static_cast<std::size_t>(Mode::recalibrating)][static_cast<std::size_t>(HealthEvent::fit_rejected)].target =
+      Target::by_size;
+  return table;
+}
+const TransitionTable kTable = table_with_a_defect();
+#else
+constexpr const TransitionTable& kTable = kTransitionTable;
+#endif
+
+unsigned char byte_of(SensorSet set) { return static_cast<unsigned char>(set.bits); }
+
+}  // namespace
+
+plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_input* input) {
+  DecisionState s;
+  s.mode = static_cast<Mode>(state->mode);
+  s.base = static_cast<Mode>(state->base);
+  s.sensors = {SensorSet(state->in_service), SensorSet(state->set_aside),  SensorSet(state->excluded),
+               SensorSet(state->absent),     SensorSet(state->readmitted), SensorSet(state->banned)};
+  s.unproven = state->unproven != 0;
+  s.exhausted = state->exhausted != 0;
+  s.clean_run = state->clean_run;
+
+  DecisionInput in;
+  in.raised = input->raised;
+  in.named = {SensorSet(input->culprits), SensorSet(input->accused), SensorSet(input->lost),
+              SensorSet(input->back),     SensorSet(input->proven),  SensorSet(input->reset)};
+  in.protection_within = input->protection_within != 0;
+  in.calibrated = state->calibrated != 0;
+  in.clean_blocks = input->clean_blocks;
+  const int n = input->sensors;
+  const Decision decision = decide(kTable, s, in, [n](SensorSet set) {
+    if (set.size() < 3) return SizeClass::rank_lost;
+    if (set.size() == 3) return SizeClass::critical;
+    return set.size() == n ? SizeClass::all_configured : SizeClass::reduced;
+  });
+
+  const bool adopted = (decision.actions & Action::adopt_fit) != 0;
+  state->mode = static_cast<unsigned char>(s.mode);
+  state->base = static_cast<unsigned char>(s.base);
+  state->in_service = byte_of(s.sensors.in_service);
+  state->set_aside = byte_of(s.sensors.set_aside);
+  state->excluded = byte_of(s.sensors.excluded);
+  state->absent = byte_of(s.sensors.absent);
+  state->readmitted = byte_of(s.sensors.readmitted);
+  state->banned = byte_of(s.sensors.banned);
+  state->unproven = s.unproven ? 1 : 0;
+  state->exhausted = s.exhausted ? 1 : 0;
+  state->clean_run = static_cast<unsigned char>(s.clean_run);
+  if (adopted) state->calibrated = 1;
+  return {static_cast<unsigned char>(decision.event), byte_of(decision.sensors),
+          static_cast<unsigned char>(decision.changed ? 1 : 0), static_cast<unsigned char>(adopted ? 1 : 0)};
+}
+
+const char* plumb_model_mode_name(unsigned char mode) { return to_string(static_cast<Mode>(mode)); }
+const char* plumb_model_event_name(unsigned char event) { return to_string(static_cast<HealthEvent>(event)); }

@@ -1,0 +1,34 @@
+/* The decision layer for C, as the lock-step model and the breadth-first search call it: bytes without padding, no
+   pointers, sensors in general position. Masks are sets of sensors, numbers of modes and events are those of the model.
+ */
+#ifndef PLUMB_MODEL_SHIM_H
+#define PLUMB_MODEL_SHIM_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+  unsigned char mode, base;
+  unsigned char in_service, set_aside, excluded, absent, readmitted, banned;
+  unsigned char unproven, exhausted, clean_run, calibrated;
+} plumb_model_state;
+
+typedef struct {
+  unsigned raised; /* one bit per event */
+  unsigned char culprits, accused, lost, back, proven, reset;
+  unsigned char protection_within, clean_blocks, sensors;
+} plumb_model_input;
+
+typedef struct {
+  unsigned char event, moved, changed, adopted;
+} plumb_model_answer;
+
+plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_input* input);
+const char* plumb_model_mode_name(unsigned char mode);
+const char* plumb_model_event_name(unsigned char event);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

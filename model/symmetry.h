@@ -1,0 +1,98 @@
+/* Included by pan.c. Sensors of an array in general position are interchangeable to the decision layer, but for the one
+   rule that probation returns the lowest first, and there each of them may be the only one proven. So only how many
+   sensors stand alike counts: after every step the sensors are put in the order of what is known of them.
+   tests/model/breadth_first_test.cpp does the same with its own code and without the shortcuts of environment.pml, and
+   must count the same states. In a replay the names of the sensors follow them. */
+#include <stdio.h>
+
+extern int readtrail; /* of pan.c: a trail is being replayed */
+
+#define PLUMB_MASKS(use)                                                                                         \
+  use(serving) use(aside) use(out) use(absent) use(readmitted) use(banned) use(ever) use(accused) use(probation) \
+      use(broken)
+
+static int plumb_order[8];
+static int plumb_names[8] = {1, 2, 3, 4, 5, 6, 7, 8};
+
+static unsigned plumb_place(unsigned mask) {
+  unsigned sorted = 0;
+  int i;
+  for (i = 0; i < SENSORS; ++i) sorted |= ((mask >> plumb_order[i]) & 1u) << i;
+  return sorted;
+}
+
+static void plumb_sort(void) {
+  unsigned known[8];
+  int i, k, names[8];
+  for (i = 0; i < SENSORS; ++i) {
+    unsigned word = 0;
+#define PLUMB_KNOWN(m) word = word << 1 | ((now.m >> i) & 1u);
+    PLUMB_MASKS(PLUMB_KNOWN)
+    for (k = i; k > 0 && known[k - 1] < word; --k) {
+      known[k] = known[k - 1];
+      plumb_order[k] = plumb_order[k - 1];
+    }
+    known[k] = word;
+    plumb_order[k] = i;
+  }
+#define PLUMB_PLACE(m) now.m = plumb_place(now.m);
+  PLUMB_MASKS(PLUMB_PLACE)
+#ifdef CODE
+  S.in_service = plumb_place(S.in_service);
+  S.set_aside = plumb_place(S.set_aside);
+  S.excluded = plumb_place(S.excluded);
+  S.absent = plumb_place(S.absent);
+  S.readmitted = plumb_place(S.readmitted);
+  S.banned = plumb_place(S.banned);
+#endif
+  now.rep = 0;
+  for (i = 0; i < SENSORS; ++i) {
+    if (i == 0 || known[i] != known[i - 1]) now.rep |= 1u << i;
+  }
+  if (readtrail) {
+    for (i = 0; i < SENSORS; ++i) names[i] = plumb_names[plumb_order[i]];
+    for (i = 0; i < SENSORS; ++i) plumb_names[i] = names[i];
+  }
+}
+
+/* --- A step in words, for model/replay. -------------------------------------------------------------------------- */
+
+static const char* plumb_modes[] = {"nominal",       "isolated",          "suspect", "degraded",
+                                    "recalibrating", "first calibration", "failed"};
+static const char* plumb_events[] = {"reset",         "channel lost",     "channel back", "culprit",     "set aside",
+                                     "patience over", "contradiction",    "alarm",        "reference",   "fit accepted",
+                                     "fit rejected",  "probation passed", "recalibrate",  "clean block", "none"};
+static const char* plumb_kinds[] = {
+    "a sample", "no evidence", "a clean block", "a block short of clean", "an alarming block", "a block off gravity"};
+
+static void plumb_set(const char* what, unsigned mask) {
+  int i;
+  if (mask == 0) return;
+  printf("%s", what);
+  for (i = 1; i <= SENSORS; ++i) {
+    int k;
+    for (k = 0; k < SENSORS; ++k) {
+      if (plumb_names[k] == i && ((mask >> k) & 1u)) printf(" %d", i);
+    }
+  }
+}
+
+static void plumb_tell(void) {
+  static int step = 0;
+  if (!readtrail) return;
+  printf("| %3d  %s%s", ++step, plumb_kinds[now.kind], now.kind >= 2 && now.excited ? " at a new attitude" : "");
+  plumb_set("; wrong in this episode:", ever0_);
+  plumb_set("; accused:", accused0_);
+  printf("\n|      %s", plumb_events[now.event]);
+  plumb_set(":", now.moved);
+  if (m0_ != now.mode)
+    printf(", %s -> %s", plumb_modes[m0_], plumb_modes[now.mode]);
+  else
+    printf(", stays %s", plumb_modes[now.mode]);
+  plumb_set("; in service", now.serving);
+  plumb_set("; set aside", now.aside);
+  plumb_set("; excluded", now.out);
+  plumb_set("; absent", now.absent);
+  plumb_set("; out for good", now.banned);
+  printf("%s\n", now.unproven ? "; unproven" : "");
+}

@@ -1,0 +1,116 @@
+// [temperature], [noise], [rotation] and [depth] of the scenario file: what the tool is exposed to.
+#include <cmath>
+#include <limits>
+
+#include "scenario_parts.hpp"
+#include "text_tools.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+/// "3 degC/min" -> degC per s, "60 deg/s" -> rad per s, "0.084 mGal/m" -> m/s^2 per m: one quantity per another.
+double read_quotient(const TomlTable& table, const char* key, Quantity above, Quantity below, const std::string& form) {
+  const TomlNode& value = table.need(key, form);
+  const std::string text = table.text_with_unit(value, key, form);
+  const std::size_t slash = text.rfind('/');
+  if (slash == std::string::npos) table.fail(value.line, key, in_quotes(text) + " is not a rate", form);
+  const double amount = table.checked(parse_quantity(above, text.substr(0, slash)), key, value);
+  const std::string unit(trimmed(std::string_view(text).substr(slash + 1)));
+  return amount / table.checked(parse_quantity(below, "1 " + unit), key, value);
+}
+
+double read_temperature_rate(const TomlTable& table) {
+  return read_quotient(table, "rate", Quantity::temperature, Quantity::time,
+                       "write it with a unit of time, as in rate = \"3 degC/min\"");
+}
+
+}  // namespace
+
+scenario::TemperatureLaw read_temperature(const ScenarioSource& source, double reference_degc) {
+  const TomlTable table = section_of(source, "temperature", {"law", "value", "start", "rate"});
+  const std::vector<std::string> laws = {"constant", "linear"};
+  const int law = table.choice("law", laws, 0);
+  refuse_unused(table, laws[static_cast<std::size_t>(law)],
+                law == 0 ? std::vector<std::string>{"law", "value"} : std::vector<std::string>{"law", "start", "rate"});
+  const char* key = law == 0 ? "value" : "start";
+  scenario::TemperatureLaw out;
+  out.start_degc = within(table, key, table.quantity(Quantity::temperature, key, reference_degc), -273.15, 1e4,
+                          "give a temperature of the sensors, as in \"25 degC\"");
+  if (law == 1) {
+    out.rate_degc_per_s =
+        within(table, "rate", read_temperature_rate(table), -1e3, 1e3, "give a slower change, as in \"3 degC/min\"");
+  }
+  return out;
+}
+
+scenario::NoiseLaw read_noise(const ScenarioSource& source) {
+  const TomlTable table =
+      section_of(source, "noise", {"factor", "quantise", "clip", "instability", "correlation", "walk"});
+  scenario::NoiseLaw noise;
+  noise.white = within(table, "factor", table.quantity(Quantity::ratio, "factor", noise.white), 0.0, 1e6,
+                       "give a factor on the datasheet's noise: 1 as declared, 0 none");
+  noise.quantise = read_flag(table, "quantise", noise.quantise);
+  noise.clip = read_flag(table, "clip", noise.clip);
+  scenario::InstabilityLaw& wander = noise.instability;
+  wander.sigma_mps2 =
+      within(table, "instability", table.quantity(Quantity::acceleration, "instability", wander.sigma_mps2), 0.0, 1e6,
+             "give 1 sigma of the slow wander of every bias, as in \"20 ug0\"");
+  wander.correlation_s =
+      within(table, "correlation", table.quantity(Quantity::time, "correlation", wander.correlation_s), 1e-9, 1e12,
+             "give the time over which the wander forgets itself, as in \"100 s\"");
+  wander.walk_mps2 = within(table, "walk", table.quantity(Quantity::acceleration, "walk", wander.walk_mps2), 0.0, 1e6,
+                            "give 1 sigma of the random walk after one second, as in \"1 ug0\"");
+  return noise;
+}
+
+scenario::Turning read_rotation(const ScenarioSource& source) {
+  const TomlTable table = section_of(source, "rotation", {"rate", "axis", "from", "until"});
+  scenario::Turning turning;
+  if (source.root.find("rotation") == nullptr) return turning;
+  turning.rate_radps =
+      within(table, "rate",
+             read_quotient(table, "rate", Quantity::angle, Quantity::time, "write it as in rate = \"60 deg/s\""), -1e5,
+             1e5, "give a rate of ordinary size, as in \"60 deg/s\"");
+  if (table.has("axis")) {
+    const std::string form = "give the axis in the tool frame, of unit length: axis = [0, 0, 1]";
+    turning.axis = table.need_vec3("axis", form);
+    if (std::abs(norm(turning.axis) - 1.0) > 1e-6) {
+      table.fail(table.line_of("axis"), "axis", "is " + brief(norm(turning.axis), 9) + " long, must be of unit length",
+                 form);
+    }
+  }
+  const std::string times = "give a time on the axis of the log, as in \"12 s\", until not before from";
+  turning.from_s = within(table, "from", table.quantity(Quantity::time, "from", 0.0), -1e12, 1e12, times);
+  turning.until_s = table.quantity(Quantity::time, "until", std::numeric_limits<double>::infinity());
+  if (!(turning.until_s >= turning.from_s)) table.fail(table.line_of("until"), "until", "is before from", times);
+  return turning;
+}
+
+scenario::DepthLaw read_depth(const ScenarioSource& source) {
+  const TomlTable table = section_of(source, "depth", {"stand", "gravity", "heat"});
+  scenario::DepthLaw depth;
+  if (source.root.find("depth") == nullptr) return depth;
+  depth.stand_m = within(
+      table, "stand",
+      table.need_quantity(Quantity::length, "stand", "say how far it is between two stations, as in stand = \"28 m\""),
+      -1e6, 1e6, "give a length of ordinary size, as in \"28 m\"");
+  if (table.has("gravity")) {
+    depth.gravity_per_s2 = within(table, "gravity",
+                                  read_quotient(table, "gravity", Quantity::acceleration, Quantity::length,
+                                                "write it as in gravity = \"0.084 mGal/m\""),
+                                  -1.0, 1.0, "give the growth per metre, as in \"0.084 mGal/m\"");
+  }
+  if (table.has("heat")) {
+    depth.heat_degc_per_m = within(
+        table, "heat",
+        read_quotient(table, "heat", Quantity::temperature, Quantity::length, "write it as in heat = \"0.03 degC/m\""),
+        -1e3, 1e3, "give the growth per metre, as in \"0.03 degC/m\"");
+  }
+  return depth;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,154 @@
+// The table that the tool prints against the one that model/specification.pml was written with, cell by cell, actions
+// included. The lines read here are the lines that the model checker executes.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace {
+
+struct Cell {
+  std::string kind, target;
+  std::set<std::string> actions;
+  bool operator==(const Cell& o) const { return kind == o.kind && target == o.target && actions == o.actions; }
+};
+std::ostream& operator<<(std::ostream& out, const Cell& c) {
+  out << c.kind << " -> " << c.target;
+  for (const std::string& a : c.actions) out << ", " << a;
+  return out;
+}
+using Table = std::map<std::string, Cell>;
+
+/// The specification's words and the tool's.
+const std::map<std::string, std::string> kWords = {
+    {"NOMINAL", "nominal"},
+    {"ISOLATED", "isolated"},
+    {"SUSPECT", "suspect"},
+    {"DEGRADED", "degraded"},
+    {"RECALIBRATING", "recalibrating"},
+    {"INITIAL", "recalibrating (initial)"},
+    {"FAILED", "failed"},
+    {"RESET", "reset"},
+    {"CHANNEL_LOST", "channel_lost"},
+    {"CHANNEL_BACK", "channel_back"},
+    {"CULPRIT", "culprit"},
+    {"SET_ASIDE", "set_aside"},
+    {"PATIENCE_OVER", "patience_over"},
+    {"CONTRADICTION", "contradiction"},
+    {"ALARM", "alarm"},
+    {"REFERENCE", "reference"},
+    {"FIT_ACCEPTED", "fit_accepted"},
+    {"FIT_REJECTED", "fit_rejected"},
+    {"PROBATION_PASSED", "probation_passed"},
+    {"RECALIBRATE", "recalibrate"},
+    {"CLEAN_BLOCK", "clean_block"},
+    {"IGNORED", "ignored"},
+    {"HELD", "held"},
+    {"TAKEN", "taken"},
+    {"IMPOSSIBLE", "impossible"},
+    {"STAY", "stay"},
+    {"BY_SIZE", "by size"},
+    {"BY_SIZE_IF_PROVEN", "by size (unproven: suspect)"},
+    {"BY_SIZE_WHEN_EARNED", "by size when earned"},
+    {"TO_SUSPECT", "suspect"},
+    {"SUSPECT_OR_FAILED", "suspect (rank < 3: failed)"},
+    {"STAY_OR_FAILED", "stay (rank < 3: failed)"},
+    {"BY_PROTECTION", "stay while PL <= AL, else failed"},
+    {"TO_RECALIBRATING", "recalibrating"},
+    {"TO_BASE", "by size; from suspect: suspect"},
+    {"BY_RESET", "suspect (rank < 3: stay; no calibration: recalibrating (initial))"},
+    {"TO_FAILED", "failed"},
+    {"EXCLUDE", "exclude"},
+    {"PUT_ASIDE", "set aside"},
+    {"MARK_ABSENT", "mark absent"},
+    {"MARK_BACK", "mark as back"},
+    {"DISCARD_FIT", "discard fit"},
+    {"RESTART_FIT", "restart collection"},
+    {"ADOPT_FIT", "adopt fit"},
+    {"START_FIT", "start fit"},
+    {"REINSTATE", "reinstate"},
+    {"RETURN_NAMED", "return named sensors"},
+    {"EXHAUST", "exhausted"},
+    {"DISTRUST", "unproven"},
+    {"COUNT_IT", "count"},
+};
+
+std::string word(const std::string& name) {
+  const auto found = kWords.find(name);
+  return found == kWords.end() ? "unknown word " + name : found->second;
+}
+
+Table specified(std::istream& file) {
+  const std::regex line(R"(^\s*CELL\((\w+),\s*(\w+),\s*(\w+),\s*(\w+),\s*([\w |]+)\);)");
+  Table table;
+  std::string text;
+  while (std::getline(file, text)) {
+    std::smatch m;
+    if (!std::regex_search(text, m, line)) continue;
+    Cell cell{word(m[3]), word(m[4]), {}};
+    std::istringstream actions(m[5]);
+    for (std::string a; actions >> a;) {
+      if (a != "|" && a != "NOTHING") cell.actions.insert(word(a));
+    }
+    EXPECT_TRUE(table.emplace(word(m[1]) + " / " + word(m[2]), cell).second) << "written twice: " << text;
+  }
+  return table;
+}
+
+Table printed() {
+  std::string text;
+  FILE* pipe = popen(PLUMB_TOOL_PATH " model --format json", "r");
+  if (pipe == nullptr) return {};
+  char buffer[4096];
+  for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, got);
+  pclose(pipe);
+  Table table;
+  const auto model = nlohmann::json::parse(text);
+  for (const auto& cell : model.at("cells")) {
+    if (cell.at("event") == "none") continue;
+    const std::string where = cell.at("mode").get<std::string>() + " / " + cell.at("event").get<std::string>();
+    table[where] = {cell.at("kind"), cell.at("target"), cell.at("actions").get<std::set<std::string>>()};
+  }
+  return table;
+}
+
+int differences(const Table& a, const Table& b) {
+  int n = 0;
+  for (const auto& [where, cell] : a) n += b.count(where) == 1 && b.at(where) == cell ? 0 : 1;
+  return n;
+}
+
+TEST(Specification, IsTheTableThatTheToolPrints) {
+  std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/model/specification.pml");
+  const Table spec = specified(file);
+  const Table tool = printed();
+  ASSERT_EQ(spec.size(), 7U * 14U);
+  ASSERT_EQ(tool.size(), 7U * 14U);
+  for (const auto& [where, cell] : spec) {
+    ASSERT_EQ(tool.count(where), 1U) << where;
+    EXPECT_EQ(tool.at(where), cell) << where;
+  }
+}
+
+TEST(Specification, EveryChangedCellIsNoticed) {
+  const Table tool = printed();
+  ASSERT_EQ(tool.size(), 7U * 14U);
+  for (const auto& [where, cell] : tool) {
+    for (int what = 0; what < 3; ++what) {
+      Table changed = tool;
+      Cell& c = changed[where];
+      if (what == 0) c.kind = c.kind == "held" ? "taken" : "held";
+      if (what == 1) c.target = c.target == "failed" ? "stay" : "failed";
+      if (what == 2 && c.actions.erase("exclude") == 0) c.actions.insert("exclude");
+      EXPECT_EQ(differences(tool, changed), 1) << where;
+    }
+  }
+}
+
+}  // namespace
