@@ -166,7 +166,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   r.p_value = r.degrees_of_freedom >= 1 ? chi2_tail(r.chi2, r.degrees_of_freedom) : 1.0;
   if (problem.roll.used) r.common_turn = fit::common_turn(datasheet_, problem.roll.axis, fitted.theta);
   if (r.temperature_max_degc - r.temperature_min_degc >= kLevelsApart_degc) {
-    r.level_misfit = fit::level_misfit(problem, fitted.theta);
+    r.level_misfit = fit::level_misfit(problem, fitted.theta, problem.stations, variance);
   }
   double factor = 1.0;
   if (options_.estimate_misfit) {

@@ -32,7 +32,9 @@ void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitR
 
 /// By the axes of theta, turned about the roll axis as near to the nominal ones as can be.
 CommonTurn common_turn(const Datasheet& datasheet, const Vec3& roll_axis, const Parameters& theta) noexcept;
-LevelMisfit level_misfit(const Problem& problem, const Parameters& theta) noexcept;
+/// `all`: the stations as they were before outliers lost their count.
+LevelMisfit level_misfit(const Problem& problem, const Parameters& theta, const Station* all,
+                         double misfit_variance) noexcept;
 
 /// The parameter that is furthest beyond its physical bound, or ok; that of the one sensor without which all is well,
 /// where there is one. `suspects` gets all of which that is so about as well.

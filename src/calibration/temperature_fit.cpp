@@ -139,7 +139,7 @@ class Attempt {
     report_.degrees_of_freedom = sums.sums.rows - 2 * report_.stations - told_.rank;
     const int freedom = report_.degrees_of_freedom;
     report_.p_value = freedom >= 1 ? chi2_tail(report_.chi2, freedom) : 1.0;
-    report_.level_misfit = fit::level_misfit(problem, state.theta);
+    report_.level_misfit = fit::level_misfit(problem, state.theta, stations_, descent.misfit_variance());
     double factor = 1.0;
     if (options_.estimate_misfit) {
       factor = fit::note_loud_sensor(problem, fitted.tally, report_);

@@ -110,12 +110,14 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   run.concern = judged.concern;
 }
 
-/// Whether the values do not fit together, and no dead channel, other unit, single row or temperature is why.
+/// Whether the values do not fit together, and no dead channel, other unit, single row or temperature is why. Of what
+/// was refused by a name, only the roll axis may have a better one: which axis it was, or the group that spoils it.
 bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) {
   const Errc code = run.refusal.code;
   const bool of_values = code == Errc::diverged || code == Errc::implausible || code == Errc::poor_fit;
   const bool of_one_row = code == Errc::diverged && run.refusal.index >= 0;
-  if (!of_values || of_one_row || run.concern != Concern::none || of_another_unit(array, run.stations)) return false;
+  const bool open = run.concern == Concern::none || run.concern == Concern::roll_axis;
+  if (!of_values || of_one_row || !open || of_another_unit(array, run.stations)) return false;
   if (followed_direction(run).axis != 0) return false;
   for (int i = 0; i < array.array.size(); ++i) {
     if (dead_channel(run.log, i)) return false;
@@ -247,7 +249,12 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   settle(run, fit);
   TemperatureOptions again = choice.temperature;
   again.fit = run.options;
-  if (worth_a_second_look(run, array)) run.second_look = second_look(array, run.stations, again);
+  if (worth_a_second_look(run, array)) {
+    const SensorArray* const came_to = run.study.shown ? &run.study.shown->array : nullptr;
+    run.second_look = second_look(array, run.stations, again, came_to);
+  }
+  // That without roll groups the axis does not matter is no news.
+  if (run.concern == Concern::roll_axis && run.second_look.without_groups) run.second_look = SecondLook{};
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
   return run;
 }

@@ -27,9 +27,10 @@ struct SecondLook {
 };
 
 /// All signs and all exchanges of two columns: n (n + 1) / 2 fits; and, where there are roll groups, at most
-/// kMaxRollGroups + 4.
+/// kMaxRollGroups + 4. Fewer for many sensors over temperature, where all would take minutes: first those that the axes
+/// of the refused fit, where there is one, suggest.
 SecondLook second_look(const io::ArrayFile& array, const std::vector<Station>& stations,
-                       const TemperatureOptions& options);
+                       const TemperatureOptions& options, const SensorArray* refused);
 
 /// "; with the columns of a1 and a4 exchanged it would", to follow the reason.
 std::string second_look_words(const SecondLook& look, const io::ArrayFile& array);

@@ -84,6 +84,8 @@ void check_roll(const Check& check, const FitReport& report) {
   check.within("lone", report.lone_rolls, 0.0, report.roll_groups);
   check.within("wobble_rad", report.roll_wobble_rad, 0.0, kPi);
   check.within("inclination_sigma_rad", report.inclination_sigma_rad, 0.0, kMostNumber);
+  check.within("common_turn_rad", report.common_turn.rad, 0.0, kPi);
+  check.within("common_turn_sigma_rad", report.common_turn.sigma_rad, 0.0, kMostNumber);
   const double length = norm(report.roll_axis);  // 0: every group has one station
   if (length == 0.0) return;
   check.within("axis", length, 1.0 - kUnitLength, 1.0 + kUnitLength);

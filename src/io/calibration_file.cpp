@@ -61,7 +61,9 @@ Json from_roll(const FitReport& report) {
           {"lone", report.lone_rolls},
           {"axis", from_array(report.roll_axis, 3)},
           {"wobble_rad", from_double(report.roll_wobble_rad)},
-          {"inclination_sigma_rad", from_double(report.inclination_sigma_rad)}};
+          {"inclination_sigma_rad", from_double(report.inclination_sigma_rad)},
+          {"common_turn_rad", from_double(report.common_turn.rad)},
+          {"common_turn_sigma_rad", from_double(report.common_turn.sigma_rad)}};
 }
 
 Json from_report(const FitReport& report, std::size_t n) {

@@ -138,6 +138,9 @@ void read_roll(const Source& source, const Json& object, FitReport& report) {
   source.numbers_of(object, "axis", report.roll_axis.data(), 3);
   report.roll_wobble_rad = source.number_of(object, "wobble_rad");
   report.inclination_sigma_rad = source.number_of(object, "inclination_sigma_rad");
+  if (!object.contains("common_turn_rad")) return;  // a file from before it was judged
+  report.common_turn.rad = source.number_of(object, "common_turn_rad");
+  report.common_turn.sigma_rad = source.number_of(object, "common_turn_sigma_rad");
 }
 
 FitReport read_report(const Source& source, const Json& object, std::size_t n) {

@@ -1,4 +1,5 @@
 // The paper's algorithm from log to verdict: calibrate --paper, then monitor in mode = "paper".
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tool_runner.hpp"
@@ -81,6 +82,40 @@ TEST(CalibratePaper, RefusesMoreThanEightSensorsBeforeItReads) {
       run(where, {"calibrate", "--array", "nine.toml", "--log", "no.csv", "--out", "c.json", "--paper"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(says(outcome.err, {"nine.toml", "up to 8 sensors", "has 9", "Remedy", "--paper"}));
+}
+
+/// Readings that contradict one another by 1 mg0 from station to station: plumb's fit carries that as misfit; in the
+/// paper's equations it looks like directions that the length of gravity does not show.
+TEST(CalibratePaper, EquationsThatTheDisagreementFillsUpAreOfNoUse) {
+  const Workshop where;
+  std::istringstream in(where.text("calibration.csv"));
+  std::string line, log;
+  std::getline(in, line);
+  log = line + "\n";
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string cell, row;
+    int station = 0;
+    for (int column = 0; std::getline(cells, cell, ','); ++column) {
+      if (column == 1) station = std::stoi(cell);
+      if (column > 1) cell = std::to_string(std::stod(cell) + 4.2e-3 * std::sin(37.0 * station + 11.0 * column));
+      row += (column > 0 ? "," : "") + cell;
+    }
+    log += row + "\n";
+  }
+  where.put("calibration.csv", log);
+  const std::vector<std::string> command = {"calibrate",       "--array", "array.toml", "--log",
+                                            "calibration.csv", "--out",   "rough.json"};
+  EXPECT_EQ(run(where, command).code, 0) << "plumb's own fit stands";
+  std::filesystem::remove(where / "rough.json");
+  std::vector<std::string> paper = command;
+  paper.emplace_back("--paper");
+  const Outcome outcome = run(where, paper);
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_TRUE(says(outcome.err, {"the paper's method is of no use", "its equations have rank 12",
+                                 "the length of gravity shows 9 directions", "contradict one another by", "mg0 rms",
+                                 "Remedy", "chi^2", "without --paper"}));
+  EXPECT_FALSE(std::filesystem::exists(where / "rough.json"));
 }
 
 TEST(MonitorPaper, WithoutThePapersFitsItSaysWhatToDo) {

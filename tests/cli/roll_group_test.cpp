@@ -119,6 +119,55 @@ TEST(RollGroups, AWrongAxisIsNamedWithTheRightOne) {
   EXPECT_EQ(where.report({"--roll-axis", "1,0,0"})["refusal"]["would_settle"]["roll_axis"], Json({0.0, 0.0, 1.0}));
 }
 
+/// By 5 deg the nominal axes, known to 2 deg each, can only ask; by 10 deg they contradict.
+TEST(RollGroups, AnAxisThatIsOffIsToldAndThenRefused) {
+  const RollBench where;
+  const Outcome right = where.calibrate();
+  EXPECT_TRUE(says(right.out, {"roll axis", "turned together by", "sigma", "accepted"}));
+  EXPECT_EQ(right.out.find("Is the roll axis the one stated"), std::string::npos) << right.out;
+  const Outcome asked = where.calibrate({"--roll-axis", "0.0872,0,0.9962"});
+  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_TRUE(says(asked.out, {"roll axis", "turned together by 3.", "Is the roll axis the one stated", "accepted"}));
+  const Json told = Json::parse(where.text("new.json"))["report"]["roll"];
+  EXPECT_GT(told["common_turn_rad"], 2.0 * told["common_turn_sigma_rad"].get<double>());
+  const Outcome refused = where.calibrate({"--roll-axis", "0.1736,0,0.9848"});
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.err, {"roll axis (0.174, 0, 0.985) is likely not the one", "turned together by 8.",
+                                 "allowed", "rolled about 0,0,1 all would be well", "give --roll-axis 0,0,1"}));
+  const Json json = where.report({"--roll-axis", "0.1736,0,0.9848"});
+  EXPECT_EQ(json["refusal"]["concern"], "roll_axis");
+  EXPECT_EQ(json["refusal"]["would_settle"]["roll_axis"], Json({0.0, 0.0, 1.0}));
+  EXPECT_GT(json["fit"]["common_turn_rad"], 4.0 * json["fit"]["common_turn_sigma_rad"].get<double>());
+}
+
+/// Here no axis of the tool frame is the right one: all nominal axes were written down in a frame turned by 10 deg.
+TEST(RollGroups, AnAxisThatIsNoneOfTheFrameIsNotReplacedByOne) {
+  const RollBench where;
+  std::string array = where.text("array.toml");
+  const double c = std::cos(0.1745), s = std::sin(0.1745);
+  const double axes[4][3] = {{0.9428090415820635, 0, 1.0 / 3},
+                             {-0.4714045207910317, 0.8164965809277259, 1.0 / 3},
+                             {-0.4714045207910317, -0.8164965809277259, 1.0 / 3},
+                             {0, 0, 1}};
+  std::size_t from = 0;
+  for (const auto& a : axes) {
+    from = array.find("axis = [", from);
+    ASSERT_NE(from, std::string::npos);
+    const std::size_t end = array.find(']', from);
+    const std::string turned = "axis = [" + std::to_string(c * a[0] + s * a[2]) + ", " + std::to_string(a[1]) + ", " +
+                               std::to_string(c * a[2] - s * a[0]);
+    array.replace(from, end - from, turned);
+    from += turned.size();
+  }
+  where.put("array.toml", array);
+  const Outcome refused = where.calibrate();
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.err, {"roll axis (0, 0, 1) is likely not the one", "widen `prior`"}));
+  EXPECT_EQ(refused.err.find("all would be well"), std::string::npos) << refused.err;
+  EXPECT_TRUE(where.report()["refusal"]["would_settle"].is_null());
+  EXPECT_EQ(where.calibrate({"--roll-axis", "0.1736,0,0.9848"}).code, 0) << "the axis in that frame";
+}
+
 TEST(RollGroups, AStationInTheWrongGroupIsFoundByItsGroup) {
   const RollBench where({0, 45, 90, 120}, 8);
   std::string log = where.text("calibration.csv");

@@ -1,7 +1,6 @@
 // plumb calibrate over temperature: orders found, orders refused, and the file that a monitor uses.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tool_runner.hpp"
@@ -21,15 +20,35 @@ class Oven : public Directory {
     std::string line, kept;
     std::getline(in, line);
     kept = line + "\n";
-    const std::size_t column = static_cast<std::size_t>(
-        std::count(line.begin(), line.begin() + static_cast<long>(line.find("temp_degc")), ','));
     while (std::getline(in, line)) {
-      std::size_t begin = 0;
-      for (std::size_t k = 0; k < column; ++k) begin = line.find(',', begin) + 1;
-      const double degc = std::strtod(line.c_str() + begin, nullptr);
+      const double degc = std::stod(cells_of(line)[kDegc]);
       if (degc <= hottest_degc && degc >= coldest_degc) kept += line + "\n";
     }
     write_text(*this / "oven.csv", kept);
+  }
+
+  /// Columns of the log: t_s, station, temp_degc, a1 to a4.
+  static constexpr std::size_t kStation = 1, kDegc = 2, kA2 = 4;
+  static std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    return cells;
+  }
+  /// Puts every row of the log through `change`.
+  template <class Change>
+  void rewrite(Change change) const {
+    std::istringstream in(read_text(*this / "oven.csv"));
+    std::string line, out;
+    std::getline(in, line);
+    out = line + "\n";
+    while (std::getline(in, line)) {
+      std::vector<std::string> cells = cells_of(line);
+      change(cells);
+      for (std::size_t k = 0; k < cells.size(); ++k) out += (k > 0 ? "," : "") + cells[k];
+      out += "\n";
+    }
+    write_text(*this / "oven.csv", out);
   }
 
   Outcome calibrate(const std::vector<std::string>& more = {}) const {
@@ -148,6 +167,61 @@ TEST(ToolTemperature, ARangeFarBeyondTheLevelsIsTold) {
             10.0 * near["temperature"]["expected_error"][2]["direction_rad"].get<double>());
   EXPECT_TRUE(says(where.calibrate({"--temperature-order", "3", "--use-range-degc", "20,150"}).out,
                    {"extrapolated", "far beyond what was recorded", "expected error"}));
+}
+
+TEST(ToolTemperature, ASensorThatBendsIsRefusedByNameAndTemperature) {
+  const Oven where;
+  where.rewrite([](std::vector<std::string>& row) {  // 10 mg0 at 150 degC, from 120 degC up
+    const double beyond = std::stod(row[Oven::kDegc]) - 120.0;
+    if (beyond > 0.0) row[Oven::kA2] = std::to_string(std::stod(row[Oven::kA2]) + 1e-3 * beyond);
+  });
+  const Outcome refused = where.calibrate();
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.out, {"bends", "a2 bends over temperature", "degC", "sigma from none", "NOT ACCEPTED",
+                                 "a2 bends", "allowed 0.6 mg0", "--use-range-degc"}));
+  const Json told = where.report();
+  EXPECT_EQ(told["refusal"]["concern"], "level_of_a_sensor");
+  EXPECT_TRUE(told["refusal"]["would_settle"].is_null()) << "no other mistake is looked for";
+}
+
+TEST(ToolTemperature, ATemperatureThatNoToolHasIsRefusedByStation) {
+  for (const char* degc : {"450", "-150", "1e6"}) {
+    const Oven where;
+    where.rewrite([degc](std::vector<std::string>& row) {
+      if (row[Oven::kStation] == "40") row[Oven::kDegc] = degc;
+    });
+    const Outcome refused = where.calibrate();
+    EXPECT_EQ(refused.code, 4) << degc;
+    EXPECT_TRUE(says(refused.err, {"station 41 has a temperature of", "no tool has (from -100 to 400)", "Remedy",
+                                   "temperature column"}))
+        << degc;
+    EXPECT_FALSE(std::filesystem::exists(where / "oven.json"));
+  }
+}
+
+TEST(ToolTemperature, ARampIsToldUnlessItComesBack) {
+  const Oven up;
+  EXPECT_TRUE(says(up.calibrate().out, {"drift in time", "cannot be told from drift with temperature",
+                                        "record some attitudes again near 20"}));
+  EXPECT_TRUE(up.report()["temperature"]["follows_time"]);
+  // The last two stations are moved to the front: hot, then up from the cold.
+  const Oven back;
+  std::string head, last, rest, line;
+  std::istringstream in(read_text(back / "oven.csv"));
+  std::getline(in, head);
+  double t_s = 0.0;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = Oven::cells_of(line);
+    (std::stoi(cells[Oven::kStation]) >= 94 ? last : rest) += line.substr(line.find(',')) + "\n";
+  }
+  std::istringstream body(last + rest);
+  std::string log = head + "\n";
+  for (; std::getline(body, line); t_s += 0.01) log += std::to_string(t_s) + line + "\n";
+  write_text(back / "oven.csv", log);
+  const Outcome outcome = back.calibrate();
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("drift in time"), std::string::npos) << outcome.out;
+  EXPECT_FALSE(back.report()["temperature"]["follows_time"]);
 }
 
 TEST(ToolTemperature, BadOptionsAreRefused) {

@@ -169,6 +169,8 @@ TEST(CalibrationFile, KeepsWhatTheRollGroupsWereOnlyWhereThereWereSome) {
   in->report.roll_axis = {0.6, 0.0, 0.8};
   in->report.roll_wobble_rad = 1.0 / 3000.0;
   in->report.inclination_sigma_rad = 1.0 / 7000.0;
+  in->report.common_turn.rad = 1.0 / 70.0;
+  in->report.common_turn.sigma_rad = 1.0 / 30.0;
   const auto file = read_calibration(written("cal.json", calibration_json(*in, array, context_of(array))), array);
   ASSERT_TRUE(file.has_value()) << file.error().text();
   const FitReport& out = file->calibration.report;
@@ -177,6 +179,8 @@ TEST(CalibrationFile, KeepsWhatTheRollGroupsWereOnlyWhereThereWereSome) {
   EXPECT_EQ(out.roll_axis, in->report.roll_axis);
   EXPECT_EQ(out.roll_wobble_rad, in->report.roll_wobble_rad);
   EXPECT_EQ(out.inclination_sigma_rad, in->report.inclination_sigma_rad);
+  EXPECT_EQ(out.common_turn.rad, in->report.common_turn.rad);
+  EXPECT_EQ(out.common_turn.sigma_rad, in->report.common_turn.sigma_rad);
   EXPECT_EQ(calibration_json(file->calibration, array, context_of(array)),
             calibration_json(*in, array, context_of(array)));
 }
