@@ -39,10 +39,10 @@ plumb_compile_check(compile.capacity_of_5_is_refused
 # The state of a monitor, in bytes; the last of the three shows that the check can fail.
 # Verifies: REQ-165
 plumb_compile_check(compile.monitor_of_4_is_small
-  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=4 LIMIT_KIB=24)
+  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=4 LIMIT_KIB=12)
 # Verifies: REQ-165
 plumb_compile_check(compile.monitor_of_8_is_small
-  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=8 LIMIT_KIB=64)
+  SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=8 LIMIT_KIB=32)
 # Negative: REQ-165
 plumb_compile_check(compile.monitor_beyond_its_size_is_refused
   SOURCE monitor_size.cpp DEFINES PLUMB_CAPACITY=8 LIMIT_KIB=1 MUST_FAIL_WITH "larger than the requirement allows")

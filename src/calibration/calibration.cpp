@@ -138,8 +138,9 @@ Error Calibrator::refused(const Station* stations, int count, FitReport& report)
   return Error{};
 }
 
-/// Fills the report and `fitted`, covariance in `normal_`; false where something is not finite.
-bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitReport& r) noexcept {
+/// Fills the report, `fitted` and the covariance; false where something is not finite.
+bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, Information& covariance,
+                          FitReport& r) const noexcept {
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
   fitted.theta = fit::natural(datasheet_, roots, theta_);
   fit::turn_to_datasheet(datasheet_, problem.roll, fitted.theta);
@@ -147,19 +148,20 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   fit::note_common_scale(datasheet_, fitted.theta, r);
   fit::Parameters gradient;
   fit::RollSums roll;
+  Information scratch;  // the blocks first, then what the analysis needs
   // Chi^2 is told against the datasheet's noise alone, with the directions that this noise would choose.
   const double variance = misfit_mps2_ * misfit_mps2_;
   if (variance > 0.0) {
-    r.chi2 = fit::accumulate(problem, fitted.theta, 0.0, fit::Loss::squares, scratch_.data(), gradient, roll).chi2;
+    r.chi2 = fit::accumulate(problem, fitted.theta, 0.0, fit::Loss::squares, scratch.data(), gradient, roll).chi2;
   }
-  const fit::Sums sums = fit::accumulate(problem, fitted.theta, variance, fit::Loss::squares, scratch_.data(), gradient,
+  const fit::Sums sums = fit::accumulate(problem, fitted.theta, variance, fit::Loss::squares, scratch.data(), gradient,
                                          roll, &fitted.tally);
   if (!(variance > 0.0)) r.chi2 = sums.chi2;
   if (!sums.finite || !std::isfinite(r.chi2)) return false;
   fitted.tally.write(datasheet_.size, r);
-  fit::expand(scratch_.data(), roll, roots, datasheet_.size, normal_.data());
+  fit::expand(scratch.data(), roll, roots, datasheet_.size, covariance.data());
   const double floor = fit::rank_floor(fitted.tally);
-  if (!fit::analyse(datasheet_, problem.roll, roots, fitted.theta, floor, normal_.data(), scratch_.data(), r)) {
+  if (!fit::analyse(datasheet_, problem.roll, roots, fitted.theta, floor, covariance.data(), scratch.data(), r)) {
     return false;
   }
   r.degrees_of_freedom = sums.rows - 2 * r.stations - r.rank;
@@ -174,7 +176,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, FitR
   } else if (r.degrees_of_freedom >= 1 && r.chi2 > r.degrees_of_freedom) {
     factor = r.chi2 / r.degrees_of_freedom;
   }
-  fit::inflate(factor, r.parameters, normal_.data(), r);
+  fit::inflate(factor, r.parameters, covariance.data(), r);
   return true;
 }
 
@@ -194,7 +196,7 @@ bool Calibrator::sets_aside(const Station& station) const noexcept {
   return fit::Screening(problem).out(station);
 }
 
-Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) noexcept {
+Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) const noexcept {
   FitReport own;
   FitReport& r = report != nullptr ? *report : own;
   r = FitReport{};
@@ -209,8 +211,9 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
   if (phase_ == Phase::screened) problem.screen = &screen;
   fit::Fitted fitted;
-  if (!describe(problem, fitted, r)) return fail(Errc::diverged, -1, cost_);
-  Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, normal_.data(), r);
+  Information covariance;
+  if (!describe(problem, fitted, covariance, r)) return fail(Errc::diverged, -1, cost_);
+  Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, covariance.data(), r);
   if (out) {
     r.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out->array);
     out->report.inclination_sigma_rad = r.inclination_sigma_rad;

@@ -139,21 +139,21 @@ bool fit::small_step(const PriorRoots& roots, int n, const Parameters& natural, 
 }
 
 /// Moment estimate of the noise that the datasheet does not know, from the residuals at convergence.
-/// True where the weights have changed so much that the fit must go on. Leaves `normal_` destroyed.
-bool Calibrator::misfit_changed(double chi2, double weighted_chi2, int rows, int stations) noexcept {
+/// True where the weights have changed so much that the fit must go on. Leaves `factor` destroyed.
+bool Calibrator::misfit_changed(const fit::Sums& sums, Information& factor) noexcept {
   const int n4 = 4 * datasheet_.size;
   if (!options_.estimate_misfit || misfit_rounds_ >= kMaxMisfitRounds) return false;
   // Even if the data had determined every observable parameter, no excess: spare the inverse.
-  if (misfit_mps2_ == 0.0 && chi2 <= rows - 2 * stations - (n4 - 3)) return false;
-  cholesky_inverse(normal_.data(), n4, n4);
+  if (misfit_mps2_ == 0.0 && sums.chi2 <= sums.rows - 2 * sums.stations - (n4 - 3)) return false;
+  cholesky_inverse(factor.data(), n4, n4);
   double from_prior = 0.0;
-  for (int k = 0; k < n4; ++k) from_prior += normal_[at(k * n4 + k)];
-  const double freedom = rows - 2 * stations - (n4 - from_prior);
-  if (!(freedom >= 1.0) || !(weighted_chi2 > 0.0)) return false;
-  const double excess = chi2 / freedom - 1.0;
+  for (int k = 0; k < n4; ++k) from_prior += factor[at(k * n4 + k)];
+  const double freedom = sums.rows - 2 * sums.stations - (n4 - from_prior);
+  if (!(freedom >= 1.0) || !(sums.weighted_chi2 > 0.0)) return false;
+  const double excess = sums.chi2 / freedom - 1.0;
   if (std::fabs(excess) <= kMisfitTolerance || (misfit_mps2_ == 0.0 && excess <= 0.0)) return false;
   // Newton on 1 / chi^2(variance), which is a straight line where all weights are equal.
-  const double variance = misfit_mps2_ * misfit_mps2_ + excess * chi2 / weighted_chi2;
+  const double variance = misfit_mps2_ * misfit_mps2_ + excess * sums.chi2 / sums.weighted_chi2;
   misfit_mps2_ = variance > 0.0 ? std::sqrt(variance) : 0.0;
   ++misfit_rounds_;
   fresh_ = true;
@@ -195,7 +195,7 @@ bool Calibrator::weigh(const fit::Problem& problem, const fit::Parameters& natur
 
 /// After a step: whether the phase is over, and what comes next. True where the whole fit is.
 bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& natural, const fit::Sums& sums,
-                         bool weights_settled) noexcept {
+                         bool weights_settled, Information& factor) noexcept {
   const bool loosely = settled(problem, natural, kLooselySettled);
   if (phase_ == Phase::huber || phase_ == Phase::tukey) {
     const int most = phase_ == Phase::huber ? kHuberSteps : kHuberSteps + kTukeySteps;
@@ -220,22 +220,21 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
       return false;
     }
   }
-  return settled(problem, natural, options_.stop_relative) &&
-         !misfit_changed(sums.chi2, sums.weighted_chi2, sums.rows, sums.stations);
+  return settled(problem, natural, options_.stop_relative) && !misfit_changed(sums, factor);
 }
 
-/// Solves the normal equations, whose blocks are in `scratch_`, and moves.
+/// Solves the normal equations and moves. Takes the information of the data; leaves the factor of the damped one.
 bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& natural, const fit::Parameters& rhs,
-                           const fit::RollSums& roll) noexcept {
+                           const double* blocks, const fit::RollSums& roll, Information& normal) noexcept {
   const int n = datasheet_.size;
   const int n4 = 4 * n;
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
-  fit::expand(scratch_.data(), roll, roots, n, normal_.data());
-  for (int k = 0; k < n4; ++k) normal_[at(k * n4 + k)] = (normal_[at(k * n4 + k)] + 1.0) * (1.0 + damping_);
+  fit::expand(blocks, roll, roots, n, normal.data());
+  for (int k = 0; k < n4; ++k) normal[at(k * n4 + k)] = (normal[at(k * n4 + k)] + 1.0) * (1.0 + damping_);
   step_ = fit::times_roots(roots, n, rhs);
   for (int k = 0; k < n4; ++k) step_[at(k)] -= theta_[at(k)];
-  if (!cholesky_factor(normal_.data(), n4, n4)) return false;
-  cholesky_solve(normal_.data(), n4, n4, step_.data());
+  if (!cholesky_factor(normal.data(), n4, n4)) return false;
+  cholesky_solve(normal.data(), n4, n4, step_.data());
   if (fit::all_free(datasheet_)) {
     // A common rotation costs the data nothing, but only as a rotation: taken along its tangent it would stretch. Where
     // the data do not see it, the prior alone has it.
@@ -271,7 +270,8 @@ void Calibrator::iterate(const Station* stations, int count) noexcept {
   const fit::Loss loss = !looking ? fit::Loss::squares : phase_ == Phase::huber ? fit::Loss::huber : fit::Loss::tukey;
   const double variance = misfit_mps2_ * misfit_mps2_;
   fit::RollSums roll;
-  fit::Sums sums = fit::accumulate(problem, natural, variance, loss, scratch_.data(), rhs, roll);
+  fit::Blocks blocks;
+  fit::Sums sums = fit::accumulate(problem, natural, variance, loss, blocks.data(), rhs, roll);
   const double cost = sums.chi2 + squared_length(theta_, 4 * datasheet_.size);
   const bool finite = sums.finite && std::isfinite(cost);
   const bool down = goes_down(cost, finite);
@@ -283,15 +283,16 @@ void Calibrator::iterate(const Station* stations, int count) noexcept {
     rises_ = 0;
     damping_ = damping_ > 0.0 ? 10.0 * damping_ : kFirstDamping;
     natural = fit::natural(datasheet_, roots, theta_);
-    sums = fit::accumulate(problem, natural, variance, loss, scratch_.data(), rhs, roll);
+    sums = fit::accumulate(problem, natural, variance, loss, blocks.data(), rhs, roll);
     if (damping_ > kMaxDamping) stop_ = StopReason::no_descent;
   }
   fresh_ = false;
   ++iterations_;
   if (done()) return;
-  if (!step_from(problem, natural, rhs, roll)) {
+  Information information;
+  if (!step_from(problem, natural, rhs, blocks.data(), roll, information)) {
     stop_ = StopReason::not_finite;
-  } else if (damping_ < 1.0 && advance(problem, natural, sums, weights_settled)) {
+  } else if (damping_ < 1.0 && advance(problem, natural, sums, weights_settled, information)) {
     stop_ = StopReason::converged;
   } else if (iterations_ >= options_.max_iterations) {
     stop_ = StopReason::iteration_limit;

@@ -120,6 +120,8 @@ bool unit_axis(const Vec3& axis) noexcept;
 
 /// Ten products z z' of z = (g, 1): xx xy xz x yy yz y zz z 1.
 inline constexpr int kMomentCount = 10;
+/// So many a pair of sensors (i, j <= i).
+using Blocks = std::array<double, std::size_t{kMomentCount} * kCapacity*(kCapacity + 1) / 2>;
 
 /// How much a station counts, by its residual.
 enum class Loss : std::uint8_t { squares, huber, tukey };

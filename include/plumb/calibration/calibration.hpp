@@ -214,7 +214,7 @@ class Calibrator {
   /// nominal ones allow, value = turn; value = limit = 0 where it holds the same numbers as another); poor_fit (index =
   /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
   /// called again.
-  Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) noexcept;
+  Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) const noexcept;
 
  private:
   /// What the iterations are at: plain least squares; the two losses that find the outliers; least squares without.
@@ -222,17 +222,22 @@ class Calibrator {
 
   void find_start(const Station* stations, int count) noexcept;
   bool weigh(const fit::Problem& problem, const std::array<double, kFitParameters>& natural) noexcept;
+  /// Symmetric, lower triangle, stride 4n. Needed within one iteration alone and so on the stack, not in the state.
+  using Information = std::array<double, std::size_t{kFitParameters} * kFitParameters>;
+
   bool step_from(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
-                 const std::array<double, kFitParameters>& rhs, const fit::RollSums& roll) noexcept;
+                 const std::array<double, kFitParameters>& rhs, const double* blocks, const fit::RollSums& roll,
+                 Information& normal) noexcept;
   bool goes_down(double cost, bool finite) noexcept;
   bool settled(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
                double relative) const noexcept;
-  bool misfit_changed(double chi2, double weighted_chi2, int rows, int stations) noexcept;
+  bool misfit_changed(const fit::Sums& sums, Information& factor) noexcept;
   bool advance(const fit::Problem& problem, const std::array<double, kFitParameters>& natural, const fit::Sums& sums,
-               bool weights_settled) noexcept;
+               bool weights_settled, Information& factor) noexcept;
 
   Error refused(const Station* stations, int count, FitReport& report) const noexcept;
-  bool describe(const fit::Problem& problem, fit::Fitted& fitted, FitReport& report) noexcept;
+  bool describe(const fit::Problem& problem, fit::Fitted& fitted, Information& covariance,
+                FitReport& report) const noexcept;
   Error judge(const fit::Problem& problem, const fit::Fitted& fitted, FitReport& report) const noexcept;
 
   Datasheet datasheet_;
@@ -242,8 +247,6 @@ class Calibrator {
   std::array<double, kFitParameters> step_{};    ///< the last step, same units
   std::array<double, kFitParameters> best_{};    ///< where the cost was lowest, same units
   std::array<double, kFitParameters> screen_{};  ///< W and b by which the outliers were told from the rest
-  std::array<double, std::size_t{kFitParameters} * kFitParameters> normal_{};
-  std::array<double, std::size_t{kFitParameters} * kFitParameters> scratch_{};
   double cost_ = 0.0;
   double damping_ = 0.0;  ///< Levenberg-Marquardt, relative to the diagonal; 0 unless the cost rose
   double misfit_mps2_ = 0.0;
@@ -268,12 +271,12 @@ class Calibrator {
     return field_list(not_stored(&C::datasheet_), &C::gravity_, not_stored(&C::options_),
                       leading(any(&C::theta_), &parameter_count), not_stored(&C::step_),
                       leading(any(&C::best_), &parameter_count), leading(any(&C::screen_), &parameter_count),
-                      not_stored(&C::normal_), not_stored(&C::scratch_), any(&C::cost_), any(&C::damping_),
-                      any(&C::misfit_mps2_), any(&C::screen_misfit_mps2_), within(&C::misfit_rounds_, 0, 100),
-                      within(&C::robust_steps_, 0, 1000), within(&C::freedom_, -kFitParameters, 1000000), &C::looked_,
-                      within(&C::iterations_, 0, 100000), within(&C::rises_, 0, 1000),
-                      within(&C::bad_station_, -1, 1000000), &C::fresh_, up_to(&C::phase_, Phase::screened),
-                      up_to(&C::started_, FitStart::closed_form), up_to(&C::stop_, StopReason::not_finite));
+                      any(&C::cost_), any(&C::damping_), any(&C::misfit_mps2_), any(&C::screen_misfit_mps2_),
+                      within(&C::misfit_rounds_, 0, 100), within(&C::robust_steps_, 0, 1000),
+                      within(&C::freedom_, -kFitParameters, 1000000), &C::looked_, within(&C::iterations_, 0, 100000),
+                      within(&C::rises_, 0, 1000), within(&C::bad_station_, -1, 1000000), &C::fresh_,
+                      up_to(&C::phase_, Phase::screened), up_to(&C::started_, FitStart::closed_form),
+                      up_to(&C::stop_, StopReason::not_finite));
   }
 };
 

@@ -13,7 +13,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Directions that differ from each other by at least a given angle.
+/// Directions that differ from each other by at least a given angle. Kept in single precision: 6e-8 rad is nothing to
+/// an angle of degrees, and there are four records in a monitor.
 class DirectionRecord {
  public:
   static constexpr int kMax = 24;
@@ -22,17 +23,19 @@ class DirectionRecord {
   /// Counts the direction if it differs from all on record; true where it did. A full record counts no more.
   bool add(const Vec3& direction, double angle_rad) noexcept {
     for (int k = 0; k < size_; ++k) {
-      if (!(angle_between_rad(direction_[static_cast<std::size_t>(k)], direction) >= angle_rad)) return false;
+      const auto& kept = direction_[static_cast<std::size_t>(k)];
+      if (!(angle_between_rad({kept[0], kept[1], kept[2]}, direction) >= angle_rad)) return false;
     }
     if (size_ == kMax) return false;
-    direction_[static_cast<std::size_t>(size_)] = direction;
+    direction_[static_cast<std::size_t>(size_)] = {static_cast<float>(direction[0]), static_cast<float>(direction[1]),
+                                                   static_cast<float>(direction[2])};
     ++size_;
     return true;
   }
 
  private:
   int size_ = 0;
-  std::array<Vec3, kMax> direction_{};
+  std::array<std::array<float, 3>, kMax> direction_{};
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
