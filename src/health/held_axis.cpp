@@ -112,6 +112,19 @@ double fit_covariance(const HeldAxisFit& fit, const Sums& sums, int p, int q) no
   return fit.inflation * (fit.noise_share * sums.fitted[at(p * kFitted + q)] + (1.0 - fit.noise_share) * from_prior);
 }
 
+/// What of a common scale the prior keeps back, and what it makes of it instead: (F'MF + P)^-1 P e, e all scales.
+using Kept = std::array<double, kFitted>;
+Kept kept_back(const HeldAxisFit& fit, const Sums& sums) noexcept {
+  Kept out{};
+  for (int p = 0; p < 2 * sums.k; ++p) {
+    for (int i = 0; i < sums.k; ++i) {
+      const double sigma = fit.prior[at(sums.sensor[at(i)])].scale;
+      out[at(p)] += sums.fitted[at(p * kFitted + 2 * i)] / (sigma * sigma);
+    }
+  }
+  return out;
+}
+
 double packed(const RowUncertainty& u, int a, int b) noexcept {
   return a >= b ? u.covariance[at(a * (a + 1) / 2 + b)] : u.covariance[at(b * (b + 1) / 2 + a)];
 }
@@ -138,6 +151,7 @@ bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gra
   }
 
   const double common = gravity.sigma_mps2 / gravity.g_mps2;
+  const Kept kept = kept_back(fit, sums);
   const RowUncertainty& old = array.uncertainty();
   for (int a = 0; a < 4 * array.size(); ++a) {
     const int i = place[at(a / 4)];
@@ -155,8 +169,10 @@ bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gra
         const int p = 2 * i + (a % 4 == 3 ? 1 : 0), q = 2 * l + (b % 4 == 3 ? 1 : 0);
         const double of_a = a % 4 == 3 ? 1.0 : array.axis(a / 4)[at(a % 4)];
         const double of_b = b % 4 == 3 ? 1.0 : array.axis(b / 4)[at(b % 4)];
-        sum += of_a * of_b * fit_covariance(fit, sums, p, q);
-        if (a % 4 != 3 && b % 4 != 3) sum += common * common * of_a * of_b;
+        // Of the length of now the prior keeps a part back; that part of the length that it was made with it keeps.
+        const double now = ((p % 2 == 0 ? 1.0 : 0.0) - kept[at(p)]) * ((q % 2 == 0 ? 1.0 : 0.0) - kept[at(q)]);
+        const double then = kept[at(p)] * kept[at(q)];
+        sum += of_a * of_b * (fit_covariance(fit, sums, p, q) + common * common * (now + then));
       }
       uncertainty.covariance[at(a * (a + 1) / 2 + b)] = sum;
     }

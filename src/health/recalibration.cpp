@@ -122,7 +122,11 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
   RowUncertainty uncertainty;
   const bool known = uncertainty_after(array, gravity, uncertainty);
   if (!known) uncertainty = array.uncertainty();
-  if (doubted) add_whole_change(array, uncertainty);
+  if (doubted) {
+    add_change(array, whole_change(array), uncertainty);
+  } else if (offered()) {
+    add_change(array, unseen_by_parity(array, whole_change(array)), uncertainty);
+  }
   if (known || doubted) array.set_uncertainty(uncertainty);
   write_coefficients(model);
   adopted_ = true;

@@ -170,13 +170,17 @@ bool Recalibration::uncertainty_after(const SensorArray& array, const GravityRef
 
 /// If the old coefficients were right after all, the new ones err by exactly the change: scale along the axis, and
 /// bias.
-void Recalibration::add_whole_change(const SensorArray& array, RowUncertainty& uncertainty) const noexcept {
-  std::array<double, std::size_t{4} * kCapacity> change{};
+Recalibration::Change Recalibration::whole_change(const SensorArray& array) const noexcept {
+  Change change{};
   for (int i = 0; i < array.size(); ++i) {
     if (!sensors_.has(i)) continue;
     for (int p = 0; p < 3; ++p) change[at(4 * i + p)] = (length_[at(i)] - 1.0) * array.axis(i)[at(p)];
     change[at(4 * i + 3)] = shift_mps2_[at(i)];
   }
+  return change;
+}
+
+void Recalibration::add_change(const SensorArray& array, const Change& change, RowUncertainty& uncertainty) noexcept {
   for (int a = 0; a < 4 * array.size(); ++a) {
     for (int b = 0; b <= a; ++b) uncertainty.covariance[at(a * (a + 1) / 2 + b)] += change[at(a)] * change[at(b)];
   }

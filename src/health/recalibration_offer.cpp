@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/array/geometry.hpp"
 #include "plumb/health/recalibration.hpp"
 
 namespace plumb {
@@ -147,6 +148,23 @@ void Recalibration::uncertainty_of_offer(const SensorArray& array, RowUncertaint
       }
     }
   }
+}
+
+/// The part that moves the vector and leaves the readings in agreement, whatever the attitude. Its stations know it by
+/// the length alone, within the bound on gravity and on the calibration, and an offer may be wrong about its sigmas.
+Recalibration::Change Recalibration::unseen_by_parity(const SensorArray& array, const Change& change) const noexcept {
+  const LeastSquares map = least_squares(array, sensors_);
+  if (!map.valid) return change;
+  Change out{};
+  for (int p = 0; p < 4; ++p) {
+    Readings readings{};
+    for (int i = 0; i < array.size(); ++i) readings[at(i)] = change[at(4 * i + p)];
+    const Vec3 x = map.estimate(readings);
+    for (int i = 0; i < array.size(); ++i) {
+      if (sensors_.has(i)) out[at(4 * i + p)] = dot(array.axis(i), x);
+    }
+  }
+  return out;
 }
 
 /// What was read back can only be what `offer` has let pass.

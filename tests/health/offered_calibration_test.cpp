@@ -95,8 +95,16 @@ TEST(OfferedCalibration, WhatIsAdoptedIsBiasesAndScales) {
   const Vec3 across = scaled(aside, 1.0 / norm(aside));
   EXPECT_EQ(tool.rig.monitor.array().axis(3), h);
   // Along the axis the offer's 3e-5, across it the 1e-4 of the commissioning calibration; bias 3e-4.
-  EXPECT_NEAR(std::sqrt(u.at(3, 3, scaled(h, kG0_mps2))), std::hypot(3e-5 * kG0_mps2, 3e-4), 1e-9);
-  EXPECT_NEAR(std::sqrt(u.at(3, 3, scaled(across, kG0_mps2))), std::hypot(1e-4 * kG0_mps2, 3e-4), 1e-9);
+  // And what of the change agrees with every other sensor.
+  const auto unseen = [&](const Vec3& g) {
+    Readings change{};
+    for (std::size_t i = 0; i < 5; ++i) change[i] = -offer.model.sensor[i].bias[0] * offer.model.sensor[i].scale[0];
+    change[3] -= 1e-5 * dot(h, g);
+    return dot(h, least_squares(tool.rig.setup.array, SensorSet::first(5)).estimate(change));
+  };
+  const Vec3 along = scaled(h, kG0_mps2), aslant = scaled(across, kG0_mps2);
+  EXPECT_NEAR(std::sqrt(u.at(3, 3, along)), std::hypot(3e-5 * kG0_mps2, 3e-4, unseen(along)), 1e-9);
+  EXPECT_NEAR(std::sqrt(u.at(3, 3, aslant)), std::hypot(1e-4 * kG0_mps2, 3e-4, unseen(aslant)), 1e-9);
   EXPECT_TRUE(u.is_covariance());
 }
 
@@ -165,6 +173,41 @@ TEST(OfferedCalibration, TheStationsRefuseWhatIsWrong) {
     EXPECT_EQ(tool.state(), HealthState::nominal) << "back to where it came from";
     EXPECT_EQ(tool.rig.monitor.verdict().recalibration.last_refusal.code, Errc::not_confirmed) << n;
     EXPECT_TRUE(tool.calibration_untouched()) << n;
+  }
+}
+
+/// A bias that all sensors share along one direction, within what gravity is uncertain by, and an offer that claims to
+/// be surer than that: its stations cannot refute it, and the protection level covers it.
+// Negative: REQ-135
+TEST(OfferedCalibration, WhatItsStationsCannotSeeIsWithinTheProtectionLevel) {
+  for (int n = 4; n <= kCapacity; ++n) {
+    MonitorConfig config;
+    config.common_drift_mps2 = 0.0;
+    Tool tool(n, config, static_cast<std::uint64_t>(n));
+    plumb_test::leave_uncertainty(tool.rig.setup.array, 1e-4, 1e-5);
+    tool.rig.setup.gravity.sigma_mps2 = 3e-4 * kG0_mps2;
+    tool.rig.restart();
+    tool.rig.prove();
+    Offer offer(tool, 1e-4, 1e-5);
+    const Vec3 shared = {6e-3, 0.0, 5e-3};
+    for (int i = 0; i < n; ++i)
+      offer.model.sensor[static_cast<std::size_t>(i)].bias[0] = dot(offer.array.axis(i), shared);
+    ASSERT_TRUE(offer.to(tool).has_value()) << n;
+    until_decided(tool);
+    ASSERT_EQ(tool.count(HealthEvent::fit_accepted), 1) << n;
+    int valid = 0;
+    double worst_rad = 0.0;
+    for (int station = 0; station < 30; ++station) {
+      const Vec3 u = plumb_test::random_direction(tool.directions);
+      const Verdict& v = tool.rig.stay(u);
+      if (v.validity != Validity::valid) continue;
+      ++valid;
+      const double error_rad = angle_between_rad(v.gravity_mps2, u);
+      worst_rad = std::fmax(worst_rad, error_rad);
+      EXPECT_LE(error_rad, v.protection_level_rad) << n << ", station " << station;
+    }
+    EXPECT_GT(valid, 10) << n;
+    EXPECT_GT(worst_rad, 5e-4) << n;
   }
 }
 

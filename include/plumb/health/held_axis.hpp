@@ -24,10 +24,11 @@ struct HeldAxisFit {
 /// New uncertainty = T old T' + fit. T keeps the part of every axis error across its axis, drops the old bias and
 /// scale, and adds how far a wrong held axis bends the fitted ones: -(F'MF + P)^-1 F'M A with F and A the rows of
 /// fitted and held parameters, M the information of a station less the two directions that gravity itself takes
-/// (consider covariance: Schmidt 1966, Bierman 1977 ch. VIII). The length of gravity adds a common scale, as in every
-/// calibration. `data_share[i]`: the lesser share of what bias and scale of sensor i owe to the stations, 1 = all,
-/// 0 = all from the prior. False where the information is not positive definite; `uncertainty` is then left
-/// alone; it must not be the array's own.
+/// (consider covariance: Schmidt 1966, Bierman 1977 ch. VIII). A wrong length of gravity is a common scale,
+/// but for what the prior keeps of the old one; that part ends in the biases and turns the vector. The old length may
+/// have been wrong too, independently. `data_share[i]`: the lesser share of what bias and scale of sensor i owe to the
+/// stations, 1 = all, 0 = all from the prior. False where the information is not positive definite; `uncertainty` is
+/// then left alone; it must not be the array's own.
 bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gravity, const HeldAxisFit& fit,
                            RowUncertainty& uncertainty, std::array<double, kCapacity>& data_share) noexcept;
 

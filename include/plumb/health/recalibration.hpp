@@ -79,7 +79,8 @@ class Recalibration {
   /// Writes the accepted fit into model and array, both those that were in force when it was made: coefficients of the
   /// fitted sensors, and the uncertainty that the fit and the held axes leave. `doubted`: the fit was asked for because
   /// the length of gravity was off, and the sensors need not be to blame; then the whole change counts as one more
-  /// uncertainty, of 1 sigma, so that limits and protection level cover both readings of it. Stops.
+  /// uncertainty, of 1 sigma, so that limits and protection level cover both readings of it. Of an offer the part of
+  /// the change that parity cannot see counts so: the length alone has tried it. Stops.
   void apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,
              bool doubted) noexcept;
 
@@ -122,7 +123,10 @@ class Recalibration {
   bool coefficients_are_plausible(const SensorModel& model) const noexcept;
   Error check_stations(const InForce& in_force) const noexcept;
   void write_coefficients(SensorModel& model) const noexcept;
-  void add_whole_change(const SensorArray& array, RowUncertainty& uncertainty) const noexcept;
+  using Change = std::array<double, std::size_t{4} * kCapacity>;  ///< of W and b of every sensor
+  Change whole_change(const SensorArray& array) const noexcept;
+  Change unseen_by_parity(const SensorArray& array, const Change& change) const noexcept;
+  static void add_change(const SensorArray& array, const Change& change, RowUncertainty& uncertainty) noexcept;
   Vec3 wanted_direction(const SensorArray& array) const noexcept;
 
   StationStore store_;
