@@ -40,6 +40,30 @@ Section Soundness.
       destruct (subset_of_size_with n S i (c + 1) Hi Si ltac:(lia)) as [B [BS [Bk Bi]]].
       specialize (Vote B (Hereditary S B A BS) Bk). congruence.
   Qed.
+
+  (* s_i, the fewest sensors that must be wrong if i is healthy: what a live set with i in it leaves out, at the least. *)
+  Definition fewest (s i : nat) : Prop :=
+    (exists S, alive S /\ S i = true /\ card n (compl S) = s) /\
+    (forall S, alive S -> S i = true -> s <= card n (compl S)).
+
+  (* "Accused at m" is s_i > m; a sensor that is in no live set has no s_i and is accused at every m. *)
+  Theorem accused_means_too_many_faults (m s i : nat) : fewest s i -> (accused m i <-> m < s).
+  Proof.
+    intros [[S [A [Si E]]] Least]. split; intros H.
+    - specialize (H S A Si). lia.
+    - intros T AT Ti. specialize (Least T AT Ti). lia.
+  Qed.
+
+  (* The same in the words of s_i. *)
+  Theorem strict_grade_in_fewest_faults (c s i : nat) :
+    (forall A B, alive A -> subset n B A -> alive B) -> c < n -> i < n -> fewest s i ->
+    (n - 1 - c < s <-> ~ exists S, alive S /\ card n S = c + 1 /\ S i = true).
+  Proof.
+    intros Hereditary Cn Hi F. rewrite <- (accused_means_too_many_faults (n - 1 - c) s i F).
+    rewrite (strict_grade_by_voting_sets c i Hereditary Cn Hi). split.
+    - intros V [S [A [K Si]]]. specialize (V S A K). congruence.
+    - intros V S A K. destruct (S i) eqn:Si; [|reflexivity]. exfalso. apply V. now exists S.
+  Qed.
 End Soundness.
 
 (* T5 over an episode of stations, with noise and systematic error of every sensor within e and gravity's length known

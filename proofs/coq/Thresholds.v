@@ -1,7 +1,7 @@
 (* T7: how large a fault must be to be seen, and to be isolated, when every reading is within e of its sensor's truth. The
    parity question: is there any vector, of any length, that explains a set within e? *)
 From Coq Require Import Reals Lra Arith Bool Lia Psatz.
-From Plumb Require Import Sets Vectors Sensors.
+From Plumb Require Import Sets Vectors Sensors Quads.
 Open Scope R_scope.
 
 Section Thresholds.
@@ -53,6 +53,19 @@ Section Thresholds.
   Proof.
     intros Ha Hb Hc Hi Fa Fb Fc D Big [x W].
     pose proof (T7_surviving_fault x _ a b c i W Ha Hb Hc Hi eq_refl eq_refl eq_refl eq_refl Fa Fb Fc D). lra.
+  Qed.
+
+  (* ... and, by T6, some four sensors show it: their parity check fails. *)
+  Theorem T7_detection_by_fours a b c i :
+    (4 <= n)%nat -> general_position n h ->
+    (a < n)%nat -> (b < n)%nat -> (c < n)%nat -> (i < n)%nat -> f a = 0 -> f b = 0 -> f c = 0 ->
+    det (h a) (h b) (h c) <> 0 -> 2 * e * (1 + kappa a b c i) < Rabs (f i) ->
+    ~ forall p q r s, (p < q)%nat -> (q < r)%nat -> (r < s)%nat -> (s < n)%nat ->
+        quad_passes (h p) (h q) (h r) (h s) e (y p) (y q) (y r) (y s).
+  Proof.
+    intros Four GP Ha Hb Hc Hi Fa Fb Fc D Big All.
+    apply (T7_detection a b c i Ha Hb Hc Hi Fa Fb Fc D Big).
+    apply (T6_fours_decide n h y e Four GP) in All as [x X]. exists x. intros j Hj _. now apply X.
   Qed.
 
   (* A set K of sensors resolves the fault on i if it holds an independent triple with a small enough kappa. *)

@@ -155,4 +155,75 @@ RC_GTEST_PROP(RoundingLaw, SampleInTheWindowIsWithinItsProvedBound, ()) {
   }
 }
 
+/// What the window must hold for one triple, one number at a time.
+std::int32_t scalar_units(const Form& q, double a, double b, double c, double g_mps2) {
+  const double square = step_by_step(q, a, b, c);
+  const double error = std::fabs(std::sqrt(square < 0.0 ? 0.0 : square) - g_mps2);  // a NaN stays one
+  const double units = error / kMaeUnit_mps2;
+  return units < kMaeClamp ? static_cast<std::int32_t>(std::nearbyint(units)) : kMaeClamp;
+}
+
+/// Every triple of one sample against the scalar. `mae` holds a window of one.
+void expect_scalar_bits(const CombinationMae& mae, const SensorArray& array, const Readings& y, SensorSet usable,
+                        double g_mps2) {
+  for (int k = 0; k < array.triple_count(); ++k) {
+    const Triple& triple = array.triple(k);
+    const auto& s = triple.sensors;
+    const bool present = usable.contains(triple.set());
+    RC_ASSERT(mae.triple_samples(k) == (present ? 1 : 0));
+    const std::int32_t expected = scalar_units(array.form(k), y[s[0]], y[s[1]], y[s[2]], g_mps2);
+    RC_ASSERT(mae.triple_sum(k) == (present ? expected : 0));
+  }
+}
+
+/// Readings whose squares are next to the smallest positive number: rounding may make their form negative.
+constexpr double kSquaresVanish_mps2 = 0x1p-538;
+
+Readings any_awkward_readings() {
+  const double inf = std::numeric_limits<double>::infinity();
+  Readings y = test::any_readings(*rc::gen::element(10.0, 160.0, 1e6, kSquaresVanish_mps2));
+  for (double& v : y) {
+    if (*rc::gen::inRange(0, 4) != 0) continue;
+    v = *rc::gen::element(0.0, -0.0, 1e300, -1e300, inf, -inf, std::numeric_limits<double>::quiet_NaN(), 0x1p-1074);
+  }
+  return y;
+}
+
+// Triples are taken several at a time, from arrays whose number of triples is no multiple of that (3 to 8 sensors: 1,
+// 4, 10, 20, 35, 56): each lane must hold what the scalar gives, whatever stands beside it. First sample: empty slots;
+// second: the slots are full, and all may be usable or not.
+RC_GTEST_PROP(RoundingLaw, EveryLaneHoldsTheBitsOfTheScalar, ()) {
+  const SensorArray array = test::any_array();
+  const double g_mps2 = test::any_in(9.0, 10.0);
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array.triple_count(), 1);
+  const Readings first = any_awkward_readings();
+  mae->add(array, first, array.all(), nullptr, g_mps2);
+  expect_scalar_bits(*mae, array, first, array.all(), g_mps2);
+  SensorSet usable = array.all();
+  if (*rc::gen::arbitrary<bool>()) usable = usable.without(*rc::gen::inRange(0, array.size()));
+  const Readings second = any_awkward_readings();
+  mae->add(array, second, usable, nullptr, g_mps2);
+  expect_scalar_bits(*mae, array, second, usable, g_mps2);
+}
+
+TEST(Rounding, ASquareThatRoundingTurnedNegativeIsALengthOfZero) {
+  const SensorArray array = test::tetrahedron();
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array.triple_count(), 1);
+  plumb_test::Noise noise(13);
+  int negative = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Readings y{};
+    for (double& v : y) v = noise.normal() * kSquaresVanish_mps2;
+    mae->add(array, y, array.all(), nullptr, kG0_mps2);
+    for (int k = 0; k < array.triple_count(); ++k) {
+      const auto& s = array.triple(k).sensors;
+      negative += squared_length(array.form(k), y[s[0]], y[s[1]], y[s[2]]) < 0.0 ? 1 : 0;
+      EXPECT_EQ(mae->triple_sum(k), to_mae_units(kG0_mps2));
+    }
+  }
+  EXPECT_GT(negative, 0) << "else this shows nothing";
+}
+
 }  // namespace
