@@ -1,6 +1,6 @@
-# The six-term form, squared_length of include/plumb/detection/combination_mae.hpp, in binary64, left to right (every lane of the
-# code's vectors does this): how far from the exact value? Range: readings up to 160 m/s^2 (16 g0) and the coefficients of a triple that votes (|det| >= 0.05:
-# |w|^2 <= 400 for unit axes; 401 leaves room for the tolerance of their length).
+# The six-term form, squared_length of include/plumb/detection/combination_mae.hpp, in binary64, left to right, as every lane
+# of the code computes it: how far from the exact value? Range: readings up to 160 m/s^2 (16 g0) and the coefficients of a
+# triple that votes (|det| >= 0.05: |w|^2 <= 400 for unit axes; 401 leaves room for the tolerance of their length).
 # (For all ranges, relative to the size of the terms: proofs/rounding/Rounding.v.)
 # constant kFormErrorInRange_m2ps4 0x1.35p-25
 @double = float<ieee_64, ne>;

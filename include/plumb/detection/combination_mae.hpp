@@ -20,8 +20,8 @@ inline constexpr std::int32_t kMaeClamp = 2140000000;
 /// Squared length of the vector that three readings make, by the six coefficients of their triple:
 /// q0 a a + q1 b b + q2 c c + q3 a b + q4 a c + q5 b c, evaluated left to right in double. Its rounding error is
 /// proved (proofs/rounding, proofs/form.g) for exactly this order without fused multiply-add (-ffp-contract=off),
-/// so it stays as it is; `T` is a double, or several side by side: the proof then holds lane by lane. May be negative by
-/// that error. [(m/s^2)^2]
+/// so it stays as it is; `T` is a double, or several side by side: the proof then holds lane by lane. May be negative
+/// by that error. [(m/s^2)^2]
 template <class T>
 constexpr T squared_length(T q0, T q1, T q2, T q3, T q4, T q5, T a, T b, T c) noexcept {
   return q0 * a * a + q1 * b * b + q2 * c * c + q3 * a * b + q4 * a * c + q5 * b * c;
