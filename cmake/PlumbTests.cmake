@@ -1,5 +1,5 @@
 # Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels: core, host, compile,
-# model, proof, trace.
+# law, model, proof, trace.
 
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
@@ -45,6 +45,8 @@ endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8)
 plumb_test_executable(plumb_trace_tests LABEL trace ROOMS trace)  # requirements and tests name each other
+
+include(PlumbLaws)
 
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests

@@ -105,8 +105,7 @@ inline plumb::DatasheetSensor trial_sensor(int i, const plumb::Vec3& axis, doubl
 }
 
 /// Perfectly calibrated.
-inline TrialTool exact_tool(int n, int variant = 0, double sigma_mps2 = kTrialSigma_mps2) {
-  const plumb::AxisList axes = trial_axes(n, variant);
+inline TrialTool exact_tool(const plumb::AxisList& axes, int n, double sigma_mps2 = kTrialSigma_mps2) {
   std::vector<plumb::SensorRow> rows;
   TrialTool tool;
   for (int i = 0; i < n; ++i) {
@@ -119,10 +118,13 @@ inline TrialTool exact_tool(int n, int variant = 0, double sigma_mps2 = kTrialSi
   return tool;
 }
 
+inline TrialTool exact_tool(int n, int variant = 0, double sigma_mps2 = kTrialSigma_mps2) {
+  return exact_tool(trial_axes(n, variant), n, sigma_mps2);
+}
+
 /// Calibrated by a fit over `stations` random attitudes (means of 32 samples), true parameters within 0.02 g0, 2 % and
 /// 2 deg of the datasheet; the fit's own covariance is what the monitor knows. Size 0 where the fit was not accepted.
-inline TrialTool fitted_tool(int n, int variant, int stations, TrialNoise& noise) {
-  const plumb::AxisList axes = trial_axes(n, variant);
+inline TrialTool fitted_tool(const plumb::AxisList& axes, int n, int stations, TrialNoise& noise) {
   plumb::Datasheet sheet;
   sheet.size = n;
   std::array<plumb::Vec3, plumb::kCapacity> w{};
@@ -166,6 +168,10 @@ inline TrialTool fitted_tool(int n, int variant, int stations, TrialNoise& noise
   }
   tool.pose();
   return tool;
+}
+
+inline TrialTool fitted_tool(int n, int variant, int stations, TrialNoise& noise) {
+  return fitted_tool(trial_axes(n, variant), n, stations, noise);
 }
 
 /// How the faulty sensors of an episode lie.

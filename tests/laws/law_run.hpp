@@ -1,0 +1,140 @@
+/// Runs a law over its cases, counts, and says what broke it. PLUMB_LONG=1 asks for a hundred times as many cases;
+/// PLUMB_LAW_CASES=<number> for so many, and PLUMB_LAW_CASE=<number> for one.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "laws/law_case.hpp"
+#include "laws/law_oracle.hpp"
+#include "support/binomial_interval.hpp"
+#include "support/long_run.hpp"
+
+namespace plumb_test {
+inline namespace PLUMB_ABI {
+
+/// One case: does the law say anything about it, and does it hold?
+struct LawOutcome {
+  bool applies = true;
+  std::string broken;  ///< empty = held
+};
+inline LawOutcome not_of_this_law() { return {false, ""}; }
+
+inline std::string names_of(plumb::SensorSet set) {
+  std::string out = "{";
+  for (int i = 0; i < plumb::kCapacity; ++i) {
+    if (set.has(i)) out += (out.size() > 1 ? " a" : "a") + std::to_string(i + 1);
+  }
+  return out + "}";
+}
+
+struct LawCount {
+  std::uint64_t cases = 0, broken = 0;
+};
+
+/// Runs cases until `wanted` of them are such as the law speaks of, at most 20 times as many.
+template <class Check>
+LawCount run_law(int law, std::uint64_t wanted, Check&& check) {
+  const char* some = std::getenv("PLUMB_LAW_CASES");
+  const char* one = std::getenv("PLUMB_LAW_CASE");
+  if (long_run()) wanted *= 100;
+  if (some != nullptr) wanted = std::strtoull(some, nullptr, 10);
+  std::uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
+  const std::uint64_t end = one != nullptr ? first + 1 : 20 * wanted;
+  LawCount count;
+  std::uint64_t number = first;
+  for (; number < end && count.cases < wanted; ++number) {
+    TrialNoise noise = stream_of(law, number);
+    const LawOutcome outcome = check(number, noise);
+    if (!outcome.applies) continue;
+    ++count.cases;
+    if (outcome.broken.empty()) continue;
+    ++count.broken;
+    if (count.broken <= 5) {
+      std::printf("law %d is broken: case %llu: %s\n", law, static_cast<unsigned long long>(number),
+                  outcome.broken.c_str());
+    }
+  }
+  const auto bound = count.cases > 0 ? clopper_pearson(static_cast<std::int64_t>(count.broken),
+                                                       static_cast<std::int64_t>(count.cases), 0.95)
+                                     : Interval{};
+  std::printf("law %d: %llu of %llu cases broken, 95 %% [%.2g, %.2g]; cases 0 to %llu were drawn\n", law,
+              static_cast<unsigned long long>(count.broken), static_cast<unsigned long long>(count.cases), bound.low,
+              bound.high, static_cast<unsigned long long>(number));
+  if (one == nullptr) {
+    EXPECT_GE(count.cases, wanted) << "too few cases are such as the law speaks of";
+  }
+  return count;
+}
+
+/// What the strata of a case choose: tool, faulty sensors, lie, gravity.
+inline const std::vector<LawTool>& every_tool() {
+  static const std::vector<LawTool> all = [] {
+    std::vector<LawTool> out;
+    for (int n = 4; n <= 8; ++n) {
+      for (LawTool& tool : law_tools(n)) out.push_back(std::move(tool));
+    }
+    return out;
+  }();
+  return all;
+}
+
+/// A monitor over a tool, one block mean a step: a station is a sample that stands for 32.
+class Watch {
+ public:
+  Watch(const LawTool& tool, const plumb::MonitorConfig& config) {
+    plumb::MonitorSetup setup;
+    setup.array = tool.tool.array;
+    setup.model.size = tool.n();
+    setup.gravity = tool.tool.gravity;
+    setup.config = config;
+    setup.config.window = 1;
+    EXPECT_TRUE(monitor.configure(setup).has_value());
+  }
+  const plumb::Verdict& station(const plumb::Readings& y) {
+    plumb::Sample s;
+    for (int i = 0; i < plumb::kCapacity; ++i) s.raw[slot(i)] = y[slot(i)];
+    s.delivered = monitor.array().all();
+    s.temperature_degc = 25.0;
+    s.count = static_cast<std::uint32_t>(kTrialSamples);
+    s.station = ++tag_;
+    s.time_s = time_s_ += 1.0;
+    return monitor.step(s);
+  }
+  const plumb::Verdict& verdict() const { return monitor.verdict(); }
+
+  plumb::HealthMonitor monitor;
+
+ private:
+  double time_s_ = 0.0;
+  std::uint32_t tag_ = 0;
+};
+
+/// A monitor that has earned its trust with healthy sensors under that gravity, kept for the next case like it.
+inline const Watch& proven_watch(const LawTool& tool, const plumb::MonitorConfig& config, int key,
+                                 double gravity_sigmas) {
+  static std::map<std::pair<std::pair<const LawTool*, int>, int>, std::unique_ptr<Watch>> known;
+  auto& kept = known[{{&tool, key}, static_cast<int>(std::lround(gravity_sigmas))}];
+  if (kept) return *kept;
+  kept = std::make_unique<Watch>(tool, config);
+  LawCase quiet(tool.tool, {}, Lie::constant, gravity_sigmas);
+  TrialNoise noise(3);
+  for (int k = 0; k < 8; ++k) kept->station(quiet.healthy_readings(noise.direction()));
+  return *kept;
+}
+
+/// The same, before the first sample.
+inline const Watch& fresh_watch(const LawTool& tool, const plumb::MonitorConfig& config, int key) {
+  static std::map<std::pair<const LawTool*, int>, std::unique_ptr<Watch>> known;
+  auto& kept = known[{&tool, key}];
+  if (!kept) kept = std::make_unique<Watch>(tool, config);
+  return *kept;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb_test
