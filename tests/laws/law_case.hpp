@@ -34,7 +34,9 @@ inline constexpr std::array<Lie, 13> kEveryLie = {
 
 /// A stream of its own for every case of every law.
 inline TrialNoise stream_of(int law, std::uint64_t number) {
-  std::uint64_t z = number + 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(law + 1);
+  constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;
+  const auto which = static_cast<std::uint64_t>(law) + 1U;
+  std::uint64_t z = number + kGolden * which;
   for (const std::uint64_t factor : {0xBF58476D1CE4E5B9ULL, 0x94D049BB133111EBULL}) z = (z ^ (z >> 31U)) * factor;
   return TrialNoise(z ^ (z >> 29U));
 }
