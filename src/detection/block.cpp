@@ -242,7 +242,11 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   const bool at_hand = known != nullptr && known->valid && known->used == calm;
   const LeastSquares ls = at_hand ? *known : least_squares(array, calm);
   out.quiet = ls.valid;
-  if (ls.valid) {
+  // So few calm ones may all hang at what they last said, in a tool that the others rightly show to move.
+  const bool may_hang = rank_of(array, out.restless) == 3 && calm.size() <= strict_grade(array, judged);
+  if (ls.valid && may_hang) {
+    out.quiet = false;
+  } else if (ls.valid) {
     tell_noise_from_motion(array, block, ls, factor, record, out);
   } else if (rank_of(array, judged) < 3) {
     out.restless = SensorSet{};  // too few sensors to say anything

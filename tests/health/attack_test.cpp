@@ -163,4 +163,32 @@ TEST(Attack, OneHotSampleTaintsItsBlock) {
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal);
 }
 
+/// Three of seven hang together at a mirror image of gravity, anew at every station, and the tool shakes now and then:
+/// the calm three are no witness that the other four are noisy.
+// Negative: REQ-059
+TEST(Attack, SensorsThatHangTogetherDoNotPassAShakenBlockForAQuietOne) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Rig rig(plumb_test::cone_array(7), {}, seed);
+    rig.prove();
+    const SensorSet liars(0b0011100);
+    const Vec3 across = cross(rig.setup.array.axis(0), rig.setup.array.axis(1));
+    Noise noise(seed);
+    Vec3 shown{};
+    rig.distort = [&](int i, double r, int) {
+      return liars.has(i) ? dot(rig.setup.array.axis(i), shown) + rig.setup.array.sigma_mps2(i) * noise.normal() : r;
+    };
+    for (int station = 0; station < 30; ++station) {
+      const Vec3 u = plumb_test::random_direction(noise);
+      const Vec3 g = scaled(u, kG0_mps2);
+      shown = minus(g, scaled(across, 2.0 * dot(g, across) / dot(across, across)));
+      if (station % 3 == 0) {
+        rig.shake(u, 0.2 * kG0_mps2);
+      } else {
+        rig.stay(u);
+      }
+      ASSERT_TRUE(liars.contains(rig.ever_blamed)) << "seed " << seed << ", station " << station;
+    }
+  }
+}
+
 }  // namespace
