@@ -243,8 +243,8 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   const LeastSquares ls = at_hand ? *known : least_squares(array, calm);
   out.quiet = ls.valid;
   // So few calm ones may all hang at what they last said, in a tool that the others rightly show to move.
-  const bool may_hang = out.restless.size() >= 3 && rank_of(array, out.restless) == 3 &&
-                        calm.size() <= strict_grade(array, judged);
+  const bool may_hang =
+      out.restless.size() >= 3 && rank_of(array, out.restless) == 3 && calm.size() <= strict_grade(array, judged);
   if (ls.valid && may_hang) {
     out.quiet = false;
   } else if (ls.valid) {
