@@ -24,7 +24,8 @@ class DirectionRecord {
   bool add(const Vec3& direction, double angle_rad) noexcept {
     for (int k = 0; k < size_; ++k) {
       const auto& kept = direction_[static_cast<std::size_t>(k)];
-      if (!(angle_between_rad({kept[0], kept[1], kept[2]}, direction) >= angle_rad)) return false;
+      const Vec3 before = {static_cast<double>(kept[0]), static_cast<double>(kept[1]), static_cast<double>(kept[2])};
+      if (!(angle_between_rad(before, direction) >= angle_rad)) return false;
     }
     if (size_ == kMax) return false;
     direction_[static_cast<std::size_t>(size_)] = {static_cast<float>(direction[0]), static_cast<float>(direction[1]),
