@@ -41,6 +41,7 @@ TemperatureLevels temperature_levels(const Station* stations, int count) noexcep
       sum += t;
       ++members;
     }
+    if (members == 0) break;  // so large that a level has no width: no temperature of a sensor, and refused as such
     out.degc[static_cast<std::size_t>(out.count)] = sum / members;
     out.begin_degc[static_cast<std::size_t>(out.count)] = begin;
     out.stations[static_cast<std::size_t>(out.count)] = members;
