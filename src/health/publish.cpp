@@ -113,7 +113,9 @@ void HealthMonitor::publish_sample(const Sample& sample) noexcept {
 bool HealthMonitor::news() const noexcept {
   const bool temperature_fine = (verdict_.usable & Usable::temperature) != 0;
   const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
-  return verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now() ||
+  // An offer that an inhibit keeps waiting raises no event, and is told all the same.
+  const bool offered = verdict_.recalibration.offered != recalibration_.offered();
+  return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now() ||
          mode_ == Mode::recalibrating || verdict_.validity != validity() ||
          temperature_fine != (!temperature_out_ && temperature_rate_.slow()) || inhibited != inhibited_ ||
          verdict_.reference_mps2 != gravity_.g_mps2 || verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;

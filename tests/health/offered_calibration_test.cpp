@@ -47,6 +47,18 @@ int until_decided(Tool& tool, int most = 40) {
 }
 
 // Verifies: REQ-135
+TEST(OfferedCalibration, IsToldAtTheNextSampleThoughAnInhibitKeepsItWaiting) {
+  Drifted tool(4);
+  tool.rig.monitor.inhibit(true);
+  tool.visit(1);
+  ASSERT_TRUE(Offer(tool).to(tool).has_value());
+  const Vec3 u = direction_at(30, 40);
+  EXPECT_TRUE(tool.rig.monitor.step(tool.rig.sample(u, kG0_mps2)).recalibration.offered);
+  ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());  // the host's last word counts
+  EXPECT_FALSE(tool.rig.monitor.step(tool.rig.sample(u, kG0_mps2)).recalibration.offered);
+}
+
+// Verifies: REQ-135
 TEST(OfferedCalibration, IsTriedInTheShadowAndAdopted) {
   for (int n = 4; n <= kCapacity; ++n) {
     Drifted tool(n, {}, static_cast<std::uint64_t>(n));
