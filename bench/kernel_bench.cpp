@@ -6,33 +6,14 @@
 #include <cmath>
 #include <memory>
 #include <random>
-#include <string>
 #include <vector>
 
-#include "plumb/array/named.hpp"
-#include "plumb/core/units.hpp"
+#include "bench_array.hpp"
 #include "plumb/detection/combination_mae.hpp"
 
 namespace {
 
 using namespace plumb;
-
-/// Built for 4, 8 and 16 sensors; each measures full arrays.
-SensorArray full_array() {
-  AxisList axes{};
-  if (kCapacity == 4) {
-    paper_tetrahedron(axes);
-  } else {
-    cone(axes, kCapacity);
-  }
-  std::array<SensorRow, kCapacity> rows{};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].id = make_id(("a" + std::to_string(i + 1)).c_str());
-    rows[i].axis = axes[i];
-    rows[i].sigma_mps2 = 2e-4 * kG0_mps2;
-  }
-  return *SensorArray::make(rows.data(), kCapacity);
-}
 
 std::vector<Readings> stream_of(const SensorArray& array) {
   std::mt19937_64 engine(1);
@@ -46,7 +27,7 @@ std::vector<Readings> stream_of(const SensorArray& array) {
 }
 
 void BM_Kernel(benchmark::State& state) {
-  const auto array = std::make_unique<SensorArray>(full_array());
+  const auto array = std::make_unique<SensorArray>(plumb_bench::array_of(kCapacity));
   const std::vector<Readings> stream = stream_of(*array);
   auto mae = std::make_unique<CombinationMae>();
   mae->configure(array->triple_count(), 32);
@@ -64,7 +45,7 @@ BENCHMARK(BM_Kernel)->Arg(kCapacity);
 
 template <class Solve>
 void per_triple(benchmark::State& state, Solve solve) {
-  const auto array = std::make_unique<SensorArray>(full_array());
+  const auto array = std::make_unique<SensorArray>(plumb_bench::array_of(kCapacity));
   const std::vector<Readings> stream = stream_of(*array);
   std::size_t k = 0;
   for (auto _ : state) {

@@ -5,38 +5,21 @@
 #include <Eigen/Dense>
 #include <memory>
 #include <random>
-#include <string>
 #include <vector>
 
-#include "plumb/array/named.hpp"
+#include "bench_array.hpp"
 #include "plumb/health/health_monitor.hpp"
 
 namespace {
 
 using namespace plumb;
+using plumb_bench::array_of;
 
 /// Built once for 4, once for 8 and once for 16 sensors; each measures the arrays that no smaller build takes.
 void sizes_of_this_build(benchmark::internal::Benchmark* b) {
   for (const int n : {4, 6, 8, 16}) {
     if (n <= kCapacity && (n > kCapacity / 2 || kCapacity == 4)) b->Arg(n);
   }
-}
-
-SensorArray array_of(int n) {
-  AxisList axes{};
-  if (n == 4) {
-    paper_tetrahedron(axes);
-  } else {
-    cone(axes, n);
-  }
-  std::array<SensorRow, kCapacity> rows{};
-  for (int i = 0; i < n; ++i) {
-    auto& row = rows[static_cast<std::size_t>(i)];
-    row.id = make_id(("a" + std::to_string(i + 1)).c_str());
-    row.axis = axes[static_cast<std::size_t>(i)];
-    row.sigma_mps2 = 2e-4 * kG0_mps2;
-  }
-  return *SensorArray::make(rows.data(), n);
 }
 
 /// A quiet tool that changes attitude every 32 samples, prepared before the clock starts.
