@@ -5,6 +5,7 @@
 #include <string>
 
 #include "plumb/array/named.hpp"
+#include "plumb/array/sensor_array.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb_bench {
