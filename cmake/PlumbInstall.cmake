@@ -3,6 +3,8 @@
 #                                                  plumb::c (the C functions, 8 sensors), plumb::c_4, _8, _16, _24
 #   find_package(plumb CONFIG COMPONENTS host)  -> plumb::scenario, plumb::study, plumb::io, plumb::report as well
 #   find_package(plumb CONFIG COMPONENTS testing) -> plumb::testing, with RapidCheck and GoogleTest
+#   pkg-config plumb, plumb-4, ...; plumb-c, plumb-c-4, ...   -> the same libraries without CMake
+#   cpack -G DEB                                              -> a Debian package of all of it
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
@@ -23,6 +25,14 @@ foreach(name IN ITEMS scenario study io report)
     set(PLUMB_INSTALLED_HOST TRUE)
   endif()
 endforeach()
+foreach(capacity IN LISTS PLUMB_CAPACITIES)
+  if(TARGET plumb_campaign_${capacity})
+    install(TARGETS plumb_campaign_${capacity} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  endif()
+endforeach()
+if(TARGET plumb_report)
+  list(APPEND rooms campaign)  # its headers; the engine is in plumb::report
+endif()
 if(PLUMB_INSTALLED_HOST)
   install(EXPORT plumbHostTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
 endif()
@@ -43,6 +53,9 @@ endforeach()
 
 if(TARGET plumb_tool)
   install(TARGETS plumb_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(TARGET plumb_campaign_mpi)
+    install(TARGETS plumb_campaign_mpi RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  endif()
 endif()
 
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
@@ -55,3 +68,41 @@ install(FILES
   "${CMAKE_CURRENT_BINARY_DIR}/plumbConfig.cmake"
   "${CMAKE_CURRENT_BINARY_DIR}/plumbConfigVersion.cmake"
   DESTINATION "${package_dir}")
+
+# --- pkg-config: relative to where the file lies, so that the tree may be moved. ------------------------------------
+file(RELATIVE_PATH PLUMB_PC_TO_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+# plumb_pkg_config(NAME TEXT FLAGS LIBS)
+function(plumb_pkg_config PLUMB_PC_NAME PLUMB_PC_TEXT PLUMB_PC_CFLAGS PLUMB_PC_LIBS)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/plumb.pc.in" "${CMAKE_CURRENT_BINARY_DIR}/${PLUMB_PC_NAME}.pc" @ONLY)
+  install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${PLUMB_PC_NAME}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endfunction()
+foreach(capacity IN LISTS PLUMB_CAPACITIES)
+  set(names "-${capacity}")
+  if(capacity EQUAL 8)
+    list(APPEND names "")
+  endif()
+  foreach(suffix IN LISTS names)
+    plumb_pkg_config("plumb${suffix}" "${PROJECT_DESCRIPTION}, up to ${capacity} sensors"
+      "-DPLUMB_CAPACITY=${capacity} -ffp-contract=off" "-lplumb_${capacity}")
+    plumb_pkg_config("plumb-c${suffix}" "${PROJECT_DESCRIPTION}, functions for C, up to ${capacity} sensors"
+      "-DPLUMB_CAPACITY=${capacity}" "-lplumb_c_${capacity} -lplumb_${capacity}")
+  endforeach()
+endforeach()
+
+# --- A Debian package. The libraries are static: what a program needs is in it, and the headers need two packages. ----
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # cpack packs what was built
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_NAME plumb)
+  set(CPACK_PACKAGE_CONTACT "the authors of plumb <plumb@localhost>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+  set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
+  set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libstdc++6, libgcc-s1, libeigen3-dev, libexpected-dev")
+  if(PLUMB_INSTALLED_HOST)
+    string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", libfmt9, libfmt-dev, libtoml11-dev, nlohmann-json3-dev")
+  endif()
+  include(CPack)
+endif()

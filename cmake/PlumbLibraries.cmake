@@ -102,11 +102,45 @@ if(testing_sources)
     "$<INSTALL_INTERFACE:rapidcheck>" "$<INSTALL_INTERFACE:GTest::gtest>")
 endif()
 
+# The inner loop of a campaign with the monitors for 4, 8 and 24 sensors: four sensors are stepped by the monitor for four.
+# That for 16 is left out: copying it back to its start costs as much as copying the one for 24.
+set(PLUMB_KERNELS ${PLUMB_CAPACITIES})
+list(REMOVE_ITEM PLUMB_KERNELS 16)
+plumb_sources(kernel_sources campaign/kernel)
+if(TARGET plumb_scenario)
+  set(kernel_scenario_sources ${scenario_sources})
+  list(FILTER kernel_scenario_sources INCLUDE REGEX
+    "/(attitude|delivery|fault|fault_words|injector|instability|noise|random|truth)\\.cpp$")
+  foreach(capacity IN LISTS PLUMB_KERNELS)
+    if(capacity EQUAL 24)
+      add_library(plumb_campaign_${capacity} STATIC ${kernel_sources})
+      target_link_libraries(plumb_campaign_${capacity} PUBLIC plumb_scenario)
+    else()
+      # The scenario room once more, for this capacity: it stands in another namespace.
+      add_library(plumb_campaign_${capacity} STATIC ${kernel_sources} ${kernel_scenario_sources})
+      target_link_libraries(plumb_campaign_${capacity} PUBLIC plumb_${capacity}
+        PRIVATE "$<BUILD_INTERFACE:plumb_random123>")
+    endif()
+    plumb_library(plumb_campaign_${capacity} campaign_${capacity})
+  endforeach()
+endif()
+
 plumb_sources(report_sources report)
+plumb_sources(campaign_sources campaign)
 if(report_sources)
   plumb_find_header(TARGET plumb_mustache HEADER kainjow/mustache.hpp DEBIAN libkainjow-mustache-dev)
   plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
-  add_library(plumb_report STATIC ${report_sources})
+  plumb_find_package(Threads DEBIAN libc6-dev TARGET Threads::Threads)
+  add_library(plumb_report STATIC ${report_sources} ${campaign_sources})
   plumb_library(plumb_report report)
-  target_link_libraries(plumb_report PUBLIC plumb_io fmt::fmt PRIVATE "$<BUILD_INTERFACE:plumb_mustache>")
+  target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
+    PRIVATE "$<BUILD_INTERFACE:plumb_mustache>")
+  # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
+  target_link_libraries(plumb_report PUBLIC plumb_campaign_24)
+  foreach(capacity IN LISTS PLUMB_KERNELS)
+    if(NOT capacity EQUAL 24)
+      target_link_libraries(plumb_report PUBLIC "$<LINK_ONLY:plumb_campaign_${capacity}>")
+    endif()
+    target_compile_definitions(plumb_report PRIVATE PLUMB_KERNEL_${capacity})
+  endforeach()
 endif()

@@ -1,5 +1,5 @@
 # Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels: core, host, compile,
-# law, model, proof, trace.
+# defect, law, model, proof, trace.
 
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
@@ -59,6 +59,20 @@ if(PLUMB_BUILD_HOST)
   endif()
 endif()
 
+# Campaigns: a program of their own, because it is linked with monitors of several capacities.
+if(TARGET plumb_report AND TARGET plumb_tool)
+  plumb_test_executable(plumb_campaign_tests LABEL host ROOMS campaign LIBRARIES plumb_report plumb_24)
+  if(TARGET plumb_campaign_tests)
+    add_dependencies(plumb_campaign_tests plumb_tool)
+    target_compile_definitions(plumb_campaign_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
+  endif()
+  if(TARGET plumb_campaign_mpi)
+    add_test(NAME campaign.ranks COMMAND bash "${PROJECT_SOURCE_DIR}/tests/campaign/ranks.sh"
+      "$<TARGET_FILE:plumb_tool>" "$<TARGET_FILE:plumb_campaign_mpi>" "${PROJECT_SOURCE_DIR}/tests/campaign/small.toml")
+    set_tests_properties(campaign.ranks PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 600)
+  endif()
+endif()
+
 # The model's states counted without the model checker, and its table against the tool's.
 add_library(plumb_model_shim STATIC EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/model/shim.cpp")
 plumb_compile_settings(plumb_model_shim)
@@ -92,6 +106,65 @@ add_test(NAME example.guide_quotes_it
   COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/guide.md | grep -Fxv -f examples/embed/monitor_loop.cpp"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
+# In a navigation stack: programs, adapters, and the tests of both.
+add_subdirectory("${PROJECT_SOURCE_DIR}/examples/navigation" examples/navigation)
+foreach(name IN ITEMS nav_loop attitude_filter survey_station)
+  plumb_compile_settings(plumb_${name})
+  add_test(NAME example.${name} COMMAND plumb_${name})
+  set_tests_properties(example.${name} PROPERTIES LABELS core TIMEOUT 60)
+endforeach()
+set_tests_properties(example.nav_loop PROPERTIES PASS_REGULAR_EXPRESSION "degraded, isolated_fault")
+set_tests_properties(example.attitude_filter PROPERTIES PASS_REGULAR_EXPRESSION "71.9 0.* degraded")
+set_tests_properties(example.survey_station PROPERTIES
+  PASS_REGULAR_EXPRESSION "7 +27.39 +357.86 +0.03  go: .*8 +- +- +-  no go: sensors disagree")
+target_compile_options(plumb_cfs_tables PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)
+plumb_test_executable(plumb_example_tests LABEL core ROOMS examples LIBRARIES plumb_cfs_tables plumb_8)
+target_include_directories(plumb_example_tests PRIVATE "${PROJECT_SOURCE_DIR}/examples")
+target_compile_definitions(plumb_example_tests PRIVATE
+  PLUMB_ATTITUDE_FILTER_PATH="$<TARGET_FILE:plumb_attitude_filter>")
+add_dependencies(plumb_example_tests plumb_attitude_filter)
+separate_arguments(example_flags NATIVE_COMMAND "${CMAKE_CXX_FLAGS}")
+add_test(NAME example.ros2_messages
+  COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/ros2_messages.sh" "${PROJECT_SOURCE_DIR}"
+          "${PROJECT_BINARY_DIR}/ros2_messages" "$<TARGET_FILE:plumb_8>" "${CMAKE_CXX_COMPILER}" ${example_flags})
+add_test(NAME example.attitude_figure
+  COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/attitude_figure.sh" "$<TARGET_FILE:plumb_attitude_filter>"
+          "${PROJECT_SOURCE_DIR}")
+set_tests_properties(example.ros2_messages example.attitude_figure PROPERTIES
+  LABELS core SKIP_RETURN_CODE 77 TIMEOUT 300)
+
+# What the tests with the label core run: the gates of .ci/run that compile floors 1 to 4 again build no more than this.
+add_custom_target(plumb_core_checks)
+add_dependencies(plumb_core_checks plumb_core_tests plumb_monitor_loop plumb_monitor_loop_c plumb_nav_loop
+  plumb_attitude_filter plumb_survey_station plumb_example_tests)
+
+add_test(NAME example.navigation_page_quotes_them
+  COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/navigation.md | grep -Fxv -f <(cat examples/navigation/*.?pp)"
+  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+
+add_test(NAME example.navigation_files_are_short  # the first below 20 lines, all below 80
+  COMMAND bash -c "wc -l nav_loop.cpp | awk '{exit $1 >= 20}' && ! wc -l *.?pp *.[ch] | grep -v total | awk '$1 >= 80' | grep ."
+  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}/examples/navigation")
+
+# The Python module, and the page that shows it.
+if(TARGET plumb_python)
+  foreach(name IN ITEMS plumb page hypothesis)
+    add_test(NAME python.${name}
+      COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=$<TARGET_FILE_DIR:plumb_python>" "PLUMB_TOOL=$<TARGET_FILE:plumb_tool>"
+              "PLUMB_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "${Python_EXECUTABLE}" -B
+              "${PROJECT_SOURCE_DIR}/tests/python/test_${name}.py"
+      WORKING_DIRECTORY "${PROJECT_BINARY_DIR}/python")
+  endforeach()
+  add_test(NAME python.pip
+    COMMAND bash "${PROJECT_SOURCE_DIR}/tests/python/pip.sh" "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}"
+            "${PROJECT_BINARY_DIR}/pip_test" "${Python_EXECUTABLE}")
+  set_tests_properties(python.plumb python.page python.hypothesis python.pip PROPERTIES
+    LABELS host SKIP_RETURN_CODE 77 TIMEOUT 600)
+else()
+  add_test(NAME python.plumb COMMAND bash -c "echo 'skipped: no Python module was built (python3-dev, python3-numpy, pybind11-dev)'; exit 77")
+  set_tests_properties(python.plumb PROPERTIES LABELS host SKIP_RETURN_CODE 77)
+endif()
+
 # A user's project against what would be installed.
 if(TARGET plumb_testing AND TARGET plumb_tool AND PLUMB_INSTALL)
   add_test(NAME example.property_test
@@ -100,6 +173,15 @@ if(TARGET plumb_testing AND TARGET plumb_tool AND PLUMB_INSTALL)
             -P "${PROJECT_SOURCE_DIR}/cmake/RunConsumer.cmake")
   set_tests_properties(example.property_test PROPERTIES LABELS host TIMEOUT 900
     ENVIRONMENT "RC_PARAMS=seed=7 max_success=20")
+endif()
+
+# The package: packed, unpacked, and used by programs in C++ and C.
+if(PLUMB_INSTALL AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  add_test(NAME package.is_used
+    COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DSOURCE=${PROJECT_SOURCE_DIR}"
+            "-DWORK=${PROJECT_BINARY_DIR}/package" "-DFLAGS=${CMAKE_CXX_FLAGS}"
+            -P "${PROJECT_SOURCE_DIR}/cmake/RunPackage.cmake")
+  set_tests_properties(package.is_used PROPERTIES LABELS host TIMEOUT 900)
 endif()
 
 # --- Proofs: each script exits with 77 where its tool is absent (scripts/assure installs them all). --------

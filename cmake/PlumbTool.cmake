@@ -1,4 +1,5 @@
-# The command line tool: target plumb_tool, executable plumb.
+# The command line tool: target plumb_tool, executable plumb. What its commands do is a library (not installed), for the
+# Python module does the same.
 
 plumb_sources(cli_sources cli)
 if(cli_sources)
@@ -7,14 +8,34 @@ if(cli_sources)
   plumb_find_package(Boost DEBIAN libboost-dev TARGET Boost::headers)
   plumb_find_package(Threads DEBIAN libc6-dev TARGET Threads::Threads)
 
-  add_executable(plumb_tool ${cli_sources})
-  set_target_properties(plumb_tool PROPERTIES OUTPUT_NAME plumb)
-  plumb_compile_settings(plumb_tool)
-  target_compile_definitions(plumb_tool PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")
+  list(REMOVE_ITEM cli_sources "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
+  add_library(plumb_cli STATIC ${cli_sources})
+  plumb_compile_settings(plumb_cli)
+  target_include_directories(plumb_cli INTERFACE "${PROJECT_SOURCE_DIR}/src/cli")
+  target_compile_definitions(plumb_cli PUBLIC PLUMB_VERSION="${PROJECT_VERSION}")
   foreach(library IN ITEMS plumb_report plumb_io plumb_study plumb_scenario plumb_24)
     if(TARGET ${library})
-      target_link_libraries(plumb_tool PRIVATE ${library})
+      target_link_libraries(plumb_cli PUBLIC ${library})
     endif()
   endforeach()
-  target_link_libraries(plumb_tool PRIVATE CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
+  target_link_libraries(plumb_cli PUBLIC CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
+
+  add_executable(plumb_tool "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
+  set_target_properties(plumb_tool PROPERTIES OUTPUT_NAME plumb)
+  plumb_compile_settings(plumb_tool)
+  target_link_libraries(plumb_tool PRIVATE plumb_cli)
+endif()
+
+# The campaign over the ranks of an MPI job, where there is MPI.
+if(TARGET plumb_report)
+  find_package(MPI QUIET COMPONENTS CXX)
+  if(MPI_CXX_FOUND)
+    add_executable(plumb_campaign_mpi src/mpi/campaign_mpi.cpp src/cli/campaign_run.cpp src/cli/tool.cpp)
+    set_target_properties(plumb_campaign_mpi PROPERTIES OUTPUT_NAME plumb-campaign-mpi)
+    plumb_compile_settings(plumb_campaign_mpi)
+    target_compile_definitions(plumb_campaign_mpi PRIVATE PLUMB_VERSION="${PROJECT_VERSION}" OMPI_SKIP_MPICXX)
+    target_link_libraries(plumb_campaign_mpi PRIVATE plumb_report CLI11::CLI11 fmt::fmt MPI::MPI_CXX)
+  else()
+    message(STATUS "no MPI: plumb-campaign-mpi is not built (Debian package libopenmpi-dev)")
+  endif()
 endif()

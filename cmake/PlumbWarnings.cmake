@@ -18,8 +18,9 @@ endif()
 # the compiler may not take a root, or choose by a comparison, for several triples at once.
 function(plumb_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
-  set_target_properties(${target} PROPERTIES
-    CXX_EXTENSIONS OFF
-    POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  if(NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")  # without an operating system nobody would fill the table of addresses
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -fno-math-errno -fno-trapping-math ${PLUMB_WARNINGS})
 endfunction()

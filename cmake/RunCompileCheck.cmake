@@ -1,18 +1,6 @@
 # cmake -DMUST_FAIL_WITH=<regex or nothing> -P RunCompileCheck.cmake -- <compiler command...>
 # Runs the command. Empty MUST_FAIL_WITH: it has to succeed. Otherwise it has to fail with that message.
-set(command)
-set(after_separator FALSE)
-math(EXPR last "${CMAKE_ARGC} - 1")
-foreach(i RANGE ${last})
-  if(after_separator)
-    list(APPEND command "${CMAKE_ARGV${i}}")
-  elseif(CMAKE_ARGV${i} STREQUAL "--")
-    set(after_separator TRUE)
-  endif()
-endforeach()
-if(NOT command)
-  message(FATAL_ERROR "no command given")
-endif()
+include("${CMAKE_CURRENT_LIST_DIR}/CommandOfScript.cmake")
 
 set(ENV{LC_ALL} C)
 execute_process(COMMAND ${command} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -57,6 +57,25 @@ Triple make_triple(const Vec3& a, const Vec3& b, const Vec3& c, TripleForm& form
   return t;
 }
 
+Error check_rows(const SensorRow* rows, int n) noexcept {
+  if (n < 3 || rows == nullptr) return Error{Errc::too_few_sensors, -1, rows == nullptr ? 0.0 : n, 3.0};
+  if (n > kCapacity) return Error{Errc::too_many_sensors, -1, 1.0 * n, 1.0 * kCapacity};
+  array_detail::Rows h;
+  for (int i = 0; i < n; ++i) {
+    const Error wrong = check_row(rows[i], i);
+    if (wrong.code != Errc::ok) return wrong;
+    for (int k = 0; k < i; ++k) {
+      if (canonical(rows[k].id) == canonical(rows[i].id)) return Error{Errc::duplicate_id, i};
+    }
+    h.add(rows[i].axis);
+  }
+  const Vec3 s = array_detail::singular_values(h);
+  if (!(s[2] >= array_detail::kRankTolerance)) {
+    return Error{Errc::axes_rank_deficient, -1, s[2], array_detail::kRankTolerance};
+  }
+  return Error{};
+}
+
 }  // namespace
 
 TripleForm SensorArray::form(int k) const noexcept {
@@ -112,41 +131,51 @@ bool RowUncertainty::is_covariance() const noexcept {
 }
 
 Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {
-  if (n < 3 || rows == nullptr) return fail(Errc::too_few_sensors, -1, rows == nullptr ? 0.0 : n, 3.0);
-  if (n > kCapacity) return fail(Errc::too_many_sensors, -1, n, kCapacity);
+  const Error wrong = check_rows(rows, n);
+  if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
   SensorArray array;
-  array_detail::Rows h;
-  for (int i = 0; i < n; ++i) {
-    const Error wrong = check_row(rows[i], i);
-    if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
-    SensorRow& row = array.rows_[index(i)];
-    row = rows[i];
-    row.id = canonical(rows[i].id);
-    for (int k = 0; k < i; ++k) {
-      if (array.rows_[index(k)].id == row.id) return fail(Errc::duplicate_id, i);
-    }
-    h.add(row.axis);
-  }
-  const Vec3 s = array_detail::singular_values(h);
-  if (!(s[2] >= array_detail::kRankTolerance)) {
-    return fail(Errc::axes_rank_deficient, -1, s[2], array_detail::kRankTolerance);
-  }
   array.size_ = n;
-  std::size_t next = 0;
   for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      for (int k = j + 1; k < n; ++k) {
-        Triple& t = array.triples_[next];
+    array.rows_[index(i)] = rows[i];
+    array.rows_[index(i)].id = canonical(rows[i].id);
+  }
+  array.derive();
+  return array;
+}
+
+Expected<void> SensorArray::set_rows(const SensorRow* rows) noexcept {
+  const Error wrong = check_rows(rows, size_);
+  if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
+  for (int i = 0; i < size_; ++i) {
+    rows_[index(i)] = rows[i];
+    rows_[index(i)].id = canonical(rows[i].id);
+  }
+  derive();
+  return {};
+}
+
+/// What the axes make of the triples.
+void SensorArray::derive() noexcept {
+  std::size_t next = 0;
+  for (int i = 0; i < size_; ++i) {
+    for (int j = i + 1; j < size_; ++j) {
+      for (int k = j + 1; k < size_; ++k) {
+        Triple& t = triples_[next];
         TripleForm form{};
-        t = make_triple(array.axis(i), array.axis(j), array.axis(k), form);
+        t = make_triple(axis(i), axis(j), axis(k), form);
         t.sensors = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), static_cast<std::uint8_t>(k)};
-        for (std::size_t c = 0; c < form.size(); ++c) array.form_[c][next] = form[c];
+        for (std::size_t c = 0; c < form.size(); ++c) form_[c][next] = form[c];
         ++next;
       }
     }
   }
-  return array;
 }
+
+void SensorArray::rebuild() noexcept {
+  if (plausible()) derive();
+}
+
+bool SensorArray::plausible() const noexcept { return check_rows(rows_.data(), size_).code == Errc::ok; }
 
 int SensorArray::triple_index(int i, int j, int k) const noexcept {
   if (i < 0 || j <= i || k <= j || k >= size_) return -1;

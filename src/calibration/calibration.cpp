@@ -87,21 +87,33 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
   return out;
 }
 
-Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
-                    const Station* stations, int count, FitReport& report) noexcept {
-  if (!plainly_sound(datasheet)) {
-    const Expected<SensorArray> nominal = datasheet.array();
-    if (!nominal) return nominal.error();
-  }
+namespace {
+
+Error refused_scale(const Datasheet& datasheet) noexcept {
   for (int i = 0; i < datasheet.size; ++i) {
     const double scale = datasheet.sensor[at(i)].coefficients.scale[0];
     if (scale == 0.0 || !std::isfinite(scale)) return Error{Errc::not_finite, i, scale, 0.0};
   }
+  return Error{};
+}
+
+Error refused_setting(const Datasheet& datasheet, const FitOptions& options) noexcept {
+  if (!plainly_sound(datasheet)) {
+    const Expected<SensorArray> nominal = datasheet.array();
+    if (!nominal) return nominal.error();
+  }
+  const Error scale = refused_scale(datasheet);
+  if (scale.code != Errc::ok) return scale;
   if (!unit_axis(options.roll_axis)) return Error{Errc::out_of_range, 0, norm(options.roll_axis), 1.0};
   if (!(options.roll_wobble_rad >= 0.0) || !std::isfinite(options.roll_wobble_rad)) {
     return Error{Errc::out_of_range, 2, options.roll_wobble_rad, 0.0};
   }
-  const Problem problem = problem_of(datasheet, gravity.g_mps2, options, stations, count);
+  return Error{};
+}
+
+}  // namespace
+
+Error refused_stations(const Problem& problem, const FitOptions& options, FitFigures& report) noexcept {
   report.roll_groups = problem.roll.groups;
   report.lone_rolls = problem.roll.lone;
   if (problem.roll.used) {
@@ -118,15 +130,42 @@ Error refused_input(const Datasheet& datasheet, const GravityReference& gravity,
     return Error{Errc::too_few_stations, -1, static_cast<double>(report.stations), static_cast<double>(needed)};
   }
   for (int k = 0; k < problem.count; ++k) {
-    const double t = stations[k].temperature_degc;
-    if (stations[k].count == 0 || (t >= kPlausibleMin_degc && t <= kPlausibleMax_degc) || std::isnan(t)) continue;
+    const Station& station = problem.stations[k];
+    const double t = station.temperature_degc;
+    if (station.count == 0 || (t >= kPlausibleMin_degc && t <= kPlausibleMax_degc) || std::isnan(t)) continue;
     return Error{Errc::diverged, k, t, t < kPlausibleMin_degc ? kPlausibleMin_degc : kPlausibleMax_degc};
   }
   return same_numbers(problem);
 }
 
+Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
+                    const Station* stations, int count, FitFigures& report) noexcept {
+  const Error wrong = refused_setting(datasheet, options);
+  if (wrong.code != Errc::ok) return wrong;
+  return refused_stations(problem_of(datasheet, gravity.g_mps2, options, {stations, count}), options, report);
+}
+
 double rank_floor(const FitTally& tally) noexcept {
   return std::fmax(kRankTolerance, kFeignedInformation * tally.direction_variance());
+}
+
+/// `describe` where the axes are held: no covariance, no report beyond the figures. Leaves the sums' blocks to the
+/// judge of the rank. False where something is not finite.
+[[gnu::noinline]] bool describe_held(const Problem& problem, double variance, Fitted& fitted, Blocks& blocks,
+                                     FitFigures& r) noexcept {
+  Parameters gradient;
+  turn_to_datasheet(problem.datasheet, problem.roll, fitted.theta);
+  if (variance > 0.0) {
+    r.chi2 = accumulate(problem, fitted.theta, 0.0, Loss::squares, blocks.data(), gradient, Room{}).chi2;
+  }
+  const Sums sums =
+      accumulate(problem, fitted.theta, variance, Loss::squares, blocks.data(), gradient, Room{}, &fitted.tally);
+  if (!(variance > 0.0)) r.chi2 = sums.chi2;
+  if (!sums.finite || !std::isfinite(r.chi2)) return false;
+  fitted.tally.write(problem.datasheet.size, r);
+  r.gauge = 3;  // no common rotation is left to a fit without axes
+  r.degrees_of_freedom = sums.rows - 2 * r.stations;
+  return true;
 }
 
 }  // namespace fit
@@ -144,22 +183,25 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, Info
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
   fitted.theta = fit::natural(datasheet_, roots, theta_);
   fit::turn_to_datasheet(datasheet_, problem.roll, fitted.theta);
-  fit::note_outliers(problem, r);
+  fit::note_outliers(problem, r, &r.outlier);
   fit::note_common_scale(datasheet_, fitted.theta, r);
   fit::Parameters gradient;
   fit::RollSums roll;
+  fit::Screening screening(problem);
+  const fit::Room room = {&roll, &screening, nullptr};
   Information scratch;  // the blocks first, then what the analysis needs
   // Chi^2 is told against the datasheet's noise alone, with the directions that this noise would choose.
   const double variance = misfit_mps2_ * misfit_mps2_;
   if (variance > 0.0) {
-    r.chi2 = fit::accumulate(problem, fitted.theta, 0.0, fit::Loss::squares, scratch.data(), gradient, roll).chi2;
+    r.chi2 = fit::accumulate(problem, fitted.theta, 0.0, fit::Loss::squares, scratch.data(), gradient, room).chi2;
   }
   const fit::Sums sums = fit::accumulate(problem, fitted.theta, variance, fit::Loss::squares, scratch.data(), gradient,
-                                         roll, &fitted.tally);
+                                         room, &fitted.tally);
   if (!(variance > 0.0)) r.chi2 = sums.chi2;
   if (!sums.finite || !std::isfinite(r.chi2)) return false;
   fitted.tally.write(datasheet_.size, r);
-  fit::expand(scratch.data(), roll, roots, datasheet_.size, covariance.data());
+  r.excitation = fitted.tally.excitation();
+  fit::expand(scratch.data(), &roll, roots, datasheet_.size, fit::Square{covariance.data(), 4 * datasheet_.size});
   const double floor = fit::rank_floor(fitted.tally);
   if (!fit::analyse(datasheet_, problem.roll, roots, fitted.theta, floor, covariance.data(), scratch.data(), r)) {
     return false;
@@ -168,7 +210,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, Info
   r.p_value = r.degrees_of_freedom >= 1 ? chi2_tail(r.chi2, r.degrees_of_freedom) : 1.0;
   if (problem.roll.used) r.common_turn = fit::common_turn(datasheet_, problem.roll.axis, fitted.theta);
   if (r.temperature_max_degc - r.temperature_min_degc >= kLevelsApart_degc) {
-    r.level_misfit = fit::level_misfit(problem, fitted.theta, problem.stations, variance);
+    r.level_misfit = fit::level_misfit(problem, fitted.theta, problem.stations.plain(), variance);
   }
   double factor = 1.0;
   if (options_.estimate_misfit) {
@@ -190,7 +232,7 @@ Error Calibrator::judge(const fit::Problem& problem, const fit::Fitted& fitted, 
 
 bool Calibrator::sets_aside(const Station& station) const noexcept {
   if (phase_ != Phase::screened) return false;
-  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, &station, 1);
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, {&station, 1});
   const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
   problem.screen = &screen;
   return fit::Screening(problem).out(station);
@@ -207,10 +249,11 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   r.misfit_mps2 = misfit_mps2_;
   const Error wrong = refused(stations, count, r);
   if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
-  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, {stations, count});
   const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
   if (phase_ == Phase::screened) problem.screen = &screen;
-  fit::Fitted fitted;
+  fit::Harmonics harmonics;
+  fit::Fitted fitted(&harmonics);
   Information covariance;
   if (!describe(problem, fitted, covariance, r)) return fail(Errc::diverged, -1, cost_);
   Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, covariance.data(), r);
@@ -226,6 +269,71 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
     if (twins.code != Errc::ok) error = twins;
   }
   return tl::unexpected<Error>(error);
+}
+
+/// Leaves out what the screen leaves out; returns how many stations that are.
+[[gnu::noinline]] int Calibrator::screen_out(StationList& stations) const noexcept {
+  if (phase_ != Phase::screened) return 0;
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  const fit::Problem problem = {datasheet_, gravity_.g_mps2, stations, stations.size(), {}, &screen};
+  fit::Screening screening(problem);
+  int out = 0;
+  for (int k = 0; k < stations.size(); ++k) {
+    if (!screening.out(stations[k])) continue;
+    stations.leave_out(k);
+    ++out;
+  }
+  return out;
+}
+
+/// Fills `fitted` and the figures; false where something is not finite.
+[[gnu::noinline]] bool Calibrator::describe_held(const StationList& stations, fit::Fitted& fitted,
+                                                 FitFigures& figures) const noexcept {
+  const fit::Problem problem = {datasheet_, gravity_.g_mps2, stations, stations.size(), {}, nullptr};
+  fit::Blocks blocks;
+  if (!fit::describe_held(problem, misfit_mps2_ * misfit_mps2_, fitted, blocks, figures)) return false;
+  figures.rank = fit::rank_of_held(datasheet_, blocks.data(), fit::rank_floor(fitted.tally));
+  figures.degrees_of_freedom -= figures.rank;
+  figures.p_value = figures.degrees_of_freedom >= 1 ? chi2_tail(figures.chi2, figures.degrees_of_freedom) : 1.0;
+  return figures.rank >= 0;
+}
+
+[[gnu::noinline]] Error Calibrator::refused_held(const StationList& stations, FitFigures& figures) const noexcept {
+  Error error = fit::refused_scale(datasheet_);
+  const fit::Problem all = {datasheet_, gravity_.g_mps2, stations, stations.size(), {}, nullptr};
+  if (error.code == Errc::ok) error = fit::refused_stations(all, options_, figures);
+  if (error.code == Errc::ok && stop_ == StopReason::not_finite) error = {Errc::diverged, bad_station_, cost_, 0.0};
+  return error;
+}
+
+[[gnu::noinline]] Error Calibrator::judge_held(const StationList& stations, const fit::Fitted& fitted,
+                                               FitFigures& figures) const noexcept {
+  const fit::Problem all = {datasheet_, gravity_.g_mps2, stations, stations.size(), {}, nullptr};
+  Error error = fit::judge_figures(all, options_, fitted, figures);
+  if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
+  if (error.code == Errc::ok) return error;
+  const Error twins = fit::twin_channels(all);
+  return twins.code != Errc::ok ? twins : error;
+}
+
+Error Calibrator::finish_held(const StationList& stations, HeldFit& out) const noexcept {
+  FitFigures r;
+  r.parameters = 2 * datasheet_.size;
+  r.misfit_mps2 = misfit_mps2_;
+  const Error refused = refused_held(stations, r);
+  if (refused.code != Errc::ok) return refused;
+  StationList used = stations;
+  r.outliers = screen_out(used);
+  fit::Fitted fitted(nullptr);
+  fitted.theta = parameters();
+  if (!describe_held(used, fitted, r)) return Error{Errc::diverged, -1, cost_};
+  out = {{}, {}, r.rank, r.degrees_of_freedom, r.chi2, r.p_value};
+  const double sign = datasheet_.reads == Reads::gravity ? 1.0 : -1.0;
+  for (int i = 0; i < datasheet_.size; ++i) {
+    out.length[fit::at(i)] = norm(fit::row_of(fitted.theta, i));
+    out.bias_mps2[fit::at(i)] = sign * fitted.theta[fit::at(4 * i + 3)];
+  }
+  return judge_held(stations, fitted, r);
 }
 
 }  // namespace PLUMB_ABI

@@ -1,8 +1,9 @@
 /// The iteration: damped Gauss-Newton on the sphere-projected residuals, in prior units.
 #include <cmath>
+#include <type_traits>
 
-#include "fit_internal.hpp"
 #include "plumb/numeric/cholesky.hpp"
+#include "station_solver.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -89,8 +90,8 @@ const char* to_string(FitStart start) noexcept {
 bool fit::unit_axis(const Vec3& axis) noexcept { return std::fabs(norm(axis) - 1.0) <= kAxisLengthTolerance; }
 
 fit::Problem fit::problem_of(const Datasheet& datasheet, double g_mps2, const FitOptions& options,
-                             const Station* stations, int count) noexcept {
-  Problem problem = {datasheet, g_mps2, stations, stations == nullptr ? 0 : count, {}, nullptr};
+                             const StationList& stations) noexcept {
+  Problem problem = {datasheet, g_mps2, stations, stations.size(), {}, nullptr};
   problem.roll.axis = options.roll_axis;
   problem.roll.wobble_rad = options.roll_wobble_rad;
   find_roll_groups(problem, problem.roll);
@@ -108,7 +109,8 @@ void Calibrator::resume(const Datasheet& datasheet, const FitOptions& options) n
   options_ = options;
 }
 
-fit::Parameters Calibrator::parameters() const noexcept {
+/// Not inlined: the roots need no room while the sums are made.
+[[gnu::noinline]] fit::Parameters Calibrator::parameters() const noexcept {
   return fit::natural(datasheet_, fit::prior_roots(datasheet_), theta_);
 }
 
@@ -140,14 +142,14 @@ bool fit::small_step(const PriorRoots& roots, int n, const Parameters& natural, 
 
 /// Moment estimate of the noise that the datasheet does not know, from the residuals at convergence.
 /// True where the weights have changed so much that the fit must go on. Leaves `factor` destroyed.
-bool Calibrator::misfit_changed(const fit::Sums& sums, Information& factor) noexcept {
+bool Calibrator::misfit_changed(const fit::Sums& sums, double* factor) noexcept {
   const int n4 = 4 * datasheet_.size;
   if (!options_.estimate_misfit || misfit_rounds_ >= kMaxMisfitRounds) return false;
   // Even if the data had determined every observable parameter, no excess: spare the inverse.
   if (misfit_mps2_ == 0.0 && sums.chi2 <= sums.rows - 2 * sums.stations - (n4 - 3)) return false;
-  cholesky_inverse(factor.data(), n4, n4);
+  cholesky_inverse(factor, n4, n4);
   double from_prior = 0.0;
-  for (int k = 0; k < n4; ++k) from_prior += factor[at(k * n4 + k)];
+  for (int k = 0; k < n4; ++k) from_prior += factor[k * n4 + k];
   const double freedom = sums.rows - 2 * sums.stations - (n4 - from_prior);
   if (!(freedom >= 1.0) || !(sums.weighted_chi2 > 0.0)) return false;
   const double excess = sums.chi2 / freedom - 1.0;
@@ -177,16 +179,17 @@ void Calibrator::find_start(const Station* stations, int count) noexcept {
   phase_ = Phase::squares;
   if (options_.start == FitStart::datasheet || !fit::all_free(datasheet_)) return;
   fit::Parameters natural;
-  if (!fit::closed_form(fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count), natural)) return;
+  if (!fit::closed_form(fit::problem_of(datasheet_, gravity_.g_mps2, options_, {stations, count}), natural)) return;
   theta_ = fit::prior_units(datasheet_, natural);
   started_ = FitStart::closed_form;
 }
 
 /// Sets the weights of one step that looks for outliers. True where they have come to rest.
+template <class Count>
 bool Calibrator::weigh(const fit::Problem& problem, const fit::Parameters& natural) noexcept {
   const double before = misfit_mps2_ * misfit_mps2_;
   const double share = phase_ == Phase::huber ? kFirstShare : 1.0;
-  const double variance = fit::median_misfit(problem, natural, before, freedom_, share);
+  const double variance = fit::median_misfit<Count>(problem, natural, before, freedom_, share);
   misfit_mps2_ = std::sqrt(variance);
   ++robust_steps_;
   fresh_ = true;  // another cost: nothing to compare with
@@ -194,8 +197,9 @@ bool Calibrator::weigh(const fit::Problem& problem, const fit::Parameters& natur
 }
 
 /// After a step: whether the phase is over, and what comes next. True where the whole fit is.
+template <class Count>
 bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& natural, const fit::Sums& sums,
-                         bool weights_settled, Information& factor) noexcept {
+                         bool weights_settled, double* factor) noexcept {
   const bool loosely = settled(problem, natural, kLooselySettled);
   if (phase_ == Phase::huber || phase_ == Phase::tukey) {
     const int most = phase_ == Phase::huber ? kHuberSteps : kHuberSteps + kTukeySteps;
@@ -205,7 +209,7 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
       robust_steps_ = kHuberSteps;
       return false;
     }
-    screen_ = fit::natural(datasheet_, fit::prior_roots(datasheet_), theta_);
+    screen_ = parameters();
     screen_misfit_mps2_ = misfit_mps2_;
     misfit_mps2_ = 0.0;
     fresh_ = true;
@@ -215,27 +219,29 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
   if (phase_ == Phase::squares && !looked_ && options_.reject_outliers && loosely && sums.worst > 1.0) {
     looked_ = true;
     freedom_ = sums.rows - 2 * sums.stations - (4 * datasheet_.size - 3);
-    if (freedom_ >= kScreenFreedom && fit::stands_out(problem, natural, freedom_)) {
+    if (freedom_ >= kScreenFreedom && fit::stands_out<Count>(problem, natural, freedom_)) {
       phase_ = Phase::huber;
       return false;
     }
   }
-  return settled(problem, natural, options_.stop_relative) && !misfit_changed(sums, factor);
+  return settled(problem, natural, options_.stop_relative) && !(factor != nullptr && misfit_changed(sums, factor));
 }
 
 /// Solves the normal equations and moves. Takes the information of the data; leaves the factor of the damped one.
+template <class Matrix>
 bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& natural, const fit::Parameters& rhs,
-                           const double* blocks, const fit::RollSums& roll, Information& normal) noexcept {
+                           const double* blocks, const fit::Room& room, const Matrix& normal) noexcept {
   const int n = datasheet_.size;
   const int n4 = 4 * n;
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
-  fit::expand(blocks, roll, roots, n, normal.data());
-  for (int k = 0; k < n4; ++k) normal[at(k * n4 + k)] = (normal[at(k * n4 + k)] + 1.0) * (1.0 + damping_);
+  fit::expand(blocks, room.roll, roots, n, normal);
+  for (int k = 0; k < n4; ++k) normal(k, k) = (normal(k, k) + 1.0) * (1.0 + damping_);
   step_ = fit::times_roots(roots, n, rhs);
   for (int k = 0; k < n4; ++k) step_[at(k)] -= theta_[at(k)];
-  if (!cholesky_factor(normal.data(), n4, n4)) return false;
-  cholesky_solve(normal.data(), n4, n4, step_.data());
-  if (fit::all_free(datasheet_)) {
+  if (!normal.factor()) return false;
+  normal.solve(step_.data());
+  constexpr bool kMayTurn = std::is_same<Matrix, fit::Square>::value;  // half a matrix is for axes that are held
+  if (kMayTurn && fit::all_free(datasheet_)) {
     // A common rotation costs the data nothing, but only as a rotation: taken along its tangent it would stretch. Where
     // the data do not see it, the prior alone has it.
     fit::Parameters change = fit::times_roots(roots, n, step_);
@@ -254,24 +260,15 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
   return true;
 }
 
-void Calibrator::iterate(const Station* stations, int count) noexcept {
-  if (done()) return;
-  if (phase_ == Phase::start) {
-    find_start(stations, count);
-    if (started_ == FitStart::closed_form) return;
-  }
-  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, stations, count);
-  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
-  if (phase_ == Phase::screened) problem.screen = &screen;
-  const fit::PriorRoots roots = fit::prior_roots(datasheet_);
-  fit::Parameters rhs, natural = fit::natural(datasheet_, roots, theta_);
-  const bool looking = phase_ == Phase::huber || phase_ == Phase::tukey;
-  const bool weights_settled = !looking || weigh(problem, natural);
-  const fit::Loss loss = !looking ? fit::Loss::squares : phase_ == Phase::huber ? fit::Loss::huber : fit::Loss::tukey;
+/// The sums at theta; where they have risen for good, those at the best theta so far, with more damping.
+[[gnu::noinline]] fit::Sums Calibrator::accumulate_best(const fit::Problem& problem, fit::Parameters& natural,
+                                                        double* blocks, fit::Parameters& rhs,
+                                                        const fit::Room& room) noexcept {
+  const fit::Loss loss = phase_ == Phase::huber   ? fit::Loss::huber
+                         : phase_ == Phase::tukey ? fit::Loss::tukey
+                                                  : fit::Loss::squares;
   const double variance = misfit_mps2_ * misfit_mps2_;
-  fit::RollSums roll;
-  fit::Blocks blocks;
-  fit::Sums sums = fit::accumulate(problem, natural, variance, loss, blocks.data(), rhs, roll);
+  fit::Sums sums = fit::accumulate(problem, natural, variance, loss, blocks, rhs, room);
   const double cost = sums.chi2 + squared_length(theta_, 4 * datasheet_.size);
   const bool finite = sums.finite && std::isfinite(cost);
   const bool down = goes_down(cost, finite);
@@ -282,21 +279,75 @@ void Calibrator::iterate(const Station* stations, int count) noexcept {
     theta_ = best_;
     rises_ = 0;
     damping_ = damping_ > 0.0 ? 10.0 * damping_ : kFirstDamping;
-    natural = fit::natural(datasheet_, roots, theta_);
-    sums = fit::accumulate(problem, natural, variance, loss, blocks.data(), rhs, roll);
+    natural = parameters();
+    sums = fit::accumulate(problem, natural, variance, loss, blocks, rhs, room);
     if (damping_ > kMaxDamping) stop_ = StopReason::no_descent;
   }
   fresh_ = false;
+  return sums;
+}
+
+/// A step whose factor nobody asks for afterwards: half of the matrix will do.
+[[gnu::noinline]] bool Calibrator::step_alone(const fit::Problem& problem, const fit::Parameters& natural,
+                                              const fit::Parameters& rhs, const double* blocks) noexcept {
+  std::array<double, std::size_t{kFitParameters} * (kFitParameters + 1) / 2> information{};
+  return step_from(problem, natural, rhs, blocks, fit::Room{}, fit::Packed{information.data(), 4 * datasheet_.size});
+}
+
+/// The sums, and the step to which they lead; false where there is none. Nothing happens once the fit is over.
+[[gnu::noinline]] bool Calibrator::solve(const fit::Problem& problem, fit::Parameters& natural, fit::Sums& sums,
+                                         const fit::Room& room) noexcept {
+  fit::Parameters rhs;
+  fit::Blocks blocks;
+  sums = accumulate_best(problem, natural, blocks.data(), rhs, room);
   ++iterations_;
+  if (done()) return true;
+  if (room.factor == nullptr) return step_alone(problem, natural, rhs, blocks.data());
+  return step_from(problem, natural, rhs, blocks.data(), room, fit::Square{room.factor, 4 * datasheet_.size});
+}
+
+template <class Count>
+void Calibrator::iterate_over(const fit::Problem& problem, const fit::Room& room) noexcept {
+  fit::Parameters natural = parameters();
+  const bool looking = phase_ == Phase::huber || phase_ == Phase::tukey;
+  const bool weights_settled = !looking || weigh<Count>(problem, natural);
+  fit::Sums sums;
+  const bool moved = solve(problem, natural, sums, room);
   if (done()) return;
-  Information information;
-  if (!step_from(problem, natural, rhs, blocks.data(), roll, information)) {
+  if (!moved) {
     stop_ = StopReason::not_finite;
-  } else if (damping_ < 1.0 && advance(problem, natural, sums, weights_settled, information)) {
+  } else if (damping_ < 1.0 && advance<Count>(problem, natural, sums, weights_settled, room.factor)) {
     stop_ = StopReason::converged;
   } else if (iterations_ >= options_.max_iterations) {
     stop_ = StopReason::iteration_limit;
   }
+}
+
+void Calibrator::iterate(const Station* stations, int count) noexcept {
+  if (done()) return;
+  if (phase_ == Phase::start) {
+    find_start(stations, count);
+    if (started_ == FitStart::closed_form) return;
+  }
+  fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, {stations, count});
+  const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
+  if (phase_ == Phase::screened) problem.screen = &screen;
+  fit::RollSums roll;
+  fit::Screening screening(problem);
+  Information factor;
+  iterate_over<int>(problem, {&roll, &screening, factor.data()});
+}
+
+void Calibrator::iterate_held(const StationList& stations) noexcept {
+  if (done()) return;
+  if (stations.size() > fit::kMostCounted) {
+    stop_ = StopReason::not_finite;
+    return;
+  }
+  if (phase_ == Phase::start) phase_ = Phase::squares;  // a held axis has no closed form
+  StationList used = stations;
+  screen_out(used);
+  iterate_over<std::uint8_t>({datasheet_, gravity_.g_mps2, used, used.size(), {}, nullptr}, fit::Room{});
 }
 
 Expected<Calibration> calibrate(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,

@@ -287,6 +287,36 @@ bool analyse(const Datasheet& datasheet, const Roll& roll, const PriorRoots& roo
   return true;
 }
 
+int rank_of_held(const Datasheet& datasheet, const double* blocks, double floor) noexcept {
+  constexpr int kStride = 2 * kCapacity;
+  std::array<double, std::size_t{kStride} * kStride> information{};
+  const int n2 = 2 * datasheet.size;
+  for (int i = 0; i < datasheet.size; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const DatasheetSensor& a = datasheet.sensor[at(i)];
+      const DatasheetSensor& b = datasheet.sensor[at(j)];
+      const double* m = blocks + at(kMomentCount * (i * (i + 1) / 2 + j));  // xx xy xz x yy yz y zz z 1
+      const Vec3 first = {m[3], m[6], m[8]};
+      const Vec3 across = times(Symmetric3{m[0], m[1], m[2], m[4], m[5], m[7]}, b.row.axis);
+      const std::size_t p = at(2 * i), q = at(2 * j), s = at(kStride);
+      information[p * s + q] = a.prior.scale * b.prior.scale * dot(a.row.axis, across);
+      information[p * s + q + 1] = a.prior.scale * b.prior.bias_mps2 * dot(a.row.axis, first);
+      information[(p + 1) * s + q] = a.prior.bias_mps2 * b.prior.scale * dot(b.row.axis, first);
+      information[(p + 1) * s + q + 1] = a.prior.bias_mps2 * b.prior.bias_mps2 * m[9];
+    }
+  }
+  for (int i = 0; i < n2; ++i) {
+    for (int j = i + 1; j < n2; ++j) information[at(i * kStride + j)] = information[at(j * kStride + i)];
+  }
+  std::array<double, kStride> values{};
+  if (!symmetric_eigenvalues_of_few(information.data(), n2, kStride, values.data())) return -1;
+  int rank = 0;
+  for (int k = 0; k < n2; ++k) {
+    if (values[at(k)] > floor * values[at(n2 - 1)] && values[at(n2 - 1)] > 0.0) ++rank;
+  }
+  return rank;
+}
+
 void inflate(double factor, int n4, double* covariance, FitReport& report) noexcept {
   for (int k = 0; k < n4 * n4; ++k) covariance[k] *= factor;
   for (int k = 0; k < n4; ++k) report.sigma[at(k)] *= std::sqrt(factor);

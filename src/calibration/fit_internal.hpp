@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "plumb/calibration/calibration.hpp"
+#include "plumb/numeric/cholesky.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -109,13 +110,13 @@ bool small_step(const PriorRoots& roots, int n, const Parameters& natural, const
 struct Problem {
   const Datasheet& datasheet;
   double g_mps2 = 0.0;
-  const Station* stations = nullptr;
+  StationList stations;
   int count = 0;
   Roll roll;
   const Screen* screen = nullptr;
 };
-Problem problem_of(const Datasheet& datasheet, double g_mps2, const FitOptions& options, const Station* stations,
-                   int count) noexcept;
+Problem problem_of(const Datasheet& datasheet, double g_mps2, const FitOptions& options,
+                   const StationList& stations) noexcept;
 bool unit_axis(const Vec3& axis) noexcept;
 
 /// Ten products z z' of z = (g, 1): xx xy xz x yy yz y zz z 1.
@@ -153,20 +154,53 @@ struct Sums {
   double worst = 0.0;          ///< largest residual of a station over its outlier limit, squared
 };
 class FitTally;
+class Screening;
+/// What a fit needs beyond its sums, where it has it. Without roll groups, and where no station is left out by a
+/// screen, none of it; and who reads no factor gives no room for it.
+struct Room {
+  RollSums* roll = nullptr;
+  Screening* screening = nullptr;
+  double* factor = nullptr;  ///< square
+};
 /// `tally`, where given, sees every station that is used.
 Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_variance, Loss loss, double* blocks,
-                Parameters& rhs, RollSums& roll, FitTally* tally = nullptr) noexcept;
-/// S N S in prior units from the blocks; lower triangle, row-major with stride 4n.
-void expand(const double* blocks, const RollSums& roll, const PriorRoots& roots, int n, double* information) noexcept;
+                Parameters& rhs, const Room& room, FitTally* tally = nullptr) noexcept;
+/// S N S in prior units from the blocks.
+template <class Matrix>
+void expand(const double* blocks, const RollSums* roll, const PriorRoots& roots, int n,
+            const Matrix& information) noexcept;
+
+/// A symmetric matrix of n rows of which the lower triangle counts: as a square, both triangles in their place, ...
+struct Square {
+  double* entry;
+  int n;
+  double& operator()(int i, int j) const noexcept { return entry[i * n + j]; }
+  bool factor() const noexcept { return cholesky_factor(entry, n, n); }
+  void solve(double* b) const noexcept { cholesky_solve(entry, n, n, b); }
+  static constexpr bool keeps(int, int) noexcept { return true; }
+};
+/// ... or packed, row by row.
+struct Packed {
+  double* entry;
+  int n;
+  double& operator()(int i, int j) const noexcept { return entry[i * (i + 1) / 2 + j]; }
+  bool factor() const noexcept { return cholesky_factor_packed(entry, n); }
+  void solve(double* b) const noexcept { cholesky_solve_packed(entry, n, b); }
+  static constexpr bool keeps(int i, int j) noexcept { return j <= i; }
+};
 
 /// What the noise beyond the datasheet's would have to be for half of the stations to lie below the median that noise
 /// alone would have, from a guess at it; times `share`. `freedom` is that of the whole fit. Robust, and a start only:
 /// it has a tenth of the precision of the moment estimate. [(m/s^2)^2]
+/// `Count` counts the stations: std::uint8_t for those of a StationList that can be left out, int for any number.
+inline constexpr int kMostCounted = StationList::kMarked;
+template <class Count>
 double median_misfit(const Problem& problem, const Parameters& theta, double misfit_variance, int freedom,
                      double share) noexcept;
 
 /// Whether some residual of a least-squares fit is so far above the median that it may be an outlier: noise of any size
 /// alone seldom looks so. An outlier pulls the fit, hence a part of the limit only.
+template <class Count>
 bool stands_out(const Problem& problem, const Parameters& theta, int freedom) noexcept;
 
 /// Counts the roll groups; `used` where any two stations share one. At most kMaxRollGroups are used.
@@ -197,6 +231,10 @@ Vec3 remove_rotation(const Parameters& theta, int n, const Roll& roll, Parameter
 /// not be had.
 bool analyse(const Datasheet& datasheet, const Roll& roll, const PriorRoots& roots, const Parameters& theta,
              double floor, double* information, double* scratch, FitReport& report) noexcept;
+
+/// Rank where the axes are held: of the information about scales and biases alone, in prior units. Eigenvalues below
+/// `floor` times the largest count as zero. -1 where they could not be had.
+int rank_of_held(const Datasheet& datasheet, const double* blocks, double floor) noexcept;
 
 /// Multiplies the covariance and the sigmas: for residuals larger than the noise, unless a misfit says so.
 void inflate(double factor, int n4, double* covariance, FitReport& report) noexcept;

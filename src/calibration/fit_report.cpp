@@ -68,7 +68,7 @@ class SampleNoise {
       freedom_[at(i)] += freedom;
     }
   }
-  void write(FitReport& report) const noexcept {
+  void write(FitFigures& report) const noexcept {
     for (int i = 0; i < datasheet_.size; ++i) {
       report.sample_noise_mps2[at(i)] = freedom_[at(i)] > 0.0 ? std::sqrt(squares_[at(i)] / freedom_[at(i)]) : 0.0;
     }
@@ -94,7 +94,7 @@ bool plainly_sound(const Datasheet& datasheet) noexcept {
   return independent(datasheet, SensorSet::first(datasheet.size));
 }
 
-void note_stations(const Problem& problem, FitReport& report) noexcept {
+void note_stations(const Problem& problem, FitFigures& report) noexcept {
   bool any = false;
   SampleNoise noise(problem.datasheet);
   for (int k = 0; k < problem.count; ++k) {
@@ -114,7 +114,7 @@ void note_stations(const Problem& problem, FitReport& report) noexcept {
   noise.write(report);
 }
 
-double note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& report) noexcept {
+double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigures& report) noexcept {
   const int n = problem.datasheet.size, freedom = tally.freedom(report);
   double excess = 0.0;
   const int loudest = tally.loudest(n, freedom, excess);
@@ -140,7 +140,7 @@ double note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport
 
 /// With three sensors a station has one residual, and the fit can bend towards a few stations that err so that the
 /// sound ones look it (calibration note 5). That happens where few degrees of freedom are left.
-Error doubtful_screening(const Datasheet& datasheet, const FitReport& report) noexcept {
+Error doubtful_screening(const Datasheet& datasheet, const FitFigures& report) noexcept {
   constexpr int kFewFreedom = 24;  // from there on not one fit in 2000 was seen to take the wrong stations
   constexpr int kLeastFreedom = 8;
   constexpr double kDoubtful = 1e-3;  // of the stations that stayed
@@ -153,7 +153,7 @@ Error doubtful_screening(const Datasheet& datasheet, const FitReport& report) no
   return Error{};
 }
 
-Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const FitReport& report) noexcept {
+Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const FitFigures& report) noexcept {
   if (!(report.p_value < kNoNoise)) return Error{};
   Error worst;
   for (int i = 0; i < datasheet.size; ++i) {
@@ -165,13 +165,13 @@ Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const
   return worst;
 }
 
-void note_outliers(const Problem& problem, FitReport& report) noexcept {
+void note_outliers(const Problem& problem, FitFigures& report, std::array<Outlier, kMaxOutliers>* list) noexcept {
   if (problem.screen == nullptr) return;
   Screening screening(problem);
   for (int k = 0; k < problem.count; ++k) {
     if (!screening.out(problem.stations[k])) continue;
-    if (report.outliers < kMaxOutliers) {
-      Outlier& outlier = report.outlier[at(report.outliers)];
+    if (list != nullptr && report.outliers < kMaxOutliers) {
+      Outlier& outlier = (*list)[at(report.outliers)];
       outlier.station = k;
       outlier.standardised = std::sqrt(screening.solver.chi2);
       outlier.sensor = blamed(screening.solver, outlier.share);
@@ -198,7 +198,7 @@ int most_blamed(const Problem& problem) noexcept {
   return most;
 }
 
-void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitReport& report) noexcept {
+void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitFigures& report) noexcept {
   const double n = datasheet.size;
   CommonScale out;
   double squares = 0.0, variance = 0.0;
@@ -287,7 +287,7 @@ Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions
   return best.error;
 }
 
-Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted, FitReport& r) noexcept {
+Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted, FitFigures& r) noexcept {
   const Error error = implausible(problem.datasheet, problem.roll, options, fitted.theta, r.suspects);
   if (error.code != Errc::ok) return error;
   const double most = options.max_outlier_share * (r.stations + r.outliers);

@@ -8,6 +8,7 @@ inline namespace PLUMB_ABI {
 namespace fit {
 
 struct Fitted {
+  explicit Fitted(Harmonics* harmonics) noexcept : tally(harmonics) {}
   Parameters theta{};
   FitTally tally;
 };
@@ -17,18 +18,21 @@ bool plainly_sound(const Datasheet& datasheet) noexcept;
 
 /// What is wrong before any fit; the report gets what the stations alone tell.
 Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
-                    const Station* stations, int count, FitReport& report) noexcept;
+                    const Station* stations, int count, FitFigures& report) noexcept;
+/// The part of it that the stations are to blame for.
+Error refused_stations(const Problem& problem, const FitOptions& options, FitFigures& report) noexcept;
 
 /// Eigenvalues of the information below this part of the largest count as zero.
 double rank_floor(const FitTally& tally) noexcept;
 
 /// Temperatures, clipped readings, noise of the samples.
-void note_stations(const Problem& problem, FitReport& report) noexcept;
-/// The stations that the screen leaves out.
-void note_outliers(const Problem& problem, FitReport& report) noexcept;
+void note_stations(const Problem& problem, FitFigures& report) noexcept;
+/// The stations that the screen leaves out: how many, and where there is a list which.
+void note_outliers(const Problem& problem, FitFigures& report,
+                   std::array<Outlier, kMaxOutliers>* list = nullptr) noexcept;
 /// The sensor to which most of the outliers point; -1 where none does.
 int most_blamed(const Problem& problem) noexcept;
-void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitReport& report) noexcept;
+void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitFigures& report) noexcept;
 
 /// By the axes of theta, turned about the roll axis as near to the nominal ones as can be.
 CommonTurn common_turn(const Datasheet& datasheet, const Vec3& roll_axis, const Parameters& theta) noexcept;
@@ -43,16 +47,16 @@ Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions
 
 /// A fit of full rank, judged by its own figures.
 Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
-                    FitReport& report) noexcept;
+                    FitFigures& report) noexcept;
 /// `loud_sensor` and what goes with it; by what factor its residuals widen every variance (>= 1).
-double note_loud_sensor(const Problem& problem, const FitTally& tally, FitReport& report) noexcept;
+double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigures& report) noexcept;
 
 /// Three sensors, stations set aside, and too little left to say that they were the right ones: poor_fit (value =
 /// stations set aside, limit = how many may be; or value = p of the rest, limit = what it may be).
-Error doubtful_screening(const Datasheet& datasheet, const FitReport& report) noexcept;
+Error doubtful_screening(const Datasheet& datasheet, const FitFigures& report) noexcept;
 
 /// A sensor whose own samples are noisier than declared, where the residuals are no noise either.
-Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const FitReport& report) noexcept;
+Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const FitFigures& report) noexcept;
 
 /// 1 sigma of an inclination about the roll axis, mean over the stations where roll rows have seen it, else over the
 /// sphere [rad].

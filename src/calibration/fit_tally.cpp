@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/calibration/observability.hpp"
 #include "plumb/numeric/symmetric_eigenvalues.hpp"
 
 namespace plumb {
@@ -34,6 +35,31 @@ std::array<double, kHarmonics> harmonics_of(const Vec3& u) noexcept {
           s15 * u[0] * u[2],
           0.5 * s5 * (3.0 * u[2] * u[2] - 1.0),
           0.5 * s15 * (u[0] * u[0] - u[1] * u[1])};
+}
+
+using Gram = std::array<double, std::size_t{kHarmonics} * kHarmonics>;  // lower triangle
+
+void add_to(Gram& gram, const Vec3& direction) noexcept {
+  const std::array<double, kHarmonics> y = harmonics_of(direction);
+  for (int i = 0; i < kHarmonics; ++i) {
+    for (int j = 0; j <= i; ++j) gram[at(i * kHarmonics + j)] += y[at(i)] * y[at(j)];
+  }
+}
+
+/// Of the mean over the stations.
+double least_eigenvalue(const Gram& sums, int stations) noexcept {
+  if (stations == 0) return 0.0;
+  constexpr int kStride = 12;
+  std::array<double, std::size_t{kHarmonics} * kStride> gram{};
+  for (int i = 0; i < kHarmonics; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      gram[at(i * kStride + j)] = sums[at(i * kHarmonics + j)] / stations;
+      gram[at(j * kStride + i)] = gram[at(i * kStride + j)];
+    }
+  }
+  std::array<double, kHarmonics> values{};
+  const bool found = symmetric_eigenvalues(gram.data(), kHarmonics, kStride, values.data());
+  return found ? std::fmax(values[0], 0.0) : 0.0;
 }
 
 /// Squared length of the part of the readings that no vector explains; every row weighs the same, as in an orthonormal
@@ -78,12 +104,7 @@ int blamed(const StationSolver& station, double& share) noexcept {
   return station.sensor[at(most)];
 }
 
-void FitTally::add_harmonics(const Vec3& direction) noexcept {
-  const std::array<double, kHarmonics> y = harmonics_of(direction);
-  for (int i = 0; i < kHarmonics; ++i) {
-    for (int j = 0; j <= i; ++j) gram_[at(i * kHarmonics + j)] += y[at(i)] * y[at(j)];
-  }
-}
+void Harmonics::add(const Vec3& direction) noexcept { add_to(gram_, direction); }
 
 void FitTally::add(const StationSolver& s, double g_mps2) noexcept {
   for (int k = 0; k < s.rows; ++k) {
@@ -103,12 +124,12 @@ void FitTally::add(const StationSolver& s, double g_mps2) noexcept {
     chi2_ += s.chi2;
   }
   direction_variance_ += s.direction_variance();
-  add_harmonics(s.direction);
+  if (harmonics_ != nullptr) harmonics_->add(s.direction);
   ++stations_;
   rows_ += s.rows;
 }
 
-void FitTally::write(int n, FitReport& report) const noexcept {
+void FitTally::write(int n, FitFigures& report) const noexcept {
   report.stations = stations_;
   for (int i = 0; i < n; ++i) {
     report.residual_rms_mps2[at(i)] = root_mean(squared_residual_[at(i)], seen_[at(i)]);
@@ -116,20 +137,10 @@ void FitTally::write(int n, FitReport& report) const noexcept {
   }
   report.norm_rms_mps2 = root_mean(squared_norm_, stations_);
   report.parity_rms_mps2 = root_mean(squared_parity_, rows_ - 3 * stations_);
-  report.excitation = 0.0;
-  if (stations_ == 0) return;
-  constexpr int kStride = 12;
-  std::array<double, std::size_t{kHarmonics} * kStride> gram{};
-  for (int i = 0; i < kHarmonics; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      gram[at(i * kStride + j)] = gram_[at(i * kHarmonics + j)] / stations_;
-      gram[at(j * kStride + i)] = gram[at(i * kStride + j)];
-    }
-  }
-  std::array<double, kHarmonics> values{};
-  if (symmetric_eigenvalues(gram.data(), kHarmonics, kStride, values.data())) {
-    report.excitation = std::fmax(values[0], 0.0);
-  }
+}
+
+double Harmonics::excitation(int stations) const noexcept {
+  return stations > 0 ? least_eigenvalue(gram_, stations) : 0.0;
 }
 
 /// Mean square of what is the sensor's own, against the mean square of the rest in the degrees of freedom that the fit
@@ -167,5 +178,12 @@ double FitTally::variance_factor(int sensor, int n, int freedom) const noexcept 
 }
 
 }  // namespace fit
+
+double excitation_of(const Vec3* direction, int count) noexcept {
+  fit::Gram gram{};
+  for (int k = 0; k < count; ++k) fit::add_to(gram, direction[k]);
+  return fit::least_eigenvalue(gram, count);
+}
+
 }  // namespace PLUMB_ABI
 }  // namespace plumb

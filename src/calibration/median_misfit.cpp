@@ -35,7 +35,8 @@ double edge_of(int bin) noexcept {
   return std::ldexp(0.5 + 0.5 * (bin - octave * kPerOctave) / kPerOctave, octave - kOctaves / 2);
 }
 
-double median_of(const std::array<int, kBins>& histogram, int stations) noexcept {
+template <class Count>
+double median_of(const std::array<Count, kBins>& histogram, int stations) noexcept {
   const double half = 0.5 * stations;
   double below = 0.0;
   for (int bin = 0; bin < kBins; ++bin) {
@@ -50,9 +51,10 @@ double median_of(const std::array<int, kBins>& histogram, int stations) noexcept
 
 }  // namespace
 
-double median_misfit(const Problem& problem, const Parameters& theta, double misfit_variance, int freedom,
-                     double share) noexcept {
-  std::array<int, kBins> histogram{};
+template <class Count>
+[[gnu::noinline]] double median_misfit(const Problem& problem, const Parameters& theta, double misfit_variance,
+                                       int freedom, double share) noexcept {
+  std::array<Count, kBins> histogram{};
   StationSolver solver(problem, theta, misfit_variance);
   int stations = 0, total_freedom = 0, last_freedom = 0;
   double expected = 1.0, variance = 0.0, rows = 0.0;
@@ -74,9 +76,10 @@ double median_misfit(const Problem& problem, const Parameters& theta, double mis
   return std::fmax(misfit_variance + (factor - 1.0) * variance / rows, 0.0);
 }
 
-bool stands_out(const Problem& problem, const Parameters& theta, int freedom) noexcept {
-  double variance = 0.0;
-  for (int pass = 0; pass < kPasses; ++pass) variance = median_misfit(problem, theta, variance, freedom, 1.0);
+namespace {
+
+/// Whether some residual is far above what noise of this variance leaves.
+[[gnu::noinline]] bool any_beyond(const Problem& problem, const Parameters& theta, double variance) noexcept {
   StationSolver solver(problem, theta, variance);
   for (int s = 0; s < problem.count; ++s) {
     if (solver.solve(problem.stations[s]) != Loaded::used) continue;
@@ -85,6 +88,20 @@ bool stands_out(const Problem& problem, const Parameters& theta, int freedom) no
   }
   return false;
 }
+
+}  // namespace
+
+template <class Count>
+bool stands_out(const Problem& problem, const Parameters& theta, int freedom) noexcept {
+  double variance = 0.0;
+  for (int pass = 0; pass < kPasses; ++pass) variance = median_misfit<Count>(problem, theta, variance, freedom, 1.0);
+  return any_beyond(problem, theta, variance);
+}
+
+template double median_misfit<int>(const Problem&, const Parameters&, double, int, double) noexcept;
+template double median_misfit<std::uint8_t>(const Problem&, const Parameters&, double, int, double) noexcept;
+template bool stands_out<int>(const Problem&, const Parameters&, int) noexcept;
+template bool stands_out<std::uint8_t>(const Problem&, const Parameters&, int) noexcept;
 
 }  // namespace fit
 }  // namespace PLUMB_ABI

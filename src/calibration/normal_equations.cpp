@@ -157,19 +157,19 @@ void find_roll_groups(const Problem& problem, Roll& roll) noexcept {
 }
 
 Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_variance, Loss loss, double* blocks,
-                Parameters& rhs, RollSums& roll, FitTally* tally) noexcept {
+                Parameters& rhs, const Room& room, FitTally* tally) noexcept {
+  RollSums* const roll = room.roll;
   const int n = problem.datasheet.size;
   for (int k = 0; k < kMomentCount * n * (n + 1) / 2; ++k) blocks[k] = 0.0;
   for (int k = 0; k < 4 * n; ++k) rhs[at(k)] = 0.0;
-  roll.groups = 0;
+  if (roll != nullptr) roll->groups = 0;
   Sums sums;
   StationSolver solver(problem, theta, misfit_variance);
-  Screening screening(problem);
   RollRow row;
   for (int s = 0; s < problem.count; ++s) {
     const Station& station = problem.stations[s];
     const Loaded loaded = solver.solve(station);
-    if (loaded == Loaded::skipped || screening.out(station)) continue;
+    if (loaded == Loaded::skipped || (room.screening != nullptr && room.screening->out(station))) continue;
     if (loaded == Loaded::not_finite) {
       sums.finite = false;
       sums.bad_station = s;
@@ -177,9 +177,9 @@ Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_v
     }
     const double pull = pull_of(loss, solver.chi2, solver.freedom());
     row.weight = 0.0;
-    if (problem.roll.used && station.roll_group != 0) {
+    if (roll != nullptr && problem.roll.used && station.roll_group != 0) {
       row = roll_row(problem.roll, solver, problem.g_mps2);
-      RollGroup* group = row.weight > 0.0 ? group_of(roll, station.roll_group, row.level) : nullptr;
+      RollGroup* group = row.weight > 0.0 ? group_of(*roll, station.roll_group, row.level) : nullptr;
       if (group != nullptr) {
         add_roll(solver, row, pull, *group, rhs);
       } else {
@@ -190,12 +190,14 @@ Sums accumulate(const Problem& problem, const Parameters& theta, double misfit_v
     note_station(solver, pull, sums);
     if (tally != nullptr) tally->add(solver, problem.g_mps2);
   }
-  finish_rolls(roll, n, sums, rhs);
+  if (roll != nullptr) finish_rolls(*roll, n, sums, rhs);
   sums.finite = std::isfinite(sums.chi2) && std::isfinite(sums.weighted_chi2);
   return sums;
 }
 
-void expand(const double* blocks, const RollSums& roll, const PriorRoots& roots, int n, double* information) noexcept {
+template <class Matrix>
+void expand(const double* blocks, const RollSums* roll, const PriorRoots& roots, int n,
+            const Matrix& information) noexcept {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j <= i; ++j) {
       const double* moments = blocks + at(kMomentCount * pair_of(i, j));
@@ -204,20 +206,25 @@ void expand(const double* blocks, const RollSums& roll, const PriorRoots& roots,
       block = times_root(roots[at(i)], block, false);
       block = times_root(roots[at(j)], block, true);
       for (int p = 0; p < 4; ++p) {
-        for (int q = 0; q < 4; ++q) information[(4 * i + p) * 4 * n + 4 * j + q] = block[at(4 * p + q)];
+        for (int q = 0; q < 4; ++q) {
+          if (Matrix::keeps(4 * i + p, 4 * j + q)) information(4 * i + p, 4 * j + q) = block[at(4 * p + q)];
+        }
       }
     }
   }
-  for (int k = 0; k < roll.groups; ++k) {
-    const RollGroup& group = roll.group[at(k)];
+  for (int k = 0; roll != nullptr && k < roll->groups; ++k) {
+    const RollGroup& group = roll->group[at(k)];
     if (!(group.weight > 0.0)) continue;
     const Parameters slope = times_roots(roots, n, group.slope);
     for (int p = 0; p < 4 * n; ++p) {
       const double share = slope[at(p)] / group.weight;
-      for (int q = 0; q <= p; ++q) information[p * 4 * n + q] -= share * slope[at(q)];
+      for (int q = 0; q <= p; ++q) information(p, q) -= share * slope[at(q)];
     }
   }
 }
+
+template void expand(const double*, const RollSums*, const PriorRoots&, int, const Square&) noexcept;
+template void expand(const double*, const RollSums*, const PriorRoots&, int, const Packed&) noexcept;
 
 }  // namespace fit
 }  // namespace PLUMB_ABI

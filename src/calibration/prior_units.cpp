@@ -87,7 +87,7 @@ PriorRoots prior_roots(const Datasheet& datasheet) noexcept {
 }
 
 Parameters times_roots(const PriorRoots& roots, int n, const Parameters& v) noexcept {
-  Parameters out;
+  Parameters out{};
   for (int i = 0; i < n; ++i) {
     const Vec3 axes = times(roots[at(i)].axes, row_of(v, i));
     for (int p = 0; p < 3; ++p) out[at(4 * i + p)] = axes[at(p)];

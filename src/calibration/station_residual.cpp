@@ -25,7 +25,7 @@ StationResidual station_residual(const Calibration& calibration, const GravityRe
   Station readings = station;
   readings.mean = calibration.model.apply(station.mean, station.temperature_degc, delivered);
   readings.delivered = delivered;
-  const fit::Problem problem = {sheet, gravity.g_mps2, &readings, 1, {}, nullptr};
+  const fit::Problem problem = {sheet, gravity.g_mps2, {&readings, 1}, 1, {}, nullptr};
   const fit::Parameters theta = fit::datasheet_parameters(sheet);
   fit::StationSolver solver(problem, theta, 0.0);
   if (solver.solve(readings) != fit::Loaded::used) return out;

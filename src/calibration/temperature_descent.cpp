@@ -42,7 +42,7 @@ Descent::Descent(const Joint& joint, double g_mps2, const FitOptions& options, c
   reduce_all(joint_, state_, stations_, count_, scratch_);
 }
 
-Problem Descent::problem() const noexcept { return {joint_.sheet, g_mps2_, scratch_, count_, {}, nullptr}; }
+Problem Descent::problem() const noexcept { return {joint_.sheet, g_mps2_, {scratch_, count_}, count_, {}, nullptr}; }
 
 Loss Descent::loss() const noexcept {
   if (phase_ == Phase::huber) return Loss::huber;
@@ -55,7 +55,7 @@ void Descent::turn_to_datasheet() noexcept { fit::turn_to_datasheet(joint_.sheet
 bool Descent::weigh() noexcept {
   const double before = misfit_;
   const double share = phase_ == Phase::huber ? kFirstShare : 1.0;
-  misfit_ = median_misfit(problem(), state_.theta, before, freedom_, share);
+  misfit_ = median_misfit<int>(problem(), state_.theta, before, freedom_, share);
   ++robust_steps_;
   fresh_ = true;
   return std::fabs(misfit_ - before) <= kMisfitSettled * misfit_;
@@ -167,7 +167,7 @@ bool Descent::advance(bool weights_settled) noexcept {
   if (phase_ == Phase::squares && !looked_ && options_.reject_outliers && loosely && sums_.sums.worst > 1.0) {
     looked_ = true;
     freedom_ = sums_.sums.rows - 2 * sums_.sums.stations - (joint_.parameters() - 3);
-    if (freedom_ >= kScreenFreedom && stands_out(problem(), state_.theta, freedom_)) {
+    if (freedom_ >= kScreenFreedom && stands_out<int>(problem(), state_.theta, freedom_)) {
       phase_ = Phase::huber;
       return false;
     }

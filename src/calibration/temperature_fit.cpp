@@ -93,7 +93,8 @@ class Attempt {
     const Error diverged = {Errc::diverged, descent.bad_station(), descent.cost(), 0.0};
     if (descent.stop() == StopReason::not_finite) return tl::unexpected<Error>(diverged);
     descent.turn_to_datasheet();
-    fit::Fitted fitted;
+    fit::Harmonics harmonics;
+    fit::Fitted fitted(&harmonics);
     fitted.theta = descent.state().theta;
     if (!describe(joint, descent, fitted)) return tl::unexpected<Error>(diverged);
     if (told_.levels.count <= order) {
@@ -127,6 +128,7 @@ class Attempt {
                     &fitted.tally);
     if (!sums.sums.finite || !std::isfinite(report_.chi2)) return false;
     fitted.tally.write(joint.sensors(), report_);
+    report_.excitation = fitted.tally.excitation();
     if (told_.levels.count > 1 && follows_inclination(problem, state.theta, options_.roll_axis, told_.use_degc))
       told_.follows_inclination = true;
     const fit::JointAnalysis analysis = {
@@ -283,7 +285,7 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
   told.levels = temperature_levels(stations, stations == nullptr ? 0 : count);
   told.use_degc = span_of(options, told.levels);
   const bool automatic = options.order == kAutomaticOrder;
-  told.rolls = fit::problem_of(datasheet, gravity.g_mps2, options.fit, stations, count).roll.used;
+  told.rolls = fit::problem_of(datasheet, gravity.g_mps2, options.fit, {stations, count}).roll.used;
   if (told.rolls && options.order > 0) return fail(Errc::out_of_range, 5, static_cast<double>(options.order), 0.0);
   const int supported = told.rolls                                  ? 0
                         : told.levels.count - 1 < options.max_order ? told.levels.count - 1

@@ -273,7 +273,7 @@ bool find_rank(const JointAnalysis& a, TemperatureWork& work, TemperatureReport&
   double* const copy = work.vectors.data();
   JointSums sums;
   reduce_all(joint, basis.state, a.stations, a.count, a.scratch);
-  const Problem problem = {joint.sheet, a.g_mps2, a.scratch, a.count, {}, nullptr};
+  const Problem problem = {joint.sheet, a.g_mps2, {a.scratch, a.count}, a.count, {}, nullptr};
   accumulate(joint, basis.state, problem, a.misfit_variance, Loss::squares, matrix, sums);
   reduce_all(a.joint, a.state, a.stations, a.count, a.scratch);
   mirror(matrix, size);

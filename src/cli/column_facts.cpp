@@ -1,6 +1,7 @@
 #include "column_facts.hpp"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include <algorithm>
 
@@ -87,6 +88,26 @@ double from_kelvin(double t) { return t - kKelvinOfZeroDegc; }
 double from_fahrenheit(double t) { return (t - 32.0) / 1.8; }
 
 }  // namespace
+
+io::LogStatistics statistics_of(const std::vector<Sample>& samples, int sensors) {
+  io::LogStatistics log;
+  for (const Sample& sample : samples) {
+    for (int i = 0; i < sensors; ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      const double value = sample.raw[a];
+      if (!sample.delivered.has(i)) {
+        ++log.missing[a];
+      } else if (!std::isfinite(value)) {
+        ++log.not_finite[a];
+      } else {
+        if (log.missing[a] + log.not_finite[a] == log.rows) log.first_value[a] = value;
+        if (value != log.first_value[a]) log.varied = log.varied.with(i);
+      }
+    }
+    ++log.rows;
+  }
+  return log;
+}
 
 bool dead_channel(const io::LogStatistics& log, int sensor) {
   const auto a = static_cast<std::size_t>(sensor);

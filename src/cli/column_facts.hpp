@@ -24,6 +24,9 @@ struct ColumnFact {
 /// Columns that lacked something, in the order of the array file; then temperature and roll group.
 std::vector<ColumnFact> column_facts(const CalibrationRun& run, const io::ArrayFile& array);
 
+/// What a reader would have counted in these samples of `sensors` channels.
+io::LogStatistics statistics_of(const std::vector<Sample>& samples, int sensors);
+
 /// Whether a sensor said nothing in the whole log, or the same in every row.
 bool dead_channel(const io::LogStatistics& log, int sensor);
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline.hpp"
+#include "monitor_pipeline.hpp"
 #include "plumb/report/timeline.hpp"
 #include "plumb/scenario/scenario.hpp"
 

@@ -11,7 +11,7 @@
 #include "demo_section.hpp"
 #include "demo_story.hpp"
 #include "fit_summary.hpp"
-#include "pipeline.hpp"
+#include "monitor_pipeline.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/report/timeline_plot.hpp"
 #include "plumb/report/words.hpp"
@@ -107,7 +107,7 @@ class DrillSection {
   io::FileExpected<void> monitor_tool() {
     const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(path("calibration.json"), *array_);
     if (!calibration) return passed_on(calibration);
-    const auto monitor = make_monitor(*array_, calibration->calibration);
+    const auto monitor = make_monitor(*array_, &calibration->calibration);
     if (!monitor) return passed_on(monitor);
     io::FileExpected<io::OutputFile> events =
         io::OutputFile::create(path("events.jsonl"), io::OutputFile::Mode::stream);

@@ -122,6 +122,12 @@ io::ExitCode run(const Options& options) {
         "channel did not deliver.\n",
         scenario::to_text(faults[static_cast<std::size_t>(k)], context), done->first_time_s, done->last_time_s));
   }
+  for (const scenario::Fault& fault : faults) {
+    if (fault.kind != scenario::FaultKind::temperature || !array->input.temperature_column.empty()) continue;
+    print_error(fmt::format(
+        "plumb: --fault \"{}\" changed nothing: the log has no temperature column (`temperature` in [input] of {}).\n",
+        scenario::to_text(fault, context), options.array));
+  }
   if (!interrupted()) return io::ExitCode::done;
   print_error(fmt::format("plumb: interrupted; the rows up to t = {:.3f} s are written.\n", done->last_time_s));
   return io::ExitCode::other;

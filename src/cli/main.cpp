@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../io/text_tools.hpp"
+#include "campaign_run.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -78,7 +79,8 @@ int run(int argc, char** argv) {
   tool.footer(kNotes + exit_codes_help());
   // In the order in which a newcomer meets them.
   std::vector<Command> commands;
-  for (const auto add : {add_demo, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_model}) {
+  for (const auto add :
+       {add_demo, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_campaign, add_model}) {
     tool.footer("");  // a command inherits what stands here, and has notes of its own
     commands.push_back(add(tool));
   }

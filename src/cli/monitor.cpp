@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "pipeline.hpp"
+#include "monitor_options.hpp"
+#include "monitor_pipeline.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
@@ -19,20 +20,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-struct Options {
-  std::string array;
-  std::string calibration;
-  LogSpec log{"-", io::BadRowPolicy::stop, false};
-  std::string events;
-  std::string verdicts;
-  std::string snapshot_in;
-  std::string snapshot_out;
-  std::vector<std::string> host;
-  bool every_sample = false;
-  bool limits = false;
-  bool json = false;
-};
 
 constexpr const char* kAbout =
     "Watch an array of accelerometers: read a log (or a live stream) sample by sample, say which sensors may\n"
@@ -63,6 +50,10 @@ constexpr const char* kNotes =
     "--follow waits at the end of the log for what is appended to it, as on standard input, until Ctrl-C; the "
     "snapshot\n"
     "and the files are complete then too.\n"
+    "--calibrate-first: nothing is valid until the monitor has seen some 20 still attitudes all round and accepted a "
+    "fit\n"
+    "of its own; the log ends with exit code 4 where it did not come to that. A constant error of a sensor is what a\n"
+    "calibration takes off: only what varies shows.\n"
     "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
     "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -71,15 +62,15 @@ constexpr const char* kNotes =
 /// A table line at each change.
 class TableSink : public VerdictSink {
  public:
-  /// `restored`: what the monitor says before the first sample, where it goes on from a snapshot.
-  TableSink(const SensorArray& array, const Mat3& frame, const std::optional<Verdict>& restored)
-      : array_(array), frame_(frame), restored_(restored) {}
+  /// `now`: what the monitor says before the first sample; `restored`: where it goes on from a snapshot.
+  TableSink(const SensorArray& array, const Mat3& frame, const Verdict& now, bool restored)
+      : array_(array), frame_(frame), now_(now), restored_(restored) {}
 
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override {
     if (!started_) {
-      print_now(report::table_header() +
-                report::table_line(restored_ ? report::restored_row(sample.time_s, *restored_, frame_)
-                                             : report::power_on_row(sample.time_s, HealthState::suspect)));
+      print_now(report::table_header() + report::table_line(restored_
+                                                                ? report::restored_row(sample.time_s, now_, frame_)
+                                                                : report::power_on_row(sample.time_s, now_.state)));
     }
     started_ = true;
     if (verdict.transition.sequence != 0) print_now(report::table_line(report::row_of(verdict, array_, frame_)));
@@ -89,7 +80,8 @@ class TableSink : public VerdictSink {
  private:
   const SensorArray& array_;
   Mat3 frame_;
-  std::optional<Verdict> restored_;
+  Verdict now_;
+  bool restored_;
   bool started_ = false;
 };
 
@@ -102,8 +94,8 @@ struct Outputs {
   std::vector<VerdictSink*> sinks;
 };
 
-io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile& array, const SensorArray& sensors,
-                                    const Verdict& now, Outputs& out) {
+io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::ArrayFile& array,
+                                    const SensorArray& sensors, const Verdict& now, Outputs& out) {
   const bool live = options.log.path == "-" || options.log.follow;
   const bool taken = options.events == "-" || options.verdicts == "-";
   if (!options.events.empty()) {
@@ -125,8 +117,7 @@ io::FileExpected<void> open_outputs(const Options& options, const io::ArrayFile&
     if (!file) return tl::unexpected<io::FileError>(file.error());
     out.sinks.push_back(&out.json.emplace(*std::move(file), sensors, true));
   } else if (!taken) {
-    const std::optional<Verdict> restored = options.snapshot_in.empty() ? std::nullopt : std::optional<Verdict>(now);
-    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame, restored));
+    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame, now, !options.snapshot_in.empty()));
   }
   return {};
 }
@@ -154,6 +145,8 @@ std::string recalibration_text(const Verdict& v, const SensorArray& sensors, con
     if (tilt.toolface_valid) out += fmt::format(", toolface {:.0f} deg", deg_from_rad(tilt.toolface_rad));
   }
   if (!p.lacking.empty()) out += fmt::format("; too little change along {}", report::sensor_names(p.lacking, sensors));
+  if (p.last_refusal.code != Errc::ok)
+    out += fmt::format("; the last fit was refused: {}", describe(p.last_refusal.code));
   return out + "\n";
 }
 
@@ -211,29 +204,9 @@ io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonito
 /// `run` has refused the options: there is nothing to keep.
 io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
 
-std::optional<io::FileError> snapshot_misuse(const Options& options, const io::ArrayFile& array) {
-  const NamedFile named[] = {{"--snapshot-in", options.snapshot_in}, {"--snapshot-out", options.snapshot_out}};
-  for (const NamedFile& file : named) {
-    if (file.path.empty()) continue;
-    if (file.path == "-") {
-      return io::FileError{file.option,        0, "", "a snapshot is kept in a file, not in a pipe", "name a file",
-                           io::ExitCode::usage};
-    }
-    if (array.monitor.mode == MonitorMode::paper) {
-      return io::FileError{file.option,
-                           0,
-                           "",
-                           "the paper's algorithm keeps no snapshot",
-                           "leave the option out, or set mode = \"plumb\" in " + array.path,
-                           io::ExitCode::usage};
-    }
-  }
-  return std::nullopt;
-}
-
 /// The run itself, with either monitor.
 template <class Monitor>
-io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& monitor) {
+io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor) {
   const SensorArray& sensors = monitor.array();
   std::vector<scenario::HostRequest> requests;
   for (const std::string& text : options.host) {
@@ -266,38 +239,41 @@ io::ExitCode watch(const Options& options, const io::ArrayFile& array, Monitor& 
     print_error(fmt::format("plumb: interrupted; the results up to t = {:.3f} s are kept.\n", done->last_time_s));
     return io::ExitCode::other;
   }
-  return done->last.state == HealthState::failed ? io::ExitCode::monitor_failed : io::ExitCode::done;
-}
-
-/// In paper mode delta_f decides alone, by coefficients of its own for each triple.
-io::FileError limits_of_paper(const io::ArrayFile& array) {
-  return io::FileError{array.path,
-                       0,
-                       "monitor.mode",
-                       "is \"paper\": delta_f is its one limit, and --limits is about plumb's own tests",
-                       "leave out --limits, or set mode = \"plumb\" with the same delta_f to see what that hides",
-                       io::ExitCode::usage};
+  if (done->last.state == HealthState::failed) return io::ExitCode::monitor_failed;
+  if ((done->last.qualifiers & Qualifier::initial_calibration) == 0) return io::ExitCode::done;
+  print_error("plumb: the log ended before the monitor had calibrated itself: no output was ever valid.\n");
+  return io::ExitCode::not_accepted;
 }
 
 /// --limits: what the monitor would decide by.
-io::ExitCode tell_limits(const Options& options, const io::ArrayFile& array, const SensorArray& calibrated) {
+io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& calibrated) {
   const report::MonitorLimits limits = report::monitor_limits(calibrated, array.gravity, array.monitor);
   print_now(options.json ? report::limits_json(limits) : report::limits_text(limits));
   return io::ExitCode::done;
 }
 
-std::optional<io::FileError> follow_misuse(const Options& options) {
-  if (!options.log.follow || options.log.path != "-") return std::nullopt;
-  return io::FileError{"--follow",
-                       0,
-                       "",
-                       "standard input is followed anyway, until it is closed",
-                       "leave --follow out, or name the file that grows with --log",
-                       io::ExitCode::usage};
+/// --calibrate-first: the datasheet in the array file is all that is known.
+io::ExitCode run_without_calibration(const MonitorOptions& options, const io::ArrayFile& array) {
+  if (array.monitor.mode == MonitorMode::paper) {
+    return report(io::FileError{"--calibrate-first", 0, "", "the paper's algorithm needs its own fits, made beforehand",
+                                "run plumb calibrate, or set mode = \"plumb\" in " + array.path, io::ExitCode::usage});
+  }
+  const auto monitor =
+      options.snapshot_in.empty() ? make_monitor(array, nullptr) : restore_monitor(array, nullptr, options.snapshot_in);
+  return monitor ? watch(options, array, **monitor) : report(monitor.error());
 }
 
-io::ExitCode run(const Options& options) {
+void warn_of_stations(const io::ArrayFile& array) {
+  if (array.input.rows != io::RowKind::stations || array.monitor.window <= 1) return;
+  print_error(
+      fmt::format("plumb: {}: every row of the log is a station, but [monitor] window = {} joins that many rows to one "
+                  "block. Remedy: set window = 1.\n",
+                  array.path, array.monitor.window));
+}
+
+io::ExitCode run(const MonitorOptions& options) {
   if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
+  if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
   std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
     return report(*clash);
@@ -307,15 +283,15 @@ io::ExitCode run(const Options& options) {
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
+  if (options.calibrate_first) {
+    if (const std::optional<io::FileError> misuse = snapshot_misuse(options, *array)) return report(*misuse);
+    warn_of_stations(*array);
+    return run_without_calibration(options, *array);
+  }
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
   if (!calibration) return report(calibration.error());
   if (const std::optional<io::FileError> misuse = snapshot_misuse(options, *array)) return report(*misuse);
-  if (array->input.rows == io::RowKind::stations && array->monitor.window > 1) {
-    print_error(fmt::format(
-        "plumb: {}: every row of the log is a station, but [monitor] window = {} joins that many rows to one "
-        "block. Remedy: set window = 1.\n",
-        array->path, array->monitor.window));
-  }
+  warn_of_stations(*array);
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
     if (!monitor) return report(monitor.error());
@@ -323,8 +299,8 @@ io::ExitCode run(const Options& options) {
     return watch(options, *array, **monitor);
   }
   const auto monitor = options.snapshot_in.empty()
-                           ? make_monitor(*array, calibration->calibration)
-                           : restore_monitor(*array, calibration->calibration, options.snapshot_in);
+                           ? make_monitor(*array, &calibration->calibration)
+                           : restore_monitor(*array, &calibration->calibration, options.snapshot_in);
   if (monitor && options.limits) return tell_limits(options, *array, (*monitor)->array());
   return monitor ? watch(options, *array, **monitor) : report(monitor.error());
 }
@@ -332,15 +308,16 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_monitor(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MonitorOptions>();
   CLI::App* app =
       tool.add_subcommand("monitor", "watch a log or a live stream: which sensors may be believed, which way is down");
   app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
       ->required()
       ->type_name("ARRAY.toml");
   app->add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
-      ->required()
       ->type_name("CAL.json");
+  app->add_flag("--calibrate-first", options->calibrate_first,
+                "there is no calibration: the monitor makes its own from the log's first stations");
   app->add_option("--log", options->log.path, "the log, CSV with a header row; `-` (default) reads standard input")
       ->type_name("LOG.csv|-");
   app->add_flag("--follow", options->log.follow, "at the end of the log wait for the rows that are appended to it");

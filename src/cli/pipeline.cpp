@@ -125,13 +125,6 @@ bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) 
   return true;
 }
 
-io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool live) {
-  line += '\n';
-  io::FileExpected<void> done = file.write(line);
-  if (done && live) done = file.flush();
-  return done;
-}
-
 /// The stations as they would have been at one temperature, by the calibration.
 std::vector<Station> at_one_temperature(std::vector<Station> stations, const Calibration& calibration) {
   const double degc = calibration.model.sensor[0].reference_degc;
@@ -168,36 +161,31 @@ void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
   run.paper = std::move(paper);
 }
 
-std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibration& calibration) {
-  auto setup = std::make_unique<MonitorSetup>();
-  setup->model = calibration.model;
-  setup->array = calibration.array;
-  setup->gravity = array.gravity;
-  setup->config = array.monitor;
-  // The calibrated span, where the array file does not claim another.
-  const MonitorConfig unset;
-  MonitorConfig& config = setup->config;
-  if (config.temperature_min_degc == unset.temperature_min_degc)
-    config.temperature_min_degc = calibration.report.temperature_min_degc;
-  if (config.temperature_max_degc == unset.temperature_max_degc)
-    config.temperature_max_degc = calibration.report.temperature_max_degc;
-  // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
-  for (int i = 0; i < array.datasheet.size; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    setup->full_scale_raw[a] = array.datasheet.sensor[a].full_scale_raw;
-    setup->resolution_raw[a] = array.datasheet.sensor[a].resolution_raw;
-    if (!array.lever_arm_m.empty()) setup->lever_arm_m[a] = array.lever_arm_m[a];
+/// Fits the stations of `run` and judges the fit.
+void fit_stations(const io::ArrayFile& array, const CalibrationChoice& choice, CalibrationRun& run) {
+  run.options = choice.fit;
+  const Vec3 counted_from = {array.output_frame[6], array.output_frame[7], array.output_frame[8]};
+  const Vec3 axis = choice.roll_axis.value_or(counted_from);
+  run.options.roll_axis = scaled(axis, 1.0 / norm(axis));
+  TemperatureOptions over = choice.temperature;
+  over.fit = run.options;
+  const auto work = std::make_unique<TemperatureWork>();
+  std::vector<Station> scratch(run.stations.size());
+  const Expected<Calibration> fit = calibrate_over_temperature(array.datasheet, array.gravity, run.stations.data(),
+                                                               static_cast<int>(run.stations.size()), over,
+                                                               scratch.data(), *work, &run.temperature, &run.report);
+  over.order = run.temperature.order;
+  run.study = study_fit(array, run.stations, fit, run.report, over, choice.hold_out);
+  settle(run, fit);
+  TemperatureOptions again = choice.temperature;
+  again.fit = run.options;
+  if (worth_a_second_look(run, array)) {
+    const SensorArray* const came_to = run.study.shown ? &run.study.shown->array : nullptr;
+    run.second_look = second_look(array, run.stations, again, came_to);
   }
-  setup->lever_arms_known = !array.lever_arm_m.empty();
-  return setup;
-}
-
-tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::ArrayFile& array) {
-  io::FileError error = io::from_error(reason);
-  error.file = array.path;
-  if (reason.code == Errc::range_too_small && reason.index >= 0)
-    error.field = "sensor[" + std::to_string(reason.index + 1) + "].full_scale";
-  return tl::unexpected<io::FileError>(error);
+  // That without roll groups the axis does not matter is no news.
+  if (run.concern == Concern::roll_axis && run.second_look.without_groups) run.second_look = SecondLook{};
+  if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
 }
 
 }  // namespace
@@ -233,29 +221,18 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   run.interrupted = interrupted();
   collector.finish(run);
   run.log = reader->statistics();
-  run.options = choice.fit;
-  const Vec3 counted_from = {array.output_frame[6], array.output_frame[7], array.output_frame[8]};
-  const Vec3 axis = choice.roll_axis.value_or(counted_from);
-  run.options.roll_axis = scaled(axis, 1.0 / norm(axis));
-  TemperatureOptions over = choice.temperature;
-  over.fit = run.options;
-  const auto work = std::make_unique<TemperatureWork>();
-  std::vector<Station> scratch(run.stations.size());
-  const Expected<Calibration> fit = calibrate_over_temperature(array.datasheet, array.gravity, run.stations.data(),
-                                                               static_cast<int>(run.stations.size()), over,
-                                                               scratch.data(), *work, &run.temperature, &run.report);
-  over.order = run.temperature.order;
-  run.study = study_fit(array, run.stations, fit, run.report, over, choice.hold_out);
-  settle(run, fit);
-  TemperatureOptions again = choice.temperature;
-  again.fit = run.options;
-  if (worth_a_second_look(run, array)) {
-    const SensorArray* const came_to = run.study.shown ? &run.study.shown->array : nullptr;
-    run.second_look = second_look(array, run.stations, again, came_to);
-  }
-  // That without roll groups the axis does not matter is no news.
-  if (run.concern == Concern::roll_axis && run.second_look.without_groups) run.second_look = SecondLook{};
-  if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
+  fit_stations(array, choice, run);
+  return run;
+}
+
+CalibrationRun run_calibration(const io::ArrayFile& array, const std::vector<Sample>& samples,
+                               const CalibrationChoice& choice) {
+  StationCollector collector(array);
+  for (const Sample& sample : samples) collector.add(sample, false);
+  CalibrationRun run;
+  collector.finish(run);
+  run.log = statistics_of(samples, array.datasheet.size);
+  fit_stations(array, choice, run);
   return run;
 }
 
@@ -269,100 +246,6 @@ io::FileExpected<void> save_calibration(const std::string& path, const Calibrati
   context.plumb_version = kVersion;
   context.gravity = array.gravity;
   return io::write_calibration(path, *run.accepted, array, context, run.paper.get());
-}
-
-io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
-  if (verdict.transition.sequence == 0) return {};
-  line_.clear();
-  io::append_event_json(line_, verdict.transition, array_);
-  return put_line(file_, line_, live_);
-}
-
-io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
-  if (!verdict.tick && !every_sample_) return {};
-  line_.clear();
-  io::append_verdict_json(line_, verdict, array_, frame_);
-  return put_line(file_, line_, live_);
-}
-
-io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
-                                                              const Calibration& calibration) {
-  auto monitor = std::make_unique<HealthMonitor>();
-  const Expected<void> configured = monitor->configure(*setup_of(array, calibration));
-  if (configured) return monitor;
-  return refused_setup(configured.error(), array);
-}
-
-io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
-                                                                 const Calibration& calibration,
-                                                                 const std::string& snapshot_path) {
-  const io::FileExpected<std::string> bytes = io::read_file(snapshot_path);
-  if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
-  auto monitor = std::make_unique<HealthMonitor>();
-  const Expected<void> restored = monitor->restore(*setup_of(array, calibration),
-                                                   reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size());
-  if (restored) return monitor;
-  if (monitor->verdict().snapshot_refusal == Errc::ok) return refused_setup(restored.error(), array);
-  io::FileError error = io::from_error(restored.error());
-  error.file = snapshot_path;
-  error.remedy += " (leave out --snapshot-in)";
-  return tl::unexpected<io::FileError>(std::move(error));
-}
-
-io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor) {
-  std::string bytes(monitor.snapshot_size(), '\0');
-  const Expected<std::size_t> written = monitor.snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
-  if (!written) return tl::unexpected<io::FileError>(io::from_error(written.error()));
-  return io::write_file(path, bytes);
-}
-
-io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
-                                                                   const io::CalibrationFile& calibration,
-                                                                   const std::string& path) {
-  if (!calibration.paper) {
-    return tl::unexpected<io::FileError>(io::FileError{
-        path, 0, "paper", "is missing: " + array.path + " asks for mode = \"paper\", which needs the paper's own fits",
-        "run plumb calibrate again with this array file (--paper is implied), or set mode = \"plumb\""});
-  }
-  auto setup = std::make_unique<PaperSetup>();
-  setup->base = *setup_of(array, calibration.calibration);
-  setup->datasheet = array.datasheet;
-  setup->paper = *calibration.paper;
-  auto monitor = std::make_unique<PaperMonitor>();
-  const Expected<void> configured = monitor->configure(*setup);
-  if (configured) return monitor;
-  return refused_setup(configured.error(), array);
-}
-
-io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
-                                       const std::vector<VerdictSink*>& sinks) {
-  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
-  if (!reader) return tl::unexpected<io::FileError>(reader.error());
-  reader->stop_when(interrupt_flag());
-  if (log.follow) reader->follow();
-  MonitorRun run;
-  Progress progress("monitoring " + log.path);
-  Sample sample;
-  io::LogReader::Next status = reader->next(sample);
-  for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
-    if (watch.turn && !array.input.rotation_columns.empty()) watch.turn(reader->rotation());
-    const Verdict& verdict = watch.step(sample);
-    ++run.samples;
-    if (verdict.tick) ++run.blocks;
-    if (verdict.transition.sequence != 0) ++run.transitions;
-    run.last_time_s = sample.time_s;
-    for (VerdictSink* sink : sinks) {
-      const io::FileExpected<void> taken = sink->take(sample, verdict);
-      if (!taken) return tl::unexpected<io::FileError>(taken.error());
-    }
-    progress.at(run.samples, sample.time_s);
-  }
-  run.interrupted = interrupted();
-  run.stopped = status == io::LogReader::Next::error;
-  if (run.stopped) run.stop = reader->error();
-  run.last = watch.now;
-  run.log = reader->statistics();
-  return run;
 }
 
 }  // namespace cli

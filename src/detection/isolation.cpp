@@ -128,7 +128,7 @@ ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClai
   const SensorSet posed = posed_ & block.usable;
   bool agrees = false;
   const auto ask = [&](SensorSet set, int rank) {
-    const SetTest t = tests.of(set);
+    const SetTest& t = tests.of(set);
     if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
     if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
@@ -159,7 +159,7 @@ ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClai
   return doubt;
 }
 
-SensorSet Isolation::convict_by_parity(const BlockTests& tests) const noexcept {
+SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnesses) const noexcept {
   const TestLimits& limits = tests.limits();
   // Where a posed sensor did not deliver, the published grade does not hold for the rest: nobody is convicted.
   const SensorSet asked = posed_;
@@ -168,7 +168,7 @@ SensorSet Isolation::convict_by_parity(const BlockTests& tests) const noexcept {
   SensorSet cleared;
   const auto hear = [&](SensorSet s) {
     if (cleared.contains(s)) return;
-    if (tests.of(s).parity_alive(limits)) cleared = cleared | s;
+    if (!witnesses.contains(s) || tests.of(s).parity_alive(limits)) cleared = cleared | s;
   };
   if (universe_ <= kStrictCapacity) {
     const int size = asked.size() - grade;
@@ -179,19 +179,19 @@ SensorSet Isolation::convict_by_parity(const BlockTests& tests) const noexcept {
   for_each_fault_set(asked, universe_, grade < kScanDepth ? grade : kScanDepth, [&](SensorSet f) { hear(asked - f); });
   const SensorSet convicted = asked - cleared;
   if (convicted.empty() || convicted.size() > grade) return {};
-  const SetTest rest = tests.of(asked - convicted);
+  const SetTest& rest = tests.of(asked - convicted);
   return rest.tested && rest.parity_alive(limits) ? convicted : SensorSet{};
 }
 
-IsolationAnswer Isolation::vote(const BlockTests& tests) noexcept {
+IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) noexcept {
   const TestLimits& limits = tests.limits();
   IsolationAnswer out;
   out.voting = voting_;
-  const ReferenceDoubt doubt = doubt_reference(tests, &claims_);
+  const ReferenceDoubt doubt = doubt_reference(tests, witnesses.contains(posed_) ? &claims_ : nullptr);
   out.norm_void = doubt.any();
-  out.parity = convict_by_parity(tests);
+  out.parity = convict_by_parity(tests, witnesses);
   const auto alive_here = [&](SensorSet s) {
-    const SetTest t = tests.of(s);
+    const SetTest& t = tests.of(s);
     return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(s));
   };
   out.full_alive = !(any_dead() && has_dead_subset(posed_)) && alive_here(posed_);
@@ -200,7 +200,7 @@ IsolationAnswer Isolation::vote(const BlockTests& tests) noexcept {
   SensorSet innocent;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
     if (!posed_.contains(s) || is_dead(index)) return;
-    if (alive_here(s)) {
+    if (!witnesses.contains(s) || alive_here(s)) {
       innocent = innocent | s;
       ++out.live;
     } else {
@@ -217,57 +217,86 @@ IsolationAnswer Isolation::vote(const BlockTests& tests) noexcept {
   return out;
 }
 
+namespace {
+
+/// How far off the estimate `used` may be if `rest`, with its test `t`, are the healthy ones.
+double level_of(const SensorArray& array, const SetTest& used, SensorSet rest, const SetTest& t,
+                const ProtectionTerms& protect) noexcept {
+  const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
+  const double left = calibration_tilt_sigma_rad(array, t, rest);
+  const double spread = std::sqrt(noise * noise + left * left);
+  const double shared = common_drift_turn_rad(array, rest, t, protect.common_drift_mps2);
+  return angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;
+}
+
+/// The faults `f` explain the block, with `rest` healthy.
+void note_explanation(SensorSet f, SensorSet rest, FaultSetScan& out) noexcept {
+  const int size = f.size();
+  for (int i = 0; i < kCapacity; ++i) {
+    if (rest.has(i) && size < out.fewest_faults[static_cast<size_t>(i)])
+      out.fewest_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
+  }
+  if (size < out.least) {
+    out.least = size;
+    out.suspects = f;
+  } else if (size == out.least) {
+    out.suspects = out.suspects | f;
+  }
+}
+
+}  // namespace
+
 FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                              const ProtectionTerms& protect) const noexcept {
-  const SensorArray& array = tests.array();
   const TestLimits& limits = tests.limits();
   FaultSetScan out;
   out.fewest_faults.fill(255);
   const SensorSet posed = posed_ & tests.block().usable;
-  const SetTest used = tests.of(in_service & tests.block().usable);
+  const SetTest& used = tests.of(in_service & tests.block().usable);
   const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
   out.protection_available = used.tested && protect.faults <= kScanDepth && used.parity_rows > 0;
   const bool deaths = any_dead();
   bool any_protected = false, any_asserted = false;
   SensorSet common = posed;
+  const auto explains = [&](SensorSet rest, const SetTest& t) {
+    const bool here = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
+    return here && !(deaths && has_dead_subset(rest));
+  };
+  const auto cover = [&](SensorSet rest, const SetTest& t) {
+    if (!used.tested) return;
+    const double level = level_of(tests.array(), used, rest, t, protect);
+    if (level > out.protection_rad) out.protection_rad = level;
+  };
   for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
     const int size = f.size();
     const SensorSet rest = posed - f;
-    const SetTest t = tests.of(rest);
+    const SetTest& t = tests.of(rest);
     if (!t.tested) {
       // What is left cannot determine a vector, so this hypothesis bounds nothing.
       if (size <= protect.faults) out.protection_available = false;
       return;
     }
-    const bool explains = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
-    if (!explains || (deaths && has_dead_subset(rest))) return;
-    for (int i = 0; i < universe_; ++i) {
-      if (rest.has(i) && size < out.fewest_faults[static_cast<size_t>(i)])
-        out.fewest_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
-    }
-    if (size < out.least) {
-      out.least = size;
-      out.suspects = f;
-    } else if (size == out.least) {
-      out.suspects = out.suspects | f;
-    }
+    if (!explains(rest, t)) return;
+    note_explanation(f, rest, out);
     if (size <= asserted_faults) {
       common = common & f;
       any_asserted = true;
     }
-    if (size <= protect.faults && used.tested) {
-      any_protected = true;
-      const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
-      const double left = calibration_tilt_sigma_rad(array, t, rest);
-      const double spread = std::sqrt(noise * noise + left * left);
-      const double shared = common_drift_turn_rad(array, rest, t, protect.common_drift_mps2);
-      const double level = angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;
-      if (level > out.protection_rad) out.protection_rad = level;
-    }
+    if (size > protect.faults) return;
+    any_protected = any_protected || used.tested;
+    cover(rest, t);
+  });
+  // Who is set aside is out of the estimate as if latched out: the next fault is one of those that are left.
+  const SensorSet left = posed & in_service;
+  for_each_fault_set(left != posed ? left : SensorSet{}, universe_, protect.faults, [&](SensorSet f) {
+    const SensorSet rest = left - f;
+    const SetTest t = tests.of(rest);
+    if (!t.tested) out.protection_available = false;
+    if (t.tested && explains(rest, t)) cover(rest, t);
   });
   out.protection_available = out.protection_available && any_protected;
   if (any_asserted && !common.empty()) {
-    const SetTest rest = tests.of(posed - common);
+    const SetTest& rest = tests.of(posed - common);
     const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubt.excuses(posed - common));
     if (rest.tested && alive) out.asserted = common;
   }

@@ -106,15 +106,15 @@ struct Products {
   double trace = 0.0, square = 0.0;  ///< of C and of C C
 };
 
-Products products_of(const SensorArray& array, const Rows& rows, const Projection& p, const Vec3& x) noexcept {
+Products products_of(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p, const Vec3& x) noexcept {
   Products out;
   const AttitudeProducts attitude(x);
   for (int i = 0; i < rows.count; ++i) {
     const auto a = static_cast<size_t>(i);
     for (int j = 0; j <= i; ++j) {
       const auto b = static_cast<size_t>(j);
-      const double c = array.uncertainty().at(rows.sensor[a], rows.sensor[b], attitude) * rows.inverse_sigma[a] *
-                       rows.inverse_sigma[b];
+      const double c =
+          uncertainty.at(rows.sensor[a], rows.sensor[b], attitude) * rows.inverse_sigma[a] * rows.inverse_sigma[b];
       out.on_a[a] = plus(out.on_a[a], scaled(rows.a[b], c));
       out.on_ca[a] = plus(out.on_ca[a], scaled(p.ca[b], c));
       out.on_w[a] += c * p.w[b];
@@ -134,9 +134,10 @@ Products products_of(const SensorArray& array, const Rows& rows, const Projectio
 
 /// With P = I - A K', A the rows and K the C a_i, everything about P C follows from products of n x 3 matrices:
 /// tr(PC) = tr C - tr(K'CA), tr(PCPC) = tr CC - 2 tr(K'C CA) + tr(K'CA K'CA), w'C P C w = |Cw|^2 - (A'Cw).(K'Cw).
-Systematic calibration_bound(const SensorArray& array, const Rows& rows, const Projection& p, const Vec3& x) noexcept {
+Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p,
+                             const Vec3& x) noexcept {
   const int s = rows.count;
-  const Products c = products_of(array, rows, p, x);
+  const Products c = products_of(uncertainty, rows, p, x);
   double norm_row = 0.0, trace = 0.0, square = 0.0, cross_term = 0.0;
   for (int i = 0; i < s; ++i) norm_row += p.w[static_cast<size_t>(i)] * c.on_w[static_cast<size_t>(i)];
   if (s > 3) {
@@ -195,11 +196,15 @@ double SetTest::norm_reject_limit(const TestLimits& limits) const noexcept {
 
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept {
-  SetTest out;
-  if (set.size() < 3 || !array.all().contains(set) || !block.usable.contains(set) || !(block.samples > 0.0)) return out;
+  return test_set(array, array.uncertainty(), gravity, limits, block, set);
+}
+
+void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
+              const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept {
+  if (set.size() < 3 || !array.all().contains(set) || !block.usable.contains(set) || !(block.samples > 0.0)) return;
   const Rows rows = gather(array, block, set);
   Mat3 c{};
-  if (!invert_normal(rows, c)) return out;
+  if (!invert_normal(rows, c)) return;
 
   Vec3 right{};
   for (int k = 0; k < rows.count; ++k)
@@ -209,7 +214,7 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
   const Vec3 u = length > 0.0 ? scaled(x, 1.0 / length) : Vec3{0.0, 0.0, 1.0};
   const Vec3 cu = times(c, u);
   const double sigma_norm = std::sqrt(dot(u, cu));  // of |x| for one sample [m/s^2]
-  if (!(sigma_norm > 0.0)) return out;              // readings beyond all bounds, as a forged snapshot may hold them
+  if (!(sigma_norm > 0.0)) return;                  // readings beyond all bounds, as a forged snapshot may hold them
 
   Projection p;
   double rss = 0.0;
@@ -235,12 +240,18 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
   for (size_t i = 0; i < 9; ++i) out.covariance[i] = c[i] / block.samples;
 
   // Systematic terms: calibration at this attitude, gravity, and motion inside the block.
-  const Systematic cal = calibration_bound(array, rows, p, x);
+  const Systematic cal = calibration_bound(uncertainty, rows, p, x);
   const double reference =
       (limits.gravity * gravity.sigma_mps2 + block.spread_mps2_sq / (2.0 * gravity.g_mps2)) / sigma_norm;
   out.parity_systematic = root_n * limits.calibration * cal.parity;
   out.norm_systematic = root_n * (limits.calibration * cal.norm + reference);
   out.systematic = root_n * (limits.calibration * cal.both + reference);
+}
+
+SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
+                 const TestLimits& limits, const BlockEvidence& block, SensorSet set) noexcept {
+  SetTest out;
+  test_set(array, uncertainty, gravity, limits, block, set, out);
   return out;
 }
 

@@ -23,7 +23,12 @@ void HealthMonitor::sets_changed() noexcept {
   partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
   if (!have_evidence_) return;
   publish_vector(tests);
-  // What the last block says about the sensors that are left: the record of the change keeps what changed it.
+  judge_again(tests);
+}
+
+/// What the last block says about the sensors that are left: the record of the change keeps what changed it. Not
+/// inlined: its view would lie under everything else that a change of the sets calls.
+[[gnu::noinline]] void HealthMonitor::judge_again(const BlockTests& tests) noexcept {
   const BlockView view = judge(tests);
   if (view.used.tested) publish_decision(view);
 }
@@ -130,9 +135,11 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
                       unproven_, exhausted_, clean_run_};
   DecisionInput input;
   input.raised = raised;
-  input.named = {culprits(),   aside_,        gate_.lost() & array_.all(),
-                 gate_.back(), on_probation_, reset_sensors_ - gate_.lost()};
+  input.named = {
+      culprits(),   aside_,        gate_.lost() & array_.all(),
+      gate_.back(), on_probation_, (reset_sensors_ - gate_.lost()) & (owes_calibration() ? array_.all() : calibrated_)};
   input.protection_within = unbounded_run_ < config_.clean_blocks;
+  input.calibrated = !owes_calibration();
   input.clean_blocks = config_.clean_blocks;
   const Decision decision = plumb::decide(kTransitionTable, state, input, [this](SensorSet set) {
     return set == in_service_ ? size_class_ : classify(set);
@@ -147,6 +154,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
     reset_pending_ = false;
     reset_sensors_ = SensorSet{};
   }
+  follow_first_calibration(from);
   follow_suspicion(event, from);
   if (!decision.changed) return event;
   const Cause asked_by = recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;

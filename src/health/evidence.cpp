@@ -28,7 +28,7 @@ void HealthMonitor::judge_mae(const BlockTests& tests, BlockView& view) const no
         view.triples_passed.add(k);
         continue;
       }
-      const SetTest t = tests.of(triple.set());
+      const SetTest& t = tests.of(triple.set());
       if (!t.tested) continue;
       limit = computed_mae_limit(t, evidence, config_.window, mae_quantile_);
     }
@@ -52,13 +52,15 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockTests& tests) const noe
   BlockView view;
   view.used = tests.of(in_service_ & evidence.usable);
   if (!view.used.tested) return view;
-  if (config_.alarm_form == AlarmForm::average_tool)
+  if (config_.alarm_form == AlarmForm::average_tool && !owes_calibration())
     view.used = in_quadrature(array_, gravity_, evidence, in_service_ & evidence.usable, view.used);
   const SetTest& t = view.used;
   const bool has_parity = t.parity_rows > 0;
   if (has_parity) view.parity_ratio = t.parity / t.parity_alarm_limit(limits_);
   view.norm_ratio = std::fabs(t.norm) / t.norm_alarm_limit(limits_);
-  judge_mae(tests, view);
+  // By the datasheet alone a weak triple may be off by more than its limit, which is linear in what the datasheet
+  // leaves open. Parity is linear indeed, and the norm of all is nearly so.
+  if (!owes_calibration()) judge_mae(tests, view);
 
   const auto decided = [&view](Kind kind, Cause cause, Cause by, double statistic, double limit) {
     view.kind = kind;
@@ -116,7 +118,7 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
   }
   if (view.kind != Kind::reference && patience_is_over()) raised |= bit(HealthEvent::patience_over);
   if (view.kind == Kind::alarm) {
-    const bool refuted = asserted_left_ == 0;  // "no more faults", and here is one
+    const bool refuted = asserted_left_ == 0 && !owes_calibration();  // "no more faults", and here is one
     if (refuted) asserted_left_ = -1;
     const HealthEvent event = answer_.contradiction || refuted ? HealthEvent::contradiction : HealthEvent::alarm;
     if (!expected(event)) raised |= bit(event);
@@ -133,7 +135,7 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
   using Kind = BlockView::Kind;
   constexpr EventMask kRefuting = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) |
                                   bit(HealthEvent::reference) | bit(HealthEvent::culprit) | bit(HealthEvent::set_aside);
-  const bool outside = mode_ == Mode::suspect || mode_ == Mode::failed || mode_ == Mode::initial;
+  const bool outside = mode_ == Mode::suspect || mode_ == Mode::failed;
   if (outside || (raised & kRefuting) != 0) {
     recalibration_.drop_last();
     return;
@@ -196,12 +198,12 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     publish_vector(tests);
     return 0;
   }
-  if (view.kind == Kind::alarm && !episode_.open) {
+  if (view.kind == Kind::alarm && !episode_.open && !owes_calibration()) {  // nobody is accused by a datasheet
     episode_.open = true;
     station_.clear();  // votes are counted from the alarm
   }
   const SensorSet voters = episode_.candidate.empty() ? in_service_ : posed - episode_.candidate;
-  const SetTest pose = tests.of(voters & evidence_.usable);
+  const SetTest& pose = tests.of(voters & evidence_.usable);
   follow_station(sample, pose.tested ? pose.x_mps2 : view.used.x_mps2);
   const bool voting = episode_.open && view.kind != Kind::reference;
   count_doubt(view, voting ? vote(tests, view) : view.used.x_mps2);
@@ -210,7 +212,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   count_unbounded(view);
   examine_probation(tests, view);
   study_reference(view);
-  if (view.kind == Kind::clean) trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
+  if (view.kind == Kind::clean && !owes_calibration())
+    trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);

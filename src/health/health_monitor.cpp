@@ -65,7 +65,29 @@ Expected<void> checked(const MonitorSetup& setup) noexcept {
     const double needed_mps2 = (1.0 + kFullScaleMargin) * setup.gravity.g_mps2;
     if (full > 0.0 && !(reach_mps2 >= needed_mps2)) return fail(Errc::range_too_small, i, reach_mps2, needed_mps2);
   }
+  for (int i = 0; i < n && !setup.calibrated; ++i) {
+    const Prior open = prior_in(setup.array, i), most = Recalibration::kMostOpen;
+    const std::array<std::array<double, 2>, 3> figures = {
+        {{open.bias_mps2, most.bias_mps2}, {open.scale, most.scale}, {open.axis_rad, most.axis_rad}}};
+    for (const std::array<double, 2>& f : figures) {
+      if (!(f[0] >= Recalibration::kLeastOpen && f[0] <= f[1])) return fail(Errc::implausible, i, f[0], f[1]);
+    }
+  }
   return plausible(setup.gravity);
+}
+
+Expected<void> set_datasheet(const Datasheet& datasheet, MonitorSetup& setup) noexcept {
+  const Expected<SensorArray> array = datasheet.array();
+  if (!array) return tl::unexpected<Error>(array.error());
+  setup.model = datasheet.model();
+  setup.array = *array;
+  setup.array.set_uncertainty(datasheet.uncertainty());
+  for (int i = 0; i < datasheet.size; ++i) {
+    setup.full_scale_raw[static_cast<size_t>(i)] = datasheet.sensor[static_cast<size_t>(i)].full_scale_raw;
+    setup.resolution_raw[static_cast<size_t>(i)] = datasheet.sensor[static_cast<size_t>(i)].resolution_raw;
+  }
+  setup.calibrated = false;
+  return {};
 }
 
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
@@ -91,9 +113,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   const int n = array_.size();
   limits_ = TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate);
   restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
-  const double triple_rate = config_.triple_false_alarm_rate > 0.0 ? config_.triple_false_alarm_rate
-                                                                   : triple_share(array_, config_.false_alarm_rate);
-  mae_quantile_ = half_normal_mean_quantile(config_.window, triple_rate);
+  derive_limits();
   k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
@@ -105,10 +125,20 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   return {};
 }
 
+/// Which triples vote depends on the axes, and so do their shares of the rate.
+void HealthMonitor::derive_limits() noexcept {
+  const double triple_rate = config_.triple_false_alarm_rate > 0.0 ? config_.triple_false_alarm_rate
+                                                                   : triple_share(array_, config_.false_alarm_rate);
+  mae_quantile_ = half_normal_mean_quantile(config_.window, triple_rate);
+}
+
 /// Everything that is remembered, as it stands before the first sample.
 void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
-  mode_ = Mode::suspect;
+  mode_ = setup.calibrated ? Mode::suspect : Mode::initial;
   in_service_ = array_.all();
+  calibrated_ = setup.calibrated ? array_.all() : SensorSet{};
+  temperature_min_degc_ = config_.temperature_min_degc;
+  temperature_max_degc_ = config_.temperature_max_degc;
   set_aside_ = excluded_ = absent_ = readmitted_ = banned_ = SensorSet{};
   unproven_ = true;
   partial_ = false;
@@ -143,7 +173,9 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
-  recalibration_.configure(model_, {config_.drift_bias_mps2, config_.drift_scale}, config_.station_angle_rad);
+  recalibration_.configure(model_, {config_.drift_bias_mps2, config_.drift_scale}, config_.station_angle_rad,
+                           !setup.calibrated);
+  if (mode_ == Mode::initial) recalibration_.start(in_service_);
   base_ = Mode::suspect;
   suspicion_ = Cause::none;
   recalibration_asked_ = recalibration_due_ = three_sensor_fit_ = false;
@@ -252,8 +284,8 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
   not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
   const double t = sample.temperature_degc;
-  const bool outside = !(t >= config_.temperature_min_degc - kTemperatureMargin_degc &&
-                         t <= config_.temperature_max_degc + kTemperatureMargin_degc);
+  const bool outside =
+      !(t >= temperature_min_degc_ - kTemperatureMargin_degc && t <= temperature_max_degc_ + kTemperatureMargin_degc);
   if (outside) count_up(counters_.temperature_out);
   temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
   if (std::isfinite(t)) last_temperature_degc_ = t;

@@ -23,7 +23,8 @@ struct Sums {
 };
 
 /// What one station tells: M = W - W A (A'WA)^-1 A'W with A the images of two directions across gravity.
-void add_station(const SensorArray& array, const HeldAxisFit& fit, const Vec3& u, double g_mps2, Sums& sums) noexcept {
+[[gnu::noinline]] void add_station(const SensorArray& array, const HeldAxisFit& fit, const Vec3& u, double g_mps2,
+                                   Sums& sums) noexcept {
   const Vec3 aside = std::fabs(u[2]) < 0.8 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
   const Vec3 across = cross(u, aside);
   const Vec3 first = scaled(across, 1.0 / norm(across));
@@ -60,10 +61,10 @@ void add_station(const SensorArray& array, const HeldAxisFit& fit, const Vec3& u
 }
 
 /// Turns F'MF into the covariance of the fit and F'MA into how far a held axis bends it; false where it cannot be.
-bool solve(const HeldAxisFit& fit, Sums& sums) noexcept {
+[[gnu::noinline]] bool solve(const HeldAxisFit& fit, Sums& sums) noexcept {
   const int rows = 2 * sums.k;
   for (int i = 0; i < sums.k; ++i) {
-    const Prior& prior = fit.prior[at(sums.sensor[at(i)])];
+    const HeldPrior& prior = fit.prior[at(sums.sensor[at(i)])];
     sums.fitted[at(2 * i * (kFitted + 1))] += 1.0 / (prior.scale * prior.scale);
     sums.fitted[at((2 * i + 1) * (kFitted + 1))] += 1.0 / (prior.bias_mps2 * prior.bias_mps2);
   }
@@ -105,7 +106,7 @@ Line line_of(const SensorArray& array, const Sums& sums, int s, int i, int p) no
 double fit_covariance(const HeldAxisFit& fit, const Sums& sums, int p, int q) noexcept {
   double from_prior = 0.0;
   for (int m = 0; m < 2 * sums.k; ++m) {
-    const Prior& prior = fit.prior[at(sums.sensor[at(m / 2)])];
+    const HeldPrior& prior = fit.prior[at(sums.sensor[at(m / 2)])];
     const double sigma = m % 2 == 0 ? prior.scale : prior.bias_mps2;
     from_prior += sums.fitted[at(p * kFitted + m)] * sums.fitted[at(q * kFitted + m)] / (sigma * sigma);
   }
@@ -139,12 +140,15 @@ bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gra
     place[at(i)] = fit.sensors.has(i) ? sums.k : -1;
     if (fit.sensors.has(i)) sums.sensor[at(sums.k++)] = i;
   }
-  for (int k = 0; k < fit.count; ++k) add_station(array, fit, fit.direction[k], gravity.g_mps2, sums);
+  for (int k = 0; k < fit.count; ++k) {
+    if (fit.left_out > 0 && k % fit.left_out == fit.left_out - 1) continue;
+    add_station(array, fit, fit.station[k].direction, gravity.g_mps2, sums);
+  }
   if (!solve(fit, sums)) return false;
 
   data_share.fill(0.0);
   for (int i = 0; i < sums.k; ++i) {
-    const Prior& prior = fit.prior[at(sums.sensor[at(i)])];
+    const HeldPrior& prior = fit.prior[at(sums.sensor[at(i)])];
     const double scale = sums.fitted[at(2 * i * (kFitted + 1))] / (prior.scale * prior.scale);
     const double bias = sums.fitted[at((2 * i + 1) * (kFitted + 1))] / (prior.bias_mps2 * prior.bias_mps2);
     data_share[at(sums.sensor[at(i)])] = 1.0 - std::fmax(scale, bias);

@@ -66,11 +66,11 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
       when(!moving_ && have_evidence_, Usable::stationary) |
       when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
-      when(mode_ != Mode::initial && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
+      when(!owes_calibration() && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
 }
 
 Validity HealthMonitor::validity() const noexcept {
-  if (mode_ == Mode::failed || mode_ == Mode::initial || !have_evidence_) return Validity::invalid;
+  if (mode_ == Mode::failed || owes_calibration() || !have_evidence_) return Validity::invalid;
   if (moving_ || clock_.last_s() - evidence_time_s_ > config_.max_age_s) return Validity::held;
   const Mode mode = published_mode();
   if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
@@ -79,13 +79,13 @@ Validity HealthMonitor::validity() const noexcept {
 }
 
 bool HealthMonitor::protected_now() const noexcept {
-  return scan_.protection_available && have_evidence_ && !temperature_out_ && mode_ != Mode::failed &&
-         published_mode() != Mode::degraded;
+  return scan_.protection_available && have_evidence_ && !temperature_out_ && !owes_calibration() &&
+         mode_ != Mode::failed && published_mode() != Mode::degraded;
 }
 
 void HealthMonitor::publish_vector(const BlockTests& tests) noexcept {
   const SensorSet used = in_service_ & evidence_.usable;
-  const SetTest t = tests.of(used);
+  const SetTest& t = tests.of(used);
   if (!t.tested) return;
   Mat3 covariance = calibration_covariance(array_, t, used);
   for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
@@ -116,7 +116,7 @@ bool HealthMonitor::news() const noexcept {
   // An offer that an inhibit keeps waiting raises no event, and is told all the same.
   const bool offered = verdict_.recalibration.offered != recalibration_.offered();
   return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now() ||
-         mode_ == Mode::recalibrating || verdict_.validity != validity() ||
+         mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != validity() ||
          temperature_fine != (!temperature_out_ && temperature_rate_.slow()) || inhibited != inhibited_ ||
          verdict_.reference_mps2 != gravity_.g_mps2 || verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
 }
@@ -153,7 +153,8 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.recalibration = recalibration_.progress(array_);
   v.recalibration.wanted_direction = times(frame_, v.recalibration.wanted_direction);
   if (ticked || v.transition.sequence != 0) v.rotation = rotation_request();
-  v.wants_rotation = v.rotation.wanted || (mode_ == Mode::recalibrating && v.recalibration.stations_wanted > 0);
+  v.wants_rotation =
+      v.rotation.wanted || (state_of(mode_) == HealthState::recalibrating && v.recalibration.stations_wanted > 0);
   v.reference_mps2 = gravity_.g_mps2;
   v.reference_sigma_mps2 = gravity_.sigma_mps2;
   v.validity = validity();

@@ -1,4 +1,6 @@
 // Recalibration in the monitor: who may ask for it, what it is fed, what adopting it empties.
+#include <cmath>
+
 #include "plumb/health/health_monitor.hpp"
 
 namespace plumb {
@@ -49,7 +51,7 @@ void HealthMonitor::drop_request() noexcept {
 
 EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
   EventMask raised = 0;
-  if (mode_ == Mode::recalibrating) {
+  if (mode_ == Mode::recalibrating || mode_ == Mode::initial) {
     switch (recalibration_.step({model_, array_, gravity_, limits_}, time_s)) {
       case Recalibration::Outcome::accepted: raised |= bit(HealthEvent::fit_accepted); break;
       case Recalibration::Outcome::rejected: raised |= bit(HealthEvent::fit_rejected); break;
@@ -77,9 +79,38 @@ SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
   return {};
 }
 
+/// Where nobody has said over which span the coefficients hold, they hold where they were found.
+void HealthMonitor::take_span(const StationStore& store) noexcept {
+  const MonitorConfig unset;
+  double low = store.station(0).temperature_degc, high = low;
+  for (int k = 1; k < store.size(); ++k) {
+    low = std::fmin(low, store.station(k).temperature_degc);
+    high = std::fmax(high, store.station(k).temperature_degc);
+  }
+  if (config_.temperature_min_degc == unset.temperature_min_degc) temperature_min_degc_ = low;
+  if (config_.temperature_max_degc == unset.temperature_max_degc) temperature_max_degc_ = high;
+}
+
+/// The collection goes with the sensors in service, and ends with them.
+void HealthMonitor::follow_first_calibration(Mode from) noexcept {
+  if (mode_ == Mode::initial) {
+    if (from != Mode::initial || recalibration_.sensors() != in_service_) recalibration_.start(in_service_);
+  } else if (from == Mode::initial && mode_ == Mode::failed) {
+    recalibration_.stop();
+  }
+}
+
 /// What was seen through the old coefficients says nothing about the new ones.
 void HealthMonitor::adopt() noexcept {
-  recalibration_.apply(model_, array_, gravity_, clock_.last_s(), base_ == Mode::suspect);
+  if (recalibration_.first()) {
+    take_span(recalibration_.store());
+    recalibration_.apply(model_, array_, gravity_, clock_.last_s(), false);
+    if (!recalibration_.first()) calibrated_ = recalibration_.sensors();
+    derive_limits();
+    size_class_ = classify(in_service_);
+  } else {
+    recalibration_.apply(model_, array_, gravity_, clock_.last_s(), base_ == Mode::suspect);
+  }
   three_sensor_fit_ = size_class_ == SizeClass::critical;
   forget_episode();
   empty_windows();

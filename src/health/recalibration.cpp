@@ -14,17 +14,21 @@ namespace {
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
-FitOptions options() noexcept {
-  FitOptions out;
-  out.require_full_rank = false;  // of the axes nothing is asked
-  out.estimate_misfit = false;    // what the fit cannot explain is a reason to refuse it
-  return out;
-}
-
 /// Stations beyond those that determine the parameters, so that the residuals can contradict the fit.
 constexpr int kSpareStations = 4;
 
 }  // namespace
+
+FitOptions Recalibration::options() const noexcept {
+  FitOptions out;
+  out.estimate_misfit = false;     // what the fit cannot explain is a reason to refuse it
+  out.require_full_rank = first_;  // in flight nothing is asked of the axes
+  if (first_) {
+    out.max_outlier_share = 0.0;  // a station unlike the others is a tool that has changed
+    out.max_bias_sigmas = kFirstSigmas;
+  }
+  return out;
+}
 
 const char* to_string(RecalibrationPhase phase) noexcept {
   switch (phase) {
@@ -36,24 +40,29 @@ const char* to_string(RecalibrationPhase phase) noexcept {
   return "?";
 }
 
-void Recalibration::configure(const SensorModel& commissioning, const DriftSigmas& drift,
-                              double same_attitude_rad) noexcept {
+void Recalibration::configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad,
+                              bool first) noexcept {
   store_ = StationStore(same_attitude_rad);
   drift_ = drift;
-  for (int i = 0; i < kCapacity; ++i) {
-    commissioned_scale_[at(i)] = commissioning.sensor[at(i)].scale[0];
-    commissioned_bias_mps2_[at(i)] = commissioning.sensor[at(i)].bias[0];
-  }
+  commission(commissioning);
   length_.fill(0.0);
   shift_mps2_.fill(0.0);
   inflation_ = 1.0;
   sensors_ = SensorSet{};
   adopted_ = false;
+  first_ = first;
   adopted_s_ = 0.0;
   iterations_ = 0;
   refusal_ = Error{};
   offered_s_ = 0.0;
   stop();
+}
+
+void Recalibration::commission(const SensorModel& model) noexcept {
+  for (int i = 0; i < kCapacity; ++i) {
+    commissioned_scale_[at(i)] = model.sensor[at(i)].scale[0];
+    commissioned_bias_mps2_[at(i)] = model.sensor[at(i)].bias[0];
+  }
 }
 
 void Recalibration::add_block(const StationMean& block, bool station_begins) noexcept {
@@ -95,6 +104,12 @@ int Recalibration::stations_needed(int n) noexcept {
   return needed;
 }
 
+/// Not inlined, like all that needs much room: what is on the stack of one would be under the others too.
+[[gnu::noinline]] void Recalibration::begin_fit(const InForce& in_force) noexcept {
+  calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options());
+  phase_ = RecalibrationPhase::fitting;
+}
+
 Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_s) noexcept {
   switch (phase_) {
     // A refusal is a level, too: an event that ranks before it must not leave a recalibration without a fit.
@@ -102,31 +117,36 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
     case RecalibrationPhase::accepted: return Outcome::accepted;
     case RecalibrationPhase::collecting:
       if (offered()) return examine_offer(in_force, time_s);
-      if (untried_ && store_.size() >= stations_needed(sensors_.size()) && ready(in_force)) {
-        calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options());
-        phase_ = RecalibrationPhase::fitting;
+      if (untried_ && store_.size() >= stations_due() && ready(in_force)) {
+        begin_fit(in_force);
       }
       return Outcome::none;
     case RecalibrationPhase::fitting: break;
   }
   if (calibrator_.done()) return judge(in_force, time_s);
-  Stations stations;
-  calibrator_.iterate(stations.data(), fit_stations(stations));
+  if (first_) {
+    iterate_first();
+  } else {
+    calibrator_.iterate_held(fit_stations());
+  }
   ++iterations_;
   return Outcome::none;
+}
+
+[[gnu::noinline]] void Recalibration::doubt_change(const SensorArray& array, bool whole,
+                                                   RowUncertainty& uncertainty) const noexcept {
+  const Change change = whole_change(array);
+  add_change(array, whole ? change : unseen_by_parity(array, change), uncertainty);
 }
 
 void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,
                           bool doubted) noexcept {
   if (phase_ != RecalibrationPhase::accepted) return;
+  if (first_) return apply_first(model, array, time_s);
   RowUncertainty uncertainty;
   const bool known = uncertainty_after(array, gravity, uncertainty);
   if (!known) uncertainty = array.uncertainty();
-  if (doubted) {
-    add_change(array, whole_change(array), uncertainty);
-  } else if (offered()) {
-    add_change(array, unseen_by_parity(array, whole_change(array)), uncertainty);
-  }
+  if (doubted || offered()) doubt_change(array, doubted, uncertainty);
   if (known || doubted) array.set_uncertainty(uncertainty);
   write_coefficients(model);
   adopted_ = true;
@@ -135,6 +155,7 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
 }
 
 bool Recalibration::resume(const InForce& in_force) noexcept {
+  if (first_) return resume_first(in_force);
   if (!coefficients_are_plausible(in_force.model)) return false;
   if (offered() && !offer_is_plausible(in_force)) return false;
   switch (phase_) {
@@ -160,9 +181,9 @@ Vec3 Recalibration::wanted_direction(const SensorArray& array) const noexcept {
   Vec3 best{};
   double least = 2.0;
   const auto offer = [&](const Vec3& candidate) {
-    double nearest = -1.0;  // cosine
-    // Those held out count: a second visit to such an attitude would be held out again.
-    for (int k = 0; k < store_.size(); ++k) nearest = std::fmax(nearest, dot(candidate, store_.station(k).direction));
+    // Those held out count: a second visit to such an attitude would be held out again. So do those that wait: who
+    // follows what is asked for would stand still until the next has been entered.
+    const double nearest = store_.nearest_cosine(candidate);
     if (nearest < least) {
       least = nearest;
       best = candidate;

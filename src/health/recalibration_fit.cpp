@@ -21,21 +21,10 @@ double larger(double a, double b) noexcept { return std::isnan(a) || b <= a ? a 
 
 }  // namespace
 
-int Recalibration::fit_stations(Stations& out) const noexcept {
-  int count = 0;
-  for (int k = 0; k < store_.size(); ++k) {
-    if (StationStore::held_out(k)) continue;
-    Station& station = out[at(count++)];
-    station.delivered = SensorSet::first(sensors_.size());
-    station.temperature_degc = store_.station(k).temperature_degc;
-    station.count = 1;  // the noise of a row of the datasheet is that of a station here
-    // The fit knows the fitted sensors only, in the order of the array.
-    int row = 0;
-    for (int i = 0; i < kCapacity; ++i) {
-      if (sensors_.has(i)) station.mean[at(row++)] = store_.station(k).raw[at(i)];
-    }
-  }
-  return count;
+/// The fit knows the fitted sensors only, in the order of the array; the noise of a row of its datasheet is that of a
+/// station.
+StationList Recalibration::fit_stations() const noexcept {
+  return {store_.data(), store_.size(), sensors_, StationStore::kHeldOutStride};
 }
 
 /// 1 sigma of a station's reading that biases and scales cannot explain: noise and misfit, drawn anew at every station,
@@ -62,7 +51,7 @@ Recalibration::ReadingError Recalibration::reading_error(const SensorArray& arra
   const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of gravity over the sphere
   ReadingError out;
   out.noise_mps2_sq = sigma * sigma / std::fmax(samples, 1.0) + misfit * misfit;
-  out.total_mps2_sq = out.noise_mps2_sq + std::fmax(across, 0.0) * mean_square;
+  out.total_mps2_sq = out.noise_mps2_sq + (first_ ? 0.0 : std::fmax(across, 0.0) * mean_square);
   return out;
 }
 
@@ -75,28 +64,26 @@ Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
     sensor.row = in_force.array.row(i);
     sensor.row.sigma_mps2 = std::sqrt(reading_error(in_force.array, in_force.gravity, i).total_mps2_sq);
     sensor.coefficients = in_force.model.sensor[at(i)];
-    sensor.prior = {drift_.bias_mps2, drift_.scale, 0.0};
+    sensor.prior = first_ ? prior_in(in_force.array, i) : Prior{drift_.bias_mps2, drift_.scale, 0.0, {}, {}};
   }
   return out;
 }
 
 bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
                                        SensorSet& lacking) const noexcept {
-  std::array<Vec3, StationStore::kMax> direction{};
   HeldAxisFit fit;
   fit.sensors = sensors_;
-  fit.direction = direction.data();
+  fit.station = store_.data();
+  fit.count = store_.size();
+  fit.left_out = offered() ? 0 : StationStore::kHeldOutStride;
   fit.inflation = inflation_;
-  for (int k = 0; k < store_.size(); ++k) {
-    if (offered() || !StationStore::held_out(k)) direction[at(fit.count++)] = store_.station(k).direction;
-  }
   fit.noise_share = 0.0;
   for (int i = 0; i < array.size(); ++i) {
     if (!sensors_.has(i)) continue;
     const ReadingError error = reading_error(array, gravity, i);
     fit.sigma_mps2[at(i)] = std::sqrt(error.total_mps2_sq);
     fit.noise_share = std::fmax(fit.noise_share, error.noise_mps2_sq / error.total_mps2_sq);
-    fit.prior[at(i)] = {drift_.bias_mps2, drift_.scale, 0.0};
+    fit.prior[at(i)] = {drift_.bias_mps2, drift_.scale};
   }
   std::array<double, kCapacity> data_share{};
   if (!held_axis_uncertainty(array, gravity, fit, out, data_share)) return false;
@@ -108,25 +95,23 @@ bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityRe
 }
 
 /// Do the attitudes on record tell bias from scale for every sensor? If not, which sensors ask for others.
-bool Recalibration::ready(const InForce& in_force) noexcept {
+[[gnu::noinline]] bool Recalibration::ready(const InForce& in_force) noexcept {
   untried_ = false;
   inflation_ = 1.0;
+  if (first_) return attitudes_suffice(in_force.array);
   RowUncertainty uncertainty;
   return uncertainty_of_fit(in_force.array, in_force.gravity, uncertainty, lacking_) && lacking_.empty();
 }
 
 /// Takes the fitted figures over; `ok` where the fit itself is sound.
-Error Recalibration::read_fit(const InForce& in_force) noexcept {
-  Stations stations;
-  const int count = fit_stations(stations);
-  const Expected<Calibration> fit = calibrator_.finish(stations.data(), count);
+[[gnu::noinline]] Error Recalibration::read_fit(const InForce& in_force) noexcept {
+  HeldFit report;
+  Error error = calibrator_.finish_held(fit_stations(), report);
   const int needed = 2 * sensors_.size();
-  if (!fit) {
-    Error error = fit.error();
+  if (error.code != Errc::ok) {
     error.index = -1;  // counted among the fitted sensors only
     return error;
   }
-  const FitReport& report = fit->report;
   if (report.rank < needed) {
     return Error{Errc::unobservable, -1, static_cast<double>(report.rank), static_cast<double>(needed)};
   }
@@ -136,9 +121,10 @@ Error Recalibration::read_fit(const InForce& in_force) noexcept {
   for (int i = 0; i < kCapacity; ++i) {
     if (!sensors_.has(i)) continue;
     const SensorCoefficients& old = in_force.model.sensor[at(i)];
-    const SensorCoefficients& fitted = fit->model.sensor[at(row++)];
-    length_[at(i)] = fitted.scale[0] / old.scale[0];
-    shift_mps2_[at(i)] = fitted.bias[0] * length_[at(i)] - old.bias[0];
+    const double length = report.length[at(row)];
+    const double bias_mps2 = (old.bias[0] + report.bias_mps2[at(row++)]) / length;
+    length_[at(i)] = old.scale[0] * length / old.scale[0];
+    shift_mps2_[at(i)] = bias_mps2 * length_[at(i)] - old.bias[0];
   }
   if (!(report.p_value >= kLeastProbability)) {
     return Error{Errc::poor_fit, -1, report.p_value, kLeastProbability};
@@ -212,6 +198,23 @@ Error Recalibration::check_bounds(const SensorModel& model, double time_s) const
   return Error{};
 }
 
+SensorModel Recalibration::commissioned(const SensorModel& like) const noexcept {
+  SensorModel out = like;
+  for (int i = 0; i < out.size; ++i) {
+    out.sensor[at(i)].scale[0] = commissioned_scale_[at(i)];
+    out.sensor[at(i)].bias[0] = commissioned_bias_mps2_[at(i)];
+  }
+  return out;
+}
+
+bool Recalibration::commissioned_as(const SensorModel& model) const noexcept {
+  for (int i = 0; i < model.size; ++i) {
+    const SensorCoefficients& c = model.sensor[at(i)];
+    if (commissioned_scale_[at(i)] != c.scale[0] || commissioned_bias_mps2_[at(i)] != c.bias[0]) return false;
+  }
+  return true;
+}
+
 /// In force can only be what the bounds have let pass.
 bool Recalibration::coefficients_are_plausible(const SensorModel& model) const noexcept {
   for (int i = 0; i < model.size; ++i) {
@@ -223,29 +226,37 @@ bool Recalibration::coefficients_are_plausible(const SensorModel& model) const n
   return true;
 }
 
-/// Every station against the new calibration, by the tests and limits of the monitor: those of the fit, and those
-/// that were held out of it (property S20).
-Error Recalibration::check_stations(const InForce& in_force) const noexcept {
-  SensorModel model = in_force.model;
-  SensorArray array = in_force.array;
+[[gnu::noinline]] Error Recalibration::check_fit(const InForce& in_force) const noexcept {
   RowUncertainty uncertainty;
   if (!uncertainty_after(in_force.array, in_force.gravity, uncertainty)) return Error{Errc::diverged, -1};
-  array.set_uncertainty(uncertainty);
+  return try_stations(in_force, uncertainty);
+}
+
+[[gnu::noinline]] Error Recalibration::try_stations(const InForce& in_force,
+                                                    const RowUncertainty& uncertainty) const noexcept {
+  SensorModel model = in_force.model;
   write_coefficients(model);
+  return check_stations({model, in_force.array, in_force.gravity, in_force.limits}, uncertainty);
+}
+
+/// Every station against the new calibration, by the tests and limits of the monitor: those of the fit, and those
+/// that were held out of it (property S20).
+Error Recalibration::check_stations(const InForce& candidate, const RowUncertainty& uncertainty) const noexcept {
   int proofs = 0;
   for (int k = 0; k < store_.size(); ++k) {
     const StationMean& station = store_.station(k);
     BlockEvidence evidence;
-    evidence.mean_mps2 = model.apply(station.raw, station.temperature_degc, sensors_);
+    evidence.mean_mps2 = candidate.model.apply(station.raw, station.temperature_degc, sensors_);
     evidence.usable = sensors_;
     evidence.samples = station.samples;
-    const SetTest test = test_set(array, in_force.gravity, in_force.limits, evidence, sensors_);
+    const SetTest test =
+        test_set(candidate.array, uncertainty, candidate.gravity, candidate.limits, evidence, sensors_);
     const bool held_out = is_proof(k);
     const Errc code = held_out ? Errc::not_confirmed : Errc::poor_fit;
     if (!test.tested) return Error{code, k};
-    const double parity_limit = test.parity_rows > 0 ? test.parity_alarm_limit(in_force.limits) : 0.0;
+    const double parity_limit = test.parity_rows > 0 ? test.parity_alarm_limit(candidate.limits) : 0.0;
     if (!(test.parity <= parity_limit)) return Error{code, k, test.parity, parity_limit};
-    const double norm_limit = test.norm_alarm_limit(in_force.limits);
+    const double norm_limit = test.norm_alarm_limit(candidate.limits);
     if (!(std::fabs(test.norm) <= norm_limit)) return Error{code, k, std::fabs(test.norm), norm_limit};
     if (held_out) ++proofs;
   }
@@ -254,9 +265,10 @@ Error Recalibration::check_stations(const InForce& in_force) const noexcept {
 }
 
 Recalibration::Outcome Recalibration::judge(const InForce& in_force, double time_s) noexcept {
+  if (first_) return judge_first(in_force);
   Error error = offered() ? Error{} : read_fit(in_force);
   if (error.code == Errc::ok) error = check_bounds(in_force.model, time_s);
-  if (error.code == Errc::ok) error = check_stations(in_force);
+  if (error.code == Errc::ok) error = check_fit(in_force);
   if (error.code == Errc::ok) {
     phase_ = RecalibrationPhase::accepted;
     return Outcome::accepted;

@@ -42,23 +42,25 @@ Vec3 HealthMonitor::vote(const BlockTests& tests, const BlockView& view) noexcep
   const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
   Vec3 direction = view.used.x_mps2;
   if (due) {
-    answer_ = isolation_.vote(tests);
+    // One that lies among four cannot make three moving ones look like noise; several that hang can.
+    const bool may_hang = isolation_.strict_grade() >= 2;
+    answer_ = isolation_.vote(tests, may_hang ? calm_ : array_.all());
     const SensorSet posed = isolation_.posed();
-    const SetTest full = tests.of(posed & evidence.usable);
+    const SetTest& full = tests.of(posed & evidence.usable);
     const bool visible = full.tested && !(full.alive(limits_) && full.parity_alive(limits_));
     if (answer_.strict != episode_.candidate) {
       episode_.candidate = answer_.strict;
       episode_.agreeing.clear();
     }
     if (!answer_.strict.empty()) {
-      const SetTest survivors = tests.of((posed - answer_.strict) & evidence.usable);
+      const SetTest& survivors = tests.of((posed - answer_.strict) & evidence.usable);
       if (survivors.tested) direction = survivors.x_mps2;
       // A station at which the fault cannot be seen confirms nothing.
       if (visible) episode_.agreeing.add(direction, config_.excitation_angle_rad);
     }
   } else if (!episode_.candidate.empty()) {
     const SensorSet rest = (isolation_.posed() - episode_.candidate) & evidence.usable;
-    const SetTest survivors = tests.of(rest);
+    const SetTest& survivors = tests.of(rest);
     if (survivors.tested) direction = survivors.x_mps2;
   }
   return direction;
@@ -69,7 +71,7 @@ Vec3 HealthMonitor::vote(const BlockTests& tests, const BlockView& view) noexcep
 void HealthMonitor::count_doubt(const BlockView& view, const Vec3& direction) noexcept {
   // The contradiction for which the host had a fit made is no news, and the fit needs more stations than patience has.
   const bool known = answer_.contradiction && expected(HealthEvent::contradiction);
-  if (!view.doubtful(mode_) || known) return;
+  if (!view.doubtful(mode_) || known || owes_calibration()) return;
   episode_.stations.add(direction, config_.excitation_angle_rad);
   if (episode_.doubtful_blocks < config_.patience_blocks) ++episode_.doubtful_blocks;
 }
@@ -100,7 +102,7 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
     return;
   }
   if (clean_run_ < config_.clean_blocks) ++clean_run_;
-  if (unproven_) {
+  if (unproven_ && !owes_calibration()) {
     bool moved = true;
     for (int i = 0; i < array_.size(); ++i) {
       if (!in_service_.has(i)) continue;
@@ -115,7 +117,7 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
   }
   // While a sensor is set aside the episode ends only when it, too, agrees again.
   const SensorSet posed = isolation_.posed() & evidence_.usable;
-  const SetTest all = tests.of(posed);
+  const SetTest& all = tests.of(posed);
   if (!(all.alive(limits_) && all.parity_alive(limits_))) return;
   episode_.clean.add(view.used.x_mps2, config_.excitation_angle_rad);
   const bool on_record = episode_.open || episode_.stations.size() > 0;
@@ -138,11 +140,11 @@ void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& 
   if (view.kind != BlockView::Kind::clean || episode_.open || unproven_ || mode_ == Mode::failed ||
       mode_ == Mode::suspect)
     return;
-  const SensorSet asked = ((excluded_ | set_aside_) - (banned_ | absent_)) & evidence.usable & calm_;
+  const SensorSet asked = ((excluded_ | set_aside_) - (banned_ | absent_)) & evidence.usable & calm_ & calibrated_;
   SensorSet fine;
   for (int i = 0; i < array_.size(); ++i) {
     if (!asked.has(i)) continue;
-    const SetTest t = tests.of((in_service_ & evidence.usable).with(i));
+    const SetTest& t = tests.of((in_service_ & evidence.usable).with(i));
     if (t.tested && t.alive(limits_) && t.parity <= config_.clear_fraction * t.parity_alarm_limit(limits_))
       fine = fine.with(i);
   }

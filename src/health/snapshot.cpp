@@ -47,6 +47,13 @@ bool same_temperature_terms(const SensorModel& now, const SensorModel& was) noex
   return true;
 }
 
+bool same_rows(const SensorArray& a, const SensorArray& b) noexcept {
+  for (int i = 0; i < a.size(); ++i) {
+    if (a.axis(i) != b.axis(i) || a.sigma_mps2(i) != b.sigma_mps2(i)) return false;
+  }
+  return true;
+}
+
 bool same_uncertainty(const RowUncertainty& a, const RowUncertainty& b, int sensors) noexcept {
   for (int k = 0; k < RowUncertainty::packed_size(sensors); ++k) {
     if (a.covariance[static_cast<size_t>(k)] != b.covariance[static_cast<size_t>(k)]) return false;
@@ -128,6 +135,7 @@ std::uint64_t HealthMonitor::identity(const MonitorSetup& setup) const noexcept 
   out.put(setup.array.uncertainty());
   out.put(setup.output_frame);
   out.put(setup.lever_arms_known);
+  if (!setup.calibrated) out.put(setup.calibrated);  // what was written before there was the choice keeps its name
   return out.crc();
 }
 
@@ -177,16 +185,34 @@ Expected<void> HealthMonitor::take_up(const MonitorSetup& setup, const std::uint
 /// Derives what is not stored, and asks of the whole what its parts alone cannot answer.
 bool HealthMonitor::resume(const MonitorSetup& setup) noexcept {
   if (!sets_are_plausible()) return false;
+  if (!calibration_is_plausible(setup)) return false;
+  derive_limits();
   size_class_ = classify(in_service_);
   map_ = least_squares(array_, in_service_);
   isolation_.resume(array_, in_service_ | set_aside_);
-  if (recalibration_.adopted()) {
-    if (!array_.uncertainty().is_covariance() || !same_temperature_terms(model_, setup.model)) return false;
-  } else if (three_sensor_fit_ || !same_coefficients(model_, setup.model) ||
-             !same_uncertainty(array_.uncertainty(), setup.array.uncertainty(), array_.size())) {
-    return false;  // nobody has changed the calibration, and yet it is another one
-  }
   return recalibration_.resume({model_, array_, gravity_, limits_}) && mode_is_plausible() && verdict_is_plausible();
+}
+
+/// The coefficients in force, and how they can have come about.
+bool HealthMonitor::calibration_is_plausible(const MonitorSetup& setup) const noexcept {
+  const bool changed = recalibration_.adopted();
+  if (changed && !array_.uncertainty().is_covariance()) return false;
+  if (!same_temperature_terms(model_, setup.model)) return false;
+  if (recalibration_.first() != owes_calibration()) return false;
+  const bool own = !setup.calibrated && !owes_calibration();
+  if (own) {
+    if (rank_of(array_, calibrated_) < 3 || !array_.uncertainty().is_covariance()) return false;
+    const SensorModel commissioned = recalibration_.commissioned(model_);
+    const Error off = Recalibration::off_datasheet(setup.model, setup.array, commissioned, array_, array_.all());
+    return off.code == Errc::ok && (changed || (same_coefficients(model_, commissioned)));
+  }
+  if (setup.calibrated != (calibrated_ == array_.all())) return false;
+  if (temperature_min_degc_ != config_.temperature_min_degc || temperature_max_degc_ != config_.temperature_max_degc)
+    return false;
+  if (!same_rows(array_, setup.array) || !recalibration_.commissioned_as(setup.model)) return false;
+  // Where nobody has changed the calibration it is not another one.
+  return changed || (!three_sensor_fit_ && same_coefficients(model_, setup.model) &&
+                     same_uncertainty(array_.uncertainty(), setup.array.uncertainty(), array_.size()));
 }
 
 bool HealthMonitor::sets_are_plausible() const noexcept {
@@ -203,6 +229,9 @@ bool HealthMonitor::mode_is_plausible() const noexcept {
   if ((pending_ & ~kKeptEvents) != 0 || block_.size() >= config_.window) return false;
   if (have_evidence_ && !(evidence_.samples > 0.0)) return false;
   const bool rank_lost = size_class_ == SizeClass::rank_lost;
+  if (owes_calibration() && mode_ != Mode::initial && mode_ != Mode::failed) return false;
+  // Nobody whom the monitor has not calibrated serves.
+  if (!owes_calibration() && !calibrated_.contains(in_service_ | set_aside_)) return false;
   switch (mode_) {
     case Mode::nominal:
     case Mode::isolated:
@@ -210,7 +239,7 @@ bool HealthMonitor::mode_is_plausible() const noexcept {
     case Mode::suspect: return !rank_lost;
     case Mode::recalibrating:
       return !rank_lost && base_ != Mode::recalibrating && base_ != Mode::initial && base_ != Mode::failed;
-    case Mode::initial: return false;  // a monitor is never configured without a calibration
+    case Mode::initial: return !rank_lost && owes_calibration() && unproven_ && recalibration_.collects(in_service_);
     case Mode::failed: return true;
   }
   return false;

@@ -1,5 +1,6 @@
 #include "plumb/health/station_store.hpp"
 
+#include <cmath>
 #include <type_traits>
 
 namespace plumb {
@@ -59,6 +60,14 @@ void StationStore::drop_last() noexcept { current_.samples = waiting_.samples = 
 void StationStore::clear() noexcept {
   drop_last();
   size_ = 0;
+}
+
+double StationStore::nearest_cosine(const Vec3& direction) const noexcept {
+  double nearest = -1.0;
+  for (int k = 0; k < size_; ++k) nearest = std::fmax(nearest, dot(direction, station_[at(k)].direction));
+  if (current_.samples > 0.0) nearest = std::fmax(nearest, dot(direction, current_.direction));
+  if (waiting_.samples > 0.0) nearest = std::fmax(nearest, dot(direction, waiting_.direction));
+  return nearest;
 }
 
 /// Of one station more than there is room for, the two nearest in direction are one too many. The newcomer stays: it

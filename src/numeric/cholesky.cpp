@@ -11,6 +11,49 @@ std::size_t at(int i, int j, int stride) noexcept {
   return static_cast<std::size_t>(i) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(j);
 }
 
+/// Where entry (i, j), j <= i, stands.
+struct Strided {
+  int stride;
+  std::size_t operator()(int i, int j) const noexcept { return at(i, j, stride); }
+};
+struct Triangle {
+  std::size_t operator()(int i, int j) const noexcept {
+    const auto row = static_cast<std::size_t>(i);
+    return row * (row + 1) / 2 + static_cast<std::size_t>(j);
+  }
+};
+
+template <class Place>  // NOLINTNEXTLINE(readability-non-const-parameter): it is written to
+bool factor(double* a, int n, Place place) noexcept {
+  for (int j = 0; j < n; ++j) {
+    double pivot = a[place(j, j)];
+    for (int k = 0; k < j; ++k) pivot -= a[place(j, k)] * a[place(j, k)];
+    if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
+    const double diagonal = std::sqrt(pivot);
+    a[place(j, j)] = diagonal;
+    for (int i = j + 1; i < n; ++i) {
+      double sum = a[place(i, j)];
+      for (int k = 0; k < j; ++k) sum -= a[place(i, k)] * a[place(j, k)];
+      a[place(i, j)] = sum / diagonal;
+    }
+  }
+  return true;
+}
+
+template <class Place>
+void solve(const double* l, int n, Place place, double* b) noexcept {
+  for (int i = 0; i < n; ++i) {
+    double sum = b[i];
+    for (int k = 0; k < i; ++k) sum -= l[place(i, k)] * b[k];
+    b[i] = sum / l[place(i, i)];
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    double sum = b[i];
+    for (int k = i + 1; k < n; ++k) sum -= l[place(k, i)] * b[k];
+    b[i] = sum / l[place(i, i)];
+  }
+}
+
 /// L becomes its own inverse, column by column; entries to the right and above are still L when read.
 void invert_lower(double* l, int n, int stride) noexcept {
   for (int j = 0; j < n; ++j) {
@@ -26,34 +69,14 @@ void invert_lower(double* l, int n, int stride) noexcept {
 }  // namespace
 
 bool cholesky_factor(double* a, int n, int stride) noexcept {
-  if (a == nullptr || n < 1 || stride < n) return false;
-  for (int j = 0; j < n; ++j) {
-    double pivot = a[at(j, j, stride)];
-    for (int k = 0; k < j; ++k) pivot -= a[at(j, k, stride)] * a[at(j, k, stride)];
-    if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
-    const double diagonal = std::sqrt(pivot);
-    a[at(j, j, stride)] = diagonal;
-    for (int i = j + 1; i < n; ++i) {
-      double sum = a[at(i, j, stride)];
-      for (int k = 0; k < j; ++k) sum -= a[at(i, k, stride)] * a[at(j, k, stride)];
-      a[at(i, j, stride)] = sum / diagonal;
-    }
-  }
-  return true;
+  return a != nullptr && n >= 1 && stride >= n && factor(a, n, Strided{stride});
 }
 
-void cholesky_solve(const double* l, int n, int stride, double* b) noexcept {
-  for (int i = 0; i < n; ++i) {
-    double sum = b[i];
-    for (int k = 0; k < i; ++k) sum -= l[at(i, k, stride)] * b[k];
-    b[i] = sum / l[at(i, i, stride)];
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    double sum = b[i];
-    for (int k = i + 1; k < n; ++k) sum -= l[at(k, i, stride)] * b[k];
-    b[i] = sum / l[at(i, i, stride)];
-  }
-}
+bool cholesky_factor_packed(double* a, int n) noexcept { return a != nullptr && n >= 1 && factor(a, n, Triangle{}); }
+
+void cholesky_solve(const double* l, int n, int stride, double* b) noexcept { solve(l, n, Strided{stride}, b); }
+
+void cholesky_solve_packed(const double* l, int n, double* b) noexcept { solve(l, n, Triangle{}, b); }
 
 void cholesky_inverse(double* l, int n, int stride) noexcept {
   invert_lower(l, n, stride);

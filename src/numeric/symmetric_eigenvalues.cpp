@@ -10,9 +10,9 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-constexpr int kMaxSize = kMaxEigenSize;
 constexpr int kMaxSteps = 60;  // for one eigenvalue; fewer than two are usual
-using Column = std::array<double, kMaxSize + 4>;
+template <int kMaxSize>
+using Column = std::array<double, std::size_t{kMaxSize} + 4>;
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -44,6 +44,7 @@ void add_row(double* to, const double* from, double factor, int i, int fours) no
 }
 
 /// Reflects row and column i of the leading block to (0, .., 0, e). Returns e.
+template <int kMaxSize>
 double reflect(double* a, int i, int stride) noexcept {
   const double* given = a + at(i * stride);
   double square = 0.0;
@@ -51,7 +52,7 @@ double reflect(double* a, int i, int stride) noexcept {
   const double last = given[i - 1];
   if (square == 0.0) return last;
   const double e = -std::copysign(std::sqrt(square + last * last), last);
-  Column u, p;
+  Column<kMaxSize> u, p;
   for (int k = 0; k < i + 3; ++k) {
     u[at(k)] = k < i ? given[k] : 0.0;
     p[at(k)] = 0.0;
@@ -74,7 +75,8 @@ double reflect(double* a, int i, int stride) noexcept {
 
 /// One QL step with shift on d[l..m] and the squared off-diagonals e2[l..m-1]; `shift` collects what was taken from the
 /// diagonal. `tiny` replaces a vanishing pivot.
-void ql_step(Column& d, Column& e2, int n, int l, int m, double tiny, double& shift) noexcept {
+template <class Line>
+void ql_step(Line& d, Line& e2, int n, int l, int m, double tiny, double& shift) noexcept {
   const double s0 = std::sqrt(e2[at(l)]);
   const double g0 = d[at(l)];
   const double p0 = (d[at(l + 1)] - g0) / (2.0 * s0);
@@ -100,7 +102,8 @@ void ql_step(Column& d, Column& e2, int n, int l, int m, double tiny, double& sh
 }
 
 /// Eigenvalues of the tridiagonal matrix into `values`, ascending.
-bool solve_tridiagonal(Column& d, Column& e2, int n, double* values) noexcept {
+template <class Line>
+bool solve_tridiagonal(Line& d, Line& e2, int n, double* values) noexcept {
   double shift = 0.0, scale = 0.0;
   e2[at(n - 1)] = 0.0;
   for (int l = 0; l < n; ++l) {
@@ -123,9 +126,8 @@ bool solve_tridiagonal(Column& d, Column& e2, int n, double* values) noexcept {
   return true;
 }
 
-}  // namespace
-
-bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcept {
+template <int kMaxSize>
+bool eigenvalues(double* a, int n, int stride, double* values) noexcept {
   if (a == nullptr || values == nullptr || n < 1 || n > kMaxSize || stride < n) return false;
   const double largest = largest_of(a, n, stride);
   if (!std::isfinite(largest)) return false;
@@ -139,9 +141,9 @@ bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcep
       for (int j = 0; j < n; ++j) a[i * stride + j] *= down;
     }
   }
-  Column d, e2;
+  Column<kMaxSize> d, e2;
   for (int i = n - 1; i > 0; --i) {
-    const double e = i > 1 ? reflect(a, i, stride) : a[stride];
+    const double e = i > 1 ? reflect<kMaxSize>(a, i, stride) : a[stride];
     e2[at(i - 1)] = e * e;
     d[at(i)] = a[i * stride + i];
   }
@@ -149,6 +151,16 @@ bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcep
   if (!solve_tridiagonal(d, e2, n, values)) return false;
   for (int i = 0; i < n; ++i) values[i] /= down;
   return std::isfinite(values[0]) && std::isfinite(values[n - 1]);
+}
+
+}  // namespace
+
+bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcept {
+  return eigenvalues<kMaxEigenSize>(a, n, stride, values);
+}
+
+bool symmetric_eigenvalues_of_few(double* a, int n, int stride, double* values) noexcept {
+  return eigenvalues<2 * kCapacity>(a, n, stride, values);
 }
 
 }  // namespace PLUMB_ABI

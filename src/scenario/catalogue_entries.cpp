@@ -1,5 +1,6 @@
-// The table itself. Expectations were written down first, then held against the monitor on the course; what had to give
-// way is said in `known_limit`.
+// The table itself. The expectations follow what is known of each fault, but some were set, or moved, after the monitor
+// had been seen on the course, and which ones is not on record: they hold it to what it does and are no prediction of
+// it. What no monitor of this kind can do is said in `known_limit`.
 #include <algorithm>
 
 #include "plumb/scenario/catalogue.hpp"
@@ -104,9 +105,10 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        {0, 0, kNominal | kSuspect | kFailed, AllowedMask::only_faulty, kPi},
        {0, kStation, kSuspect | kFailed, AllowedMask::only_faulty},
-       "Channels 1 to 3 of the paper's tool can be exchanged without any test of the sensors noticing: the tilt is "
-       "wrong "
-       "by 60 deg. A commissioning attitude of known toolface tells."},
+       "Known limit with four sensors: channels 1 to 3 of the paper's tool can be exchanged without any test of "
+       "the sensors noticing. The state stays nominal and the tilt is wrong by 60 deg, hence the bound of 180 "
+       "deg. An exchange with the fourth is seen. A commissioning attitude of known toolface tells, and `plumb "
+       "geometry` lists such pairs."},
       {"F09",
        "mount-shift",
        "Axis turned",

@@ -250,6 +250,20 @@ SensorSet Injector::inject(Sample& sample, const Moment& now, const Past& past) 
   return faulty;
 }
 
+void Injector::reserve(std::size_t faults) {
+  faults_.reserve(faults);
+  memory_.reserve(faults);
+}
+
+void Injector::pose(const Datasheet& datasheet, const SensorModel& model, const Fault* faults, int count,
+                    std::uint64_t seed) noexcept {
+  datasheet_ = datasheet;
+  model_ = model;
+  faults_.assign(faults, faults + count);
+  memory_.assign(static_cast<std::size_t>(count), FaultMemory{});
+  seed_ = seed;
+}
+
 void Injector::remember(int fault, const FaultMemory& memory) noexcept {
   if (fault >= 0 && static_cast<std::size_t>(fault) < memory_.size()) memory_[static_cast<std::size_t>(fault)] = memory;
 }

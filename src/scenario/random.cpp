@@ -2,6 +2,9 @@
 
 #include <Random123/philox.h>
 
+#include <cstring>
+
+#include "philox_many.hpp"
 #include "plumb/scenario/portable_math.hpp"
 
 namespace plumb {
@@ -56,6 +59,15 @@ double unit_of(std::uint64_t word) noexcept { return static_cast<double>(word >>
 /// In (0, 1], for logarithms.
 double positive_unit_of(std::uint64_t word) noexcept { return static_cast<double>((word >> 11U) + 1U) * kTwoToMinus53; }
 
+/// Bit 8 of the word becomes the sign of x >= 0, without a branch that half of all numbers would miss.
+double with_sign(double x, std::uint64_t word) noexcept {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits |= (word & 0x100U) << 55U;
+  std::memcpy(&x, &bits, sizeof bits);
+  return x;
+}
+
 /// Attempts share a counter word with the kind. One attempt fails in 1.2 % of cases, so the bound is
 /// never met; it is there to make the loop total.
 constexpr std::uint32_t kMaxAttempts = 1U << 20U;
@@ -90,21 +102,45 @@ double Stream::uniform(std::uint64_t index, double low, double high) const noexc
   return low * (1.0 - u) + high * u;  // this form cannot leave [low, high] by more than rounding
 }
 
-double Stream::normal(std::uint64_t index) const noexcept {
+double Stream::normal(std::uint64_t index) const noexcept { return normal_from(block(index, Kind::normal, 0), index); }
+
+/// `first` is the block of the first attempt.
+double Stream::normal_from(const Block& first, std::uint64_t index) const noexcept {
   // Layer, sign and abscissa come from disjoint bits of one word (the classical code reuses them,
   // which correlates the layer with the value), the ordinate of the wedge test from the other word.
-  for (std::uint32_t attempt = 0; attempt < kMaxAttempts; ++attempt) {
-    const Block b = block(index, Kind::normal, attempt);
+  Block b = first;
+  for (std::uint32_t attempt = 1; attempt <= kMaxAttempts; ++attempt) {
     const auto layer = static_cast<std::size_t>(b.first & 0xFFU);
     const double sign = (b.first & 0x100U) != 0 ? -1.0 : 1.0;
     const double x = unit_of(b.first) * kZiggurat.x[layer];
     if (x < kZiggurat.x[layer + 1]) return sign * x;
-    if (layer == 0) return sign * normal_tail(index, attempt + 1);
+    if (layer == 0) return sign * normal_tail(index, attempt);
     const double bottom = kZiggurat.f[layer];
     const double y = bottom + unit_of(b.second) * (kZiggurat.f[layer + 1] - bottom);
     if (y < half_square_exp(x)) return sign * x;
+    b = block(index, Kind::normal, attempt);
   }
   return 0.0;
+}
+
+void Stream::normals(std::uint64_t first, int count, double* out) const noexcept {
+  constexpr int kAtOnce = 64;
+  PhiloxLanes<std::size_t{kAtOnce}> lanes;
+  const PhiloxKey key = {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32U)};
+  const std::uint32_t selector = static_cast<std::uint32_t>(Kind::normal) << 24U;
+  for (int done = 0; done < count; done += kAtOnce) {
+    const std::uint64_t from = first + static_cast<std::uint64_t>(done);
+    philox_many(from, selector, id_, key, lanes);
+    const int more = count - done < kAtOnce ? count - done : kAtOnce;
+    for (int k = 0; k < more; ++k) {
+      const auto a = static_cast<std::size_t>(k);
+      const Block b = {lanes.first[a], lanes.second[a]};
+      const auto layer = static_cast<std::size_t>(b.first & 0xFFU);
+      const double x = unit_of(b.first) * kZiggurat.x[layer];
+      out[done + k] =
+          x < kZiggurat.x[layer + 1] ? with_sign(x, b.first) : normal_from(b, from + static_cast<std::uint64_t>(k));
+    }
+  }
 }
 
 /// Marsaglia's tail beyond r: exponential with rate r, accepted against the normal density.

@@ -31,6 +31,19 @@ scenario::Fault placed(scenario::Fault fault) {
   return fault;
 }
 
+scenario::AttitudeLaw attitudes_of(const Case& c) {
+  const int stations = kTrustStations + c.stations;
+  if (c.walk == Walk::rolling) return scenario::RollTest{c.inclination_rad, stations, 0.0};
+  if (c.walk == Walk::drilling) {
+    scenario::DrillingPath path;
+    path.stations = stations;
+    path.first.inclination_rad = c.inclination_rad;
+    path.build_rad = rad_from_deg(1.0);
+    return path;
+  }
+  return scenario::RandomStations{stations};
+}
+
 std::string id_of(const SensorArray& array, int i) { return array.row(i).id.data(); }
 
 /// As an array file would say it.
@@ -71,7 +84,7 @@ scenario::Scenario scenario_of(const Case& c) {
   spans.axis_rad = spans.scale;
   out.tool = scenario::draw_tool(datasheet_of(c.array), scenario::derive_seed(c.seed, 0), spans);
   out.gravity_mps2 = kG0_mps2 + c.gravity_error * kGravitySigma_mps2;
-  out.attitudes = scenario::RandomStations{kTrustStations + c.stations};
+  out.attitudes = attitudes_of(c);
   out.rate_hz = kRate_hz;
   out.dwell_s = kStationBlocks * c.config.window / kRate_hz;
   out.move_s = 1.0;
@@ -105,7 +118,14 @@ std::string sentence_of(const Case& c) {
   context.raw = scenario::FaultContext::Raw::acceleration;
   context.raw_unit = "m/s^2";
   std::string text = std::to_string(c.array.size()) + " sensors, " + std::to_string(kTrustStations) +
-                     " stations to earn trust and " + std::to_string(c.stations) + " more: ";
+                     " stations to earn trust and " + std::to_string(c.stations) + " more";
+  if (c.walk != Walk::random) {
+    char where[60];
+    std::snprintf(where, sizeof where, ", %s inclination %g deg",
+                  c.walk == Walk::rolling ? "rolling at" : "drilling from", deg_from_rad(c.inclination_rad));
+    text += where;
+  }
+  text += ": ";
   if (c.faults.empty()) return text + "nothing happens.";
   for (std::size_t k = 0; k < c.faults.size(); ++k) {
     text += (k == 0 ? "" : "; ") + scenario::describe(placed(c.faults[k]), context);

@@ -36,6 +36,42 @@ double miss(const Case& c, int i, int j, int k, const std::array<double, kCapaci
   return std::abs(norm(x) - kG0_mps2) / far;
 }
 
+/// The part of the four readings that no gravity vector explains, in shares of what is far.
+double disagreement(const Case& c, const std::array<int, 4>& four, const std::array<double, kCapacity>& raw) {
+  double sum = 0.0;
+  double square = 0.0;
+  for (std::size_t left = 0; left < 4; ++left) {
+    std::array<Vec3, 3> axis{};
+    std::size_t k = 0;
+    for (std::size_t s = 0; s < 4; ++s) {
+      if (s != left) axis[k++] = c.array.axis(four[s]);
+    }
+    const double det = (left % 2 == 0 ? 1.0 : -1.0) * dot(axis[0], cross(axis[1], axis[2]));
+    sum += det * raw[static_cast<std::size_t>(four[left])];
+    square += det * det;
+  }
+  return std::abs(sum) / (kFarShift * block_sigma(c) * std::sqrt(square));
+}
+
+/// Every four sensors with a faulty one among them disagree by far at each of the stations. Where some four agree, a
+/// monitor must take the length of gravity for what is wrong rather than them.
+bool fours_disagree(const Case& c, SensorSet faulty, const std::vector<std::array<double, kCapacity>>& seen) {
+  const int n = c.array.size();
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      for (int k = j + 1; k < n; ++k) {
+        for (int l = k + 1; l < n; ++l) {
+          if (!faulty.has(i) && !faulty.has(j) && !faulty.has(k) && !faulty.has(l)) continue;
+          for (const auto& raw : seen) {
+            if (disagreement(c, {i, j, k, l}, raw) < 1.0) return false;
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 double parity_shift(const Case& c, int sensor, double bias_mps2) {
@@ -66,6 +102,7 @@ bool told_apart(const Case& c, SensorSet faulty, int from, int until) {
   for (int station = from; station <= until; ++station) {
     seen.push_back(simulator->at(static_cast<std::uint64_t>(kTrustStations + station - 1) * rows).raw);
   }
+  if (!fours_disagree(c, faulty, seen)) return false;
   const int n = c.array.size();
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {

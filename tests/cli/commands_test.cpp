@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "tool_runner.hpp"
@@ -218,7 +219,12 @@ TEST(Monitor, FollowsALogThatGrows) {
   process.interrupt();
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_TRUE(says(outcome.out, {"nominal", "suspect", "1998 samples"})) << outcome.out;
+  EXPECT_TRUE(says(outcome.out, {"nominal", "suspect", " samples"})) << outcome.out;
+  // The interrupt may come before the last rows have been read, but not before those that showed the fault.
+  std::smatch samples;
+  ASSERT_TRUE(std::regex_search(outcome.out, samples, std::regex("([0-9]+) samples"))) << outcome.out;
+  EXPECT_GT(std::stoi(samples[1]), 998);
+  EXPECT_LE(std::stoi(samples[1]), 1998);
 }
 
 TEST(Monitor, FollowIsForFiles) {

@@ -1,7 +1,9 @@
 #include "plumb/detection/isolation.hpp"
 
 #include <gtest/gtest.h>
+
 #include <rapidcheck/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 
@@ -139,6 +141,32 @@ TEST(Isolation, AnAccelerationThatTheOthersShowTooIsNoFaultOfAWeaklyCheckedMembe
     EXPECT_TRUE(answer.norm_void || !shown) << station;
     EXPECT_TRUE(answer.strict.empty()) << station;
   }
+}
+
+/// One sensor is set aside, and the next fault is among those that are left: the level covers it as it does once the
+/// first is latched out.
+// Negative: REQ-121
+TEST(Isolation, TheNextFaultBehindASetAsideSensorIsWithinTheProtectionLevel) {
+  int judged = 0;
+  for (int n = 5; n <= std::min(7, kCapacity); ++n) {
+    Case c(plumb_test::cone_array(n), 31);
+    const SensorSet left = c.array.all().without(0);
+    Isolation latched;
+    latched.pose(c.array, left);
+    std::array<double, kCapacity> fault{};
+    fault[0] = 2.0;
+    for (int station = 0; station < 20; ++station) {
+      fault[2] = 1e-5 * station * kG0_mps2;
+      const BlockEvidence block = c.block(plumb_test::random_direction(c.noise), fault);
+      const ProtectionTerms terms{1, 4.9, 0.0};
+      const FaultSetScan aside = c.isolation.scan({c.array, kGravity, c.limits, block}, left, 1, -1, terms);
+      const FaultSetScan out = latched.scan({c.array, kGravity, c.limits, block}, left, 1, -1, terms);
+      if (!aside.protection_available || !out.protection_available) continue;
+      ++judged;
+      EXPECT_GE(aside.protection_rad, out.protection_rad) << n << " " << station;
+    }
+  }
+  EXPECT_GT(judged, 40);
 }
 
 /// Where the others know the length too badly to deny the acceleration, it is no fault of the precise one either; a

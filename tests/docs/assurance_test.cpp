@@ -2,22 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
+
+#include "house.hpp"
 
 namespace {
 
-const std::filesystem::path kRoot = PLUMB_SOURCE_DIR;
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
+using house::kRoot;
+using house::text_of;
 
 /// First group of every match, "a.b" where there are two.
 std::set<std::string> names(const std::string& text, const std::string& pattern) {

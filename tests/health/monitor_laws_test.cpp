@@ -142,8 +142,13 @@ RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
   }
   const bool excluded = rig.monitor.verdict().excluded == SensorSet::of(faulty);
   RC_CLASSIFY(excluded, "excluded");
-  // Constant, stuck and random faults end excluded, or (rarely) as "cannot tell": never as trusted.
-  if (kind <= 2 && !excluded) RC_ASSERT(rig.monitor.verdict().validity != Validity::valid);
+  // Constant, stuck and random faults end excluded, or (rarely) as "cannot tell"; who scatters from sample to sample
+  // may stay set aside as noisy: with five sensors and more nobody is convicted on the mean of such readings. Never
+  // trusted.
+  if (kind <= 2 && !excluded) {
+    const Verdict& v = rig.monitor.verdict();
+    RC_ASSERT(v.validity != Validity::valid || (kind == 2 && v.set_aside == SensorSet::of(faulty)));
+  }
   if (!excluded) return;
   auto twin = std::make_unique<HealthMonitor>(rig.monitor);
   const Verdict before = rig.monitor.verdict();

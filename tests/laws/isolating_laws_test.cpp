@@ -15,6 +15,10 @@ const LawTool& tool_of(Strata& strata) {
   return tools[slot(strata.digit(static_cast<int>(tools.size())))];
 }
 
+LawOutcome broken(const LawTool& tool, const LawCase& c, int stations, const std::string& how) {
+  return {true, how, {tool.n(), c.faulty().size(), stations}};
+}
+
 std::string said(const LawTool& tool, const LawCase& c, const Verdict& v) {
   return "of " + std::to_string(tool.n()) + " sensors (c = " + std::to_string(tool.plane) + ") " +
          names_of(c.faulty()) + " lied; excluded " + names_of(v.excluded) + ", set aside " + names_of(v.set_aside) +
@@ -52,12 +56,14 @@ std::vector<Readings> separating_stations(const LawTool& tool, LawCase& c, int s
 /// The monitor over these stations: exactly the faulty are out at one of them, and nobody else at any.
 LawOutcome ends_with_the_faulty_out(const LawTool& tool, const LawCase& c, const std::vector<Readings>& stations,
                                     Watch& watch, TrialNoise& noise) {
+  int played = 0;
   for (const Readings& y : stations) {
     const Verdict& v = watch.station(c.with_noise(y, noise));
+    ++played;
     if (v.excluded == c.faulty()) return {};
     if (!c.faulty().contains(v.excluded)) break;
   }
-  return {true, said(tool, c, watch.verdict())};
+  return broken(tool, c, played, said(tool, c, watch.verdict()));
 }
 
 MonitorConfig patient() {
@@ -106,6 +112,7 @@ TEST(Law, ThreeWithTheirNumberAssertedFaultsInLeagueAreExcludedAndNobodyElse) {
 }
 
 /// Beyond every grade nothing is guaranteed but patience: E stations before anybody is latched out, and rarely wrong.
+/// With E = 1 three survivors, who have no parity, still need two; how often that is wrong is not asserted.
 TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
   static std::uint64_t hasty = 0, contradicted = 0, not_failed = 0, wrong = 0;
   hasty = contradicted = not_failed = wrong = 0;
@@ -115,20 +122,23 @@ TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
     const Lie lie = strata.of(std::array<Lie, 3>{Lie::constant, Lie::stuck, Lie::random});
     const double gravity = strata.of(std::array<double, 5>{0.0, 1.0, -1.0, 3.0, -3.0});
     const int m = tool.strict() + 1 + strata.digit(tool.n() - tool.strict() - 1);
+    MonitorConfig config;
+    const int key = noise.below(4) == 0 ? 1 : 0;
+    if (key == 1) config.isolation_stations = 1;
     LawCase c(tool.tool, LawCase::some(tool.n(), m, noise), lie, gravity);
     c.least_mps2 = 10.0 * kTrialSigma_mps2;
     c.draw(noise);
-    const MonitorConfig config;
-    Watch watch = proven_watch(tool, config, 0, gravity);
+    Watch watch = proven_watch(tool, config, key, gravity);
     bool blamed = false, hurried = false, contradiction = false;
     int first = -1;
     for (int k = 0; k < 10; ++k) {
       const Verdict& v = watch.station(c.with_noise(c.readings(noise.direction(), noise), noise));
       if (first < 0 && !v.excluded.empty()) {
         first = k;
-        hurried = k + 1 < config.isolation_stations;
+        const bool three = v.configured.size() - v.excluded.size() <= 3;
+        hurried = k + 1 < std::max(config.isolation_stations, three ? 2 : 1);
       }
-      blamed = blamed || !c.faulty().contains(v.excluded);
+      blamed = blamed || (key == 0 && !c.faulty().contains(v.excluded));
       contradiction = contradiction || v.transition.event == HealthEvent::contradiction || v.live_hypotheses == 0;
     }
     const Verdict& v = watch.verdict();
@@ -138,9 +148,10 @@ TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
     contradicted += contradiction ? 1U : 0U;
     not_failed += survives ? 1U : 0U;
     if (hurried)
-      return LawOutcome{true, "after " + std::to_string(first + 1) + " stations already: " + said(tool, c, v)};
-    if (survives && !v.alert) return LawOutcome{true, "nothing explains the data, and no alert: " + said(tool, c, v)};
-    return LawOutcome{true, blamed ? "wrongly " + said(tool, c, v) : ""};
+      return broken(tool, c, first, "after " + std::to_string(first + 1) + " stations already: " + said(tool, c, v));
+    if (survives && !v.alert)
+      return broken(tool, c, 10, "nothing explains the data, and no alert: " + said(tool, c, v));
+    return broken(tool, c, 10, blamed ? "wrongly " + said(tool, c, v) : "");
   });
   const auto cases = static_cast<std::int64_t>(count.cases);
   std::printf("law 5: contradiction in %llu, %llu of them neither failed nor excluded anybody\n",
@@ -173,14 +184,15 @@ TEST(Law, SixSmallFaultsExcludeNobodyHealthyAndTheBoundHolds) {
       const bool away = lie == Lie::intermittent && noise.uniform() < 0.5;
       const Readings y = away ? c.healthy_readings(direction) : c.readings(direction, noise);
       const Verdict& v = watch.station(c.with_noise(y, noise));
-      if (!c.faulty().contains(v.excluded)) return LawOutcome{true, said(tool, c, v)};
+      if (!c.faulty().contains(v.excluded)) return broken(tool, c, k, said(tool, c, v));
       const bool usable = v.validity == Validity::valid || v.validity == Validity::degraded;
       if (m > 1 || !usable || !v.protection_available) continue;
       ++bounded;
       const double error = angle_between_rad(v.gravity_mps2, direction);
       if (error > v.protection_level_rad) {
-        return LawOutcome{true, "tilted by " + std::to_string(1e3 * error) + " mrad, bound " +
-                                    std::to_string(1e3 * v.protection_level_rad) + ": " + said(tool, c, v)};
+        return broken(tool, c, k,
+                      "tilted by " + std::to_string(1e3 * error) + " mrad, bound " +
+                          std::to_string(1e3 * v.protection_level_rad) + ": " + said(tool, c, v));
       }
     }
     return LawOutcome{};
@@ -207,7 +219,7 @@ TEST(Law, NineWhatTheParityGradeBearsIsSetAsideAtTheFirstStation) {
     Watch watch = std::abs(gravity) > 3.0 ? fresh_watch(tool, MonitorConfig(), 0)
                                           : proven_watch(tool, MonitorConfig(), 0, gravity);
     const Verdict& v = watch.station(c.with_noise(y, noise));
-    return LawOutcome{true, v.set_aside == c.faulty() ? "" : said(tool, c, v)};
+    return broken(tool, c, 1, v.set_aside == c.faulty() ? "" : said(tool, c, v));
   });
   EXPECT_EQ(count.broken, 0U);
 }

@@ -80,6 +80,7 @@ class LawCase {
  public:
   double least_mps2 = kTrialSigma_mps2;  ///< of a bias
   double most_mps2 = plumb::kG0_mps2;
+  double samples = kTrialSamples;  ///< behind a block's mean: the more, the more what is systematic stands out
 
   LawCase(const TrialTool& tool, plumb::SensorSet faulty, Lie lie, double gravity_sigmas)
       : tool_(&tool), faulty_(faulty), lie_(lie) {
@@ -141,7 +142,7 @@ class LawCase {
     return y;
   }
   /// Sigma of the mean of a block.
-  double block_sigma(int i) const { return tool_->array.sigma_mps2(i) / std::sqrt(kTrialSamples); }
+  double block_sigma(int i) const { return tool_->array.sigma_mps2(i) / std::sqrt(samples); }
   plumb::Readings with_noise(plumb::Readings y, TrialNoise& noise) const {
     const int n = tool_->array.size();
     const auto z = bounded_noise(n, noise);

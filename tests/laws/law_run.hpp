@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "laws/law_case.hpp"
@@ -18,12 +19,21 @@
 namespace plumb_test {
 inline namespace PLUMB_ABI {
 
+/// How much there is to read in a case: the fewest sensors first, then the fewest faults, then the fewest stations.
+struct LawSize {
+  int sensors = 0, faults = 0, stations = 0;
+  bool operator<(const LawSize& other) const {
+    return std::tie(sensors, faults, stations) < std::tie(other.sensors, other.faults, other.stations);
+  }
+};
+
 /// One case: does the law say anything about it, and does it hold?
 struct LawOutcome {
   bool applies = true;
   std::string broken;  ///< empty = held
+  LawSize size;
 };
-inline LawOutcome not_of_this_law() { return {false, ""}; }
+inline LawOutcome not_of_this_law() { return {false, "", {}}; }
 
 inline std::string names_of(plumb::SensorSet set) {
   std::string out = "{";
@@ -47,6 +57,8 @@ LawCount run_law(int law, std::uint64_t wanted, Check&& check) {
   std::uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
   const std::uint64_t end = one != nullptr ? first + 1 : 20 * wanted;
   LawCount count;
+  LawOutcome smallest;
+  std::uint64_t smallest_number = 0;
   std::uint64_t number = first;
   for (; number < end && count.cases < wanted; ++number) {
     TrialNoise noise = stream_of(law, number);
@@ -55,10 +67,18 @@ LawCount run_law(int law, std::uint64_t wanted, Check&& check) {
     ++count.cases;
     if (outcome.broken.empty()) continue;
     ++count.broken;
+    if (count.broken == 1 || outcome.size < smallest.size) {
+      smallest = outcome;
+      smallest_number = number;
+    }
     if (count.broken <= 5) {
       std::printf("law %d is broken: case %llu: %s\n", law, static_cast<unsigned long long>(number),
                   outcome.broken.c_str());
     }
+  }
+  if (count.broken > 0) {
+    std::printf("law %d: the smallest of its broken cases: %s (again: PLUMB_LAW_CASE=%llu)\n", law,
+                smallest.broken.c_str(), static_cast<unsigned long long>(smallest_number));
   }
   const auto bound = count.cases > 0 ? clopper_pearson(static_cast<std::int64_t>(count.broken),
                                                        static_cast<std::int64_t>(count.cases), 0.95)
@@ -84,9 +104,11 @@ inline const std::vector<LawTool>& every_tool() {
   return all;
 }
 
-/// A monitor over a tool, one block mean a step: a station is a sample that stands for 32.
+/// A monitor over a tool, one block mean a step: a station is a sample that stands for 32, or for more.
 class Watch {
  public:
+  double samples = kTrialSamples;
+
   Watch(const LawTool& tool, const plumb::MonitorConfig& config) {
     plumb::MonitorSetup setup;
     setup.array = tool.tool.array;
@@ -101,7 +123,7 @@ class Watch {
     for (int i = 0; i < plumb::kCapacity; ++i) s.raw[slot(i)] = y[slot(i)];
     s.delivered = monitor.array().all();
     s.temperature_degc = 25.0;
-    s.count = static_cast<std::uint32_t>(kTrialSamples);
+    s.count = static_cast<std::uint32_t>(samples);
     s.station = ++tag_;
     s.time_s = time_s_ += 1.0;
     return monitor.step(s);

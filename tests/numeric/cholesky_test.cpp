@@ -170,5 +170,25 @@ RC_GTEST_PROP(CholeskyLaw, ANegativeDirectionIsAlwaysRefused, ()) {
   RC_ASSERT(!cholesky_factor(a.a.data(), a.n, a.stride));
 }
 
+TEST(Cholesky, PackedIsTheSameDigitForDigit) {
+  constexpr int kSize = 7;
+  Matrix a(kSize, 2);
+  std::vector<double> packed, x(kSize), y(kSize);
+  for (int i = 0; i < kSize; ++i) {
+    x[static_cast<std::size_t>(i)] = y[static_cast<std::size_t>(i)] = 1.0 / (i + 1);
+    for (int j = 0; j <= i; ++j) {
+      a(i, j) = i == j ? 3.0 + i : 0.3 * std::sin(1.0 + i * j);
+      packed.push_back(a(i, j));
+    }
+  }
+  ASSERT_TRUE(cholesky_factor(a.a.data(), kSize, a.stride));
+  ASSERT_TRUE(cholesky_factor_packed(packed.data(), kSize));
+  cholesky_solve(a.a.data(), kSize, a.stride, x.data());
+  cholesky_solve_packed(packed.data(), kSize, y.data());
+  EXPECT_EQ(x, y);
+  packed[0] = -1.0;
+  EXPECT_FALSE(cholesky_factor_packed(packed.data(), kSize));
+}
+
 }  // namespace
 }  // namespace plumb

@@ -83,4 +83,15 @@ RC_GTEST_PROP(SymmetricEigenvaluesLaws, TheSameAsJacobiToRoundingOfTheLargest, (
   }
 }
 
+TEST(SymmetricEigenvalues, OfFewAreTheSameDigitForDigit) {
+  for (int n = 1; n <= 2 * plumb::kCapacity; ++n) {
+    std::vector<double> a = drawn_matrix(n, n, 1.0, 7U + static_cast<std::uint64_t>(n)), b = a, x(at(n)), y(at(n));
+    ASSERT_TRUE(plumb::symmetric_eigenvalues(a.data(), n, n, x.data()));
+    ASSERT_TRUE(plumb::symmetric_eigenvalues_of_few(b.data(), n, n, y.data()));
+    EXPECT_EQ(x, y);
+  }
+  std::vector<double> a(4000), values(100);
+  EXPECT_FALSE(plumb::symmetric_eigenvalues_of_few(a.data(), 2 * plumb::kCapacity + 1, 50, values.data()));
+}
+
 }  // namespace

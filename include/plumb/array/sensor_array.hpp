@@ -23,6 +23,11 @@ struct SensorRow {
   SensorId id{};
   Vec3 axis{};              ///< unit vector in the tool frame
   double sigma_mps2 = 0.0;  ///< white noise of one sample, 1 sigma
+
+  /// A monitor that calibrates itself first turns axes.
+  static constexpr auto fields() noexcept {
+    return field_list(not_stored(&SensorRow::id), &SensorRow::axis, &SensorRow::sigma_mps2);
+  }
 };
 
 /// z_p z_q of z = (g, 1), row by row.
@@ -100,12 +105,18 @@ class SensorArray {
 
   const RowUncertainty& uncertainty() const noexcept { return uncertainty_; }
   void set_uncertainty(const RowUncertainty& u) noexcept { uncertainty_ = u; }
+  /// As many rows as there are, in place of those that there are; the uncertainty stays. Errors: those of `make`, and
+  /// nothing has changed.
+  Expected<void> set_rows(const SensorRow* rows) noexcept;
 
  private:
+  void derive() noexcept;
+
   friend struct FieldsOf;
-  /// Axes and noise are configured; only what calibration leaves changes in flight.
+  void rebuild() noexcept;
+  bool plausible() const noexcept;
   static constexpr auto fields() noexcept {
-    return field_list(not_stored(&SensorArray::rows_), not_stored(&SensorArray::triples_),
+    return field_list(per_sensor(&SensorArray::rows_), not_stored(&SensorArray::triples_),
                       not_stored(&SensorArray::form_), &SensorArray::uncertainty_, not_stored(&SensorArray::size_));
   }
 

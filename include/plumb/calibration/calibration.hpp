@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "plumb/calibration/datasheet.hpp"
+#include "plumb/calibration/station_list.hpp"
 #include "plumb/core/sample.hpp"
 #include "plumb/gravity/gravity.hpp"
 
@@ -85,17 +86,14 @@ struct LevelMisfit {
 inline constexpr double kPlausibleMin_degc = -100.0;
 inline constexpr double kPlausibleMax_degc = 400.0;
 
-struct FitReport {
+/// The figures by which a fit is judged.
+struct FitFigures {
   int stations = 0;         ///< used: outliers left out
   int parameters = 0;       ///< 4n
   int rank = 0;             ///< of the prior-scaled information of the data alone
   int gauge = 0;            ///< of the missing rank: common rotations (3, or 1 where roll groups see the others)
   int null_directions = 0;  ///< number beyond the gauge; at most kMaxNullDirections are kept
-  std::array<NullDirection, kMaxNullDirections> null_direction{};
-  double condition = 0.0;  ///< of the observable block, in prior units: ratio of its extreme singular values
-  std::array<double, kFitParameters> sigma{};  ///< posterior 1 sigma, gauge removed (W dimensionless, b in m/s^2)
-  std::array<double, kFitParameters>
-      data_share{};  ///< 1 - (sigma_post/sigma_prior)^2: 1 = from data, 0 = from the datasheet
+  double condition = 0.0;   ///< of the observable block, in prior units: ratio of its extreme singular values
   /// 1 sigma of what calibration leaves in a reading, misfit included: RowUncertainty::at(i, i, g), mean over the
   /// sphere.
   std::array<double, kCapacity> e_cal_mps2{};
@@ -109,8 +107,7 @@ struct FitReport {
   double excitation = 0.0;            ///< least eigenvalue of the Gram matrix of the 9 harmonics, uniform sphere = 1
   double temperature_min_degc = 0.0;  ///< span of the stations: beyond it by > 5 degC a monitor confirms nothing
   double temperature_max_degc = 0.0;
-  int outliers = 0;  ///< stations left out; at most kMaxOutliers are kept, in order
-  std::array<Outlier, kMaxOutliers> outlier{};
+  int outliers = 0;           ///< stations left out; at most kMaxOutliers are kept, in order
   int clipped = 0;            ///< readings at or beyond the full scale, left out
   SensorSet clipped_sensors;  ///< whose they were
   int roll_groups = 0;        ///< groups of stations that share an inclination
@@ -141,6 +138,14 @@ struct FitReport {
   FitStart start = FitStart::datasheet;  ///< where it really started
   int iterations = 0;
   StopReason stop = StopReason::none;
+};
+
+struct FitReport : FitFigures {
+  std::array<NullDirection, kMaxNullDirections> null_direction{};
+  std::array<double, kFitParameters> sigma{};  ///< posterior 1 sigma, gauge removed (W dimensionless, b in m/s^2)
+  std::array<double, kFitParameters>
+      data_share{};  ///< 1 - (sigma_post/sigma_prior)^2: 1 = from data, 0 = from the datasheet
+  std::array<Outlier, kMaxOutliers> outlier{};
 };
 
 /// An accepted calibration: the model turns raw values into m/s^2, the array says along which axes and
@@ -177,10 +182,20 @@ struct FitOptions {
   double roll_wobble_rad = 0.0;   ///< 1 sigma by which the inclination differs from roll to roll
 };
 
+/// What a fit of biases and scales says where the axes are held: as much of a `Calibration` as changes.
+struct HeldFit {
+  std::array<double, kCapacity> length{};     ///< |W|: the new scale over the nominal one
+  std::array<double, kCapacity> bias_mps2{};  ///< b, in the sense in which the sensor reads
+  int rank = 0;
+  int degrees_of_freedom = 0;
+  double chi2 = 0.0;
+  double p_value = 1.0;
+};
+
 namespace fit {
 struct Problem;
 struct Sums;
-struct RollSums;
+struct Room;
 struct Fitted;
 }  // namespace fit
 
@@ -192,6 +207,9 @@ class Calibrator {
 
   /// One iteration over the given stations (always the same ones until `done`).
   void iterate(const Station* stations, int count) noexcept;
+  /// The same for a fit whose axes are all held (prior `axis_rad` 0) and whose stations have no roll groups: the same
+  /// digits on a small stack. Of at most 32 stations.
+  void iterate_held(const StationList& stations) noexcept;
   bool done() const noexcept { return stop_ != StopReason::none; }
   int iterations() const noexcept { return iterations_; }
   const GravityReference& gravity() const noexcept { return gravity_; }
@@ -215,26 +233,46 @@ class Calibrator {
   /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
   /// called again.
   Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) const noexcept;
+  /// `finish` after `iterate_held`: the same judgement without the covariance, on a small stack. The datasheet must
+  /// hold the rows of an array that `SensorArray::make` has accepted. `out` is filled where the fit itself came to an
+  /// end.
+  Error finish_held(const StationList& stations, HeldFit& out) const noexcept;
 
  private:
   /// What the iterations are at: plain least squares; the two losses that find the outliers; least squares without.
   enum class Phase : std::uint8_t { start, squares, huber, tukey, screened };
 
   void find_start(const Station* stations, int count) noexcept;
+  template <class Count>
   bool weigh(const fit::Problem& problem, const std::array<double, kFitParameters>& natural) noexcept;
   /// Symmetric, lower triangle, stride 4n. Needed within one iteration alone and so on the stack, not in the state.
   using Information = std::array<double, std::size_t{kFitParameters} * kFitParameters>;
 
+  fit::Sums accumulate_best(const fit::Problem& problem, std::array<double, kFitParameters>& natural, double* blocks,
+                            std::array<double, kFitParameters>& rhs, const fit::Room& room) noexcept;
+  template <class Matrix>
   bool step_from(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
-                 const std::array<double, kFitParameters>& rhs, const double* blocks, const fit::RollSums& roll,
-                 Information& normal) noexcept;
+                 const std::array<double, kFitParameters>& rhs, const double* blocks, const fit::Room& room,
+                 const Matrix& normal) noexcept;
+  bool step_alone(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
+                  const std::array<double, kFitParameters>& rhs, const double* blocks) noexcept;
+  bool solve(const fit::Problem& problem, std::array<double, kFitParameters>& natural, fit::Sums& sums,
+             const fit::Room& room) noexcept;
+  /// `Count` counts the stations.
+  template <class Count>
+  void iterate_over(const fit::Problem& problem, const fit::Room& room) noexcept;
   bool goes_down(double cost, bool finite) noexcept;
   bool settled(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
                double relative) const noexcept;
-  bool misfit_changed(const fit::Sums& sums, Information& factor) noexcept;
+  bool misfit_changed(const fit::Sums& sums, double* factor) noexcept;
+  template <class Count>
   bool advance(const fit::Problem& problem, const std::array<double, kFitParameters>& natural, const fit::Sums& sums,
-               bool weights_settled, Information& factor) noexcept;
+               bool weights_settled, double* factor) noexcept;
 
+  int screen_out(StationList& stations) const noexcept;
+  Error refused_held(const StationList& stations, FitFigures& figures) const noexcept;
+  Error judge_held(const StationList& stations, const fit::Fitted& fitted, FitFigures& figures) const noexcept;
+  bool describe_held(const StationList& stations, fit::Fitted& fitted, FitFigures& figures) const noexcept;
   Error refused(const Station* stations, int count, FitReport& report) const noexcept;
   bool describe(const fit::Problem& problem, fit::Fitted& fitted, Information& covariance,
                 FitReport& report) const noexcept;

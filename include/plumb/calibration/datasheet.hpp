@@ -37,7 +37,12 @@ struct Datasheet {
 
   SensorModel model() const noexcept;            ///< nominal coefficients, no misalignment
   Expected<SensorArray> array() const noexcept;  ///< nominal axes, checked
+  /// What the priors leave in every reading, told as if a calibration had left it: the sensors apart from each other.
+  RowUncertainty uncertainty() const noexcept;
 };
+
+/// The other way round: of sensor i of an array with such an uncertainty. Temperature terms are not in it.
+Prior prior_in(const SensorArray& array, int i) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

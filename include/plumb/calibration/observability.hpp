@@ -19,6 +19,10 @@ struct SeenAttitude {
   double samples = 1.0;  ///< behind the mean
 };
 
+/// How well the attitudes tell the nine harmonics apart that the length of gravity is judged by: the least eigenvalue
+/// of their Gram matrix, 1 for the uniform sphere, 0 for attitudes in one plane or fewer than nine of them.
+double excitation_of(const Vec3* direction, int count) noexcept;
+
 /// Bins of 5 deg between 0 and 180 deg; inclinations in one bin or in two neighbours count as one.
 inline constexpr int kInclinationBins = 37;
 

@@ -16,7 +16,7 @@ namespace crc64_detail {
 
 constexpr std::array<std::uint64_t, 16> table() noexcept {
   std::array<std::uint64_t, 16> out{};
-  for (std::uint64_t nibble = 0; nibble < 16; ++nibble) {
+  for (std::size_t nibble = 0; nibble < out.size(); ++nibble) {
     std::uint64_t rest = nibble;
     for (int bit = 0; bit < 4; ++bit) rest = (rest >> 1U) ^ ((rest & 1U) != 0 ? 0xC96C5795D7870F42ULL : 0ULL);
     out[nibble] = rest;
@@ -31,8 +31,8 @@ class Crc64 {
  public:
   void add(std::uint8_t byte) noexcept {
     // Four bits at a time: a table of 128 bytes, not one of 2 KiB.
-    state_ = (state_ >> 4U) ^ crc64_detail::kTable[(state_ ^ byte) & 15U];
-    state_ = (state_ >> 4U) ^ crc64_detail::kTable[(state_ ^ (byte >> 4U)) & 15U];
+    state_ = (state_ >> 4U) ^ crc64_detail::kTable[static_cast<std::size_t>((state_ ^ byte) & 15U)];
+    state_ = (state_ >> 4U) ^ crc64_detail::kTable[static_cast<std::size_t>((state_ ^ (byte >> 4U)) & 15U)];
   }
   void add(const std::uint8_t* bytes, std::size_t count) noexcept {
     for (std::size_t k = 0; k < count; ++k) add(bytes[k]);

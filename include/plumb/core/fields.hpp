@@ -20,8 +20,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "plumb/core/sensor_set.hpp"
 
@@ -108,9 +108,26 @@ template <class F, class C>
 constexpr auto only_when(F field, bool (C::*holds)() const noexcept) noexcept {
   return field_detail::extended(field_detail::as_field(field), OnlyWhen<C>{holds});
 }
+
+/// A flat list: a std::tuple of a hundred members costs every file that sees one a second to compile.
+template <std::size_t I, class F>
+struct FieldSlot {
+  F field;
+};
+template <class Indices, class... F>
+struct FieldList;
+template <std::size_t... I, class... F>
+struct FieldList<std::index_sequence<I...>, F...> : FieldSlot<I, F>... {
+  constexpr explicit FieldList(F... field) noexcept : FieldSlot<I, F>{field}... {}
+  template <class Visitor>
+  constexpr void each(const Visitor& visit) const noexcept {
+    (visit(FieldSlot<I, F>::field), ...);
+  }
+};
 template <class... F>
 constexpr auto field_list(F... field) noexcept {
-  return std::make_tuple(field_detail::as_field(field)...);
+  return FieldList<std::index_sequence_for<F...>, decltype(field_detail::as_field(field))...>(
+      field_detail::as_field(field)...);
 }
 
 /// The way to the lists, which are private where the members are.
@@ -152,33 +169,48 @@ constexpr std::size_t rounded_up(std::size_t size, std::size_t alignment) noexce
 }
 
 /// sizeof(T), were the members in the list all that T has.
-template <class T>
-constexpr std::size_t laid_out_size() noexcept {
+template <class T, class Indices, class... F>
+constexpr std::size_t laid_out_size(const FieldList<Indices, F...>*) noexcept {
   std::size_t end = 0;
-  const auto lay = [&end](auto field) {
-    using Member = typename decltype(field)::Member;
-    end = rounded_up(end, alignof(Member)) + sizeof(Member);
-  };
-  std::apply([&lay](auto... field) { (lay(field), ...); }, FieldsOf::list<T>());
+  ((end = rounded_up(end, alignof(typename F::Member)) + sizeof(typename F::Member)), ...);
   return rounded_up(end, alignof(T));
 }
+
+template <class T>
+using ListOf = decltype(FieldsOf::list<T>());
 
 }  // namespace field_detail
 
 /// Bytes that a value takes in a snapshot: a scalar its own size (an enumeration that of its numbers, a bool one, a set
 /// four), and never more than `stored_size_max` for all else.
 template <class T>
+constexpr std::size_t stored_size_max() noexcept;
+
+namespace field_detail {
+
+template <class C, class M, class Check, class Extent>
+constexpr std::size_t field_size_max(const Field<C, M, Check, Extent>*) noexcept {
+  if constexpr (std::is_same_v<Extent, NotStored>) {
+    return 0;
+  } else {
+    return stored_size_max<M>();
+  }
+}
+template <class Indices, class... F>
+constexpr std::size_t list_size_max(const FieldList<Indices, F...>*) noexcept {
+  return (std::size_t{0} + ... + field_size_max(static_cast<const F*>(nullptr)));
+}
+
+}  // namespace field_detail
+
+template <class T>
 constexpr std::size_t stored_size_max() noexcept {
   if constexpr (kHasFields<T>) {
     // What no size betrays, a small member that lies in padding, a test of the snapshot finds.
-    static_assert(field_detail::laid_out_size<T>() == sizeof(T), "a member of this class is missing in its fields()");
-    std::size_t sum = 0;
-    const auto add = [&sum](auto field) {
-      using F = decltype(field);
-      if constexpr (!std::is_same_v<decltype(F::extent), NotStored>) sum += stored_size_max<typename F::Member>();
-    };
-    std::apply([&add](auto... field) { (add(field), ...); }, FieldsOf::list<T>());
-    return sum;
+    constexpr field_detail::ListOf<T>* kList = nullptr;
+    static_assert(field_detail::laid_out_size<T>(kList) == sizeof(T),
+                  "a member of this class is missing in its fields()");
+    return field_detail::list_size_max(kList);
   } else if constexpr (kIsArray<T>) {
     return std::tuple_size_v<T> * stored_size_max<typename T::value_type>();
   } else {
@@ -203,7 +235,8 @@ void transfer_some(Archive& archive, T& array, const Check& check, int count) no
 template <class Archive, class T, class F>
 void transfer_field(Archive& archive, T& object, const F& field) noexcept {
   using Extent = decltype(F::extent);
-  auto& member = object.*(field.member);
+  // The analyser does not follow a value into a base class that a pack expands to.
+  auto& member = object.*(field.member);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult)
   if constexpr (std::is_same_v<Extent, Whole>) {
     transfer(archive, member, field.check);
   } else if constexpr (std::is_same_v<Extent, Leading>) {
@@ -223,9 +256,8 @@ template <class Archive, class T, class Check>
 void transfer(Archive& archive, T& object, const Check& check) noexcept {
   using Object = std::remove_const_t<T>;
   if constexpr (kHasFields<Object>) {
-    std::apply(
-        [&archive, &object](const auto&... field) { (field_detail::transfer_field(archive, object, field), ...); },
-        FieldsOf::list<Object>());
+    FieldsOf::list<Object>().each(
+        [&archive, &object](const auto& field) { field_detail::transfer_field(archive, object, field); });
     archive.done(object);
   } else if constexpr (kIsArray<Object>) {
     for (auto& element : object) transfer(archive, element, check);

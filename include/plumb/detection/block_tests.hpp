@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "plumb/detection/set_test.hpp"
 
@@ -20,8 +21,12 @@ class BlockTests {
   const TestLimits& limits() const noexcept { return limits_; }
   const BlockEvidence& block() const noexcept { return block_; }
 
+  /// Up to four sensors every set has a place of its own, and what was told of it stays: no copy on the stack. Else a
+  /// later set may take the place of an earlier one.
+  static constexpr bool kOwnPlaces = kCapacity <= 4;
+  using Told = std::conditional_t<kOwnPlaces, const SetTest&, SetTest>;
   /// `test_set` of the set at the block.
-  SetTest of(SensorSet set) const noexcept;
+  Told of(SensorSet set) const noexcept;
 
   /// True where `set`, which passes parity, may speak about gravity: the parity of the others checks every member
   /// (leverage of at least 0.05), or the others do not deny it: the length is off without that member too, or may be,
@@ -30,8 +35,11 @@ class BlockTests {
   bool vouches_for_norm(SensorSet set, const SetTest& test) const noexcept;
 
  private:
-  /// Enough for the whole set and every set without one sensor, each mostly in a place of its own.
-  static constexpr unsigned kPlacesLog2 = kCapacity <= 4 ? 3 : kCapacity <= 8 ? 4 : 5;
+  /// Enough for the whole set and every set without one sensor, each mostly in a place of its own. Of four sensors
+  /// these are all that can be tested; one place more is for those that cannot.
+  static constexpr unsigned kPlacesLog2 = kCapacity <= 8 ? 4 : 5;
+  static constexpr std::size_t kPlaces = kOwnPlaces ? 6 : std::size_t{1} << kPlacesLog2;
+  static std::size_t place_of(SensorSet set) noexcept;
   struct Place {
     SensorSet set;
     SetTest test;
@@ -41,8 +49,7 @@ class BlockTests {
   const GravityReference& gravity_;
   const TestLimits& limits_;
   const BlockEvidence& block_;
-  /// What was asked before; a later set may take the place of an earlier one.
-  mutable std::array<Place, std::size_t{1} << kPlacesLog2> known_{};
+  mutable std::array<Place, kPlaces> known_{};  ///< what was asked before
 };
 
 }  // namespace PLUMB_ABI

@@ -88,13 +88,14 @@ class Isolation {
   int parity_grade() const noexcept { return parity_; }
 
   /// One station's pooled block: kills what it contradicts and answers. Sets with a member that is not
-  /// usable are not tested and stay alive.
-  IsolationAnswer vote(const BlockTests& tests) noexcept;
+  /// usable are not tested and stay alive, and so do those with a member outside `witnesses`: what a sensor that
+  /// scatters beyond its noise reads on average may be noise, or motion that faulty ones hide by hanging.
+  IsolationAnswer vote(const BlockTests& tests, SensorSet witnesses = SensorSet::first(kCapacity)) noexcept;
 
   /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
   /// protection level is the largest separation from the estimate of `in_service` (solution
-  /// separation) plus `k_integrity` sigmas of noise and calibration, plus what a bias that all sensors share does to
-  /// the direction, |(I - uu') H^+ 1| b / G.
+  /// separation; of those in service alone, too, where some are set aside) plus `k_integrity` sigmas of noise and
+  /// calibration, plus what a bias that all sensors share does to the direction, |(I - uu') H^+ 1| b / G.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                     const ProtectionTerms& protect) const noexcept;
 
@@ -111,7 +112,7 @@ class Isolation {
   bool any_dead() const noexcept;
   bool has_dead_subset(SensorSet set) const noexcept;
   ReferenceDoubt doubt_reference(const BlockTests& tests, ReferenceClaims* record) const noexcept;
-  SensorSet convict_by_parity(const BlockTests& tests) const noexcept;
+  SensorSet convict_by_parity(const BlockTests& tests, SensorSet witnesses) const noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
   ReferenceClaims claims_;

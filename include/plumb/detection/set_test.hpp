@@ -70,6 +70,12 @@ struct SetTest {
 
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;
+/// The same into `out`, which must not have been used.
+void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
+              const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept;
+/// The same as if calibration had left another uncertainty in the rows.
+SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
+                 const TestLimits& limits, const BlockEvidence& block, SensorSet set) noexcept;
 
 /// Covariance of x over the set that calibration leaves at this attitude [(m/s^2)^2]; zero where the
 /// set was not tested.

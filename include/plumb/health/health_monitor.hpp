@@ -39,7 +39,14 @@ struct MonitorSetup {
   Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
   std::array<Vec3, kCapacity> lever_arm_m{};       ///< of each sensor from the axis of rotation, tool frame
   bool lever_arms_known = false;                   ///< else evidence is locked out while the tool turns
+  /// False: there is no calibration yet, the monitor makes its own (`set_datasheet`). Model and axes are then the
+  /// datasheet's, and the array's uncertainty is how far a sensor may be from it, 1 sigma.
+  bool calibrated = true;
 };
+
+/// A monitor that is to calibrate itself: fills in model, array, ranges and codes, and says `calibrated = false`.
+/// Errors: those of `Datasheet::array`.
+Expected<void> set_datasheet(const Datasheet& datasheet, MonitorSetup& setup) noexcept;
 
 /// What was not used, and why.
 struct MonitorCounters {
@@ -62,16 +69,20 @@ struct MonitorCounters {
 Expected<void> plausible(const GravityReference& gravity) noexcept;
 
 /// Checks a setup but for its configuration. Errors: too_few_sensors; not_calibrated; range_too_small; out_of_range
-/// (index = sensor whose sigma is too large beside the least); implausible_gravity.
+/// (index = sensor whose sigma is too large beside the least); implausible_gravity; implausible where there is no
+/// calibration (index = sensor of whose bias, scale or axis the uncertainty is below
+/// `Recalibration::kLeastOpen` or beyond
+/// `Recalibration::kMostOpen`: value, limit).
 Expected<void> checked(const MonitorSetup& setup) noexcept;
 
 class HealthMonitor {
  public:
   HealthMonitor() noexcept = default;
 
-  /// Checks the setup and powers on: suspect, unproven. On an error the monitor is left unconfigured
-  /// and every step answers `invalid`. Errors: wrong_mode (paper); those of `checked(config)`; too_few_sensors;
-  /// not_calibrated (misalignment terms left in the model, or its size is not the array's);
+  /// Checks the setup and powers on: suspect, unproven; recalibrating, qualifier initial_calibration, where the setup
+  /// has no calibration: output is invalid until the monitor has accepted its own. On an error the monitor is left
+  /// unconfigured and every step answers `invalid`. Errors: wrong_mode (paper); those of `checked(config)`;
+  /// too_few_sensors; not_calibrated (misalignment terms left in the model, or its size is not the array's);
   /// range_too_small (index = sensor) where a full scale does not reach gravity plus
   /// kFullScaleMargin beside the bias (value = reach, limit = needed [m/s^2]).
   Expected<void> configure(const MonitorSetup& setup) noexcept;
@@ -128,6 +139,9 @@ class HealthMonitor {
   const SensorArray& array() const noexcept { return array_; }
   const SensorModel& model() const noexcept { return model_; }
   const Recalibration& recalibration() const noexcept { return recalibration_; }
+  /// Sensors whose calibration has been accepted: all, or those in service when the monitor made its own. The others do
+  /// not serve any more.
+  SensorSet calibrated() const noexcept { return calibrated_; }
   const MonitorConfig& config() const noexcept { return config_; }
   const ChannelMonitor& channels() const noexcept { return gate_; }
   const CombinationMae& mae() const noexcept { return mae_; }
@@ -140,6 +154,7 @@ class HealthMonitor {
       bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) | bit(HealthEvent::reference);
 
   // health_monitor.cpp: the flow of one step
+  void derive_limits() noexcept;
   void power_on(const MonitorSetup& setup) noexcept;
   void empty_windows() noexcept;
   void refuse(const Sample& sample) noexcept;
@@ -200,6 +215,9 @@ class HealthMonitor {
   EventMask advance_recalibration(double time_s) noexcept;
   SensorSet serve_fit(Action::Bits actions) noexcept;
   void adopt() noexcept;
+  void follow_first_calibration(Mode from) noexcept;
+  void take_span(const StationStore& store) noexcept;
+  bool owes_calibration() const noexcept { return calibrated_.empty(); }
   void follow_suspicion(HealthEvent event, Mode from) noexcept;
   Mode published_mode() const noexcept { return mode_ == Mode::recalibrating ? base_ : mode_; }
 
@@ -208,12 +226,14 @@ class HealthMonitor {
   SensorSet carry_out(const Decision& decision, const DecisionState& after) noexcept;  // the sensors that it names
   void forget_episode() noexcept;
   void sets_changed() noexcept;
+  void judge_again(const BlockTests& tests) noexcept;
   SizeClass classify(SensorSet set) const noexcept;
 
   // snapshot.cpp: what outlives a power cycle
   std::uint64_t identity(const MonitorSetup& setup) const noexcept;
   Expected<void> take_up(const MonitorSetup& setup, const std::uint8_t* bytes, std::size_t size) noexcept;
   bool resume(const MonitorSetup& setup) noexcept;
+  bool calibration_is_plausible(const MonitorSetup& setup) const noexcept;
   bool sets_are_plausible() const noexcept;
   bool mode_is_plausible() const noexcept;
   bool verdict_is_plausible() const noexcept;
@@ -240,6 +260,7 @@ class HealthMonitor {
   int live_ = 0;                                 ///< voting sets alive
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_, banned_;
+  SensorSet calibrated_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
@@ -265,6 +286,8 @@ class HealthMonitor {
   bool recalibration_asked_ = false, recalibration_due_ = false;  ///< by the host; by the policy, after an exclusion
   bool three_sensor_fit_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
+  /// Calibrated span: as configured, else that of the stations of the monitor's own calibration.
+  double temperature_min_degc_ = 0.0, temperature_max_degc_ = 0.0;
 
   // Facts about single channels.
   std::array<Cause, kCapacity> sensor_cause_{};
@@ -312,14 +335,15 @@ class HealthMonitor {
         within(&M::asserted_left_, -1, 3), not_stored(&M::configured_), not_stored(&M::identity_),
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
-        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::banned_, &M::unproven_,
-        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::evidence_time_s_,
-        &M::last_temperature_degc_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_,
-        within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks),
-        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_,
-        &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
-        up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
-        &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_,
+        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::banned_, &M::calibrated_,
+        &M::unproven_, &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_,
+        &M::evidence_time_s_, &M::last_temperature_degc_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_,
+        &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
+        within(&M::clean_run_, 0, kMostCleanBlocks), per_sensor(&M::least_prediction_),
+        per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_, &M::on_probation_, &M::reset_sensors_,
+        &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
+        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
+        &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
         within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
         per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
         &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_, not_stored(&M::lever_arms_known_),

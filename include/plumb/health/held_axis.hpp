@@ -5,20 +5,27 @@
 #include <array>
 
 #include "plumb/array/sensor_array.hpp"
-#include "plumb/calibration/datasheet.hpp"
+#include "plumb/core/station_mean.hpp"
 #include "plumb/gravity/gravity.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+/// 1 sigma of what was known of a sensor before the fit.
+struct HeldPrior {
+  double bias_mps2 = 0.0;
+  double scale = 0.0;  ///< relative
+};
+
 struct HeldAxisFit {
-  SensorSet sensors;                ///< the fitted ones
-  const Vec3* direction = nullptr;  ///< unit vectors of gravity at the stations of the fit
+  SensorSet sensors;                     ///< the fitted ones
+  const StationMean* station = nullptr;  ///< those of the fit, for their directions of gravity
   int count = 0;
+  int left_out = 0;                            ///< of so many stations the last is no part of the fit; 0: all are
   std::array<double, kCapacity> sigma_mps2{};  ///< of a station's reading, per sensor of the array: gave the weights
   double noise_share = 1.0;  ///< of sigma^2 that is drawn anew at every station, at most; the rest are the held axes
-  std::array<Prior, kCapacity> prior{};  ///< bias and scale that went into the fit; both above zero
-  double inflation = 1.0;                ///< of the fit's own covariance
+  std::array<HeldPrior, kCapacity> prior{};  ///< bias and scale that went into the fit; both above zero
+  double inflation = 1.0;                    ///< of the fit's own covariance
 };
 
 /// New uncertainty = T old T' + fit. T keeps the part of every axis error across its axis, drops the old bias and

@@ -3,6 +3,10 @@
 /// calibration because gravity cannot tell a common turn of the axes from none: a fit that is free to turn them
 /// launders a shifted mount, one with frozen axes shows it in the parity residual (design, section 5).
 /// A calibration that the host brings goes the same way, with its biases and scales in the place of the fitted ones.
+///
+/// The first calibration of a monitor that was given none goes the same way too, but is a full fit: axes, scales and
+/// biases, the datasheet as prior, the axes turned onto the datasheet's (recalibration_first.cpp). What it cannot see
+/// is told in docs/guide.md: a constant error of a sensor is what it takes off.
 #pragma once
 
 #include <array>
@@ -48,8 +52,19 @@ class Recalibration {
   static constexpr double kOfferAxis_rad = 2e-4;
   static constexpr double kOfferLife_s = 24.0 * 3600.0;  ///< on trial no longer than that
 
-  /// Remembers the commissioning calibration. Empties everything.
-  void configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad) noexcept;
+  /// The first calibration: part of what the datasheet leaves open that the stations must have settled, for every
+  /// parameter; how far a parameter may be from the datasheet [its sigmas]; how well the attitudes must tell the nine
+  /// harmonics apart (`excitation_of`: 0.01 for a half sphere, below 2e-4 for a band of 5 deg about one plane).
+  static constexpr double kFirstSigmas = 5.0;
+  static constexpr double kFirstExcitation = 2e-3;
+  /// The uncertainty of a datasheet is taken for small: tests and covariances are linear in it.
+  static constexpr double kLeastOpen = 1e-6;  ///< m/s^2, relative, rad: less is no prior but a claim to know
+  static constexpr Prior kMostOpen = {0.1 * kG0_mps2, 0.1, 0.1, {}, {}};
+
+  /// Remembers the commissioning calibration. Empties everything. `first`: there is none, `commissioning` is the
+  /// datasheet; the calibration that is adopted first becomes the commissioning one.
+  void configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad,
+                 bool first = false) noexcept;
 
   // ---- The store
   /// A block that was clean, of a station that has just begun or goes on. Ignored while a fit runs over the store.
@@ -85,7 +100,12 @@ class Recalibration {
              bool doubted) noexcept;
 
   SensorSet sensors() const noexcept { return sensors_; }
-  bool adopted() const noexcept { return adopted_; }  ///< a fit, since `configure`
+  bool first() const noexcept { return first_; }      ///< no calibration has been accepted yet
+  bool adopted() const noexcept { return adopted_; }  ///< a fit in flight, since the commissioning calibration
+  bool collects(SensorSet sensors) const noexcept { return phase_ != RecalibrationPhase::idle && sensors_ == sensors; }
+  /// A model with the coefficients of the commissioning calibration, temperature terms left alone.
+  SensorModel commissioned(const SensorModel& like) const noexcept;
+  bool commissioned_as(const SensorModel& model) const noexcept;
   RecalibrationProgress progress(const SensorArray& array) const noexcept;
   std::uint32_t iterations() const noexcept { return iterations_; }  ///< of all fits since `configure`
   /// Stations to be entered before a fit over n sensors is tried, those held out among them.
@@ -95,21 +115,44 @@ class Recalibration {
   /// used: coefficients beyond the bounds of a fit, or a fit over nothing.
   bool resume(const InForce& in_force) noexcept;
 
+  /// Stations to be entered before the first fit over n sensors is tried, those held out among them.
+  static int first_stations_needed(int n) noexcept;
+  /// How far one calibration is from a datasheet with that array's uncertainty: `implausible` (index = sensor) beyond
+  /// kFirstSigmas of a bias, a scale or an axis.
+  static Error off_datasheet(const SensorModel& datasheet, const SensorArray& uncertain, const SensorModel& model,
+                             const SensorArray& array, SensorSet sensors) noexcept;
+
  private:
   struct ReadingError {
     double noise_mps2_sq = 0.0, total_mps2_sq = 0.0;
   };
-  using Stations = std::array<Station, StationStore::kMax>;
   static constexpr int kOfferSize = kCapacity * (2 * kCapacity + 1);
 
-  int fit_stations(Stations& out) const noexcept;
+  using Stations = std::array<Station, StationStore::kMax>;
+
+  StationList fit_stations() const noexcept;
+  int copy_stations(Stations& out) const noexcept;
+  void iterate_first() noexcept;
+  void begin_fit(const InForce& in_force) noexcept;
   ReadingError reading_error(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
   Datasheet datasheet(const InForce& in_force) const noexcept;
   bool uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
                           SensorSet& lacking) const noexcept;
   bool ready(const InForce& in_force) noexcept;
   bool is_proof(int station) const noexcept { return offered() || StationStore::held_out(station); }
-  int stations_due() const noexcept { return offered() ? kOfferStations : stations_needed(sensors_.size()); }
+  int stations_due() const noexcept {
+    if (offered()) return kOfferStations;
+    return first_ ? first_stations_needed(sensors_.size()) : stations_needed(sensors_.size());
+  }
+  FitOptions options() const noexcept;
+  void commission(const SensorModel& model) noexcept;
+  bool attitudes_suffice(const SensorArray& array) noexcept;
+  Outcome judge_first(const InForce& in_force) noexcept;
+  Error check_first(const InForce& in_force) noexcept;
+  Error check_figures(const FitReport& report) noexcept;
+  bool install(const Calibration& fit, SensorModel& model, SensorArray& array) const noexcept;
+  void apply_first(SensorModel& model, SensorArray& array, double time_s) noexcept;
+  bool resume_first(const InForce& in_force) noexcept;
   Outcome examine_offer(const InForce& in_force, double time_s) noexcept;
   Error read_offer(const InForce& in_force, const SensorModel& model, const SensorArray& array, int i) noexcept;
   void keep_offered_covariance(const SensorArray& array) noexcept;
@@ -121,11 +164,14 @@ class Recalibration {
   Error read_fit(const InForce& in_force) noexcept;
   Error check_bounds(const SensorModel& model, double time_s) const noexcept;
   bool coefficients_are_plausible(const SensorModel& model) const noexcept;
-  Error check_stations(const InForce& in_force) const noexcept;
+  Error check_fit(const InForce& in_force) const noexcept;
+  Error try_stations(const InForce& in_force, const RowUncertainty& uncertainty) const noexcept;
+  Error check_stations(const InForce& candidate, const RowUncertainty& uncertainty) const noexcept;
   void write_coefficients(SensorModel& model) const noexcept;
   using Change = std::array<double, std::size_t{4} * kCapacity>;  ///< of W and b of every sensor
   Change whole_change(const SensorArray& array) const noexcept;
   Change unseen_by_parity(const SensorArray& array, const Change& change) const noexcept;
+  void doubt_change(const SensorArray& array, bool whole, RowUncertainty& uncertainty) const noexcept;
   static void add_change(const SensorArray& array, const Change& change, RowUncertainty& uncertainty) noexcept;
   Vec3 wanted_direction(const SensorArray& array) const noexcept;
 
@@ -138,6 +184,7 @@ class Recalibration {
   double adopted_s_ = 0.0;
   bool adopted_ = false;
   bool untried_ = false;  ///< the store has changed since the last fit
+  bool first_ = false;
   RecalibrationPhase phase_ = RecalibrationPhase::idle;
   SensorSet sensors_, lacking_;
   std::uint32_t iterations_ = 0;
@@ -149,15 +196,16 @@ class Recalibration {
 
   friend struct FieldsOf;
   bool fitting() const noexcept { return phase_ == RecalibrationPhase::fitting; }
+  bool keeps_fit() const noexcept { return fitting() || (first_ && phase_ == RecalibrationPhase::accepted); }
   int offer_size() const noexcept { return offered_sensors_ * (2 * offered_sensors_ + 1); }
   static constexpr auto fields() noexcept {
     using R = Recalibration;
-    return field_list(&R::store_, not_stored(&R::drift_), not_stored(&R::commissioned_scale_),
-                      not_stored(&R::commissioned_bias_mps2_), per_sensor(any(&R::length_)),
+    return field_list(&R::store_, not_stored(&R::drift_), per_sensor(any(&R::commissioned_scale_)),
+                      per_sensor(any(&R::commissioned_bias_mps2_)), per_sensor(any(&R::length_)),
                       per_sensor(any(&R::shift_mps2_)), any(&R::inflation_), &R::adopted_s_, &R::adopted_, &R::untried_,
-                      up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_, &R::iterations_,
-                      &R::refusal_, within(&R::offered_sensors_, 0, kCapacity), any(&R::offered_s_),
-                      counted(any(&R::offered_covariance_), &R::offer_size), only_when(&R::calibrator_, &R::fitting));
+                      &R::first_, up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_,
+                      &R::iterations_, &R::refusal_, within(&R::offered_sensors_, 0, kCapacity), any(&R::offered_s_),
+                      counted(any(&R::offered_covariance_), &R::offer_size), only_when(&R::calibrator_, &R::keeps_fit));
   }
 };
 

@@ -7,25 +7,12 @@
 
 #include "plumb/core/fields.hpp"
 #include "plumb/core/sample.hpp"
+#include "plumb/core/station_mean.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/core/vec3.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-
-/// Raw means of one block or of one station.
-struct StationMean {
-  std::array<double, kCapacity> raw{};
-  Vec3 direction{};  ///< of gravity, unit vector in the tool frame, by the calibration in force
-  double temperature_degc = 0.0;
-  double samples = 0.0;  ///< N behind the means; 0 = nothing here
-
-  bool plausible() const noexcept { return samples >= 0.0; }
-  static constexpr auto fields() noexcept {
-    using S = StationMean;
-    return field_list(per_sensor(any(&S::raw)), any(&S::direction), any(&S::temperature_degc), &S::samples);
-  }
-};
 
 /// Collects the raw values of one block.
 class RawBlock {
@@ -71,7 +58,11 @@ class StationStore {
   void clear() noexcept;
 
   int size() const noexcept { return size_; }
+  const StationMean* data() const noexcept { return station_.data(); }
   const StationMean& station(int k) const noexcept { return station_[static_cast<std::size_t>(k)]; }
+  /// Cosine of the angle to the nearest station, those that wait to be entered and the one at hand among them; -1
+  /// without any.
+  double nearest_cosine(const Vec3& direction) const noexcept;
   /// A replaced station leaves its part to its successor, so that the share of both stays.
   static constexpr bool held_out(int k) noexcept { return k % kHeldOutStride == kHeldOutStride - 1; }
   int held_out_count() const noexcept { return size_ / kHeldOutStride; }

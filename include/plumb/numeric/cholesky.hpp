@@ -12,6 +12,10 @@ inline namespace PLUMB_ABI {
 /// holds a NaN), and the lower triangle is then not to be used.
 bool cholesky_factor(double* a, int n, int stride) noexcept;
 
+/// The same of a packed lower triangle: entry (i, j), j <= i, at i(i + 1)/2 + j.
+bool cholesky_factor_packed(double* a, int n) noexcept;
+void cholesky_solve_packed(const double* l, int n, double* b) noexcept;
+
 /// Solves A x = b in place, `l` as left by `cholesky_factor`.
 void cholesky_solve(const double* l, int n, int stride, double* b) noexcept;
 

@@ -18,6 +18,8 @@ inline constexpr int kMaxEigenSize = 10 * kCapacity;
 /// destroyed. `values` receives n eigenvalues in ascending order. False where an argument is out of range, an entry is
 /// not finite, or the iteration did not suffice; `values` is then not to be used.
 bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcept;
+/// The same of up to two parameters a sensor, n <= 2 kCapacity, on a small stack.
+bool symmetric_eigenvalues_of_few(double* a, int n, int stride, double* values) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -62,6 +62,12 @@ class Injector {
   SensorSet inject(Sample& sample, const Moment& now, const Past& past) const noexcept;
   void remember(int fault, const FaultMemory& memory) noexcept;
 
+  /// For engines that play one scenario after another: room for so many faults, and then other faults in the place of
+  /// those before, without allocation. They must be such as `check` takes.
+  void reserve(std::size_t faults);
+  void pose(const Datasheet& datasheet, const SensorModel& model, const Fault* faults, int count,
+            std::uint64_t seed) noexcept;
+
  private:
   Injector(const Datasheet& datasheet, const SensorModel& model, std::vector<Fault> faults, std::uint64_t seed,
            const NoiseLaw& converter);

@@ -27,6 +27,7 @@ enum class Purpose : std::uint8_t {
   instability = 8,  ///< slow wander of a bias; sub-stream = sensor
   walk = 9,         ///< random walk of a bias; sub-stream = sensor
   link = 10,        ///< rows that are lost; sub-stream = position in the list of faults
+  campaign = 11,    ///< what happens in a scenario of a campaign
 };
 
 class Stream {
@@ -42,6 +43,8 @@ class Stream {
   double uniform(std::uint64_t index, double low, double high) const noexcept;
   /// Standard normal: Marsaglia and Tsang's ziggurat of 256 layers with 53-bit abscissae and exact tail.
   double normal(std::uint64_t index) const noexcept;
+  /// `normal` of `count` numbers from `first` on, bit for bit, several at a time.
+  void normals(std::uint64_t first, int count, double* out) const noexcept;
   /// Uniform on the unit sphere.
   Vec3 direction(std::uint64_t index) const noexcept;
 
@@ -51,6 +54,7 @@ class Stream {
     std::uint64_t first = 0, second = 0;
   };
   Block block(std::uint64_t index, Kind kind, std::uint32_t attempt) const noexcept;
+  double normal_from(const Block& first, std::uint64_t index) const noexcept;
   double normal_tail(std::uint64_t index, std::uint32_t attempt) const noexcept;
 
   std::uint64_t seed_;

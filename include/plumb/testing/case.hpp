@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/units.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/scenario/scenario.hpp"
 
@@ -19,6 +20,13 @@ inline constexpr int kTrustStations = 8;
 /// Blocks of samples at every station.
 inline constexpr int kStationBlocks = 2;
 
+/// Where the tool points from station to station.
+enum class Walk : std::uint8_t {
+  random,   ///< uniform on the sphere
+  rolling,  ///< at one inclination, equal steps of toolface once round
+  drilling  ///< one station a stand: inclination builds by 1 deg, toolface steps by the golden angle
+};
+
 struct Case {
   SensorArray array;
   MonitorConfig config;
@@ -28,6 +36,8 @@ struct Case {
   double gravity_error = 0.0;           ///< true gravity less told, in sigmas of the reference (0.1 mg0)
   double calibration_mps2 = 0.0;        ///< 1 sigma of what calibration has left in every sensor, known to the monitor
   std::uint64_t seed = 1;               ///< of attitudes, noise and errors
+  Walk walk = Walk::random;
+  double inclination_rad = rad_from_deg(90.0);  ///< of a rolling tool, and of the first stand of a drilling one
 };
 
 /// Sensors that the case makes lie at any time.

@@ -173,6 +173,9 @@ inline rc::Gen<std::vector<scenario::Fault>> faults(const SensorArray& array, in
   });
 }
 
+/// How the tool goes from station to station; shrinks to random attitudes.
+inline rc::Gen<Walk> walks() { return rc::gen::element(Walk::random, Walk::random, Walk::rolling, Walk::drilling); }
+
 /// Cases on one array: attitudes, noise, calibration and gravity errors, and up to n - 3 faults.
 inline rc::Gen<Case> cases(const SensorArray& array, const MonitorConfig& config = {}) {
   return rc::gen::exec([array, config] {
@@ -185,6 +188,8 @@ inline rc::Gen<Case> cases(const SensorArray& array, const MonitorConfig& config
     c.noise = *rc::gen::element(1.0, 0.5, 0.0);
     c.faults = *faults(array, std::max(0, array.size() - 3), c.stations);
     c.seed = static_cast<std::uint64_t>(*rc::gen::inRange(1, 1000000));
+    c.walk = *walks();
+    if (c.walk != Walk::random) c.inclination_rad = rad_from_deg(*rc::gen::element(90.0, 45.0, 5.0, 2.0));
     return c;
   });
 }

@@ -21,8 +21,12 @@ struct LawResult {
 /// grade (design, S1).
 LawResult never_blames_the_innocent(const Case& c);
 /// Constant and held faults, at most n - 3 of them, are out at the end, and nobody else is. Other faults of the case
-/// and its systematic errors are left out. Applies where every three axes are independent and every triple that holds a
-/// faulty sensor misses the length of gravity by far at one of the stations, six stations before the end.
+/// and its systematic errors are left out, and the attitudes are random ones. Applies where every three axes are
+/// independent and every triple that holds a faulty sensor misses the length of gravity by far at one of the stations
+/// between the last onset and that from which an answer can still stand at four stations before patience is over
+/// (`patience`, counted from the first onset) and before the end; every four that hold one disagree by far at each of
+/// them. Faults that come one after the other spend patience, and where it ends first "failed" is the answer; equal
+/// faults may leave four that agree, and where those miss the length of gravity the answer is "reference".
 LawResult isolates_what_can_be_told(const Case& c);
 /// One fault whose parity is far above the limit at its first station is not plainly valid from there on.
 LawResult detects_above_the_threshold(const Case& c);

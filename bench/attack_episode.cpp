@@ -1,0 +1,372 @@
+#include "attack_episode.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace plumb_bench {
+namespace PLUMB_ABI {
+
+using namespace plumb;
+using namespace plumb_test;
+
+namespace {
+
+constexpr int kNobody = kAttackLies - 1;
+constexpr double kGravitySigmas = 3.0 + 1e-6;
+
+Lie lie_of(int lie) { return lie == kNobody ? Lie::constant : kEveryLie[slot(lie)]; }
+
+/// Liars of a tool within the strict grade that the monitor claims for it.
+SensorSet draw_liars(const LawTool& tool, int lie, TrialNoise& noise) {
+  if (lie == kNobody) return {};
+  return LawCase::some(tool.n(), 1 + noise.below(strict_grade(tool.tool.array, tool.tool.array.all())), noise);
+}
+
+double draw_gravity(TrialNoise& noise) { return noise.below(3) == 0 ? 3.0 * noise.sign() : noise.between(-3.0, 3.0); }
+
+std::string decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+}  // namespace
+
+double worst_error(const LawTool& tool) {
+  const TrialTool& t = tool.tool;
+  double worst = 0.0;
+  TrialNoise noise(1);
+  GravityReference exact = t.gravity;
+  exact.sigma_mps2 = 0.0;
+  BlockEvidence block;
+  block.usable = t.array.all();
+  block.samples = 1e8;
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 g = scaled(noise.direction(), kG0_mps2);
+    for (int i = 0; i < tool.n(); ++i) block.mean_mps2[slot(i)] = dot(t.row[slot(i)], g) + t.offset_mps2[slot(i)];
+    for (int triple = 0; triple < t.array.triple_count(); ++triple) {
+      const SetTest test = test_set(t.array, exact, t.limits, block, t.array.triple(triple).set());
+      if (test.tested && test.norm_systematic > 0.0)
+        worst = std::fmax(worst, std::fabs(test.norm) / test.norm_systematic);
+    }
+  }
+  return worst;
+}
+
+AttackTool attack_tool(LawTool tool) {
+  AttackTool out{std::move(tool), {}};
+  // Least squares: h_i + theta x h_i comes nearest to the true rows.
+  Vec3 rows[3] = {}, right{};
+  for (int i = 0; i < out.law.n(); ++i) {
+    const Vec3& h = out.law.tool.array.axis(i);
+    const Vec3& w = out.law.tool.row[slot(i)];
+    right = plus(right, cross(h, minus(w, h)));
+    for (std::size_t a = 0; a < 3; ++a) {
+      Vec3 unit{};
+      unit[a] = 1.0;
+      rows[a] = plus(rows[a], minus(scaled(unit, dot(h, h)), scaled(h, h[a])));
+    }
+  }
+  const double det = dot(rows[0], cross(rows[1], rows[2]));
+  const Vec3 theta =
+      scaled(plus(plus(scaled(cross(rows[1], rows[2]), right[0]), scaled(cross(rows[2], rows[0]), right[1])),
+                  scaled(cross(rows[0], rows[1]), right[2])),
+             1.0 / det);
+  out.turn = scaled(theta, -1.0);  // from the true frame to that of the calibrated axes
+  return out;
+}
+
+AttackEpisode::AttackEpisode(const AttackTool& tool, Situation situation, int lie, std::uint64_t seed,
+                             std::uint64_t number, bool tell)
+    : tool_(tool),
+      situation_(situation),
+      lie_(lie),
+      number_(number),
+      tell_(tell),
+      noise_(stream_of(static_cast<int>(1000 + seed % 1000000), number)),
+      gravity_sigmas_(draw_gravity(noise_)),
+      case_(tool.law.tool, draw_liars(tool.law, lie, noise_), lie_of(lie), gravity_sigmas_),
+      attitudes_(noise_) {
+  liars_ = case_.faulty();
+  const SensorArray& array = tool.law.tool.array;
+  strict_ = strict_grade(array, array.all());
+  parity_ = parity_grade(array, array.all());
+  case_.draw(noise_);
+  plan();
+  configure();
+}
+
+void AttackEpisode::plan() {
+  stations_ = 16 + noise_.below(14);
+  onset_ = noise_.below(4) == 0 ? 0 : 4 + noise_.below(8);
+  if (situation_ == Situation::reinstate) {
+    stations_ += 20;
+    pause_ = onset_ + 5 + noise_.below(8);
+    resume_ = pause_ + 7 + noise_.below(14);
+  }
+  mid_block_ = noise_.below(3) == 0;
+  follows_motion_ = noise_.below(2) == 0;
+}
+
+void AttackEpisode::configure() {
+  const TrialTool& tool = tool_.law.tool;
+  setup_.array = tool.array;
+  setup_.model.size = tool_.law.n();
+  setup_.gravity = tool.gravity;
+  MonitorConfig& config = setup_.config;
+  const int kWindows[] = {4, 8, 8, 16};
+  config.window = kWindows[noise_.below(4)];
+  config.isolation_stations = noise_.below(2) == 0 ? 4 : 1 + noise_.below(3);
+  if (liars_.size() <= 1 && noise_.below(4) == 0) config.asserted_faults = 1;
+  config.recalibrate_after_exclusion = situation_ == Situation::recalibrate && noise_.below(2) == 0;
+  if (noise_.below(4) == 0) config.common_drift_mps2 = 0.0;
+  if (noise_.below(4) == 0) config.patience_blocks = 6 + noise_.below(30);
+  if (noise_.below(4) == 0) config.probation_stations = 1 + noise_.below(3);
+  if (!monitor_->configure(setup_).has_value()) ++count_.broken;
+}
+
+bool AttackEpisode::lies_at(int station, bool second_half) const {
+  const int begins = mid_block_ && !second_half ? onset_ + 1 : onset_;
+  if (station < begins) return false;
+  return pause_ == 0 || station < pause_ || station >= resume_;
+}
+
+void AttackEpisode::offer() {
+  SensorModel model = monitor_->model();
+  SensorArray array = setup_.array;
+  RowUncertainty claimed;
+  const double sure_mps2 = noise_.log_between(1e-5, 3e-3), sure_rad = noise_.log_between(1e-6, 3e-4);
+  for (int a = 0; a < 4 * array.size(); ++a) {
+    const double sigma = a % 4 == 3 ? sure_mps2 : sure_rad;
+    claimed.covariance[slot(a * (a + 1) / 2 + a)] = sigma * sigma;
+  }
+  const int way = noise_.below(4);
+  const Vec3 shared = scaled(noise_.direction(), noise_.log_between(1e-5, 1e-2) * kG0_mps2);
+  const int one = noise_.below(array.size());
+  const double common = noise_.sign() * noise_.log_between(1e-5, 1e-2);
+  for (int i = 0; i < array.size(); ++i) {
+    SensorCoefficients& c = model.sensor[slot(i)];
+    if (way == 0) c.bias[0] += dot(array.axis(i), shared);  // one vector too many
+    if (way == 1 && i == one) c.bias[0] += noise_.sign() * noise_.log_between(1e-5, 1e-2) * kG0_mps2;
+    if (way == 2) c.scale[0] *= 1.0 + common;                      // all too long
+    if (way == 3) c.bias[0] += noise_.normal() * 1e-4 * kG0_mps2;  // a bad laboratory
+  }
+  array.set_uncertainty(claimed);
+  static_cast<void>(monitor_->offer_calibration(model, array));
+}
+
+void AttackEpisode::power_cycle() {
+  std::vector<std::uint8_t> bytes(HealthMonitor::snapshot_size_max());
+  const Expected<std::size_t> size = monitor_->snapshot(bytes.data(), bytes.size());
+  if (!size) return find(count_.broken, "no snapshot");
+  auto other = std::make_unique<HealthMonitor>();
+  if (!other->restore(setup_, bytes.data(), *size).has_value()) return find(count_.broken, "the snapshot is refused");
+  monitor_ = std::move(other);
+}
+
+void AttackEpisode::reset_if_failed() {
+  if (monitor_->verdict().state != HealthState::failed || noise_.below(2) == 0) return;
+  const SensorSet all = monitor_->array().all();
+  SensorSet back = all;
+  if (noise_.below(2) == 0) back = all - LawCase::some(all.size(), 1, noise_);
+  static_cast<void>(monitor_->reset(setup_.config.reset_key, back));
+}
+
+void AttackEpisode::host_before(int station) {
+  switch (situation_) {
+    case Situation::plain:
+    case Situation::motion:
+    case Situation::reinstate:
+    case Situation::timing: break;
+    case Situation::recalibrate:
+      if (noise_.below(4) == 0) static_cast<void>(monitor_->request_recalibration());
+      break;
+    case Situation::offer:
+      if (noise_.below(4) == 0) offer();
+      break;
+    case Situation::reset: reset_if_failed(); break;
+    case Situation::host:
+      if (noise_.below(6) == 0) monitor_->inhibit(noise_.below(3) == 0);
+      if (noise_.below(8) == 0) {
+        // The same error, told again: what the reference may be off by is one figure of the place.
+        GravityReference told = setup_.gravity;
+        told.sigma_mps2 *= noise_.between(1.0, 2.0);
+        static_cast<void>(monitor_->set_gravity(told));
+      }
+      if (noise_.below(6) == 0) power_cycle();
+      reset_if_failed();
+      break;
+  }
+  if (tell_) std::printf("station %d\n", station);
+}
+
+void AttackEpisode::shake(Readings& y, const Vec3& along, double rms_mps2) {
+  pushed_mps2_ = plus(pushed_mps2_, scaled(along, rms_mps2));
+  for (int i = 0; i < tool_.law.n(); ++i) {
+    if (liars_.has(i) && !follows_motion_) continue;
+    y[slot(i)] += rms_mps2 * dot(tool_.law.tool.row[slot(i)], along);
+  }
+}
+
+void AttackEpisode::visit(int station) {
+  direction_ = attitudes_.next(noise_);
+  const Readings still = case_.healthy_readings(direction_);
+  const Readings lied = case_.readings(direction_, noise_);
+  steady_rows_ = 0;
+  pushed_mps2_ = {};
+  time_s_ += noise_.below(20) == 0 ? 10.0 : 1.0;
+  const int window = setup_.config.window;
+  const int rows = (1 + noise_.below(3)) * window;
+  const int lurch = situation_ == Situation::motion ? noise_.below(4) : 0;
+  const double rms = noise_.log_between(1e-4, 1.0) * kG0_mps2;
+  const Vec3 line = noise_.direction();
+  const int jolt = noise_.below(rows);
+  if (tell_ && lurch > 0) {
+    constexpr const char* kWays[] = {"", "vibration", "sway", "jolt"};
+    std::printf("  %s of %.3g sigma, window %d, liars %s\n", kWays[lurch], rms / kTrialSigma_mps2, window,
+                follows_motion_ ? "follow it" : "do not follow it");
+  }
+  for (int k = 0; k < rows; ++k) {
+    Sample sample;
+    sample.time_s = time_s_ += 0.01;
+    sample.temperature_degc = 25.0;
+    sample.delivered = setup_.array.all();
+    Readings y = lies_at(station, k >= rows / 2) ? lied : still;
+    if (lurch == 1) shake(y, noise_.direction(), rms * noise_.normal());
+    if (lurch == 2) shake(y, line, rms * std::sin(0.7 * k));
+    if (lurch == 3 && k == jolt) shake(y, line, rms);
+    for (int i = 0; i < tool_.law.n(); ++i) {
+      sample.raw[slot(i)] = y[slot(i)] + setup_.array.sigma_mps2(i) * noise_.normal();
+    }
+    disturb_and_send(sample);
+  }
+}
+
+void AttackEpisode::disturb_and_send(Sample& sample) {
+  if (situation_ != Situation::timing) return send(sample);
+  const int trouble = noise_.below(60);
+  const int n = tool_.law.n();
+  if (trouble == 0) return;        // lost
+  if (trouble == 1) send(sample);  // twice
+  if (trouble == 2) sample.time_s -= noise_.log_between(0.005, 100.0);
+  if (trouble == 3) time_s_ += noise_.log_between(0.01, 30.0);
+  if (trouble == 4) sample.temperature_degc = std::numeric_limits<double>::quiet_NaN();
+  if (trouble == 5 && silent_rows_ == 0) {
+    // One channel of the tool at a time, and always the same one, so that what is left can still check itself.
+    if (silent_ < 0) silent_ = noise_.below(n);
+    silent_rows_ = 1 + noise_.below(4);
+  }
+  if (silent_rows_ > 0) {
+    --silent_rows_;
+    constexpr double kNone[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                                -std::numeric_limits<double>::infinity(), 1e300};
+    const int none = noise_.below(5);
+    if (none < 4) sample.raw[slot(silent_)] = kNone[none];
+    if (none == 4) sample.delivered = sample.delivered.without(silent_);
+  }
+  send(sample);
+}
+
+void AttackEpisode::send(Sample& sample) {
+  monitor_->step(sample);
+  judge();
+}
+
+void AttackEpisode::find(std::uint64_t& counter, const std::string& what) {
+  if (!within_bounds_ && &counter != &count_.broken) {
+    ++count_.beyond_bounds;
+    return;
+  }
+  if (++counter > 1) return;
+  const bool promised = &counter != &count_.crowd_beyond_level && &counter != &count_.crowd_beyond_alert;
+  if (!promised && !tell_) return;
+  const LawTool& law = tool_.law;
+  std::string text = "episode " + std::to_string(number_) + ", n = " + std::to_string(law.n()) +
+                     ", c = " + std::to_string(law.plane) + ", " + name(situation_) + ", " + name_of_lie(lie_) +
+                     ", liars";
+  for (int i = 0; i < law.n(); ++i) text += liars_.has(i) ? " a" + std::to_string(i + 1) : "";
+  text += ", hidden " + decimal(hidden_sigmas_) + ", gravity " + decimal(gravity_sigmas_) + " sigma, geometry " +
+          std::to_string(static_cast<int>(law.geometry)) + ", calibration " +
+          std::to_string(static_cast<int>(law.knowledge)) + ", t = " + decimal(monitor_->verdict().time_s) + ": " +
+          what;
+  finds_->push_back(text);
+  if (tell_) std::printf("FOUND %s\n", text.c_str());
+}
+
+void AttackEpisode::judge() {
+  const Verdict& v = monitor_->verdict();
+  if (v.accepted) ++steady_rows_;
+  if (tell_ && v.transition.sequence != 0) {
+    std::printf("  t %.2f %s -> %s, event %s, cause %s, excluded %x, set aside %x, absent %x\n", v.time_s,
+                to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
+                to_string(v.transition.cause), v.excluded.bits, v.set_aside.bits, v.absent.bits);
+  }
+  // A silenced channel is broken as far as anybody can tell.
+  const SensorSet broken = silent_ >= 0 ? liars_.with(silent_) : liars_;
+  if (broken.size() <= strict_ && !broken.contains(v.excluded))
+    find(count_.excluded_healthy, "a healthy sensor is out");
+  if (broken.size() <= parity_ && !broken.contains(v.set_aside)) {
+    find(count_.set_aside_healthy, "a healthy sensor is set aside");
+  }
+  if (v.state == HealthState::failed) {
+    if (count_.failed == 0) ++count_.failed;
+    if (liars_.empty()) find(count_.failed_healthy, std::string("failed by ") + to_string(v.cause));
+  }
+  const SensorSet all = v.in_service | v.set_aside | v.excluded | v.absent;
+  const int sum = v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size();
+  if (all != v.configured || sum != v.configured.size()) find(count_.broken, "the sets are no partition");
+  if (v.tick) judge_vector();
+}
+
+void AttackEpisode::judge_vector() {
+  const Verdict& v = monitor_->verdict();
+  ++count_.ticks;
+  // What the block's mean was pushed by makes gravity look longer, as far as anybody at rest can tell.
+  const Vec3 push = scaled(pushed_mps2_, 1.0 / setup_.config.window);
+  pushed_mps2_ = {};
+  const double length = norm(plus(scaled(direction_, kG0_mps2), push)) - kG0_mps2;
+  const double sigmas = gravity_sigmas_ + length / tool_.law.tool.gravity.sigma_mps2;
+  if (std::fabs(sigmas) > std::fabs(hidden_sigmas_)) hidden_sigmas_ = sigmas;
+  // Motion below the noise of every channel is an error of gravity that nobody can see, and beyond the bound on it.
+  within_bounds_ = within_bounds_ && (!v.restless.empty() || std::fabs(sigmas) <= kGravitySigmas);
+  if (tell_ && length != 0.0) std::printf("    quiet block, gravity as if %.3g sigma off\n", sigmas);
+  if (!std::isfinite(v.protection_level_rad) || !std::isfinite(norm(v.gravity_mps2))) {
+    return find(count_.broken, "a figure is not finite");
+  }
+  const bool usable = v.validity == Validity::valid || v.validity == Validity::degraded;
+  if (!usable) return;
+  ++count_.usable_ticks;
+  if (v.validity != Validity::valid || steady_rows_ < setup_.config.window) return;
+  const double error_rad = angle_between_rad(v.gravity_mps2, tool_.seen(direction_));
+  const bool crowd = (v.in_service & liars_).size() > 1;
+  const std::string said = "error " + decimal(error_rad) + " rad, level " + decimal(v.protection_level_rad) +
+                           (v.alert ? ", alert" : "") + ", in service " + std::to_string(v.in_service.size());
+  if (v.protection_available && error_rad > v.protection_level_rad) {
+    find(crowd ? count_.crowd_beyond_level : count_.beyond_level, said);
+  }
+  if (!v.alert && error_rad > setup_.config.alert_limit_rad) {
+    find(crowd ? count_.crowd_beyond_alert : count_.beyond_alert, said);
+  }
+}
+
+AttackCount AttackEpisode::play(std::vector<std::string>& finds) {
+  finds_ = &finds;
+  for (int station = 0; station < stations_; ++station) {
+    host_before(station);
+    visit(station);
+  }
+  // Each of these happened in this episode or did not.
+  for (std::uint64_t* c : {&count_.excluded_healthy, &count_.set_aside_healthy, &count_.beyond_level,
+                           &count_.beyond_alert, &count_.failed_healthy, &count_.broken, &count_.crowd_beyond_level,
+                           &count_.crowd_beyond_alert, &count_.beyond_bounds}) {
+    if (*c > 1) *c = 1;
+  }
+  count_.episodes = 1;
+  count_.liars = liars_.empty() ? 0 : 1;
+  count_.all_out = !liars_.empty() && (monitor_->verdict().in_service & liars_).empty() ? 1 : 0;
+  return count_;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb_bench

@@ -1,0 +1,37 @@
+# cmake -DDEFECT=<tests/laws/defects/NAME.defect> -DROOT=<plumb> -DOUTPUT=<file> -P PlantDefect.cmake
+# A copy of one source file with one rule removed. The text of the rule must stand in the source exactly once: a defect
+# that no longer applies ends the build, so that it cannot silently stop being planted.
+get_filename_component(name "${DEFECT}" NAME)
+file(READ "${DEFECT}" text)
+if(NOT text MATCHES "\nsource: ([^\n]+)\n")
+  message(FATAL_ERROR "${name}: no line \"source: <file>\"")
+endif()
+set(source "${CMAKE_MATCH_1}")
+file(READ "${ROOT}/${source}" code)
+
+function(part_between first last out)
+  string(FIND "${text}" "${first}" begin)
+  string(FIND "${text}" "${last}" end)
+  if(begin EQUAL -1 OR end EQUAL -1 OR end LESS begin)
+    message(FATAL_ERROR "${name}: a part from \"--- was\" by \"--- planted\" to \"--- end\" is missing")
+  endif()
+  string(LENGTH "${first}" skipped)
+  math(EXPR begin "${begin} + ${skipped}")
+  math(EXPR length "${end} - ${begin}")
+  string(SUBSTRING "${text}" ${begin} ${length} part)
+  set(${out} "${part}" PARENT_SCOPE)
+endfunction()
+part_between("--- was\n" "--- planted\n" was)
+part_between("--- planted\n" "--- end\n" planted)
+
+string(FIND "${code}" "${was}" once)
+string(FIND "${code}" "${was}" last REVERSE)
+if(once EQUAL -1)
+  message(FATAL_ERROR "${name} no longer applies: ${source} has no such lines any more. The rule was moved or rewritten: "
+    "plant the defect where it stands now.\nLooked for:\n${was}")
+endif()
+if(NOT once EQUAL last)
+  message(FATAL_ERROR "${name} is not clear: its lines stand in ${source} more than once. Take more of them.")
+endif()
+string(REPLACE "${was}" "${planted}" code "${code}")
+file(WRITE "${OUTPUT}" "${code}")

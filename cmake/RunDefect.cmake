@@ -1,0 +1,15 @@
+# cmake -DEXPECT=<regular expression> -P RunDefect.cmake -- <law runner> <argument>...
+# The law must be broken, in the way that is expected. A crash, a skip and a law that holds are failures of the check.
+include("${CMAKE_CURRENT_LIST_DIR}/CommandOfScript.cmake")
+execute_process(COMMAND ${command} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+message("${output}")
+if(NOT result STREQUAL "1")
+  message(FATAL_ERROR "the law had to be broken by the planted defect (exit 1), but the run ended with: ${result}")
+endif()
+if(output MATCHES "SKIPPED" OR NOT output MATCHES "1 FAILED TEST")
+  message(FATAL_ERROR "the law was not run, or not it alone")
+endif()
+if(NOT output MATCHES "${EXPECT}")
+  message(FATAL_ERROR "the law is broken, but not in the way that is expected: ${EXPECT}")
+endif()
+message("caught: the law is broken as expected")

@@ -1,0 +1,214 @@
+// Logs: samples as numpy columns, from arrays, from a CSV file, or played from a scenario.
+#include <pybind11/stl.h>
+
+#include "demo_files.hpp"
+#include "module.hpp"
+#include "plumb/io/log_reader.hpp"
+#include "plumb/io/records.hpp"
+#include "plumb/io/scenario_file.hpp"
+#include "station_mean.hpp"
+
+namespace plumb_python {
+namespace {
+
+std::string shape_of(const py::array& array) {
+  std::string out = "(";
+  for (py::ssize_t k = 0; k < array.ndim(); ++k) out += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
+  return out + ")";
+}
+
+/// Columns of `samples`, allocated once and written in place.
+Log columns(const std::vector<plumb::Sample>& samples, int sensors) {
+  const auto rows = static_cast<py::ssize_t>(samples.size());
+  Log log;
+  py::array_t<double> time(rows), raw({rows, py::ssize_t{sensors}}), temperature(rows);
+  py::array_t<bool> delivered({rows, py::ssize_t{sensors}});
+  py::array_t<std::uint32_t> station(rows), count(rows), roll_group(rows);
+  auto raw_to = raw.mutable_unchecked<2>();
+  auto delivered_to = delivered.mutable_unchecked<2>();
+  for (py::ssize_t r = 0; r < rows; ++r) {
+    const plumb::Sample& s = samples[static_cast<std::size_t>(r)];
+    time.mutable_at(r) = s.time_s;
+    temperature.mutable_at(r) = s.temperature_degc;
+    station.mutable_at(r) = s.station;
+    count.mutable_at(r) = s.count;
+    roll_group.mutable_at(r) = s.roll_group;
+    for (int i = 0; i < sensors; ++i) {
+      raw_to(r, i) = s.raw[static_cast<std::size_t>(i)];
+      delivered_to(r, i) = s.delivered.has(i);
+    }
+  }
+  log.time_s = std::move(time);
+  log.raw = std::move(raw);
+  log.temperature_degc = std::move(temperature);
+  log.delivered = std::move(delivered);
+  log.station = std::move(station);
+  log.count = std::move(count);
+  log.roll_group = std::move(roll_group);
+  log.truth = py::none();
+  return log;
+}
+
+Log read_log(const Array& array, const std::string& path) {
+  return columns(taken(plumb::io::read_log(path, *array, plumb::io::BadRowPolicy::stop)).samples, array->array.size());
+}
+
+/// Gravity of every row in the frame in which plumb answers, and who was in fault.
+py::dict truth_arrays(const plumb::io::ScenarioFile& file, std::vector<plumb::scenario::Truth>& truth) {
+  plumb::cli::into_frame_of_nominal_axes(file.scenario.tool, truth);
+  const auto rows = static_cast<py::ssize_t>(truth.size());
+  const int n = file.array.array.size();
+  py::array_t<double> gravity({rows, py::ssize_t{3}});
+  py::array_t<bool> faulty({rows, py::ssize_t{n}}), moving(rows);
+  auto gravity_to = gravity.mutable_unchecked<2>();
+  auto faulty_to = faulty.mutable_unchecked<2>();
+  for (py::ssize_t r = 0; r < rows; ++r) {
+    const plumb::scenario::Truth& now = truth[static_cast<std::size_t>(r)];
+    const plumb::Vec3 g = plumb::io::in_frame(file.array.output_frame, now.gravity_mps2);
+    for (py::ssize_t c = 0; c < 3; ++c) gravity_to(r, c) = g[static_cast<std::size_t>(c)];
+    for (int i = 0; i < n; ++i) faulty_to(r, i) = now.faulty.has(i);
+    moving.mutable_at(r) = now.moving;
+  }
+  py::dict out;
+  out["gravity_mps2"] = std::move(gravity);
+  out["faulty"] = std::move(faulty);
+  out["moving"] = std::move(moving);
+  return out;
+}
+
+/// As `plumb simulate`: one row per sample, or per station where the array file says so.
+py::tuple simulate(const std::string& text_or_path, std::optional<std::uint64_t> seed, bool is_text) {
+  plumb::io::ScenarioFile file =
+      taken(is_text ? plumb::io::parse_scenario_text(text_or_path, "<text>") : plumb::io::read_scenario(text_or_path));
+  if (seed) file.scenario.seed = *seed;
+  auto simulator = plumb::scenario::Simulator::make(file.scenario);
+  if (!simulator)
+    throw Refused(plumb::io::FileError{is_text ? "<text>" : text_or_path, 0, "", simulator.error(), ""}.text());
+  const bool means = file.array.input.rows == plumb::io::RowKind::stations;
+  const int n = file.array.array.size();
+  std::vector<plumb::Sample> samples;
+  std::vector<plumb::scenario::Truth> truth;
+  plumb::cli::StationMean station(n);
+  const auto put_station = [&] {
+    if (station.empty()) return;
+    samples.push_back(station.mean());
+    truth.push_back(station.truth());
+    station = plumb::cli::StationMean(n);
+  };
+  plumb::Sample sample;
+  while (simulator->next(sample)) {
+    const plumb::scenario::Truth& now = simulator->truth();
+    if (!means) {
+      samples.push_back(sample);
+      truth.push_back(now);
+      continue;
+    }
+    if (now.moving) continue;
+    if (!station.empty() && station.truth().station != now.station) put_station();
+    station.add(sample, now);
+  }
+  put_station();
+  Log log = columns(samples, n);
+  log.truth = truth_arrays(file, truth);
+  return py::make_tuple(std::make_shared<plumb::io::ArrayFile>(std::move(file.array)), std::move(log));
+}
+
+}  // namespace
+
+template <class T>
+Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width) const {
+  if (from.is_none()) return {};
+  Column<T> out;
+  auto array = py::array_t<T, py::array::forcecast>::ensure(from);
+  if (!array) {
+    PyErr_Clear();
+    refuse(std::string(name) + ": is no array of numbers", "give a numpy array");
+  }
+  const bool fits = width == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == width;
+  if (!fits || array.shape(0) != rows_) {
+    const std::string wanted = width == 0 ? "(" + std::to_string(rows_) + ")"
+                                          : "(" + std::to_string(rows_) + ", " + std::to_string(width) + ")";
+    refuse(std::string(name) + ": has the shape " + shape_of(array) + ", must have " + wanted,
+           "give one row per sample" + std::string(width == 0 ? "" : " and one column per sensor of the array"));
+  }
+  out.data = reinterpret_cast<const char*>(array.data());
+  out.stride = array.strides(0);
+  out.across = width == 0 ? 0 : array.strides(1);
+  out.kept = std::move(array);
+  return out;
+}
+
+Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
+    : rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
+      sensors_(array.array.size()),
+      default_temperature_degc_(array.input.default_temperature_degc) {
+  raw_ = column<double>(log.raw, "raw", sensors_);
+  time_ = column<double>(log.time_s, "time_s", 0);
+  delivered_ = column<bool>(log.delivered, "delivered", sensors_);
+  station_ = column<std::uint32_t>(log.station, "station", 0);
+  count_ = column<std::uint32_t>(log.count, "count", 0);
+  roll_group_ = column<std::uint32_t>(log.roll_group, "roll_group", 0);
+  if (py::isinstance<py::float_>(log.temperature_degc) || py::isinstance<py::int_>(log.temperature_degc)) {
+    default_temperature_degc_ = log.temperature_degc.cast<double>();
+  } else {
+    temperature_ = column<double>(log.temperature_degc, "temperature_degc", 0);
+  }
+}
+
+plumb::Sample Log::View::at(py::ssize_t row) const {
+  plumb::Sample sample;
+  sample.time_s = time_.at(row);
+  for (int i = 0; i < sensors_; ++i) {
+    sample.raw[static_cast<std::size_t>(i)] = raw_.at(row, i);
+    if (delivered_.data == nullptr || delivered_.at(row, i)) sample.delivered = sample.delivered.with(i);
+  }
+  sample.temperature_degc = temperature_.data != nullptr ? temperature_.at(row) : default_temperature_degc_;
+  if (station_.data != nullptr) sample.station = station_.at(row);
+  if (count_.data != nullptr) sample.count = count_.at(row);
+  if (roll_group_.data != nullptr) sample.roll_group = roll_group_.at(row);
+  return sample;
+}
+
+void bind_log(py::module_& module) {
+  py::class_<Log>(
+      module, "Log",
+      "Samples as columns. `raw` is (rows, sensors), in the unit of the array file's log; float64 is used\n"
+      "where it lies, without a copy, whatever its strides. NaN is a value that is not finite; `delivered`\n"
+      "(rows, sensors) is False where a channel said nothing. `station` is a tag, 0 = none (a label in a\n"
+      "CSV file is its tag less 1). `temperature_degc` is a column or one number.")
+      .def(py::init([](Doubles time_s, Doubles raw, py::object temperature_degc, py::object delivered,
+                       py::object station, py::object count, py::object roll_group) {
+             return Log{std::move(time_s),  std::move(raw),   std::move(temperature_degc), std::move(delivered),
+                        std::move(station), std::move(count), std::move(roll_group),       py::none()};
+           }),
+           py::arg("time_s"), py::arg("raw"), py::arg("temperature_degc") = py::none(),
+           py::arg("delivered") = py::none(), py::arg("station") = py::none(), py::arg("count") = py::none(),
+           py::arg("roll_group") = py::none())
+      .def_readwrite("time_s", &Log::time_s, "(rows), s, strictly increasing")
+      .def_readwrite("raw", &Log::raw, "(rows, sensors)")
+      .def_readwrite("temperature_degc", &Log::temperature_degc)
+      .def_readwrite("delivered", &Log::delivered)
+      .def_readwrite("station", &Log::station)
+      .def_readwrite("count", &Log::count, "raw samples behind a row")
+      .def_readwrite("roll_group", &Log::roll_group)
+      .def_readonly("truth", &Log::truth,
+                    "Of a simulation: a dict with gravity_mps2 (rows, 3) in the frame in which plumb answers, faulty\n"
+                    "(rows, sensors) and moving (rows). Else None.")
+      .def("__len__", &Log::rows)
+      .def("__repr__", [](const Log& log) { return "<plumb.Log: " + std::to_string(log.rows()) + " rows>"; });
+
+  module.def("read_log", &read_log, py::arg("array"), py::arg("path"),
+             "Read a CSV log as the array file says that it looks. Raises Error with the line and the column.");
+  module.def(
+      "simulate",
+      [](const std::string& path, std::optional<std::uint64_t> seed) { return simulate(path, seed, false); },
+      py::arg("path"), py::arg("seed") = py::none(),
+      "Play a scenario file (TOML or JSON): returns the array and its log, as `plumb simulate` writes it. The same\n"
+      "scenario and seed give the same numbers; log.truth says what was really the case.");
+  module.def(
+      "simulate_text",
+      [](const std::string& text, std::optional<std::uint64_t> seed) { return simulate(text, seed, true); },
+      py::arg("text"), py::arg("seed") = py::none(), "The same from the text of a scenario file.");
+}
+
+}  // namespace plumb_python

@@ -1,0 +1,87 @@
+/// The Python module `plumb`: what its parts share. Arrays are numpy's: float64 is read where it lies, whatever its
+/// strides, and results are written into the array that is returned.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "monitor_pipeline.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace plumb_python {
+
+namespace py = pybind11;
+
+/// Becomes plumb.Error, with the words that the tool prints after "plumb: ".
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+[[noreturn]] void refuse(const std::string& what, const std::string& remedy);
+template <class T>
+T taken(plumb::io::FileExpected<T> result) {
+  if (!result) throw Refused(result.error().text());
+  return *std::move(result);
+}
+
+using Doubles = py::array_t<double, py::array::forcecast>;
+using Flags = py::array_t<bool, py::array::forcecast>;
+using Tags = py::array_t<std::uint32_t, py::array::forcecast>;
+
+/// An array file.
+using Array = std::shared_ptr<plumb::io::ArrayFile>;
+
+/// Samples as columns. What is None has its default.
+struct Log {
+  Doubles time_s, raw;
+  py::object temperature_degc, delivered, station, count, roll_group, truth;
+
+  py::ssize_t rows() const { return raw.shape(0); }
+  /// Reads the columns in place; refuses shapes that do not fit `sensors`. Keeps what it reads from alive.
+  class View;
+};
+
+class Log::View {
+ public:
+  View(const Log& log, const plumb::io::ArrayFile& array);
+  py::ssize_t rows() const { return rows_; }
+  plumb::Sample at(py::ssize_t row) const;  // touches no Python object
+
+ private:
+  template <class T>
+  struct Column {
+    py::array kept;
+    const char* data = nullptr;
+    py::ssize_t stride = 0, across = 0;
+    const T& at(py::ssize_t row, py::ssize_t column = 0) const {
+      return *reinterpret_cast<const T*>(data + row * stride + column * across);
+    }
+  };
+  template <class T>
+  Column<T> column(const py::object& from, const char* name, int width) const;
+
+  py::ssize_t rows_ = 0;
+  int sensors_ = 0;
+  Column<double> time_, raw_, temperature_;
+  Column<bool> delivered_;
+  Column<std::uint32_t> station_, count_, roll_group_;
+  double default_temperature_degc_ = 25.0;
+};
+
+struct Calibration {
+  Array array;
+  std::shared_ptr<const plumb::Calibration> fit;
+  plumb::io::CalibrationContext context;
+  std::string report;  ///< JSON; empty where it was read from a file
+};
+
+void bind_log(py::module_& module);
+void bind_calibration(py::module_& module);
+void bind_monitor(py::module_& module);
+
+}  // namespace plumb_python

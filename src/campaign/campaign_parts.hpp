@@ -1,0 +1,35 @@
+/// The parts of a campaign file, one function per section (private to src/campaign). They throw io::Refusal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../io/toml_table.hpp"
+#include "plumb/campaign/campaign_file.hpp"
+#include "plumb/health/monitor_config.hpp"
+
+namespace plumb {
+namespace campaign {
+
+/// A key that holds one table or several, `[[key]]`; none where it is missing.
+std::vector<io::TomlTable> tables_of(const io::TomlTable& top, const char* key, const std::vector<std::string>& known);
+/// A section, empty where it is missing.
+io::TomlTable section_of(const io::TomlTable& top, const char* key, const std::vector<std::string>& known);
+/// A whole number between the two.
+int whole(const io::TomlTable& table, const char* key, int fallback, int least, int most);
+/// Numbers without a unit, one or a list of them.
+std::vector<double> numbers(const io::TomlTable& table, const char* key, const std::vector<double>& fallback,
+                            double least, double most, const std::string& remedy);
+
+std::vector<ToolPlan> read_tools(const io::TomlTable& top, const MonitorConfig& monitor);
+std::vector<AttitudePlan> read_attitudes(const io::TomlTable& top);
+
+/// What one `[[fault]]` contributes: kinds and sizes, and how many sensors at once.
+struct FaultFamily {
+  std::vector<FaultPlan> faults;
+  std::vector<int> sensors;
+};
+std::vector<FaultFamily> read_faults(const io::TomlTable& top);
+
+}  // namespace campaign
+}  // namespace plumb

@@ -1,0 +1,146 @@
+// [[tool]] and [[attitude]] of the campaign file.
+#include <cmath>
+
+#include "campaign_parts.hpp"
+#include "plumb/array/geometry.hpp"
+#include "plumb/array/named.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/detection/detectable.hpp"
+#include "plumb/detection/set_test.hpp"
+#include "plumb/io/array_file.hpp"
+#include "plumb/scenario/attitude.hpp"
+
+namespace plumb {
+namespace campaign {
+namespace {
+
+using io::Quantity;
+using io::TomlTable;
+using std::size_t;
+
+/// A bias of this many MDB is missed by the parity test of one block in one case of a thousand.
+constexpr double kMissed = 1e-3;
+
+const std::vector<std::string>& geometries() {
+  static const std::vector<std::string> names = {"tetrahedron", "triad", "cone", "cone-with-axis", "platonic"};
+  return names;
+}
+
+int axes_of(int geometry, int sensors, AxisList& axes) {
+  switch (geometry) {
+    case 0: return paper_tetrahedron(axes);
+    case 1: return orthogonal_triad(axes);
+    case 2: return cone(axes, sensors);
+    case 3: return cone_with_axis(axes, sensors);
+    default: return platonic(axes, sensors);
+  }
+}
+
+SensorArray array_from(const TomlTable& table, ToolPlan& tool) {
+  if (table.has("array")) {
+    if (table.has("geometry"))
+      table.fail(table.line_of("geometry"), "geometry", "and array both name axes", "keep one");
+    const io::FileExpected<io::ArrayFile> file = io::read_array_file(table.text("array", ""));
+    if (!file) {
+      table.fail(table.line_of("array"), "array", "cannot be used: " + file.error().text(),
+                 "name an array file, relative to where plumb runs");
+    }
+    tool.name = table.text("name", file->name);
+    return file->array;
+  }
+  table.need("geometry", "name the axes: geometry = \"cone\" with sensors = 5, or array = \"my_tool.toml\"");
+  const int geometry = table.choice("geometry", geometries(), 0);
+  const int natural = geometry == 0 ? 4 : geometry == 1 ? 3 : 6;
+  const int sensors = whole(table, "sensors", natural, 3, kMostSensors);
+  AxisList axes{};
+  const int made = axes_of(geometry, sensors, axes);
+  if (made != sensors) {
+    table.fail(table.line_of("sensors"), "sensors", "this geometry does not come with " + std::to_string(sensors),
+               "tetrahedron 4, triad 3, cone and cone-with-axis from 4 on, platonic 3, 4, 6 or 10");
+  }
+  tool.name = table.text("name", geometries()[static_cast<size_t>(geometry)] + std::to_string(sensors));
+  const double sigma_mps2 =
+      table.need_quantity(Quantity::acceleration, "noise", "the noise of one sample: \"0.2 mg0\"");
+  if (!(sigma_mps2 > 0.0)) table.fail(table.line_of("noise"), "noise", "is not above zero", "give it as \"0.2 mg0\"");
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < sensors; ++i) {
+    SensorRow& row = rows[static_cast<size_t>(i)];
+    row.id = make_id(("a" + std::to_string(i + 1)).c_str());
+    row.axis = axes[static_cast<size_t>(i)];
+    row.sigma_mps2 = sigma_mps2;
+  }
+  const Expected<SensorArray> array = SensorArray::make(rows.data(), sensors);
+  if (!array) table.fail(table.line(), "geometry", describe(array.error().code), remedy(array.error().code));
+  return *array;
+}
+
+/// MDB of every sensor: noise alone, at the mean of one block.
+void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, ToolPlan& tool) {
+  const TestLimits limits = TestLimits::from_rates(array.size(), monitor.false_alarm_rate, monitor.rejection_rate);
+  const int rows = array.size() - 3;
+  if (rows < 1) return;
+  const double shift = detectable_shift(limits.parity_alarm[static_cast<size_t>(rows)], rows, kMissed);
+  const LeastSquares map = least_squares(array, array.all());
+  for (int i = 0; i < array.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double leverage = 1.0 - dot(array.axis(i), map.column[a]);
+    if (!(leverage > 1e-9)) continue;  // nobody checks this one
+    tool.detectable_mps2[a] = shift * array.sigma_mps2(i) / std::sqrt(leverage * monitor.window);
+  }
+}
+
+}  // namespace
+
+std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& monitor) {
+  std::vector<ToolPlan> out;
+  for (const TomlTable& table :
+       tables_of(top, "tool", {"name", "geometry", "sensors", "noise", "array", "resolution"})) {
+    ToolPlan tool;
+    const SensorArray array = array_from(table, tool);
+    tool.sensors = array.size();
+    for (int i = 0; i < array.size(); ++i) {
+      tool.axis[static_cast<size_t>(i)] = array.axis(i);
+      tool.sigma_mps2[static_cast<size_t>(i)] = array.sigma_mps2(i);
+    }
+    tool.volt_per_mps2 = 3.0 / kG0_mps2;  // the paper's sensors
+    tool.resolution_raw = tool.volt_per_mps2 * table.quantity(Quantity::acceleration, "resolution", 0.0);
+    tool.grade = strict_grade(array, array.all());
+    fill_detectable(array, monitor, tool);
+    out.push_back(tool);
+  }
+  if (out.empty()) {
+    top.fail(0, "tool", "is missing", "add a table [[tool]] with geometry = \"tetrahedron\" and noise = \"0.2 mg0\"");
+  }
+  return out;
+}
+
+std::vector<AttitudePlan> read_attitudes(const TomlTable& top) {
+  const std::vector<std::string> laws = {"random", "roll-test", "drilling-path", "fixed"};
+  std::vector<AttitudePlan> out;
+  for (const TomlTable& table :
+       tables_of(top, "attitude",
+                 {"law", "name", "inclination", "toolface", "build", "turn", "toolface_step", "toolface_jitter"})) {
+    AttitudePlan plan;
+    const int law = table.need_choice("law", laws, "one of random, roll-test, drilling-path, fixed");
+    plan.kind = static_cast<AttitudeKind>(law);
+    plan.name = table.text("name", laws[static_cast<size_t>(law)]);
+    const double usual_deg = plan.kind == AttitudeKind::drilling_path ? 5.0 : 90.0;
+    plan.inclination_rad = table.quantity(Quantity::angle, "inclination", rad_from_deg(usual_deg));
+    plan.build_rad = table.quantity(Quantity::angle, "build", rad_from_deg(55.0 / 13.0));
+    plan.turn_rad = table.quantity(Quantity::angle, "turn", rad_from_deg(1.5));
+    plan.toolface_step_rad = table.quantity(Quantity::angle, "toolface_step", rad_from_deg(137.5));
+    plan.toolface_jitter_rad = table.quantity(Quantity::angle, "toolface_jitter", 0.0);
+    const double toolface_rad = table.quantity(Quantity::angle, "toolface", 0.0);
+    for (const double angle : {plan.inclination_rad, plan.build_rad, plan.turn_rad, plan.toolface_step_rad,
+                               plan.toolface_jitter_rad, toolface_rad}) {
+      if (!(std::fabs(angle) <= 1e3)) table.fail(table.line(), "law", "has an angle beyond 1000 rad", "give it in deg");
+    }
+    plan.direction = scenario::gravity_direction({plan.inclination_rad, 0.0, toolface_rad});
+    out.push_back(plan);
+  }
+  if (out.empty()) out.push_back({AttitudeKind::random, "random", 0.0, 0.0, 0.0, 0.0, 0.0, {}});
+  return out;
+}
+
+}  // namespace campaign
+}  // namespace plumb

@@ -1,0 +1,32 @@
+// plumb campaign: many scenarios, counted.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "campaign_run.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+namespace {
+constexpr const char* kAbout =
+    "Play a campaign: as many scenarios as you like - tools, attitudes, faults, sizes, errors of gravity and of\n"
+    "calibration - through the monitor, and count what became of them: detected, isolated, ambiguous, wrongly "
+    "excluded,\n"
+    "misleading, with the interval that each count leaves for its rate.";
+}  // namespace
+
+Command add_campaign(CLI::App& tool) {
+  auto options = std::make_shared<CampaignOptions>();
+  CLI::App* app = tool.add_subcommand("campaign", "many scenarios through the monitor, counted, with their intervals");
+  add_campaign_options(*app, *options);
+  return {app, kAbout, [options] {
+            campaign::Ranks alone;
+            return run_campaign(*options, alone);
+          }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

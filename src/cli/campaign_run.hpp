@@ -1,0 +1,36 @@
+/// What `plumb campaign` does, for one process and for ranks alike.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "plumb/campaign/engine.hpp"
+#include "plumb/io/file_error.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+struct CampaignOptions {
+  std::string file;
+  std::string out;
+  std::string replay;
+  std::optional<std::uint64_t> seed, scenarios;
+  int threads = 1;
+  double every_s = 30.0;
+  bool resume = false;
+  bool json = false;
+};
+
+/// The options on the command line, and what `--help` says at its end.
+void add_campaign_options(CLI::App& app, CampaignOptions& options);
+
+Command add_campaign(CLI::App& tool);
+
+io::ExitCode run_campaign(const CampaignOptions& options, campaign::Ranks& ranks);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

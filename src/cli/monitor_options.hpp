@@ -1,0 +1,39 @@
+/// What `plumb monitor` was asked to do, and which of it makes no sense together.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+struct MonitorOptions {
+  std::string array;
+  std::string calibration;
+  bool calibrate_first = false;
+  LogSpec log{"-", io::BadRowPolicy::stop, false};
+  std::string events;
+  std::string verdicts;
+  std::string snapshot_in;
+  std::string snapshot_out;
+  std::vector<std::string> host;
+  bool every_sample = false;
+  bool limits = false;
+  bool json = false;
+};
+
+std::optional<io::FileError> follow_misuse(const MonitorOptions& options);
+/// One of the two: a calibration, or a monitor that makes its own.
+std::optional<io::FileError> calibration_misuse(const MonitorOptions& options);
+std::optional<io::FileError> snapshot_misuse(const MonitorOptions& options, const io::ArrayFile& array);
+/// In paper mode delta_f decides alone, by coefficients of its own for each triple.
+io::FileError limits_of_paper(const io::ArrayFile& array);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,182 @@
+#include "monitor_pipeline.hpp"
+
+#include <utility>
+
+#include "plumb/io/records.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool live) {
+  line += '\n';
+  io::FileExpected<void> done = file.write(line);
+  if (done && live) done = file.flush();
+  return done;
+}
+
+std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array) {
+  auto setup = std::make_unique<MonitorSetup>();
+  setup->gravity = array.gravity;
+  setup->config = array.monitor;
+  // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    setup->full_scale_raw[a] = array.datasheet.sensor[a].full_scale_raw;
+    setup->resolution_raw[a] = array.datasheet.sensor[a].resolution_raw;
+    if (!array.lever_arm_m.empty()) setup->lever_arm_m[a] = array.lever_arm_m[a];
+  }
+  setup->lever_arms_known = !array.lever_arm_m.empty();
+  return setup;
+}
+
+std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibration& calibration) {
+  auto setup = setup_of(array);
+  setup->model = calibration.model;
+  setup->array = calibration.array;
+  // The calibrated span, where the array file does not claim another.
+  const MonitorConfig unset;
+  MonitorConfig& config = setup->config;
+  if (config.temperature_min_degc == unset.temperature_min_degc)
+    config.temperature_min_degc = calibration.report.temperature_min_degc;
+  if (config.temperature_max_degc == unset.temperature_max_degc)
+    config.temperature_max_degc = calibration.report.temperature_max_degc;
+  return setup;
+}
+
+/// null: the monitor is to calibrate itself.
+Expected<std::unique_ptr<MonitorSetup>> setup_of(const io::ArrayFile& array, const Calibration* calibration) {
+  if (calibration != nullptr) return setup_of(array, *calibration);
+  auto setup = setup_of(array);
+  const Expected<void> known = set_datasheet(array.datasheet, *setup);
+  if (!known) return tl::unexpected<Error>(known.error());
+  return setup;
+}
+
+tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::ArrayFile& array) {
+  io::FileError error = io::from_error(reason);
+  error.file = array.path;
+  if (reason.code == Errc::range_too_small && reason.index >= 0)
+    error.field = "sensor[" + std::to_string(reason.index + 1) + "].full_scale";
+  if (reason.code == Errc::implausible && reason.index >= 0) {
+    error.field = "sensor[" + std::to_string(reason.index + 1) + "].prior";
+    error.what =
+        "leaves too much open for the monitor to calibrate itself: 0.1 m/s^2 per m/s^2 of scale, 0.1 rad of "
+        "axis and 0.1 g0 of bias at most";
+    error.remedy = "calibrate with plumb calibrate, or give the tolerances of the datasheet, 1 sigma";
+  }
+  return tl::unexpected<io::FileError>(error);
+}
+
+}  // namespace
+
+io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
+  if (verdict.transition.sequence == 0) return {};
+  line_.clear();
+  io::append_event_json(line_, verdict.transition, array_);
+  return put_line(file_, line_, live_);
+}
+
+io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
+  if (!verdict.tick && !every_sample_) return {};
+  line_.clear();
+  io::append_verdict_json(line_, verdict, array_, frame_);
+  return put_line(file_, line_, live_);
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
+                                                              const Calibration* calibration) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration);
+  if (!setup) return refused_setup(setup.error(), array);
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> configured = monitor->configure(**setup);
+  if (configured) return monitor;
+  return refused_setup(configured.error(), array);
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration* calibration,
+                                                                 const std::string& snapshot_path) {
+  const io::FileExpected<std::string> bytes = io::read_file(snapshot_path);
+  if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
+  auto monitor = restore_monitor(array, calibration, *bytes, snapshot_path);
+  if (!monitor && monitor.error().file == snapshot_path) monitor.error().remedy += " (leave out --snapshot-in)";
+  return monitor;
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration* calibration,
+                                                                 const std::string& bytes, const std::string& name) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration);
+  if (!setup) return refused_setup(setup.error(), array);
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> restored =
+      monitor->restore(**setup, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  if (restored) return monitor;
+  if (monitor->verdict().snapshot_refusal == Errc::ok) return refused_setup(restored.error(), array);
+  io::FileError error = io::from_error(restored.error());
+  error.file = name;
+  return tl::unexpected<io::FileError>(std::move(error));
+}
+
+io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor) {
+  std::string bytes(monitor.snapshot_size(), '\0');
+  const Expected<std::size_t> written = monitor.snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  if (!written) return tl::unexpected<io::FileError>(io::from_error(written.error()));
+  return io::write_file(path, bytes);
+}
+
+io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
+                                                                   const io::CalibrationFile& calibration,
+                                                                   const std::string& path) {
+  if (!calibration.paper) {
+    return tl::unexpected<io::FileError>(io::FileError{
+        path, 0, "paper", "is missing: " + array.path + " asks for mode = \"paper\", which needs the paper's own fits",
+        "run plumb calibrate again with this array file (--paper is implied), or set mode = \"plumb\""});
+  }
+  auto setup = std::make_unique<PaperSetup>();
+  setup->base = *setup_of(array, calibration.calibration);
+  setup->datasheet = array.datasheet;
+  setup->paper = *calibration.paper;
+  auto monitor = std::make_unique<PaperMonitor>();
+  const Expected<void> configured = monitor->configure(*setup);
+  if (configured) return monitor;
+  return refused_setup(configured.error(), array);
+}
+
+io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
+                                       const std::vector<VerdictSink*>& sinks) {
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->stop_when(interrupt_flag());
+  if (log.follow) reader->follow();
+  MonitorRun run;
+  Progress progress("monitoring " + log.path);
+  Sample sample;
+  io::LogReader::Next status = reader->next(sample);
+  for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    if (watch.turn && !array.input.rotation_columns.empty()) watch.turn(reader->rotation());
+    const Verdict& verdict = watch.step(sample);
+    ++run.samples;
+    if (verdict.tick) ++run.blocks;
+    if (verdict.transition.sequence != 0) ++run.transitions;
+    run.last_time_s = sample.time_s;
+    for (VerdictSink* sink : sinks) {
+      const io::FileExpected<void> taken = sink->take(sample, verdict);
+      if (!taken) return tl::unexpected<io::FileError>(taken.error());
+    }
+    progress.at(run.samples, sample.time_s);
+  }
+  run.interrupted = interrupted();
+  run.stopped = status == io::LogReader::Next::error;
+  if (run.stopped) run.stop = reader->error();
+  run.last = watch.now;
+  run.log = reader->statistics();
+  return run;
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

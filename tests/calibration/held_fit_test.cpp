@@ -1,0 +1,97 @@
+/// A fit with held axes on a small stack against the same fit by the general way: digit for digit.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "calibration/calibration_support.hpp"
+
+namespace {
+
+using namespace calibration_test;
+using namespace plumb;
+
+struct Case {
+  Datasheet datasheet = paper_tool(2e-4 * kG0_mps2);
+  std::vector<StationMean> means;
+  std::vector<Station> stations;  // the same, less every fourth
+  GravityReference gravity;
+  FitOptions options;
+
+  explicit Case(std::uint64_t seed, int outlier = -1) {
+    Noise noise(seed);
+    Truth truth = draw_truth(datasheet, noise, 0.2, 0.0);
+    for (int i = 0; i < datasheet.size; ++i) datasheet.sensor[at(i)].prior.axis_rad = 0.0;
+    options.require_full_rank = false;
+    options.estimate_misfit = false;
+    for (int k = 0; k < 24; ++k) {
+      Station s = station_at(datasheet, truth, scaled(noise.direction(), gravity.g_mps2), noise, 2e-4 * kG0_mps2);
+      if (k == outlier) s.mean[1] += 0.2;
+      StationMean mean;
+      mean.raw = s.mean;
+      mean.temperature_degc = s.temperature_degc;
+      means.push_back(mean);
+      s.count = 1;
+      s.delivered = SensorSet::first(datasheet.size);
+      s.scatter.fill(0.0);
+      if (k % 4 != 3) stations.push_back(s);
+    }
+  }
+  StationList list() const {
+    return {means.data(), static_cast<int>(means.size()), SensorSet::first(datasheet.size), 4};
+  }
+};
+
+void expect_same(const Case& c, bool sets_aside) {
+  Calibrator general(c.datasheet, c.gravity, c.options), held(c.datasheet, c.gravity, c.options);
+  const int count = static_cast<int>(c.stations.size());
+  ASSERT_EQ(c.list().size(), count);
+  for (int k = 0; k < 200 && !(general.done() && held.done()); ++k) {
+    general.iterate(c.stations.data(), count);
+    held.iterate_held(c.list());
+    ASSERT_EQ(general.parameters(), held.parameters()) << "iteration " << k;
+    ASSERT_EQ(general.cost(), held.cost());
+    ASSERT_EQ(general.done(), held.done());
+  }
+  FitReport report;
+  const Expected<Calibration> whole = general.finish(c.stations.data(), count, &report);
+  HeldFit fit;
+  const Error error = held.finish_held(c.list(), fit);
+  ASSERT_TRUE(whole.has_value()) << describe(whole.error().code);
+  EXPECT_EQ(error.code, Errc::ok) << describe(error.code);
+  EXPECT_EQ(report.outliers > 0, sets_aside);
+  EXPECT_EQ(fit.rank, report.rank);
+  EXPECT_EQ(fit.degrees_of_freedom, report.degrees_of_freedom);
+  EXPECT_EQ(fit.chi2, report.chi2);
+  EXPECT_EQ(fit.p_value, report.p_value);
+  for (int i = 0; i < c.datasheet.size; ++i) {
+    const SensorCoefficients& nominal = c.datasheet.sensor[at(i)].coefficients;
+    const SensorCoefficients& fitted = whole->model.sensor[at(i)];
+    EXPECT_EQ(fitted.scale[0], nominal.scale[0] * fit.length[at(i)]);
+    EXPECT_EQ(fitted.bias[0], (nominal.bias[0] + fit.bias_mps2[at(i)]) / fit.length[at(i)]);
+  }
+}
+
+TEST(HeldFit, IsTheGeneralFitDigitForDigit) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) expect_same(Case(seed), false);
+}
+
+TEST(HeldFit, LeavesOutTheSameStations) { expect_same(Case(3, 5), true); }
+
+TEST(HeldFit, RefusesWhatTheGeneralFitRefuses) {
+  Case c(2);
+  for (StationMean& mean : c.means) mean.raw[2] = mean.raw[0];  // one channel on two inputs
+  for (Station& station : c.stations) station.mean[2] = station.mean[0];
+  Calibrator general(c.datasheet, c.gravity, c.options), held(c.datasheet, c.gravity, c.options);
+  for (int k = 0; k < 200 && !(general.done() && held.done()); ++k) {
+    general.iterate(c.stations.data(), static_cast<int>(c.stations.size()));
+    held.iterate_held(c.list());
+  }
+  const Expected<Calibration> whole = general.finish(c.stations.data(), static_cast<int>(c.stations.size()));
+  HeldFit fit;
+  const Error error = held.finish_held(c.list(), fit);
+  ASSERT_FALSE(whole.has_value());
+  EXPECT_EQ(error.code, whole.error().code);
+  EXPECT_EQ(error.index, whole.error().index);
+}
+
+}  // namespace
