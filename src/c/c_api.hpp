@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "plumb/c/plumb.h"
+#include "plumb/calibration/datasheet.hpp"
 #include "plumb/health/health_monitor.hpp"
 
 namespace plumb {
@@ -17,6 +18,7 @@ using std::size_t;
 /// Setting up needs more room than running, and only once.
 struct Workspace {
   MonitorSetup setup;
+  Datasheet datasheet;  ///< of a monitor without a calibration
   RowUncertainty uncertainty;
   std::array<SensorRow, kCapacity> rows{};
 };
@@ -41,8 +43,8 @@ plumb_error check_struct(const T* given, int argument) noexcept {
 }
 
 /// From the caller's configuration to a setup in the workspace. Errors: those of `SensorArray::make`, and of the
-/// header.
-plumb_error prepare(const plumb_config* given, Workspace& work) noexcept;
+/// header; the pointer counts as `argument`.
+plumb_error prepare(const plumb_config* given, Workspace& work, int argument) noexcept;
 
 /// Copies a verdict out. Errors: null pointer, wrong struct, with `argument`.
 plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept;

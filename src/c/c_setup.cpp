@@ -72,8 +72,9 @@ plumb_error take_sensors(const plumb_config& config, Workspace& work) noexcept {
     c.reference_degc = given.reference_degc;
     work.uncertainty.misfit_mps2[a] = given.misfit_mps2;
     setup.full_scale_raw[a] = given.full_scale_raw;
+    setup.resolution_raw[a] = given.resolution_raw;
     setup.lever_arm_m[a] = array_of(given.lever_arm_m);
-    double sum = given.reference_degc + given.misfit_mps2 + given.full_scale_raw;
+    double sum = given.reference_degc + given.misfit_mps2 + given.full_scale_raw + given.resolution_raw;
     for (size_t k = 0; k < 4; ++k) sum += c.scale[k] + c.bias[k];
     for (size_t k = 0; k < 3; ++k) sum += given.lever_arm_m[k];
     if (!std::isfinite(sum)) return answer({Errc::not_finite, i});
@@ -96,23 +97,50 @@ plumb_error take_covariance(const plumb_config& config, Workspace& work) noexcep
   return answer(PLUMB_OK);
 }
 
-}  // namespace
+/// No calibration yet: what the sensors were given as is their datasheet.
+plumb_error take_datasheet(const plumb_config& config, Workspace& work) noexcept {
+  if (config.covariance != nullptr)
+    return answer({Errc::out_of_range, -1, static_cast<double>(config.covariance_size), 0.0});
+  Datasheet& sheet = work.datasheet;
+  sheet.size = config.sensors;
+  sheet.reads = work.setup.model.reads;
+  for (size_t i = 0; i < static_cast<size_t>(config.sensors); ++i) {
+    const plumb_sensor& given = config.sensor[i];
+    DatasheetSensor& s = sheet.sensor[i];
+    s.row = work.rows[i];
+    s.coefficients = work.setup.model.sensor[i];
+    s.prior.bias_mps2 = given.prior_bias_mps2;
+    s.prior.scale = given.prior_scale;
+    s.prior.axis_rad = given.prior_axis_rad;
+    s.full_scale_raw = given.full_scale_raw;
+    s.resolution_raw = given.resolution_raw;
+  }
+  return answer(set_datasheet(sheet, work.setup));
+}
 
-plumb_error prepare(const plumb_config* given, Workspace& work) noexcept {
-  plumb_error e = check_struct(given, 4);
-  if (e.code != PLUMB_OK) return e;
-  const plumb_config& config = *given;
-  if (config.sensors < 3) return answer({Errc::too_few_sensors, -1, static_cast<double>(config.sensors), 3.0});
-  if (config.sensors > kCapacity)
-    return answer({Errc::too_many_sensors, -1, static_cast<double>(config.sensors), static_cast<double>(kCapacity)});
-  if (config.sensor == nullptr) return missing(4);
-  e = take_sensors(config, work);
-  if (e.code == PLUMB_OK) e = take_covariance(config, work);
+plumb_error take_calibration(const plumb_config& config, Workspace& work) noexcept {
+  const plumb_error e = take_covariance(config, work);
   if (e.code != PLUMB_OK) return e;
   const Expected<SensorArray> array = SensorArray::make(work.rows.data(), config.sensors);
   if (!array) return answer(array.error());
   work.setup.array = *array;
   work.setup.array.set_uncertainty(work.uncertainty);
+  return e;
+}
+
+}  // namespace
+
+plumb_error prepare(const plumb_config* given, Workspace& work, int argument) noexcept {
+  plumb_error e = check_struct(given, argument);
+  if (e.code != PLUMB_OK) return e;
+  const plumb_config& config = *given;
+  if (config.sensors < 3) return answer({Errc::too_few_sensors, -1, static_cast<double>(config.sensors), 3.0});
+  if (config.sensors > kCapacity)
+    return answer({Errc::too_many_sensors, -1, static_cast<double>(config.sensors), static_cast<double>(kCapacity)});
+  if (config.sensor == nullptr) return missing(argument);
+  e = take_sensors(config, work);
+  if (e.code == PLUMB_OK) e = config.calibrated != 0 ? take_calibration(config, work) : take_datasheet(config, work);
+  if (e.code != PLUMB_OK) return e;
   work.setup.gravity = {config.gravity_mps2, config.gravity_sigma_mps2, GravityModel::value};
   work.setup.output_frame = array_of(config.output_frame);
   work.setup.config = settings_of(config);
@@ -130,6 +158,7 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   const plumb::MonitorConfig d;
   *config = plumb_config{};
   config->struct_size = sizeof(plumb_config);
+  config->calibrated = 1;
   config->reads = 1;
   config->gravity_mps2 = plumb::GravityReference{}.g_mps2;
   config->gravity_sigma_mps2 = plumb::GravityReference{}.sigma_mps2;
@@ -172,6 +201,10 @@ plumb_error plumb_sensor_defaults(plumb_sensor* sensor) noexcept {
   sensor->struct_size = sizeof(plumb_sensor);
   sensor->scale[0] = 1.0;
   sensor->reference_degc = 25.0;
+  const plumb::Prior prior;
+  sensor->prior_bias_mps2 = prior.bias_mps2;
+  sensor->prior_scale = prior.scale;
+  sensor->prior_axis_rad = prior.axis_rad;
   return plumb::c_api::answer(PLUMB_OK);
 }
 

@@ -85,7 +85,7 @@ plumb_error plumb_monitor_init(void* storage, size_t storage_size, void* workspa
   if (e.code == PLUMB_OK) e = room_for<Workspace>(workspace, workspace_size, 2);
   if (e.code != PLUMB_OK) return e;
   auto* work = new (workspace) Workspace;
-  e = prepare(config, *work);
+  e = prepare(config, *work, 4);
   if (e.code != PLUMB_OK) return e;
   auto* made = new (storage) plumb_monitor;
   e = answer(made->monitor.configure(work->setup));
@@ -162,6 +162,34 @@ plumb_error plumb_monitor_set_rotation(plumb_monitor* monitor, std::int32_t turn
 plumb_error plumb_monitor_request_recalibration(plumb_monitor* monitor) noexcept {
   const plumb_error e = check(monitor);
   return e.code != PLUMB_OK ? e : answer(monitor->monitor.request_recalibration());
+}
+
+plumb_error plumb_monitor_offer(plumb_monitor* monitor, void* workspace, size_t workspace_size,
+                                const plumb_config* config) noexcept {
+  plumb_error e = check(monitor);
+  if (e.code == PLUMB_OK) e = room_for<Workspace>(workspace, workspace_size, 1);
+  if (e.code != PLUMB_OK) return e;
+  auto* work = new (workspace) Workspace;
+  e = prepare(config, *work, 3);
+  if (e.code != PLUMB_OK) return e;
+  if (!work->setup.calibrated) return answer({Errc::not_calibrated});
+  return answer(monitor->monitor.offer_calibration(work->setup.model, work->setup.array));
+}
+
+plumb_error plumb_monitor_calibration(const plumb_monitor* monitor, std::int32_t sensor, plumb_sensor* to) noexcept {
+  plumb_error e = check(monitor);
+  if (e.code == PLUMB_OK) e = check_struct(to, 2);
+  if (e.code != PLUMB_OK) return e;
+  const HealthMonitor& m = monitor->monitor;
+  if (sensor < 0 || sensor >= m.array().size())
+    return answer({Errc::out_of_range, -1, static_cast<double>(sensor), static_cast<double>(m.array().size() - 1)});
+  const Vec3 axis = m.array().axis(sensor);
+  const SensorCoefficients& c = m.model().sensor[static_cast<size_t>(sensor)];
+  std::copy(axis.begin(), axis.end(), to->axis);
+  std::copy(c.scale.begin(), c.scale.end(), to->scale);
+  std::copy(c.bias.begin(), c.bias.end(), to->bias_mps2);
+  to->reference_degc = c.reference_degc;
+  return e;
 }
 
 plumb_error plumb_monitor_inhibit(plumb_monitor* monitor, std::int32_t frozen) noexcept {

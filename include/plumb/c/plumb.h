@@ -57,7 +57,10 @@ typedef struct plumb_sensor {
   double reference_degc;
   double misfit_mps2;    /* 1 sigma per attitude that no coefficient explains */
   double full_scale_raw; /* 0 = unknown */
+  double resolution_raw; /* one code; 0 = unknown */
   double lever_arm_m[3]; /* from the axis of rotation */
+  /* What the datasheet leaves open of bias, scale (relative) and axis, 1 sigma: read where `calibrated` is 0. */
+  double prior_bias_mps2, prior_scale, prior_axis_rad;
 } plumb_sensor;
 
 typedef struct plumb_config {
@@ -68,7 +71,9 @@ typedef struct plumb_config {
    * 4 x sensors, as in a calibration file; null: perfectly known. */
   const double* covariance;
   uint32_t covariance_size; /* 2 n (4 n + 1) */
-  int32_t reads;            /* +1 gravity, -1 specific force */
+  /* 0: axes, scales and biases are the datasheet's; the monitor makes its own calibration, and `covariance` is null. */
+  int32_t calibrated;
+  int32_t reads; /* +1 gravity, -1 specific force */
   double gravity_mps2, gravity_sigma_mps2;
   double output_frame[9];   /* row-major */
   int32_t lever_arms_known; /* 0: evidence rests while the tool turns */
@@ -90,7 +95,8 @@ typedef struct plumb_config {
 
 /* Everything but the sensors. Error: null_pointer. */
 plumb_error plumb_config_defaults(plumb_config* config) PLUMB_NOEXCEPT;
-/* Scale 1, bias 0, no lever arm; axis, id and noise are the caller's. Error: null_pointer. */
+/* Scale 1, bias 0, no lever arm, the priors of an ordinary datasheet; axis, id and noise are the caller's. Error:
+ * null_pointer. */
 plumb_error plumb_sensor_defaults(plumb_sensor* sensor) PLUMB_NOEXCEPT;
 
 /* --- Samples and verdicts. ------------------------------------------------------------------------------ */
@@ -207,6 +213,14 @@ plumb_error plumb_monitor_set_gravity(plumb_monitor* monitor, double g_mps2, dou
 plumb_error plumb_monitor_set_rotation(plumb_monitor* monitor, int32_t turning,
                                        const double rate_radps[3]) PLUMB_NOEXCEPT;
 plumb_error plumb_monitor_request_recalibration(plumb_monitor* monitor) PLUMB_NOEXCEPT;
+/* Offers a calibration made elsewhere: biases, scales and covariance of `config` (its settings are not looked at) are
+ * tried in the shadow and adopted or refused. Errors: those of plumb_monitor_init but for the storage, and of
+ * HealthMonitor::offer_calibration; not_calibrated where `calibrated` is 0. */
+plumb_error plumb_monitor_offer(plumb_monitor* monitor, void* workspace, size_t workspace_size,
+                                const plumb_config* config) PLUMB_NOEXCEPT;
+/* Axis, scale and bias of a sensor as they are in force now: what the monitor fitted, or was given. Error:
+ * out_of_range (sensor). The other members are left as they are. */
+plumb_error plumb_monitor_calibration(const plumb_monitor* monitor, int32_t sensor, plumb_sensor* to) PLUMB_NOEXCEPT;
 plumb_error plumb_monitor_inhibit(plumb_monitor* monitor, int32_t frozen) PLUMB_NOEXCEPT;
 
 #ifdef __cplusplus
