@@ -108,6 +108,33 @@ RC_GTEST_PROP(SnapshotLaw, WhatWasCutOffIsMissed, ()) {
   RC_ASSERT(is_fresh_but_for(life.tool.rig.monitor, life.tool.rig.setup, Errc::snapshot_truncated));
 }
 
+/// Not drawn but all of them: each bit of a snapshot from the middle of an episode, each shorter length.
+// Negative: REQ-163
+TEST(Snapshot, EverySingleBitAndEveryLengthIsCovered) {
+  Life life(4, 12);
+  live(life, 4000);
+  const Bytes bytes = snapshot_of(life.tool.rig.monitor);
+  ASSERT_TRUE(life.tool.rig.monitor.restore(life.tool.rig.setup, bytes.data(), bytes.size()).has_value());
+  auto monitor = std::make_unique<HealthMonitor>();
+  const auto answer = [&](const Bytes& given, std::size_t size) {
+    const Expected<void> taken = monitor->restore(life.tool.rig.setup, given.data(), size);
+    const bool unproven = (monitor->verdict().qualifiers & Qualifier::unproven) != 0;
+    return taken.has_value() || !unproven ? Errc::ok : taken.error().code;
+  };
+  Bytes hurt = bytes;
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    const auto mask = static_cast<std::uint8_t>(1U << (bit % 8));
+    hurt[bit / 8] = static_cast<std::uint8_t>(hurt[bit / 8] ^ mask);
+    const Errc code = answer(hurt, hurt.size());
+    const bool in_size = bit / 8 >= 24 && bit / 8 < 28;
+    ASSERT_TRUE(code == Errc::snapshot_damaged || (in_size && code == Errc::snapshot_truncated)) << "bit " << bit;
+    hurt[bit / 8] = static_cast<std::uint8_t>(hurt[bit / 8] ^ mask);
+  }
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    ASSERT_EQ(answer(bytes, size), Errc::snapshot_truncated) << size << " bytes";
+  EXPECT_TRUE(monitor->restore(life.tool.rig.setup, bytes.data(), bytes.size()).has_value()) << "and whole it is taken";
+}
+
 /// Overwrites a few places with what does most harm.
 void forge(Bytes& bytes, Noise& noise) {
   constexpr double kSpecials[] = {std::numeric_limits<double>::quiet_NaN(),
