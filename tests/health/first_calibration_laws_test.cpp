@@ -35,6 +35,29 @@ RC_GTEST_PROP(FirstCalibrationLaw, EndsAcceptedAndItsTiltIsWithinItsProtectionLe
   RC_ASSERT(tool.state() == HealthState::nominal);
 }
 
+/// The gauge: told a length of gravity that is wrong, the fit takes it for that of the scales, and no test can tell. So
+/// it may not matter: nobody is blamed for it, and the direction stays within the bound, for as long as the error
+/// stays.
+// Verifies: REQ-136
+RC_GTEST_PROP(FirstCalibrationLaw, AWrongLengthOfGravityIsTheScalesAndDoesNotTurnTheVector, ()) {
+  const int n = *rc::gen::inRange(4, kCapacity + 1);
+  UncalibratedTool tool(n, *rc::gen::arbitrary<std::uint64_t>());
+  const double off = 0.03 * (2.0 * tool.noise.uniform() - 1.0);
+  tool.g_mps2 = (1.0 + off) * kG0_mps2;
+  tool.start();
+  tool.roam(60);
+  RC_ASSERT(!tool.usable_too_early);
+  RC_CLASSIFY(tool.calibrated(), "accepted");
+  if (!tool.calibrated()) return;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 u = random_direction(tool.noise);
+    const Verdict& v = tool.stay(u, 2);
+    RC_ASSERT(v.excluded.empty() && v.set_aside.empty() && v.suspects.empty());
+    if (v.protection_available)
+      RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <= v.protection_level_rad);
+  }
+}
+
 // Negative: REQ-137
 RC_GTEST_PROP(FirstCalibrationLaw, AttitudesInOnePlaneAreNeverEnough, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
