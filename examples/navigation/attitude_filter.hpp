@@ -29,7 +29,8 @@ class AttitudeFilter {
   void turn(const Vector3& gyro_radps, double dt_s) {
     const Vector3 rate = gyro_radps - bias_;
     const Matrix3 lever = skew(gravity_);
-    const Matrix3 back = Eigen::AngleAxisd(-rate.norm() * dt_s, rate.stableNormalized()).toRotationMatrix();
+    Matrix3 back = Matrix3::Identity();
+    if (rate.norm() > 0.0) back = Eigen::AngleAxisd(-rate.norm() * dt_s, rate.stableNormalized()).toRotationMatrix();
     Eigen::Matrix<double, 6, 6> step = Eigen::Matrix<double, 6, 6>::Identity();
     step.topLeftCorner<3, 3>() = back;
     step.topRightCorner<3, 3>() = -dt_s * lever;  // a bias taken for a rate

@@ -33,7 +33,8 @@ class Body {
     Eigen::Vector3d rate_radps = Eigen::Vector3d::Zero();
     if (stand > 0 && count_ % 400 < 100) rate_radps << 0.5 * std::cos(2.4 * stand), 0.5 * std::sin(2.4 * stand), 0.15;
     // A vector that stands still turns backwards as seen from a body that turns.
-    gravity_mps2_ = Eigen::AngleAxisd(-rate_radps.norm() * kStep_s, rate_radps.stableNormalized()) * gravity_mps2_;
+    if (rate_radps.norm() > 0.0)
+      gravity_mps2_ = Eigen::AngleAxisd(-rate_radps.norm() * kStep_s, rate_radps.stableNormalized()) * gravity_mps2_;
     for (int c = 0; c < 3; ++c) gyro_radps_[c] = rate_radps[c] + kGyroBias_radps[c] + noise(kGyroSigma_radps);
     plumb::Sample sample;
     sample.time_s = kStep_s * count_++;
