@@ -1,0 +1,20 @@
+# Fuzzers (scripts/fuzz): one program per file of fuzz/, with Clang's libFuzzer. The libraries are compiled with its
+# counters and with sanitizers by the flags that the script gives.
+if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  message(FATAL_ERROR "PLUMB_BUILD_FUZZ needs Clang: cmake --preset clang")
+endif()
+add_custom_target(plumb_fuzz)
+foreach(name IN ITEMS array_toml scenario_toml calibration_json log_csv snapshot_restore monitor_step)
+  add_executable(fuzz_${name} EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/fuzz/${name}.cpp")
+  plumb_compile_settings(fuzz_${name})
+  target_compile_definitions(fuzz_${name} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+  add_dependencies(plumb_fuzz fuzz_${name})
+endforeach()
+foreach(name IN ITEMS array_toml scenario_toml calibration_json log_csv)
+  target_link_libraries(fuzz_${name} PRIVATE plumb_io plumb_scenario plumb_24)
+endforeach()
+foreach(name IN ITEMS snapshot_restore monitor_step)  # a monitor that is copied for every input: a small one
+  target_link_libraries(fuzz_${name} PRIVATE plumb_4)
+endforeach()
+target_link_libraries(fuzz_calibration_json PRIVATE nlohmann_json::nlohmann_json)
