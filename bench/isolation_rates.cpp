@@ -208,7 +208,7 @@ void bound(const Settings& s) {
           const BoundCount c = cap8::best_possible({n, m, least, most, s.trials(1e4), seed}, rate);
           std::printf("| %d | %d | %.0f-%.0f | %.0e | %llu | %s | %s | %s |\n", n, m, least, most, rate,
                       static_cast<unsigned long long>(c.trials), share(c.told, c.trials).c_str(),
-                      share(c.told_moving, c.trials).c_str(),
+                      n > 4 ? share(c.told_moving, c.trials).c_str() : "-",
                       m <= n - 4 ? share(c.told_by_parity, c.trials).c_str() : "-");
         }
         std::fflush(stdout);
