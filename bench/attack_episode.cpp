@@ -240,6 +240,7 @@ void AttackEpisode::visit(int station) {
       sample.raw[slot(i)] = y[slot(i)] + setup_.array.sigma_mps2(i) * noise_.normal();
     }
     disturb_and_send(sample);
+    if ((k + 1) % window == 0) pushed_mps2_ = {};  // a block that passed for motion is none the less over
   }
 }
 
@@ -297,6 +298,7 @@ void AttackEpisode::find(std::uint64_t& counter, const std::string& what) {
 void AttackEpisode::judge() {
   const Verdict& v = monitor_->verdict();
   if (v.accepted) ++steady_rows_;
+  if (v.tick) note_bounds();  // before anything is held against the block
   if (tell_ && v.transition.sequence != 0) {
     std::printf("  t %.2f %s -> %s, event %s, cause %s, excluded %x, set aside %x, absent %x\n", v.time_s,
                 to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
@@ -319,18 +321,23 @@ void AttackEpisode::judge() {
   if (v.tick) judge_vector();
 }
 
-void AttackEpisode::judge_vector() {
+void AttackEpisode::note_bounds() {
   const Verdict& v = monitor_->verdict();
-  ++count_.ticks;
   // What the block's mean was pushed by makes gravity look longer, as far as anybody at rest can tell.
   const Vec3 push = scaled(pushed_mps2_, 1.0 / setup_.config.window);
-  pushed_mps2_ = {};
   const double length = norm(plus(scaled(direction_, kG0_mps2), push)) - kG0_mps2;
   const double sigmas = gravity_sigmas_ + length / tool_.law.tool.gravity.sigma_mps2;
   if (std::fabs(sigmas) > std::fabs(hidden_sigmas_)) hidden_sigmas_ = sigmas;
   // Motion below the noise of every channel is an error of gravity that nobody can see, and beyond the bound on it.
   within_bounds_ = within_bounds_ && (!v.restless.empty() || std::fabs(sigmas) <= kGravitySigmas);
-  if (tell_ && length != 0.0) std::printf("    quiet block, gravity as if %.3g sigma off\n", sigmas);
+  if (tell_ && length != 0.0) {
+    std::printf("    quiet block, gravity as if %.3g sigma off, restless %x\n", sigmas, v.restless.bits);
+  }
+}
+
+void AttackEpisode::judge_vector() {
+  const Verdict& v = monitor_->verdict();
+  ++count_.ticks;
   if (!std::isfinite(v.protection_level_rad) || !std::isfinite(norm(v.gravity_mps2))) {
     return find(count_.broken, "a figure is not finite");
   }

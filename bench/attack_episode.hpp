@@ -42,6 +42,7 @@ class AttackEpisode {
   void send(plumb::Sample& sample);
   void disturb_and_send(plumb::Sample& sample);
   void judge();
+  void note_bounds();
   void judge_vector();
   void find(std::uint64_t& counter, const std::string& what);
 

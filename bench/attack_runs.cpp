@@ -85,6 +85,7 @@ AttackSum attack(const AttackJob& job) {
     const auto n = plumb_test::slot(strata.digit(5));
     const auto situation = plumb_test::slot(strata.digit(kSituations));
     const auto lie = plumb_test::slot(strata.digit(kAttackLies));
+    if (job.only >= 0 && situation != plumb_test::slot(job.only)) continue;
     plumb_test::TrialNoise noise = plumb_test::stream_of(static_cast<int>(job.seed % 1000000), number);
     const AttackTool& tool = tools[n][plumb_test::slot(noise.below(static_cast<int>(tools[n].size())))];
     AttackEpisode episode(tool, static_cast<Situation>(situation), static_cast<int>(lie), job.seed, number, job.tell);

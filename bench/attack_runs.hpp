@@ -28,6 +28,7 @@ const char* name_of_lie(int lie);
 struct AttackJob {
   std::uint64_t seed = 1, first = 0, episodes = 0;
   bool tell = false;  ///< every change of state, on standard output
+  int only = -1;      ///< play episodes of this situation alone; the others keep their numbers
 };
 
 /// Episodes in which it happened.

@@ -1,6 +1,6 @@
 // plumb_isolation_rates WHAT [--scale X] [--seed S] [--from N] [--to N]: how often isolation is right, undecided,
-// wrong, with 95 % Clopper-Pearson intervals, as Markdown. WHAT is soundness, beyond, strict, rivals, trouble, parity
-// or asserted;
+// wrong, with 95 % Clopper-Pearson intervals, as Markdown. WHAT is soundness, beyond, strict, rivals, trouble, parity,
+// asserted, or bound (what no rule can do better);
 // --scale multiplies the numbers of trials, --from and --to bound the numbers of sensors of soundness.
 // docs/isolation.md holds what it printed.
 #include <cstdio>
@@ -194,9 +194,33 @@ void asserted(const Settings& s) {
   }
 }
 
+/// What no rule can do better.
+void bound(const Settings& s) {
+  std::printf(
+      "| n | m | sigmas | level | trials | told, %% | told where one fault may be in a moving tool, %% | told by "
+      "parity at one station, %% |\n|---|---|---|---|---|---|---|---|\n");
+  for (int n = 4; n <= 8; ++n) {
+    for (int m = 1; m <= n - 3; ++m) {
+      for (const auto& [least, most] :
+           {std::pair{3.0, 10.0}, std::pair{10.0, 30.0}, std::pair{30.0, 100.0}, std::pair{40.0, 2000.0}}) {
+        for (const double rate : {1e-6, 1e-3}) {
+          const auto seed = s.seed + static_cast<std::uint64_t>(1000 * n + 100 * m + least);
+          const BoundCount c = cap8::best_possible({n, m, least, most, s.trials(1e4), seed}, rate);
+          std::printf("| %d | %d | %.0f-%.0f | %.0e | %llu | %s | %s | %s |\n", n, m, least, most, rate,
+                      static_cast<unsigned long long>(c.trials), share(c.told, c.trials).c_str(),
+                      n > 4 ? share(c.told_moving, c.trials).c_str() : "-",
+                      m <= n - 4 ? share(c.told_by_parity, c.trials).c_str() : "-");
+        }
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
 int usage() {
   std::fputs(
-      "usage: plumb_isolation_rates soundness|beyond|strict|rivals|trouble|parity|asserted [--scale X] [--seed S] "
+      "usage: plumb_isolation_rates soundness|beyond|strict|rivals|trouble|parity|asserted|bound [--scale X] [--seed "
+      "S] "
       "[--from N] [--to N]\n",
       stderr);
   return 2;
@@ -236,6 +260,8 @@ int main(int argc, char** argv) {
     parity(settings);
   } else if (what == "asserted") {
     asserted(settings);
+  } else if (what == "bound") {
+    bound(settings);
   } else {
     return usage();
   }

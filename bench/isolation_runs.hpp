@@ -43,11 +43,21 @@ enum class Rule : std::uint8_t { strict, paper, glt, leave_out, best_fit };
 inline constexpr int kRules = 5;
 using RuleCounts = std::array<Count, kRules>;
 
+/// Trials in which the best test there is, told what the faulty sensors read, rejects every wrong explanation: no rule
+/// that blames nobody can name the faulty in more.
+struct BoundCount {
+  std::uint64_t trials = 0;
+  std::uint64_t told = 0;            ///< over eight attitudes, gravity within its bound
+  std::uint64_t told_moving = 0;     ///< and not one fault either in a tool that is accelerated anyhow
+  std::uint64_t told_by_parity = 0;  ///< at the first attitude, by parity alone, at the parity grade
+};
+
 #define PLUMB_BENCH_ISOLATION_RUNS                  \
   SoundCount soundness(const SoundnessJob& job);    \
   RuleCounts eight_attitudes(const RatesJob& job);  \
   Count parity_at_one_station(const RatesJob& job); \
-  Count asserted_at_one_block(const RatesJob& job);
+  Count asserted_at_one_block(const RatesJob& job); \
+  BoundCount best_possible(const RatesJob& job, double rate);
 
 namespace cap8 {
 PLUMB_BENCH_ISOLATION_RUNS

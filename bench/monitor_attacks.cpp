@@ -1,6 +1,7 @@
-// plumb_monitor_attacks [--episodes N] [--first K] [--seed S] [--episode K]: attacks on the whole monitor, counted by
-// number of sensors, by situation and by lie, with 95 % Clopper-Pearson intervals, as Markdown. `--episode` replays one
-// and tells every change of state. Exit 1 where something happened that plumb promises not to do.
+// plumb_monitor_attacks [--episodes N] [--first K] [--seed S] [--situation NAME] [--episode K]: attacks on the whole
+// monitor, counted by number of sensors, by situation and by lie, with 95 % Clopper-Pearson intervals, as Markdown.
+// `--situation` plays only the episodes of one situation among them; `--episode` replays one and tells every change of
+// state. Exit 1 where something happened that plumb promises not to do.
 // docs/isolation.md holds what it printed.
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +20,7 @@ constexpr std::size_t kMostTold = 400;
 struct Settings {
   std::uint64_t seed = 20180227, first = 0, episodes = 20000;
   bool one = false;
+  int only = -1;
 };
 
 std::string bound(std::uint64_t k, std::uint64_t n) {
@@ -84,7 +86,8 @@ int run(const Settings& settings) {
   std::uint64_t unsound = 0;
   const std::uint64_t end = settings.first + settings.episodes;
   for (std::uint64_t from = settings.first; from < end; from += kChunk) {
-    const AttackSum part = attack({settings.seed, from, from + kChunk < end ? kChunk : end - from, settings.one});
+    const AttackSum part =
+        attack({settings.seed, from, from + kChunk < end ? kChunk : end - from, settings.one, settings.only});
     for (std::size_t n = 0; n < part.count.size(); ++n) {
       for (std::size_t s = 0; s < kSituations; ++s) {
         for (std::size_t l = 0; l < kAttackLies; ++l) {
@@ -109,8 +112,17 @@ int run(const Settings& settings) {
   return unsound == 0 ? 0 : 1;
 }
 
+/// -1 where there is none of that name.
+int situation_named(const std::string& text) {
+  for (int s = kSituations - 1; s >= 0; --s) {
+    if (text == name(static_cast<Situation>(s))) return s;
+  }
+  return -1;
+}
+
 int usage() {
-  std::fputs("usage: plumb_monitor_attacks [--episodes N] [--first K] [--seed S] [--episode K]\n", stderr);
+  std::fputs("usage: plumb_monitor_attacks [--episodes N] [--first K] [--seed S] [--situation NAME] [--episode K]\n",
+             stderr);
   return 2;
 }
 
@@ -132,6 +144,8 @@ int main(int argc, char** argv) {
       settings.first = value;
       settings.episodes = 1;
       settings.one = true;
+    } else if (option == "--situation" && situation_named(argv[i + 1]) >= 0) {
+      settings.only = situation_named(argv[i + 1]);
     } else {
       return usage();
     }

@@ -163,7 +163,7 @@ inline count_clean() {
        fi;
        if
        :: !open && !unproven && RECORDS && mode != SUSPECT && regime == FREE && RETURNS ->
-            pick((out | aside) & ~(banned | absent), proven);
+            pick((out | aside) & ~(readmitted | absent), proven);
             if
             :: probation & proven -> probation = probation & proven
             :: else -> probation = proven; probation_stations = 0

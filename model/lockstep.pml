@@ -61,7 +61,7 @@ inline compare() {
     now.agreed = now.agreed && A.event == now.event && A.moved == now.moved && A.changed == now.changed && S.mode == now.mode &&
                  S.base == now.base && S.in_service == now.serving && S.set_aside == now.aside &&
                  S.excluded == now.out && S.absent == now.absent && S.readmitted == now.readmitted &&
-                 S.banned == now.banned && S.unproven == now.unproven && S.exhausted == now.exhausted &&
+                 S.unproven == now.unproven && S.exhausted == now.exhausted &&
                  S.clean_run == now.clean_run && S.calibrated == now.calibrated;
   }
   assert(agreed);

@@ -1,13 +1,13 @@
 /* What must hold at every step (assertions, by the names of docs/properties.md) and of every run (claims).
    The values before the step are taken by `look`, those after it are judged by `judge`. */
 
-hidden byte m0_, serving0_, aside0_, out0_, absent0_, readmitted0_, banned0_, ever0_, accused0_, open0_, run0_, posed0_;
+hidden byte m0_, serving0_, aside0_, out0_, absent0_, readmitted0_, ever0_, accused0_, open0_, run0_, posed0_;
 hidden byte unproven0_, fit0_;
 bit alarmed;      /* a block spoke against the tool since the collection of stations began */
 
 inline look() {
   m0_ = mode; serving0_ = serving; aside0_ = aside; out0_ = out; absent0_ = absent; posed0_ = POSED;
-  readmitted0_ = readmitted; banned0_ = banned; ever0_ = ever; accused0_ = accused; open0_ = open;
+  readmitted0_ = readmitted; ever0_ = ever; accused0_ = accused; open0_ = open;
   run0_ = clean_run; unproven0_ = unproven; fit0_ = fit;
   if
   :: raised & (BIT(ALARM) | BIT(CONTRADICTION) | BIT(REFERENCE)) -> alarmed = (mode == RECALIBRATING || mode == INITIAL)
@@ -33,11 +33,11 @@ inline judge() {
   assert(event == NONE || kind_of[m0_ * EVENTS + event] != IMPOSSIBLE);
   /* S5 */
   assert(m0_ != FAILED || mode == FAILED || event == RESET);
-  /* S1: an exclusion takes nobody who was healthy throughout the episode (who was to stay out already may be counted
-     among the excluded with it); nor does setting aside while four are healthy */
+  /* S1: an exclusion takes nobody who was healthy throughout the episode, and nobody but whom it names; nor does
+     setting aside while four are healthy */
   if
   :: event == CULPRIT ->
-       assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, ever0_ | banned0_))
+       assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, moved))
   :: event == SET_ASIDE && COUNT(posed0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
   :: else
   fi;
@@ -58,9 +58,10 @@ inline judge() {
   assert(WITHIN(CAME_BACK, (event == PROBATION_PASSED || (event == RESET && m0_ == FAILED) -> moved :
                             (event == CULPRIT -> aside0_ : 0))));
   assert(event != PROBATION_PASSED || COUNT(CAME_BACK) <= 1);
-  /* S10: who was convicted after a return does not come back */
-  assert(event == RESET || WITHIN(CAME_BACK, ALL & ~banned0_));
-  assert(WITHIN(readmitted0_, readmitted) && WITHIN(banned0_, banned) && WITHIN(banned, readmitted));
+  /* S10: who has come back by probation once does not do so again, and nobody excluded comes back by an acquittal */
+  assert(event != PROBATION_PASSED || WITHIN(CAME_BACK, readmitted & ~readmitted0_));
+  assert(event == RESET || WITHIN(CAME_BACK & out0_, readmitted & ~readmitted0_));
+  assert(WITHIN(readmitted0_, readmitted));
   /* S12: patience over is bounded by the protection level, or failed */
   assert(event != PATIENCE_OVER || m0_ != SUSPECT || (within -> (mode == SUSPECT && exhausted) : mode == FAILED));
   /* S14: within an episode the accused only grow, but for those that are gone, and for a sensor that joined */

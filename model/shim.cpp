@@ -8,7 +8,7 @@ namespace {
 
 using namespace plumb;
 
-static_assert(sizeof(plumb_model_state) == 12, "no padding: the model checker compares bytes");
+static_assert(sizeof(plumb_model_state) == 11, "no padding: the model checker compares bytes");
 static_assert(static_cast<int>(Mode::nominal) == 0 && static_cast<int>(Mode::isolated) == 1 &&
               static_cast<int>(Mode::suspect) == 2 && static_cast<int>(Mode::degraded) == 3 &&
               static_cast<int>(Mode::recalibrating) == 4 && static_cast<int>(Mode::initial) == 5 &&
@@ -43,8 +43,8 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   DecisionState s;
   s.mode = static_cast<Mode>(state->mode);
   s.base = static_cast<Mode>(state->base);
-  s.sensors = {SensorSet(state->in_service), SensorSet(state->set_aside),  SensorSet(state->excluded),
-               SensorSet(state->absent),     SensorSet(state->readmitted), SensorSet(state->banned)};
+  s.sensors = {SensorSet(state->in_service), SensorSet(state->set_aside), SensorSet(state->excluded),
+               SensorSet(state->absent), SensorSet(state->readmitted)};
   s.unproven = state->unproven != 0;
   s.exhausted = state->exhausted != 0;
   s.clean_run = state->clean_run;
@@ -71,7 +71,6 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   state->excluded = byte_of(s.sensors.excluded);
   state->absent = byte_of(s.sensors.absent);
   state->readmitted = byte_of(s.sensors.readmitted);
-  state->banned = byte_of(s.sensors.banned);
   state->unproven = s.unproven ? 1 : 0;
   state->exhausted = s.exhausted ? 1 : 0;
   state->clean_run = static_cast<unsigned char>(s.clean_run);

@@ -10,7 +10,7 @@ extern "C" {
 
 typedef struct {
   unsigned char mode, base;
-  unsigned char in_service, set_aside, excluded, absent, readmitted, banned;
+  unsigned char in_service, set_aside, excluded, absent, readmitted;
   unsigned char unproven, exhausted, clean_run, calibrated;
 } plumb_model_state;
 

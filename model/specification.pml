@@ -208,7 +208,7 @@ inline write_table() {
 byte mode = SUSPECT;
 byte base = SUSPECT;     /* what recalibrating was entered from */
 byte serving, aside, out, absent;  /* every sensor stands in one of them (S4) */
-byte readmitted, banned; /* has come back once; was convicted after that */
+byte readmitted;         /* has come back by probation: once is all */
 bit unproven, exhausted, calibrated;
 byte clean_run;
 
@@ -244,7 +244,7 @@ short does;              /* the actions of the cell taken */
 byte moved;              /* the sensors that the event is about */
 
 hidden byte e_;
-hidden byte acquitted_, left_, size_;
+hidden byte left_, size_;
 
 inline rank() {
   event = NONE; does = NOTHING; e_ = 0;
@@ -261,14 +261,16 @@ inline move_sensors() {
   if
   :: does & EXCLUDE ->
        moved = culprits;
-       banned = banned | (moved & readmitted);
-       acquitted_ = aside & ~moved;
-       out = out | moved | (acquitted_ & banned);      /* who was to stay out is not acquitted into service */
-       serving = (serving & ~moved) | (acquitted_ & ~banned);
+#ifdef OLD_BAN  /* who was set aside after a return was latched out with the next convicted: S1 falls */
+       out = out | moved | (aside & readmitted);
+       serving = (serving | (aside & ~readmitted)) & ~moved;
+#else
+       out = out | moved;
+       serving = (serving | aside) & ~moved;           /* setting aside was no conviction: the others are acquitted */
+#endif
        aside = 0
   :: does & PUT_ASIDE ->
        moved = to_aside & serving;
-       banned = banned | (moved & readmitted);
        serving = serving & ~moved;
        aside = aside | moved
   :: does & MARK_ABSENT ->
@@ -277,11 +279,10 @@ inline move_sensors() {
        absent = absent | moved
   :: does & MARK_BACK ->
        moved = back & absent;
-       banned = banned | (moved & readmitted);
        absent = absent & ~moved;
        out = out | moved
   :: does & REINSTATE ->
-       moved = proven & (out | aside) & ~banned;
+       moved = proven & (out | aside) & ~readmitted;
        moved = moved & ((~moved) + 1);                 /* one at a time */
        readmitted = readmitted | moved;
        out = out & ~moved; aside = aside & ~moved;

@@ -8,7 +8,7 @@
 extern int readtrail; /* of pan.c: a trail is being replayed */
 
 #define PLUMB_MASKS(use)                                                                                         \
-  use(serving) use(aside) use(out) use(absent) use(readmitted) use(banned) use(ever) use(accused) use(probation) \
+  use(serving) use(aside) use(out) use(absent) use(readmitted) use(ever) use(accused) use(probation) \
       use(broken)
 
 static int plumb_order[8];
@@ -43,7 +43,6 @@ static void plumb_sort(void) {
   S.excluded = plumb_place(S.excluded);
   S.absent = plumb_place(S.absent);
   S.readmitted = plumb_place(S.readmitted);
-  S.banned = plumb_place(S.banned);
 #endif
   now.rep = 0;
   for (i = 0; i < SENSORS; ++i) {
@@ -93,6 +92,6 @@ static void plumb_tell(void) {
   plumb_set("; set aside", now.aside);
   plumb_set("; excluded", now.out);
   plumb_set("; absent", now.absent);
-  plumb_set("; out for good", now.banned);
+  plumb_set("; has returned once", now.readmitted);
   printf("%s\n", now.unproven ? "; unproven" : "");
 }

@@ -34,9 +34,13 @@ double functional_variance(const BlockAccumulator& block, const std::array<doubl
 constexpr double kRecordRate = 1e-7;
 /// Part of a channel's own scatter that its residual must hold before it is called the channel's.
 constexpr double kOwnShare = 0.5;
+/// The residual of a healthy channel against healthy ones passes for its own scatter with this chance in a block; three
+/// blocks in a row are asked for.
+constexpr double kCertainRate = 0.05;
 
-/// So many of the others are doubted at once, at most: more choices take too long, and are rarer still.
-constexpr int kMostDoubted = 3;
+/// So many of the others are doubted at once, at most: all that the parity grade bears of eight; among more sensors the
+/// choices would take too long.
+constexpr int most_doubted(int n) noexcept { return n <= 8 ? 4 : 3; }
 
 /// Scatter of the residual of a channel against the estimate of others.
 struct ResidualScatter {
@@ -65,12 +69,14 @@ ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulato
 /// predicted a movement of the tool.
 bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, SensorSet calm, int i,
                      int grade) noexcept {
+  const double least_ratio = restless_factor(1, block.size(), kCertainRate);
   for (SensorSet left = SensorSet::first(grade); array.all().contains(left); left = next_of_same_size(left)) {
     if (!calm.contains(left)) continue;
     const LeastSquares ls = least_squares(array, calm - left);
     if (!ls.valid) return false;
     const ResidualScatter r = residual_scatter(array, block, ls, i);
-    if (!(r.excess > kOwnShare * r.own)) return false;
+    // Few that lie badly say little of what the others feel: noise times a large factor.
+    if (!(r.excess > kOwnShare * r.own && r.ratio > least_ratio)) return false;
   }
   return true;
 }
@@ -197,7 +203,7 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
     }
   }
   if (out.restless.empty()) return;
-  const int grade = std::min(parity_grade(array, calm | out.restless), kMostDoubted);
+  const int grade = std::min(parity_grade(array, calm | out.restless), most_doubted(array.size()));
   for (int i = 0; i < array.size(); ++i) {
     if (!out.restless.has(i)) continue;
     const ResidualScatter r = residual_scatter(array, block, ls, i);

@@ -247,7 +247,7 @@ void note_explanation(SensorSet f, SensorSet rest, FaultSetScan& out) noexcept {
 }  // namespace
 
 FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
-                             const ProtectionTerms& protect) const noexcept {
+                             const ProtectionTerms& protect, SensorSet witnesses) const noexcept {
   const TestLimits& limits = tests.limits();
   FaultSetScan out;
   out.fewest_faults.fill(255);
@@ -271,17 +271,18 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
     const int size = f.size();
     const SensorSet rest = posed - f;
     const SetTest& t = tests.of(rest);
+    const bool explained = t.tested && explains(rest, t);
+    if (size <= asserted_faults && (explained || !t.tested || !witnesses.contains(rest))) {
+      common = common & f;
+      any_asserted = true;
+    }
     if (!t.tested) {
       // What is left cannot determine a vector, so this hypothesis bounds nothing.
       if (size <= protect.faults) out.protection_available = false;
       return;
     }
-    if (!explains(rest, t)) return;
+    if (!explained) return;
     note_explanation(f, rest, out);
-    if (size <= asserted_faults) {
-      common = common & f;
-      any_asserted = true;
-    }
     if (size > protect.faults) return;
     any_protected = any_protected || used.tested;
     cover(rest, t);

@@ -44,18 +44,15 @@ SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLe
   SensorSet moved;
   if ((actions & Action::exclude) != 0) {
     moved = named.culprits;
-    s.banned = s.banned | (moved & s.readmitted);  // readmitted once and convicted again: out for good
     s.excluded = s.excluded | moved;
-    // The survivors were just found alive together, those set aside before among them: they serve again, but for those
-    // that had come back once already.
-    const SensorSet acquitted = s.set_aside - moved;
-    s.in_service = (s.in_service - moved) | (acquitted - s.banned);
-    s.excluded = s.excluded | (acquitted & s.banned);
+    // The survivors were just found alive together, those set aside before among them: they serve again, however often
+    // they were set aside. Setting aside is no conviction: beyond its own grade it may meet a healthy sensor time and
+    // again, and only the grade that convicts may take a sensor out for good.
+    s.in_service = (s.in_service | s.set_aside) - moved;
     s.set_aside = SensorSet{};
   }
   if ((actions & Action::set_aside) != 0) {
     moved = named.accused & s.in_service;
-    s.banned = s.banned | (moved & s.readmitted);
     s.in_service = s.in_service - moved;
     s.set_aside = s.set_aside | moved;
   }
@@ -68,13 +65,13 @@ SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLe
   }
   if ((actions & Action::mark_back) != 0) {
     moved = named.back & s.absent;
-    s.banned = s.banned | (moved & s.readmitted);
     s.absent = s.absent - moved;
     s.excluded = s.excluded | moved;
   }
   if ((actions & (Action::reinstate | Action::rearm)) != 0) {
     const bool reinstates = (actions & Action::reinstate) != 0;
-    moved = reinstates ? SensorSet::of(((named.proven & (s.excluded | s.set_aside)) - s.banned).lowest()) : named.reset;
+    moved =
+        reinstates ? SensorSet::of(((named.proven & (s.excluded | s.set_aside)) - s.readmitted).lowest()) : named.reset;
     if (reinstates) s.readmitted = s.readmitted | moved;
     s.excluded = s.excluded - moved;
     s.set_aside = s.set_aside - moved;
@@ -94,7 +91,6 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState
   excluded_ = after.sensors.excluded;
   absent_ = after.sensors.absent;
   readmitted_ = after.sensors.readmitted;
-  banned_ = after.sensors.banned;
   if ((actions & Action::exclude) != 0) {
     if (asserted_left_ > 0) asserted_left_ -= named.size() < asserted_left_ ? named.size() : asserted_left_;
     forget_episode();
@@ -131,7 +127,7 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState
 }
 
 HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
-  DecisionState state{mode_,     base_,      {in_service_, set_aside_, excluded_, absent_, readmitted_, banned_},
+  DecisionState state{mode_,     base_,      {in_service_, set_aside_, excluded_, absent_, readmitted_},
                       unproven_, exhausted_, clean_run_};
   DecisionInput input;
   input.raised = raised;

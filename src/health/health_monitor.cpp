@@ -139,7 +139,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   calibrated_ = setup.calibrated ? array_.all() : SensorSet{};
   temperature_min_degc_ = config_.temperature_min_degc;
   temperature_max_degc_ = config_.temperature_max_degc;
-  set_aside_ = excluded_ = absent_ = readmitted_ = banned_ = SensorSet{};
+  set_aside_ = excluded_ = absent_ = readmitted_ = SensorSet{};
   unproven_ = true;
   partial_ = false;
   silence_.clear();

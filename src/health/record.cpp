@@ -42,10 +42,19 @@ Vec3 HealthMonitor::vote(const BlockTests& tests, const BlockView& view) noexcep
   const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
   Vec3 direction = view.used.x_mps2;
   if (due) {
-    // One that lies among four cannot make three moving ones look like noise; several that hang can.
-    const bool may_hang = isolation_.strict_grade() >= 2;
-    answer_ = isolation_.vote(tests, may_hang ? calm_ : array_.all());
+    // What scatters may be all that shows of a movement: the strict grade bears so many faulty ones that hang that the
+    // calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing.
+    answer_ = isolation_.vote(tests, calm_);
     const SensorSet posed = isolation_.posed();
+    if (answer_.strict.empty() && isolation_.strict_grade() > 0 && isolation_.parity_grade() < 1 &&
+        noisy_.size() == 1) {
+      // Nor can it be set aside where parity has no grade. It is the answer of this station by its scatter alone: one
+      // station at which it is calm, or not the only one, takes the answer back.
+      const SensorSet others = posed - noisy_;
+      const SetTest& rest = tests.of(others & evidence.usable);
+      if (calm_.contains(others) && rest.tested && rest.alive(limits_) && rest.parity_alive(limits_))
+        answer_.strict = noisy_;
+    }
     const SetTest& full = tests.of(posed & evidence.usable);
     const bool visible = full.tested && !(full.alive(limits_) && full.parity_alive(limits_));
     if (answer_.strict != episode_.candidate) {
@@ -140,7 +149,7 @@ void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& 
   if (view.kind != BlockView::Kind::clean || episode_.open || unproven_ || mode_ == Mode::failed ||
       mode_ == Mode::suspect)
     return;
-  const SensorSet asked = ((excluded_ | set_aside_) - (banned_ | absent_)) & evidence.usable & calm_ & calibrated_;
+  const SensorSet asked = ((excluded_ | set_aside_) - (readmitted_ | absent_)) & evidence.usable & calm_ & calibrated_;
   SensorSet fine;
   for (int i = 0; i < array_.size(); ++i) {
     if (!asked.has(i)) continue;
@@ -154,6 +163,17 @@ void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& 
   if (!on_probation_.empty()) probation_.add(view.used.x_mps2, config_.excitation_angle_rad);
 }
 
+/// Who may speak against a fault set of the asserted size: the calm, and those that scatter by themselves whichever so
+/// many others hang.
+SensorSet HealthMonitor::witnesses() const noexcept {
+  SensorSet out = calm_;
+  if (asserted_left_ > parity_grade(array_, in_service_ & block_usable_)) return out;
+  for (int i = 0; i < array_.size(); ++i) {
+    if (noisy_run_[static_cast<size_t>(i)] > 0) out = out.with(i);
+  }
+  return out;
+}
+
 void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   live_ = isolation_.live();
   if (!have_evidence_) return;
@@ -161,7 +181,7 @@ void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   if (asserted_left_ > depth) depth = asserted_left_;
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
   scan_ = isolation_.scan(tests, in_service_, depth, asserted_left_,
-                          {protection_faults_, k_integrity_, config_.common_drift_mps2});
+                          {protection_faults_, k_integrity_, config_.common_drift_mps2}, witnesses());
   // The vector is that of a block: what the tool turned since the one before, and inside it, comes on top.
   scan_.protection_rad += drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
 }

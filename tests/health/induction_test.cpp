@@ -40,7 +40,6 @@ SizeClass two_triads(SensorSet set, int n) {
 struct Machine {
   DecisionState state;
   bool calibrated = true;
-  bool rearmed = false;  ///< an operator has named sensors to come back, banned ones perhaps among them
 };
 
 bool publishes(const Machine& m) {
@@ -79,8 +78,6 @@ class Induction {
     if (!m.calibrated && mode != Mode::initial && mode != Mode::failed) return "S19: in use without a calibration";
     if (m.calibrated && mode == Mode::initial) return "first calibration although there is one";
     if (m.state.unproven && publishes(m)) return "S17: published although unproven";
-    if (!s.readmitted.contains(s.banned)) return "S10: banned without a first return";
-    if (!m.rearmed && !(s.banned & s.in_service).empty()) return "S10: banned and in service";
     return nullptr;
   }
   bool fits(Mode mode, SensorSet in_service) const {
@@ -103,9 +100,6 @@ class Induction {
       if (s.readmitted.size() < histories_) {
         s.readmitted = s.readmitted.with(i);
         place(i + 1, s);
-        s.banned = s.banned.with(i);
-        place(i + 1, s);
-        s.banned = s.banned.without(i);
         s.readmitted = s.readmitted.without(i);
       }
       *set = set->without(i);
@@ -115,7 +109,7 @@ class Induction {
     for (int mode = 0; mode < kModeCount; ++mode) {
       const bool recalibrates = static_cast<Mode>(mode) == Mode::recalibrating;
       for (int base = 0; base <= (recalibrates ? static_cast<int>(Mode::degraded) : 0); ++base) {
-        for (int flags = 0; flags < 16; ++flags) {
+        for (int flags = 0; flags < 8; ++flags) {
           Machine m;
           m.state.mode = static_cast<Mode>(mode);
           m.state.base = recalibrates ? static_cast<Mode>(base) : Mode::suspect;
@@ -123,8 +117,6 @@ class Induction {
           m.state.unproven = (flags & 1) != 0;
           m.state.clean_run = (flags & 2) != 0 ? 3 : 0;
           m.calibrated = (flags & 4) == 0;
-          m.rearmed = (flags & 8) != 0;
-          if (m.rearmed && (s.banned & s.in_service).empty()) continue;  // the flag changes nothing there
           if (broken(m) != nullptr) continue;
           ++states_;
           every_input(m);
@@ -197,7 +189,6 @@ class Induction {
     input.calibrated = before.calibrated;
     const Decision d = decide(table_, after.state, input, [this](SensorSet set) { return left(set); });
     if ((d.actions & Action::adopt_fit) != 0) after.calibrated = true;
-    if ((d.actions & Action::rearm) != 0) after.rearmed = true;
     const char* wrong = broken(after);
     if (wrong == nullptr) wrong = misstep(before, input, d, after);
     if (wrong != nullptr) tell(wrong, before, input, after);
@@ -226,12 +217,18 @@ class Induction {
     if (event == HealthEvent::probation_passed && in.size() > 1) return "S9: more than one came back at a time";
     if (event == HealthEvent::probation_passed && !t.readmitted.contains(in))
       return "S10: a return that is not counted";
+    if (event == HealthEvent::probation_passed && !(in & s.readmitted).empty())
+      return "S10: a second return by probation";
+    if (event == HealthEvent::culprit && (t.excluded - s.excluded) != input.named.culprits)
+      return "S1: a conviction latches out whom it does not name";
+    if (event == HealthEvent::culprit && !t.in_service.contains(s.set_aside - input.named.culprits))
+      return "S1: who was only set aside is not acquitted";
     const bool done = (event != HealthEvent::channel_lost || t.absent.contains(input.named.lost)) &&
                       (event != HealthEvent::channel_back || t.excluded.contains(input.named.back)) &&
                       (event != HealthEvent::culprit || t.excluded.contains(input.named.culprits)) &&
                       (event != HealthEvent::set_aside || t.set_aside.contains(input.named.accused));
     if (!done) return "S2: the event was taken and not carried out";
-    if (!t.readmitted.contains(s.readmitted) || !t.banned.contains(s.banned)) return "S10: a record was forgotten";
+    if (!t.readmitted.contains(s.readmitted)) return "S10: a record was forgotten";
 
     const bool doubt = event == HealthEvent::alarm || event == HealthEvent::contradiction ||
                        event == HealthEvent::reference || event == HealthEvent::set_aside;
@@ -264,8 +261,8 @@ class Induction {
     const auto show = [&text](const Machine& m) {
       const SensorLedger& s = m.state.sensors;
       text << to_string(m.state.mode) << " (base " << to_string(m.state.base) << ") in " << s.in_service.bits
-           << " aside " << s.set_aside.bits << " out " << s.excluded.bits << " absent " << s.absent.bits << " banned "
-           << s.banned.bits << (m.state.unproven ? " unproven" : "") << (m.calibrated ? "" : " uncalibrated");
+           << " aside " << s.set_aside.bits << " out " << s.excluded.bits << " absent " << s.absent.bits << " returned "
+           << s.readmitted.bits << (m.state.unproven ? " unproven" : "") << (m.calibrated ? "" : " uncalibrated");
     };
     text << what << "\n  n = " << n_ << ", event " << to_string(first_taken(table_, before.state.mode, input.raised))
          << " of mask " << input.raised << "\n  before: ";
@@ -371,23 +368,45 @@ TEST(Induction, FoundThatAConvictionWhileRecalibratingSkippedTheProof) {
   EXPECT_EQ(state.sensors.excluded, SensorSet::of(2));
 }
 
-/// Found by the induction: a conviction acquits those set aside before, and with them came back who had come back once
-/// already and was to stay out.
+/// Found by an attack: who was set aside after a return was to stay out, and the next conviction of others latched it
+/// out with them. Setting aside is no conviction, and a healthy sensor may meet it twice.
 // Negative: REQ-099
-TEST(Induction, FoundThatAnAcquittalBroughtBackWhoWasToStayOut) {
+TEST(Induction, FoundThatAConvictionLatchedOutWhoWasSetAsideTwice) {
   DecisionState state;
   state.mode = Mode::suspect;
   state.unproven = false;
-  state.sensors.in_service = SensorSet(0b111001);
-  state.sensors.set_aside = SensorSet(0b000110);
-  state.sensors.readmitted = state.sensors.banned = SensorSet::of(1);
+  state.sensors.in_service = SensorSet(0b111011);
+  state.sensors.set_aside = SensorSet(0b000100);
+  state.sensors.readmitted = SensorSet(0b000110);
+  const auto size_of = [](SensorSet set) { return general_position(set, 6); };
   DecisionInput input;
+  input.raised = bit(HealthEvent::set_aside);
+  input.named.accused = SensorSet::of(1);
+  decide(kTransitionTable, state, input, size_of);
+  EXPECT_EQ(state.sensors.set_aside, SensorSet(0b000110));
   input.raised = bit(HealthEvent::culprit);
   input.named.culprits = SensorSet::of(5);
-  decide(kTransitionTable, state, input, [](SensorSet set) { return general_position(set, 6); });
-  EXPECT_EQ(state.sensors.in_service, SensorSet(0b011101));
-  EXPECT_EQ(state.sensors.excluded, SensorSet(0b100010));
+  decide(kTransitionTable, state, input, size_of);
+  EXPECT_EQ(state.sensors.in_service, SensorSet(0b011111));
+  EXPECT_EQ(state.sensors.excluded, SensorSet(0b100000));
   EXPECT_EQ(state.mode, Mode::isolated);
+}
+
+/// Who was convicted after a return stays out; who was set aside after one waits for an acquittal, not for probation.
+// Verifies: REQ-099
+TEST(Induction, ProbationBringsNobodyBackTwice) {
+  DecisionState state;
+  state.mode = Mode::isolated;
+  state.unproven = false;
+  state.sensors.in_service = SensorSet(0b001111);
+  state.sensors.set_aside = SensorSet(0b010000);
+  state.sensors.excluded = SensorSet(0b100000);
+  state.sensors.readmitted = SensorSet(0b110000);
+  DecisionInput input;
+  input.raised = bit(HealthEvent::probation_passed);
+  input.named.proven = SensorSet(0b110000);
+  decide(kTransitionTable, state, input, [](SensorSet set) { return general_position(set, 6); });
+  EXPECT_EQ(state.sensors.in_service, SensorSet(0b001111));
 }
 
 /// Whatever is raised together, the event taken is the first in the order of the design that the mode does not pass

@@ -283,7 +283,7 @@ class Search {
   void probe(const Step& s, bool excited) {
     const plumb_model_state& m = s.w.machine;
     if (s.w.open || m.unproven || !records(s.w) || m.mode == suspect || n_ == 6) return raise(s, false);
-    const Set asked = static_cast<Set>((m.excluded | m.set_aside) & ~(m.banned | m.absent));
+    const Set asked = static_cast<Set>((m.excluded | m.set_aside) & ~(m.readmitted | m.absent));
     subsets(asked, [&](Set fine) {
       Step t = s;
       World& w = t.w;
@@ -435,8 +435,8 @@ class Search {
   // --- states seen: sensors in a standard order -----------------------------------------------------------------
   void meet(World w) {
     plumb_model_state& m = w.machine;
-    const std::array<unsigned char*, 9> sets = {&m.in_service, &m.set_aside, &m.excluded, &m.absent,   &m.readmitted,
-                                                &m.banned,     &w.ever,      &w.accused,  &w.probation};
+    const std::array<unsigned char*, 8> sets = {&m.in_service, &m.set_aside, &m.excluded, &m.absent,
+                                                &m.readmitted, &w.ever,      &w.accused,  &w.probation};
     std::array<unsigned, 8> columns{};
     for (int i = 0; i < n_; ++i) {
       for (std::size_t k = 0; k < sets.size(); ++k) columns[static_cast<std::size_t>(i)] |= ((*sets[k] >> i) & 1U) << k;

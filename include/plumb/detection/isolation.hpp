@@ -96,8 +96,9 @@ class Isolation {
   /// protection level is the largest separation from the estimate of `in_service` (solution
   /// separation; of those in service alone, too, where some are set aside) plus `k_integrity` sigmas of noise and
   /// calibration, plus what a bias that all sensors share does to the direction, |(I - uu') H^+ 1| b / G.
+  /// For the asserted answer a fault set that leaves others than `witnesses`, or too few to be tested, stays alive.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
-                    const ProtectionTerms& protect) const noexcept;
+                    const ProtectionTerms& protect, SensorSet witnesses = SensorSet::first(kCapacity)) const noexcept;
 
   int live() const noexcept;
   int voting() const noexcept { return voting_; }

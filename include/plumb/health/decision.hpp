@@ -11,8 +11,7 @@ inline namespace PLUMB_ABI {
 /// Where every sensor stands. The first four partition the array (property S4).
 struct SensorLedger {
   SensorSet in_service, set_aside, excluded, absent;
-  SensorSet readmitted;  ///< have come back by probation once
-  SensorSet banned;      ///< convicted after that: out for good
+  SensorSet readmitted;  ///< have come back by probation once: not a second time
 };
 
 /// Which sensors the events of a step are about.

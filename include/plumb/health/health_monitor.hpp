@@ -187,6 +187,7 @@ class HealthMonitor {
   double predicted(int sensor, const BlockEvidence& evidence) const noexcept;
   bool note_facts(const BlockJudgement& judged, bool moving) noexcept;
   SensorSet noise_confirmed() const noexcept;
+  SensorSet witnesses() const noexcept;
   void note_stuck(const BlockEvidence& evidence) noexcept;
   void name_causes(SensorSet named, Cause cause) noexcept;
   SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
@@ -259,7 +260,7 @@ class HealthMonitor {
   SizeClass size_class_ = SizeClass::rank_lost;  ///< of the sensors in service
   int live_ = 0;                                 ///< voting sets alive
   SensorSet in_service_, set_aside_, excluded_, absent_;
-  SensorSet readmitted_, banned_;
+  SensorSet readmitted_;
   SensorSet calibrated_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
@@ -335,19 +336,18 @@ class HealthMonitor {
         within(&M::asserted_left_, -1, 3), not_stored(&M::configured_), not_stored(&M::identity_),
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
-        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::banned_, &M::calibrated_,
-        &M::unproven_, &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_,
-        &M::evidence_time_s_, &M::last_temperature_degc_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_,
-        &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
-        within(&M::clean_run_, 0, kMostCleanBlocks), per_sensor(&M::least_prediction_),
-        per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_, &M::on_probation_, &M::reset_sensors_,
-        &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
-        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
-        &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
-        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
-        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
-        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_, not_stored(&M::lever_arms_known_),
-        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,
+        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::evidence_time_s_,
+        &M::last_temperature_degc_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_,
+        within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks),
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_,
+        &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
+        up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
+        &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_, &M::temperature_min_degc_,
+        &M::temperature_max_degc_, within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)),
+        per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
+        &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
         up_to(&M::told_reference_, ReferenceKind::common_bias),
         up_to(&M::reference_notice_, ReferenceKind::common_bias),
         // evidence
