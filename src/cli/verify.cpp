@@ -8,7 +8,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "plot_files.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/report/plot.hpp"
+#include "plumb/report/verification_page.hpp"
 #include "tool.hpp"
 #include "verify_run.hpp"
 
@@ -108,6 +111,28 @@ class Folder {
   std::optional<io::FileError> failure_;
 };
 
+/// The charts, where gnuplot is installed; without it the page says so in their place.
+io::FileExpected<report::PagePictures> draw(const std::string& out, const Json& report) {
+  const fs::path charts = fs::path(out) / report::kChartFolder;
+  const std::vector<std::string> names = report::verification_picture_names(report);
+  std::string missing;
+  const io::FileExpected<std::vector<std::string>> drawn =
+      draw_files(charts.string(), report::verification_plot_files(report), report::kVerificationScript, names, missing);
+  if (!drawn) return tl::unexpected<io::FileError>(drawn.error());
+  report::PagePictures out_pictures;
+  if (!missing.empty()) print_error("plumb: " + missing + "\n");
+  for (const std::string& name : names) {
+    report::PagePicture picture{"", missing};
+    if (missing.empty()) {
+      const io::FileExpected<std::string> svg = io::read_file((charts / name).string());
+      if (!svg) return tl::unexpected<io::FileError>(svg.error());
+      picture.svg = report::inline_svg(*svg);
+    }
+    out_pictures.emplace(name, std::move(picture));
+  }
+  return out_pictures;
+}
+
 io::ExitCode run(const VerifyOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   watch_interrupts();
@@ -126,6 +151,10 @@ io::ExitCode run(const VerifyOptions& options) {
   if (!found->healthy_toml.empty()) folder.write(kHealthyFile, found->healthy_toml);
   if (found->faults) folder.write("trials-faults.csv", report::trials_csv(*found->faults));
   if (found->healthy) folder.write("trials-healthy.csv", report::trials_csv(*found->healthy));
+  if (folder.failure()) return report(*folder.failure());
+  const io::FileExpected<report::PagePictures> pictures = draw(options.out, found->report);
+  if (!pictures) return report(pictures.error());
+  folder.write("report.html", report::verification_html(found->report, *pictures));
   if (folder.failure()) return report(*folder.failure());
   print(options.json ? text : summary(found->report, options.out));
   const Json& verdict = found->report["verdict"];
