@@ -185,8 +185,13 @@ io::FileExpected<void> play_campaigns(const VerifyOptions& options, const report
   return {};
 }
 
+/// The work of a scenario grows steeply with the number of sensors.
+std::uint64_t usual_scenarios(int sensors) {
+  return sensors <= 6 ? 20000 : sensors <= 8 ? 10000 : sensors <= 12 ? 2000 : 500;
+}
+
 /// What says the same for the same inputs, wherever it runs.
-std::string command_of(const VerifyOptions& options) {
+std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
   std::string out = "plumb verify";
   const auto add = [&out](const char* name, const std::string& value) {
     if (!value.empty()) out += std::string(" ") + name + " " + value;
@@ -199,7 +204,7 @@ std::string command_of(const VerifyOptions& options) {
   add("--assurance", options.assurance);
   add("--traceability", options.traceability);
   add("--compare", options.compare);
-  return out + fmt::format(" --scenarios {} --seed {}", options.scenarios, options.seed);
+  return out + fmt::format(" --scenarios {} --seed {}", scenarios, options.seed);
 }
 
 Json resources_section(const io::ArrayFile& array) {
@@ -222,12 +227,13 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   if (!part) return tl::unexpected<io::FileError>(part.error());
   const int threads =
       options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const std::uint64_t scenarios = options.scenarios.value_or(usual_scenarios(out.array.array.size()));
   report::TrialSettings settings;
   settings.faults = inputs->limits.faults;
   settings.alert_limit_rad = inputs->limits.alert_limit_rad;
   settings.e_cal_mps2 = part->e_cal_mps2;
   settings.seed = options.seed;
-  settings.scenarios = options.scenarios;
+  settings.scenarios = scenarios;
   Json campaigns;
   const io::FileExpected<void> played = play_campaigns(options, settings, threads, out, campaigns);
   if (!played) return tl::unexpected<io::FileError>(played.error());
@@ -249,8 +255,8 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["identity"] = {{"build", report::build_json()},
                         {"inputs", inputs->files},
                         {"seed", options.seed},
-                        {"scenarios", options.scenarios},
-                        {"command", command_of(options)}};
+                        {"scenarios", scenarios},
+                        {"command", command_of(options, scenarios)}};
   report["verdict"] = report::verdict_section(inputs->limits, report);
   report["change"] = inputs->before ? report::change_section(*inputs->before, report)
                                     : Json{{"given", false}, {"how", "--compare report.json of an earlier run"}};

@@ -19,7 +19,9 @@ using Json = nlohmann::ordered_json;
 struct VerifyOptions {
   std::string array, limits, calibration, positions, out = "verification", compare, test_results, assurance,
                                                      traceability;
-  std::uint64_t seed = 1, scenarios = 20000;
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t>
+      scenarios;    ///< of each campaign; by default fewer for larger arrays, so that it takes minutes
   int threads = 0;  ///< 0: one per processor
   bool json = false;
 };

@@ -81,10 +81,9 @@ Section verdict_view(const Json& report) {
   const Json& v = report["verdict"];
   Section out("verdict", "1 Verdict", "What was asked for, what was found, and what it rests on.");
   out.notice(v["sentence"].get<std::string>(), tone_of(v["verdict"]));
-  std::vector<std::pair<std::string, std::string>> figures;
+  std::vector<std::array<std::string, 3>> figures;
   for (const Json& a : v["answers"])
-    figures.emplace_back(a["value"].get<std::string>(),
-                         a["question"].get<std::string>() + " " + a["label"].get<std::string>());
+    figures.push_back({a["question"].get<std::string>(), a["value"].get<std::string>(), a["label"].get<std::string>()});
   out.figures(figures);
   ViewRows rows;
   for (const Json& c : v["criteria"]) {
@@ -109,6 +108,7 @@ Section verdict_view(const Json& report) {
   out.list("Assumptions", texts(v["assumptions"]));
   out.list("Known limits", texts(v["known_limits"]));
   out.text("This report is evidence for your own safety case. plumb is neither certified nor qualified.");
+  out.signature({"Name", "Role", "Date", "Signature"});
   return out;
 }
 

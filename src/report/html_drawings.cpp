@@ -88,7 +88,8 @@ const char* colour_of_state(const std::string& state) {
 }  // namespace
 
 std::string axes_svg(const Json& array) {
-  std::string out = "<svg viewBox=\"0 0 640 400\" font-family=\"sans-serif\" font-size=\"15\" fill=\"currentColor\">\n";
+  std::string out =
+      "<svg viewBox=\"110 60 430 310\" font-family=\"sans-serif\" font-size=\"15\" fill=\"currentColor\">\n";
   const std::string faint = "stroke=\"currentColor\" opacity=\"0.45\"";
   const Point origin = seen(0, 0, 0);
   for (int turn = 0; turn < 72; ++turn) {

@@ -41,16 +41,16 @@ Section trace_view(const Json& report) {
     const std::string result = r["result"];
     rows.push_back({r["id"].get<std::string>(),
                     r["title"].get<std::string>(),
+                    {result, tone_of(result)},
                     joined_list(r["hazards"]),
                     joined_list(r["design"]),
                     shown(Json(r["tests"].size())),
                     shown(Json(r["negative_tests"].size())),
-                    with_results(r["formal"]),
-                    {result, tone_of(result)}});
+                    with_results(r["formal"])});
     texts.push_back({r["id"].get<std::string>(), r["statement"].get<std::string>(), joined_list(r["methods"]),
                      with_results(r["tests"]), with_results(r["negative_tests"])});
   }
-  out.table("Requirements", {"id", "title", "hazards", "design element", "tests", "negative", "formal items", "result"},
+  out.table("Requirements", {"id", "title", "result", "hazards", "design element", "tests", "negative", "formal items"},
             rows,
             "Design element: the sources that share their name with a test of the requirement. Traced: tests exist, "
             "their results were not given.");

@@ -22,8 +22,12 @@ std::string with_own_names(std::string svg, const std::string& prefix) {
   return svg;
 }
 
+/// A cell of more than this is a sentence or a path: it may be broken anywhere.
+constexpr std::size_t kLongCell = 34;
+
 /// Starts like a number, or stands for one that is not known.
 bool is_numeric(const std::string& cell) {
+  if (cell.size() > kLongCell) return false;
   if (cell.empty() || cell == "-") return true;
   const std::size_t begin = cell.find_first_not_of("+-<≤ ");
   return begin != std::string::npos && std::isdigit(static_cast<unsigned char>(cell[begin])) != 0;
@@ -73,6 +77,12 @@ data& Section::block(const char* kind) {
   return blocks_.back();
 }
 
+void Section::signature(const std::vector<std::string>& fields) {
+  data list{data::type::list};
+  for (const std::string& field : fields) list << data{"text", field};
+  block("signature").set("fields", list);
+}
+
 void Section::heading(const std::string& text) { block("heading").set("text", text); }
 void Section::text(const std::string& text) { block("text").set("text", text); }
 
@@ -82,10 +92,11 @@ void Section::notice(const std::string& text, const std::string& tone) {
   one.set("tone", tone);
 }
 
-void Section::figures(const std::vector<std::pair<std::string, std::string>>& value_and_label) {
+void Section::figures(const std::vector<std::array<std::string, 3>>& answers) {
   data list{data::type::list};
-  for (const auto& [value, label] : value_and_label) {
+  for (const auto& [question, value, label] : answers) {
     data figure;
+    figure.set("question", question);
     figure.set("value", value);
     figure.set("label", label);
     list << figure;
@@ -104,8 +115,10 @@ void Section::table(const std::string& title, const std::vector<std::string>& he
     data cell;
     cell.set("text", from.text);
     cell.set("n", column < numeric.size() && numeric[column]);
-    cell.set("has_tone", !from.tone.empty());
-    cell.set("tone", from.tone);
+    const bool right = column < numeric.size() && numeric[column];
+    const char* const width = from.text.size() > kLongCell ? "long " : "";
+    cell.set("classes", std::string(right ? "n " : "") + width + from.tone);
+    cell.set("has_classes", right || *width != '\0' || !from.tone.empty());
     return cell;
   };
   data heads{data::type::list}, lines{data::type::list};

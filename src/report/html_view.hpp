@@ -1,6 +1,7 @@
 /// What a section of the verification page is made of, in the order in which it was added (private to src/report).
 #pragma once
 
+#include <array>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,9 +35,12 @@ class Section {
  public:
   Section(std::string id, std::string title, std::string gist);
   void heading(const std::string& text);
+  /// Lines to be filled in by hand.
+  void signature(const std::vector<std::string>& fields);
   void text(const std::string& text);
   void notice(const std::string& text, const std::string& tone);
-  void figures(const std::vector<std::pair<std::string, std::string>>& value_and_label);
+  /// The few numbers that matter: question, value, what it means.
+  void figures(const std::vector<std::array<std::string, 3>>& answers);
   /// `folded`: behind a click, open on paper.
   void table(const std::string& title, const std::vector<std::string>& head, const ViewRows& rows,
              const std::string& note = "", bool folded = false);

@@ -171,8 +171,9 @@ Json assumptions_of(const UserLimits& limits, const Json& report) {
   Json out = Json::array();
   const Json& array = report["array"];
   const int grade = array["figures_of_merit"]["strict_grade"];
-  out.push_back(fmt::format("At most {} sensors are faulty at once; beyond {} (strict grade) nothing is promised.",
-                            limits.faults, grade));
+  out.push_back(fmt::format(
+      "Not more than {} of the sensors is or are faulty at once; beyond {} (strict grade) nothing is promised.",
+      limits.faults, grade));
   out.push_back(
       fmt::format("Gravity is {:.6f} m/s^2 within three times its stated sigma; the noise of every sensor is "
                   "white and as stated in the array file.",

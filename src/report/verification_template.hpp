@@ -39,7 +39,7 @@ a:focus-visible, summary:focus-visible { outline: 3px solid var(--accent); outli
 nav { position: sticky; top: 0; z-index: 1; background: var(--page); border-bottom: 1px solid var(--line); }
 nav ol { max-width: 74rem; margin: 0 auto; padding: .5rem 1rem; display: flex; gap: .2rem 1.1rem; overflow-x: auto; white-space: nowrap; list-style: none; font-size: .92rem; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: .5rem; padding: .9rem; }
-.notice { border-left: .45rem solid var(--soft); font-size: 1.05rem; margin: .8rem 0; }
+.notice { border-left: .45rem solid var(--soft); margin: .8rem 0; } #verdict > .notice { font-size: 1.25rem; font-weight: 600; max-width: none; }
 .notice.good { border-color: var(--good); } .notice.bad { border-color: var(--bad); } .notice.open { border-color: var(--open); }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(12rem, 1fr)); gap: .8rem; margin: 1rem 0; }
 .figures b { display: block; font-size: 1.5rem; line-height: 1.2; color: var(--accent); }
@@ -50,8 +50,8 @@ table { border-collapse: collapse; width: 100%; font-size: .88rem; font-variant-
 th, td { text-align: left; padding: .3rem .55rem; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; }
 td.n, th.n { text-align: right; }
-td.n { white-space: nowrap; }
-td:not(.n) { min-width: 6rem; }
+
+td.long { min-width: 9rem; overflow-wrap: anywhere; }
 tr:last-child td { border-bottom: 0; }
 .good b, td.good { color: var(--good); } td.bad { color: var(--bad); } td.open { color: var(--open); }
 td.good, td.bad, td.open { font-weight: 600; }
@@ -67,8 +67,8 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 @page { size: A4; margin: 16mm 13mm 18mm; @bottom-center { content: counter(page) " / " counter(pages); font-size: 8pt; } }
 @media print {
   body { font-size: 9.5pt; } main { max-width: none; padding: 0; } nav ol { display: block; white-space: normal; padding: 0; }
-  nav { position: static; border: 0; } nav a { text-decoration: none; }
-  .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: .8mm 1.1mm; overflow-wrap: anywhere; } td.n { white-space: normal; } td:not(.n) { min-width: 0; }
+  nav { position: static; border: 0; } nav a { text-decoration: none; } nav a::after { content: leader(".") target-counter(attr(href), page); }
+  .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: .7mm .9mm; } td.long { min-width: 0; }
   tr, figure, .card.figure, .notice { break-inside: avoid; } h2, h3, summary { break-after: avoid; } thead { display: table-header-group; }
   section { break-before: page; border-top: 0; } #verdict { break-before: auto; } .card { padding: 1.5mm; } figure .wide svg { min-width: 0; max-width: 150mm; } pre { white-space: pre-wrap; }
   .folded { display: none; }
@@ -94,7 +94,7 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 {{#is_notice}}<p class="card notice {{tone}}">{{text}}</p>
 {{/is_notice}}
 {{#is_figures}}<div class="figures">
-{{#figures}}<div class="card"><b>{{value}}</b><span>{{label}}</span></div>
+{{#figures}}<div class="card"><span>{{question}}</span><b>{{value}}</b><span>{{label}}</span></div>
 {{/figures}}
 </div>
 {{/is_figures}}
@@ -103,7 +103,7 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 <table>
 <thead><tr>{{#head}}<th scope="col"{{#n}} class="n"{{/n}}>{{text}}</th>{{/head}}</tr></thead>
 <tbody>
-{{#rows}}<tr>{{#cells}}<td{{#n}} class="n"{{/n}}{{#has_tone}} class="{{tone}}"{{/has_tone}}>{{text}}</td>{{/cells}}</tr>
+{{#rows}}<tr>{{#cells}}<td{{#has_classes}} class="{{classes}}"{{/has_classes}}>{{text}}</td>{{/cells}}</tr>
 {{/rows}}
 </tbody>
 </table>
@@ -117,6 +117,8 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 {{/items}}
 </ul>
 {{/is_list}}
+{{#is_signature}}<div class="sign">{{#fields}}<span>{{text}}</span>{{/fields}}</div>
+{{/is_signature}}
 {{#is_commands}}<pre>{{#lines}}{{text}}
 {{/lines}}</pre>
 {{/is_commands}}

@@ -39,7 +39,8 @@ std::vector<std::string> found_in(const std::string& text, const std::string& pa
   return out;
 }
 
-/// The sources that share their name with a test file: tests/<room>/x_test.cpp stands for x.hpp and x.cpp of the room.
+/// The sources that share their name with a test file: tests/<room>/x_test.cpp stands for x.hpp and x.cpp of the room;
+/// where there are none, the room.
 std::vector<std::string> sources_of(const fs::path& root, const std::string& test_file) {
   std::vector<std::string> out;
   const fs::path test(test_file);
@@ -50,6 +51,7 @@ std::vector<std::string> sources_of(const fs::path& root, const std::string& tes
   for (const std::string& path : {"include/plumb/" + room + "/" + stem + ".hpp", "src/" + room + "/" + stem + ".cpp"}) {
     if (fs::exists(root / path)) out.push_back(path);
   }
+  if (out.empty() && fs::exists(root / "src" / room)) out.push_back("src/" + room);
   return out;
 }
 
