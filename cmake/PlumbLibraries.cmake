@@ -134,7 +134,8 @@ if(report_sources)
   add_library(plumb_report STATIC ${report_sources} ${campaign_sources})
   plumb_library(plumb_report report)
   target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
-    PRIVATE "$<BUILD_INTERFACE:plumb_mustache>")
+    PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
+  include(PlumbVerification)
   # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
   target_link_libraries(plumb_report PUBLIC plumb_campaign_24)
   foreach(capacity IN LISTS PLUMB_KERNELS)

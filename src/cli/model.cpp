@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "model.hpp"
 #include "plumb/health/transition_table.hpp"
 #include "plumb/report/plot.hpp"
 #include "plumb/report/words.hpp"
@@ -213,7 +214,18 @@ std::string dot() {
   return out + "}\n";
 }
 
-std::string json() {
+io::ExitCode run(const Options& options) {
+  switch (options.format) {
+    case Format::markdown: print(markdown()); break;
+    case Format::dot: print(dot()); break;
+    case Format::json: print(model_json()); break;
+  }
+  return io::ExitCode::done;
+}
+
+}  // namespace
+
+std::string model_json() {
   using Json = nlohmann::ordered_json;
   Json out;
   Json states = Json::array();
@@ -251,17 +263,6 @@ std::string json() {
   out["targets"] = std::move(targets);
   return out.dump(2) + "\n";
 }
-
-io::ExitCode run(const Options& options) {
-  switch (options.format) {
-    case Format::markdown: print(markdown()); break;
-    case Format::dot: print(dot()); break;
-    case Format::json: print(json()); break;
-  }
-  return io::ExitCode::done;
-}
-
-}  // namespace
 
 Command add_model(CLI::App& tool) {
   auto options = std::make_shared<Options>();

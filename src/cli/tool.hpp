@@ -37,6 +37,7 @@ Command add_monitor(CLI::App& tool);
 Command add_simulate(CLI::App& tool);
 Command add_inject(CLI::App& tool);
 Command add_model(CLI::App& tool);
+Command add_verify(CLI::App& tool);
 Command add_demo(CLI::App& tool);
 
 /// The exit codes for the end of every --help.

@@ -1,0 +1,20 @@
+# cmake -DOUT=<file> -DROOT=<source> -DTEXT=<file with the rest> -P: writes the header that tells what was built. The
+# commit is asked for at every build; the file is touched only where it changed.
+find_program(GIT git)
+set(commit "unknown")
+if(GIT AND EXISTS "${ROOT}/.git")
+  execute_process(COMMAND "${GIT}" -C "${ROOT}" describe --always --dirty --abbrev=12
+    OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE status)
+  if(status EQUAL 0)
+    set(commit "${found}")
+  endif()
+endif()
+file(READ "${TEXT}" rest)
+set(text "// Written by the build: see cmake/BuildIdentity.cmake.\n#define PLUMB_COMMIT \"${commit}\"\n${rest}")
+set(before "")
+if(EXISTS "${OUT}")
+  file(READ "${OUT}" before)
+endif()
+if(NOT before STREQUAL text)
+  file(WRITE "${OUT}" "${text}")
+endif()

@@ -1,0 +1,207 @@
+// plumb verify: everything about one array, in a report that can be signed.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "plot_files.hpp"
+#include "plumb/io/output_file.hpp"
+#include "plumb/report/plot.hpp"
+#include "plumb/report/verification_page.hpp"
+#include "tool.hpp"
+#include "verify_run.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAbout =
+    "Verify an array: judge its geometry, its calibration and its monitor against your own limits, by analysis and\n"
+    "by campaigns of simulated faults, and write a report that says what the array can detect, isolate and\n"
+    "guarantee, how that is known, and what remains open.";
+constexpr const char* kNotes =
+    "Examples:\n"
+    "  plumb verify --array examples/paper_tool.toml --scenarios 2000\n"
+    "  plumb verify --array tool.toml --limits limits.toml --positions stand.csv --out report\n"
+    "  plumb verify --array tool.toml --calibration cal.json --compare report/report.json --out report2\n\n"
+    "A limits file (all keys optional):\n"
+    "  [limits]\n"
+    "  alert_limit = \"0.5 deg\"        # largest tilt error that can be borne\n"
+    "  faults = 1                     # sensors at fault at once that have to be isolated\n"
+    "  fault = \"5 mg0\"                # least constant error that has to be detected\n"
+    "  false_alarm_rate = 1e-3        # per block\n"
+    "  misleading_rate = 1e-3         # per scenario, as the next\n"
+    "  wrong_exclusion_rate = 1e-3\n"
+    "  detect_within = \"2 s\"\n\n"
+    "The directory holds report.html to read, report.json with every figure in it, and the campaigns to play again.\n"
+    "Without --calibration or --positions what calibration leaves is predicted from a simulated stand. The same\n"
+    "inputs give the same bytes but for the block `run`. docs/verification-report.md explains every section.\n"
+    "Exit code 6 where the array is not fit, where that is open, or where a requirement is an orphan.\n\n";
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32] = {};
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::string host_name() {
+  char text[256] = {};
+  return ::gethostname(text, sizeof text - 1) == 0 ? text : "unknown";
+}
+
+std::optional<io::FileError> misused(const VerifyOptions& options) {
+  const auto refuse = [](const char* option, const char* what, const char* remedy) {
+    return io::FileError{option, 0, "", what, remedy, io::ExitCode::usage};
+  };
+  if (!options.calibration.empty() && !options.positions.empty())
+    return refuse("--positions", "and --calibration are both given", "give the log or the calibration made from it");
+  if (options.scenarios == std::uint64_t{0}) return refuse("--scenarios", "is 0", "give at least 1");
+  if (options.out.empty() || options.out == "-") return refuse("--out", "is no directory", "name one: --out report");
+  const std::vector<NamedFile> to_write = {{"--out", (fs::path(options.out) / "report.json").string()}};
+  const std::vector<NamedFile> to_read = {{"--compare", options.compare}, {"--traceability", options.traceability}};
+  return overwritten(to_write, to_read);
+}
+
+/// What a terminal shows.
+std::string summary(const Json& report, const std::string& out) {
+  const Json& verdict = report["verdict"];
+  std::string text = verdict["sentence"].get<std::string>() + "\n\n";
+  for (const Json& one : verdict["criteria"])
+    text += fmt::format("  {:<8} {:<52} {}\n", one["result"].get<std::string>(), one["name"].get<std::string>(),
+                        one["found"].get<std::string>());
+  const Json& counts = verdict["requirements"];
+  text += fmt::format("\nrequirements: {} ({} active): {} verified, {} failed, {} open, {} traced without results\n",
+                      counts["requirements"].get<int>(), counts["active"].get<int>(), counts["verified"].get<int>(),
+                      counts["failed"].get<int>(), counts["open"].get<int>(), counts["traced"].get<int>());
+  for (const Json& orphan : verdict["orphans"]) text += "orphan: " + orphan.get<std::string>() + "\n";
+  return text + "written to " + out + "\n";
+}
+
+/// Writes one file into the directory of the report.
+class Folder {
+ public:
+  explicit Folder(std::string path) : path_(std::move(path)) {}
+  io::FileExpected<void> make() const {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (!error) return {};
+    return tl::unexpected<io::FileError>(io::FileError{path_, 0, "--out",
+                                                       "cannot create the directory: " + error.message(),
+                                                       "choose another directory", io::ExitCode::other});
+  }
+  void write(const std::string& name, const std::string& text) {
+    if (failure_) return;
+    const io::FileExpected<void> done = io::write_file((fs::path(path_) / name).string(), text);
+    if (!done) failure_ = done.error();
+  }
+  const std::optional<io::FileError>& failure() const { return failure_; }
+
+ private:
+  std::string path_;
+  std::optional<io::FileError> failure_;
+};
+
+/// The charts, where gnuplot is installed; without it the page says so in their place.
+io::FileExpected<report::PagePictures> draw(const std::string& out, const Json& report) {
+  const fs::path charts = fs::path(out) / report::kChartFolder;
+  const std::vector<std::string> names = report::verification_picture_names(report);
+  std::string missing;
+  const io::FileExpected<std::vector<std::string>> drawn =
+      draw_files(charts.string(), report::verification_plot_files(report), report::kVerificationScript, names, missing);
+  if (!drawn) return tl::unexpected<io::FileError>(drawn.error());
+  report::PagePictures out_pictures;
+  if (!missing.empty()) print_error("plumb: " + missing + "\n");
+  for (const std::string& name : names) {
+    report::PagePicture picture{"", missing};
+    if (missing.empty()) {
+      const io::FileExpected<std::string> svg = io::read_file((charts / name).string());
+      if (!svg) return tl::unexpected<io::FileError>(svg.error());
+      picture.svg = report::inline_svg(*svg);
+    }
+    out_pictures.emplace(name, std::move(picture));
+  }
+  return out_pictures;
+}
+
+io::ExitCode run(const VerifyOptions& options) {
+  if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
+  watch_interrupts();
+  io::FileExpected<Verification> found = verify(options);
+  if (!found) return report(found.error());
+  found->report["run"]["time"] = now_utc();
+  found->report["run"]["host"] = host_name();
+  Folder folder(options.out);
+  const io::FileExpected<void> made = folder.make();
+  if (!made) return report(made.error());
+  const std::string text = found->report.dump(1) + "\n";
+  folder.write("report.json", text);
+  folder.write("traceability.json", found->traceability.dump(1) + "\n");
+  folder.write(kArrayCopy, found->array.text);
+  if (!found->faults_toml.empty()) folder.write(kFaultsFile, found->faults_toml);
+  if (!found->healthy_toml.empty()) folder.write(kHealthyFile, found->healthy_toml);
+  if (found->faults) folder.write("trials-faults.csv", report::trials_csv(*found->faults));
+  if (found->healthy) folder.write("trials-healthy.csv", report::trials_csv(*found->healthy));
+  if (folder.failure()) return report(*folder.failure());
+  const io::FileExpected<report::PagePictures> pictures = draw(options.out, found->report);
+  if (!pictures) return report(pictures.error());
+  folder.write("report.html", report::verification_html(found->report, *pictures));
+  if (folder.failure()) return report(*folder.failure());
+  print(options.json ? text : summary(found->report, options.out));
+  const Json& verdict = found->report["verdict"];
+  const bool fit = verdict["verdict"] == "fit";
+  if (!fit) print_error("plumb: " + verdict["sentence"].get<std::string>() + "\n");
+  return fit ? io::ExitCode::done : io::ExitCode::verification_failed;
+}
+
+}  // namespace
+
+Command add_verify(CLI::App& tool) {
+  auto options = std::make_shared<VerifyOptions>();
+  CLI::App* app = tool.add_subcommand("verify", "a report on one array: what it can guarantee, and how that is known");
+  app->add_option("--array", options->array, "the array file to verify")->required()->type_name("ARRAY.toml");
+  app->add_option("--limits", options->limits, "what you need it for; see below")->type_name("LIMITS.toml");
+  app->add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
+      ->type_name("CAL.json");
+  app->add_option("--positions", options->positions, "a log of quiet attitudes, to calibrate from")
+      ->type_name("LOG.csv");
+  app->add_option("--scenarios", options->scenarios,
+                  "of each campaign; by default 20000 up to 6 sensors, 10000 up to 8, 2000 up to 12, 500 above")
+      ->check(seed_refusal)
+      ->type_name("N");
+  app->add_flag_callback(
+      "--thorough", [options] { options->scenarios = kThoroughScenarios; }, "a million scenarios of each campaign");
+  app->add_option("--seed", options->seed, "of the campaigns and of the predicted calibration; 1 by default")
+      ->check(seed_refusal)
+      ->type_name("S");
+  app->add_option("--out", options->out, "the directory to write; `verification` by default")->type_name("DIR");
+  app->add_option("--compare", options->compare, "an earlier report.json: what has changed since")
+      ->type_name("REPORT.json");
+  app->add_option("--test-results", options->test_results, "results of plumb's own tests, from ctest --output-junit")
+      ->type_name("JUNIT.xml");
+  app->add_option("--assurance", options->assurance, "results of scripts/assure: build/assure/results.json")
+      ->type_name("RESULTS.json");
+  app->add_option("--traceability", options->traceability,
+                  "requirements, hazards and tests of your own in the place of plumb's; a report's traceability.json "
+                  "is the pattern")
+      ->type_name("TRACE.json");
+  app->add_option("--threads", options->threads, "how many; the result is the same; one per processor by default")
+      ->check(CLI::Range(1, 1024).description(""))
+      ->type_name("N");
+  app->add_flag("--json", options->json, "print the report as JSON instead of a summary");
+  app->footer(kNotes + exit_codes_help());
+  return {app, kAbout, [options] { return run(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,39 @@
+/// The sections of the verification report that the other commands of the tool know how to make.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "geometry_study.hpp"
+#include "pipeline.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+using Json = nlohmann::ordered_json;
+
+/// A calibration as the report needs it: where it comes from, what it leaves, what the fit said.
+struct CalibrationPart {
+  std::unique_ptr<const Calibration> calibration;  ///< null where it was refused
+  Json section;
+  double e_cal_mps2 = 0.0;  ///< of the worst sensor; 0 where there is none
+};
+
+/// Of a file that `plumb calibrate` wrote.
+io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, const io::ArrayFile& array);
+/// Of a log of quiet attitudes.
+io::FileExpected<CalibrationPart> calibration_of_positions(const std::string& path, const io::ArrayFile& array);
+/// Of a simulated stand: sensors drawn within the priors of the array file, at random attitudes.
+CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t seed);
+
+/// The array as `plumb geometry` judges it, its maps included.
+Json array_section(const GeometrySubject& subject, const GeometryStudy& study);
+
+/// The table of the state machine; `replayed` tells where the campaigns went, null where none were played.
+Json machine_section(const Json& replayed);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,52 @@
+/// From the options of `plumb verify` to the master report. Nothing is written here.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plumb/io/array_file.hpp"
+#include "plumb/report/trials.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+using Json = nlohmann::ordered_json;
+
+struct VerifyOptions {
+  std::string array, limits, calibration, positions, out = "verification", compare, test_results, assurance,
+                                                     traceability;
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t>
+      scenarios;    ///< of each campaign; by default fewer for larger arrays, so that it takes minutes
+  int threads = 0;  ///< 0: one per processor
+  bool json = false;
+};
+
+inline constexpr std::uint64_t kThoroughScenarios = 1000000;
+/// Of each campaign, played a second time by other code.
+inline constexpr std::uint64_t kReplayed = 200;
+
+/// All that is known when everything has been played, and what has to be written beside the report.
+struct Verification {
+  io::ArrayFile array;
+  Json report;
+  Json traceability;  ///< as it was read
+  std::optional<report::Trials> healthy, faults;
+  std::string healthy_toml, faults_toml;  ///< to be played in the directory of the report
+};
+
+/// Names of files in the directory of the report.
+inline constexpr const char* kArrayCopy = "array.toml";
+inline constexpr const char* kFaultsFile = "faults.toml";
+inline constexpr const char* kHealthyFile = "healthy.toml";
+
+/// Errors: what cannot be read, and an interruption.
+io::FileExpected<Verification> verify(const VerifyOptions& options);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

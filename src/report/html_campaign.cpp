@@ -1,0 +1,234 @@
+// Sections 4 and 5 of the verification page: campaigns and state machine.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "html_view.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+namespace {
+
+PagePicture picture_of(const PagePictures& pictures, const std::string& name) {
+  const auto found = pictures.find(name);
+  return found == pictures.end() ? PagePicture{"", "it was not drawn"} : found->second;
+}
+
+void rates_table(const Json& rates, Section& out) {
+  ViewRows rows;
+  for (const auto& [name, rate] : rates.items())
+    rows.push_back({rate["words"].get<std::string>(), shown(rate["count"]), shown(rate["of"]),
+                    shown(rate["low"], 100.0), shown(rate["high"], 100.0)});
+  out.table("All scenarios with faults", {"what became of them", "k", "of n", "from, %", "to, %"}, rows,
+            "A scenario may count in several rows. Every rate with its 95 % Clopper-Pearson interval.");
+}
+
+void fault_table(const Json& faults, Section& out) {
+  ViewRows rows, times;
+  for (const Json& g : faults["by_fault"]) {
+    const bool clean = g["wrong_exclusion"]["count"] == 0;
+    rows.push_back({g["fault"].get<std::string>(),
+                    shown(g["faulty"]),
+                    shown_rate(g["detected"]),
+                    shown_rate(g["isolated"]),
+                    {shown_rate(g["wrong_exclusion"]), clean ? "" : "bad"},
+                    shown_rate(g["misleading"]),
+                    shown(g["tilt_before_alarm_deg"]),
+                    shown(g["tilt_usable_deg"])});
+    const Json& d = g["to_detect"];
+    const Json& i = g["to_isolate"];
+    times.push_back({g["fault"].get<std::string>(), shown(g["faulty"]), shown(d["cases"]), shown(d["median_s"]),
+                     shown(d["p95_s"]), shown(d["last_s"]), shown(i["cases"]), shown(i["median_s"]), shown(i["p95_s"]),
+                     shown(i["last_s"])});
+  }
+  out.table(
+      "By fault and size",
+      {"fault", "sensors", "detected", "isolated exactly", "healthy one excluded", "misleading",
+       "tilt before alarm, deg", "tilt while usable, deg"},
+      rows,
+      "k/n (95 % interval). Names as in plumb inject: stuck at a level, last value held, random, noise, missing, "
+      "drift, scale, "
+      "axis turned, spikes, bias in multiples of the minimal detectable one (MDB), ghost = a gravity that is turned.");
+  out.table("Times from the onset, s",
+            {"fault", "sensors", "detected", "median", "95 %", "last", "isolated", "median", "95 %", "last"}, times, "",
+            true);
+}
+
+void confusion_table(const Json& confusion, Section& out) {
+  std::vector<std::string> head = {"really at fault"};
+  for (const Json& column : confusion["columns"]) head.push_back(column);
+  ViewRows rows;
+  for (const Json& row : confusion["rows"]) {
+    std::vector<ViewCell> line = {row["faulty"] == 0 ? std::string("nobody") : shown(row["faulty"])};
+    for (const Json& count : row["counts"]) line.emplace_back(shown(count));
+    rows.push_back(line);
+  }
+  out.table("What is the case against what is said", head, rows, "Scenarios, each in one column.");
+}
+
+void stanford_table(const Json& stanford, const std::string& title, Section& out) {
+  ViewRows rows;
+  const std::map<std::string, const char*> words = {
+      {"available", "available: error within the protection level, that within the alert limit"},
+      {"misleading", "error above the protection level, within the alert limit"},
+      {"hazardous", "error above the alert limit, protection level within it"},
+      {"unavailable", "unavailable: no protection level, or above the alert limit"},
+      {"unavailable_misleading", "unavailable, and the error above the protection level"}};
+  for (const auto& [name, rate] : stanford["regions"].items())
+    rows.push_back({words.at(name), shown(rate["count"]), shown(rate["of"]), shown(rate["low"], 100.0),
+                    shown(rate["high"], 100.0)});
+  out.table(title, {"region", "blocks", "of", "from, %", "to, %"}, rows);
+}
+
+void worst_table(const Json& worst, const std::string& title, Section& out) {
+  ViewRows rows;
+  for (const Json& w : worst)
+    rows.push_back({w["what"].get<std::string>(), shown(w["value"]) + " " + w["unit"].get<std::string>(),
+                    w["story"].get<std::string>(), w["replay"].get<std::string>()});
+  if (!rows.empty())
+    out.table(title, {"what", "size", "what happens", "play it again"}, rows,
+              "Commands run in the directory of this report.");
+}
+
+void healthy_part(const Json& healthy, Section& out) {
+  out.heading("Without faults");
+  if (!healthy["played"].get<bool>()) return out.notice("Not played: " + healthy["reason"].get<std::string>(), "open");
+  ViewRows rows;
+  for (const auto& [key, words] :
+       {std::pair<const char*, const char*>{"false_alarm_per_block", "false alarms, blocks up to the first"},
+        {"false_alarm_per_scenario", "scenarios with a false alarm"},
+        {"wrong_exclusion", "a sensor excluded"},
+        {"misleading", "misleading"},
+        {"beyond_protection", "error above the protection level"},
+        {"unavailable", "an alert stands at the end"},
+        {"failed", "ended in failed"}})
+    rows.push_back({words, shown(healthy[key]["count"]), shown(healthy[key]["of"]), shown(healthy[key]["low"], 100.0),
+                    shown(healthy[key]["high"], 100.0)});
+  out.table("Healthy tool", {"what", "k", "of n", "from, %", "to, %"}, rows,
+            "95 % Clopper-Pearson intervals; gravity told right and off by three sigma, in equal shares.");
+  worst_table(healthy["worst"], "Worst scenarios without faults", out);
+}
+
+}  // namespace
+
+Section campaign_view(const Json& report, const PagePictures& pictures) {
+  const Json& campaign = report["campaign"];
+  Section out("campaign", "4 Fault campaign", "Simulated tools, attitudes and faults through the monitor, counted.");
+  const Json& faults = campaign["faults"];
+  if (!faults["played"].get<bool>()) {
+    out.notice("Not played: " + faults["reason"].get<std::string>(), "open");
+  } else {
+    const Json& plan = faults["plan"];
+    out.text(
+        fmt::format("{} scenarios of {} stations, {} combinations, seed {}; attitudes: {}; a block is {} samples, {} "
+                    "s; alert limit {} deg. "
+                    "Up to {} sensors at fault at once.",
+                    plan["scenarios"].dump(), plan["stations"].dump(), plan["cells"].dump(), plan["seed"].dump(),
+                    joined_list(plan["attitudes"]), plan["block_samples"].dump(), shown(plan["block_s"]),
+                    shown(plan["alert_limit_deg"]), faults["largest_faulty"].dump()));
+    rates_table(faults["rates"], out);
+    fault_table(faults, out);
+    confusion_table(faults["confusion"], out);
+    if (!faults["by_size"].empty()) {
+      ViewRows sizes;
+      for (const Json& bin : faults["by_size"])
+        sizes.push_back(
+            {shown(bin["from_mdb"]), shown(bin["to_mdb"]), shown_rate(bin["detected"]), shown_rate(bin["isolated"])});
+      out.picture("Detection and isolation by size", picture_of(pictures, "by-size.svg"),
+                  "Share of lone constant errors detected and isolated, by size in multiples of the minimal detectable "
+                  "bias, with intervals.",
+                  "Lone constant errors; bars are 95 % intervals.", "by-size.csv");
+      out.table("Detection and isolation by size, the data", {"from, MDB", "to, MDB", "detected", "isolated"}, sizes,
+                "", true);
+    }
+    out.picture("Time to detect and to isolate", picture_of(pictures, "times.svg"),
+                "Share of the detected and of the isolated faults against the time since the onset.",
+                "Of the faults that were detected, and of those that were isolated.", "times.csv");
+    out.picture("Stanford diagram", picture_of(pictures, "stanford.svg"),
+                "Blocks by tilt error and protection level, in octaves; the alert limit as lines.",
+                "Blocks by error and protection level. Below the diagonal the error is above the protection level; 
+                "the upper row: no protection level.",
+                "stanford.csv");
+    stanford_table(faults["stanford"], "Blocks by region", out);
+    worst_table(faults["worst"], "Worst scenarios", out);
+  }
+  healthy_part(campaign["healthy"], out);
+  if (campaign.contains("replayed")) {
+    const Json& again = campaign["replayed"];
+    out.text(
+        fmt::format("{} scenarios were played again by other code (the simulator and the monitor for 24 sensors): {} "
+                    "agree in every block.",
+                    again["scenarios"].dump(), again["agree"].dump()));
+  }
+  return out;
+}
+
+Section machine_view(const Json& report) {
+  const Json& machine = report["state_machine"];
+  Section out("machine", "5 State machine", "The one table that runs in the monitor, and where the campaigns went.");
+  const Json& coverage = machine["coverage"];
+  out.picture("States and transitions", {machine_svg(machine), ""},
+              "The states of the monitor; thick lines are transitions that the replayed scenarios took, thin ones "
+              "those that the table allows.",
+              "Thick: taken by the replayed scenarios. Thin: possible by the table.");
+  std::map<std::pair<std::string, std::string>, std::uint64_t> records;
+  if (coverage.is_null()) {
+    out.notice("No campaign was played, so nothing is known of coverage.", "open");
+  } else {
+    out.text(fmt::format(
+        "Replayed scenarios visited {} of {} modes; {} of {} cells that do something left a record. Campaigns play "
+        "faults: what the host asks for "
+        "(reset, recalibrate) and fits do not occur in them; those cells are checked by the tests and the model.",
+        coverage["modes_visited"].dump(), coverage["modes"].dump(), coverage["cells_recorded"].dump(),
+        coverage["cells_taken"].dump()));
+    for (const Json& cell : coverage["cells"])
+      records[{cell["mode"], cell["event"]}] = cell["records"].get<std::uint64_t>();
+  }
+  std::vector<std::string> head = {"event (rank order)"};
+  for (const Json& mode : machine["modes"]) head.push_back(mode["mode"]);
+  ViewRows rows;
+  for (const Json& event : machine["events_in_rank_order"]) {
+    if (event == "none") continue;
+    std::vector<ViewCell> row = {event.get<std::string>()};
+    for (const Json& mode : machine["modes"]) {
+      for (const Json& cell : machine["cells"]) {
+        if (cell["mode"] != mode["mode"] || cell["event"] != event) continue;
+        const std::string kind = cell["kind"];
+        const std::uint64_t seen = records[{mode["mode"], event}];
+        std::string text =
+            kind == "taken" ? joined_list(cell["actions"]) + "; " + cell["target"].get<std::string>() : kind;
+        if (text.rfind("-; ", 0) == 0) text = text.substr(3);
+        row.emplace_back(seen > 0 ? text + " (" + std::to_string(seen) + ")" : text, seen > 0 ? "good" : "");
+      }
+    }
+    rows.push_back(row);
+  }
+  out.table("The table", head, rows, "In brackets: records that the replayed scenarios left in the cell.");
+  const Json& given = report["traceability"]["assurance_results"];
+  if (!given["given"].get<bool>()) {
+    out.notice("Proofs and model checking: results not given. Give " + given["how"].get<std::string>() + ".", "open");
+    return out;
+  }
+  ViewRows items;
+  for (const Json& i : given["items"]) {
+    const std::string result = i["result"];
+    items.push_back({i["title"].get<std::string>(),
+                     i["kind"].get<std::string>(),
+                     i["tool"].get<std::string>(),
+                     i["figure"].get<std::string>(),
+                     shown(i["seconds"]),
+                     {result, tone_of(result)}});
+  }
+  out.table("Proofs and model checking", {"what", "kind", "tool", "figure", "s", "result"}, items,
+            "Proved: for all numbers. Exhaustive: every state or case within the bound named. Sampled: drawn cases "
+            "only. Made from " +
+                given["version"].get<std::string>() +
+                (given["complete"].get<bool>() ? "." : ", the quick form: larger arrays left out."));
+  return out;
+}
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb

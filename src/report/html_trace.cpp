@@ -1,0 +1,151 @@
+// Sections 6 to 8 of the verification page: traceability, identity and resources, change; and the page itself.
+#include <fmt/format.h>
+
+#include "html_view.hpp"
+#include "verification_template.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+namespace {
+
+using kainjow::mustache::data;
+
+std::string with_results(const Json& list) {
+  std::string out;
+  for (const Json& item : list) {
+    out += (out.empty() ? "" : ", ") + item["name"].get<std::string>();
+    if (item["result"].is_string()) out += " (" + item["result"].get<std::string>() + ")";
+  }
+  return out.empty() ? "-" : out;
+}
+
+}  // namespace
+
+Section trace_view(const Json& report) {
+  const Json& t = report["traceability"];
+  Section out("traceability", "6 Traceability", "From every requirement to what checks it, and back.");
+  if (!t["test_results"]["given"].get<bool>())
+    out.notice("Results of the tests: not given. Give " + t["test_results"]["how"].get<std::string>() + ".", "open");
+  std::vector<std::string> orphans;
+  for (const Json& orphan : t["orphans"]) orphans.push_back(orphan);
+  if (orphans.empty()) {
+    out.text(
+        "No orphans: every active requirement answers a hazard and has a test and a negative test, every hazard is "
+        "answered, every test names a known requirement.");
+  } else {
+    out.list("Orphans", orphans);
+  }
+  ViewRows rows, texts;
+  for (const Json& r : t["requirements"]) {
+    const std::string result = r["result"];
+    rows.push_back({r["id"].get<std::string>(),
+                    r["title"].get<std::string>(),
+                    {result, tone_of(result)},
+                    joined_list(r["hazards"]),
+                    joined_list(r["design"]),
+                    shown(Json(r["tests"].size())),
+                    shown(Json(r["negative_tests"].size())),
+                    with_results(r["formal"])});
+    texts.push_back({r["id"].get<std::string>(), r["statement"].get<std::string>(), joined_list(r["methods"]),
+                     with_results(r["tests"]), with_results(r["negative_tests"])});
+  }
+  out.table("Requirements", {"id", "title", "result", "hazards", "design element", "tests", "negative", "formal items"},
+            rows,
+            "Design element: the sources that share their name with a test of the requirement. Traced: tests exist, "
+            "their results were not given.");
+  out.table("Requirements in full, with their tests by name",
+            {"id", "statement", "methods", "verified by", "negative tests"}, texts, "", true);
+  ViewRows hazards, tests;
+  for (const Json& h : t["hazards"])
+    hazards.push_back({h["id"].get<std::string>(), h["title"].get<std::string>(), h["statement"].get<std::string>(),
+                       joined_list(h["requirements"])});
+  out.table("Back: hazards to requirements", {"id", "hazard", "what happens", "answered by"}, hazards);
+  for (const Json& test : t["tests"]) {
+    const std::string result = test["result"].is_string() ? test["result"].get<std::string>() : "not given";
+    tests.push_back({test["name"].get<std::string>(), test["file"].get<std::string>(), joined_list(test["verifies"]),
+                     joined_list(test["negative"]), result});
+  }
+  out.table("Back: tests to requirements", {"test", "file", "verifies", "negative for", "result"}, tests, "", true);
+  return out;
+}
+
+Section identity_view(const Json& report) {
+  const Json& identity = report["identity"];
+  const Json& build = identity["build"];
+  Section out("identity", "7 Resources and identity", "What was run, on what, and how to run it again.");
+  out.commands({identity["command"].get<std::string>()});
+  ViewRows rows;
+  for (const auto& [key, words] : {std::pair<const char*, const char*>{"version", "plumb"},
+                                   {"commit", "commit"},
+                                   {"compiler", "compiler"},
+                                   {"flags", "flags"},
+                                   {"build_type", "build"},
+                                   {"target", "target"}})
+    rows.push_back({words, build[key].get<std::string>()});
+  rows.push_back({"seed", identity["seed"].dump()});
+  rows.push_back({"scenarios of each campaign", identity["scenarios"].dump()});
+  out.table("Identity", {"what", "is"}, rows);
+  ViewRows inputs, libraries;
+  for (const Json& i : identity["inputs"])
+    inputs.push_back({i["role"].get<std::string>(), i["name"].get<std::string>(), i["bytes"].dump(),
+                      i["sha256"].get<std::string>()});
+  out.table("Inputs", {"role", "file", "bytes", "SHA-256"}, inputs);
+  for (const Json& l : build["libraries"])
+    libraries.push_back(
+        {l["name"].get<std::string>(), l["version"].get<std::string>(), l["licence"].get<std::string>()});
+  out.table("Libraries", {"library", "version", "licence"}, libraries, "", true);
+  const Json& r = report["resources"];
+  out.table("Resources", {"figure", "value"},
+            {{"sensors", r["sensors"].dump()},
+             {"capacity of the tool", r["tool_capacity"].dump()},
+             {"monitor of the tool, bytes", r["tool_monitor_bytes"].dump()}});
+  if (!r["target"]["given"].get<bool>())
+    out.notice("Size, stack and instructions on the target: not given. " + r["target"]["how"].get<std::string>() + ".",
+               "open");
+  return out;
+}
+
+Section change_view(const Json& report) {
+  const Json& c = report["change"];
+  Section out("change", "8 Change", "Against an earlier report.");
+  if (!c["given"].get<bool>()) {
+    out.notice("Not given: " + c["how"].get<std::string>() + ".", "open");
+    return out;
+  }
+  out.text(fmt::format("Verdict before: {}; now: {}. {} values differ.", shown(c["verdict_before"]),
+                       shown(c["verdict_now"]), c["count"].dump()));
+  ViewRows rows;
+  for (const Json& d : c["differences"])
+    rows.push_back({d["where"].get<std::string>(), shown(d["before"]), shown(d["now"])});
+  if (!rows.empty())
+    out.table("What differs", {"where", "before", "now"}, rows,
+              c["left_out"] == 0 ? "" : c["left_out"].dump() + " more are not listed.");
+  return out;
+}
+
+std::string verification_html(const Json& report, const PagePictures& pictures) {
+  data root, sections{data::type::list};
+  for (Section section : {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
+                          campaign_view(report, pictures), machine_view(report), trace_view(report),
+                          identity_view(report), change_view(report)})
+    sections << section.take();
+  const Json& build = report["identity"]["build"];
+  root.set("title", "Verification of " + report["subject"]["name"].get<std::string>());
+  root.set("lead",
+           fmt::format("{} sensors, judged by plumb {} ({}). Every figure stands in report.json beside this page.",
+                       report["subject"]["sensors"].dump(), build["version"].get<std::string>(),
+                       build["commit"].get<std::string>()));
+  root.set("sections", sections);
+  root.set("footer",
+           "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.");
+  const Json& run = report["run"];
+  root.set("run", fmt::format("Run {} on {}, {} s, {} threads.", run.value("time", "-"), run.value("host", "-"),
+                              shown(run.value("seconds", Json())), shown(run.value("threads", Json()))));
+  kainjow::mustache::mustache page{kVerificationTemplate};
+  return page.render(root);
+}
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,180 @@
+#include "html_view.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+namespace {
+
+using kainjow::mustache::data;
+
+/// Gives every name inside the picture a prefix, where it is defined and where it is used.
+std::string with_own_names(std::string svg, const std::string& prefix) {
+  for (const char* mark : {" id=\"", " id='", "url(#", "href=\"#", "href='#"}) {
+    const std::string text = mark;
+    for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + text.size()))
+      svg.insert(at + text.size(), prefix);
+  }
+  return svg;
+}
+
+/// A cell of more than this is a sentence or a path: it may be broken anywhere.
+constexpr std::size_t kLongCell = 34;
+
+/// Starts like a number, or stands for one that is not known.
+bool is_numeric(const std::string& cell) {
+  if (cell.size() > kLongCell) return false;
+  if (cell.empty() || cell == "-") return true;
+  const std::size_t begin = cell.find_first_not_of("+-<≤ ");
+  return begin != std::string::npos && std::isdigit(static_cast<unsigned char>(cell[begin])) != 0;
+}
+
+}  // namespace
+
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
+
+std::string shown(const Json& value, double factor) {
+  if (value.is_number_integer() && factor == 1.0) return value.dump();
+  if (value.is_number()) return shown(factor * value.get<double>());
+  return value.is_string() ? value.get<std::string>() : "-";
+}
+
+std::string shown_rate(const Json& rate) {
+  return fmt::format("{}/{} ({} to {} %)", rate["count"].dump(), rate["of"].dump(), shown(rate["low"], 100.0),
+                     shown(rate["high"], 100.0));
+}
+
+const char* tone_of(const std::string& result) {
+  for (const char* good : {"met", "fit", "verified", "passed", "holds"}) {
+    if (result == good) return "good";
+  }
+  for (const char* bad : {"not met", "not fit", "failed", "fails"}) {
+    if (result == bad) return "bad";
+  }
+  return "open";
+}
+
+std::string joined_list(const Json& list, const char* key) {
+  std::string out;
+  for (const Json& item : list) {
+    const Json& value = key == nullptr ? item : item[key];
+    out += (out.empty() ? "" : ", ") + (value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return out.empty() ? "-" : out;
+}
+
+Section::Section(std::string id, std::string title, std::string gist)
+    : id_(std::move(id)), title_(std::move(title)), gist_(std::move(gist)) {}
+
+data& Section::block(const char* kind) {
+  data one;
+  one.set(std::string("is_") + kind, true);
+  blocks_.push_back(one);
+  return blocks_.back();
+}
+
+void Section::signature(const std::vector<std::string>& fields) {
+  data list{data::type::list};
+  for (const std::string& field : fields) list << data{"text", field};
+  block("signature").set("fields", list);
+}
+
+void Section::heading(const std::string& text) { block("heading").set("text", text); }
+void Section::text(const std::string& text) { block("text").set("text", text); }
+
+void Section::notice(const std::string& text, const std::string& tone) {
+  data& one = block("notice");
+  one.set("text", text);
+  one.set("tone", tone);
+}
+
+void Section::figures(const std::vector<std::array<std::string, 3>>& answers) {
+  data list{data::type::list};
+  for (const auto& [question, value, label] : answers) {
+    data figure;
+    figure.set("question", question);
+    figure.set("value", value);
+    figure.set("label", label);
+    list << figure;
+  }
+  block("figures").set("figures", list);
+}
+
+void Section::table(const std::string& title, const std::vector<std::string>& head, const ViewRows& rows,
+                    const std::string& note, bool folded) {
+  std::vector<bool> numeric(head.size(), true);
+  for (const std::vector<ViewCell>& row : rows) {
+    for (std::size_t k = 0; k < numeric.size() && k < row.size(); ++k)
+      numeric[k] = numeric[k] && is_numeric(row[k].text);
+  }
+  const auto cell_data = [&numeric](const ViewCell& from, std::size_t column) {
+    data cell;
+    cell.set("text", from.text);
+    cell.set("n", column < numeric.size() && numeric[column]);
+    const bool right = column < numeric.size() && numeric[column];
+    const char* const width = from.text.size() > kLongCell ? "long " : "";
+    cell.set("classes", std::string(right ? "n " : "") + width + from.tone);
+    cell.set("has_classes", right || *width != '\0' || !from.tone.empty());
+    return cell;
+  };
+  data heads{data::type::list}, lines{data::type::list};
+  for (std::size_t k = 0; k < head.size(); ++k) heads << cell_data(head[k], k);
+  for (const std::vector<ViewCell>& row : rows) {
+    data cells{data::type::list}, line;
+    for (std::size_t k = 0; k < row.size(); ++k) cells << cell_data(row[k], k);
+    line.set("cells", cells);
+    lines << line;
+  }
+  data& one = block("table");
+  one.set("title", title);
+  one.set("folded", folded);
+  one.set("head", heads);
+  one.set("rows", lines);
+  one.set("has_note", !note.empty());
+  one.set("note", note);
+}
+
+void Section::list(const std::string& title, const std::vector<std::string>& items) {
+  data list{data::type::list};
+  for (const std::string& item : items) list << data{"text", item};
+  data& one = block("list");
+  one.set("title", title);
+  one.set("items", list);
+}
+
+void Section::commands(const std::vector<std::string>& lines) {
+  data list{data::type::list};
+  for (const std::string& line : lines) list << data{"text", line};
+  block("commands").set("lines", list);
+}
+
+void Section::picture(const std::string& title, const PagePicture& picture, const std::string& alt,
+                      const std::string& caption, const std::string& csv) {
+  data& one = block("picture");
+  one.set("title", title);
+  one.set("has_svg", !picture.svg.empty());
+  one.set("svg", with_own_names(picture.svg, id_ + "-" + std::to_string(++pictures_) + "-"));
+  one.set("missing", picture.missing);
+  one.set("alt", alt);
+  one.set("caption", caption);
+  one.set("has_csv", !csv.empty());
+  one.set("csv", std::string(kChartFolder) + "/" + csv);
+}
+
+data Section::take() {
+  data out, list{data::type::list};
+  for (const data& one : blocks_) list << one;
+  out.set("id", id_);
+  out.set("title", title_);
+  out.set("gist", gist_);
+  out.set("blocks", list);
+  return out;
+}
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,79 @@
+/// What a section of the verification page is made of, in the order in which it was added (private to src/report).
+#pragma once
+
+#include <array>
+#include <kainjow/mustache.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plumb/report/verification_page.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+
+/// A cell of a table; `tone` is "good", "bad", "open" or nothing.
+struct ViewCell {
+  std::string text, tone;
+  ViewCell(std::string t, std::string how = "")
+      : text(std::move(t)), tone(std::move(how)) {}  // NOLINT: a text is a cell
+  ViewCell(const char* t) : text(t) {}               // NOLINT
+};
+using ViewRows = std::vector<std::vector<ViewCell>>;
+
+/// Four significant digits; "-" for null. All numbers of the page go through here.
+std::string shown(double value);
+std::string shown(const Json& value, double factor = 1.0);
+/// "3/714, 0.087 to 1.2 %": k of n and the interval.
+std::string shown_rate(const Json& rate);
+const char* tone_of(const std::string& result);
+std::string joined_list(const Json& list, const char* key = nullptr);
+
+class Section {
+ public:
+  Section(std::string id, std::string title, std::string gist);
+  void heading(const std::string& text);
+  /// Lines to be filled in by hand.
+  void signature(const std::vector<std::string>& fields);
+  void text(const std::string& text);
+  void notice(const std::string& text, const std::string& tone);
+  /// The few numbers that matter: question, value, what it means.
+  void figures(const std::vector<std::array<std::string, 3>>& answers);
+  /// `folded`: behind a click, open on paper.
+  void table(const std::string& title, const std::vector<std::string>& head, const ViewRows& rows,
+             const std::string& note = "", bool folded = false);
+  void list(const std::string& title, const std::vector<std::string>& items);
+  void commands(const std::vector<std::string>& lines);
+  /// `csv` is the file beside the page that holds what is drawn; nothing where a table follows.
+  void picture(const std::string& title, const PagePicture& picture, const std::string& alt, const std::string& caption,
+               const std::string& csv = "");
+  kainjow::mustache::data take();
+  const std::string& id() const noexcept { return id_; }
+
+ private:
+  kainjow::mustache::data& block(const char* kind);
+
+  std::string id_, title_, gist_;
+  int pictures_ = 0;
+  std::vector<kainjow::mustache::data> blocks_;
+};
+
+/// The sections, from the master JSON and nothing else but its pictures.
+Section verdict_view(const Json& report);
+Section array_view(const Json& report, const PagePictures& pictures);
+Section calibration_view(const Json& report, const PagePictures& pictures);
+Section campaign_view(const Json& report, const PagePictures& pictures);
+Section machine_view(const Json& report);
+Section trace_view(const Json& report);
+Section identity_view(const Json& report);
+Section change_view(const Json& report);
+
+/// Drawn here, without any other program: the axes, and the states with their transitions.
+std::string axes_svg(const Json& array);
+std::string machine_svg(const Json& machine);
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,120 @@
+"""browser.py TOOL SOURCE [SHOTS]: the page of plumb verify in a browser: no message on the console, no request but for the page
+itself, every link leads somewhere, every chart is to be seen, nothing wider than the window, no table cut on paper. With SHOTS,
+screenshots go into that directory: light, dark, phone, and the page as PDF."""
+
+import base64
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+except ImportError:
+    print("skipped: no selenium (Debian packages python3-selenium chromium-driver)")
+    sys.exit(77)
+if not shutil.which("chromedriver"):
+    print("skipped: no chromedriver (Debian package chromium-driver)")
+    sys.exit(77)
+
+WIDTHS = {"phone": 390, "desk": 1280}
+
+
+def open_browser():
+    options = Options()
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+
+
+def requests_of(browser):
+    for entry in browser.get_log("performance"):
+        message = json.loads(entry["message"])["message"]
+        if message["method"] == "Network.requestWillBeSent":
+            yield message["params"]["request"]["url"]
+
+
+def set_view(browser, width, dark):
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+    scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [scheme]})
+
+
+def contrast(browser):
+    """Of the running text against the page."""
+    script = """const of = c => c.match(/\\d+/g).slice(0, 3).map(v => { v /= 255; return v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4; });
+    const light = c => { const [r, g, b] = of(c); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+    const style = getComputedStyle(document.body), a = light(style.color), b = light(style.backgroundColor);
+    return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);"""
+    return browser.execute_script(script)
+
+
+def check_links(browser, page):
+    for href in browser.execute_script("return [...document.querySelectorAll('a[href]')].map(a => a.getAttribute('href'))"):
+        if href.startswith("#"):
+            assert browser.execute_script("return document.getElementById(arguments[0]) !== null", href[1:]), href
+        else:
+            assert (page.parent / href).is_file(), href
+
+
+def check_charts(browser):
+    sizes = browser.execute_script("return [...document.querySelectorAll('figure')].map(f => { const s = f.querySelector('svg'); "
+                                   "return s ? [s.getBoundingClientRect().width, s.getBoundingClientRect().height, s.querySelectorAll('path,rect,line,circle,image,use').length] : null })")
+    assert len(sizes) >= 6, sizes
+    for size in sizes:
+        assert size and size[0] > 100 and size[1] > 100 and size[2] > 5, sizes
+    assert browser.execute_script("return [...document.querySelectorAll('[role=img]')].every(e => e.getAttribute('aria-label'))")
+
+
+def check_paper(browser):
+    """No table is wider than the text of the page when it is printed (A4 less its margins)."""
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 695, "height": 1000, "deviceScaleFactor": 1, "mobile": False})
+    cut = browser.execute_script("return [...document.querySelectorAll('table')].filter(t => t.scrollWidth > t.parentElement.clientWidth + 1 && t.offsetParent).map(t => t.parentElement.getAttribute('aria-label'))")
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    assert not cut, cut
+
+
+def main(tool, source, shots=None):
+    with tempfile.TemporaryDirectory() as folder:
+        array = str(pathlib.Path(source) / "examples/paper_tool.toml")
+        done = subprocess.run([tool, "verify", "--array", array, "--scenarios", "1500", "--out", folder + "/r"], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        page = pathlib.Path(folder, "r", "report.html")
+        browser = open_browser()
+        try:
+            browser.get(page.as_uri())
+            console = browser.get_log("browser")
+            assert not console, console
+            foreign = [url for url in requests_of(browser) if url != page.as_uri() and not url.startswith("data:")]
+            assert not foreign, foreign
+            headings = browser.execute_script("return [...document.querySelectorAll('h1,h2,h3')].map(h => +h.tagName[1])")
+            assert headings[0] == 1 and headings.count(1) == 1 and all(b - a <= 1 for a, b in zip(headings, headings[1:])), headings
+            check_links(browser, page)
+            check_charts(browser)
+            for name, width in WIDTHS.items():
+                for dark in (False, True):
+                    set_view(browser, width, dark)
+                    wide = browser.execute_script("return document.documentElement.scrollWidth")
+                    assert wide <= width, (name, wide)
+                    assert contrast(browser) >= 7.0, (name, dark)
+                    if shots:
+                        high = browser.execute_script("return document.documentElement.scrollHeight")
+                        clip = {"x": 0, "y": 0, "width": width, "height": min(high, 12000), "scale": 1}
+                        shot = browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True, "clip": clip})
+                        pathlib.Path(shots, f"{name}-{'dark' if dark else 'light'}.png").write_bytes(base64.b64decode(shot["data"]))
+            check_paper(browser)
+            if shots:
+                pdf = browser.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})
+                pathlib.Path(shots, "paper.pdf").write_bytes(base64.b64decode(pdf["data"]))
+        finally:
+            browser.quit()
+    print("the page is sound")
+
+
+main(*sys.argv[1:])
