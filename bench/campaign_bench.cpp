@@ -1,20 +1,19 @@
-// What one scenario of a campaign costs: 8 stations of 32 samples, drawn, generated, stepped and judged; and its parts.
+// What one scenario of a campaign costs: 8 stations of 32 samples, drawn, generated, stepped and judged.
+// campaign_parts_bench.cpp measures the parts of it.
 #include <benchmark/benchmark.h>
 
 #include <memory>
 #include <string>
 
+#include "campaign_bench.hpp"
 #include "plumb/campaign/campaign_file.hpp"
 #include "plumb/campaign/kernel.hpp"
 #include "plumb/campaign/tally.hpp"
 #include "plumb/scenario/random.hpp"
 
-namespace {
-
 using namespace plumb::campaign;
 
-/// One combination: four sensors (more on a cone), random attitudes.
-Plan plan_of(int sensors, const std::string& fault) {
+Plan plumb_bench::campaign_plan(int sensors, const std::string& fault) {
   const std::string tool = sensors == 4 ? "geometry = \"tetrahedron\"\n"
                                         : "geometry = \"cone\"\nsensors = " + std::to_string(sensors) + "\n";
   const auto file = parse_campaign_text(
@@ -22,8 +21,10 @@ Plan plan_of(int sensors, const std::string& fault) {
   return file ? file->plan : Plan{};
 }
 
+namespace {
+
 void play(benchmark::State& state, const char* fault) {
-  const Plan plan = plan_of(static_cast<int>(state.range(0)), fault);
+  const Plan plan = plumb_bench::campaign_plan(static_cast<int>(state.range(0)), fault);
   auto kernel = make_kernel(plan);
   if (!kernel) {
     state.SkipWithError(kernel.error().c_str());

@@ -233,8 +233,9 @@ int rank_of(const SensorArray& array, SensorSet used) noexcept {
 Vec3 LeastSquares::estimate(const Readings& y) const noexcept {
   Vec3 x{};
   // One that is not used is not read: it may be NaN, and 0 * NaN is NaN.
-  for (std::size_t i = 0; (used.bits >> i) != 0 && i < column.size(); ++i) {
-    if (used.has(static_cast<int>(i))) x = plus(x, scaled(column[i], y[i]));
+  std::uint32_t left = used.bits;
+  for (std::size_t i = 0; left != 0 && i < column.size(); ++i, left >>= 1U) {
+    if ((left & 1U) != 0) x = plus(x, scaled(column[i], y[i]));
   }
   return x;
 }

@@ -114,6 +114,12 @@ double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const 
   return sum;
 }
 
+bool RowUncertainty::is_zero(int sensors) const noexcept {
+  const auto zero = [](double v) { return v == 0.0; };
+  return std::all_of(covariance.begin(), covariance.begin() + packed_size(sensors), zero) &&
+         std::all_of(misfit_mps2.begin(), misfit_mps2.begin() + sensors, zero);
+}
+
 bool RowUncertainty::is_covariance() const noexcept {
   constexpr double kRounding = 1e-6;
   const auto entry = [this](int a, int b) { return covariance[index(a * (a + 1) / 2 + b)]; };
@@ -171,7 +177,13 @@ void SensorArray::derive() noexcept {
   }
 }
 
+void SensorArray::set_uncertainty(const RowUncertainty& u) noexcept {
+  uncertainty_ = u;
+  perfectly_known_ = u.is_zero(size_);
+}
+
 void SensorArray::rebuild() noexcept {
+  perfectly_known_ = uncertainty_.is_zero(size_);
   if (plausible()) derive();
 }
 

@@ -127,17 +127,20 @@ void BlockAccumulator::clear() noexcept { *this = BlockAccumulator{}; }
 void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double count) noexcept {
   // A channel's origin is where it first delivers in the block.
   const SensorSet fresh = usable - usable_;
+  for (int i = 0; (fresh.bits >> static_cast<unsigned>(i)) != 0 && i < kCapacity; ++i) {
+    if (fresh.has(i)) origin_[static_cast<size_t>(i)] = y_mps2[static_cast<size_t>(i)];
+  }
   usable_ = usable_ | usable;
-  std::array<double, kCapacity> d{};
-  for (int i = 0; (usable.bits >> static_cast<unsigned>(i)) != 0 && i < kCapacity; ++i) {
-    if (!usable.has(i)) continue;
-    double* row = &product_[packed(i, 0)];
-    const auto a = static_cast<size_t>(i);
-    if (fresh.has(i)) origin_[a] = y_mps2[a];
-    ++present_[a];
-    d[a] = y_mps2[a] - origin_[a];
-    sum_[a] += d[a];
-    for (size_t j = 0; j <= a; ++j) row[j] += d[a] * d[j];
+  std::array<double, kCapacity> d{};  // zero for a channel that is not usable
+  double* row = product_.data();
+  std::uint32_t left = usable.bits;
+  for (size_t i = 0; left != 0 && i < d.size(); row += ++i, left >>= 1U) {
+    if ((left & 1U) == 0) continue;
+    ++present_[i];
+    const double own = y_mps2[i] - origin_[i];
+    d[i] = own;
+    sum_[i] += own;
+    for (size_t j = 0; j <= i; ++j) row[j] += own * d[j];
   }
   inverse_count_ += 1.0 / count;
   ++size_;
@@ -212,8 +215,9 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
       const auto a = static_cast<size_t>(i);
       record->add(i, r.ratio, block.size() - 1, r.own, r.excess);
       const bool mine = record->residual_excess[a] > kOwnShare * record->own_excess[a];
-      const double limit = chi2_tail_quantile(kRecordRate, static_cast<int>(record->freedom[a]));
-      noisy = noisy || (mine && record->residual[a] > limit);
+      // The quantile last: it costs more than all the rest.
+      noisy = noisy ||
+              (mine && record->residual[a] > chi2_tail_quantile(kRecordRate, static_cast<int>(record->freedom[a])));
     }
     if (!noisy) {
       out.quiet = false;  // the others predict its movement: the tool moves

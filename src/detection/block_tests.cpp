@@ -27,7 +27,8 @@ BlockTests::Told BlockTests::of(SensorSet set) const noexcept {
   if (p.set != set) {
     p.set = set;
     p.test = SetTest{};
-    test_set(array_, array_.uncertainty(), gravity_, limits_, block_, set, p.test);
+    const RowUncertainty* uncertainty = array_.perfectly_known() ? nullptr : &array_.uncertainty();
+    test_set(array_, uncertainty, gravity_, limits_, block_, set, p.test);
   }
   return p.test;
 }

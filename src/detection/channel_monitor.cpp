@@ -1,6 +1,7 @@
 #include "plumb/detection/channel_monitor.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -14,47 +15,60 @@ constexpr double kClipFraction = 0.995;
 void ChannelMonitor::configure(int n, const std::array<double, kCapacity>& full_scale_raw, int confirm) noexcept {
   *this = ChannelMonitor{};
   size_ = n;
-  full_scale_raw_ = full_scale_raw;
+  for (std::size_t a = 0; a < full_scale_raw.size(); ++a) {
+    const bool known = full_scale_raw[a] > 0.0;
+    clip_raw_[a] = known ? kClipFraction * full_scale_raw[a] : std::numeric_limits<double>::infinity();
+  }
   confirm_ = confirm;
 }
 
 GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
-  GateResult out;
-  for (int i = 0; i < size_; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    if (!sample.delivered.has(i)) {
-      out.missing = out.missing.with(i);
-    } else if (!std::isfinite(sample.raw[a])) {
-      out.not_finite = out.not_finite.with(i);
-    } else {
-      out.usable = out.usable.with(i);
-      if (full_scale_raw_[a] > 0.0 && std::fabs(sample.raw[a]) >= kClipFraction * full_scale_raw_[a]) {
-        out.clipped = out.clipped.with(i);
-      }
-    }
+  // Sorted by masks: the channels of a sample without trouble cost two comparisons each.
+  std::uint32_t finite = 0, beyond = 0, bit = 1;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(size_); ++a, bit <<= 1U) {
+    const double size = std::fabs(sample.raw[a]);
+    if (size <= std::numeric_limits<double>::max()) finite |= bit;  // a NaN is not
+    if (size >= clip_raw_[a]) beyond |= bit;
   }
+  const SensorSet all = SensorSet::first(size_);
+  GateResult out;
+  out.missing = all - sample.delivered;
+  out.not_finite = (all & sample.delivered) - SensorSet(finite);
+  out.usable = sample.delivered & SensorSet(finite);
+  out.clipped = out.usable & SensorSet(beyond);
   out.gap = out.usable.empty();
   if (out.gap) return out;  // a silent or babbling bus says nothing about any one channel
   if (block_samples_ < kMostBlockSamples) ++block_samples_;
+  std::uint32_t changed = 0;
+  bit = 1;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(size_); ++a, bit <<= 1U) {
+    if ((out.usable.bits & bit) == 0) continue;
+    if (sample.raw[a] == last_raw_[a]) {
+      count_up(repeats_[a]);
+    } else {
+      repeats_[a] = 0;
+      changed |= bit;
+    }
+    last_raw_[a] = sample.raw[a];
+    bad_run_[a] = 0;
+    count_up(good_run_[a]);
+  }
+  changed_ = changed_ | SensorSet(changed);
+  if (out.usable != all || !(out.clipped | lost_).empty()) note_trouble(out);
+  return out;
+}
+
+/// What only some samples have: channels that were clipped, that gave nothing to use, that are lost or come back.
+void ChannelMonitor::note_trouble(const GateResult& sample) noexcept {
   for (int i = 0; i < size_; ++i) {
     const auto a = static_cast<std::size_t>(i);
-    if (out.clipped.has(i)) count_up(clipped_in_block_[a]);
-    if (out.usable.has(i)) {
-      if (sample.raw[a] == last_raw_[a]) {
-        count_up(repeats_[a]);
-      } else {
-        repeats_[a] = 0;
-        changed_ = changed_.with(i);
-      }
-      last_raw_[a] = sample.raw[a];
+    if (sample.clipped.has(i)) {
+      count_up(clipped_in_block_[a]);
+      count_up(counters_[a].clipped);
     }
-    if (out.missing.has(i)) count_up(counters_[a].missing);
-    if (out.not_finite.has(i)) count_up(counters_[a].not_finite);
-    if (out.clipped.has(i)) count_up(counters_[a].clipped);
-    if (out.usable.has(i)) {
-      bad_run_[a] = 0;
-      count_up(good_run_[a]);
-    } else {
+    if (sample.missing.has(i)) count_up(counters_[a].missing);
+    if (sample.not_finite.has(i)) count_up(counters_[a].not_finite);
+    if (!sample.usable.has(i)) {
       good_run_[a] = 0;
       count_up(bad_run_[a]);
     }
@@ -64,7 +78,6 @@ GateResult ChannelMonitor::gate(const Sample& sample) noexcept {
     }
     if (lost_.has(i) && good_run_[a] >= confirm_) back_ = back_.with(i);
   }
-  return out;
 }
 
 void ChannelMonitor::begin_block() noexcept {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,51 +14,69 @@ namespace {
 /// A double beyond this has no fraction left: adding and subtracting it rounds to the nearest integer, ties to even, in
 /// a way that several triples can go at once.
 constexpr double kNoFraction = 4503599627370496.0;
-/// Triples side by side, in registers that every x86-64 and every ARMv8 has (vectors of GCC and Clang; elsewhere the
-/// compiler takes them apart). Lane by lane the same operations in the same order: the same bits.
+/// Triples side by side, in registers that every x86-64 and every ARMv8 has (vectors of GCC and Clang). Lane by lane
+/// the same operations in the same order as for one triple alone: the same bits.
 using Two = double __attribute__((vector_size(16)));
 using TwoInts = std::int32_t __attribute__((vector_size(8)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 constexpr int kAtOnce = 4;
-static_assert(kTripleCapacity % kAtOnce == 0, "the last triples of a full array are not read beyond its end");
+/// A processor of 32 bits has no registers for them: the compiler would take them apart again, by way of the stack.
+constexpr bool kVectors = sizeof(void*) >= 8;
 
 template <class V, class T>
-V load(const T* from) noexcept {
+inline V load(const T* from) noexcept {
   V out;
   std::memcpy(&out, from, sizeof out);
   return out;
 }
 template <class V, class T>
-void store(const V& v, T* to) noexcept {
+inline void store(const V& v, T* to) noexcept {
   std::memcpy(to, &v, sizeof v);
 }
 
-constexpr Two both(double v) noexcept { return Two{v, v}; }
-
-/// Written so that a NaN takes the clamp: no comparison with it is true.
-inline Two whole_units(Two error_mps2) noexcept {
-  const Two units = (error_mps2 < both(0.0) ? -error_mps2 : error_mps2) / both(kMaeUnit_mps2);
-  const Two held = units < both(static_cast<double>(kMaeClamp)) ? units : both(static_cast<double>(kMaeClamp));
-  return (held + both(kNoFraction)) - both(kNoFraction);
+/// `v` in every lane of a double or of two.
+template <class T>
+constexpr T lanes(double v) noexcept {
+  if constexpr (std::is_same_v<T, double>) {
+    return v;
+  } else {
+    return T{v, v};
+  }
 }
 
-/// Errors of two triples in units. Beyond the last triple of the array the forms are zero, and the sensors the first.
+/// Written so that a NaN takes the clamp: no comparison with it is true.
+template <class T>
+inline T whole_units(T error_mps2) noexcept {
+  const T units = (error_mps2 < lanes<T>(0.0) ? -error_mps2 : error_mps2) / lanes<T>(kMaeUnit_mps2);
+  const T most = lanes<T>(static_cast<double>(kMaeClamp));
+  const T held = units < most ? units : most;
+  return (held + lanes<T>(kNoFraction)) - lanes<T>(kNoFraction);
+}
+
+/// Error of one triple in units.
+inline std::int32_t error_of(const SensorArray& array, const Readings& y, int triple, double g_mps2) noexcept {
+  const auto& s = array.triple(triple).sensors;
+  const auto q = [&array, triple](size_t k) { return array.form_coefficients(k)[triple]; };
+  const double square = squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[s[0]], y[s[1]], y[s[2]]);
+  const double kept = square < 0.0 ? 0.0 : square;  // a NaN goes through to the clamp
+  return static_cast<std::int32_t>(whole_units(std::sqrt(kept) - g_mps2));
+}
+
+/// The same for two triples.
 inline TwoInts errors_of(const SensorArray& array, const Readings& y, int first, double g_mps2) noexcept {
   const auto& s = array.triple(first).sensors;
   const auto& r = array.triple(first + 1).sensors;
   const Two a = {y[s[0]], y[r[0]]}, b = {y[s[1]], y[r[1]]}, c = {y[s[2]], y[r[2]]};
   const auto q = [&array, first](size_t k) { return load<Two>(array.form_coefficients(k) + first); };
   const Two square = squared_length(q(0), q(1), q(2), q(3), q(4), q(5), a, b, c);
-  const Two kept = square < both(0.0) ? both(0.0) : square;  // a NaN goes through to the clamp
+  const Two kept = square < lanes<Two>(0.0) ? lanes<Two>(0.0) : square;
   const Two length = {std::sqrt(kept[0]), std::sqrt(kept[1])};
-  return __builtin_convertvector(whole_units(length - both(g_mps2)), TwoInts);
+  return __builtin_convertvector(whole_units(length - lanes<Two>(g_mps2)), TwoInts);
 }
 
 }  // namespace
 
-std::int32_t to_mae_units(double error_mps2) noexcept {
-  return static_cast<std::int32_t>(whole_units(both(error_mps2))[0]);
-}
+std::int32_t to_mae_units(double error_mps2) noexcept { return static_cast<std::int32_t>(whole_units(error_mps2)); }
 
 void CombinationMae::configure(int triples, int window) noexcept {
   triples_ = triples;
@@ -91,27 +110,36 @@ void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_
   }
 }
 
+/// Four triples of which every one has a value in this slot, before and now. False where one has none: nothing is done.
+bool CombinationMae::replace_four(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept {
+  const auto k = static_cast<size_t>(first);
+  const size_t slot = row(head_) + k;
+  const FourInts old = load<FourInts>(&ring_[slot]);
+  if ((old[0] | old[1] | old[2] | old[3]) < 0) return false;
+  const TwoInts low = errors_of(array, y_mps2, first, g_mps2), high = errors_of(array, y_mps2, first + 2, g_mps2);
+  const FourInts now = __builtin_shufflevector(low, high, 0, 1, 2, 3);
+  store(now, &ring_[slot]);
+  const FourInts more = now - old;
+  for (size_t t = 0; t < kAtOnce; ++t) sum_[k + t] += more[t];
+  return true;
+}
+
 void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
                          double g_mps2) noexcept {
-  const size_t row_begin = row(head_);
   const bool all_usable = usable.contains(array.all());
-  for (int first = 0; first < triples_; first += kAtOnce) {
-    const TwoInts low = errors_of(array, y_mps2, first, g_mps2), high = errors_of(array, y_mps2, first + 2, g_mps2);
-    const FourInts now = __builtin_shufflevector(low, high, 0, 1, 2, 3);
-    const auto k = static_cast<size_t>(first);
-    const size_t slot = row_begin + k;
-    const bool four = first + kAtOnce <= triples_;
-    const FourInts old = four ? load<FourInts>(&ring_[slot]) : FourInts{-1, -1, -1, -1};
-    if (all_usable && (old[0] | old[1] | old[2] | old[3]) >= 0) {
-      store(now, &ring_[slot]);
-      const FourInts more = now - old;
-      for (size_t t = 0; t < kAtOnce; ++t) sum_[k + t] += more[t];
+  int first = 0;
+  while (first < triples_) {
+    const bool four = kVectors && all_usable && first + kAtOnce <= triples_;
+    if (four && replace_four(array, y_mps2, first, g_mps2)) {
+      first += kAtOnce;
       continue;
     }
-    for (int t = 0; t < kAtOnce && first + t < triples_; ++t) {
-      const auto a = static_cast<size_t>(t);
-      const bool present = usable.contains(array.triple(first + t).set());
-      replace(ring_[slot + a], present ? now[t] : -1, sum_[k + a], count_[k + a]);
+    const int end = four ? first + kAtOnce : triples_;
+    for (; first < end; ++first) {
+      const auto k = static_cast<size_t>(first);
+      const bool present = all_usable || usable.contains(array.triple(first).set());
+      const std::int32_t now = present ? error_of(array, y_mps2, first, g_mps2) : -1;
+      replace(ring_[row(head_) + k], now, sum_[k], count_[k]);
     }
   }
   const std::int32_t all = in_service != nullptr ? to_mae_units(norm(*in_service) - g_mps2) : -1;

@@ -22,10 +22,14 @@ struct Rows {
 
 Rows gather(const SensorArray& array, const BlockEvidence& block, SensorSet set) noexcept {
   Rows rows;
+  double sigma = 0.0, inverse = 0.0;
   for (int i = 0; i < array.size(); ++i) {
     if (!set.has(i)) continue;
     const auto k = static_cast<size_t>(rows.count);
-    const double inverse = 1.0 / array.sigma_mps2(i);
+    if (array.sigma_mps2(i) != sigma) {  // most arrays are of one kind of sensor
+      sigma = array.sigma_mps2(i);
+      inverse = 1.0 / sigma;
+    }
     rows.sensor[k] = i;
     rows.a[k] = scaled(array.axis(i), inverse);
     rows.z[k] = block.mean_mps2[static_cast<size_t>(i)] * inverse;
@@ -196,10 +200,12 @@ double SetTest::norm_reject_limit(const TestLimits& limits) const noexcept {
 
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept {
-  return test_set(array, array.uncertainty(), gravity, limits, block, set);
+  SetTest out;
+  test_set(array, array.perfectly_known() ? nullptr : &array.uncertainty(), gravity, limits, block, set, out);
+  return out;
 }
 
-void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
+void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const GravityReference& gravity,
               const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept {
   if (set.size() < 3 || !array.all().contains(set) || !block.usable.contains(set) || !(block.samples > 0.0)) return;
   const Rows rows = gather(array, block, set);
@@ -224,7 +230,7 @@ void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const
     const double r = rows.z[i] - dot(rows.a[i], x);
     rss += r * r;
     p.ca[i] = times(c, rows.a[i]);
-    p.w[i] = dot(rows.a[i], cu) / sigma_norm;
+    if (uncertainty != nullptr) p.w[i] = dot(rows.a[i], cu) / sigma_norm;
     const double leverage = 1.0 - dot(rows.a[i], p.ca[i]);
     if (leverage < out.least_leverage) out.least_leverage = leverage;
   }
@@ -237,10 +243,14 @@ void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const
   out.norm_error_mps2 = length - gravity.g_mps2;
   out.norm_sigma_mps2 = sigma_norm;
   out.norm = out.norm_error_mps2 / sigma_norm * root_n;
-  for (size_t i = 0; i < 9; ++i) out.covariance[i] = c[i] / block.samples;
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column <= row; ++column) {
+      out.covariance[3 * row + column] = out.covariance[3 * column + row] = c[3 * row + column] / block.samples;
+    }
+  }
 
   // Systematic terms: calibration at this attitude, gravity, and motion inside the block.
-  const Systematic cal = calibration_bound(uncertainty, rows, p, x);
+  const Systematic cal = uncertainty != nullptr ? calibration_bound(*uncertainty, rows, p, x) : Systematic{};
   const double reference =
       (limits.gravity * gravity.sigma_mps2 + block.spread_mps2_sq / (2.0 * gravity.g_mps2)) / sigma_norm;
   out.parity_systematic = root_n * limits.calibration * cal.parity;
@@ -251,7 +261,7 @@ void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const
 SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
                  const TestLimits& limits, const BlockEvidence& block, SensorSet set) noexcept {
   SetTest out;
-  test_set(array, uncertainty, gravity, limits, block, set, out);
+  test_set(array, &uncertainty, gravity, limits, block, set, out);
   return out;
 }
 
@@ -262,7 +272,7 @@ Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexc
 
 Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {
   Mat3 cal{};
-  if (!test.tested) return cal;
+  if (!test.tested || array.perfectly_known()) return cal;
   const AttitudeProducts attitude(test.x_mps2);
   std::array<Vec3, kCapacity> column{};
   for (int i = 0; i < array.size(); ++i) {
@@ -285,6 +295,7 @@ double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test,
   const double length = norm(test.x_mps2);
   if (!test.tested) return 0.0;
   if (!(length > 0.0)) return kPi;
+  if (array.perfectly_known()) return 0.0;
   const AttitudeProducts attitude(test.x_mps2);
   const Vec3 u = scaled(test.x_mps2, 1.0 / length);
   std::array<Vec3, kCapacity> across{};

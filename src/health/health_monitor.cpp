@@ -101,6 +101,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
 
   config_ = setup.config;
   model_ = setup.model;
+  coefficients_.forget();
   array_ = setup.array;
   gravity_ = setup.gravity;
   frame_ = setup.output_frame;
@@ -274,7 +275,7 @@ void HealthMonitor::refuse(const Sample& sample) noexcept {
 
 /// One sample into the block and the windows.
 void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexcept {
-  Readings y = readings_of(model_, sample, last_temperature_degc_, gate);
+  Readings y = readings_of(model_, coefficients_, sample, last_temperature_degc_, gate);
   if (rotation_.turning) {
     const bool modelled = rotation_.rate_known && lever_arms_known_;
     if (modelled) take_rotation_off(y, gate.usable);

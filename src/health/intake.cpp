@@ -1,6 +1,7 @@
 #include "plumb/health/intake.hpp"
 
 #include <cmath>
+#include <cstring>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -25,21 +26,43 @@ Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
   return arrival;
 }
 
-Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
-                     GateResult& gate) noexcept {
-  const bool known = std::isfinite(sample.temperature_degc);
-  Readings y = model.without_misalignment(sample.raw, known ? sample.temperature_degc : temperature_degc, gate.usable);
+void CoefficientsAt::take(const SensorModel& model, double temperature_degc) noexcept {
+  // Bit for bit: 0 and -0 are not the same argument of a cubic.
+  if (std::memcmp(&temperature_degc, &temperature_degc_, sizeof temperature_degc) == 0) return;
   for (int i = 0; i < model.size; ++i) {
-    double& v = y[static_cast<size_t>(i)];
-    if (!std::isfinite(v)) {
+    scale_[static_cast<size_t>(i)] = model.scale_at(i, temperature_degc);
+    bias_mps2_[static_cast<size_t>(i)] = model.bias_at(i, temperature_degc);
+  }
+  temperature_degc_ = temperature_degc;
+}
+
+Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sample& sample, double temperature_degc,
+                     GateResult& gate) noexcept {
+  kept.take(model, std::isfinite(sample.temperature_degc) ? sample.temperature_degc : temperature_degc);
+  const double sign = model.reads == Reads::gravity ? 1.0 : -1.0;
+  Readings y{};
+  for (int i = 0; i < model.size; ++i) {
+    if (!gate.usable.has(i)) continue;
+    const auto a = static_cast<size_t>(i);
+    // A cubic scale factor may pass through zero far from its calibrated span: what comes of it is not finite.
+    const double v = sign * (sample.raw[a] / kept.scale(a) - kept.bias_mps2(a));
+    const double size = std::fabs(v);
+    if (size <= kReadingClamp_mps2) {  // a NaN is not
+      y[a] = v;
+    } else if (size <= std::numeric_limits<double>::max()) {
+      y[a] = std::copysign(kReadingClamp_mps2, v);
+    } else {
       gate.usable = gate.usable.without(i);
       gate.not_finite = gate.not_finite.with(i);
-      v = 0.0;
-    } else {
-      v = std::fmin(std::fmax(v, -kReadingClamp_mps2), kReadingClamp_mps2);
     }
   }
   return y;
+}
+
+Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
+                     GateResult& gate) noexcept {
+  CoefficientsAt nothing;
+  return readings_of(model, nothing, sample, temperature_degc, gate);
 }
 
 SensorSet SilenceCounter::note(SensorSet usable, int n, int confirm) noexcept {

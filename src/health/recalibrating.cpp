@@ -111,6 +111,7 @@ void HealthMonitor::adopt() noexcept {
   } else {
     recalibration_.apply(model_, array_, gravity_, clock_.last_s(), base_ == Mode::suspect);
   }
+  coefficients_.forget();
   three_sensor_fit_ = size_class_ == SizeClass::critical;
   forget_episode();
   empty_windows();

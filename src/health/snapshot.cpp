@@ -186,6 +186,7 @@ Expected<void> HealthMonitor::take_up(const MonitorSetup& setup, const std::uint
 bool HealthMonitor::resume(const MonitorSetup& setup) noexcept {
   if (!sets_are_plausible()) return false;
   if (!calibration_is_plausible(setup)) return false;
+  coefficients_.forget();
   derive_limits();
   size_class_ = classify(in_service_);
   map_ = least_squares(array_, in_service_);

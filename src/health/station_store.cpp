@@ -16,8 +16,9 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 void RawBlock::add(const std::array<double, kCapacity>& raw, SensorSet usable, double temperature_degc) noexcept {
   complete_ = size_ == 0 ? usable : complete_ & usable;
-  for (int i = 0; (complete_.bits >> static_cast<unsigned>(i)) != 0 && i < kCapacity; ++i) {
-    if (complete_.has(i)) sum_[at(i)] += raw[at(i)];
+  std::uint32_t left = complete_.bits;
+  for (std::size_t a = 0; left != 0 && a < raw.size(); ++a, left >>= 1U) {
+    if ((left & 1U) != 0) sum_[a] += raw[a];
   }
   temperature_sum_ += temperature_degc;
   ++size_;

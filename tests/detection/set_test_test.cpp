@@ -72,6 +72,37 @@ TEST(SetTest, UntestedSetsAreAlive) {
   EXPECT_FALSE(test_set(array, kGravity, limits, block, SensorSet::first(2)).tested);
 }
 
+/// Leaving out what calibration does not add changes no bit.
+// Verifies: REQ-052
+TEST(SetTest, APerfectlyKnownArrayIsTestedAsWithZerosWrittenOut) {
+  Noise noise(5);
+  SensorArray array = plumb_test::cone_array(6);
+  const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
+  const RowUncertainty zeros;
+  ASSERT_TRUE(array.perfectly_known());
+  for (int k = 0; k < 200; ++k) {
+    BlockEvidence block = exact_block(array, plumb_test::random_direction(noise));
+    for (std::size_t a = 0; a < 6; ++a) block.mean_mps2[a] += 0.01 * noise.normal();
+    for (std::uint32_t bits = 1; bits <= array.all().bits; ++bits) {
+      const SetTest t = test_set(array, kGravity, limits, block, SensorSet(bits));
+      const SetTest written = test_set(array, zeros, kGravity, limits, block, SensorSet(bits));
+      ASSERT_EQ(t.tested, written.tested);
+      ASSERT_EQ(t.parity_systematic, written.parity_systematic);
+      ASSERT_EQ(t.norm_systematic, written.norm_systematic);
+      ASSERT_EQ(t.systematic, written.systematic);
+      ASSERT_EQ(t.x_mps2, written.x_mps2);
+      ASSERT_EQ(t.covariance, written.covariance);
+      ASSERT_EQ(calibration_covariance(array, t, SensorSet(bits)), Mat3{});
+    }
+  }
+  RowUncertainty little;
+  little.misfit_mps2[5] = 1e-12;
+  array.set_uncertainty(little);
+  EXPECT_FALSE(array.perfectly_known());
+  array.set_uncertainty(zeros);
+  EXPECT_TRUE(array.perfectly_known());
+}
+
 /// Safety note 1: an error of the gravity reference within three of its sigmas kills nothing.
 // Verifies: REQ-022
 RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {

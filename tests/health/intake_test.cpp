@@ -70,6 +70,43 @@ TEST(ReadingsOf, TheLastTemperatureStandsInForAMissingOne) {
   EXPECT_NEAR(readings_of(model, sample, 35.0, gate)[0], -2.0, 1e-12);
 }
 
+/// What is kept from the sample before saves work and changes no bit, whatever the temperatures do.
+TEST(ReadingsOf, WhatIsKeptOfTheModelChangesNothing) {
+  plumb_test::Noise noise(11);
+  SensorModel model = plumb_test::identity_model(4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    model.sensor[k].scale = {0.3, 1e-4 * noise.normal(), 1e-6 * noise.normal(), 1e-8 * noise.normal()};
+    model.sensor[k].bias = {0.1 * noise.normal(), 1e-3 * noise.normal(), 1e-5 * noise.normal(), 0.0};
+  }
+  const double temperatures[] = {25.0, 25.0, 0.0, -0.0, 0.0, 80.5, kNan, 80.5, 25.0, kInf, -40.0};
+  CoefficientsAt kept;
+  for (int k = 0; k < 400; ++k) {
+    Sample sample;
+    sample.delivered = SensorSet::first(4);
+    for (std::size_t a = 0; a < 4; ++a) sample.raw[a] = noise.normal();
+    sample.temperature_degc = temperatures[k % 11];
+    GateResult gate, fresh;
+    gate.usable = fresh.usable = sample.delivered.without(k % 5);
+    EXPECT_EQ(readings_of(model, kept, sample, 31.0, gate), readings_of(model, sample, 31.0, fresh)) << k;
+    EXPECT_EQ(gate.usable, fresh.usable);
+  }
+}
+
+TEST(ReadingsOf, AnotherModelIsTakenUpOnceTheOldOneIsForgotten) {
+  SensorModel model = plumb_test::identity_model(3);
+  Sample sample;
+  sample.temperature_degc = 25.0;
+  sample.raw = {6.0, 6.0, 6.0};
+  GateResult gate;
+  gate.usable = sample.delivered = SensorSet::first(3);
+  CoefficientsAt kept;
+  EXPECT_EQ(readings_of(model, kept, sample, 25.0, gate)[0], 6.0);
+  model.sensor[0].scale[0] = 2.0;
+  EXPECT_EQ(readings_of(model, kept, sample, 25.0, gate)[0], 6.0) << "kept: nobody said that the model has changed";
+  kept.forget();
+  EXPECT_EQ(readings_of(model, kept, sample, 25.0, gate)[0], 3.0);
+}
+
 TEST(SilenceCounter, NamesChannelsThatAreSilentBlockAfterBlock) {
   SilenceCounter counter;
   const SensorSet others = SensorSet::first(4).without(1);

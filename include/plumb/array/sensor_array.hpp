@@ -51,6 +51,8 @@ struct RowUncertainty {
   double at(int i, int j, const AttitudeProducts& attitude) const noexcept;
 
   static constexpr int packed_size(int sensors) noexcept { return 4 * sensors * (4 * sensors + 1) / 2; }
+  /// True where all that concerns the first `sensors` rows is zero.
+  bool is_zero(int sensors) const noexcept;
   /// No variance below zero, no covariance beyond what its two variances allow, but for rounding.
   bool is_covariance() const noexcept;
   static constexpr auto fields() noexcept {
@@ -104,7 +106,9 @@ class SensorArray {
   int triple_index(int i, int j, int k) const noexcept;
 
   const RowUncertainty& uncertainty() const noexcept { return uncertainty_; }
-  void set_uncertainty(const RowUncertainty& u) noexcept { uncertainty_ = u; }
+  void set_uncertainty(const RowUncertainty& u) noexcept;
+  /// True where calibration leaves nothing open: every entry of `uncertainty` that concerns a row is zero.
+  bool perfectly_known() const noexcept { return perfectly_known_; }
   /// As many rows as there are, in place of those that there are; the uncertainty stays. Errors: those of `make`, and
   /// nothing has changed.
   Expected<void> set_rows(const SensorRow* rows) noexcept;
@@ -117,7 +121,8 @@ class SensorArray {
   bool plausible() const noexcept;
   static constexpr auto fields() noexcept {
     return field_list(per_sensor(&SensorArray::rows_), not_stored(&SensorArray::triples_),
-                      not_stored(&SensorArray::form_), &SensorArray::uncertainty_, not_stored(&SensorArray::size_));
+                      not_stored(&SensorArray::form_), &SensorArray::uncertainty_, not_stored(&SensorArray::size_),
+                      not_stored(&SensorArray::perfectly_known_));
   }
 
   std::array<SensorRow, kCapacity> rows_{};
@@ -125,6 +130,7 @@ class SensorArray {
   std::array<std::array<double, kTripleCapacity>, 6> form_{};
   RowUncertainty uncertainty_{};
   int size_ = 0;
+  bool perfectly_known_ = true;
 };
 
 }  // namespace PLUMB_ABI

@@ -22,7 +22,7 @@ struct SensorSet {
     return SensorSet(i >= 0 && i < 32 ? 1U << static_cast<unsigned>(i) : 0U);
   }
 
-  constexpr bool has(int i) const noexcept { return (bits & of(i).bits) != 0; }
+  constexpr bool has(int i) const noexcept { return i >= 0 && i < 32 && (bits >> static_cast<unsigned>(i) & 1U) != 0; }
   constexpr bool empty() const noexcept { return bits == 0; }
   constexpr int size() const noexcept {
     int count = 0;
@@ -30,12 +30,7 @@ struct SensorSet {
     return count;
   }
   /// Index of the lowest member, -1 for the empty set.
-  constexpr int lowest() const noexcept {
-    for (int i = 0; i < 32; ++i) {
-      if (has(i)) return i;
-    }
-    return -1;
-  }
+  constexpr int lowest() const noexcept { return bits == 0 ? -1 : __builtin_ctz(bits); }
   constexpr bool contains(SensorSet other) const noexcept { return (other.bits & ~bits) == 0; }
 
   constexpr SensorSet with(int i) const noexcept { return SensorSet(bits | of(i).bits); }

@@ -35,9 +35,10 @@ class BlockTests {
   bool vouches_for_norm(SensorSet set, const SetTest& test) const noexcept;
 
  private:
-  /// Enough for the whole set and every set without one sensor, each mostly in a place of its own. Of four sensors
-  /// these are all that can be tested; one place more is for those that cannot.
-  static constexpr unsigned kPlacesLog2 = kCapacity <= 8 ? 4 : 5;
+  /// Enough for the whole set and every set without one sensor, each mostly in a place of its own; on a host, whose
+  /// stack is no matter, for nearly every set of six sensors. Of four sensors the first are all that can be tested; one
+  /// place more is for those that cannot.
+  static constexpr unsigned kPlacesLog2 = sizeof(void*) >= 8 ? 6 : kCapacity <= 8 ? 4 : 5;
   static constexpr std::size_t kPlaces = kOwnPlaces ? 6 : std::size_t{1} << kPlacesLog2;
   static std::size_t place_of(SensorSet set) noexcept;
   struct Place {

@@ -64,7 +64,9 @@ class ChannelMonitor {
   const Counters& counters(int i) const noexcept { return counters_[static_cast<std::size_t>(i)]; }
 
  private:
-  std::array<double, kCapacity> full_scale_raw_{};
+  void note_trouble(const GateResult& sample) noexcept;
+
+  std::array<double, kCapacity> clip_raw_{};  ///< from here on a reading counts as clipped; infinite = nowhere
   std::array<Counters, kCapacity> counters_{};
   std::array<std::uint16_t, kCapacity> bad_run_{}, good_run_{};
   std::array<double, kCapacity> last_raw_{};
@@ -80,7 +82,7 @@ class ChannelMonitor {
   bool plausible() const noexcept { return lost_.contains(back_); }
   static constexpr auto fields() noexcept {
     using C = ChannelMonitor;
-    return field_list(not_stored(&C::full_scale_raw_), per_sensor(&C::counters_), per_sensor(&C::bad_run_),
+    return field_list(not_stored(&C::clip_raw_), per_sensor(&C::counters_), per_sensor(&C::bad_run_),
                       per_sensor(&C::good_run_), per_sensor(any(&C::last_raw_)), per_sensor(&C::repeats_),
                       per_sensor(&C::clipped_in_block_), &C::changed_, within(&C::block_samples_, 0, kMostBlockSamples),
                       &C::lost_, &C::back_, not_stored(&C::size_), not_stored(&C::confirm_));

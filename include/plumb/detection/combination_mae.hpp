@@ -62,8 +62,18 @@ class CombinationMae {
 
  private:
   static double mean(std::int64_t sum, int count) noexcept {
-    return count > 0 ? static_cast<double>(sum) / count * kMaeUnit_mps2 : 0.0;
+    return count > 0 ? whole(sum) / count * kMaeUnit_mps2 : 0.0;
   }
+  /// A sum as a double. A processor of 32 bits converts its halves in one instruction each, and the whole only by a
+  /// routine; sums stay below 2^53, so that either way is exact.
+  static double whole(std::int64_t sum) noexcept {
+    static_assert(static_cast<double>(kMaeClamp) * kWindowCapacity < 9007199254740992.0);
+    if constexpr (sizeof(void*) >= 8) return static_cast<double>(sum);
+    const auto bits = static_cast<std::uint64_t>(sum);  // never negative
+    return static_cast<double>(static_cast<std::uint32_t>(bits >> 32U)) * 4294967296.0 +
+           static_cast<double>(static_cast<std::uint32_t>(bits));
+  }
+  bool replace_four(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept;
   std::size_t row(int slot) const noexcept {
     return static_cast<std::size_t>(slot) * static_cast<std::size_t>(triples_);
   }

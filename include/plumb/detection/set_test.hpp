@@ -70,8 +70,9 @@ struct SetTest {
 
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;
-/// The same into `out`, which must not have been used.
-void test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
+/// The same into `out`, which must not have been used. `uncertainty` null: calibration leaves nothing open in the rows,
+/// and what would only add up zeros is left out.
+void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const GravityReference& gravity,
               const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept;
 /// The same as if calibration had left another uncertainty in the rows.
 SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,

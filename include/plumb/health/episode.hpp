@@ -22,12 +22,15 @@ class DirectionRecord {
   int size() const noexcept { return size_; }
   /// Counts the direction if it differs from all on record; true where it did. A full record counts no more.
   bool add(const Vec3& direction, double angle_rad) noexcept {
+    if (size_ == kMax) return false;
+    // The cosine of an angle is at least 1 - angle^2 / 2: one below that belongs to a larger angle.
+    const double surely = (1.0 - 0.5 * angle_rad * angle_rad - kRounding) * norm(direction);
     for (int k = 0; k < size_; ++k) {
       const auto& kept = direction_[static_cast<std::size_t>(k)];
       const Vec3 before = {static_cast<double>(kept[0]), static_cast<double>(kept[1]), static_cast<double>(kept[2])};
+      if (dot(before, direction) < surely * norm(before)) continue;  // as most are
       if (!(angle_between_rad(before, direction) >= angle_rad)) return false;
     }
-    if (size_ == kMax) return false;
     direction_[static_cast<std::size_t>(size_)] = {static_cast<float>(direction[0]), static_cast<float>(direction[1]),
                                                    static_cast<float>(direction[2])};
     ++size_;
@@ -35,6 +38,8 @@ class DirectionRecord {
   }
 
  private:
+  static constexpr double kRounding = 1e-9;  ///< far more than it does to a cosine or to an angle
+
   int size_ = 0;
   std::array<std::array<float, 3>, kMax> direction_{};
 

@@ -242,6 +242,7 @@ class HealthMonitor {
   // What was configured.
   MonitorConfig config_;
   SensorModel model_;
+  CoefficientsAt coefficients_;  ///< of that model
   SensorArray array_;
   GravityReference gravity_;
   Mat3 frame_{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -330,10 +331,11 @@ class HealthMonitor {
     using M = HealthMonitor;
     return field_list(
         // configured
-        not_stored(&M::config_), &M::model_, &M::array_, &M::gravity_, not_stored(&M::frame_),
-        not_stored(&M::resolution_mps2_), not_stored(&M::limits_), not_stored(&M::restless_factor_),
-        not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_), not_stored(&M::protection_faults_),
-        within(&M::asserted_left_, -1, 3), not_stored(&M::configured_), not_stored(&M::identity_),
+        not_stored(&M::config_), &M::model_, not_stored(&M::coefficients_), &M::array_, &M::gravity_,
+        not_stored(&M::frame_), not_stored(&M::resolution_mps2_), not_stored(&M::limits_),
+        not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
+        not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::configured_),
+        not_stored(&M::identity_),
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
         &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,

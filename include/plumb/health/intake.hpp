@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "plumb/calibration/sensor_model.hpp"
 #include "plumb/detection/channel_monitor.hpp"
@@ -48,8 +50,28 @@ class SampleClock {
   }
 };
 
+/// Scale factors and biases of a model at the temperature of the last sample. A thermometer repeats itself for many
+/// samples on end, and the cubics of all sensors need not be evaluated again for each of them.
+class CoefficientsAt {
+ public:
+  /// To be called where the model changes.
+  void forget() noexcept { temperature_degc_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// Makes them those at `temperature_degc`.
+  void take(const SensorModel& model, double temperature_degc) noexcept;
+  double scale(std::size_t a) const noexcept { return scale_[a]; }
+  double bias_mps2(std::size_t a) const noexcept { return bias_mps2_[a]; }
+
+ private:
+  double temperature_degc_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN: equal to none
+  std::array<double, kCapacity> scale_{}, bias_mps2_{};
+};
+
 /// Readings of the usable channels [m/s^2] by a model in the common-frame form, clamped; a channel whose reading is not
-/// finite is taken out of `gate.usable`. `temperature_degc` stands in where the sample has none.
+/// finite is taken out of `gate.usable`. `temperature_degc` stands in where the sample has none. `kept` is that of this
+/// model from the sample before.
+Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sample& sample, double temperature_degc,
+                     GateResult& gate) noexcept;
+/// The same with nothing kept.
 Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
                      GateResult& gate) noexcept;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "plumb/scenario/injector.hpp"
@@ -30,6 +31,7 @@ class Generator final : private scenario::Injector::Past {
   using Row = std::array<double, kCapacity>;
   void lay_readings(const Spec& spec, const scenario::Tool& tool) noexcept;
   void lay_faults(const Spec& spec, const scenario::Tool& tool) noexcept;
+  void lay_clock();
   scenario::Moment moment_of(int row) const noexcept;
   double raw(int sensor, std::uint64_t row) const noexcept override;
   void disturb(Sample& out, const scenario::Moment& now) const noexcept;
@@ -38,6 +40,11 @@ class Generator final : private scenario::Injector::Past {
   std::vector<Datasheet> datasheets_;  ///< of the tools of the plan
   std::vector<Row> healthy_;           ///< raw values before any fault
   std::vector<double> noise_;          ///< of one sensor
+  struct Tick {
+    double offset_s = 0.0;  ///< since the first row
+    std::uint64_t station = 0;
+  };
+  std::vector<Tick> clock_;  ///< of every row
   std::array<Vec3, campaign::kMostStations> truth_{};
   scenario::Injector injector_;
   bool alone_ = true;  ///< no fault looks beyond its own channel
