@@ -63,6 +63,21 @@ if(PLUMB_BUILD_HOST)
   endif()
 endif()
 
+# The report as others read it: its schema, and its page in a browser.
+if(TARGET plumb_tool)
+  find_program(PLUMB_PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  mark_as_advanced(PLUMB_PYTHON3)
+  foreach(name IN ITEMS schema browser)
+    if(PLUMB_PYTHON3)
+      add_test(NAME report.${name} COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/report/${name}.py"
+        "$<TARGET_FILE:plumb_tool>" "${PROJECT_SOURCE_DIR}")
+    else()
+      add_test(NAME report.${name} COMMAND bash -c "echo 'skipped: no python3'; exit 77")
+    endif()
+    set_tests_properties(report.${name} PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 600)
+  endforeach()
+endif()
+
 # Campaigns: a program of their own, because it is linked with monitors of several capacities.
 if(TARGET plumb_report AND TARGET plumb_tool)
   plumb_test_executable(plumb_campaign_tests LABEL host ROOMS campaign LIBRARIES plumb_report plumb_24)

@@ -148,7 +148,7 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
                 "Of the faults that were detected, and of those that were isolated.", "times.csv");
     out.picture("Stanford diagram", picture_of(pictures, "stanford.svg"),
                 "Blocks by tilt error and protection level, in octaves; the alert limit as lines.",
-                "Blocks by error and protection level. Below the diagonal the error is above the protection level; 
+                "Blocks by error and protection level. Below the diagonal the error is above the protection level; "
                 "the upper row: no protection level.",
                 "stanford.csv");
     stanford_table(faults["stanford"], "Blocks by region", out);

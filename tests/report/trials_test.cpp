@@ -1,0 +1,166 @@
+// The campaigns of a report: what is played is what the files say, and every table adds up to the same scenarios.
+#include "plumb/report/trials.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "plumb/campaign/result_file.hpp"
+#include "plumb/core/archive.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace {
+
+using namespace plumb;
+using report::Json;
+
+const std::string kPath = PLUMB_SOURCE_DIR "/examples/paper_tool.toml";
+
+io::ArrayFile paper_array() {
+  const io::FileExpected<io::ArrayFile> array = io::read_array_file(kPath);
+  EXPECT_TRUE(array) << array.error().text();
+  return *array;
+}
+
+report::TrialSettings settings(std::uint64_t scenarios) {
+  report::TrialSettings out;
+  out.alert_limit_rad = 0.01;
+  out.e_cal_mps2 = 1e-4;
+  out.seed = 7;
+  out.scenarios = scenarios;
+  return out;
+}
+
+campaign::CampaignFile parsed(const std::string& text) {
+  const io::FileExpected<campaign::CampaignFile> file = campaign::parse_campaign_text(text, "test");
+  EXPECT_TRUE(file) << file.error().text();
+  return *file;
+}
+
+report::Trials played(const campaign::CampaignFile& file, int threads = 1) {
+  auto trials = report::play_trials(file, threads, [](std::uint64_t) { return true; });
+  EXPECT_TRUE(trials) << trials.error();
+  return *std::move(trials);
+}
+
+/// The monitor of a campaign, field by field, as its file had it.
+std::vector<std::uint8_t> monitor_of(const io::ArrayFile& array, const report::TrialSettings& s) {
+  return parsed(report::fault_campaign(array, kPath, s)).plan.monitor;
+}
+
+TEST(VerificationTrials, TheMonitorIsTheOneOfTheArrayFile) {
+  io::ArrayFile array = paper_array();
+  array.monitor.window = 16;
+  array.monitor.false_alarm_rate = 3e-4;
+  array.monitor.rejection_rate = 2e-6;
+  array.monitor.isolation_stations = 3;
+  array.monitor.clean_blocks = 4;
+  array.monitor.max_gap_s = 7.0;
+  array.monitor.station_angle_rad = 0.05;
+  array.monitor.clear_fraction = 0.6;
+  array.monitor.temperature_min_degc = -20.0;
+  array.monitor.recalibrate_after_exclusion = true;
+  array.monitor.drift_bias_mps2 = 0.03;
+  array.monitor.alarm_form = AlarmForm::average_tool;
+  report::TrialSettings s = settings(1);
+  const std::vector<std::uint8_t> bytes = monitor_of(array, s);
+  ArchiveReader reader(bytes.data(), bytes.size(), 4);
+  MonitorConfig read;
+  reader.get(read);
+  ASSERT_TRUE(reader.sound());
+  MonitorConfig expected = array.monitor;
+  expected.alert_limit_rad = s.alert_limit_rad;
+  std::vector<std::uint8_t> wanted(bytes.size());
+  ArchiveWriter writer(wanted.data(), wanted.size(), kCapacity);
+  writer.put(expected);
+  EXPECT_EQ(bytes, wanted);
+  EXPECT_EQ(read.window, 16);
+  array.monitor.patience = 9;  // and a field more makes another monitor
+  EXPECT_NE(monitor_of(array, s), bytes);
+}
+
+TEST(VerificationTrials, TheNameOfTheArrayFileDoesNotMatter) {
+  const io::ArrayFile array = paper_array();
+  const std::string copy = testing::TempDir() + "/array with \"quotes\".toml";
+  FILE* file = std::fopen(copy.c_str(), "wb");
+  ASSERT_NE(file, nullptr);
+  std::fwrite(array.text.data(), 1, array.text.size(), file);
+  std::fclose(file);
+  EXPECT_EQ(campaign::hash_of(parsed(report::fault_campaign(array, kPath, settings(9))).plan),
+            campaign::hash_of(parsed(report::fault_campaign(array, copy, settings(9))).plan));
+}
+
+TEST(VerificationTrials, ThreadsLeaveNoTraceAndTheEngineCountsTheSame) {
+  const campaign::CampaignFile file = parsed(report::fault_campaign(paper_array(), kPath, settings(400)));
+  const report::Trials one = played(file, 1), three = played(file, 3);
+  EXPECT_EQ(report::trials_csv(one), report::trials_csv(three));
+  EXPECT_EQ(report::fault_trials_json(one, "x"), report::fault_trials_json(three, "x"));
+  campaign::Progress engine;
+  engine.tally = campaign::Tally(file.plan);
+  campaign::Ranks alone;
+  const auto ran = campaign::run(
+      file.plan, {}, alone, engine, [] { return false; }, [](const campaign::Progress&) { return std::string(); });
+  ASSERT_TRUE(ran);
+  EXPECT_EQ(campaign::result_text(file, engine), campaign::result_text(file, one.counted));
+}
+
+TEST(VerificationTrials, EveryTableAddsUpToTheSameScenarios) {
+  const report::Trials trials = played(parsed(report::fault_campaign(paper_array(), kPath, settings(700))));
+  const Json json = report::fault_trials_json(trials, "plumb campaign faults.toml");
+  std::uint64_t scenarios = 0, confused = 0;
+  for (const char* name : {"detected", "isolated", "wrong_exclusion", "misleading"}) {
+    std::uint64_t sum = 0;
+    for (const Json& group : json["by_fault"]) sum += group[name]["count"].get<std::uint64_t>();
+    EXPECT_EQ(sum, json["rates"][name]["count"].get<std::uint64_t>()) << name;
+  }
+  for (const Json& group : json["by_fault"]) scenarios += group["scenarios"].get<std::uint64_t>();
+  for (const Json& row : json["confusion"]["rows"]) {
+    for (const Json& count : row["counts"]) confused += count.get<std::uint64_t>();
+  }
+  std::uint64_t detected = 0;
+  for (const Json& count : json["blocks_to_detect"]) detected += count.get<std::uint64_t>();
+  EXPECT_EQ(scenarios, 700U);
+  EXPECT_EQ(confused, 700U);
+  EXPECT_EQ(detected, json["rates"]["detected"]["count"].get<std::uint64_t>());
+  for (const auto& [name, rate] : json["rates"].items()) {
+    const double share = rate["count"].get<double>() / rate["of"].get<double>();
+    EXPECT_LE(rate["low"].get<double>(), share) << name;
+    EXPECT_GE(rate["high"].get<double>(), share) << name;
+  }
+  for (const Json& worst : json["worst"])
+    EXPECT_EQ(worst["replay"], "plumb campaign faults.toml --replay " + worst["scenario"].dump());
+}
+
+TEST(VerificationTrials, ReplayByOtherCodeAgreesAndSeesStates) {
+  const report::Trials trials = played(parsed(report::fault_campaign(paper_array(), kPath, settings(200))));
+  const auto again = report::replayed_json({&trials}, 200);
+  ASSERT_TRUE(again) << again.error();
+  EXPECT_EQ((*again)["scenarios"], 200);
+  EXPECT_EQ((*again)["agree"], 200);
+  EXPECT_GE((*again)["coverage"]["modes_visited"].get<int>(), 3);
+  EXPECT_GE((*again)["coverage"]["cells_recorded"].get<int>(), 4);
+}
+
+TEST(VerificationTrials, ATrialThatWasTamperedWithIsNoticed) {
+  report::Trials trials = played(parsed(report::fault_campaign(paper_array(), kPath, settings(60))));
+  trials.file.plan.gravity_mps2 += 0.02;  // the kernel is told, and so is the replay: still the same
+  const auto same = report::replayed_json({&trials}, 20);
+  ASSERT_TRUE(same);
+  EXPECT_EQ((*same)["agree"], (*same)["scenarios"]);
+  trials.trial[3].ever_excluded = 1U << 2U;  // a row that blames a healthy sensor shows in the tables
+  trials.trial[3].faulty = 0;
+  const Json json = report::fault_trials_json(trials, "x");
+  EXPECT_EQ(json["worst"][0]["what"], "a healthy sensor excluded");
+  EXPECT_EQ(json["worst"][0]["scenario"], 3);
+}
+
+TEST(VerificationTrials, AHealthyScenarioIsAtRiskUpToItsFirstAlarm) {
+  report::Trials trials = played(parsed(report::healthy_campaign(paper_array(), kPath, settings(50))));
+  const Json quiet = report::healthy_trials_json(trials, "x");
+  EXPECT_EQ(quiet["false_alarm_per_block"]["of"], 50 * 16);
+  trials.trial[4].alarm_block = 2;
+  const Json loud = report::healthy_trials_json(trials, "x");
+  EXPECT_EQ(loud["false_alarm_per_block"]["of"], 50 * 16 - 13);
+}
+
+}  // namespace
