@@ -83,6 +83,12 @@ TEST(VerificationExports, TheArgumentTurnsRedWithItsEvidence) {
   const std::string fit = report::argument_svg(paper_report());
   EXPECT_EQ(count_of(fit, "#c53a3a"), 0U);
   EXPECT_NE(fit.find("section 5: results not</text>"), std::string::npos);
+  EXPECT_EQ(count_of(fit, "#2c8f57"), 7U);  // the goal, geometry and campaign; calibration is but predicted
+  Json given = paper_report();
+  given["calibration"]["mode"] = "positions";
+  EXPECT_EQ(count_of(report::argument_svg(given), "#2c8f57"), 10U);
+  given["traceability"]["assurance_results"] = {{"given", true}, {"items", {{{"result", "fails"}}}}};
+  EXPECT_EQ(count_of(report::argument_svg(given), "#c53a3a"), 3U);
   Json report = with_a_failure();
   report["verdict"]["verdict"] = "not fit";
   report["traceability"]["counts"]["failed"] = report["verdict"]["requirements"]["failed"] = 1;
