@@ -11,6 +11,7 @@
 #include "plot_files.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/report/plot.hpp"
+#include "plumb/report/verification_exports.hpp"
 #include "plumb/report/verification_page.hpp"
 #include "tool.hpp"
 #include "verify_run.hpp"
@@ -133,6 +134,21 @@ io::FileExpected<report::PagePictures> draw(const std::string& out, const Json& 
   return out_pictures;
 }
 
+/// The page on paper. weasyprint 57 cannot draw a line in the colour of the text around it, so that colour is spelled
+/// out.
+void print_pdf(const std::string& out, std::string html) {
+  const std::string word = "currentColor";
+  for (std::size_t at = html.find(word); at != std::string::npos; at = html.find(word, at))
+    html.replace(at, word.size(), "#000000");
+  const std::string copy = (fs::path(out) / "report-print.html").string();
+  io::FileExpected<void> done = io::write_file(copy, html);
+  if (done)
+    done = report::run_program(out, "weasyprint", {"--quiet", "report-print.html", "report.pdf"}, "weasyprint", "PDF");
+  std::error_code ignored;
+  if (done) fs::remove(copy, ignored);  // else it stays, to see why
+  if (!done) print_error("plumb: " + done.error().text() + "\n");
+}
+
 io::ExitCode run(const VerifyOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   watch_interrupts();
@@ -155,7 +171,13 @@ io::ExitCode run(const VerifyOptions& options) {
   const io::FileExpected<report::PagePictures> pictures = draw(options.out, found->report);
   if (!pictures) return report(pictures.error());
   folder.write("report.html", report::verification_html(found->report, *pictures));
+  folder.write("junit.xml", report::junit_xml(found->report));
+  folder.write("needs.json", report::needs_json(found->report));
+  folder.write("requirements.sdoc", report::requirements_sdoc(found->report));
+  folder.write("spdx.json", report::spdx_json(found->report));
+  folder.write("argument.svg", report::argument_svg(found->report));
   if (folder.failure()) return report(*folder.failure());
+  if (options.pdf) print_pdf(options.out, report::verification_html(found->report, *pictures));
   print(options.json ? text : summary(found->report, options.out));
   const Json& verdict = found->report["verdict"];
   const bool fit = verdict["verdict"] == "fit";
@@ -197,6 +219,7 @@ Command add_verify(CLI::App& tool) {
   app->add_option("--threads", options->threads, "how many; the result is the same; one per processor by default")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
+  app->add_flag("--pdf", options->pdf, "print the page to report.pdf too (needs weasyprint; takes half a minute)");
   app->add_flag("--json", options->json, "print the report as JSON instead of a summary");
   app->footer(kNotes + exit_codes_help());
   return {app, kAbout, [options] { return run(*options); }};

@@ -23,7 +23,7 @@ struct VerifyOptions {
   std::optional<std::uint64_t>
       scenarios;    ///< of each campaign; by default fewer for larger arrays, so that it takes minutes
   int threads = 0;  ///< 0: one per processor
-  bool json = false;
+  bool json = false, pdf = false;
 };
 
 inline constexpr std::uint64_t kThoroughScenarios = 1000000;

@@ -3,6 +3,8 @@
 
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/report/plot.hpp"
+#include "plumb/report/verification_exports.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -105,6 +107,11 @@ Section verdict_view(const Json& report) {
               shown(n["traced"])}},
             "Verified: every test and formal item behind it was run and passed. Section 6 lists them.");
   if (!v["orphans"].empty()) out.list("Orphans", texts(v["orphans"]));
+  out.picture(
+      "The argument", {inline_svg(argument_svg(report)), ""},
+      "The argument as a goal structure: the goal, five strategies, what each shows, and the section that holds the "
+      "evidence.",
+      "Goals are boxes, strategies lean, evidence is round. Green: shown; red: refuted; brown: open or not given.");
   out.list("Assumptions", texts(v["assumptions"]));
   out.list("Known limits", texts(v["known_limits"]));
   out.text("This report is evidence for your own safety case. plumb is neither certified nor qualified.");

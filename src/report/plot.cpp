@@ -24,33 +24,44 @@ const char* colour_of(HealthState state) noexcept {
   return "#777777";
 }
 
-io::FileExpected<void> run_gnuplot(const std::string& directory, const std::string& script) {
-  const auto failed = [](std::string what, std::string remedy) {
+io::FileExpected<void> run_program(const std::string& directory, const std::string& program,
+                                   const std::vector<std::string>& arguments, const std::string& package,
+                                   const std::string& what) {
+  const auto failed = [&program](std::string said, std::string remedy) {
     return tl::unexpected<io::FileError>(
-        io::FileError{"gnuplot", 0, "", std::move(what), std::move(remedy), io::ExitCode::other});
+        io::FileError{program, 0, "", std::move(said), std::move(remedy), io::ExitCode::other});
   };
-  std::string program = "gnuplot";
-  std::string argument = script;
-  char* arguments[] = {program.data(), argument.data(), nullptr};
+  std::vector<std::string> words = {program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  std::string line;
+  for (std::string& word : words) {
+    argv.push_back(word.data());
+    line += (line.empty() ? "" : " ") + word;
+  }
+  argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
   pid_t child = 0;
-  const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error == ENOENT)
-    return failed("is not installed, so there is no plot",
-                  "install it (Debian: apt-get install gnuplot-nox) and run again");
+    return failed("is not installed, so there is no " + what,
+                  "install it (Debian: apt-get install " + package + ") and run again");
   if (error != 0)
-    return failed(std::string("cannot be started: ") + std::strerror(error), "check the installation of gnuplot");
+    return failed(std::string("cannot be started: ") + std::strerror(error), "check the installation of " + program);
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) return failed("was lost sight of", "run again");
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    return failed("did not draw the plot", "run `gnuplot " + script + "` in " + directory + " to see why");
-  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    return failed("did not draw the " + what, "run `" + line + "` in " + directory + " to see why");
   return {};
+}
+
+io::FileExpected<void> run_gnuplot(const std::string& directory, const std::string& script) {
+  return run_program(directory, "gnuplot", {script}, "gnuplot-nox", "plot");
 }
 
 std::string inline_svg(const std::string& svg) {

@@ -84,13 +84,18 @@ TestResult worse(TestResult a, TestResult b) {
 }
 
 void collect(const boost::property_tree::ptree& tree, TestResults& out) {
-  for (const auto& [name, child] : tree) {
-    if (name == "testcase") {
-      const std::string test = plain_name(child.get("<xmlattr>.name", std::string()));
+  for (const auto& [tag, child] : tree) {
+    if (tag == "testcase") {
+      std::string name = child.get("<xmlattr>.name", std::string());
+      // GoogleTest itself puts the suite apart; ctest repeats the whole name.
+      const std::string suite = child.get("<xmlattr>.classname", std::string());
+      const bool plain = name.find_first_of(". ") == std::string::npos;
+      if (plain && !suite.empty() && suite != name) name = suite + "." + name;
+      const std::string test = plain_name(name);
       const TestResult result = result_of(child);
       const auto [at, fresh] = out.emplace(test, result);
       if (!fresh) at->second = worse(at->second, result);
-    } else if (name != "<xmlattr>") {
+    } else if (tag != "<xmlattr>") {
       collect(child, out);
     }
   }

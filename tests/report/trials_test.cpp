@@ -104,6 +104,7 @@ TEST(VerificationTrials, ThreadsLeaveNoTraceAndTheEngineCountsTheSame) {
   EXPECT_EQ(campaign::result_text(file, engine), campaign::result_text(file, one.counted));
 }
 
+// Verifies: REQ-181
 TEST(VerificationTrials, EveryTableAddsUpToTheSameScenarios) {
   const report::Trials trials = played(parsed(report::fault_campaign(paper_array(), kPath, settings(700))));
   const Json json = report::fault_trials_json(trials, "plumb campaign faults.toml");

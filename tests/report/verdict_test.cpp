@@ -78,6 +78,7 @@ TEST(VerificationVerdict, EveryLimitIsMetMissedOrOpen) {
   EXPECT_EQ(result_of(with("detect_within = \"1 h\""), "Time to detect, 95 % of the detected faults"), "met");
 }
 
+// Negative: REQ-181
 TEST(VerificationVerdict, ARateIsShownRefutedOrOpenByItsInterval) {
   Json report = paper_report();
   const auto judged = [&report](const std::string& rate) {

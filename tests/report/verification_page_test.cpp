@@ -52,8 +52,10 @@ std::string cells_of(const std::string& html) {
 
 /// Numbers in the tables of one report's page that another one does not hold.
 std::set<std::string> strangers(const Json& report, const Json& other) {
+  Json tables = other;
+  tables["array"].erase("attitude_map");  // drawn, in no table: so many numbers that any other would be among them
   std::set<std::string> known;
-  collect(other, known);
+  collect(tables, known);
   std::set<std::string> out;
   for (const std::string& number : numbers_in(cells_of(report::verification_html(report, {})))) {
     if (known.count(number) == 0) out.insert(number);
@@ -66,8 +68,8 @@ TEST(VerificationPage, EveryFigureInATableStandsInTheJson) {
   const std::set<std::string> found = strangers(paper_report(), paper_report());
   EXPECT_TRUE(found.empty()) << "not in the JSON: " << *found.begin() << " and " << found.size() - 1 << " more";
   Json other = paper_report();
-  other["array"]["figures_of_merit"]["gdop"] = 7.654321;
-  EXPECT_EQ(strangers(other, paper_report()), std::set<std::string>{"7.654"});
+  other["array"]["figures_of_merit"]["gdop"] = 7.654321e-17;
+  EXPECT_EQ(strangers(other, paper_report()), std::set<std::string>{"7.654e-17"});
 }
 
 TEST(VerificationPage, ShowsWhatTheJsonSaysAndNothingElse) {

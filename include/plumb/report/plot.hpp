@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "plumb/health/state.hpp"
 #include "plumb/io/file_error.hpp"
@@ -13,6 +14,12 @@ namespace report {
 /// Runs `gnuplot script` inside `directory`. Where gnuplot is not installed the error names it, and the
 /// package to install.
 io::FileExpected<void> run_gnuplot(const std::string& directory, const std::string& script);
+
+/// Runs a program inside `directory` and waits for it. `package` is the Debian package that an error names where the
+/// program is not installed, `what` what there is none of then.
+io::FileExpected<void> run_program(const std::string& directory, const std::string& program,
+                                   const std::vector<std::string>& arguments, const std::string& package,
+                                   const std::string& what);
 
 /// The SVG made fit to stand inside a page: no XML prologue, no namespace attributes, no names of
 /// programs, black replaced by the colour of the surrounding text (so that it is readable on dark pages).

@@ -1,0 +1,100 @@
+// What a report gives to other programs says the same as the report.
+#include "plumb/report/verification_exports.hpp"
+
+#include <gtest/gtest.h>
+
+#include "plumb/report/traceability.hpp"
+#include "verify_support.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::Json;
+using plumb_test::paper_report;
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t out = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++out;
+  return out;
+}
+
+Json with_a_failure() {
+  Json report = paper_report();
+  report["verdict"]["criteria"][1]["result"] = "not met";
+  report["verdict"]["criteria"][1]["reason"] = "5 < 6 & \"more\"";
+  report["traceability"]["requirements"][0]["result"] = "failed";
+  report["traceability"]["requirements"][1]["result"] = "verified";
+  return report;
+}
+
+TEST(VerificationExports, JunitIsReadBackWithEveryResult) {
+  const Json report = with_a_failure();
+  const std::string path = testing::TempDir() + "/junit.xml";
+  plumb_test::write_text(path, report::junit_xml(report));
+  const auto read = report::read_test_results(path);
+  ASSERT_TRUE(read) << read.error().text();
+  const Json& requirements = report["traceability"]["requirements"];
+  EXPECT_EQ(read->size(), report["verdict"]["criteria"].size() + requirements.size());
+  const auto result = [&](const Json& r) {
+    return read->at(r["id"].get<std::string>() + " " + r["title"].get<std::string>());
+  };
+  EXPECT_EQ(result(requirements[0]), report::TestResult::failed);
+  EXPECT_EQ(result(requirements[1]), report::TestResult::passed);
+  EXPECT_EQ(result(requirements[2]), report::TestResult::not_run);  // traced: nobody said how its tests ended
+  EXPECT_EQ(read->at(report["verdict"]["criteria"][1]["name"]), report::TestResult::failed);
+  EXPECT_EQ(read->at(report["verdict"]["criteria"][0]["name"]), report::TestResult::passed);
+}
+
+TEST(VerificationExports, NeedsHoldEveryNodeAndNoLinkIsLoose) {
+  const Json& report = paper_report();
+  const Json needs = Json::parse(report::needs_json(report));
+  const Json& all = needs["versions"][needs["current_version"].get<std::string>()]["needs"];
+  const Json& trace = report["traceability"];
+  EXPECT_EQ(all.size(), trace["hazards"].size() + trace["requirements"].size() + trace["tests"].size());
+  for (const auto& [id, need] : all.items()) {
+    EXPECT_EQ(need["id"], id);
+    for (const Json& link : need["links"]) EXPECT_TRUE(all.contains(link.get<std::string>())) << id << " -> " << link;
+  }
+}
+
+TEST(VerificationExports, TheRequirementsReadBackAsADocument) {
+  const Json& report = paper_report();
+  const std::string text = report::requirements_sdoc(report);
+  EXPECT_EQ(count_of(text, "\n[REQUIREMENT]\n"), report["traceability"]["requirements"].size());
+  EXPECT_EQ(count_of(text, "\n[HAZARD]\n"), report["traceability"]["hazards"].size());
+  std::size_t links = 0;
+  for (const Json& r : report["traceability"]["requirements"]) links += r["hazards"].size();
+  EXPECT_EQ(count_of(text, "- TYPE: Parent\n  VALUE: HAZ-"), links);
+}
+
+TEST(VerificationExports, TheBillOfMaterialsNamesEveryLibraryOnce) {
+  const Json& report = paper_report();
+  const Json spdx = Json::parse(report::spdx_json(report));
+  const Json& libraries = report["identity"]["build"]["libraries"];
+  EXPECT_EQ(spdx["spdxVersion"], "SPDX-2.3");
+  EXPECT_EQ(spdx["packages"].size(), libraries.size() + 1);
+  EXPECT_EQ(spdx["relationships"].size(), libraries.size() + 1);
+  std::set<std::string> ids;
+  for (const Json& package : spdx["packages"]) EXPECT_TRUE(ids.insert(package["SPDXID"]).second);
+  for (const Json& relation : spdx["relationships"]) EXPECT_EQ(ids.count(relation["relatedSpdxElement"]), 1U);
+}
+
+TEST(VerificationExports, TheArgumentTurnsRedWithItsEvidence) {
+  const std::string fit = report::argument_svg(paper_report());
+  EXPECT_EQ(count_of(fit, "#c53a3a"), 0U);
+  EXPECT_NE(fit.find("section 5: results not</text>"), std::string::npos);
+  EXPECT_EQ(count_of(fit, "#2c8f57"), 7U);  // the goal, geometry and campaign; calibration is but predicted
+  Json given = paper_report();
+  given["calibration"]["mode"] = "positions";
+  EXPECT_EQ(count_of(report::argument_svg(given), "#2c8f57"), 10U);
+  given["traceability"]["assurance_results"] = {{"given", true}, {"items", {{{"result", "fails"}}}}};
+  EXPECT_EQ(count_of(report::argument_svg(given), "#c53a3a"), 3U);
+  Json report = with_a_failure();
+  report["verdict"]["verdict"] = "not fit";
+  report["traceability"]["counts"]["failed"] = report["verdict"]["requirements"]["failed"] = 1;
+  EXPECT_EQ(count_of(report::argument_svg(report), "#c53a3a"), 7U);  // the goal, and two of five branches of three
+  report["subject"]["name"] = "<b>";
+  EXPECT_EQ(report::argument_svg(report).find("<b>"), std::string::npos);
+}
+
+}  // namespace
