@@ -1,10 +1,12 @@
-// Writes the run that host and target play: metal_record SENSORS FILE. A tool of 4, 6 or 8 sensors is calibrated on a
-// simulated stand and then led through every state, with what its host asks on the way.
+// Writes the run that host and target play: metal_record SENSORS FILE [plain]. A tool of 4, 6 or 8 sensors is
+// calibrated on a simulated stand and then led through every state, with what its host asks on the way; plain: without
+// recalibrations and power cycles, for builds that have none.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "plumb/array/named.hpp"
@@ -118,12 +120,13 @@ void put_head(metal::WordWriter& out, const Calibration& calibration, const Data
   metal::transfer_setup(out, *setup, uncertainty, n);
 }
 
-void put_rows(metal::WordWriter& out, scenario::Simulator& run, std::size_t n) {
+void put_rows(metal::WordWriter& out, scenario::Simulator& run, std::size_t n, bool plain) {
   std::size_t next = 0;
   Sample s;
   while (run.next(s)) {
     const bool due = next < std::size(kAsked) && s.time_s >= kAsked[next].time_s;
-    const Asked asked = due ? kAsked[next++] : Asked{0.0, Request::none, 0};
+    Asked asked = due ? kAsked[next++] : Asked{0.0, Request::none, 0};
+    if (plain && asked.request != Request::reset) asked = {0.0, Request::none, 0};
     out.number(s.time_s);
     out.number(s.temperature_degc);
     out.word(s.delivered.bits);
@@ -141,8 +144,11 @@ int refused(const char* what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int sensors = argc == 3 ? std::atoi(argv[1]) : 0;
-  if (sensors != 4 && sensors != 6 && sensors != 8) return refused("usage: metal_record 4|6|8 FILE");
+  const int sensors = argc == 3 || argc == 4 ? std::atoi(argv[1]) : 0;
+  const bool plain = argc == 4 && std::string(argv[3]) == "plain";
+  if ((sensors != 4 && sensors != 6 && sensors != 8) || plain != (argc == 4)) {
+    return refused("usage: metal_record 4|6|8 FILE [plain]");
+  }
   const scenario::Tool tool = tool_of(sensors);
   auto stand = scenario::Simulator::make(scenario::calibration_run(tool, kSeed));
   auto run = scenario::Simulator::make(story(tool));
@@ -160,7 +166,7 @@ int main(int argc, char** argv) {
   std::vector<std::uint64_t> words(4096 + static_cast<std::size_t>(rows) * (5 + n));
   metal::WordWriter out(words.data() + 1, words.size() - 1);
   put_head(out, *calibration, tool.datasheet, rows);
-  put_rows(out, *run, n);
+  put_rows(out, *run, n, plain);
   if (out.full()) return refused("more words than room");
   words[0] = out.used();
   std::ofstream file(argv[2], std::ios::binary);

@@ -35,6 +35,11 @@ plumb_compile_check(compile.fast_math_is_refused
 # Negative: REQ-164
 plumb_compile_check(compile.capacity_of_5_is_refused
   SOURCE include_config.cpp DEFINES PLUMB_CAPACITY=5 MUST_FAIL_WITH "PLUMB_CAPACITY is 4, 8, 16 or 24")
+# A first calibration is a fit.
+# Negative: REQ-164
+plumb_compile_check(compile.first_calibration_without_fits_is_refused
+  SOURCE include_config.cpp DEFINES PLUMB_RECALIBRATION=0 PLUMB_FIRST_CALIBRATION=1
+  MUST_FAIL_WITH "makes its first calibration recalibrates too")
 
 # The state of a monitor, in bytes; the last of the three shows that the check can fail.
 # Verifies: REQ-165
@@ -54,6 +59,10 @@ if(array_sources)
   # Negative: REQ-164
   plumb_compile_check(compile.other_capacity_does_not_link
     SOURCE uses_array.cpp DEFINES PLUMB_CAPACITY=4 LINK plumb_8 MUST_FAIL_WITH "undefined.*cap4::make_id")
+  # Negative: REQ-164
+  plumb_compile_check(compile.leaner_build_does_not_link
+    SOURCE uses_array.cpp DEFINES PLUMB_CAPACITY=8 PLUMB_RECALIBRATION=0 LINK plumb_8
+    MUST_FAIL_WITH "undefined.*cap8_fixed::make_id")
 endif()
 
 # --- What the core libraries refer to: heap, exceptions, run-time types. Unoptimised code refers to branches that never

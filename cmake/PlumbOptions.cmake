@@ -1,6 +1,9 @@
 # Options, default build type, compiler cache, and the one flag that plumb refuses.
 
 option(PLUMB_ALL_CAPACITIES "Build floors 1-4 for 4 and 16 sensors too (8 is always built, 24 for the host)" ON)
+option(PLUMB_RECALIBRATION "The monitor can estimate biases and scales anew; OFF spares an instrument the code" ON)
+option(PLUMB_FIRST_CALIBRATION "The monitor can make its very first calibration (needs PLUMB_RECALIBRATION)" ON)
+option(PLUMB_FAST_STEP "Compile what runs at every sample with -O2, for builds at -Os" OFF)
 option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
@@ -12,6 +15,10 @@ set(PLUMB_RC_PARAMS "seed=20180227 max_success=200" CACHE STRING "RC_PARAMS (Rap
 
 if(PLUMB_BUILD_TOOL AND NOT PLUMB_BUILD_HOST)
   message(FATAL_ERROR "PLUMB_BUILD_TOOL needs PLUMB_BUILD_HOST")
+endif()
+
+if(PLUMB_BUILD_HOST AND NOT (PLUMB_RECALIBRATION AND PLUMB_FIRST_CALIBRATION))
+  message(FATAL_ERROR "PLUMB_BUILD_HOST, PLUMB_BUILD_TOOL and the tests need PLUMB_RECALIBRATION and PLUMB_FIRST_CALIBRATION")
 endif()
 
 if(PROJECT_IS_TOP_LEVEL)

@@ -4,10 +4,10 @@
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
 
-# plumb_test_executable(NAME LABEL <label> ROOMS <room>... LIBRARIES <target>...)
+# plumb_test_executable(NAME LABEL <label> ROOMS <room>... LIBRARIES <target>... [PREFIX <prefix of the tests' names>])
 # All *_test.cpp of the rooms below tests/, with the helpers of tests/support.
 function(plumb_test_executable name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL" "ROOMS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;PREFIX" "ROOMS;LIBRARIES")
   set(patterns ${arg_ROOMS})
   list(TRANSFORM patterns REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1/*_test.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
@@ -32,6 +32,7 @@ function(plumb_test_executable name)
   endif()
   gtest_discover_tests(${name}
     DISCOVERY_TIMEOUT 60
+    TEST_PREFIX "${arg_PREFIX}"
     PROPERTIES
       LABELS ${arg_LABEL}
       TIMEOUT ${PLUMB_TEST_TIMEOUT_s}
@@ -48,6 +49,16 @@ else()
 endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8)
+# Monitors that leave something out, each beside the whole one.
+if(TARGET plumb_4_held)
+  add_library(plumb_lean_full STATIC "${PROJECT_SOURCE_DIR}/tests/lean/full_run.cpp")
+  plumb_compile_settings(plumb_lean_full)
+  target_link_libraries(plumb_lean_full PRIVATE plumb_4)
+  foreach(build IN ITEMS held fixed)
+    plumb_test_executable(plumb_lean_${build}_tests LABEL core PREFIX "${build}." ROOMS lean
+      LIBRARIES plumb_lean_full plumb_4_${build})
+  endforeach()
+endif()
 plumb_test_executable(plumb_trace_tests LABEL trace ROOMS trace)  # requirements and tests name each other
 
 include(PlumbLaws)

@@ -203,7 +203,7 @@ double nearest_angle(const SensorArray& array) noexcept {
     for (int j = i + 1; j < array.size(); ++j) {
       const Vec3& a = array.axis(i);
       const Vec3& b = array.axis(j);
-      const double angle = std::atan2(norm(cross(a, b)), std::fabs(dot(a, b)));
+      const double angle = angle_of(norm(cross(a, b)), std::fabs(dot(a, b)));
       if (angle < nearest) nearest = angle;
     }
   }

@@ -33,25 +33,36 @@ SensorCoefficients recalibrated(const SensorCoefficients& nominal, double length
 
 namespace fit {
 
-Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference& gravity, const Parameters& theta,
-                              const double* covariance, FitReport& report) noexcept {
+namespace {
+
+/// Not inlined: the array that is tried needs no room under the rest.
+[[gnu::noinline]] Error make_array(const std::array<SensorRow, kCapacity>& rows, int n, SensorArray& out) noexcept {
+  const Expected<SensorArray> made = SensorArray::make(rows.data(), n);
+  if (!made) return made.error();
+  out = *made;
+  return Error{};
+}
+
+}  // namespace
+
+Error compose(const Datasheet& datasheet, const GravityReference& gravity, const Parameters& theta,
+              const double* covariance, FitReport& report, Calibration& out) noexcept {
   const int n = datasheet.size;
   const double sign = datasheet.reads == Reads::gravity ? 1.0 : -1.0;
   std::array<SensorRow, kCapacity> rows{};
   std::array<double, kCapacity> length{};
-  Expected<Calibration> out(Calibration{});
-  out->model = datasheet.model();
+  out.model = datasheet.model();
   for (int i = 0; i < n; ++i) {
     const Vec3 w = row_of(theta, i);
     length[at(i)] = norm(w);
     rows[at(i)] = datasheet.sensor[at(i)].row;
     rows[at(i)].axis = scaled(w, 1.0 / length[at(i)]);
     rows[at(i)].sigma_mps2 /= length[at(i)];
-    SensorCoefficients& c = out->model.sensor[at(i)];
+    SensorCoefficients& c = out.model.sensor[at(i)];
     c = recalibrated(c, length[at(i)], sign * theta[at(4 * i + 3)]);
   }
-  const Expected<SensorArray> array = SensorArray::make(rows.data(), n);
-  if (!array) return tl::unexpected<Error>(array.error());
+  const Error unsound = make_array(rows, n, out.array);
+  if (unsound.code != Errc::ok) return unsound;
   // An error of W_i and b_i reaches the reading (r - b_i) / |W_i|, hence both lengths.
   RowUncertainty uncertainty;
   const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of g over the sphere
@@ -81,10 +92,9 @@ Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference
           share * share * rows[at(a / 4)].axis[at(a % 4)] * rows[at(b / 4)].axis[at(b % 4)];
     }
   }
-  out->array = *array;
-  out->array.set_uncertainty(uncertainty);
-  out->report = report;
-  return out;
+  out.array.set_uncertainty(uncertainty);
+  if (&out.report != &report) out.report = report;
+  return Error{};
 }
 
 namespace {
@@ -238,37 +248,50 @@ bool Calibrator::sets_aside(const Station& station) const noexcept {
   return fit::Screening(problem).out(station);
 }
 
+namespace {
+
+[[gnu::noinline]] void clear_report(FitReport& report) noexcept { report = FitReport{}; }
+
+}  // namespace
+
 Expected<Calibration> Calibrator::finish(const Station* stations, int count, FitReport* report) const noexcept {
-  FitReport own;
-  FitReport& r = report != nullptr ? *report : own;
-  r = FitReport{};
+  Expected<Calibration> out(tl::in_place);  // one calibration, made where the caller wants it: it is large
+  const Error error = finish_into(stations, count, report != nullptr ? *report : out->report, *out);
+  if (error.code != Errc::ok) out = tl::unexpected<Error>(error);
+  return out;
+}
+
+/// `report` may be that of `out`.
+[[gnu::noinline]] Error Calibrator::finish_into(const Station* stations, int count, FitReport& r,
+                                                Calibration& out) const noexcept {
+  clear_report(r);
   r.parameters = 4 * datasheet_.size;
   r.iterations = iterations_;
   r.start = started_;
   r.stop = stop_;
   r.misfit_mps2 = misfit_mps2_;
   const Error wrong = refused(stations, count, r);
-  if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
+  if (wrong.code != Errc::ok) return wrong;
   fit::Problem problem = fit::problem_of(datasheet_, gravity_.g_mps2, options_, {stations, count});
   const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};
   if (phase_ == Phase::screened) problem.screen = &screen;
   fit::Harmonics harmonics;
   fit::Fitted fitted(&harmonics);
   Information covariance;
-  if (!describe(problem, fitted, covariance, r)) return fail(Errc::diverged, -1, cost_);
-  Expected<Calibration> out = fit::compose(datasheet_, gravity_, fitted.theta, covariance.data(), r);
-  if (out) {
-    r.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out->array);
-    out->report.inclination_sigma_rad = r.inclination_sigma_rad;
+  if (!describe(problem, fitted, covariance, r)) return Error{Errc::diverged, -1, cost_};
+  const Error composed = fit::compose(datasheet_, gravity_, fitted.theta, covariance.data(), r, out);
+  if (composed.code == Errc::ok) {
+    r.inclination_sigma_rad = fit::inclination_sigma(problem, fitted.theta, out.array);
+    out.report.inclination_sigma_rad = r.inclination_sigma_rad;
   }
   Error error = judge(problem, fitted, r);
   if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
-  if (error.code == Errc::ok) return out;
+  if (error.code == Errc::ok) return composed;
   if (error.code != Errc::unobservable) {
     const Error twins = fit::twin_channels(problem);
     if (twins.code != Errc::ok) error = twins;
   }
-  return tl::unexpected<Error>(error);
+  return error;
 }
 
 /// Leaves out what the screen leaves out; returns how many stations that are.
@@ -316,6 +339,25 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   return twins.code != Errc::ok ? twins : error;
 }
 
+namespace {
+
+/// Not inlined, nor is the next: no copy of either result lies under the sums.
+[[gnu::noinline]] void take_parameters(const Calibrator& calibrator, fit::Parameters& theta) noexcept {
+  theta = calibrator.parameters();
+}
+
+[[gnu::noinline]] void write_held(const Datasheet& datasheet, const fit::Parameters& theta, const FitFigures& figures,
+                                  HeldFit& out) noexcept {
+  out = {{}, {}, figures.rank, figures.degrees_of_freedom, figures.chi2, figures.p_value};
+  const double sign = datasheet.reads == Reads::gravity ? 1.0 : -1.0;
+  for (int i = 0; i < datasheet.size; ++i) {
+    out.length[fit::at(i)] = norm(fit::row_of(theta, i));
+    out.bias_mps2[fit::at(i)] = sign * theta[fit::at(4 * i + 3)];
+  }
+}
+
+}  // namespace
+
 Error Calibrator::finish_held(const StationList& stations, HeldFit& out) const noexcept {
   FitFigures r;
   r.parameters = 2 * datasheet_.size;
@@ -325,14 +367,9 @@ Error Calibrator::finish_held(const StationList& stations, HeldFit& out) const n
   StationList used = stations;
   r.outliers = screen_out(used);
   fit::Fitted fitted(nullptr);
-  fitted.theta = parameters();
+  take_parameters(*this, fitted.theta);
   if (!describe_held(used, fitted, r)) return Error{Errc::diverged, -1, cost_};
-  out = {{}, {}, r.rank, r.degrees_of_freedom, r.chi2, r.p_value};
-  const double sign = datasheet_.reads == Reads::gravity ? 1.0 : -1.0;
-  for (int i = 0; i < datasheet_.size; ++i) {
-    out.length[fit::at(i)] = norm(fit::row_of(fitted.theta, i));
-    out.bias_mps2[fit::at(i)] = sign * fitted.theta[fit::at(4 * i + 3)];
-  }
+  write_held(datasheet_, fitted.theta, r, out);
   return judge_held(stations, fitted, r);
 }
 

@@ -196,10 +196,14 @@ bool Calibrator::weigh(const fit::Problem& problem, const fit::Parameters& natur
   return std::fabs(variance - before) <= kMisfitSettled * variance;
 }
 
+/// Whether the axes are free: only then is the whole factor wanted. The stations of held axes are few.
+template <class Count>
+inline constexpr bool kFreeAxes = std::is_same<Count, int>::value;
+
 /// After a step: whether the phase is over, and what comes next. True where the whole fit is.
 template <class Count>
 bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& natural, const fit::Sums& sums,
-                         bool weights_settled, double* factor) noexcept {
+                         bool weights_settled, [[maybe_unused]] double* factor) noexcept {
   const bool loosely = settled(problem, natural, kLooselySettled);
   if (phase_ == Phase::huber || phase_ == Phase::tukey) {
     const int most = phase_ == Phase::huber ? kHuberSteps : kHuberSteps + kTukeySteps;
@@ -224,7 +228,12 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
       return false;
     }
   }
-  return settled(problem, natural, options_.stop_relative) && !(factor != nullptr && misfit_changed(sums, factor));
+  if (!settled(problem, natural, options_.stop_relative)) return false;
+  if constexpr (kFreeAxes<Count>) {
+    return !misfit_changed(sums, factor);
+  } else {
+    return true;
+  }
 }
 
 /// Solves the normal equations and moves. Takes the information of the data; leaves the factor of the damped one.
@@ -295,6 +304,7 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
 }
 
 /// The sums, and the step to which they lead; false where there is none. Nothing happens once the fit is over.
+template <class Count>
 [[gnu::noinline]] bool Calibrator::solve(const fit::Problem& problem, fit::Parameters& natural, fit::Sums& sums,
                                          const fit::Room& room) noexcept {
   fit::Parameters rhs;
@@ -302,8 +312,11 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
   sums = accumulate_best(problem, natural, blocks.data(), rhs, room);
   ++iterations_;
   if (done()) return true;
-  if (room.factor == nullptr) return step_alone(problem, natural, rhs, blocks.data());
-  return step_from(problem, natural, rhs, blocks.data(), room, fit::Square{room.factor, 4 * datasheet_.size});
+  if constexpr (kFreeAxes<Count>) {
+    return step_from(problem, natural, rhs, blocks.data(), room, fit::Square{room.factor, 4 * datasheet_.size});
+  } else {
+    return step_alone(problem, natural, rhs, blocks.data());
+  }
 }
 
 template <class Count>
@@ -312,7 +325,7 @@ void Calibrator::iterate_over(const fit::Problem& problem, const fit::Room& room
   const bool looking = phase_ == Phase::huber || phase_ == Phase::tukey;
   const bool weights_settled = !looking || weigh<Count>(problem, natural);
   fit::Sums sums;
-  const bool moved = solve(problem, natural, sums, room);
+  const bool moved = solve<Count>(problem, natural, sums, room);
   if (done()) return;
   if (!moved) {
     stop_ = StopReason::not_finite;

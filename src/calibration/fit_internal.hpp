@@ -241,8 +241,8 @@ void inflate(double factor, int n4, double* covariance, FitReport& report) noexc
 
 /// Calibrated model, axes and uncertainty from the fitted parameters and their covariance (stride 4n);
 /// completes the report with e_cal.
-Expected<Calibration> compose(const Datasheet& datasheet, const GravityReference& gravity, const Parameters& theta,
-                              const double* covariance, FitReport& report) noexcept;
+Error compose(const Datasheet& datasheet, const GravityReference& gravity, const Parameters& theta,
+              const double* covariance, FitReport& report, Calibration& out) noexcept;
 
 }  // namespace fit
 }  // namespace PLUMB_ABI

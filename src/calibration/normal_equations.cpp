@@ -35,7 +35,8 @@ struct RollRow {
   std::array<double, kCapacity> slope{};  ///< minus the derivative by reading, L W t
 };
 
-RollRow roll_row(const Roll& roll, const StationSolver& s, double g_mps2) noexcept {
+/// Not inlined: who has no roll groups needs no room for it under every station.
+[[gnu::noinline]] RollRow roll_row(const Roll& roll, const StationSolver& s, double g_mps2) noexcept {
   RollRow out;
   const Vec3 a = times(s.spread, s.direction), z = times(s.spread, roll.axis);
   const Vec3 t = minus(z, scaled(a, dot(s.direction, z) / s.along));
@@ -84,8 +85,10 @@ void add_roll(const StationSolver& s, const RollRow& row, double pull, RollGroup
   group.growth += weight * slopes;
 }
 
-/// Adds M (x) z z' and (M e) (x) z, M the projector across the tangents of the sphere.
-void add_station(const StationSolver& s, const RollRow& roll, double pull, double* blocks, Parameters& rhs) noexcept {
+/// Adds M (x) z z' and (M e) (x) z, M the projector across the tangents of the sphere. Not inlined: what it needs would
+/// lie under the solution of the next station.
+[[gnu::noinline]] void add_station(const StationSolver& s, const RollRow& roll, double pull, double* blocks,
+                                   Parameters& rhs) noexcept {
   const Moments moments = moments_of(s.gravity, pull);
   for (int k = 0; k < s.rows; ++k) {
     const int i = s.sensor[at(k)];

@@ -186,7 +186,11 @@ class Attempt {
     const ChebyshevSpan span = {seen.lowest - kLevelMargin_degc, seen.highest + kLevelMargin_degc};
     told_.inflation = fit::covering_covariance(whole_, state, span, work_);
     if (!(told_.inflation > 0.0)) return fail(Errc::diverged);
-    return fit::compose(fit::with_polynomials(joint, state), gravity_, fitted.theta, work_.vectors.data(), report_);
+    Expected<Calibration> out(tl::in_place);
+    const Error error =
+        fit::compose(fit::with_polynomials(joint, state), gravity_, fitted.theta, work_.vectors.data(), report_, *out);
+    if (error.code != Errc::ok) out = tl::unexpected<Error>(error);
+    return out;
   }
 
   /// The scale factor that leaves its bound at some temperature of the span of use, apart from its mean.

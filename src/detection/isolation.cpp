@@ -62,7 +62,7 @@ double common_drift_turn_rad(const SensorArray& array, SensorSet set, const SetT
   }
   const Vec3 u = scaled(test.x_mps2, 1.0 / length);
   const double across = dot(moved, moved) - dot(moved, u) * dot(moved, u);
-  return across > 0.0 ? std::atan2(std::sqrt(across), std::fmax(0.0, length - norm(moved))) : 0.0;
+  return across > 0.0 ? angle_of(std::sqrt(across), std::fmax(0.0, length - norm(moved))) : 0.0;
 }
 
 }  // namespace

@@ -132,6 +132,7 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
 
 /// What the store of recalibration makes of a block. A block that speaks against the tool takes the last station back.
 void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept {
+  if (!kRecalibrates) return;
   using Kind = BlockView::Kind;
   constexpr EventMask kRefuting = bit(HealthEvent::alarm) | bit(HealthEvent::contradiction) |
                                   bit(HealthEvent::reference) | bit(HealthEvent::culprit) | bit(HealthEvent::set_aside);

@@ -24,7 +24,8 @@ constexpr double kRestlessRate = 1e-6;
 constexpr double kMaxSigmaRatio = 300.0;
 /// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.
 int faults_to_cover(int n, double prior, double risk) noexcept {
-  double term = std::pow(1.0 - prior, n);
+  double term = 1.0;
+  for (int i = 0; i < n; ++i) term *= 1.0 - prior;
   double cumulative = term;
   for (int k = 0; k < n; ++k) {
     if (1.0 - cumulative <= risk) return k < 1 ? 1 : k;
@@ -65,6 +66,7 @@ Expected<void> checked(const MonitorSetup& setup) noexcept {
     const double needed_mps2 = (1.0 + kFullScaleMargin) * setup.gravity.g_mps2;
     if (full > 0.0 && !(reach_mps2 >= needed_mps2)) return fail(Errc::range_too_small, i, reach_mps2, needed_mps2);
   }
+  if (!kCalibratesItself && !setup.calibrated) return fail(Errc::not_calibrated, -1, 0.0, 1.0);
   for (int i = 0; i < n && !setup.calibrated; ++i) {
     const Prior open = prior_in(setup.array, i), most = Recalibration::kMostOpen;
     const std::array<std::array<double, 2>, 3> figures = {

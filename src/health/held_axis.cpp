@@ -130,30 +130,25 @@ double packed(const RowUncertainty& u, int a, int b) noexcept {
   return a >= b ? u.covariance[at(a * (a + 1) / 2 + b)] : u.covariance[at(b * (b + 1) / 2 + a)];
 }
 
-}  // namespace
-
-bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gravity, const HeldAxisFit& fit,
-                           RowUncertainty& uncertainty, std::array<double, kCapacity>& data_share) noexcept {
-  Sums sums;
-  std::array<int, kCapacity> place{};
+/// Not inlined, nor is the next: neither needs its room while the other works.
+[[gnu::noinline]] void add_stations(const SensorArray& array, const HeldAxisFit& fit, double g_mps2,
+                                    Sums& sums) noexcept {
   for (int i = 0; i < array.size(); ++i) {
-    place[at(i)] = fit.sensors.has(i) ? sums.k : -1;
     if (fit.sensors.has(i)) sums.sensor[at(sums.k++)] = i;
   }
   for (int k = 0; k < fit.count; ++k) {
     if (fit.left_out > 0 && k % fit.left_out == fit.left_out - 1) continue;
-    add_station(array, fit, fit.station[k].direction, gravity.g_mps2, sums);
+    add_station(array, fit, fit.station[k].direction, g_mps2, sums);
   }
-  if (!solve(fit, sums)) return false;
+}
 
-  data_share.fill(0.0);
-  for (int i = 0; i < sums.k; ++i) {
-    const HeldPrior& prior = fit.prior[at(sums.sensor[at(i)])];
-    const double scale = sums.fitted[at(2 * i * (kFitted + 1))] / (prior.scale * prior.scale);
-    const double bias = sums.fitted[at((2 * i + 1) * (kFitted + 1))] / (prior.bias_mps2 * prior.bias_mps2);
-    data_share[at(sums.sensor[at(i)])] = 1.0 - std::fmax(scale, bias);
-  }
-
+/// The covariance of the rows that the fit leaves, from the solved sums.
+[[gnu::noinline]] void write_uncertainty(const SensorArray& array, const GravityReference& gravity,
+                                         const HeldAxisFit& fit, const Sums& sums,
+                                         RowUncertainty& uncertainty) noexcept {
+  std::array<int, kCapacity> place{};
+  place.fill(-1);
+  for (int i = 0; i < sums.k; ++i) place[at(sums.sensor[at(i)])] = i;
   const double common = gravity.sigma_mps2 / gravity.g_mps2;
   const Kept kept = kept_back(fit, sums);
   const RowUncertainty& old = array.uncertainty();
@@ -182,6 +177,23 @@ bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gra
     }
   }
   uncertainty.misfit_mps2 = old.misfit_mps2;
+}
+
+}  // namespace
+
+bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gravity, const HeldAxisFit& fit,
+                           RowUncertainty& uncertainty, std::array<double, kCapacity>& data_share) noexcept {
+  Sums sums;
+  add_stations(array, fit, gravity.g_mps2, sums);
+  if (!solve(fit, sums)) return false;
+  data_share.fill(0.0);
+  for (int i = 0; i < sums.k; ++i) {
+    const HeldPrior& prior = fit.prior[at(sums.sensor[at(i)])];
+    const double scale = sums.fitted[at(2 * i * (kFitted + 1))] / (prior.scale * prior.scale);
+    const double bias = sums.fitted[at((2 * i + 1) * (kFitted + 1))] / (prior.bias_mps2 * prior.bias_mps2);
+    data_share[at(sums.sensor[at(i)])] = 1.0 - std::fmax(scale, bias);
+  }
+  write_uncertainty(array, gravity, fit, sums, uncertainty);
   return true;
 }
 

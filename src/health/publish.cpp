@@ -13,6 +13,9 @@ namespace {
 /// Nearer to vertical than this, toolface is noise.
 constexpr double kLeastInclination_rad = rad_from_deg(3.0);
 
+/// Part of gravity across the tool's axis. No std::hypot, whose last digit is the C library's.
+double across_tool(const Vec3& g) noexcept { return std::sqrt(g[0] * g[0] + g[1] * g[1]); }
+
 }  // namespace
 
 void HealthMonitor::publish_decision(const BlockView& view) noexcept {
@@ -56,7 +59,7 @@ void HealthMonitor::give_notice(double time_s) noexcept {
 
 std::uint16_t HealthMonitor::usable_bits() const noexcept {
   const bool vector = verdict_.validity == Validity::valid || verdict_.validity == Validity::degraded;
-  const double across = std::hypot(verdict_.gravity_mps2[0], verdict_.gravity_mps2[1]);
+  const double across = across_tool(verdict_.gravity_mps2);
   const bool toolface = across >= std::sin(kLeastInclination_rad) * norm(verdict_.gravity_mps2);
   const bool reference = verdict_.reference.kind == ReferenceKind::none && suspicion_ != Cause::reference;
   const auto when = [](bool holds, std::uint16_t which) { return holds ? static_cast<unsigned>(which) : 0U; };
@@ -160,10 +163,10 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.validity = validity();
   v.protection_available = protected_now();
   v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
-  const double sine = std::hypot(v.gravity_mps2[0], v.gravity_mps2[1]) / std::fmax(norm(v.gravity_mps2), 1e-9);
+  const double sine = across_tool(v.gravity_mps2) / std::fmax(norm(v.gravity_mps2), 1e-9);
   const bool told =
-      v.protection_available && v.protection_level_rad < 0.5 * kPi && std::sin(v.protection_level_rad) < sine;
-  v.toolface_protection_rad = told ? std::asin(std::sin(v.protection_level_rad) / sine) : kPi;
+      v.protection_available && v.protection_level_rad < 0.5 * kPi && sine_of(v.protection_level_rad) < sine;
+  v.toolface_protection_rad = told ? angle_with_sine(sine_of(v.protection_level_rad) / sine) : kPi;
   v.usable = usable_bits();
   v.alert =
       !v.protection_available || v.protection_level_rad > config_.alert_limit_rad || v.validity != Validity::valid;

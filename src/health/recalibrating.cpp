@@ -7,6 +7,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 bool HealthMonitor::may_recalibrate() const noexcept {
+  if (!kRecalibrates) return false;
   if (!configured_ || !set_aside_.empty()) return false;
   switch (mode_) {
     case Mode::nominal:
@@ -64,6 +65,7 @@ EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
 }
 
 SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
+  if (!kRecalibrates) return {};
   if ((actions & Action::start_fit) != 0) {
     base_ = mode_;
     recalibration_.start(in_service_);

@@ -22,8 +22,8 @@ constexpr int kSpareStations = 4;
 FitOptions Recalibration::options() const noexcept {
   FitOptions out;
   out.estimate_misfit = false;     // what the fit cannot explain is a reason to refuse it
-  out.require_full_rank = first_;  // in flight nothing is asked of the axes
-  if (first_) {
+  out.require_full_rank = first();  // in flight nothing is asked of the axes
+  if (first()) {
     out.max_outlier_share = 0.0;  // a station unlike the others is a tool that has changed
     out.max_bias_sigmas = kFirstSigmas;
   }
@@ -111,6 +111,7 @@ int Recalibration::stations_needed(int n) noexcept {
 }
 
 Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_s) noexcept {
+  if (!kRecalibrates) return Outcome::none;
   switch (phase_) {
     // A refusal is a level, too: an event that ranks before it must not leave a recalibration without a fit.
     case RecalibrationPhase::idle: return refusal_.code == Errc::ok ? Outcome::none : Outcome::rejected;
@@ -124,7 +125,7 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
     case RecalibrationPhase::fitting: break;
   }
   if (calibrator_.done()) return judge(in_force, time_s);
-  if (first_) {
+  if (first()) {
     iterate_first();
   } else {
     calibrator_.iterate_held(fit_stations());
@@ -141,8 +142,8 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
 
 void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,
                           bool doubted) noexcept {
-  if (phase_ != RecalibrationPhase::accepted) return;
-  if (first_) return apply_first(model, array, time_s);
+  if (!kRecalibrates || phase_ != RecalibrationPhase::accepted) return;
+  if (first()) return apply_first(model, array, time_s);
   RowUncertainty uncertainty;
   const bool known = uncertainty_after(array, gravity, uncertainty);
   if (!known) uncertainty = array.uncertainty();
@@ -155,8 +156,9 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
 }
 
 bool Recalibration::resume(const InForce& in_force) noexcept {
-  if (first_) return resume_first(in_force);
-  if (!coefficients_are_plausible(in_force.model)) return false;
+  if (first()) return resume_first(in_force);
+  if (first_ || !coefficients_are_plausible(in_force.model)) return false;
+  if (!kRecalibrates) return phase_ == RecalibrationPhase::idle && offered_sensors_ == 0;
   if (offered() && !offer_is_plausible(in_force)) return false;
   switch (phase_) {
     case RecalibrationPhase::idle:

@@ -107,11 +107,25 @@ int Recalibration::copy_stations(Stations& out) const noexcept {
   calibrator_.iterate(stations.data(), copy_stations(stations));
 }
 
-[[gnu::noinline]] Error Recalibration::check_first(const InForce& in_force) noexcept {
-  lacking_ = SensorSet{};
+/// The stations are needed until there is a fit, and no longer.
+[[gnu::noinline]] Expected<Calibration> Recalibration::finish_first() const noexcept {
   Stations stations;
   const int count = copy_stations(stations);
-  const Expected<Calibration> fit = calibrator_.finish(stations.data(), count);
+  return calibrator_.finish(stations.data(), count);
+}
+
+[[gnu::noinline]] Error Recalibration::try_first(const InForce& in_force, const Calibration& fit) const noexcept {
+  SensorModel model = in_force.model;
+  SensorArray array = in_force.array;
+  if (!install(fit, model, array)) return Error{Errc::diverged, -1};
+  const Error error = off_datasheet(in_force.model, in_force.array, model, array, sensors_);
+  if (error.code != Errc::ok) return error;
+  return check_stations({model, array, in_force.gravity, in_force.limits}, array.uncertainty());
+}
+
+[[gnu::noinline]] Error Recalibration::check_first(const InForce& in_force) noexcept {
+  lacking_ = SensorSet{};
+  const Expected<Calibration> fit = finish_first();
   if (!fit) {
     Error error = fit.error();
     const bool names_sensor = error.code == Errc::implausible || error.code == Errc::poor_fit;
@@ -122,13 +136,7 @@ int Recalibration::copy_stations(Stations& out) const noexcept {
   if (error.code != Errc::ok) return error;
   // A wrong length of gravity goes into all scales alike.
   error = plumb::judge(datasheet(in_force), in_force.gravity, *fit, HoldOut{}, OddSensor{}).error;
-  if (error.code != Errc::ok) return error;
-  SensorModel model = in_force.model;
-  SensorArray array = in_force.array;
-  if (!install(*fit, model, array)) return Error{Errc::diverged, -1};
-  error = off_datasheet(in_force.model, in_force.array, model, array, sensors_);
-  if (error.code != Errc::ok) return error;
-  return check_stations({model, array, in_force.gravity, in_force.limits}, array.uncertainty());
+  return error.code != Errc::ok ? error : try_first(in_force, *fit);
 }
 
 Recalibration::Outcome Recalibration::judge_first(const InForce& in_force) noexcept {
@@ -188,9 +196,7 @@ bool Recalibration::install(const Calibration& fit, SensorModel& model, SensorAr
 }
 
 [[gnu::noinline]] void Recalibration::apply_first(SensorModel& model, SensorArray& array, double time_s) noexcept {
-  Stations stations;
-  const int count = copy_stations(stations);
-  const Expected<Calibration> fit = calibrator_.finish(stations.data(), count);
+  const Expected<Calibration> fit = finish_first();
   first_ = !(fit && install(*fit, model, array));
   if (!first_) {
     commission(model);

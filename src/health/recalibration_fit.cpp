@@ -51,7 +51,7 @@ Recalibration::ReadingError Recalibration::reading_error(const SensorArray& arra
   const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of gravity over the sphere
   ReadingError out;
   out.noise_mps2_sq = sigma * sigma / std::fmax(samples, 1.0) + misfit * misfit;
-  out.total_mps2_sq = out.noise_mps2_sq + (first_ ? 0.0 : std::fmax(across, 0.0) * mean_square);
+  out.total_mps2_sq = out.noise_mps2_sq + (first() ? 0.0 : std::fmax(across, 0.0) * mean_square);
   return out;
 }
 
@@ -64,7 +64,7 @@ Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
     sensor.row = in_force.array.row(i);
     sensor.row.sigma_mps2 = std::sqrt(reading_error(in_force.array, in_force.gravity, i).total_mps2_sq);
     sensor.coefficients = in_force.model.sensor[at(i)];
-    sensor.prior = first_ ? prior_in(in_force.array, i) : Prior{drift_.bias_mps2, drift_.scale, 0.0, {}, {}};
+    sensor.prior = first() ? prior_in(in_force.array, i) : Prior{drift_.bias_mps2, drift_.scale, 0.0, {}, {}};
   }
   return out;
 }
@@ -98,7 +98,7 @@ bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityRe
 [[gnu::noinline]] bool Recalibration::ready(const InForce& in_force) noexcept {
   untried_ = false;
   inflation_ = 1.0;
-  if (first_) return attitudes_suffice(in_force.array);
+  if (first()) return attitudes_suffice(in_force.array);
   RowUncertainty uncertainty;
   return uncertainty_of_fit(in_force.array, in_force.gravity, uncertainty, lacking_) && lacking_.empty();
 }
@@ -265,7 +265,7 @@ Error Recalibration::check_stations(const InForce& candidate, const RowUncertain
 }
 
 Recalibration::Outcome Recalibration::judge(const InForce& in_force, double time_s) noexcept {
-  if (first_) return judge_first(in_force);
+  if (first()) return judge_first(in_force);
   Error error = offered() ? Error{} : read_fit(in_force);
   if (error.code == Errc::ok) error = check_bounds(in_force.model, time_s);
   if (error.code == Errc::ok) error = check_fit(in_force);

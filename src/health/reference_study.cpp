@@ -89,7 +89,7 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   }
   out.length_mps2 = p[0];
   out.bias_mps2 = a;
-  out.turn_rad = std::asin(std::fmin(1.0, std::sqrt(most) / g_mps2));
+  out.turn_rad = angle_with_sine(std::fmin(1.0, std::sqrt(most) / g_mps2));
   const bool one_length = low <= high;
   const bool off = low > 0.0 || high < 0.0;
   if (one_length && off && out.turn_rad <= usable_rad) {

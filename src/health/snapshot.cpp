@@ -239,7 +239,8 @@ bool HealthMonitor::mode_is_plausible() const noexcept {
     case Mode::degraded: return mode_ == mode_by_size(size_class_) && !unproven_;
     case Mode::suspect: return !rank_lost;
     case Mode::recalibrating:
-      return !rank_lost && base_ != Mode::recalibrating && base_ != Mode::initial && base_ != Mode::failed;
+      return kRecalibrates && !rank_lost && base_ != Mode::recalibrating && base_ != Mode::initial &&
+             base_ != Mode::failed;
     case Mode::initial: return !rank_lost && owes_calibration() && unproven_ && recalibration_.collects(in_service_);
     case Mode::failed: return true;
   }

@@ -256,6 +256,7 @@ class Calibrator {
                  const Matrix& normal) noexcept;
   bool step_alone(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
                   const std::array<double, kFitParameters>& rhs, const double* blocks) noexcept;
+  template <class Count>
   bool solve(const fit::Problem& problem, std::array<double, kFitParameters>& natural, fit::Sums& sums,
              const fit::Room& room) noexcept;
   /// `Count` counts the stations.
@@ -269,6 +270,7 @@ class Calibrator {
   bool advance(const fit::Problem& problem, const std::array<double, kFitParameters>& natural, const fit::Sums& sums,
                bool weights_settled, double* factor) noexcept;
 
+  Error finish_into(const Station* stations, int count, FitReport& report, Calibration& out) const noexcept;
   int screen_out(StationList& stations) const noexcept;
   Error refused_held(const StationList& stations, FitFigures& figures) const noexcept;
   Error judge_held(const StationList& stations, const fit::Fitted& fitted, FitFigures& figures) const noexcept;

@@ -42,117 +42,104 @@ std::uint64_t bits_of(T value) noexcept {
 
 }  // namespace archive_detail
 
-/// Writes into `room` bytes at `to`, and goes on counting where they are not enough; `to` may be null, to count alone.
-class ArchiveWriter {
- public:
-  ArchiveWriter(std::uint8_t* to, std::size_t room, int sensors) noexcept : to_(to), room_(room), sensors_(sensors) {}
-
-  template <class T>
-  void put(const T& value) noexcept {
-    transfer(*this, value, AnyBits{});
-  }
-  /// The low `width` bytes.
-  void put_bits(std::uint64_t bits, std::size_t width) noexcept {
-    for (std::size_t k = 0; k < width; ++k) {
-      const auto byte = static_cast<std::uint8_t>(bits >> (8 * k) & 0xFFU);
-      if (to_ != nullptr && used_ < room_) to_[used_] = byte;
-      ++used_;
-      crc_.add(byte);
-    }
-  }
-  std::size_t used() const noexcept { return used_; }
-  std::uint64_t crc() const noexcept { return crc_.value(); }  ///< of all that was put
-
-  int sensors() const noexcept { return sensors_; }
-  void fail() noexcept {}
-  template <class T>
-  void done(const T&) noexcept {}
-  template <class T, class Check>
-  void scalar(const T& value, const Check&) noexcept {
-    put_bits(archive_detail::bits_of(value), sizeof(T));
-  }
-
- private:
-  std::uint8_t* to_;
-  std::size_t room_;
-  std::size_t used_ = 0;
-  Crc64 crc_;
-  int sensors_;
+/// How a scalar is written down, and what it must be to be read back.
+struct ScalarForm {
+  enum class Kind : std::uint8_t { number, ranged, flag, set, real, any_real };
+  Kind kind = Kind::number;
+  std::uint8_t width = 0;  ///< bytes
 };
 
-/// Reads back. What breaks its rule is not stored, and nothing behind it is.
-class ArchiveReader {
+/// What both directions share: they lead over the same fields, so that the code that does is there once, and all
+/// scalars of one form go through one function.
+class Archive {
  public:
-  ArchiveReader(const std::uint8_t* from, std::size_t size, int sensors) noexcept
-      : from_(from), left_(size), sensors_(sensors) {}
-
-  template <class T>
-  void get(T& value) noexcept {
-    transfer(*this, value, ByType{});
-  }
-  std::uint64_t get_bits(std::size_t width) noexcept {
-    if (width > left_) sound_ = false;
-    if (!sound_) return 0;
-    std::uint64_t bits = 0;
-    for (std::size_t k = 0; k < width; ++k) bits |= std::uint64_t{from_[k]} << (8 * k);
-    from_ += width;
-    left_ -= width;
-    return bits;
-  }
-  bool sound() const noexcept { return sound_; }
-  std::size_t left() const noexcept { return left_; }
-
   int sensors() const noexcept { return sensors_; }
   void fail() noexcept { sound_ = false; }
   template <class T>
   void done(T& object) noexcept {
-    if (!sound_) return;
+    if (!reads_ || !sound_) return;
     FieldsOf::rebuild(object, 0);
     if (!FieldsOf::plausible(object, 0)) sound_ = false;
   }
   template <class T, class Check>
   void scalar(T& value, const Check& check) noexcept {
-    const std::uint64_t bits = get_bits(sizeof(T));
-    T read{};
-    if (sound_ && accepted(bits, check, read)) value = read;
+    constexpr ScalarForm kForm = form_of<T, Check>();
+    if constexpr (std::is_same_v<Check, Within>) {
+      one(&value, kForm, &check);
+    } else {
+      static_cast<void>(check);
+      one(&value, kForm, nullptr);
+    }
   }
+
+ protected:
+  Archive(bool reads, int sensors) noexcept : reads_(reads), sensors_(sensors) {}
+  std::uint64_t get_bits(std::size_t width) noexcept;
+  void put_bits(std::uint64_t bits, std::size_t width) noexcept;
+
+  bool reads_;
+  bool sound_ = true;
+  int sensors_;
+  const std::uint8_t* from_ = nullptr;
+  std::size_t left_ = 0;
+  std::uint8_t* to_ = nullptr;
+  std::size_t room_ = 0;
+  std::size_t used_ = 0;
+  Crc64 crc_;
 
  private:
   template <class T, class Check>
-  bool accepted(std::uint64_t bits, const Check& check, T& out) noexcept {
-    if constexpr (std::is_same_v<T, double>) {
-      std::memcpy(&out, &bits, sizeof out);
-      sound_ = std::is_same_v<Check, AnyBits> || std::isfinite(out);
-    } else if constexpr (std::is_same_v<T, float>) {
-      const auto narrow = static_cast<std::uint32_t>(bits);
-      std::memcpy(&out, &narrow, sizeof out);
-      sound_ = std::is_same_v<Check, AnyBits> || std::isfinite(out);
+  static constexpr ScalarForm form_of() noexcept {
+    using Kind = ScalarForm::Kind;
+    constexpr auto kWidth = static_cast<std::uint8_t>(sizeof(T));
+    if constexpr (std::is_floating_point_v<T>) {
+      return {std::is_same_v<Check, AnyBits> ? Kind::any_real : Kind::real, kWidth};
     } else if constexpr (std::is_same_v<T, SensorSet>) {
-      out = SensorSet(static_cast<std::uint32_t>(bits));
-      sound_ = SensorSet::first(sensors_).contains(out);
+      return {Kind::set, kWidth};
     } else if constexpr (std::is_same_v<T, bool>) {
-      sound_ = bits <= 1;
-      out = bits == 1;
-    } else if constexpr (std::is_same_v<Check, Within>) {
-      const std::int64_t number = sign_extended<T>(bits);
-      sound_ = number >= check.low && number <= check.high;
-      if (sound_) out = static_cast<T>(number);
+      return {Kind::flag, kWidth};
     } else {
-      out = static_cast<T>(bits);
+      static_assert(std::is_integral_v<T> || std::is_enum_v<T>);
+      return {std::is_same_v<Check, Within> ? Kind::ranged : Kind::number, kWidth};
     }
-    return sound_;
   }
-  template <class T>
-  static std::int64_t sign_extended(std::uint64_t bits) noexcept {
-    constexpr unsigned kUnused = 64U - 8U * sizeof(T);
-    const auto number = static_cast<std::int64_t>(bits << kUnused);
-    return number / (std::int64_t{1} << kUnused);
+  /// Reads or writes the scalar of that form at `value`; a writer leaves it alone.
+  void one(void* value, ScalarForm form, const Within* range) noexcept;
+  bool accepts(std::uint64_t bits, ScalarForm form, const Within* range) const noexcept;
+};
+
+/// Writes into `room` bytes at `to`, and goes on counting where they are not enough; `to` may be null, to count alone.
+class ArchiveWriter : private Archive {
+ public:
+  ArchiveWriter(std::uint8_t* to, std::size_t room, int sensors) noexcept : Archive(false, sensors) {
+    to_ = to;
+    room_ = room;
   }
 
-  const std::uint8_t* from_;
-  std::size_t left_;
-  int sensors_;
-  bool sound_ = true;
+  template <class T>
+  void put(const T& value) noexcept {
+    transfer<Archive>(*this, const_cast<T&>(value), AnyBits{});  // NOLINT(*-const-cast): a writer leaves it alone
+  }
+  using Archive::put_bits;  ///< the low `width` bytes
+  std::size_t used() const noexcept { return used_; }
+  std::uint64_t crc() const noexcept { return crc_.value(); }  ///< of all that was put
+};
+
+/// Reads back. What breaks its rule is not stored, and nothing behind it is.
+class ArchiveReader : private Archive {
+ public:
+  ArchiveReader(const std::uint8_t* from, std::size_t size, int sensors) noexcept : Archive(true, sensors) {
+    from_ = from;
+    left_ = size;
+  }
+
+  template <class T>
+  void get(T& value) noexcept {
+    transfer<Archive>(*this, value, ByType{});
+  }
+  using Archive::get_bits;
+  bool sound() const noexcept { return sound_; }
+  std::size_t left() const noexcept { return left_; }
 };
 
 }  // namespace PLUMB_ABI

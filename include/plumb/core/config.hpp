@@ -1,7 +1,8 @@
 /// Build-wide settings of plumb. Every public header of floors 1 to 4 includes this one.
 ///
 /// The number of sensors that fit (the *capacity*) is part of every type: it selects an inline
-/// namespace, so that objects of two capacities can never be mixed: a mismatch fails to link.
+/// namespace, so that objects of two capacities can never be mixed: a mismatch fails to link. So is what a build
+/// leaves out to spare an instrument's memory (docs/embedding.md).
 #pragma once
 
 #ifndef PLUMB_CAPACITY
@@ -12,16 +13,26 @@
 #error "plumb refuses -ffast-math: it removes the NaN checks that keep a broken channel out of a sum"
 #endif
 
-#if PLUMB_CAPACITY == 4
-#define PLUMB_ABI cap4
-#elif PLUMB_CAPACITY == 8
-#define PLUMB_ABI cap8
-#elif PLUMB_CAPACITY == 16
-#define PLUMB_ABI cap16
-#elif PLUMB_CAPACITY == 24
-#define PLUMB_ABI cap24
-#else
+#ifndef PLUMB_RECALIBRATION
+#define PLUMB_RECALIBRATION 1
+#endif
+#ifndef PLUMB_FIRST_CALIBRATION
+#define PLUMB_FIRST_CALIBRATION PLUMB_RECALIBRATION
+#endif
+
+#if PLUMB_CAPACITY != 4 && PLUMB_CAPACITY != 8 && PLUMB_CAPACITY != 16 && PLUMB_CAPACITY != 24
 #error "PLUMB_CAPACITY is 4, 8, 16 or 24"
+#endif
+#define PLUMB_JOIN_(a, b, c) a##b##c
+#define PLUMB_JOIN(a, b, c) PLUMB_JOIN_(a, b, c)
+#if PLUMB_FIRST_CALIBRATION && !PLUMB_RECALIBRATION
+#error "a monitor that makes its first calibration recalibrates too: PLUMB_FIRST_CALIBRATION=0"
+#elif PLUMB_FIRST_CALIBRATION
+#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, )
+#elif PLUMB_RECALIBRATION
+#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _held)
+#else
+#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _fixed)
 #endif
 
 namespace plumb {
@@ -29,6 +40,10 @@ inline namespace PLUMB_ABI {
 
 /// Largest number of sensors of one array.
 inline constexpr int kCapacity = PLUMB_CAPACITY;
+
+/// Whether a monitor estimates biases and scales anew in service, and whether it can make its very first calibration.
+inline constexpr bool kRecalibrates = PLUMB_RECALIBRATION != 0;
+inline constexpr bool kCalibratesItself = PLUMB_FIRST_CALIBRATION != 0;
 
 /// Largest number of sensors for which the strict isolation grade is decided (design, section 2).
 inline constexpr int kStrictCapacity = kCapacity < 16 ? kCapacity : 16;

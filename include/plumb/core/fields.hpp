@@ -92,6 +92,16 @@ template <class C, class M>
 constexpr auto not_stored(M C::*member) noexcept {
   return Field<C, M, ByType, NotStored>{member, {}, {}};
 }
+/// The field as it is, or not stored: for what only some builds keep.
+template <bool kStored, class F>
+constexpr auto stored_if(F field) noexcept {
+  const auto made = field_detail::as_field(field);
+  if constexpr (kStored) {
+    return made;
+  } else {
+    return not_stored(made.member);
+  }
+}
 template <class F>
 constexpr auto leading(F field, int (*count)(int sensors) noexcept) noexcept {
   return field_detail::extended(field_detail::as_field(field), Leading{count});
@@ -232,22 +242,45 @@ void transfer_some(Archive& archive, T& array, const Check& check, int count) no
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) transfer(archive, array[k], check);
 }
 
-template <class Archive, class T, class F>
-void transfer_field(Archive& archive, T& object, const F& field) noexcept {
-  using Extent = decltype(F::extent);
-  // The analyser does not follow a value into a base class that a pack expands to.
-  auto& member = object.*(field.member);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult)
+/// The list of a class as a constant: nobody builds it at run time, whatever the compiler optimises for.
+template <class T>
+inline constexpr auto kListOf = FieldsOf::list<T>();
+
+template <std::size_t I, class F>
+constexpr const F& field_at(const FieldSlot<I, F>& slot) noexcept {
+  return slot.field;
+}
+
+/// Field I of a class. All of it is known here: what is left at run time is the address of the member.
+template <class T, std::size_t I>
+struct Listed {
+  static constexpr auto kField = field_at<I>(kListOf<T>);
+  static constexpr auto kCheck = kField.check;
+};
+
+template <std::size_t I, class Archive, class T>
+void transfer_field(Archive& archive, T& object) noexcept {
+  using Object = std::remove_const_t<T>;
+  using ThisField = Listed<Object, I>;
+  constexpr auto kField = ThisField::kField;
+  using Extent = decltype(kField.extent);
+  auto& member = object.*(kField.member);
   if constexpr (std::is_same_v<Extent, Whole>) {
-    transfer(archive, member, field.check);
+    transfer(archive, member, ThisField::kCheck);
   } else if constexpr (std::is_same_v<Extent, Leading>) {
-    transfer_some(archive, member, field.check, field.extent.count(archive.sensors()));
-  } else if constexpr (std::is_same_v<Extent, Counted<typename F::Class>>) {
-    transfer_some(archive, member, field.check, (object.*(field.extent.count))());
-  } else if constexpr (std::is_same_v<Extent, OnlyWhen<typename F::Class>>) {
-    if ((object.*(field.extent.holds))()) transfer(archive, member, field.check);
+    transfer_some(archive, member, ThisField::kCheck, kField.extent.count(archive.sensors()));
+  } else if constexpr (std::is_same_v<Extent, Counted<Object>>) {
+    transfer_some(archive, member, ThisField::kCheck, (object.*(kField.extent.count))());
+  } else if constexpr (std::is_same_v<Extent, OnlyWhen<Object>>) {
+    if ((object.*(kField.extent.holds))()) transfer(archive, member, ThisField::kCheck);
   } else {
     static_assert(std::is_same_v<Extent, NotStored>);
   }
+}
+
+template <class Archive, class T, std::size_t... I, class... F>
+void transfer_all(Archive& archive, T& object, const FieldList<std::index_sequence<I...>, F...>*) noexcept {
+  (transfer_field<I>(archive, object), ...);
 }
 
 }  // namespace field_detail
@@ -256,8 +289,8 @@ template <class Archive, class T, class Check>
 void transfer(Archive& archive, T& object, const Check& check) noexcept {
   using Object = std::remove_const_t<T>;
   if constexpr (kHasFields<Object>) {
-    FieldsOf::list<Object>().each(
-        [&archive, &object](const auto& field) { field_detail::transfer_field(archive, object, field); });
+    constexpr field_detail::ListOf<Object>* kList = nullptr;
+    field_detail::transfer_all(archive, object, kList);
     archive.done(object);
   } else if constexpr (kIsArray<Object>) {
     for (auto& element : object) transfer(archive, element, check);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "plumb/core/angles.hpp"
 #include "plumb/core/config.hpp"
 
 namespace plumb {
@@ -43,9 +44,9 @@ constexpr Mat3 turned_covariance(const Mat3& f, const Mat3& c) noexcept {
   }
   return out;
 }
-/// Angle between two vectors in rad, by atan2: exact near 0 and pi, where acos is not.
+/// Angle between two vectors in rad, from sine and cosine: exact near 0 and pi, where acos is not.
 inline double angle_between_rad(const Vec3& a, const Vec3& b) noexcept {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
+  return angle_of(norm(cross(a, b)), dot(a, b));
 }
 
 }  // namespace PLUMB_ABI

@@ -82,7 +82,8 @@ class HealthMonitor {
   /// Checks the setup and powers on: suspect, unproven; recalibrating, qualifier initial_calibration, where the setup
   /// has no calibration: output is invalid until the monitor has accepted its own. On an error the monitor is left
   /// unconfigured and every step answers `invalid`. Errors: wrong_mode (paper); those of `checked(config)`;
-  /// too_few_sensors; not_calibrated (misalignment terms left in the model, or its size is not the array's);
+  /// too_few_sensors; not_calibrated (misalignment terms left in the model, or its size is not the array's, or a setup
+  /// without a calibration for a build without `kCalibratesItself`);
   /// range_too_small (index = sensor) where a full scale does not reach gravity plus
   /// kFullScaleMargin beside the bias (value = reach, limit = needed [m/s^2]).
   Expected<void> configure(const MonitorSetup& setup) noexcept;
@@ -111,7 +112,8 @@ class HealthMonitor {
 
   /// Asks for new biases and scales of the sensors in service (design, section 5): taken at the next step. Error:
   /// wrong_state (value = HealthState) unless the monitor is nominal, isolated or degraded with no alarm on record, or
-  /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare.
+  /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare; always in
+  /// a build without `kRecalibrates`.
   Expected<void> request_recalibration() noexcept;
 
   /// Offers a calibration made elsewhere, both parts of it, over all configured sensors. Biases and scales of the
@@ -218,7 +220,7 @@ class HealthMonitor {
   void adopt() noexcept;
   void follow_first_calibration(Mode from) noexcept;
   void take_span(const StationStore& store) noexcept;
-  bool owes_calibration() const noexcept { return calibrated_.empty(); }
+  bool owes_calibration() const noexcept { return kCalibratesItself && calibrated_.empty(); }
   void follow_suspicion(HealthEvent event, Mode from) noexcept;
   Mode published_mode() const noexcept { return mode_ == Mode::recalibrating ? base_ : mode_; }
 

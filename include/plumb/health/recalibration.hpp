@@ -83,7 +83,7 @@ class Recalibration {
                        double time_s) noexcept;
   /// An offer that has not been started lapses; `last_refusal` is then wrong_state.
   void withdraw_offer() noexcept;
-  bool offered() const noexcept { return offered_sensors_ > 0; }  ///< waiting or on trial
+  bool offered() const noexcept { return kRecalibrates && offered_sensors_ > 0; }  ///< waiting or on trial
 
   // ---- The fit
   void start(SensorSet sensors) noexcept;
@@ -100,7 +100,7 @@ class Recalibration {
              bool doubted) noexcept;
 
   SensorSet sensors() const noexcept { return sensors_; }
-  bool first() const noexcept { return first_; }      ///< no calibration has been accepted yet
+  bool first() const noexcept { return kCalibratesItself && first_; }  ///< no calibration has been accepted yet
   bool adopted() const noexcept { return adopted_; }  ///< a fit in flight, since the commissioning calibration
   bool collects(SensorSet sensors) const noexcept { return phase_ != RecalibrationPhase::idle && sensors_ == sensors; }
   /// A model with the coefficients of the commissioning calibration, temperature terms left alone.
@@ -142,13 +142,15 @@ class Recalibration {
   bool is_proof(int station) const noexcept { return offered() || StationStore::held_out(station); }
   int stations_due() const noexcept {
     if (offered()) return kOfferStations;
-    return first_ ? first_stations_needed(sensors_.size()) : stations_needed(sensors_.size());
+    return first() ? first_stations_needed(sensors_.size()) : stations_needed(sensors_.size());
   }
   FitOptions options() const noexcept;
   void commission(const SensorModel& model) noexcept;
   bool attitudes_suffice(const SensorArray& array) noexcept;
   Outcome judge_first(const InForce& in_force) noexcept;
   Error check_first(const InForce& in_force) noexcept;
+  Expected<Calibration> finish_first() const noexcept;
+  Error try_first(const InForce& in_force, const Calibration& fit) const noexcept;
   Error check_figures(const FitReport& report) noexcept;
   bool install(const Calibration& fit, SensorModel& model, SensorArray& array) const noexcept;
   void apply_first(SensorModel& model, SensorArray& array, double time_s) noexcept;
@@ -196,7 +198,7 @@ class Recalibration {
 
   friend struct FieldsOf;
   bool fitting() const noexcept { return phase_ == RecalibrationPhase::fitting; }
-  bool keeps_fit() const noexcept { return fitting() || (first_ && phase_ == RecalibrationPhase::accepted); }
+  bool keeps_fit() const noexcept { return fitting() || (first() && phase_ == RecalibrationPhase::accepted); }
   int offer_size() const noexcept { return offered_sensors_ * (2 * offered_sensors_ + 1); }
   static constexpr auto fields() noexcept {
     using R = Recalibration;
@@ -205,7 +207,8 @@ class Recalibration {
                       per_sensor(any(&R::shift_mps2_)), any(&R::inflation_), &R::adopted_s_, &R::adopted_, &R::untried_,
                       &R::first_, up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_,
                       &R::iterations_, &R::refusal_, within(&R::offered_sensors_, 0, kCapacity), any(&R::offered_s_),
-                      counted(any(&R::offered_covariance_), &R::offer_size), only_when(&R::calibrator_, &R::keeps_fit));
+                      counted(any(&R::offered_covariance_), &R::offer_size),
+                      stored_if<kRecalibrates>(only_when(&R::calibrator_, &R::keeps_fit)));
   }
 };
 
