@@ -50,7 +50,7 @@ void limits_tables(const Json& array, Section& out) {
   ViewRows worst, levels, triples;
   for (const Json& row : array["worst_case"])
     worst.push_back(
-        {shown(row["faulty"]), shown(row["detected_e"]), shown(row["told_apart_e"]), shown(row["vector_error_e"])});
+        {shown(row["faults"]), shown(row["detected_e"]), shown(row["told_apart_e"]), shown(row["vector_error_e"])});
   if (!worst.empty())
     out.table("Worst case, in errors e of a healthy reading",
               {"faulty sensors", "detected above", "told apart above", "vector off at most"}, worst,
