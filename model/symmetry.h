@@ -7,9 +7,8 @@
 
 extern int readtrail; /* of pan.c: a trail is being replayed */
 
-#define PLUMB_MASKS(use)                                                                                         \
-  use(serving) use(aside) use(out) use(absent) use(readmitted) use(ever) use(accused) use(probation) \
-      use(broken)
+#define PLUMB_MASKS(use) \
+  use(serving) use(aside) use(out) use(absent) use(readmitted) use(ever) use(accused) use(probation) use(broken)
 
 static int plumb_order[8];
 static int plumb_names[8] = {1, 2, 3, 4, 5, 6, 7, 8};
