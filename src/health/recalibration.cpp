@@ -21,7 +21,7 @@ constexpr int kSpareStations = 4;
 
 FitOptions Recalibration::options() const noexcept {
   FitOptions out;
-  out.estimate_misfit = false;     // what the fit cannot explain is a reason to refuse it
+  out.estimate_misfit = false;      // what the fit cannot explain is a reason to refuse it
   out.require_full_rank = first();  // in flight nothing is asked of the axes
   if (first()) {
     out.max_outlier_share = 0.0;  // a station unlike the others is a tool that has changed
