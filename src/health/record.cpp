@@ -141,6 +141,7 @@ SensorSet HealthMonitor::culprits() const noexcept {
   const int survivors = (posed - episode_.candidate).size();
   int needed = config_.isolation_stations;
   if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
+  if (noisy_.contains(episode_.candidate) && needed < 2) needed = 2;  // at one station its scatter may be a push
   return episode_.agreeing.size() >= needed ? episode_.candidate : SensorSet{};
 }
 

@@ -280,6 +280,29 @@ TEST(Attack, AmongFourOneThatScattersAtEveryStationIsConvicted) {
   }
 }
 
+/// Where four survive, one station is enough if it is configured so; but not for who is accused by its scatter alone
+/// (`plumb_monitor_attacks --seed 6 --episode 116526`).
+// Negative: REQ-143
+TEST(Attack, OneStationOfScatterConvictsNobody) {
+  const double h = std::sqrt(0.5), t = std::sqrt(1.0 / 3.0);
+  AxisList axes{};
+  const Vec3 rows[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {h, h, 0}, {t, t, t}};
+  std::copy(std::begin(rows), std::end(rows), axes.begin());
+  MonitorConfig config;
+  config.isolation_stations = 1;
+  if (kCapacity < 5) GTEST_SKIP() << "five sensors";
+  Rig rig(plumb_test::make_array(axes, 5, 2e-4 * kG0_mps2), config);
+  ASSERT_EQ(parity_grade(rig.setup.array, rig.setup.array.all()), 0);
+  rig.prove();
+  Noise noise(5);
+  rig.distort = [&](int i, double r, int) { return i == 2 ? r + 0.02 * kG0_mps2 * noise.normal() : r; };
+  rig.stay(plumb_test::random_direction(noise));
+  EXPECT_TRUE(rig.ever_blamed.empty());
+  rig.stay(plumb_test::random_direction(noise));
+  rig.stay(plumb_test::random_direction(noise));
+  EXPECT_EQ(rig.ever_blamed, SensorSet::of(2));
+}
+
 /// Three lie among six, one more than parity bears: two of them agree with the healthy two of a chance set, so that a
 /// healthy sensor is set aside, serves again while they rest, and is set aside a second time. The conviction of the
 /// three acquits it (`plumb_monitor_attacks --seed 5 --episode 58827`).
