@@ -114,7 +114,7 @@ void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_
 bool CombinationMae::replace_four(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept {
   const auto k = static_cast<size_t>(first);
   const size_t slot = row(head_) + k;
-  const FourInts old = load<FourInts>(&ring_[slot]);
+  const auto old = load<FourInts>(&ring_[slot]);
   if ((old[0] | old[1] | old[2] | old[3]) < 0) return false;
   const TwoInts low = errors_of(array, y_mps2, first, g_mps2), high = errors_of(array, y_mps2, first + 2, g_mps2);
   const FourInts now = __builtin_shufflevector(low, high, 0, 1, 2, 3);

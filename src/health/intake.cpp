@@ -1,7 +1,6 @@
 #include "plumb/health/intake.hpp"
 
 #include <cmath>
-#include <cstring>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -27,8 +26,9 @@ Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
 }
 
 void CoefficientsAt::take(const SensorModel& model, double temperature_degc) noexcept {
-  // Bit for bit: 0 and -0 are not the same argument of a cubic.
-  if (std::memcmp(&temperature_degc, &temperature_degc_, sizeof temperature_degc) == 0) return;
+  // With its sign: 0 and -0 are not the same argument of a cubic.
+  if (temperature_degc == temperature_degc_ && std::signbit(temperature_degc) == std::signbit(temperature_degc_))
+    return;
   for (int i = 0; i < model.size; ++i) {
     scale_[static_cast<size_t>(i)] = model.scale_at(i, temperature_degc);
     bias_mps2_[static_cast<size_t>(i)] = model.bias_at(i, temperature_degc);

@@ -13,6 +13,7 @@
 #error "plumb refuses -ffast-math: it removes the NaN checks that keep a broken channel out of a sum"
 #endif
 
+// NOLINTBEGIN(cppcoreguidelines-macro-usage): the preprocessor decides by them, and a namespace is named by them
 #ifndef PLUMB_RECALIBRATION
 #define PLUMB_RECALIBRATION 1
 #endif
@@ -34,6 +35,7 @@
 #else
 #define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _fixed)
 #endif
+// NOLINTEND(cppcoreguidelines-macro-usage)
 
 namespace plumb {
 inline namespace PLUMB_ABI {
