@@ -27,7 +27,10 @@ function(plumb_test_executable name)
   endforeach()
   target_link_libraries(${name} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest GTest::gtest_main)
   if(PLUMB_PRECOMPILED_HEADERS)
-    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h> <Eigen/Dense>)
+    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h>)
+    if(arg_LIBRARIES)  # of plumb: they bring Eigen
+      target_precompile_headers(${name} PRIVATE <Eigen/Dense>)
+    endif()
     target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
   endif()
   gtest_discover_tests(${name}
