@@ -52,10 +52,10 @@ struct IsolationAnswer {
 struct FaultSetScan {
   std::array<std::uint8_t, kCapacity> fewest_faults{};  ///< s_i, 255 = none found
   SensorSet suspects;                                   ///< union of the live fault sets of least size
-  SensorSet asserted;           ///< intersection of the live fault sets of at most `asserted_faults` members
-  int least = 255;              ///< size of the smallest live fault set
-  double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members
+  SensorSet asserted;  ///< intersection of the live fault sets of at most `asserted_faults` members
+  int least = 255;     ///< size of the smallest live fault set
   bool protection_available = false;
+  double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members
 
   bool plausible() const noexcept { return protection_rad >= 0.0; }
   static constexpr auto fields() noexcept {

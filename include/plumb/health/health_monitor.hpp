@@ -255,7 +255,6 @@ class HealthMonitor {
   double k_integrity_ = 0.0;
   int protection_faults_ = 1;
   int asserted_left_ = -1;
-  bool configured_ = false;
   std::uint64_t identity_ = 0;  ///< of the setup, gravity left out
 
   // What is remembered.
@@ -268,6 +267,7 @@ class HealthMonitor {
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
+  bool configured_ = false;  ///< not remembered, but here is room for it
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   SampleClock clock_;
   SilenceCounter silence_;

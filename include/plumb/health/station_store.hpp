@@ -26,8 +26,8 @@ class RawBlock {
  private:
   std::array<double, kCapacity> sum_{};
   SensorSet complete_;
-  double temperature_sum_ = 0.0;
   int size_ = 0;
+  double temperature_sum_ = 0.0;
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
