@@ -60,8 +60,8 @@ struct FaultSetScan {
   bool plausible() const noexcept { return protection_rad >= 0.0; }
   static constexpr auto fields() noexcept {
     using S = FaultSetScan;
-    return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255), &S::protection_rad,
-                      &S::protection_available);
+    return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255),
+                      &S::protection_available, &S::protection_rad);
   }
 };
 

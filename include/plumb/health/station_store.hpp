@@ -32,8 +32,8 @@ class RawBlock {
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using B = RawBlock;
-    return field_list(per_sensor(any(&B::sum_)), &B::complete_, any(&B::temperature_sum_),
-                      within(&B::size_, 0, kWindowCapacity));
+    return field_list(per_sensor(any(&B::sum_)), &B::complete_, within(&B::size_, 0, kWindowCapacity),
+                      any(&B::temperature_sum_));
   }
 };
 
