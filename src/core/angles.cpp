@@ -75,7 +75,8 @@ double sine_near_zero(double x) noexcept { return x + x * series(kSine, x * x); 
 
 double angle_of(double y, double x) noexcept {
   const double across = std::fabs(x);
-  if (!(y > 0.0) && y == y && !(across > 0.0) && x == x) return 0.0;
+  if (std::isnan(y) || std::isnan(x)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(y > 0.0) && !(across > 0.0)) return 0.0;
   const double near = y > across ? 0.5 * kPi - (acute(across, y) - kHalfPiLow) : acute(y, across);
   return x < 0.0 ? kPi - (near - kPiLow) : near;
 }

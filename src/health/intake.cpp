@@ -45,7 +45,9 @@ Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sampl
     if (!gate.usable.has(i)) continue;
     const auto a = static_cast<size_t>(i);
     // A cubic scale factor may pass through zero far from its calibrated span: what comes of it is not finite.
-    const double v = sign * (sample.raw[a] / kept.scale(a) - kept.bias_mps2(a));
+    const double scale = kept.scale(a);
+    const double v =
+        scale == 0.0 ? std::numeric_limits<double>::quiet_NaN() : sign * (sample.raw[a] / scale - kept.bias_mps2(a));
     const double size = std::fabs(v);
     if (size <= kReadingClamp_mps2) {  // a NaN is not
       y[a] = v;
