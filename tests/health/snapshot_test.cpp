@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -292,6 +293,24 @@ TEST(Snapshot, AScaleFactorThatNobodyFittedIsRefused) {
   bytes[kSnapshotHeaderSize + 5] = 1;
   seal(bytes);
   expect_refused(tool, bytes, Errc::snapshot_implausible);
+}
+
+/// A published variance below zero, with a check sum that is right: found by the fuzzer of `fuzz/snapshot_restore.cpp`.
+// Negative: REQ-163
+TEST(Snapshot, AVarianceBelowZeroIsRefused) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const double variance = rig.monitor.verdict().covariance[4];
+  ASSERT_GT(variance, 0.0);
+  Bytes bytes = snapshot_of(rig.monitor);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(&variance);
+  const auto at = std::search(bytes.begin(), bytes.end(), first, first + sizeof variance);
+  ASSERT_NE(at, bytes.end());
+  at[7] = static_cast<std::uint8_t>(at[7] ^ 0x80U);  // little-endian: its sign
+  plumb_test::seal(bytes);
+  const Expected<void> taken = rig.monitor.restore(rig.setup, bytes.data(), bytes.size());
+  ASSERT_FALSE(taken.has_value());
+  EXPECT_EQ(taken.error().code, Errc::snapshot_implausible);
 }
 
 // Serves: REQ-163
