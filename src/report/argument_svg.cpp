@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "markup.hpp"
 #include "plumb/report/verification_exports.hpp"
 
 namespace plumb {
@@ -12,12 +13,6 @@ namespace report {
 namespace {
 
 constexpr double kWidth = 205.0, kHeight = 66.0, kStepX = 225.0;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return out;
-}
 
 /// Up to four lines of about so many letters; longer text ends in dots.
 std::string lines_at(double x, double y, const std::string& text, std::size_t letters = 30) {
@@ -39,7 +34,7 @@ std::string lines_at(double x, double y, const std::string& text, std::size_t le
   std::string out;
   double at = y - 7.5 * static_cast<double>(lines.size() - 1) + 4.0;
   for (const std::string& line : lines) {
-    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x, at, escaped(line));
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x, at, in_markup(line));
     at += 15.0;
   }
   return out;

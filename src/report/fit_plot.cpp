@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chart.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
@@ -30,12 +31,7 @@ constexpr std::size_t kFewCosts = 8;
 constexpr const char* kColours =
     "found = '#2f78b7'\nheld = '#c98a00'\nodd = '#c53a3a'\nprior = '#8a8a8a'\nnext = '#2c8f57'\n";
 
-std::string terminal(const char* name, int width, int height) {
-  return fmt::format(
-      "\nreset\nset terminal svg size {},{} dynamic font 'sans-serif,15' linewidth 1.2\nset output '{}'\n"
-      "set datafile separator ','\nset border lw 0.7\nset tics scale 0.6 font ',13'\n{}",
-      width, height, name, kColours);
-}
+std::string terminal(const char* name, int width, int height) { return chart_head(name, width, height) + kColours; }
 
 /// An id as one word that neither CSV nor gnuplot takes apart.
 std::string word(std::string id) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "chart.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
@@ -9,13 +11,6 @@ namespace {
 
 constexpr const char* kMap = "geometry-attitudes.svg";
 constexpr const char* kProtection = "geometry-protection.svg";
-
-std::string terminal(const char* name, int width, int height) {
-  return fmt::format(
-      "\nreset\nset terminal svg size {},{} dynamic font 'sans-serif,15' linewidth 1.2\nset output '{}'\n"
-      "set datafile separator ','\nset border lw 0.7\nset tics scale 0.6 font ',13'\n",
-      width, height, name);
-}
 
 /// A name inside single quotes.
 std::string quoted(std::string text) {
@@ -27,7 +22,7 @@ std::string quoted(std::string text) {
 
 /// Two maps, one above the other.
 std::string map_script(const GeometryPictures& p) {
-  std::string out = terminal(kMap, 1000, 900);
+  std::string out = chart_head(kMap, 1000, 900);
   // A pixel reaches half a step beyond its attitude. Both ends of the palette are readable on either background.
   const double half = p.map.size() > 1 ? 0.5 * (p.map[1].toolface_deg - p.map[0].toolface_deg) : 0.0;
   out += fmt::format(
@@ -51,7 +46,7 @@ std::string map_script(const GeometryPictures& p) {
 }
 
 std::string protection_script(const GeometryPictures& p) {
-  return terminal(kProtection, 800, 500) +
+  return chart_head(kProtection, 800, 500) +
          fmt::format(
              "set tmargin 3\nset logscale xy\nset grid lw 0.4 lc rgb '#999999'\nset xlabel 'noise of one sample, 1 "
              "sigma, mg0'\n"

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "html_view.hpp"
+#include "markup.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/plot.hpp"
 
@@ -17,20 +18,6 @@ namespace {
 struct Point {
   double x = 0.0, y = 0.0;
 };
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '&': out += "&amp;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
-    }
-  }
-  return out;
-}
 
 /// Seen from azimuth 30 deg, 25 deg above the xy plane, z downwards.
 Point seen(double x, double y, double z) {
@@ -45,7 +32,7 @@ std::string line(Point a, Point b, const std::string& style) {
 }
 
 std::string text_at(Point p, const std::string& text, const std::string& style) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", p.x, p.y, style, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", p.x, p.y, style, in_markup(text));
 }
 
 constexpr std::array<const char*, 6> kColours = {"#2f78b7", "#d0553c", "#2c8f57", "#b97a00", "#8f55c4", "#1f8a99"};

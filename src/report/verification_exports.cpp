@@ -4,25 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "markup.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
 namespace {
-
-/// Text between tags and inside attributes; what XML cannot hold becomes a blank.
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '&': out += "&amp;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 struct Suite {
   std::string name, cases;
@@ -31,22 +18,22 @@ struct Suite {
   void add(const std::string& test, const std::string& result, const std::string& why,
            const std::string& requirement = "") {
     ++tests;
-    cases += "    <testcase classname=\"" + xml(name) + "\" name=\"" + xml(test) + "\">";
+    cases += "    <testcase classname=\"" + in_markup(name) + "\" name=\"" + in_markup(test) + "\">";
     if (!requirement.empty())
-      cases += "<properties><property name=\"requirement\" value=\"" + xml(requirement) + "\"/></properties>";
+      cases += "<properties><property name=\"requirement\" value=\"" + in_markup(requirement) + "\"/></properties>";
     if (result == "not met" || result == "failed") {
       ++failures;
-      cases += "<failure message=\"" + xml(why) + "\"/>";
+      cases += "<failure message=\"" + in_markup(why) + "\"/>";
     } else if (result != "met" && result != "verified") {
       ++skipped;
-      cases += "<skipped message=\"" + xml(why) + "\"/>";
+      cases += "<skipped message=\"" + in_markup(why) + "\"/>";
     }
     cases += "</testcase>\n";
   }
 
   std::string text() const {
     return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n",
-                       xml(name), tests, failures, skipped, cases);
+                       in_markup(name), tests, failures, skipped, cases);
   }
 };
 
@@ -74,7 +61,7 @@ std::string junit_xml(const Json& report) {
   return fmt::format(
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"plumb verify {}\" tests=\"{}\" "
              "failures=\"{}\">\n",
-             xml(report["subject"]["name"]), limits.tests + requirements.tests,
+             in_markup(report["subject"]["name"]), limits.tests + requirements.tests,
              limits.failures + requirements.failures) +
          limits.text() + requirements.text() + "</testsuites>\n";
 }

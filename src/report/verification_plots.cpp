@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "chart.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/geometry_plot.hpp"
 #include "plumb/report/verification_page.hpp"
@@ -17,11 +18,7 @@ constexpr const char* kBlue = "#2f78b7";
 constexpr const char* kRed = "#d0553c";
 
 std::string terminal(const char* name, int width, int height) {
-  return fmt::format(
-      "\nreset\nset terminal svg size {},{} dynamic font 'sans-serif,15' linewidth 1.2\nset output '{}'\n"
-      "set datafile separator ','\nset border lw 0.7\nset tics scale 0.6 font ',13'\nset grid lw 0.4 lc rgb "
-      "'#999999'\n",
-      width, height, name);
+  return chart_head(name, width, height) + "set grid lw 0.4 lc rgb '#999999'\n";
 }
 
 /// The figures of the array as the pictures of a geometry want them.

@@ -1,0 +1,29 @@
+/// Text inside XML, SVG and HTML that is not made by a template (private to src/report).
+#pragma once
+
+#include <string>
+
+#include "plumb/core/config.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+
+/// Text between tags and inside attributes; what XML cannot hold becomes a blank.
+inline std::string in_markup(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '&': out += "&amp;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb
