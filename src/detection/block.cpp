@@ -177,6 +177,13 @@ bool BlockAccumulator::plausible() const noexcept {
   for (int i = 0; i < kCapacity; ++i) {
     const int present = present_[static_cast<size_t>(i)];
     if (present > size_ || (present > 0) != usable_.has(i)) return false;
+    // What readings that are held at the clamp can have added up to: no mean and no covariance of them overflows.
+    const double most = 2.0 * kReadingClamp_mps2;
+    if (!(std::fabs(origin_[static_cast<size_t>(i)]) <= kReadingClamp_mps2)) return false;
+    if (!(std::fabs(sum_[static_cast<size_t>(i)]) <= most * present)) return false;
+    for (int j = 0; j <= i; ++j) {
+      if (!(std::fabs(product_[packed(i, j)]) <= most * most * size_)) return false;
+    }
   }
   // Every sample adds between 2^-32 and 1.
   return size_ == 0 ? inverse_count_ == 0.0 : inverse_count_ > 0.0 && inverse_count_ <= size_;

@@ -9,14 +9,11 @@
 
 #include "plumb/calibration/sensor_model.hpp"
 #include "plumb/detection/channel_monitor.hpp"
+#include "plumb/detection/stationarity.hpp"
 #include "plumb/health/monitor_config.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-
-/// Readings beyond this are held at it: large enough that nothing believes them, small enough that no square or sum of
-/// them overflows.
-inline constexpr double kReadingClamp_mps2 = 1e5;
 
 /// How a sample's time stands to the one before.
 enum class Arrival : std::uint8_t {
