@@ -313,6 +313,35 @@ TEST(Snapshot, AVarianceBelowZeroIsRefused) {
   EXPECT_EQ(taken.error().code, Errc::snapshot_implausible);
 }
 
+/// What a block has added up, beyond anything that readings can add up to, with a check sum that is right: its
+/// covariance overflowed into a verdict that was usable and not finite. Found by the same fuzzer.
+// Negative: REQ-163
+TEST(Snapshot, ASumThatNoReadingsMakeIsRefused) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const Sample first_of_block = rig.sample(direction_at(20, 10), kG0_mps2);
+  rig.step(first_of_block);
+  rig.step(rig.sample(direction_at(20, 10), kG0_mps2));
+  const Bytes good = snapshot_of(rig.monitor);
+  // The origins of four sensors, then their sums, then the six and four sums of products.
+  const auto* origin = reinterpret_cast<const std::uint8_t*>(first_of_block.raw.data());
+  constexpr std::ptrdiff_t kOrigins = 4 * sizeof(double);
+  const auto at = std::search(good.begin(), good.end(), origin, origin + kOrigins) - good.begin();
+  ASSERT_LT(at + 18 * 8, static_cast<std::ptrdiff_t>(good.size()));
+  EXPECT_TRUE(rig.monitor.restore(rig.setup, good.data(), good.size()).has_value());
+  for (const std::ptrdiff_t place : {0, 3, 4, 7, 8, 17}) {
+    for (const double absurd : {1e200, -1e200, std::numeric_limits<double>::quiet_NaN()}) {
+      Bytes bytes = good;
+      const auto* value = reinterpret_cast<const std::uint8_t*>(&absurd);
+      std::copy(value, value + sizeof absurd, bytes.begin() + at + 8 * place);
+      seal(bytes);
+      const Expected<void> taken = rig.monitor.restore(rig.setup, bytes.data(), bytes.size());
+      ASSERT_FALSE(taken.has_value()) << "double " << place << " = " << absurd;
+      EXPECT_EQ(taken.error().code, Errc::snapshot_implausible);
+    }
+  }
+}
+
 // Serves: REQ-163
 TEST(Snapshot, NeedsAConfiguredMonitorAndRoom) {
   HealthMonitor none;
