@@ -224,6 +224,13 @@ double common_bias_visibility(const SensorArray& array) noexcept {
 }  // namespace
 
 int rank_of(const SensorArray& array, SensorSet used) noexcept {
+  // A triple that votes settles it without singular values: the squares of its three add up to 3, so the smallest is at
+  // least |det| / 1.5, far above the tolerance, and a further row never lowers it.
+  static_assert(kMinTripleDet / 1.5 > 1e3 * array_detail::kRankTolerance, "a margin that rounding does not reach");
+  for (int k = 0; k < array.triple_count(); ++k) {
+    const Triple& t = array.triple(k);
+    if (t.votes && used.contains(t.set())) return 3;
+  }
   const Vec3 s = singular_values_of(array, used);
   int rank = 0;
   for (const double value : s) rank += value >= array_detail::kRankTolerance ? 1 : 0;
@@ -277,13 +284,11 @@ int coplanarity(const SensorArray& array, SensorSet used) noexcept {
 }
 
 int strict_grade(const SensorArray& array, SensorSet used) noexcept {
-  const int grade = (used & array.all()).size() - 1 - coplanarity(array, used);
-  return grade > 0 ? grade : 0;
+  return strict_grade((used & array.all()).size(), coplanarity(array, used));
 }
 
 int parity_grade(const SensorArray& array, SensorSet used) noexcept {
-  const int grade = (used & array.all()).size() - 2 - coplanarity(array, used);
-  return grade > 0 ? grade : 0;
+  return parity_grade((used & array.all()).size(), coplanarity(array, used));
 }
 
 SensorSet critical_sensors(const SensorArray& array, SensorSet used) noexcept {
@@ -314,8 +319,8 @@ FiguresOfMerit figures_of_merit(const SensorArray& array) noexcept {
   }
   out.common_bias_visibility = common_bias_visibility(array);
   out.coplanarity = coplanarity(array, array.all());
-  out.strict_grade = strict_grade(array, array.all());
-  out.parity_grade = parity_grade(array, array.all());
+  out.strict_grade = strict_grade(array.size(), out.coplanarity);
+  out.parity_grade = parity_grade(array.size(), out.coplanarity);
   return out;
 }
 

@@ -75,18 +75,22 @@ void Isolation::clear() noexcept {
 void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
   const int c = plumb::coplanarity(array, posed);
   if (c + 1 != voting_size_ || !posed_.contains(posed) || universe_ != array.size()) clear();
-  resume(array, posed);
+  resume(array, posed, c);
 }
 
 void Isolation::resume(const SensorArray& array, SensorSet posed) noexcept {
-  const int c = plumb::coplanarity(array, posed);
+  resume(array, posed, plumb::coplanarity(array, posed));
+}
+
+void Isolation::resume(const SensorArray& array, SensorSet posed, int c) noexcept {
   posed_ = posed;
   universe_ = array.size();
   coplanarity_ = c;
   voting_size_ = c + 1;
+  const int sensors = (posed & array.all()).size();
   const bool strict_possible = universe_ <= kStrictCapacity;
-  strict_ = strict_possible ? plumb::strict_grade(array, posed) : 0;
-  parity_ = plumb::parity_grade(array, posed);
+  strict_ = strict_possible ? plumb::strict_grade(sensors, c) : 0;
+  parity_ = plumb::parity_grade(sensors, c);
   if (!strict_possible && parity_ > kScanDepth) parity_ = kScanDepth;
   voting_ = 0;
   if (strict_ < 1) return;

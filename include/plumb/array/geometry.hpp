@@ -46,8 +46,13 @@ int coplanarity(const SensorArray& array, SensorSet used) noexcept;
 
 /// m_strict = |used| - 1 - c, never below 0 (safety note 4; n-3 is the case of general position).
 int strict_grade(const SensorArray& array, SensorSet used) noexcept;
+/// The same of so many sensors whose coplanarity number is known.
+constexpr int strict_grade(int sensors, int coplanarity) noexcept {
+  return sensors - 1 > coplanarity ? sensors - 1 - coplanarity : 0;
+}
 /// m_parity = |used| - 2 - c, never below 0; needs no gravity.
 int parity_grade(const SensorArray& array, SensorSet used) noexcept;
+constexpr int parity_grade(int sensors, int coplanarity) noexcept { return strict_grade(sensors - 1, coplanarity); }
 
 /// Sensors whose loss leaves rank < 3 (coplanarity within the rank tolerance of 0.05, so a nearly
 /// coplanar rest counts as lost too).

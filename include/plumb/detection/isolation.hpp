@@ -110,6 +110,7 @@ class Isolation {
   void kill(int index) noexcept {
     dead_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
   }
+  void resume(const SensorArray& array, SensorSet posed, int coplanarity) noexcept;
   bool any_dead() const noexcept;
   bool has_dead_subset(SensorSet set) const noexcept;
   ReferenceDoubt doubt_reference(const BlockTests& tests, ReferenceClaims* record) const noexcept;
