@@ -81,12 +81,12 @@ void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
 void Isolation::resume(const SensorArray& array, SensorSet posed) noexcept {
   const int c = plumb::coplanarity(array, posed);
   posed_ = posed;
-  universe_ = array.size();
-  coplanarity_ = c;
-  voting_size_ = c + 1;
+  universe_ = static_cast<std::int8_t>(array.size());
+  coplanarity_ = static_cast<std::int8_t>(c);
+  voting_size_ = static_cast<std::int8_t>(c + 1);
   const bool strict_possible = universe_ <= kStrictCapacity;
-  strict_ = strict_possible ? plumb::strict_grade(array, posed) : 0;
-  parity_ = plumb::parity_grade(array, posed);
+  strict_ = static_cast<std::int8_t>(strict_possible ? plumb::strict_grade(array, posed) : 0);
+  parity_ = static_cast<std::int8_t>(plumb::parity_grade(array, posed));
   if (!strict_possible && parity_ > kScanDepth) parity_ = kScanDepth;
   voting_ = 0;
   if (strict_ < 1) return;
