@@ -48,8 +48,8 @@ function(plumb_core_library target capacity)
   target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen tl::expected)
   if(PLUMB_FAST_STEP)
-    set(often calibration/sensor_model detection/block detection/channel_monitor detection/combination_mae
-      health/health_monitor health/intake)
+    set(often calibration/sensor_model core/storage_map detection/block detection/channel_monitor detection/combination_mae
+      health/health_monitor health/intake health/memory)
     list(TRANSFORM often REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/\\1.cpp")
     set_source_files_properties(${often} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -O2)
   endif()

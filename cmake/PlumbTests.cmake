@@ -52,6 +52,14 @@ else()
 endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8)
+# Every bit of a monitor for four sensors flipped: one source of the core tests, at the capacity of an instrument.
+if(TARGET plumb_4)
+  add_executable(plumb_memory_tests "${PROJECT_SOURCE_DIR}/tests/health/bit_flip_test.cpp")
+  plumb_compile_settings(plumb_memory_tests)
+  target_include_directories(plumb_memory_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_link_libraries(plumb_memory_tests PRIVATE plumb_4 GTest::gtest GTest::gtest_main)
+  gtest_discover_tests(plumb_memory_tests TEST_PREFIX "four." PROPERTIES LABELS core TIMEOUT ${PLUMB_TEST_TIMEOUT_s})
+endif()
 # Monitors that leave something out, each beside the whole one.
 if(TARGET plumb_4_held)
   add_library(plumb_lean_full STATIC "${PROJECT_SOURCE_DIR}/tests/lean/full_run.cpp")

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/core/archive.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/numeric/tails.hpp"
 
@@ -10,6 +11,7 @@ inline namespace PLUMB_ABI {
 
 namespace {
 
+using archive_detail::bits_of;
 using std::size_t;
 
 constexpr size_t packed(int i, int j) noexcept {
@@ -128,9 +130,14 @@ void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double coun
   // A channel's origin is where it first delivers in the block.
   const SensorSet fresh = usable - usable_;
   for (int i = 0; (fresh.bits >> static_cast<unsigned>(i)) != 0 && i < kCapacity; ++i) {
-    if (fresh.has(i)) origin_[static_cast<size_t>(i)] = y_mps2[static_cast<size_t>(i)];
+    if (!fresh.has(i)) continue;
+    const auto a = static_cast<size_t>(i);
+    check_ += bits_of(y_mps2[a]) - bits_of(origin_[a]);
+    origin_[a] = y_mps2[a];
   }
+  check_ -= usable_.bits;
   usable_ = usable_ | usable;
+  check_ += usable_.bits;
   std::array<double, kCapacity> d{};  // zero for a channel that is not usable
   double* row = product_.data();
   std::uint32_t left = usable.bits;
@@ -139,11 +146,23 @@ void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double coun
     ++present_[i];
     const double own = y_mps2[i] - origin_[i];
     d[i] = own;
+    // What stood there is taken off as it is read: were it another than what was written, the difference would stay.
+    check_ -= bits_of(sum_[i]);
     sum_[i] += own;
+    check_ += bits_of(sum_[i]) + 1;
     for (size_t j = 0; j <= i; ++j) row[j] += own * d[j];
   }
+  check_ -= bits_of(inverse_count_);
   inverse_count_ += 1.0 / count;
+  check_ += bits_of(inverse_count_) + 1;
   ++size_;
+}
+
+std::uint64_t BlockAccumulator::check() const noexcept {
+  std::uint64_t out = usable_.bits + bits_of(inverse_count_) + static_cast<std::uint64_t>(size_);
+  for (size_t i = 0; i < origin_.size(); ++i)
+    out += bits_of(origin_[i]) + bits_of(sum_[i]) + static_cast<std::uint64_t>(present_[i]);
+  return out;
 }
 
 SensorSet BlockAccumulator::usable() const noexcept {
@@ -253,7 +272,7 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   for (int i = 0; i < array.size(); ++i) {
     if (!judged.has(i)) continue;
     const double limit = factor * array.sigma_mps2(i) * array.sigma_mps2(i);
-    if (block.covariance(i, i) > limit) out.restless = out.restless.with(i);
+    if (!(block.covariance(i, i) <= limit)) out.restless = out.restless.with(i);
   }
   const SensorSet calm = judged - out.restless;
   const bool at_hand = known != nullptr && known->valid && known->used == calm;

@@ -53,11 +53,18 @@ inline T whole_units(T error_mps2) noexcept {
   return (held + lanes<T>(kNoFraction)) - lanes<T>(kNoFraction);
 }
 
+/// A sensor of a triple as an index that no damage to the triple leads out of the readings.
+constexpr size_t index_of(std::uint8_t sensor) noexcept {
+  if constexpr ((kCapacity & (kCapacity - 1)) == 0) return sensor & static_cast<unsigned>(kCapacity - 1);
+  return sensor < kCapacity ? sensor : 0;
+}
+
 /// Error of one triple in units.
 inline std::int32_t error_of(const SensorArray& array, const Readings& y, int triple, double g_mps2) noexcept {
   const auto& s = array.triple(triple).sensors;
   const auto q = [&array, triple](size_t k) { return array.form_coefficients(k)[triple]; };
-  const double square = squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[s[0]], y[s[1]], y[s[2]]);
+  const double square =
+      squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[index_of(s[0])], y[index_of(s[1])], y[index_of(s[2])]);
   const double kept = square < 0.0 ? 0.0 : square;  // a NaN goes through to the clamp
   return static_cast<std::int32_t>(whole_units(std::sqrt(kept) - g_mps2));
 }
@@ -66,7 +73,8 @@ inline std::int32_t error_of(const SensorArray& array, const Readings& y, int tr
 inline TwoInts errors_of(const SensorArray& array, const Readings& y, int first, double g_mps2) noexcept {
   const auto& s = array.triple(first).sensors;
   const auto& r = array.triple(first + 1).sensors;
-  const Two a = {y[s[0]], y[r[0]]}, b = {y[s[1]], y[r[1]]}, c = {y[s[2]], y[r[2]]};
+  const auto pair = [&y, &s, &r](size_t m) { return Two{y[index_of(s[m])], y[index_of(r[m])]}; };
+  const Two a = pair(0), b = pair(1), c = pair(2);
   const auto q = [&array, first](size_t k) { return load<Two>(array.form_coefficients(k) + first); };
   const Two square = squared_length(q(0), q(1), q(2), q(3), q(4), q(5), a, b, c);
   const Two kept = square < lanes<Two>(0.0) ? lanes<Two>(0.0) : square;
@@ -79,8 +87,8 @@ inline TwoInts errors_of(const SensorArray& array, const Readings& y, int first,
 std::int32_t to_mae_units(double error_mps2) noexcept { return static_cast<std::int32_t>(whole_units(error_mps2)); }
 
 void CombinationMae::configure(int triples, int window) noexcept {
-  triples_ = triples;
-  window_ = window < 1 ? 1 : window > kWindowCapacity ? kWindowCapacity : window;
+  triples_ = static_cast<std::uint16_t>(triples);
+  window_ = static_cast<std::uint16_t>(window < 1 ? 1 : window > kWindowCapacity ? kWindowCapacity : window);
   clear();
 }
 
@@ -154,6 +162,31 @@ std::int64_t CombinationMae::fresh_triple_sum(int k) const noexcept {
     if (v >= 0) sum += v;
   }
   return sum;
+}
+
+bool CombinationMae::holds() const noexcept {
+  // An absent value is -1, all bits set: the words of a ring, as numbers without sign, add up to its sums and to that
+  // for each absent one. One flipped bit, in a ring, in a sum or in a count, and they do not.
+  constexpr std::uint64_t kAbsent = 0xFFFF'FFFFU;
+  const auto words_of = [](const std::int32_t* v, size_t count) noexcept {
+    std::uint64_t sum = 0, odd = 0;
+    for (; count >= 2; count -= 2, v += 2) {
+      std::uint64_t both;
+      std::memcpy(&both, v, sizeof both);
+      sum += both & kAbsent;
+      odd += both >> 32U;
+    }
+    return sum + odd + (count != 0 ? static_cast<std::uint32_t>(*v) : 0U);
+  };
+  const size_t window = window_, slots = window * triples_;
+  std::uint64_t sum = 0, present = 0;
+  for (size_t k = 0; k < triples_; ++k) {
+    sum += static_cast<std::uint64_t>(sum_[k]);
+    present += count_[k];
+  }
+  const std::uint64_t all = words_of(all_ring_.data(), window);
+  return words_of(ring_.data(), slots) == sum + (slots - present) * kAbsent &&
+         all == static_cast<std::uint64_t>(all_sum_) + (window - all_count_) * kAbsent;
 }
 
 void CombinationMae::rebuild() noexcept {

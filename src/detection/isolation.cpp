@@ -84,13 +84,13 @@ void Isolation::resume(const SensorArray& array, SensorSet posed) noexcept {
 
 void Isolation::resume(const SensorArray& array, SensorSet posed, int c) noexcept {
   posed_ = posed;
-  universe_ = array.size();
-  coplanarity_ = c;
-  voting_size_ = c + 1;
+  universe_ = static_cast<std::int8_t>(array.size());
+  coplanarity_ = static_cast<std::int8_t>(c);
+  voting_size_ = static_cast<std::int8_t>(c + 1);
   const int sensors = (posed & array.all()).size();
   const bool strict_possible = universe_ <= kStrictCapacity;
-  strict_ = strict_possible ? plumb::strict_grade(sensors, c) : 0;
-  parity_ = plumb::parity_grade(sensors, c);
+  strict_ = static_cast<std::int8_t>(strict_possible ? plumb::strict_grade(sensors, c) : 0);
+  parity_ = static_cast<std::int8_t>(plumb::parity_grade(sensors, c));
   if (!strict_possible && parity_ > kScanDepth) parity_ = kScanDepth;
   voting_ = 0;
   if (strict_ < 1) return;

@@ -72,10 +72,10 @@ bool invert_normal(const Rows& rows, Mat3& inverse) noexcept {
 /// Upper bound of the largest eigenvalue of a symmetric positive semidefinite matrix of rank <= k from
 /// its trace and the trace of its square (Wolkowicz and Styan); exact for k = 1 and 2.
 double largest_eigenvalue_bound(double trace, double trace_of_square, int k) noexcept {
-  if (k <= 0 || !(trace > 0.0)) return 0.0;
+  if (k <= 0 || trace <= 0.0) return 0.0;  // not a number is no bound, and no limit made of it is met
   const double mean = trace / k;
   const double variance = trace_of_square / k - mean * mean;
-  return mean + (variance > 0.0 ? std::sqrt(variance * (k - 1)) : 0.0);
+  return mean + (variance <= 0.0 ? 0.0 : std::sqrt(variance * (k - 1)));
 }
 
 struct Projection {
@@ -161,7 +161,7 @@ Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows
   }
   // With the norm row: trace adds w'Cw; trace of the square adds (w'Cw)^2 + 2 |P C w|^2 (P is a projector).
   Systematic out;
-  out.norm = std::sqrt(norm_row > 0.0 ? norm_row : 0.0);
+  out.norm = std::sqrt(norm_row <= 0.0 ? 0.0 : norm_row);
   out.parity = std::sqrt(largest_eigenvalue_bound(trace, square, s - 3));
   out.both =
       std::sqrt(largest_eigenvalue_bound(trace + norm_row, square + norm_row * norm_row + 2.0 * cross_term, s - 2));

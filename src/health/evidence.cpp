@@ -1,5 +1,6 @@
 // One block of evidence: what it says, whom it accuses, which events it raises.
 #include <cmath>
+#include <limits>
 
 #include "block_view.hpp"
 #include "plumb/detection/mae_test.hpp"
@@ -32,10 +33,12 @@ void HealthMonitor::judge_mae(const BlockTests& tests, BlockView& view) const no
       if (!t.tested) continue;
       limit = computed_mae_limit(t, evidence, config_.window, mae_quantile_);
     }
-    if (mae > limit.clear_mps2(clear_fraction())) view.mae_clean = false;
-    const double ratio = limit.ratio(mae);
+    // Comparisons are written so that what is not a number is beyond its limit.
+    if (!(mae <= limit.clear_mps2(clear_fraction()))) view.mae_clean = false;
+    const double told = limit.ratio(mae);
+    const double ratio = std::isnan(told) ? std::numeric_limits<double>::infinity() : told;
     view.triples_tested.add(k);
-    if (!(ratio > 1.0)) view.triples_passed.add(k);
+    if (ratio <= 1.0) view.triples_passed.add(k);
     if (ratio > view.mae_ratio || view.mae_limit_mps2 == 0.0) {
       view.mae_ratio = ratio;
       view.mae_worst_mps2 = mae;
@@ -69,9 +72,9 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockTests& tests) const noe
     view.statistic = statistic;
     view.limit = limit;
   };
-  if (view.parity_ratio > 1.0) {
+  if (!(view.parity_ratio <= 1.0)) {
     decided(Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits_));
-  } else if (view.norm_ratio > 1.0) {
+  } else if (!(view.norm_ratio <= 1.0)) {
     const SensorSet used = in_service_ & evidence.usable;
     const bool vouched = tests.vouches_for_norm(used, t);
     decided(vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, Cause::norm,

@@ -94,6 +94,7 @@ Expected<void> set_datasheet(const Datasheet& datasheet, MonitorSetup& setup) no
 
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   configured_ = false;
+  core_sum_ = 0;
   verdict_ = Verdict{};
   const Expected<MonitorConfig> config = checked(setup.config);
   if (!config) return tl::unexpected<Error>(config.error());
@@ -125,6 +126,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   power_on(setup);
   configured_ = true;
   publish(Sample{}, false);  // a verdict asked for before the first sample already names the sensors
+  seal();
   return {};
 }
 
@@ -197,15 +199,18 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
 }
 
 Expected<void> HealthMonitor::reset(std::uint64_t key, SensorSet sensors) noexcept {
+  if (!whole()) return fail(Errc::not_calibrated);
   if (key != config_.reset_key) return fail(Errc::wrong_key);
   reset_pending_ = true;
   reset_sensors_ = sensors & array_.all();
+  seal();
   return {};
 }
 
 Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexcept {
   const Expected<void> sound = plausible(gravity);
   if (!sound) return sound;
+  if (!whole()) return fail(Errc::not_calibrated);
   gravity_ = gravity;
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {
@@ -218,18 +223,23 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   reference_study_.clear();
   episode_.candidate = SensorSet{};
   episode_.agreeing.clear();
+  seal();
   return {};
 }
 
 Expected<void> HealthMonitor::set_rotation(const Rotation& rotation) noexcept {
   if (!std::isfinite(norm(rotation.rate_radps))) return fail(Errc::not_finite, 0, norm(rotation.rate_radps));
+  if (!whole()) return fail(Errc::not_calibrated);
   rotation_ = rotation;
+  seal();
   return {};
 }
 
 void HealthMonitor::inhibit(bool frozen) noexcept {
+  if (!whole()) return;  // the next block says so
   inhibit_notice_ = inhibit_notice_ != (frozen != inhibited_);
   inhibited_ = frozen;
+  seal();
 }
 
 /// What the host's freeze leaves of the events: it holds back what moves sensors on evidence and what replaces the
@@ -305,29 +315,57 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.transition = TransitionRecord{};
   verdict_.tick = false;
   verdict_.accepted = false;
-  if (!configured_) return verdict_;
+  if (!configured_ && core_sum_ == 0) return verdict_;
+  if (!core_holds()) return lose_memory(sample);
   verdict_.time_s = sample.time_s;
   count_up(counters_.samples);
   const Arrival arrival = clock_.admit(sample.time_s, config_.max_gap_s);
-  if (arrival == Arrival::refused) {
-    refuse(sample);
+  GateResult gate;
+  const SensorSet lost = gate_.lost(), back = gate_.back();
+  if (arrival != Arrival::refused) {
+    gate = gate_.gate(sample);
+    if (!gate.gap && arrival == Arrival::in_order) collect_sample(sample, gate);
+  }
+  // Nothing is decided, and nothing written to that the sum is over, before that has been found as it was left.
+  if (lost == gate_.lost() && back == gate_.back() && !is_eventful(arrival, gate)) {
+    publish_sample(sample);
     return verdict_;
   }
+  if (!steady_holds()) return lose_memory(sample);
+  if (arrival == Arrival::refused) {
+    refuse(sample);
+  } else {
+    serve(sample, arrival, gate);
+  }
+  seal();
+  return verdict_;
+}
+
+/// Whether a step does more than collect its sample.
+bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const noexcept {
+  const bool fits =
+      mode_ == Mode::recalibrating || mode_ == Mode::initial || recalibration_asked_ || recalibration_due_;
+  return arrival != Arrival::in_order || gate.gap || block_.size() >= config_.window || fits || reset_pending_ ||
+         pending_ != 0 || !((gate_.lost() & array_.all()) - absent_).empty() || !(gate_.back() & absent_).empty() ||
+         inhibit_notice_ || reference_notice_ != ReferenceKind::none || news();
+}
+
+/// What a sample leads to that is not merely collected.
+void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept {
   if (arrival == Arrival::new_time_base) {
     have_evidence_ = false;  // its age cannot be told any more
     trend_.clear();
     temperature_rate_.clear();
   }
-  GateResult gate = gate_.gate(sample);
   if (arrival != Arrival::in_order || gate.gap) {
     count_up(counters_.gaps);
     verdict_.cause = Cause::gap;
     empty_windows();
+    if (!gate.gap) collect_sample(sample, gate);
   }
   bool ticked = false;
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
   if (!gate.gap) {
-    collect_sample(sample, gate);
     ticked = block_.size() >= config_.window;
     if (ticked) {
       raised |= tick(sample);
@@ -348,7 +386,6 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   } else {
     publish_sample(sample);
   }
-  return verdict_;
 }
 
 }  // namespace PLUMB_ABI

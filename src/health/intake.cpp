@@ -2,9 +2,12 @@
 
 #include <cmath>
 
+#include "plumb/core/archive.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using archive_detail::bits_of;
 using std::size_t;
 
 Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
@@ -34,6 +37,17 @@ void CoefficientsAt::take(const SensorModel& model, double temperature_degc) noe
     bias_mps2_[static_cast<size_t>(i)] = model.bias_at(i, temperature_degc);
   }
   temperature_degc_ = temperature_degc;
+}
+
+bool CoefficientsAt::hold(const SensorModel& model) const noexcept {
+  if (std::isnan(temperature_degc_)) return true;  // they will be taken before they are used
+  CoefficientsAt fresh;
+  fresh.take(model, temperature_degc_);
+  for (size_t a = 0; a < static_cast<size_t>(model.size); ++a) {
+    const bool same_scale = bits_of(scale_[a]) == bits_of(fresh.scale_[a]);
+    if (!same_scale || bits_of(bias_mps2_[a]) != bits_of(fresh.bias_mps2_[a])) return false;
+  }
+  return true;
 }
 
 Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sample& sample, double temperature_degc,

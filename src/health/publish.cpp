@@ -74,7 +74,7 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
 
 Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || owes_calibration() || !have_evidence_) return Validity::invalid;
-  if (moving_ || clock_.last_s() - evidence_time_s_ > config_.max_age_s) return Validity::held;
+  if (moving_ || !(clock_.last_s() - evidence_time_s_ <= config_.max_age_s)) return Validity::held;
   const Mode mode = published_mode();
   if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
   if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
@@ -169,7 +169,7 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.toolface_protection_rad = told ? angle_with_sine(sine_of(v.protection_level_rad) / sine) : kPi;
   v.usable = usable_bits();
   v.alert =
-      !v.protection_available || v.protection_level_rad > config_.alert_limit_rad || v.validity != Validity::valid;
+      !v.protection_available || !(v.protection_level_rad <= config_.alert_limit_rad) || v.validity != Validity::valid;
 }
 
 }  // namespace PLUMB_ABI

@@ -25,9 +25,11 @@ bool HealthMonitor::may_recalibrate() const noexcept {
 }
 
 Expected<void> HealthMonitor::request_recalibration() noexcept {
+  if (!whole()) return fail(Errc::not_calibrated);
   if (!may_recalibrate()) return fail(Errc::wrong_state, -1, static_cast<double>(state_of(mode_)));
   recalibration_.withdraw_offer();
   recalibration_asked_ = true;
+  seal();
   return {};
 }
 
@@ -38,10 +40,12 @@ bool HealthMonitor::expected(HealthEvent event) const noexcept {
 }
 
 Expected<void> HealthMonitor::offer_calibration(const SensorModel& model, const SensorArray& array) noexcept {
+  if (!whole()) return fail(Errc::not_calibrated);
   if (!may_recalibrate()) return fail(Errc::wrong_state, -1, static_cast<double>(state_of(mode_)));
   const Expected<void> taken =
       recalibration_.offer({model_, array_, gravity_, limits_}, model, array, in_service_, clock_.last_s());
   recalibration_asked_ = taken.has_value();  // the host's last word counts
+  seal();
   return taken;
 }
 

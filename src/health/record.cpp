@@ -119,7 +119,7 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
       const double prediction = dot(array_.axis(i), view.used.x_mps2);
       if (!have_predictions_ || prediction < least_prediction_[a]) least_prediction_[a] = prediction;
       if (!have_predictions_ || prediction > most_prediction_[a]) most_prediction_[a] = prediction;
-      if (most_prediction_[a] - least_prediction_[a] < proving_change_mps2(i)) moved = false;
+      if (!(most_prediction_[a] - least_prediction_[a] >= proving_change_mps2(i))) moved = false;
     }
     have_predictions_ = true;
     if (moved && clean_run_ >= config_.clean_blocks) unproven_ = false;

@@ -146,7 +146,7 @@ size_t HealthMonitor::snapshot_size() const noexcept {
 }
 
 Expected<size_t> HealthMonitor::snapshot(std::uint8_t* to, size_t room) const noexcept {
-  if (!configured_) return fail(Errc::not_calibrated);
+  if (!configured_ || !whole()) return fail(Errc::not_calibrated);
   const size_t size = snapshot_size();
   if (to == nullptr || room < size) {
     const double given = to == nullptr ? 0.0 : static_cast<double>(room);
@@ -163,12 +163,16 @@ Expected<void> HealthMonitor::restore(const MonitorSetup& setup, const std::uint
   const Expected<void> configured = configure(setup);
   if (!configured) return configured;
   const Expected<void> taken = take_up(setup, bytes, size);
-  if (taken) return taken;
+  if (taken) {
+    seal();
+    return taken;
+  }
   // Nothing of what was read before the fault was found may stay.
   const Expected<void> again = configure(setup);
   if (!again) return again;
   verdict_.cause = Cause::snapshot_refused;
   verdict_.snapshot_refusal = taken.error().code;
+  seal();
   return taken;
 }
 

@@ -68,6 +68,7 @@ const char* to_string(Cause cause) noexcept {
     case Cause::common_scale: return "common_scale";
     case Cause::common_bias: return "common_bias";
     case Cause::snapshot_refused: return "snapshot_refused";
+    case Cause::memory: return "memory";
   }
   return "?";
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "plumb/core/archive.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
@@ -10,18 +12,33 @@ static_assert(std::is_trivially_copyable<StationStore>::value, "a copy is an ass
 
 namespace {
 
+using archive_detail::bits_of;
+
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
 void RawBlock::add(const std::array<double, kCapacity>& raw, SensorSet usable, double temperature_degc) noexcept {
+  check_ -= complete_.bits;
   complete_ = size_ == 0 ? usable : complete_ & usable;
+  check_ += complete_.bits;
   std::uint32_t left = complete_.bits;
   for (std::size_t a = 0; left != 0 && a < raw.size(); ++a, left >>= 1U) {
-    if ((left & 1U) != 0) sum_[a] += raw[a];
+    if ((left & 1U) == 0) continue;
+    check_ -= bits_of(sum_[a]);
+    sum_[a] += raw[a];
+    check_ += bits_of(sum_[a]);
   }
+  check_ -= bits_of(temperature_sum_);
   temperature_sum_ += temperature_degc;
+  check_ += bits_of(temperature_sum_) + 1;
   ++size_;
+}
+
+std::uint64_t RawBlock::check() const noexcept {
+  std::uint64_t out = complete_.bits + bits_of(temperature_sum_) + static_cast<std::uint64_t>(size_);
+  for (const double sum : sum_) out += bits_of(sum);
+  return out;
 }
 
 StationMean RawBlock::mean(SensorSet of, const Vec3& direction, double samples) const noexcept {

@@ -59,6 +59,7 @@ std::string explain(Cause cause, Grade grade, HealthEvent event) {
     case Cause::common_scale: return "gravity or a common scale is off: the direction is usable";
     case Cause::common_bias: return "the sensors share a bias: the direction is not usable";
     case Cause::snapshot_refused: return "switched on without its history: the snapshot offered was of no use";
+    case Cause::memory: return "the monitor's storage changed by itself: configure or restore it";
   }
   return "?";
 }

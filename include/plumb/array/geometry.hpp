@@ -22,6 +22,11 @@ struct LeastSquares {
   std::array<Vec3, kCapacity> column{};  ///< column i of the pseudo-inverse; zero for sensors not used
   Mat3 covariance{};                     ///< of x for one sample [(m/s^2)^2]
   Vec3 estimate(const Readings& y) const noexcept;
+
+  static constexpr auto fields() noexcept {
+    using L = LeastSquares;
+    return field_list(&L::valid, &L::used, &L::column, &L::covariance);
+  }
 };
 LeastSquares least_squares(const SensorArray& array, SensorSet used) noexcept;
 

@@ -70,6 +70,9 @@ struct Triple {
   SensorSet set() const noexcept {
     return SensorSet::of(sensors[0]) | SensorSet::of(sensors[1]) | SensorSet::of(sensors[2]);
   }
+  static constexpr auto fields() noexcept {
+    return field_list(&Triple::sensors, &Triple::votes, any(&Triple::det), any(&Triple::condition));
+  }
 };
 
 /// |x|^2 = y'Ay of a triple: A11, A22, A33, 2 A12, 2 A13, 2 A23 (eqs 22-25).

@@ -180,6 +180,14 @@ struct FitOptions {
   double max_noise_factor = 2.0;
   Vec3 roll_axis{0.0, 0.0, 1.0};  ///< about which stations of one `Station::roll_group` are rolled; unit, tool frame
   double roll_wobble_rad = 0.0;   ///< 1 sigma by which the inclination differs from roll to roll
+
+  static constexpr auto fields() noexcept {
+    using F = FitOptions;
+    return field_list(not_stored(&F::max_iterations), &F::stop_relative, &F::max_norm_rms_mps2, &F::max_scale_change,
+                      &F::max_axis_change_rad, &F::max_bias_sigmas, &F::require_full_rank, &F::estimate_misfit,
+                      not_stored(&F::start), &F::reject_outliers, &F::max_outlier_share, &F::max_sensor_excess,
+                      &F::max_noise_factor, &F::roll_axis, &F::roll_wobble_rad);
+  }
 };
 
 /// What a fit of biases and scales says where the axes are held: as much of a `Calibration` as changes.

@@ -20,6 +20,11 @@ struct Prior {
   /// Of the coefficients of (T_S - T_C)^k, k = 1..3 [m/s^2 per degC^k]: `temperature_fit.hpp` alone estimates them.
   std::array<double, 3> bias_t_mps2{1e-4 * 9.80665, 1e-6 * 9.80665, 2e-8 * 9.80665};
   std::array<double, 3> scale_t{2e-4, 2e-6, 3e-8};  ///< the same, relative to the scale [per degC^k]
+
+  static constexpr auto fields() noexcept {
+    using P = Prior;
+    return field_list(&P::bias_mps2, &P::scale, &P::axis_rad, &P::bias_t_mps2, &P::scale_t);
+  }
 };
 
 struct DatasheetSensor {
@@ -28,6 +33,11 @@ struct DatasheetSensor {
   Prior prior;
   double full_scale_raw = 0.0;  ///< |raw| at and beyond which the channel is clipped; 0 = unknown
   double resolution_raw = 0.0;  ///< one code; 0 = unknown
+
+  static constexpr auto fields() noexcept {
+    using D = DatasheetSensor;
+    return field_list(&D::row, &D::coefficients, &D::prior, &D::full_scale_raw, &D::resolution_raw);
+  }
 };
 
 struct Datasheet {
@@ -39,6 +49,11 @@ struct Datasheet {
   Expected<SensorArray> array() const noexcept;  ///< nominal axes, checked
   /// What the priors leave in every reading, told as if a calibration had left it: the sensors apart from each other.
   RowUncertainty uncertainty() const noexcept;
+
+  static constexpr auto fields() noexcept {
+    using D = Datasheet;
+    return field_list(within(&D::size, 0, kCapacity), not_stored(&D::reads), &D::sensor);
+  }
 };
 
 /// The other way round: of sensor i of an array with such an uncertainty. Temperature terms are not in it.

@@ -146,6 +146,15 @@ struct FieldsOf {
   static constexpr auto list() noexcept -> decltype(T::fields()) {
     return T::fields();
   }
+  /// Lists of core/storage_map.hpp.
+  template <class T>
+  static constexpr auto changing() noexcept -> decltype(T::changing()) {
+    return T::changing();
+  }
+  template <class T>
+  static constexpr auto core() noexcept -> decltype(T::core()) {
+    return T::core();
+  }
   template <class T>
   static auto rebuild(T& object, int) noexcept -> decltype(object.rebuild()) {
     object.rebuild();

@@ -35,6 +35,7 @@ class ChannelMonitor {
   GateResult gate(const Sample& sample) noexcept;
   /// Channels that have been unusable for `confirm` samples in a row (a level, until they deliver).
   SensorSet lost() const noexcept { return lost_; }
+  int size() const noexcept { return size_; }
   /// Lost channels that have delivered usable values for `confirm` samples in a row again.
   SensorSet back() const noexcept { return back_; }
   /// Counts the channels as lost whatever their last samples were (half of them missing, block after block).
@@ -80,6 +81,12 @@ class ChannelMonitor {
 
   friend struct FieldsOf;
   bool plausible() const noexcept { return lost_.contains(back_); }
+  static constexpr auto core() noexcept { return field_list(&ChannelMonitor::lost_, &ChannelMonitor::back_); }
+  static constexpr auto changing() noexcept {
+    using C = ChannelMonitor;
+    return field_list(&C::counters_, &C::bad_run_, &C::good_run_, &C::last_raw_, &C::repeats_, &C::clipped_in_block_,
+                      &C::changed_, &C::block_samples_, &C::lost_, &C::back_);
+  }
   static constexpr auto fields() noexcept {
     using C = ChannelMonitor;
     return field_list(not_stored(&C::clip_raw_), per_sensor(&C::counters_), per_sensor(&C::bad_run_),

@@ -59,6 +59,13 @@ class CombinationMae {
   double all_mps2() const noexcept { return mean(all_sum_, all_count_); }
   int all_samples() const noexcept { return all_count_; }
   int window() const noexcept { return window_; }
+  /// Whether it is that of so many triples and samples: no index then leads out of it.
+  bool fits(int triples, int window) const noexcept {
+    return triples_ == triples && window_ == window && head_ >= 0 && head_ < window && triples <= kTripleCapacity &&
+           window <= kWindowCapacity;
+  }
+  /// Whether the sums and counts are those of the ring.
+  bool holds() const noexcept;
 
  private:
   static double mean(std::int64_t sum, int count) noexcept {
@@ -86,8 +93,8 @@ class CombinationMae {
   std::array<std::int32_t, kWindowCapacity> all_ring_{};
   std::int64_t all_sum_ = 0;
   std::uint16_t all_count_ = 0;
-  int triples_ = 0;
-  int window_ = 1;
+  std::uint16_t triples_ = 0;
+  std::uint16_t window_ = 1;
   int head_ = 0;
 
   friend struct FieldsOf;

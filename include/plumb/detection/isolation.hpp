@@ -119,18 +119,18 @@ class Isolation {
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
   ReferenceClaims claims_;
   SensorSet posed_;
-  int universe_ = 0;     ///< configured sensors, over which sets are numbered
-  int voting_size_ = 3;  ///< c + 1
-  int voting_ = 0;       ///< voting sets within the posed sensors
-  int coplanarity_ = 2;
-  int strict_ = 0;
-  int parity_ = 0;
+  int voting_ = 0;               ///< voting sets within the posed sensors
+  std::int8_t universe_ = 0;     ///< configured sensors, over which sets are numbered
+  std::int8_t voting_size_ = 3;  ///< c + 1
+  std::int8_t coplanarity_ = 2;
+  std::int8_t strict_ = 0;
+  std::int8_t parity_ = 0;
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using I = Isolation;
-    return field_list(&I::dead_, &I::claims_, not_stored(&I::posed_), not_stored(&I::universe_),
-                      not_stored(&I::voting_size_), not_stored(&I::voting_), not_stored(&I::coplanarity_),
+    return field_list(&I::dead_, &I::claims_, not_stored(&I::posed_), not_stored(&I::voting_),
+                      not_stored(&I::universe_), not_stored(&I::voting_size_), not_stored(&I::coplanarity_),
                       not_stored(&I::strict_), not_stored(&I::parity_));
   }
 };

@@ -31,8 +31,13 @@ struct TestLimits {
   std::array<double, kCapacity + 1> reject{};        ///< [nu]: sqrt of chi^2_nu quantile at the rejection rate
   std::array<double, kCapacity + 1> parity_alarm{};  ///< [nu]: the same at the false-alarm rate
   double norm_alarm = 0.0;                           ///< one degree of freedom, false-alarm rate
-  double calibration = 0.0;  ///< k_c = sqrt(chi^2_(4n-3) quantile at 0.99): all attitudes at once
-  double gravity = 3.0;      ///< sigmas of the gravity reference
+  double calibration = 0.0;               ///< k_c = sqrt(chi^2_(4n-3) quantile at 0.99): all attitudes at once
+  static constexpr double gravity = 3.0;  ///< sigmas of the gravity reference
+
+  static constexpr auto fields() noexcept {
+    using L = TestLimits;
+    return field_list(&L::reject, &L::parity_alarm, &L::norm_alarm, &L::calibration);
+  }
 
   static TestLimits from_rates(int n, double false_alarm_rate, double rejection_rate) noexcept;
 };

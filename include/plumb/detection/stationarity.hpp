@@ -31,8 +31,14 @@ class BlockAccumulator {
   Readings mean() const noexcept;
   /// Sample covariance of channels i and j [(m/s^2)^2]; 0 with fewer than two samples.
   double covariance(int i, int j) const noexcept;
+  /// Whether the sums of the readings, and the counts, are as `add` left them: not those of the products, of which a
+  /// block makes a scatter and nothing else.
+  bool holds() const noexcept { return check_ == check(); }
 
  private:
+  std::uint64_t check() const noexcept;
+  void rebuild() noexcept { check_ = check(); }
+
   std::array<double, kCapacity> origin_{};
   std::array<double, kCapacity> sum_{};
   std::array<double, kCapacity*(kCapacity + 1) / 2> product_{};
@@ -40,6 +46,7 @@ class BlockAccumulator {
   SensorSet usable_;                      ///< seen at all
   double inverse_count_ = 0.0;            ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples
   int size_ = 0;
+  std::uint64_t check_ = 0;  ///< sum of the bits of origins, sums and counts
 
   friend struct FieldsOf;
   static constexpr int pairs(int sensors) noexcept { return sensors * (sensors + 1) / 2; }
@@ -48,7 +55,7 @@ class BlockAccumulator {
     using B = BlockAccumulator;
     return field_list(per_sensor(&B::origin_), per_sensor(&B::sum_), leading(&B::product_, &pairs),
                       per_sensor(within(&B::present_, 0, kWindowCapacity)), &B::usable_, &B::inverse_count_,
-                      within(&B::size_, 0, kWindowCapacity));
+                      within(&B::size_, 0, kWindowCapacity), not_stored(&B::check_));
   }
 };
 

@@ -161,8 +161,18 @@ class HealthMonitor {
   void empty_windows() noexcept;
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
+  bool is_eventful(Arrival arrival, const GateResult& gate) const noexcept;
+  void serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept;
   EventMask allowed(EventMask raised) const noexcept;
   void take_rotation_off(Readings& y, SensorSet usable) const noexcept;
+
+  // memory.cpp: storage that changed though nobody wrote to it
+  bool core_holds() const noexcept;
+  bool steady_holds() const noexcept;
+  std::uint64_t steady_now() const noexcept;
+  bool whole() const noexcept;
+  void seal() noexcept;
+  const Verdict& lose_memory(const Sample& sample) noexcept;
 
   // publish.cpp: the verdict
   void give_notice(double time_s) noexcept;
@@ -277,6 +287,7 @@ class HealthMonitor {
   int unbounded_run_ = 0;   ///< blocks in a row whose protection level was beyond the alert limit
   std::uint32_t sequence_ = 0;
   int clean_run_ = 0;
+  std::uint32_t core_sum_ = 0;  ///< not remembered: over `core()`, made whenever that was written to (memory.cpp)
   std::array<double, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
   bool have_predictions_ = false;
   DirectionRecord probation_;
@@ -328,7 +339,25 @@ class HealthMonitor {
   Recalibration recalibration_;
   Verdict verdict_;
 
+  std::uint64_t steady_sum_ = 0;  ///< the same over all but `changing()`
+
   friend struct FieldsOf;
+  friend struct StorageAccess;  // of the tests: they forge storage so that the sums do not tell
+  /// What a step writes to that ends no block and raises no event.
+  static constexpr auto changing() noexcept {
+    using M = HealthMonitor;
+    return field_list(&M::coefficients_, &M::temperature_out_, &M::last_temperature_degc_, &M::clock_, &M::counters_,
+                      &M::rotation_locked_, &M::block_, &M::raw_, &M::mae_, &M::clipped_, &M::not_finite_,
+                      &M::core_sum_, &M::steady_sum_);
+  }
+  static constexpr auto core() noexcept {
+    using M = HealthMonitor;
+    return field_list(&M::mode_, &M::size_class_, &M::live_, &M::in_service_, &M::set_aside_, &M::excluded_,
+                      &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_, &M::exhausted_, &M::moving_,
+                      &M::partial_, &M::have_evidence_, &M::configured_, &M::reset_pending_, &M::recalibration_asked_,
+                      &M::recalibration_due_, &M::three_sensor_fit_, &M::lever_arms_known_, &M::inhibited_,
+                      &M::inhibit_notice_, &M::rotation_, &M::gate_, &M::verdict_);
+  }
   static constexpr auto fields() noexcept {
     using M = HealthMonitor;
     return field_list(
@@ -343,7 +372,7 @@ class HealthMonitor {
         &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_,
         not_stored(&M::configured_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::clock_, &M::silence_,
         &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
-        within(&M::clean_run_, 0, kMostCleanBlocks), per_sensor(&M::least_prediction_),
+        within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_), per_sensor(&M::least_prediction_),
         per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_, &M::on_probation_, &M::reset_sensors_,
         &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
         up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
@@ -357,7 +386,7 @@ class HealthMonitor {
         // evidence
         &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
         &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_,
-        &M::scan_, &M::clipped_, &M::not_finite_, &M::recalibration_, &M::verdict_);
+        &M::scan_, &M::clipped_, &M::not_finite_, &M::recalibration_, &M::verdict_, not_stored(&M::steady_sum_));
   }
 };
 

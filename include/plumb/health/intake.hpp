@@ -55,12 +55,20 @@ class CoefficientsAt {
   void forget() noexcept { temperature_degc_ = std::numeric_limits<double>::quiet_NaN(); }
   /// Makes them those at `temperature_degc`.
   void take(const SensorModel& model, double temperature_degc) noexcept;
+  /// Whether they are what the model says at the temperature that they were taken for.
+  bool hold(const SensorModel& model) const noexcept;
   double scale(std::size_t a) const noexcept { return scale_[a]; }
   double bias_mps2(std::size_t a) const noexcept { return bias_mps2_[a]; }
 
  private:
   double temperature_degc_ = std::numeric_limits<double>::quiet_NaN();  ///< NaN: equal to none
   std::array<double, kCapacity> scale_{}, bias_mps2_{};
+
+  friend struct FieldsOf;
+  static constexpr auto fields() noexcept {
+    using C = CoefficientsAt;
+    return field_list(any(&C::temperature_degc_), any(&C::scale_), any(&C::bias_mps2_));
+  }
 };
 
 /// Readings of the usable channels [m/s^2] by a model in the common-frame form, clamped; a channel whose reading is not

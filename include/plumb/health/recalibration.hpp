@@ -24,6 +24,8 @@ inline namespace PLUMB_ABI {
 struct DriftSigmas {
   double bias_mps2 = 2e-3 * kG0_mps2;
   double scale = 5e-4;  ///< relative
+
+  static constexpr auto fields() noexcept { return field_list(&DriftSigmas::bias_mps2, &DriftSigmas::scale); }
 };
 
 class Recalibration {

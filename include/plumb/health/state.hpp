@@ -63,8 +63,9 @@ enum class Cause : std::uint8_t {
   common_scale,      ///< reference told: common scale or gravity, direction usable
   common_bias,       ///< reference told: a bias that the sensors share, direction not usable
   snapshot_refused,  ///< switched on without its history: the snapshot that was offered is of no use
+  memory,            ///< the monitor's storage changed by itself: configure or restore it
 };
-inline constexpr Cause kLastCause = Cause::snapshot_refused;
+inline constexpr Cause kLastCause = Cause::memory;
 const char* to_string(Cause cause) noexcept;
 
 /// The cause that an event stands for; `of_block` is what the last block said, for an alarm.

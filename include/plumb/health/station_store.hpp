@@ -22,18 +22,24 @@ class RawBlock {
   /// Channels that delivered every sample of the block: the others have no mean at its temperature.
   SensorSet complete() const noexcept { return complete_; }
   StationMean mean(SensorSet of, const Vec3& direction, double samples) const noexcept;
+  /// Whether all is as `add` left it.
+  bool holds() const noexcept { return check_ == check(); }
 
  private:
+  std::uint64_t check() const noexcept;
+  void rebuild() noexcept { check_ = check(); }
+
   std::array<double, kCapacity> sum_{};
   SensorSet complete_;
   int size_ = 0;
   double temperature_sum_ = 0.0;
+  std::uint64_t check_ = 0;  ///< sum of the bits of the others
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using B = RawBlock;
     return field_list(per_sensor(any(&B::sum_)), &B::complete_, within(&B::size_, 0, kWindowCapacity),
-                      any(&B::temperature_sum_));
+                      any(&B::temperature_sum_), not_stored(&B::check_));
   }
 };
 

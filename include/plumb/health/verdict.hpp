@@ -125,6 +125,20 @@ struct Verdict {
   /// ones.
   std::uint64_t config_hash = 0;
 
+  /// What a sample alone changes.
+  static constexpr auto changing() noexcept {
+    using V = Verdict;
+    return field_list(&V::time_s, &V::sample, &V::tick, &V::accepted, &V::transition, &V::clipped, &V::not_finite,
+                      &V::mae_all_mps2, &V::temperature_degc, &V::temperature_rate_degc_per_min, &V::block_fill,
+                      &V::age_s, &V::latest_mps2);
+  }
+  /// What a host steers by.
+  static constexpr auto core() noexcept {
+    using V = Verdict;
+    return field_list(&V::state, &V::qualifiers, &V::validity, &V::configured, &V::in_service, &V::set_aside,
+                      &V::excluded, &V::absent, &V::gravity_mps2, &V::protection_level_rad, &V::toolface_protection_rad,
+                      &V::usable, &V::protection_available, &V::alert);
+  }
   static constexpr auto fields() noexcept {
     using V = Verdict;
     return field_list(
