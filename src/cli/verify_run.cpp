@@ -262,7 +262,9 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["schema"] = report::kReportSchema;
   report["version"] = report::kReportVersion;
   report["run"] = Json::object();
-  report["subject"] = {{"name", out.array.name}, {"sensors", out.array.array.size()}};
+  report["subject"] = {{"name", out.array.name},
+                       {"sensors", out.array.array.size()},
+                       {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"}};
   report["verdict"] = Json();
   report["array"] = array_section(subject, study_geometry(subject));
   report["calibration"] = part->section;

@@ -224,6 +224,11 @@ Json assumptions_of(const UserLimits& limits, const Json& report) {
     out.push_back(
         "No calibration was given: what it leaves is predicted from a simulated stand with sensors drawn from the "
         "priors of the array file. Verify again with the real one (--positions or --calibration).");
+  if (report["subject"].value("rows", "") == "stations")
+    out.push_back(
+        "Every row counts as one sample with the noise of the array file: geometry and campaigns are harsher than a "
+        "log "
+        "whose rows are means of many samples.");
   out.push_back(
       "The campaigns speak of the scenarios that they draw: the faults, sizes and attitudes listed, in equal "
       "shares. A rate in the field is another number.");
@@ -256,7 +261,9 @@ std::string distrust_of(const Json& report) {
   std::string out = grade > 0 ? fmt::format("any output once more than {} of {} sensors {} faulty; ", grade,
                                             report["array"]["sensors"].size(), grade == 1 ? "is" : "are")
                               : std::string("which sensor is faulty: no fault is isolated; ");
-  out += "any output while an alert stands or only three sensors are in use; sensors that lie in the same way";
+  out +=
+      "any output while an alert stands or only three sensors are in use; several sensors that all show the same wrong "
+      "gravity";
   if (report["calibration"].value("mode", "") == "predicted")
     out += "; every figure here for a tool that was not calibrated: they are of a simulated one";
   return out;
@@ -271,7 +278,7 @@ Json answers_of(const Json& report) {
   const Json& merit = report["array"]["figures_of_merit"];
   add("How many faults?", fmt::format("{}", merit["strict_grade"].get<int>()),
       fmt::format(
-          "faulty sensors of {} at once are found out and left out, given several attitudes; {} at a single one",
+          "faulty sensors of {} at once are found out and left out, given several attitudes; {} at a single attitude",
           report["array"]["sensors"].size(), merit["parity_grade"].get<int>()));
   double least = 0.0, sure = 0.0;
   bool sees = true, tells = true;
