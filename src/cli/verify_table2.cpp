@@ -40,7 +40,8 @@ Json rows_of(const study::Table2Study& study) {
     const study::Table2Row& printed = study::kTable2[e];
     const study::Table2Result& r = study.result[e];
     Json triples = Json::array();
-    for (const double mae_mps2 : r.finding.mae_triple_mps2) triples.push_back(g0_from_mps2(mae_mps2));
+    for (std::size_t k = 0; k < printed.mae_triple_g.size(); ++k)
+      triples.push_back(g0_from_mps2(r.finding.mae_triple_mps2[k]));
     out.push_back({{"number", printed.number},
                    {"faulty", sensors_json(printed.faulty)},
                    {"voltage", study::to_string(printed.level)},

@@ -105,7 +105,8 @@ TEST(VerificationPage, NamesCannotBreakOut) {
 TEST(VerificationPage, ACampaignThatWasNotPlayedIsTold) {
   Json report = paper_report();
   report["campaign"] = {{"healthy", {{"played", false}, {"reason", "no monitor"}}},
-                        {"faults", {{"played", false}, {"reason", "no monitor"}}}};
+                        {"faults", {{"played", false}, {"reason", "no monitor"}}},
+                        {"table2", {{"given", false}, {"reason", "another array"}}}};
   report["state_machine"]["coverage"] = Json();
   const std::string html = report::verification_html(report, {});
   EXPECT_TRUE(plumb_test::says(html, {"Not played: no monitor", "No campaign was played"}));
