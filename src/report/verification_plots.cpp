@@ -151,9 +151,18 @@ std::string traces_script(const Json& trace) {
         label, n - 1, first, n, names);
     first += n;
   }
-  return out +
-         "set ylabel 'cost, squared sigmas'\nset logscale y\nset format y '10^{%T}'\nunset key\nplot 'traces.csv' "
-         "skip 1 using 1:2 with linespoints pt 7 ps 0.6 lc rgb '#2f78b7' notitle\nunset multiplot\nunset output\n";
+  double least = 1e300, most = 0.0;
+  for (const Json& step : trace) {
+    if (!step["cost"].is_number()) continue;
+    least = std::fmin(least, step["cost"].get<double>());
+    most = std::fmax(most, step["cost"].get<double>());
+  }
+  // A cost that hardly falls has no tic to read on a logarithmic axis.
+  const bool wide = least > 0.0 && most > 100.0 * least;
+  return out + "set ylabel 'cost, squared sigmas'\n" +
+         (wide ? "set logscale y\nset format y '10^{%T}'\n" : "set yrange [0:*]\n") +
+         "unset key\nplot 'traces.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lc rgb '#2f78b7' notitle\n"
+         "unset multiplot\nunset output\n";
 }
 
 std::string by_size_script() {
