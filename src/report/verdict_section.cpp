@@ -195,7 +195,7 @@ void judge_evidence(const Json& report, Criteria& out) {
   if (analysis["given"].get<bool>()) {
     const std::size_t findings = analysis["findings"];
     out.judge(findings == 0, "Findings of the static analysis", "none", "default", fmt::format("{}", findings),
-              fmt::format("the static analysis has {} findings", findings));
+              fmt::format("the static analysis has {} finding{}", findings, findings == 1 ? "" : "s"));
   }
   const Json& target = report["resources"]["target"];
   if (!target["given"].get<bool>()) return;

@@ -215,7 +215,7 @@ TEST(VerifyCommand, TheStaticAnalysisBecomesSarifAndTheTargetIsTold) {
   const Outcome outcome =
       verify(where, {"--array", "tool.toml", "--analysis", "tidy.log", "--resources", "results.json", "--out", "r"});
   EXPECT_EQ(outcome.code, 6);
-  EXPECT_TRUE(says(outcome.err, {"static analysis has 1 findings", "stack of step"}));
+  EXPECT_TRUE(says(outcome.err, {"static analysis has 1 finding", "stack of step"}));
   const Json sarif = Json::parse(read_text(where / "r" / "analysis.sarif"));
   EXPECT_EQ(sarif["runs"][0]["results"][0]["ruleId"], "bugprone-narrowing");
   const Json report = report_in(where / "r");
