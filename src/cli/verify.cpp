@@ -10,6 +10,7 @@
 
 #include "plot_files.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/report/evidence.hpp"
 #include "plumb/report/plot.hpp"
 #include "plumb/report/verification_exports.hpp"
 #include "plumb/report/verification_page.hpp"
@@ -42,8 +43,9 @@ constexpr const char* kNotes =
     "  wrong_exclusion_rate = 1e-3\n"
     "  detect_within = \"2 s\"\n\n"
     "The directory holds report.html to read, report.json with every figure in it, and the campaigns to play again.\n"
-    "Without --calibration or --positions what calibration leaves is predicted from a simulated stand. The same\n"
-    "inputs give the same bytes but for the block `run`. docs/verification-report.md explains every section.\n"
+    "Without --calibration or --positions what calibration leaves is predicted from a simulated stand, the verdict\n"
+    "is `open` at best, and the report lists what to record. The same inputs give the same bytes but for the block\n"
+    "`run`. docs/verification-report.md explains every section.\n"
     "Exit code 6 where the array is not fit, where that is open, or where a requirement is an orphan.\n\n";
 
 std::string now_utc() {
@@ -69,7 +71,10 @@ std::optional<io::FileError> misused(const VerifyOptions& options) {
   if (options.scenarios == std::uint64_t{0}) return refuse("--scenarios", "is 0", "give at least 1");
   if (options.out.empty() || options.out == "-") return refuse("--out", "is no directory", "name one: --out report");
   const std::vector<NamedFile> to_write = {{"--out", (fs::path(options.out) / "report.json").string()}};
-  const std::vector<NamedFile> to_read = {{"--compare", options.compare}, {"--traceability", options.traceability}};
+  const std::vector<NamedFile> to_read = {{"--compare", options.compare},
+                                          {"--traceability", options.traceability},
+                                          {"--analysis", options.analysis},
+                                          {"--resources", options.resources}};
   return overwritten(to_write, to_read);
 }
 
@@ -175,6 +180,8 @@ io::ExitCode run(const VerifyOptions& options) {
   folder.write("needs.json", report::needs_json(found->report));
   folder.write("requirements.sdoc", report::requirements_sdoc(found->report));
   folder.write("spdx.json", report::spdx_json(found->report));
+  if (found->report["analysis"]["given"].get<bool>())
+    folder.write("analysis.sarif", report::sarif_json(found->report["analysis"], PLUMB_VERSION));
   folder.write("argument.svg", report::argument_svg(found->report));
   if (folder.failure()) return report(*folder.failure());
   if (options.pdf) print_pdf(options.out, report::verification_html(found->report, *pictures));
@@ -216,6 +223,16 @@ Command add_verify(CLI::App& tool) {
                   "requirements, hazards and tests of your own in the place of plumb's; a report's traceability.json "
                   "is the pattern")
       ->type_name("TRACE.json");
+  app->add_option("--reuse", options->reuse,
+                  "the finished result of faults.toml or healthy.toml with more scenarios, from plumb campaign or\n"
+                  "plumb-campaign-mpi: its rates are judged; may be given twice")
+      ->type_name("RESULT.json")
+      ->expected(1)
+      ->take_all();
+  app->add_option("--analysis", options->analysis, "what clang-tidy printed; written as SARIF and judged")
+      ->type_name("LOG");
+  app->add_option("--resources", options->resources, "what scripts/baremetal measured: build/metal/results.json")
+      ->type_name("RESULTS.json");
   app->add_option("--threads", options->threads, "how many; the result is the same; one per processor by default")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "fit_summary.hpp"
 #include "fit_words.hpp"
@@ -10,6 +11,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/scenario/library.hpp"
 #include "plumb/scenario/scenario.hpp"
+#include "plumb/study/paper_form.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -36,6 +38,37 @@ Json sensors_of(const Calibration& calibration) {
   return out;
 }
 
+/// What the fit held for the case after every iteration, the datasheet first. Of a fit over temperature there is none.
+Json trace_of(const CalibrationRun& run, const io::ArrayFile& array) {
+  constexpr int kMostIterations = 1000;
+  Json out = Json::array();
+  if (!run.accepted || run.temperature.order > 0) return out;
+  const auto add = [&out, &array](const study::CommonFrame& frame, const Json& cost) {
+    Json sensors = Json::array();
+    for (int i = 0; i < array.array.size(); ++i) {
+      const SensorCoefficients& nominal = array.datasheet.sensor[at(i)].coefficients;
+      const double along = dot(frame.axis[at(i)], array.array.axis(i));
+      sensors.push_back({{"id", array.array.row(i).id.data()},
+                         {"bias_mps2", frame.bias_mps2[at(i)]},
+                         {"scale_change", frame.scale[at(i)] / nominal.scale[0] - 1.0},
+                         {"axis_shift_deg", deg_from_rad(std::acos(std::clamp(along, -1.0, 1.0)))}});
+    }
+    out.push_back({{"iteration", out.size()}, {"cost", cost}, {"sensors", std::move(sensors)}});
+  };
+  auto calibrator = std::make_unique<Calibrator>(array.datasheet, array.gravity, run.options);
+  add(study::frame_of(array.datasheet, calibrator->parameters()), Json());
+  const int stations = static_cast<int>(run.stations.size());
+  for (int k = 0; k < kMostIterations && !calibrator->done(); ++k) {
+    calibrator->iterate(run.stations.data(), stations);
+    if (calibrator->iterations() == 0 || !std::isfinite(calibrator->cost())) continue;
+    // The same point as the last iteration, turned onto the nominal axes: what the monitor is given.
+    add(calibrator->done() ? study::frame_of(*run.accepted)
+                           : study::frame_of(array.datasheet, calibrator->parameters()),
+        calibrator->cost());
+  }
+  return out;
+}
+
 /// Of a fit that was made here.
 CalibrationPart part_of(CalibrationRun run, const io::ArrayFile& array, const char* mode) {
   CalibrationPart out;
@@ -46,6 +79,7 @@ CalibrationPart part_of(CalibrationRun run, const io::ArrayFile& array, const ch
     out.section["remedy"] = refusal.next;
   }
   out.section["fit"] = Json::parse(fit_json(run, array));
+  out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
     out.section["sensors"] = sensors_of(*run.accepted);
     out.e_cal_mps2 = worst_of(*run.accepted);
@@ -54,22 +88,22 @@ CalibrationPart part_of(CalibrationRun run, const io::ArrayFile& array, const ch
   return out;
 }
 
-/// The smallest prior of any sensor: the drawn ones lie within all of them.
-scenario::TruthSpans spans_of(const Datasheet& datasheet) {
-  const Prior& first = datasheet.sensor[0].prior;
-  scenario::TruthSpans out{first.bias_mps2, first.scale, first.axis_rad, scenario::TruthSpans::Shape::uniform};
-  for (int i = 1; i < datasheet.size; ++i) {
-    const Prior& prior = datasheet.sensor[at(i)].prior;
-    out.bias_mps2 = std::fmin(out.bias_mps2, prior.bias_mps2);
-    out.scale = std::fmin(out.scale, prior.scale);
-    out.axis_rad = std::fmin(out.axis_rad, prior.axis_rad);
+/// Where down points in the stations of the stand, as angles.
+Json planned_attitudes(const Json& stations) {
+  Json out = Json::array();
+  for (const Json& station : stations) {
+    if (!station["down"].is_array()) continue;
+    const double x = station["down"][0], y = station["down"][1], z = station["down"][2];
+    const double turn = std::atan2(-x, -y);
+    out.push_back({{"inclination_deg", deg_from_rad(std::acos(std::clamp(z, -1.0, 1.0)))},
+                   {"toolface_deg", deg_from_rad(turn < 0.0 ? turn + 2.0 * kPi : turn)}});
   }
   return out;
 }
 
 scenario::Scenario planned_stand(const io::ArrayFile& array, std::uint64_t seed) {
   scenario::Scenario out = scenario::calibration_run(
-      scenario::draw_tool(array.datasheet, seed, spans_of(array.datasheet)), seed, kPlannedStations);
+      scenario::draw_tool(array.datasheet, seed, smallest_priors(array.datasheet)), seed, kPlannedStations);
   out.gravity_mps2 = array.gravity.g_mps2;
   if (array.input.rate_hz > 0.0) out.rate_hz = array.input.rate_hz;
   // A row that is a station is one sample, with the noise that the array file states for it.
@@ -81,6 +115,18 @@ scenario::Scenario planned_stand(const io::ArrayFile& array, std::uint64_t seed)
 }
 
 }  // namespace
+
+scenario::TruthSpans smallest_priors(const Datasheet& datasheet) {
+  const Prior& first = datasheet.sensor[0].prior;
+  scenario::TruthSpans out{first.bias_mps2, first.scale, first.axis_rad, scenario::TruthSpans::Shape::uniform};
+  for (int i = 1; i < datasheet.size; ++i) {
+    const Prior& prior = datasheet.sensor[at(i)].prior;
+    out.bias_mps2 = std::fmin(out.bias_mps2, prior.bias_mps2);
+    out.scale = std::fmin(out.scale, prior.scale);
+    out.axis_rad = std::fmin(out.axis_rad, prior.axis_rad);
+  }
+  return out;
+}
 
 io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, const io::ArrayFile& array) {
   const io::FileExpected<io::CalibrationFile> file = io::read_calibration(path, array);
@@ -117,7 +163,9 @@ io::FileExpected<CalibrationPart> calibration_of_positions(const std::string& pa
 }
 
 CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t seed) {
-  auto simulator = scenario::Simulator::make(planned_stand(array, seed));
+  const scenario::Scenario stand = planned_stand(array, seed);
+  const double dwell_s = stand.dwell_s;
+  auto simulator = scenario::Simulator::make(stand);
   if (!simulator) {
     CalibrationPart out;
     out.section = {
@@ -128,7 +176,10 @@ CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t 
   Sample sample;
   while (simulator->next(sample)) samples.push_back(sample);
   CalibrationPart out = part_of(run_calibration(array, samples), array, "predicted");
-  out.section["planned"] = {{"stations", kPlannedStations}, {"samples", samples.size()}, {"attitudes", "random"}};
+  out.section["planned"] = {{"stations", kPlannedStations},
+                            {"samples_each", samples.size() / kPlannedStations},
+                            {"seconds_each", dwell_s},
+                            {"attitudes", planned_attitudes(out.section["fit"]["stations"])}};
   return out;
 }
 
@@ -144,6 +195,22 @@ Json array_section(const GeometrySubject& subject, const GeometryStudy& study) {
   return out;
 }
 
+namespace {
+
+/// Pairs of modes that some cell leads from and to.
+std::set<std::pair<std::string, std::string>> possible_moves(const Json& machine) {
+  std::set<std::pair<std::string, std::string>> out;
+  for (const Json& cell : machine["cells"]) {
+    if (cell["kind"] != "taken") continue;
+    for (const Json& to : cell["leads_to"]) {
+      if (to != cell["mode"]) out.insert({cell["mode"].get<std::string>(), to.get<std::string>()});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 Json machine_section(const Json& replayed) {
   Json out = Json::parse(model_json());
   if (replayed.is_null()) {
@@ -151,6 +218,7 @@ Json machine_section(const Json& replayed) {
     return out;
   }
   out["coverage"] = replayed["coverage"];
+  out["coverage"]["moves_possible"] = possible_moves(out).size();
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "geometry_study.hpp"
 #include "pipeline.hpp"
 #include "plumb/io/array_file.hpp"
+#include "plumb/scenario/truth.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -27,6 +28,9 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
 io::FileExpected<CalibrationPart> calibration_of_positions(const std::string& path, const io::ArrayFile& array);
 /// Of a simulated stand: sensors drawn within the priors of the array file, at random attitudes.
 CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t seed);
+
+/// The smallest prior of any sensor: tools drawn with these lie within the priors of all of them.
+scenario::TruthSpans smallest_priors(const Datasheet& datasheet);
 
 /// The array as `plumb geometry` judges it, its maps included.
 Json array_section(const GeometrySubject& subject, const GeometryStudy& study);

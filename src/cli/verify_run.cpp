@@ -11,11 +11,14 @@
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/report/change.hpp"
+#include "plumb/report/evidence.hpp"
 #include "plumb/report/identity.hpp"
 #include "plumb/report/limits.hpp"
 #include "plumb/report/traceability.hpp"
 #include "tool.hpp"
 #include "verify_parts.hpp"
+#include "verify_reuse.hpp"
+#include "verify_table2.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -58,6 +61,8 @@ struct Inputs {
   std::optional<report::TestResults> tests;
   std::optional<report::AssuranceResults> assurance;
   std::optional<Json> before;
+  Json analysis = report::no_analysis();
+  Json resources = {{"given", false}, {"how", "--resources build/metal/results.json, from scripts/baremetal"}};
   Json files = Json::array();  ///< what the report rests on, hashed
 };
 
@@ -92,6 +97,10 @@ io::FileExpected<Inputs> read_inputs(const VerifyOptions& options, Verification&
     return fail();
   if (!options.assurance.empty() && !take(report::read_assurance(options.assurance), inputs.assurance, error))
     return fail();
+  if (!options.analysis.empty() && !take(report::read_analysis(options.analysis), inputs.analysis, error))
+    return fail();
+  if (!options.resources.empty() && !take(report::read_resources(options.resources), inputs.resources, error))
+    return fail();
   if (!options.compare.empty() && !take(report::read_report(options.compare), inputs.before, error)) return fail();
   if (options.traceability.empty()) {
     if (!take(report::parse_traceability(report::built_in_traceability(), "built in"), out.traceability, error))
@@ -105,8 +114,14 @@ io::FileExpected<Inputs> read_inputs(const VerifyOptions& options, Verification&
                                    {"positions", options.positions},
                                    {"test results", options.test_results},
                                    {"assurance results", options.assurance},
-                                   {"traceability", options.traceability}}) {
+                                   {"traceability", options.traceability},
+                                   {"static analysis", options.analysis},
+                                   {"resources", options.resources}}) {
     const io::FileExpected<void> noted = note_input(role, path, inputs);
+    if (!noted) return tl::unexpected<io::FileError>(noted.error());
+  }
+  for (const std::string& path : options.reuse) {
+    const io::FileExpected<void> noted = note_input("campaign result", path, inputs);
     if (!noted) return tl::unexpected<io::FileError>(noted.error());
   }
   return inputs;
@@ -173,6 +188,8 @@ io::FileExpected<void> play_campaigns(const VerifyOptions& options, const report
   const std::string replay = "plumb campaign ";
   if (out.healthy) section["healthy"] = report::healthy_trials_json(*out.healthy, replay + kHealthyFile);
   if (out.faults) section["faults"] = report::fault_trials_json(*out.faults, replay + kFaultsFile);
+  const io::FileExpected<void> reused = take_reused(options.reuse, out, section);
+  if (!reused) return reused;
   std::vector<const report::Trials*> played;
   if (out.healthy) played.push_back(&*out.healthy);
   if (out.faults) played.push_back(&*out.faults);
@@ -203,17 +220,18 @@ std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
   add("--test-results", options.test_results);
   add("--assurance", options.assurance);
   add("--traceability", options.traceability);
+  add("--analysis", options.analysis);
+  add("--resources", options.resources);
+  for (const std::string& path : options.reuse) add("--reuse", path);
   add("--compare", options.compare);
   return out + fmt::format(" --scenarios {} --seed {}", scenarios, options.seed);
 }
 
-Json resources_section(const io::ArrayFile& array) {
-  return {
-      {"sensors", array.array.size()},
-      {"tool_capacity", kCapacity},
-      {"tool_monitor_bytes", sizeof(HealthMonitor)},
-      {"target",
-       {{"given", false}, {"how", "scripts/baremetal prints size, stack and instructions on a Cortex-M7 and M4F"}}}};
+Json resources_section(const io::ArrayFile& array, const Json& target) {
+  return {{"sensors", array.array.size()},
+          {"tool_capacity", kCapacity},
+          {"tool_monitor_bytes", sizeof(HealthMonitor)},
+          {"target", target}};
 }
 
 }  // namespace
@@ -237,13 +255,16 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   Json campaigns;
   const io::FileExpected<void> played = play_campaigns(options, settings, threads, out, campaigns);
   if (!played) return tl::unexpected<io::FileError>(played.error());
+  campaigns["table2"] = table2_section(out.array, options.seed);
   const GeometrySubject subject = subject_of(out.array, *part);
 
   Json& report = out.report;
   report["schema"] = report::kReportSchema;
   report["version"] = report::kReportVersion;
   report["run"] = Json::object();
-  report["subject"] = {{"name", out.array.name}, {"sensors", out.array.array.size()}};
+  report["subject"] = {{"name", out.array.name},
+                       {"sensors", out.array.array.size()},
+                       {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"}};
   report["verdict"] = Json();
   report["array"] = array_section(subject, study_geometry(subject));
   report["calibration"] = part->section;
@@ -251,7 +272,8 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["state_machine"] = machine_section(report["campaign"].value("replayed", Json()));
   report["traceability"] = report::traceability_section(out.traceability, inputs->tests, inputs->assurance);
   report["traceability"]["source"] = options.traceability.empty() ? "built in" : "file";
-  report["resources"] = resources_section(out.array);
+  report["analysis"] = inputs->analysis;
+  report["resources"] = resources_section(out.array, inputs->resources);
   report["identity"] = {{"build", report::build_json()},
                         {"inputs", inputs->files},
                         {"seed", options.seed},

@@ -77,6 +77,21 @@ void limits_tables(const Json& array, Section& out) {
   }
 }
 
+/// What to do where there is no calibration yet.
+void planned_tables(const Json& c, Section& out) {
+  if (!c.contains("planned")) return;
+  const Json& p = c["planned"];
+  out.text(fmt::format(
+      "To record: hold the tool still at {} attitudes, spread as in the table, {} s ({} samples) at each. Their angles "
+      "need not be met nor known; no external reference is needed. This is the stand of the prediction below.",
+      shown(p["stations"]), shown(p["seconds_each"]), shown(p["samples_each"])));
+  ViewRows rows;
+  int number = 0;
+  for (const Json& a : p["attitudes"])
+    rows.push_back({std::to_string(++number), shown(a["inclination_deg"]), shown(a["toolface_deg"])});
+  out.table("Attitudes to record", {"number", "inclination, deg", "toolface, deg"}, rows, "", true);
+}
+
 }  // namespace
 
 Section verdict_view(const Json& report) {
@@ -163,8 +178,9 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
   if (mode == "predicted") {
     out.notice(
         "Not given: predicted from a simulated stand. Give --positions LOG.csv or --calibration CAL.json for the real "
-        "one.",
+        "one; until then the verdict is open at best.",
         "open");
+    planned_tables(c, out);
   } else {
     out.text("From " + mode + ".");
   }
@@ -203,6 +219,15 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
       "Parameters",
       {"sensor", "bias, mg0", "1 sigma", "scale change, %", "1 sigma", "axis turned, deg", "1 sigma", "from data, %"},
       parameters);
+  if (!c["trace"].empty()) {
+    out.picture(
+        "Convergence", picture_of(pictures, "traces.svg"),
+        "Bias, scale and axis of every sensor and the cost of the fit, iteration by iteration.",
+        "Iteration by iteration from the datasheet (0) to the calibration, as Figs 4 to 7 of the paper show it. "
+        "plumb makes one fit of all sensors and reads every group of three from it, so that Figs 8 to 10 are "
+        "the same curves.",
+        "traces.csv");
+  }
   out.picture(
       "Residuals", picture_of(pictures, "residuals.svg"),
       "Error of the length of gravity at every station, in mg0, in the fit and held out.",
@@ -213,7 +238,8 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
     next.push_back({shown(p["inclination_deg"]), shown(p["toolface_deg"]), shown(p["gain"])});
   if (!next.empty())
     out.table("What to record next", {"inclination, deg", "toolface, deg", "gain"}, next,
-              "Attitudes that would tell most about what is least known.", true);
+              mode == "predicted" ? "After those above: attitudes that would tell most about what is then least known."
+                                  : "Attitudes that would tell most about what is least known.");
   return out;
 }
 

@@ -20,6 +20,34 @@ std::string with_results(const Json& list) {
   return out.empty() ? "-" : out;
 }
 
+void target_table(const Json& target, Section& out) {
+  if (!target["given"].get<bool>())
+    return out.notice(
+        "Size, stack and instructions on the target: not given. Give " + target["how"].get<std::string>() + ".",
+        "open");
+  ViewRows rows;
+  for (const Json& i : target["items"]) {
+    const bool above = i["limit"].is_number() && i["value"].get<double>() > i["limit"].get<double>();
+    rows.push_back({i["target"].get<std::string>(),
+                    i["name"].get<std::string>(),
+                    {shown(i["value"]), above ? "bad" : ""},
+                    shown(i["limit"]),
+                    i["unit"].get<std::string>()});
+  }
+  out.table("On the target", {"target", "figure", "value", "ceiling", "unit"}, rows,
+            "Made by scripts/baremetal from " + target["commit"].get<std::string>() +
+                ". Measured maxima are high-water marks, no worst-case times; instructions are no cycles.");
+}
+
+void analysis_table(const Json& analysis, Section& out) {
+  if (!analysis["given"].get<bool>())
+    return out.notice("Static analysis: not given. Give " + analysis["how"].get<std::string>() + ".", "open");
+  ViewRows rows;
+  for (const Json& row : analysis["by_check"]) rows.push_back({row["check"].get<std::string>(), shown(row["count"])});
+  if (rows.empty()) return out.text("Static analysis: clang-tidy printed no finding.");
+  out.table("Findings of the static analysis", {"check", "findings"}, rows, "Each with its place in analysis.sarif.");
+}
+
 }  // namespace
 
 Section trace_view(const Json& report) {
@@ -100,9 +128,8 @@ Section identity_view(const Json& report) {
             {{"sensors", r["sensors"].dump()},
              {"capacity of the tool", r["tool_capacity"].dump()},
              {"monitor of the tool, bytes", r["tool_monitor_bytes"].dump()}});
-  if (!r["target"]["given"].get<bool>())
-    out.notice("Size, stack and instructions on the target: not given. " + r["target"]["how"].get<std::string>() + ".",
-               "open");
+  target_table(r["target"], out);
+  analysis_table(report["analysis"], out);
   return out;
 }
 

@@ -103,10 +103,16 @@ void judge_array(const UserLimits& limits, const Json& array, Criteria& out) {
             "a constant error is detected from " + found + " on");
 }
 
+/// A prediction says what a calibration would leave; that this tool has been calibrated it does not say.
 void judge_calibration(const Json& calibration, Criteria& out) {
   const bool accepted = calibration.value("accepted", false);
-  out.judge(accepted, "Calibration accepted", "an accepted fit", "default",
-            calibration.value("mode", "") + (accepted ? ", accepted" : ", refused"),
+  const std::string mode = calibration.value("mode", "");
+  const std::string found = mode + (accepted ? ", accepted" : ", refused");
+  if (accepted && mode == "predicted")
+    return out.add("Calibration accepted", "an accepted fit of this tool", "default", found, "open",
+                   "this tool was not calibrated: section 3 lists what to record; give the log (--positions) or the "
+                   "calibration (--calibration)");
+  out.judge(accepted, "Calibration accepted", "an accepted fit of this tool", "default", found,
             "the calibration was refused: " + calibration.value("reason", ""));
 }
 
@@ -124,6 +130,12 @@ double detected_within_s(const Json& faults) {
   return blocks * faults["plan"]["block_s"].get<double>();
 }
 
+/// The rate of the long campaign where the result of one was given, else that of the campaign played here.
+const Json& rate_of(const Json& section, const char* name) {
+  if (section.contains("reused") && section["reused"]["rates"].contains(name)) return section["reused"]["rates"][name];
+  return section.contains("rates") ? section["rates"][name] : section[name];
+}
+
 void judge_campaign(const UserLimits& limits, const Json& report, Criteria& out) {
   for (const char* which : {"healthy", "faults"}) {
     if (!played(report, which))
@@ -133,16 +145,16 @@ void judge_campaign(const UserLimits& limits, const Json& report, Criteria& out)
   if (played(report, "healthy")) {
     const Json& healthy = report["campaign"]["healthy"];
     if (limits.false_alarm_rate)
-      out.judge_rate("False alarms", healthy["false_alarm_per_block"], *limits.false_alarm_rate, "block");
-    const Json& alert = healthy["unavailable"];
+      out.judge_rate("False alarms", rate_of(healthy, "false_alarm_per_block"), *limits.false_alarm_rate, "block");
+    const Json& alert = rate_of(healthy, "unavailable");
     out.judge(2 * alert["count"].get<std::uint64_t>() <= alert["of"].get<std::uint64_t>(),
               "Within the alert limit while healthy", "in at least half of the scenarios", "default",
               "alert in " + rate_words(alert), "an alert stands although nothing is wrong: " + rate_words(alert));
   }
   if (!played(report, "faults")) return;
   const Json& faults = report["campaign"]["faults"];
-  out.judge_never("Healthy sensors excluded", faults["rates"]["wrong_exclusion"], limits.wrong_exclusion_rate);
-  out.judge_never("Misleading output", faults["rates"]["misleading"], limits.misleading_rate);
+  out.judge_never("Healthy sensors excluded", rate_of(faults, "wrong_exclusion"), limits.wrong_exclusion_rate);
+  out.judge_never("Misleading output", rate_of(faults, "misleading"), limits.misleading_rate);
   if (limits.detect_within_s) {
     const double within_s = detected_within_s(faults);
     out.judge(within_s >= 0.0 && within_s <= *limits.detect_within_s, "Time to detect, 95 % of the detected faults",
@@ -167,6 +179,35 @@ void judge_requirements(const Json& trace, Criteria& out) {
             fmt::format("{} requirements have a test or a formal item that failed", failed));
 }
 
+/// What was measured or found elsewhere and given to the report; nothing is judged where nothing was given.
+void judge_evidence(const Json& report, Criteria& out) {
+  const Json& proofs = report["traceability"]["assurance_results"];
+  if (proofs["given"].get<bool>()) {
+    std::string failing;
+    for (const Json& item : proofs["items"]) {
+      if (item["result"] != "holds") failing += (failing.empty() ? "" : ", ") + item["title"].get<std::string>();
+    }
+    out.judge(failing.empty(), "Proofs and model checking", "every item holds", "default",
+              failing.empty() ? fmt::format("{} hold", proofs["items"].size()) : "failing: " + failing,
+              "an item of scripts/assure fails: " + failing);
+  }
+  const Json& analysis = report["analysis"];
+  if (analysis["given"].get<bool>()) {
+    const std::size_t findings = analysis["findings"];
+    out.judge(findings == 0, "Findings of the static analysis", "none", "default", fmt::format("{}", findings),
+              fmt::format("the static analysis has {} finding{}", findings, findings == 1 ? "" : "s"));
+  }
+  const Json& target = report["resources"]["target"];
+  if (!target["given"].get<bool>()) return;
+  std::string above;
+  for (const Json& item : target["items"]) {
+    if (item["limit"].is_number() && item["value"].get<double>() > item["limit"].get<double>())
+      above += (above.empty() ? "" : ", ") + item["name"].get<std::string>();
+  }
+  out.judge(above.empty(), "Resources on the target", "each within its ceiling", "default",
+            above.empty() ? "all within" : "above: " + above, "above its ceiling on the target: " + above);
+}
+
 Json assumptions_of(const UserLimits& limits, const Json& report) {
   Json out = Json::array();
   const Json& array = report["array"];
@@ -183,6 +224,11 @@ Json assumptions_of(const UserLimits& limits, const Json& report) {
     out.push_back(
         "No calibration was given: what it leaves is predicted from a simulated stand with sensors drawn from the "
         "priors of the array file. Verify again with the real one (--positions or --calibration).");
+  if (report["subject"].value("rows", "") == "stations")
+    out.push_back(
+        "Every row counts as one sample with the noise of the array file: geometry and campaigns are harsher than a "
+        "log "
+        "whose rows are means of many samples.");
   out.push_back(
       "The campaigns speak of the scenarios that they draw: the faults, sizes and attitudes listed, in equal "
       "shares. A rate in the field is another number.");
@@ -209,7 +255,21 @@ Json known_limits_of(const Json& array) {
   return out;
 }
 
-/// How many, how large, how sure: the questions of someone who is new to it.
+/// What not to trust, in one sentence.
+std::string distrust_of(const Json& report) {
+  const int grade = report["array"]["figures_of_merit"]["strict_grade"];
+  std::string out = grade > 0 ? fmt::format("any output once more than {} of {} sensors {} faulty; ", grade,
+                                            report["array"]["sensors"].size(), grade == 1 ? "is" : "are")
+                              : std::string("which sensor is faulty: no fault is isolated; ");
+  out +=
+      "any output while an alert stands or only three sensors are in use; several sensors that all show the same wrong "
+      "gravity";
+  if (report["calibration"].value("mode", "") == "predicted")
+    out += "; every figure here for a tool that was not calibrated: they are of a simulated one";
+  return out;
+}
+
+/// How many, how large, how sure, what not to trust: the questions of someone who is new to it.
 Json answers_of(const Json& report) {
   Json out = Json::array();
   const auto add = [&out](const char* question, std::string value, std::string label) {
@@ -217,8 +277,9 @@ Json answers_of(const Json& report) {
   };
   const Json& merit = report["array"]["figures_of_merit"];
   add("How many faults?", fmt::format("{}", merit["strict_grade"].get<int>()),
-      fmt::format("faulty sensors of {} isolated for good over several attitudes; {} at once without gravity",
-                  report["array"]["sensors"].size(), merit["parity_grade"].get<int>()));
+      fmt::format(
+          "faulty sensors of {} at once are found out and left out, given several attitudes; {} at a single attitude",
+          report["array"]["sensors"].size(), merit["parity_grade"].get<int>()));
   double least = 0.0, sure = 0.0;
   bool sees = true, tells = true;
   for (const Json& sensor : report["array"]["sensors"]) {
@@ -229,18 +290,22 @@ Json answers_of(const Json& report) {
     sure = std::fmax(sure, t["sure_isolation"].is_number() ? t["sure_isolation"].get<double>() : 0.0);
   }
   add("How large?", sees ? fmt::format("{:.3g} mg0", mg0(least)) : "never",
-      sees ? "constant error of any one sensor that a block detects in 999 of 1000 cases" +
-                 (tells ? fmt::format("; told apart for certain above {:.3g} mg0", mg0(sure)) : std::string())
+      sees ? "constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
+                 (tells ? fmt::format("; the sensor is named for certain above {:.3g} mg0", mg0(sure)) : std::string())
            : "nothing checks every sensor");
   const Json& level = report["array"]["protection_level_deg"];
   add("How wrong unnoticed?", level.is_number() ? fmt::format("{:.3g} deg", level.get<double>()) : "unbounded",
-      "tilt error that can stay undetected (protection level)");
+      "tilt error that can stay without an alarm (protection level)");
   if (played(report, "faults")) {
-    const Json& wrong = report["campaign"]["faults"]["rates"]["wrong_exclusion"];
-    add("How sure?", fmt::format("{:.2g}", wrong["high"].get<double>()),
-        fmt::format("upper 95 % bound of excluding a healthy sensor, {} seen in {} scenarios",
-                    wrong["count"].get<std::uint64_t>(), wrong["of"].get<std::uint64_t>()));
+    const Json& wrong = rate_of(report["campaign"]["faults"], "wrong_exclusion");
+    add("How sure?", fmt::format("{} of {}", wrong["count"].get<std::uint64_t>(), wrong["of"].get<std::uint64_t>()),
+        fmt::format("simulated scenarios with faults left out a healthy sensor; with 95 % confidence the rate is below "
+                    "{:.2g} of such scenarios",
+                    wrong["high"].get<double>()));
+  } else {
+    add("How sure?", "not known", "no scenario was played");
   }
+  add("What not to trust?", "Do not trust", distrust_of(report));
   return out;
 }
 
@@ -252,6 +317,7 @@ Json verdict_section(const UserLimits& limits, const Json& report) {
   judge_calibration(report["calibration"], criteria);
   judge_campaign(limits, report, criteria);
   judge_requirements(report["traceability"], criteria);
+  judge_evidence(report, criteria);
   Json list = criteria.take();
   std::string against, open;
   for (const Json& one : list) {
@@ -260,7 +326,8 @@ Json verdict_section(const UserLimits& limits, const Json& report) {
   }
   const std::string name = report["subject"]["name"];
   const char* verdict = !against.empty() ? "not fit" : !open.empty() ? "open" : "fit";
-  std::string sentence = name + " is fit for purpose within the limits and assumptions below.";
+  std::string sentence = name + " is fit for purpose within the limits and assumptions below" +
+                         (limits.file.empty() ? "; no limits file was given, so defaults stand in for your own." : ".");
   if (!against.empty()) sentence = name + " is not fit for purpose: " + against + ".";
   if (against.empty() && !open.empty()) sentence = "Whether " + name + " is fit for purpose is open: " + open + ".";
   return {{"verdict", verdict},

@@ -40,6 +40,7 @@ GeometryPictures geometry_of(const Json& report) {
 
 bool has_faults(const Json& report) { return report["campaign"]["faults"].value("played", false); }
 bool has_fit(const Json& report) { return report["calibration"].contains("fit"); }
+bool has_trace(const Json& report) { return !report["calibration"].value("trace", Json::array()).empty(); }
 
 double share(const Json& rate) {
   return rate["of"] == 0 ? 0.0 : rate["count"].get<double>() / rate["of"].get<double>();
@@ -106,6 +107,64 @@ PlotFile residuals_csv(const Json& stations) {
   return {"residuals.csv", csv};
 }
 
+PlotFile traces_csv(const Json& trace) {
+  std::string csv = "iteration,cost";
+  for (const char* what : {"bias_mg0", "scale_pct", "axis_deg"}) {
+    for (const Json& s : trace.front()["sensors"]) csv += fmt::format(",{}_{}", s["id"].get<std::string>(), what);
+  }
+  csv += "\n";
+  for (const Json& step : trace) {
+    csv += fmt::format("{},{}", step["iteration"].get<int>(),
+                       step["cost"].is_number() ? fmt::format("{:.6g}", step["cost"].get<double>()) : "");
+    for (const auto& [key, factor] : {std::pair<const char*, double>{"bias_mps2", 1e3 / kG0_mps2},
+                                      {"scale_change", 100.0},
+                                      {"axis_shift_deg", 1.0}}) {
+      for (const Json& s : step["sensors"]) csv += fmt::format(",{:.6g}", factor * s[key].get<double>());
+    }
+    csv += "\n";
+  }
+  return {"traces.csv", csv};
+}
+
+/// Four panels: what Figs 4 to 7 of the paper show.
+std::string traces_script(const Json& trace) {
+  const std::size_t n = trace.front()["sensors"].size();
+  std::string names;
+  for (const Json& s : trace.front()["sensors"]) {
+    std::string id = s["id"];
+    for (char& c : id) {
+      if (c == ' ' || c == '\'' || c == '"' || c == '\\' || c == ',') c = '_';
+    }
+    names += (names.empty() ? "" : " ") + id;
+  }
+  std::string out = terminal("traces.svg", 1000, 760) +
+                    fmt::format(
+                        "set multiplot layout 2,2\nset xrange [-0.2:{}.2]\nset xtics 1\nset xlabel 'iteration'\nset "
+                        "format y '%g'\nset palette defined (0 '#2f78b7', 1 '#2c8f57', 2 '#c98a00', 3 '#d0553c', 4 "
+                        "'#8f55c4')\nunset colorbox\nset key above samplen 1\n",
+                        trace.size() - 1);
+  std::size_t first = 3;
+  for (const char* label : {"bias, mg0", "scale less the datasheet, %", "axis turned, deg"}) {
+    out += fmt::format(
+        "set ylabel '{}'\nplot for [i=0:{}] 'traces.csv' skip 1 using 1:(column({}+i)) with linespoints pt 7 ps 0.6 lc "
+        "palette frac (i/{}.0) title word('{}', i+1) noenhanced\n",
+        label, n - 1, first, n, names);
+    first += n;
+  }
+  double least = 1e300, most = 0.0;
+  for (const Json& step : trace) {
+    if (!step["cost"].is_number()) continue;
+    least = std::fmin(least, step["cost"].get<double>());
+    most = std::fmax(most, step["cost"].get<double>());
+  }
+  // A cost that hardly falls has no tic to read on a logarithmic axis.
+  const bool wide = least > 0.0 && most > 100.0 * least;
+  return out + "set ylabel 'cost, squared sigmas'\n" +
+         (wide ? "set logscale y\nset format y '10^{%T}'\n" : "set yrange [0:*]\n") +
+         "unset key\nplot 'traces.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lc rgb '#2f78b7' notitle\n"
+         "unset multiplot\nunset output\n";
+}
+
 std::string by_size_script() {
   return terminal("by-size.svg", 800, 440) +
          fmt::format(
@@ -162,6 +221,7 @@ std::string residuals_script() {
 
 std::vector<std::string> verification_picture_names(const Json& report) {
   std::vector<std::string> out = geometry_picture_names(geometry_of(report));
+  if (has_trace(report)) out.emplace_back("traces.svg");
   if (has_fit(report)) out.emplace_back("residuals.svg");
   if (!has_faults(report)) return out;
   if (!report["campaign"]["faults"]["by_size"].empty()) out.emplace_back("by-size.svg");
@@ -179,6 +239,10 @@ std::vector<PlotFile> verification_plot_files(const Json& report) {
     } else {
       out.push_back(std::move(file));
     }
+  }
+  if (has_trace(report)) {
+    out.push_back(traces_csv(report["calibration"]["trace"]));
+    script += traces_script(report["calibration"]["trace"]);
   }
   if (has_fit(report)) {
     out.push_back(residuals_csv(report["calibration"]["fit"]["stations"]));

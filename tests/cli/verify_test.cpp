@@ -34,8 +34,8 @@ std::map<std::string, std::string> contents(const std::filesystem::path& folder)
 TEST(VerifyCommand, SameInputsSameBytesOutsideTheRun) {
   Directory where;
   with_tool(where);
-  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "a", "--threads", "1"}).code, 0);
-  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "b", "--threads", "3"}).code, 0);
+  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "a", "--threads", "1"}).code, 6);
+  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "b", "--threads", "3"}).code, 6);
   const auto a = contents(where / "a"), b = contents(where / "b");
   EXPECT_GE(a.size(), 12U);
   for (const auto& [name, text] : a) {
@@ -43,7 +43,7 @@ TEST(VerifyCommand, SameInputsSameBytesOutsideTheRun) {
     EXPECT_TRUE(b.at(name) == text) << name;
   }
   EXPECT_EQ(a.size(), b.size());
-  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "c", "--seed", "2"}).code, 0);
+  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "c", "--seed", "2"}).code, 6);
   EXPECT_NE(contents(where / "c").at("trials-faults.csv"), a.at("trials-faults.csv"));
 }
 
@@ -93,15 +93,18 @@ TEST(VerifyCommand, ThreeSensorsAreNotFitAndSayWhy) {
 }
 
 TEST(VerifyCommand, AnOrphanEndsWithSix) {
-  Directory where;
-  with_tool(where);
+  const Workshop shop;
+  const auto traced = [&shop](const std::string& trace, const std::string& out) {
+    return verify(
+        shop, {"--array", "array.toml", "--calibration", "calibration.json", "--traceability", trace, "--out", out});
+  };
   Json trace = Json::parse(read_text(verified_paper_tool() / "report" / "traceability.json"));
-  write_text(where / "same.json", trace.dump());
-  EXPECT_EQ(verify(where, {"--array", "tool.toml", "--traceability", "same.json", "--out", "a"}).code, 0);
+  write_text(shop / "same.json", trace.dump());
+  EXPECT_EQ(traced("same.json", "a").code, 0);
   trace["requirements"].push_back(
       {{"id", "REQ-998"}, {"title", "Loose"}, {"status", "active"}, {"methods", {"test"}}, {"statement", "It shall."}});
-  write_text(where / "loose.json", trace.dump());
-  const Outcome outcome = verify(where, {"--array", "tool.toml", "--traceability", "loose.json", "--out", "b"});
+  write_text(shop / "loose.json", trace.dump());
+  const Outcome outcome = traced("loose.json", "b");
   EXPECT_EQ(outcome.code, 6);
   EXPECT_TRUE(says(outcome.out, {"orphan: REQ-998 answers no hazard", "orphan: REQ-998 has no test that verifies it"}));
 }
@@ -130,7 +133,7 @@ TEST(VerifyCommand, ComparesWithAnEarlierReport) {
       verify(where, {"--array", "tool.toml", "--limits", "limits.toml", "--compare", old, "--out", "r"}, "600").code,
       6);
   const Json change = report_in(where / "r")["change"];
-  EXPECT_EQ(change["verdict_before"], "fit");
+  EXPECT_EQ(change["verdict_before"], "open");
   EXPECT_EQ(change["verdict_now"], "not fit");
   EXPECT_GT(change["count"].get<int>(), 3);
 }
@@ -157,16 +160,79 @@ TEST(VerifyCommand, WrongUseIsAnsweredWithWhatAndHow) {
   EXPECT_EQ(run(where, {"verify", "--array", "tool.toml", "--scenarios", "0"}).code, 2);
 }
 
-TEST(VerifyCommand, WithoutGnuplotTheRestIsWritten) {
+TEST(VerifyCommand, WithoutOptionalProgramsTheRestIsWritten) {
   Directory where;
   with_tool(where);
-  const Outcome outcome =
-      run(where, {"verify", "--array", "tool.toml", "--scenarios", "100", "--out", "r"}, "", {"PATH=/nowhere"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = run(where, {"verify", "--array", "tool.toml", "--scenarios", "100", "--out", "r", "--pdf"},
+                              "", {"PATH=/nowhere"});
+  EXPECT_EQ(outcome.code, 6) << outcome.err;
   EXPECT_NE(outcome.err.find("gnuplot"), std::string::npos);
+  EXPECT_NE(outcome.err.find("weasyprint"), std::string::npos);
   const std::string html = read_text(where / "r" / "report.html");
   EXPECT_NE(html.find("There is no picture: gnuplot: is not installed"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(where / "r" / "charts" / "stanford.csv"));
+  EXPECT_FALSE(std::filesystem::exists(where / "r" / "report.pdf"));
+  for (const char* name :
+       {"charts/stanford.csv", "charts/traces.csv", "report.json", "junit.xml", "spdx.json", "argument.svg"})
+    EXPECT_TRUE(std::filesystem::exists(where / "r" / name)) << name;
+}
+
+TEST(VerifyCommand, ALongerCampaignIsTakenIn) {
+  Directory where;
+  with_tool(where);
+  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "r"}).code, 6);
+  std::filesystem::copy_file(where / "r" / "faults.toml", where / "faults.toml");
+  std::filesystem::copy_file(where / "r" / "healthy.toml", where / "healthy.toml");
+  std::filesystem::copy_file(where / "r" / "array.toml", where / "array.toml");
+  for (const char* name : {"faults", "healthy"}) {
+    const std::string file = name;
+    ASSERT_EQ(run(where, {"campaign", file + ".toml", "--scenarios", "900", "--out", file + ".json"}).code, 0);
+  }
+  const std::vector<std::string> both = {"--array", "tool.toml",    "--reuse", "faults.json",
+                                         "--reuse", "healthy.json", "--out",   "s"};
+  ASSERT_EQ(verify(where, both).code, 6);
+  const Json campaign = report_in(where / "s")["campaign"];
+  EXPECT_EQ(campaign["faults"]["plan"]["scenarios"], 200);
+  EXPECT_EQ(campaign["faults"]["reused"]["rates"]["wrong_exclusion"]["of"], 900);
+  EXPECT_GE(campaign["healthy"]["reused"]["rates"]["false_alarm_per_block"]["of"], 900);
+  EXPECT_NE(read_text(where / "s" / "report.html").find("The long campaign: faults.json"), std::string::npos);
+  const auto refused = [&where](const std::vector<std::string>& more, const std::vector<std::string>& words) {
+    const Outcome outcome = verify(where, more);
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, words));
+  };
+  refused({"--array", "tool.toml", "--reuse", "faults.json", "--seed", "2", "--out", "t"},
+          {"faults.json", "another campaign"});
+  refused({"--array", "tool.toml", "--reuse", "tool.toml", "--out", "t"}, {"tool.toml", "no result of a campaign"});
+}
+
+TEST(VerifyCommand, TheStaticAnalysisBecomesSarifAndTheTargetIsTold) {
+  Directory where;
+  with_tool(where);
+  write_text(where / "tidy.log", "/src/a.cpp:3:7: warning: narrowing [bugprone-narrowing,-warnings-as-errors]\n");
+  write_text(where / "results.json",
+             R"({"schema": "plumb-resources", "version": 1, "commit": "abc", "items": [)"
+             R"({"target": "Cortex-M7", "name": "stack of step", "value": 9000, "limit": 4096, "unit": "B"}]})");
+  const Outcome outcome =
+      verify(where, {"--array", "tool.toml", "--analysis", "tidy.log", "--resources", "results.json", "--out", "r"});
+  EXPECT_EQ(outcome.code, 6);
+  EXPECT_TRUE(says(outcome.err, {"static analysis has 1 finding", "stack of step"}));
+  const Json sarif = Json::parse(read_text(where / "r" / "analysis.sarif"));
+  EXPECT_EQ(sarif["runs"][0]["results"][0]["ruleId"], "bugprone-narrowing");
+  const Json report = report_in(where / "r");
+  EXPECT_EQ(report["resources"]["target"]["items"][0]["value"], 9000);
+  EXPECT_EQ(verify(where, {"--array", "tool.toml", "--resources", "tidy.log", "--out", "t"}).code, 3);
+  EXPECT_EQ(verify(where, {"--array", "tool.toml", "--analysis", "tool.toml", "--out", "t"}).code, 3);
+}
+
+TEST(VerifyCommand, TableTwoIsPlayedWithThePapersTetrahedronAlone) {
+  const Json& table = paper_report()["campaign"]["table2"];
+  ASSERT_EQ(table["given"], true);
+  EXPECT_EQ(table["as_printed"], 23);
+  for (const Json& row : table["rows"]) EXPECT_EQ(row["monitor_named_a_healthy_one"], false) << row;
+  Directory where;
+  with_tool(where, read_text(PLUMB_SOURCE_DIR "/examples/cone5.toml"));
+  ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "r"}).code, 6);
+  EXPECT_EQ(report_in(where / "r")["campaign"]["table2"]["given"], false);
 }
 
 }  // namespace

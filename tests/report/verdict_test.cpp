@@ -11,6 +11,7 @@
 namespace {
 
 using namespace plumb;
+using plumb_test::calibrated_report;
 using plumb_test::Json;
 using plumb_test::paper_report;
 
@@ -60,7 +61,7 @@ TEST(VerificationLimits, AreRefusedWithLineAndRemedy) {
 }
 
 TEST(VerificationVerdict, EveryLimitIsMetMissedOrOpen) {
-  const Json& report = paper_report();
+  const Json report = calibrated_report();
   const char* const level = "Protection level against the alert limit";
   const double found_deg = report["array"]["protection_level_deg"];
   const auto with = [&report](const std::string& keys) { return report::verdict_section(limits(keys), report); };
@@ -80,7 +81,7 @@ TEST(VerificationVerdict, EveryLimitIsMetMissedOrOpen) {
 
 // Negative: REQ-181
 TEST(VerificationVerdict, ARateIsShownRefutedOrOpenByItsInterval) {
-  Json report = paper_report();
+  Json report = calibrated_report();
   const auto judged = [&report](const std::string& rate) {
     return result_of(report::verdict_section(limits("false_alarm_rate = " + rate), report), "False alarms");
   };
@@ -97,7 +98,7 @@ TEST(VerificationVerdict, ARateIsShownRefutedOrOpenByItsInterval) {
 
 TEST(VerificationVerdict, WhatMustNeverHappenIsNeverPassedOver) {
   const auto broken = [](void (*change)(Json&)) {
-    Json report = paper_report();
+    Json report = calibrated_report();
     change(report);
     return report::verdict_section(limits(""), report)["verdict"].get<std::string>();
   };
@@ -111,6 +112,66 @@ TEST(VerificationVerdict, WhatMustNeverHappenIsNeverPassedOver) {
   EXPECT_EQ(broken([](Json& r) { r["traceability"]["counts"]["failed"] = 1; }), "not fit");
   EXPECT_EQ(broken([](Json& r) { r["campaign"]["healthy"]["unavailable"] = report::rate_json(500, 600); }), "not fit");
   EXPECT_EQ(broken([](Json& r) { r["campaign"]["faults"] = {{"played", false}, {"reason", "why"}}; }), "open");
+}
+
+TEST(VerificationVerdict, APredictedCalibrationIsOpenAndSaysWhatToRecord) {
+  const Json& report = paper_report();
+  EXPECT_EQ(report["verdict"]["verdict"], "open");
+  EXPECT_TRUE(plumb_test::says(report["verdict"]["sentence"], {"not calibrated", "what to record", "--positions"}));
+  EXPECT_EQ(result_of(report["verdict"], "Calibration accepted"), "open");
+  EXPECT_EQ(report["calibration"]["planned"]["attitudes"].size(), report["calibration"]["planned"]["stations"]);
+  EXPECT_EQ(report::verdict_section(limits(""), calibrated_report())["verdict"], "fit");
+  Json refused = paper_report();  // what cannot be calibrated even in a simulation is not fit
+  refused["calibration"]["accepted"] = false;
+  EXPECT_EQ(report::verdict_section(limits(""), refused)["verdict"], "not fit");
+}
+
+TEST(VerificationVerdict, TheFirstPageAnswersTheFourQuestionsInWords) {
+  const Json& answers = paper_report()["verdict"]["answers"];
+  const auto answer = [&answers](const char* question) -> Json {
+    for (const Json& one : answers) {
+      if (one["question"] == question) return one;
+    }
+    return {{"value", "none"}, {"label", "none"}};
+  };
+  EXPECT_EQ(answer("How many faults?")["value"], "1");
+  EXPECT_TRUE(plumb_test::says(answer("How large?")["value"], {"mg0"}));
+  EXPECT_TRUE(plumb_test::says(answer("How sure?")["label"], {"healthy sensor", "95 % confidence"}));
+  EXPECT_TRUE(plumb_test::says(answer("What not to trust?")["label"],
+                               {"more than 1 of 4", "three sensors", "same wrong gravity", "not calibrated"}));
+}
+
+TEST(VerificationVerdict, EvidenceThatIsGivenIsJudged) {
+  const auto verdict_of = [](void (*change)(Json&)) {
+    Json report = calibrated_report();
+    change(report);
+    return report::verdict_section(limits(""), report)["verdict"].get<std::string>();
+  };
+  EXPECT_EQ(verdict_of([](Json& r) { r["analysis"] = {{"given", true}, {"findings", 0}}; }), "fit");
+  EXPECT_EQ(verdict_of([](Json& r) { r["analysis"] = {{"given", true}, {"findings", 2}}; }), "not fit");
+  const auto target = [](double value) {
+    return Json{{"given", true}, {"items", {{{"name", "stack"}, {"value", value}, {"limit", 100}}}}};
+  };
+  Json report = calibrated_report();
+  report["resources"]["target"] = target(100.0);
+  EXPECT_EQ(report::verdict_section(limits(""), report)["verdict"], "fit");
+  report["resources"]["target"] = target(101.0);
+  EXPECT_TRUE(plumb_test::says(report::verdict_section(limits(""), report)["sentence"], {"not fit", "stack"}));
+  EXPECT_EQ(verdict_of([](Json& r) {
+              r["traceability"]["assurance_results"] = {{"given", true},
+                                                        {"items", {{{"title", "spin"}, {"result", "fails"}}}}};
+            }),
+            "not fit");
+}
+
+TEST(VerificationVerdict, ALongCampaignIsJudgedInThePlaceOfTheShortOne) {
+  Json report = calibrated_report();
+  Json& faults = report["campaign"]["faults"];
+  faults["reused"] = {{"rates", faults["rates"]}};
+  EXPECT_EQ(report::verdict_section(limits(""), report)["verdict"], "fit");
+  faults["reused"]["rates"]["wrong_exclusion"] = report::rate_json(1, 1000000);
+  EXPECT_EQ(report::verdict_section(limits(""), report)["verdict"], "not fit");
+  EXPECT_EQ(report::verdict_section(limits("wrong_exclusion_rate = 1e-5"), report)["verdict"], "fit");
 }
 
 TEST(VerificationIdentity, HashesAreThoseOfTheStandard) {

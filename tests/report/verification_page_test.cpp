@@ -86,8 +86,9 @@ TEST(VerificationPage, ShowsWhatTheJsonSaysAndNothingElse) {
 TEST(VerificationPage, SaysWhatWasNotGivenAndHowToGiveIt) {
   const std::string html = report::verification_html(paper_report(), {});
   EXPECT_TRUE(plumb_test::says(
-      html, {"Not given: predicted from a simulated stand. Give --positions", "not given. Give --assurance",
-             "Results of the tests: not given. Give --test-results", "scripts/baremetal", "Not given: --compare"}));
+      html, {"Not given: predicted from a simulated stand. Give --positions",
+             "To record:", "not given. Give --assurance", "Results of the tests: not given. Give --test-results",
+             "Give --resources", "Give --analysis", "Not given: --compare"}));
   EXPECT_NE(html.find("There is no picture: it was not drawn"), std::string::npos);
 }
 
@@ -104,7 +105,8 @@ TEST(VerificationPage, NamesCannotBreakOut) {
 TEST(VerificationPage, ACampaignThatWasNotPlayedIsTold) {
   Json report = paper_report();
   report["campaign"] = {{"healthy", {{"played", false}, {"reason", "no monitor"}}},
-                        {"faults", {{"played", false}, {"reason", "no monitor"}}}};
+                        {"faults", {{"played", false}, {"reason", "no monitor"}}},
+                        {"table2", {{"given", false}, {"reason", "another array"}}}};
   report["state_machine"]["coverage"] = Json();
   const std::string html = report::verification_html(report, {});
   EXPECT_TRUE(plumb_test::says(html, {"Not played: no monitor", "No campaign was played"}));
@@ -134,7 +136,7 @@ TEST(VerificationChange, IsEmptyBetweenEqualReportsAndNamesWhatDiffers) {
   now["traceability"]["requirements"].erase(3);
   const Json change = report::change_section(before, now);
   EXPECT_EQ(change["count"], 3);
-  EXPECT_EQ(change["verdict_before"], "fit");
+  EXPECT_EQ(change["verdict_before"], "open");
   EXPECT_EQ(change["verdict_now"], "not fit");
   EXPECT_EQ(change["differences"][0]["where"], "verdict.verdict");
   EXPECT_EQ(change["differences"][1]["where"], "array.sensors[a2].sigma_mps2");
