@@ -11,6 +11,30 @@ namespace {
 constexpr std::int64_t kLargestCount = 0xFFFFFFFFLL;
 }  // namespace
 
+CellKind LogReader::State::number_in(std::size_t column, double& value) const noexcept {
+  if (!binary) return parse_cell(cells[column], value);
+  const std::size_t place = number_place[column];
+  if (place == kNoColumn) return parse_cell(binary->header().columns[column].text, value);
+  if (!binary->has(place)) return CellKind::empty;
+  value = binary->value(place);
+  return CellKind::number;
+}
+
+CellKind LogReader::State::whole_in(std::size_t column, std::int64_t& value) const noexcept {
+  if (!binary) return parse_whole(cells[column], value);
+  double number = 0.0;
+  const CellKind kind = number_in(column, number);
+  return kind == CellKind::number && !to_whole(number, value) ? CellKind::text : kind;
+}
+
+/// A cell for a message.
+std::string LogReader::State::shown(std::size_t column) const {
+  if (!binary) return in_quotes(cells[column]);
+  double value = 0.0;
+  if (number_place[column] == kNoColumn) return in_quotes(binary->header().columns[column].text);
+  return number_in(column, value) == CellKind::number ? shortest(value) : "an empty cell";
+}
+
 bool LogReader::State::fill_time(Sample& sample) {
   if (time == kNoColumn) {
     const auto number = static_cast<double>(index - 1);
@@ -18,8 +42,7 @@ bool LogReader::State::fill_time(Sample& sample) {
     return true;
   }
   double value = 0.0;
-  if (parse_cell(cells[time], value) != CellKind::number)
-    return refuse(time, in_quotes(cells[time]) + " is not a time");
+  if (number_in(time, value) != CellKind::number) return refuse(time, shown(time) + " is not a time");
   if (!std::isfinite(value)) return refuse(time, "the time is not finite");
   sample.time_s = value * input.time_unit_s;
   if (statistics.rows > 0 && !(sample.time_s > statistics.last_time_s)) {
@@ -32,11 +55,10 @@ bool LogReader::State::fill_time(Sample& sample) {
 bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint32_t& tag) {
   if (column == kNoColumn) return true;
   std::int64_t value = 0;
-  const CellKind kind = parse_whole(cells[column], value);
+  const CellKind kind = whole_in(column, value);
   const bool fits = kind == CellKind::empty || (kind == CellKind::number && value >= -1 && value < kLargestCount);
   if (!fits)
-    return refuse(column,
-                  in_quotes(cells[column]) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
+    return refuse(column, shown(column) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
   tag = kind == CellKind::empty ? 0U : tag_of_label(value);
   return true;
 }
@@ -46,8 +68,8 @@ bool LogReader::State::fill_tags(Sample& sample) {
   if (!fill_tag(roll_group, "the number of a roll group", sample.roll_group)) return false;
   if (count != kNoColumn) {
     std::int64_t value = 0;
-    const bool fits = parse_whole(cells[count], value) == CellKind::number && value >= 1 && value <= kLargestCount;
-    if (!fits) return refuse(count, in_quotes(cells[count]) + " is not a number of samples (a whole number from 1 up)");
+    const bool fits = whole_in(count, value) == CellKind::number && value >= 1 && value <= kLargestCount;
+    if (!fits) return refuse(count, shown(count) + " is not a number of samples (a whole number from 1 up)");
     sample.count = static_cast<std::uint32_t>(value);
   }
   return true;
@@ -57,8 +79,8 @@ bool LogReader::State::fill_temperature(Sample& sample) {
   sample.temperature_degc = input.default_temperature_degc;
   if (temperature == kNoColumn) return true;
   double value = 0.0;
-  const CellKind kind = parse_cell(cells[temperature], value);
-  if (kind == CellKind::text) return refuse(temperature, in_quotes(cells[temperature]) + " is not a temperature");
+  const CellKind kind = number_in(temperature, value);
+  if (kind == CellKind::text) return refuse(temperature, shown(temperature) + " is not a temperature");
   if (kind == CellKind::number && std::isfinite(value)) {
     last_temperature_degc = value;
     has_temperature = true;
@@ -77,8 +99,8 @@ bool LogReader::State::fill_rotation() {
   rotation.rate_known = true;
   for (std::size_t k = 0; k < rates.size(); ++k) {
     double value = 0.0;
-    const CellKind kind = parse_cell(cells[rates[k]], value);
-    if (kind == CellKind::text) return refuse(rates[k], in_quotes(cells[rates[k]]) + " is not a rate of turn");
+    const CellKind kind = number_in(rates[k], value);
+    if (kind == CellKind::text) return refuse(rates[k], shown(rates[k]) + " is not a rate of turn");
     if (kind != CellKind::number || !std::isfinite(value)) {
       rotation = Rotation{true, false, {}};
       return true;
@@ -92,14 +114,13 @@ bool LogReader::State::fill_rotation() {
 bool LogReader::State::fill_sensors(Sample& sample) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     double value = 0.0;
-    const std::string_view cell = cells[sensors[i]];
-    switch (parse_cell(cell, value)) {
+    switch (number_in(sensors[i], value)) {
       case CellKind::number:
         sample.raw[i] = value;
         sample.delivered.bits |= 1U << static_cast<unsigned>(i);
         break;
       case CellKind::empty: break;
-      case CellKind::text: return refuse(sensors[i], in_quotes(cell) + " is not a number");
+      case CellKind::text: return refuse(sensors[i], shown(sensors[i]) + " is not a number");
     }
   }
   // Counted only now that the row is known to be good.
