@@ -171,12 +171,6 @@ CellKind parse_whole(std::string_view cell, std::int64_t& value) noexcept {
   return to_whole(number, value) ? CellKind::number : CellKind::text;
 }
 
-bool to_whole(double number, std::int64_t& value) noexcept {
-  if (!(std::abs(number) < 9007199254740992.0) || number != std::floor(number)) return false;
-  value = static_cast<std::int64_t>(number);
-  return true;
-}
-
 }  // namespace io
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -77,7 +77,13 @@ CellKind parse_cell(std::string_view cell, double& value) noexcept;
 /// A whole number ("3", "3.0").
 CellKind parse_whole(std::string_view cell, std::int64_t& value) noexcept;
 /// `number` as one; false where it is none, or where a double no longer tells it from its neighbours.
-bool to_whole(double number, std::int64_t& value) noexcept;
+inline bool to_whole(double number, std::int64_t& value) noexcept {
+  if (!(number < 9007199254740992.0 && number > -9007199254740992.0)) return false;
+  const auto whole = static_cast<std::int64_t>(number);
+  if (static_cast<double>(whole) != number) return false;
+  value = whole;
+  return true;
+}
 
 }  // namespace io
 }  // namespace PLUMB_ABI

@@ -70,8 +70,7 @@ FileExpected<void> LogReader::State::check_binary() const {
 
 bool LogReader::State::matches_binary(const ColumnFilter& filter, std::size_t column) const noexcept {
   if (number_place[column] == kNoColumn) return matches(filter, binary->header().columns[column].text);
-  double value = 0.0;
-  return number_in(column, value) == CellKind::number && value == filter.number;
+  return binary->has(number_place[column]) && binary->value(number_place[column]) == filter.number;
 }
 
 LogReader::State::Got LogReader::State::next_binary() {

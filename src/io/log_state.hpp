@@ -66,18 +66,30 @@ struct LogReader::State {
   enum class Got : std::uint8_t { row, skipped, end, error };
   Got next_cells();
   Got next_binary();
-  CellKind number_in(std::size_t column, double& value) const noexcept;
-  CellKind whole_in(std::size_t column, std::int64_t& value) const noexcept;
+  CellKind text_in(std::size_t column, double& value) const noexcept;
   std::string shown(std::size_t column) const;
   bool matches_binary(const ColumnFilter& filter, std::size_t column) const noexcept;
   FileError bad_row() const;
   Got note_bad(std::uint64_t rows, FileError why);
-  bool fill(Sample& sample);
+  /// A row of either kind of log; which kind is decided once for all its cells.
+  bool fill(Sample& sample) { return binary ? fill_row<true>(sample) : fill_row<false>(sample); }
+  template <bool kBinary>
+  CellKind number_in(std::size_t column, double& value) const noexcept;
+  template <bool kBinary>
+  CellKind whole_in(std::size_t column, std::int64_t& value) const noexcept;
+  template <bool kBinary>
+  bool fill_row(Sample& sample);
+  template <bool kBinary>
   bool fill_time(Sample& sample);
+  template <bool kBinary>
   bool fill_tag(std::size_t column, const char* what, std::uint32_t& tag);
+  template <bool kBinary>
   bool fill_tags(Sample& sample);
+  template <bool kBinary>
   bool fill_temperature(Sample& sample);
+  template <bool kBinary>
   bool fill_rotation();
+  template <bool kBinary>
   bool fill_sensors(Sample& sample);
   void note_value(std::size_t sensor, double value);
   bool selected() const noexcept;

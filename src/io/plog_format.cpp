@@ -1,6 +1,6 @@
 #include "plog_format.hpp"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,16 +70,8 @@ void put_double(std::string& out, double value) {
   std::memcpy(&bits, &value, sizeof bits);
   put_u64(out, bits);
 }
-double double_at(const unsigned char* at) noexcept {
-  const std::uint64_t bits = u64_at(at);
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
-std::uint32_t crc32_of(const void* data, std::size_t size) noexcept {
-  return static_cast<std::uint32_t>(::crc32_z(0, static_cast<const Bytef*>(data), size));
-}
+std::uint32_t crc32_of(const void* data, std::size_t size) noexcept { return ::libdeflate_crc32(0, data, size); }
 
 std::string plog_time_unit(double unit_s) {
   for (const char* name : {"s", "ms", "us", "min", "h"}) {

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,16 +63,23 @@ void put_u32(std::string& out, std::uint32_t value);
 void put_u64(std::string& out, std::uint64_t value);
 void put_double(std::string& out, double value);
 
-/// Bytes in the order of the file; compilers make one load of it.
+/// Numbers as they stand in the file, on a machine of either byte order.
+inline std::uint64_t u64_at(const unsigned char* at) noexcept {
+  std::uint64_t value = 0;
+  std::memcpy(&value, at, sizeof value);
+  return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? value : __builtin_bswap64(value);
+}
 inline std::uint32_t u32_at(const unsigned char* at) noexcept {
   std::uint32_t value = 0;
-  for (unsigned k = 0; k < 4; ++k) value |= static_cast<std::uint32_t>(at[k]) << (8 * k);
+  std::memcpy(&value, at, sizeof value);
+  return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? value : __builtin_bswap32(value);
+}
+inline double double_at(const unsigned char* at) noexcept {
+  const std::uint64_t bits = u64_at(at);
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof value);
   return value;
 }
-inline std::uint64_t u64_at(const unsigned char* at) noexcept {
-  return u32_at(at) | static_cast<std::uint64_t>(u32_at(at + 4)) << 32U;
-}
-double double_at(const unsigned char* at) noexcept;
 
 /// CRC-32 as in zlib, PNG and Ethernet.
 std::uint32_t crc32_of(const void* data, std::size_t size) noexcept;

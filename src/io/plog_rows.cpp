@@ -124,15 +124,6 @@ PlogRows::Status PlogRows::next_block() {
   return Status::row;
 }
 
-PlogRows::Status PlogRows::next() {
-  if (left_ == 0) return next_block();
-  --left_;
-  ++row_number_;
-  row_ += row_bytes_;
-  present_ = u64_at(row_);
-  return Status::row;
-}
-
 }  // namespace io
 }  // namespace PLUMB_ABI
 }  // namespace plumb

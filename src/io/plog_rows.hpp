@@ -39,7 +39,14 @@ class PlogRows {
   void unmap() noexcept { mapped_ = false; }
   void hash_bytes();
 
-  Status next();
+  Status next() {
+    if (left_ == 0) return next_block();
+    --left_;
+    ++row_number_;
+    row_ += row_bytes_;
+    present_ = u64_at(row_);
+    return Status::row;
+  }
   /// Of the row at hand; `number` counts the columns that have a number in every row.
   bool has(std::size_t number) const noexcept { return (present_ >> number & 1U) != 0; }
   double value(std::size_t number) const noexcept { return double_at(row_ + 8 + 8 * number); }

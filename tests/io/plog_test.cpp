@@ -13,6 +13,7 @@
 #include "io_test_support.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
+#include "plumb/io/units.hpp"
 
 namespace {
 
@@ -183,7 +184,7 @@ TEST(BinaryLog, BytesAreAsTheContractSays) {
   EXPECT_EQ(one, std::string("\x89PLOG\r\n\x1A"
                              "\x04\x03\x02\x01"
                              "\x01\0\0\0"
-                             "\x6e\0\0\0"
+                             "\x6c\0\0\0"
                              "\x05\0\0\0"
                              "\0\x02\0\0"
                              "\0\0\0\0"
@@ -191,14 +192,14 @@ TEST(BinaryLog, BytesAreAsTheContractSays) {
                              40));
   EXPECT_EQ(log.substr(40, 12), std::string("\0\0\x03\0\x01\0\0\0t_ss", 12));
   EXPECT_EQ(log.substr(52, 13), std::string("\0\0\x04\0\x01\0\0\0a1_vV", 13));
-  ASSERT_EQ(header_size(log), 110U);
+  ASSERT_EQ(header_size(log), 108U);
   // One block of one row: present are the time and a1.
-  EXPECT_EQ(log.substr(114, 12), std::string("\x01\0\0\0\0\0\0\0\0\0\0\0", 12));
-  EXPECT_EQ(log.substr(126, 24), std::string("\x03\0\0\0\0\0\0\0"
+  EXPECT_EQ(log.substr(112, 12), std::string("\x01\0\0\0\0\0\0\0\0\0\0\0", 12));
+  EXPECT_EQ(log.substr(124, 24), std::string("\x03\0\0\0\0\0\0\0"
                                              "\0\0\0\0\0\0\xF0\x3F"
                                              "\0\0\0\0\0\0\0\x40",
                                              24));
-  EXPECT_EQ(log.size(), 110U + 16U + 48U + 16U);
+  EXPECT_EQ(log.size(), 108U + 16U + 48U + 16U);
   EXPECT_EQ(log.substr(log.size() - 12), std::string("\0\0\0\0\x01\0\0\0\0\0\0\0", 12));
   EXPECT_EQ(crc32_of("123456789", 9), 0xCBF43926U) << "the check value of CRC-32";
 }
@@ -247,9 +248,14 @@ TEST(BinaryLog, UnitsAndRateMustBeThoseOfTheArrayFile) {
                      array_of(changed("time = \"t_s\"", "rate = \"50 Hz\"")));
   expect_refused_log(log, "t_s", {"holds numbers", "without quotes"},
                      array_of(changed("time = \"t_s\"", "time = \"t_s\"\nwhere = {t_s = \"one\"}")));
-  // Two names of one unit, and a log that names none.
-  const std::string mg = bytes_of(written_plog(array_of(changed("unit = \"V\"", "unit = \"V\"")), some_samples(3)));
-  EXPECT_TRUE(read_log(written("mg.plog", mg), array_of(), BadRowPolicy::stop).has_value());
+  // Two names of one unit.
+  ArrayFile mg = array_of();
+  mg.input.unit = *parse_raw_unit("mg");
+  ArrayFile mg0 = mg;
+  mg0.input.unit = *parse_raw_unit("mg0");
+  const std::string path = written_plog(mg, some_samples(3), "mg.plog");
+  EXPECT_TRUE(read_log(path, mg0, BadRowPolicy::stop).has_value());
+  EXPECT_FALSE(read_log(path, array_of(), BadRowPolicy::stop).has_value());
 }
 
 TEST(BinaryLog, WhatIsCutOffIsSaid) {
@@ -279,7 +285,7 @@ TEST(BinaryLog, ADamagedBlockIsLeftOutWhole) {
   std::string log = bytes_of(written_plog(array, some_samples(1500)));
   const std::size_t second = header_size(log) + kPlogBlockHead + 512 * 48;
   log[second + 1000] = static_cast<char>(log[second + 1000] ^ 4);
-  expect_refused_log(log, "", {"check sum of the block at byte 24702 is wrong (rows 513 to 1024)"});
+  expect_refused_log(log, "", {"check sum of the block at byte 24700 is wrong (rows 513 to 1024)"});
   const auto rest = read_log(written("damaged.plog", log), array, BadRowPolicy::skip);
   ASSERT_TRUE(rest.has_value());
   EXPECT_EQ(rest->samples.size(), 1500U - 512U);
