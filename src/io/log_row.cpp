@@ -20,7 +20,7 @@ CellKind LogReader::State::text_in(std::size_t column, double& value) const noex
 
 /// What stands in a cell of the row at hand.
 template <bool kBinary>
-CellKind LogReader::State::number_in(std::size_t column, double& value) const noexcept {
+inline CellKind LogReader::State::number_in(std::size_t column, double& value) const noexcept {
   if constexpr (!kBinary) return parse_cell(cells[column], value);
   const std::size_t place = number_place[column];
   if (place == kNoColumn) return text_in(column, value);
@@ -30,7 +30,7 @@ CellKind LogReader::State::number_in(std::size_t column, double& value) const no
 }
 
 template <bool kBinary>
-CellKind LogReader::State::whole_in(std::size_t column, std::int64_t& value) const noexcept {
+inline CellKind LogReader::State::whole_in(std::size_t column, std::int64_t& value) const noexcept {
   if constexpr (!kBinary) return parse_whole(cells[column], value);
   double number = 0.0;
   const CellKind kind = number_in<true>(column, number);
@@ -46,7 +46,7 @@ std::string LogReader::State::shown(std::size_t column) const {
 }
 
 template <bool kBinary>
-bool LogReader::State::fill_time(Sample& sample) {
+inline bool LogReader::State::fill_time(Sample& sample) {
   if (time == kNoColumn) {
     const auto number = static_cast<double>(index - 1);
     sample.time_s = input.rate_hz > 0.0 ? number / input.rate_hz : number;
@@ -64,7 +64,7 @@ bool LogReader::State::fill_time(Sample& sample) {
 }
 
 template <bool kBinary>
-bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint32_t& tag) {
+inline bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint32_t& tag) {
   if (column == kNoColumn) return true;
   std::int64_t value = 0;
   const CellKind kind = whole_in<kBinary>(column, value);
@@ -76,7 +76,7 @@ bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint3
 }
 
 template <bool kBinary>
-bool LogReader::State::fill_tags(Sample& sample) {
+inline bool LogReader::State::fill_tags(Sample& sample) {
   if (!fill_tag<kBinary>(station, "a station number", sample.station)) return false;
   if (!fill_tag<kBinary>(roll_group, "the number of a roll group", sample.roll_group)) return false;
   if (count != kNoColumn) {
@@ -89,7 +89,7 @@ bool LogReader::State::fill_tags(Sample& sample) {
 }
 
 template <bool kBinary>
-bool LogReader::State::fill_temperature(Sample& sample) {
+inline bool LogReader::State::fill_temperature(Sample& sample) {
   sample.temperature_degc = input.default_temperature_degc;
   if (temperature == kNoColumn) return true;
   double value = 0.0;
@@ -108,7 +108,7 @@ bool LogReader::State::fill_temperature(Sample& sample) {
 }
 
 template <bool kBinary>
-bool LogReader::State::fill_rotation() {
+inline bool LogReader::State::fill_rotation() {
   rotation = Rotation{};
   if (rates.empty()) return true;
   rotation.rate_known = true;
@@ -127,7 +127,7 @@ bool LogReader::State::fill_rotation() {
 }
 
 template <bool kBinary>
-bool LogReader::State::fill_sensors(Sample& sample) {
+inline bool LogReader::State::fill_sensors(Sample& sample) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     double value = 0.0;
     switch (number_in<kBinary>(sensors[i], value)) {
@@ -141,21 +141,20 @@ bool LogReader::State::fill_sensors(Sample& sample) {
   }
   // Counted only now that the row is known to be good.
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (!sample.delivered.has(static_cast<int>(i))) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(i);
+    const double value = sample.raw[i];
+    if ((sample.delivered.bits & bit) == 0) {
       ++statistics.missing[i];
-    } else if (!std::isfinite(sample.raw[i])) {
+    } else if (!std::isfinite(value)) {
       ++statistics.not_finite[i];
-    } else {
-      note_value(i, sample.raw[i]);
+    } else if ((seen.bits & bit) == 0) {
+      seen.bits |= bit;
+      statistics.first_value[i] = value;
+    } else if (value != statistics.first_value[i]) {
+      statistics.varied.bits |= bit;
     }
   }
   return true;
-}
-
-void LogReader::State::note_value(std::size_t sensor, double value) {
-  const bool first = statistics.missing[sensor] + statistics.not_finite[sensor] == statistics.rows;
-  if (first) statistics.first_value[sensor] = value;
-  if (value != statistics.first_value[sensor]) statistics.varied.bits |= 1U << static_cast<unsigned>(sensor);
 }
 
 template <bool kBinary>

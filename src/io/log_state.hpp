@@ -45,6 +45,7 @@ struct LogReader::State {
   double last_temperature_degc = 0.0;
   bool has_temperature = false;
   LogStatistics statistics;
+  SensorSet seen;  ///< with a number so far
   FileError error;
 
   // What the row at hand is refused for.
@@ -91,7 +92,6 @@ struct LogReader::State {
   bool fill_rotation();
   template <bool kBinary>
   bool fill_sensors(Sample& sample);
-  void note_value(std::size_t sensor, double value);
   bool selected() const noexcept;
   FileError nothing_usable() const;
 };
