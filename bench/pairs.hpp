@@ -1,4 +1,5 @@
-/// Work of plumb beside the work of a rival, measured by turns in one run: the table of scripts/bench.
+/// The table of scripts/bench: work of plumb beside the work of a rival, measured by turns in one run, and figures that
+/// stand alone.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +14,31 @@ using Runs = std::function<void(std::size_t count)>;
 
 struct Contest {
   Runs plumb;
-  Runs rival;  ///< empty: plumb's figure stands against the bar alone
+  Runs rival;
 };
 
 struct Pair {
-  std::string work;   ///< "kernel, 4 sensors"
-  std::string rival;  ///< "Eigen LU of every triple"; of a pair without one: what the figure is
-  /// plumb's time over the rival's; without a rival nanoseconds. 0: nothing was asked for.
-  double most = 0.0;
+  std::string work;
+  std::string rival;
+  double least = 0.0;  ///< the rival's time over plumb's, as asked for; 0: nothing was
   std::function<Contest()> make;
-  std::string note;  ///< where there is no rival: not a time of `make` but these words
 };
 
-/// All that were enrolled, in the order of their names.
+struct Figure {
+  std::string work;
+  double value = 0.0;
+  double most = 0.0;  ///< 0: nothing was asked for
+  std::string unit;
+};
+using Figures = std::function<std::vector<Figure>()>;
+
+/// All that were enrolled.
 std::vector<Pair>& pairs();
+std::vector<Figures>& figures();
 
 struct Enrolled {
   explicit Enrolled(Pair pair) { pairs().push_back(std::move(pair)); }
+  explicit Enrolled(Figures more) { figures().push_back(std::move(more)); }
 };
 
 /// Prints the table: work, plumb, rival, ratio, bar, with machine and compiler.
