@@ -92,15 +92,15 @@ plumb_bench::Contest contest() {
   const auto events = std::make_shared<std::vector<HealthEvent>>(stream_of_events());
   if (!agree(*events)) return {};
   const auto rival = std::make_shared<plumb_bench::MsmMachine>();
-  const auto passes = [](std::size_t count) { return count / 4096 + 1; };
-  return {[events, passes](std::size_t count) {
+  return {[events](std::size_t count) {
             Mode mode = Mode::initial;
-            for (std::size_t k = 0; k < passes(count); ++k) benchmark::DoNotOptimize(mode = run(mode, *events));
+            for (std::size_t k = 0; k < count; ++k) benchmark::DoNotOptimize(mode = run(mode, *events));
           },
-          [events, rival, passes](std::size_t count) {
-            for (std::size_t k = 0; k < passes(count); ++k)
+          [events, rival](std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k)
               benchmark::DoNotOptimize(rival->run(events->data(), events->size()));
-          }};
+          },
+          static_cast<double>(events->size())};
 }
 const plumb_bench::Enrolled kDispatch{{"one event through the table", "Boost.MSM", 3.0, contest}};
 

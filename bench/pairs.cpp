@@ -44,6 +44,8 @@ void compete(const Contest& contest, double& plumb_s, double& rival_s) {
     plumb_s = std::min(plumb_s, seconds_of(contest.plumb, ours) / static_cast<double>(ours));
     rival_s = std::min(rival_s, seconds_of(contest.rival, theirs) / static_cast<double>(theirs));
   }
+  plumb_s /= contest.each;
+  rival_s /= contest.each;
 }
 
 std::string time_text(double seconds) {

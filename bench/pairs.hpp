@@ -15,6 +15,7 @@ using Runs = std::function<void(std::size_t count)>;
 struct Contest {
   Runs plumb;
   Runs rival;
+  double each = 1.0;  ///< pieces of work in one run, as rows of a log
 };
 
 struct Pair {

@@ -1,4 +1,4 @@
-// The worst step in every state: a tool that a fit has calibrated, at a new attitude every block, recalibrated in
+// The worst step in every state: a tool that a fit has calibrated, at one attitude after the other, recalibrated in
 // flight, losing one sensor after the other until it fails, then reset. Every step is timed in many equal plays; what
 // counts of it is its least time, and of a state the largest of these.
 #include <algorithm>
@@ -16,11 +16,12 @@ namespace {
 
 using namespace plumb;
 
-constexpr int kBlocks = 300;
-constexpr int kRecalibrateAt = 40 * 32;
-constexpr int kFirstFault = 110;  ///< block; one more sensor every kFaultEvery
+constexpr int kAttitudes = 300;
+constexpr int kDwell = 64;  ///< samples at each: one whole block at the least, however the blocks lie
+constexpr int kRecalibrateAt = 40 * kDwell;
+constexpr int kFirstFault = 110;  ///< attitude; one more sensor every kFaultEvery
 constexpr int kFaultEvery = 20;
-constexpr int kResetAt = 290 * 32;
+constexpr int kResetAt = 290 * kDwell;
 constexpr int kPlays = 25;
 
 using Clock = std::chrono::steady_clock;
@@ -42,15 +43,15 @@ double clock_ns() {
 std::vector<Sample> flight(const plumb_test::TrialTool& tool, plumb_test::TrialNoise& noise) {
   std::vector<Sample> out;
   Vec3 g{};
-  for (int k = 0; k < kBlocks * 32; ++k) {
-    if (k % 32 == 0) g = scaled(noise.direction(), kG0_mps2);
+  for (int k = 0; k < kAttitudes * kDwell; ++k) {
+    if (k % kDwell == 0) g = scaled(noise.direction(), kG0_mps2);
     Sample s;
     s.time_s = 0.01 * (k + 1);
     s.delivered = tool.array.all();
     for (int i = 0; i < tool.array.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       s.raw[at] = dot(tool.row[at], g) + tool.offset_mps2[at] + tool.array.sigma_mps2(i) * noise.normal();
-      if (k / 32 >= kFirstFault + kFaultEvery * i && i < tool.array.size() - 1)
+      if (k / kDwell >= kFirstFault + kFaultEvery * i && i < tool.array.size() - 1)
         s.raw[at] += (0.5 + 0.3 * i) * (i % 2 == 0 ? 1.0 : -1.0);
     }
     out.push_back(s);
