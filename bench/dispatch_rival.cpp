@@ -1,6 +1,7 @@
 #include "dispatch_rival.hpp"
 
-// Boost 1.74 as Debian has it: vectors of more than 20 rows need these.
+// Boost 1.74 as Debian has it: vectors of more than 20 rows need these, and it remarks on its own use of Boost.Bind.
+#define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #define BOOST_MPL_CFG_NO_PREPROCESSED_HEADERS
 #define BOOST_MPL_LIMIT_LIST_SIZE 50
 #define BOOST_MPL_LIMIT_VECTOR_SIZE 50

@@ -27,7 +27,7 @@ namespace {
 
 using namespace plumb;
 
-constexpr std::size_t kRows = 20000;
+constexpr std::size_t kRows = 100000;
 
 /// The paper's tool, a new attitude every 32 rows, six digits behind the point as a recorder prints them; as CSV and
 /// binary. Removed at the end.
