@@ -13,6 +13,7 @@ set xrange [3.5:18]
 set xtics (4, 6, 8, 16)
 plot lines("BM_MonitorStep") using 2:3 with linespoints pt 7 title "whole step, nominal", \
      lines("BM_Kernel") using 2:3 with linespoints pt 5 title "all triples and window"
+set key right bottom
 set title "one fit"
 set xlabel "attitudes N"
 set ylabel "us (processor time)"

@@ -114,7 +114,7 @@ if(io_sources)
   plumb_find_package(Boost DEBIAN libboost-dev TARGET Boost::headers)
   plumb_find_header(TARGET plumb_deflate HEADER libdeflate.h DEBIAN libdeflate-dev)
   target_link_libraries(plumb_io PUBLIC plumb_24 toml11::toml11 nlohmann_json::nlohmann_json fmt::fmt
-    PRIVATE "$<BUILD_INTERFACE:Boost::headers;plumb_deflate>" deflate)
+    PRIVATE "$<BUILD_INTERFACE:Boost::headers>" "$<BUILD_INTERFACE:plumb_deflate>" deflate)
   if(TARGET plumb_scenario)
     target_link_libraries(plumb_io PUBLIC plumb_scenario)
   endif()
