@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench_array.hpp"
+#include "pairs.hpp"
 #include "plumb/detection/combination_mae.hpp"
 
 namespace {
@@ -26,56 +27,93 @@ std::vector<Readings> stream_of(const SensorArray& array) {
   return out;
 }
 
+/// The kernel with its array, its window and readings.
+struct Kernel {
+  SensorArray array = plumb_bench::array_of(kCapacity);
+  std::vector<Readings> stream = stream_of(array);
+  CombinationMae mae;
+  Kernel() { mae.configure(array.triple_count(), 32); }
+  void add(std::size_t k) { mae.add(array, stream[k % stream.size()], array.all(), nullptr, kG0_mps2); }
+};
+
 void BM_Kernel(benchmark::State& state) {
-  const auto array = std::make_unique<SensorArray>(plumb_bench::array_of(kCapacity));
-  const std::vector<Readings> stream = stream_of(*array);
-  auto mae = std::make_unique<CombinationMae>();
-  mae->configure(array->triple_count(), 32);
+  const auto kernel = std::make_unique<Kernel>();
   std::size_t k = 0;
   for (auto _ : state) {
-    mae->add(*array, stream[k], array->all(), nullptr, kG0_mps2);
+    kernel->add(k++);
     benchmark::ClobberMemory();
-    k = (k + 1) % stream.size();
   }
   state.counters["ns_per_triple"] =
-      benchmark::Counter(static_cast<double>(array->triple_count()) * 1e-9,
+      benchmark::Counter(static_cast<double>(kernel->array.triple_count()) * 1e-9,
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(BM_Kernel)->Arg(kCapacity);
 
 template <class Solve>
+double by_eigen(const SensorArray& array, const Readings& readings, Solve solve) {
+  double sum = 0.0;
+  for (int t = 0; t < array.triple_count(); ++t) {
+    Eigen::Matrix3d h;
+    Eigen::Vector3d y;
+    for (int r = 0; r < 3; ++r) {
+      const int i = array.triple(t).sensors[static_cast<std::size_t>(r)];
+      for (int c = 0; c < 3; ++c) h(r, c) = array.axis(i)[static_cast<std::size_t>(c)];
+      y(r) = readings[static_cast<std::size_t>(i)];
+    }
+    sum += std::fabs(solve(h, y).norm() - kG0_mps2);
+  }
+  return sum;
+}
+
+template <class Solve>
 void per_triple(benchmark::State& state, Solve solve) {
-  const auto array = std::make_unique<SensorArray>(plumb_bench::array_of(kCapacity));
-  const std::vector<Readings> stream = stream_of(*array);
+  const auto kernel = std::make_unique<Kernel>();
   std::size_t k = 0;
   for (auto _ : state) {
-    double sum = 0.0;
-    for (int t = 0; t < array->triple_count(); ++t) {
-      Eigen::Matrix3d h;
-      Eigen::Vector3d y;
-      for (int r = 0; r < 3; ++r) {
-        const int i = array->triple(t).sensors[static_cast<std::size_t>(r)];
-        for (int c = 0; c < 3; ++c) h(r, c) = array->axis(i)[static_cast<std::size_t>(c)];
-        y(r) = stream[k][static_cast<std::size_t>(i)];
-      }
-      sum += std::fabs(solve(h, y).norm() - kG0_mps2);
-    }
-    benchmark::DoNotOptimize(sum);
-    k = (k + 1) % stream.size();
+    benchmark::DoNotOptimize(by_eigen(kernel->array, kernel->stream[k], solve));
+    k = (k + 1) % kernel->stream.size();
   }
 }
 
+Eigen::Vector3d by_lu(const Eigen::Matrix3d& h, const Eigen::Vector3d& y) {
+  return Eigen::PartialPivLU<Eigen::Matrix3d>(h).solve(y);
+}
+Eigen::Vector3d by_inverse(const Eigen::Matrix3d& h, const Eigen::Vector3d& y) { return h.inverse() * y; }
+
 void BM_KernelByEigenLU(benchmark::State& state) {
-  per_triple(state, [](const Eigen::Matrix3d& h, const Eigen::Vector3d& y) {
-    return Eigen::Vector3d(Eigen::PartialPivLU<Eigen::Matrix3d>(h).solve(y));
-  });
+  per_triple(state, [](const Eigen::Matrix3d& h, const Eigen::Vector3d& y) { return by_lu(h, y); });
 }
 BENCHMARK(BM_KernelByEigenLU)->Arg(kCapacity);
 
 void BM_KernelByEigenInverse(benchmark::State& state) {
-  per_triple(state,
-             [](const Eigen::Matrix3d& h, const Eigen::Vector3d& y) { return Eigen::Vector3d(h.inverse() * y); });
+  per_triple(state, [](const Eigen::Matrix3d& h, const Eigen::Vector3d& y) { return by_inverse(h, y); });
 }
 BENCHMARK(BM_KernelByEigenInverse)->Arg(kCapacity);
+
+template <class Solve>
+plumb_bench::Contest contest(Solve solve) {
+  const auto kernel = std::make_shared<Kernel>();
+  return {[kernel](std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k) {
+              kernel->add(k);
+              benchmark::ClobberMemory();
+            }
+          },
+          [kernel, solve](std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k)
+              benchmark::DoNotOptimize(by_eigen(kernel->array, kernel->stream[k % kernel->stream.size()], solve));
+          }};
+}
+const std::string kWork = "kernel: all triples and window, " + std::string(kCapacity < 10 ? " " : "") +
+                          std::to_string(kCapacity) + " sensors";
+const plumb_bench::Enrolled kLu{
+    {kWork, "Eigen LU of every triple",
+     kCapacity == 4   ? 18.0
+     : kCapacity == 8 ? 50.0
+                      : 60.0,
+     [] { return contest([](const Eigen::Matrix3d& h, const Eigen::Vector3d& y) { return by_lu(h, y); }); }}};
+const plumb_bench::Enrolled kInverse{
+    {kWork, "Eigen inverse of every triple", 2.5,
+     [] { return contest([](const Eigen::Matrix3d& h, const Eigen::Vector3d& y) { return by_inverse(h, y); }); }}};
 
 }  // namespace

@@ -79,8 +79,8 @@ int run(int argc, char** argv) {
   tool.footer(kNotes + exit_codes_help());
   // In the order in which a newcomer meets them.
   std::vector<Command> commands;
-  for (const auto add : {add_demo, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_campaign,
-                         add_verify, add_model}) {
+  for (const auto add : {add_demo, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_convert,
+                         add_campaign, add_verify, add_model}) {
     tool.footer("");  // a command inherits what stands here, and has notes of its own
     commands.push_back(add(tool));
   }

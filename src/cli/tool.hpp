@@ -36,6 +36,7 @@ Command add_calibrate(CLI::App& tool);
 Command add_monitor(CLI::App& tool);
 Command add_simulate(CLI::App& tool);
 Command add_inject(CLI::App& tool);
+Command add_convert(CLI::App& tool);
 Command add_model(CLI::App& tool);
 Command add_verify(CLI::App& tool);
 Command add_demo(CLI::App& tool);

@@ -2,7 +2,14 @@
 
 #include <cmath>
 #include <cstring>
-#include <type_traits>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PLUMB_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define PLUMB_SANITIZED
+#endif
+#endif
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -14,43 +21,27 @@ namespace {
 /// A double beyond this has no fraction left: adding and subtracting it rounds to the nearest integer, ties to even, in
 /// a way that several triples can go at once.
 constexpr double kNoFraction = 4503599627370496.0;
-/// Triples side by side, in registers that every x86-64 and every ARMv8 has (vectors of GCC and Clang). Lane by lane
-/// the same operations in the same order as for one triple alone: the same bits.
-using Two = double __attribute__((vector_size(16)));
-using TwoInts = std::int32_t __attribute__((vector_size(8)));
+/// Four triples side by side (vectors of GCC and Clang). Lane by lane the same operations in the same order as for one
+/// triple alone, and none of them fused: the same bits, however wide the registers are.
+using Four = double __attribute__((vector_size(32)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 constexpr int kAtOnce = 4;
 /// A processor of 32 bits has no registers for them: the compiler would take them apart again, by way of the stack.
 constexpr bool kVectors = sizeof(void*) >= 8;
 
-template <class V, class T>
-inline V load(const T* from) noexcept {
-  V out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
-}
-template <class V, class T>
-inline void store(const V& v, T* to) noexcept {
-  std::memcpy(to, &v, sizeof v);
-}
-
-/// `v` in every lane of a double or of two.
-template <class T>
-constexpr T lanes(double v) noexcept {
-  if constexpr (std::is_same_v<T, double>) {
-    return v;
-  } else {
-    return T{v, v};
-  }
-}
+/// Under Linux on x86-64 a function may be compiled twice, and the loader takes the one that fits the processor.
+/// Everywhere else, and where a sanitizer would be asked before it has started, there is one.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(PLUMB_SANITIZED)
+#define PLUMB_FOR_WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
+#else
+#define PLUMB_FOR_WIDE_REGISTERS
+#endif
 
 /// Written so that a NaN takes the clamp: no comparison with it is true.
-template <class T>
-inline T whole_units(T error_mps2) noexcept {
-  const T units = (error_mps2 < lanes<T>(0.0) ? -error_mps2 : error_mps2) / lanes<T>(kMaeUnit_mps2);
-  const T most = lanes<T>(static_cast<double>(kMaeClamp));
-  const T held = units < most ? units : most;
-  return (held + lanes<T>(kNoFraction)) - lanes<T>(kNoFraction);
+inline double whole_units(double error_mps2) noexcept {
+  const double units = (error_mps2 < 0.0 ? -error_mps2 : error_mps2) / kMaeUnit_mps2;
+  const double held = units < static_cast<double>(kMaeClamp) ? units : static_cast<double>(kMaeClamp);
+  return (held + kNoFraction) - kNoFraction;
 }
 
 /// A sensor of a triple as an index that no damage to the triple leads out of the readings.
@@ -67,19 +58,6 @@ inline std::int32_t error_of(const SensorArray& array, const Readings& y, int tr
       squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[index_of(s[0])], y[index_of(s[1])], y[index_of(s[2])]);
   const double kept = square < 0.0 ? 0.0 : square;  // a NaN goes through to the clamp
   return static_cast<std::int32_t>(whole_units(std::sqrt(kept) - g_mps2));
-}
-
-/// The same for two triples.
-inline TwoInts errors_of(const SensorArray& array, const Readings& y, int first, double g_mps2) noexcept {
-  const auto& s = array.triple(first).sensors;
-  const auto& r = array.triple(first + 1).sensors;
-  const auto pair = [&y, &s, &r](size_t m) { return Two{y[index_of(s[m])], y[index_of(r[m])]}; };
-  const Two a = pair(0), b = pair(1), c = pair(2);
-  const auto q = [&array, first](size_t k) { return load<Two>(array.form_coefficients(k) + first); };
-  const Two square = squared_length(q(0), q(1), q(2), q(3), q(4), q(5), a, b, c);
-  const Two kept = square < lanes<Two>(0.0) ? lanes<Two>(0.0) : square;
-  const Two length = {std::sqrt(kept[0]), std::sqrt(kept[1])};
-  return __builtin_convertvector(whole_units(length - lanes<Two>(g_mps2)), TwoInts);
 }
 
 }  // namespace
@@ -118,18 +96,47 @@ void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_
   }
 }
 
-/// Four triples of which every one has a value in this slot, before and now. False where one has none: nothing is done.
-bool CombinationMae::replace_four(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept {
-  const auto k = static_cast<size_t>(first);
-  const size_t slot = row(head_) + k;
-  const auto old = load<FourInts>(&ring_[slot]);
-  if ((old[0] | old[1] | old[2] | old[3]) < 0) return false;
-  const TwoInts low = errors_of(array, y_mps2, first, g_mps2), high = errors_of(array, y_mps2, first + 2, g_mps2);
-  const FourInts now = __builtin_shufflevector(low, high, 0, 1, 2, 3);
-  store(now, &ring_[slot]);
-  const FourInts more = now - old;
-  for (size_t t = 0; t < kAtOnce; ++t) sum_[k + t] += more[t];
-  return true;
+/// Four triples at a time, as long as every one of them has a value in this slot before; returns the first triple that
+/// is not done. `error_of` written out: a vector must not be handed to a function that is compiled for narrower
+/// registers.
+PLUMB_FOR_WIDE_REGISTERS
+int CombinationMae::replace_fours(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept {
+  constexpr auto kClamp = static_cast<double>(kMaeClamp);
+  const Four none = {0.0, 0.0, 0.0, 0.0};
+  const Four most = {kClamp, kClamp, kClamp, kClamp};
+  for (; first + kAtOnce <= triples_; first += kAtOnce) {
+    const auto k = static_cast<size_t>(first);
+    std::int32_t* const slot = &ring_[row(head_) + k];
+    FourInts old;
+    std::memcpy(&old, slot, sizeof old);
+    if ((old[0] | old[1] | old[2] | old[3]) < 0) return first;
+    const auto& s = array.triple(first).sensors;
+    const auto& t = array.triple(first + 1).sensors;
+    const auto& u = array.triple(first + 2).sensors;
+    const auto& v = array.triple(first + 3).sensors;
+    const Four a = {y_mps2[index_of(s[0])], y_mps2[index_of(t[0])], y_mps2[index_of(u[0])], y_mps2[index_of(v[0])]};
+    const Four b = {y_mps2[index_of(s[1])], y_mps2[index_of(t[1])], y_mps2[index_of(u[1])], y_mps2[index_of(v[1])]};
+    const Four c = {y_mps2[index_of(s[2])], y_mps2[index_of(t[2])], y_mps2[index_of(u[2])], y_mps2[index_of(v[2])]};
+    // Not in a loop, for which the compiler would keep them on the stack.
+    Four q0, q1, q2, q3, q4, q5;
+    std::memcpy(&q0, array.form_coefficients(0) + first, sizeof q0);
+    std::memcpy(&q1, array.form_coefficients(1) + first, sizeof q1);
+    std::memcpy(&q2, array.form_coefficients(2) + first, sizeof q2);
+    std::memcpy(&q3, array.form_coefficients(3) + first, sizeof q3);
+    std::memcpy(&q4, array.form_coefficients(4) + first, sizeof q4);
+    std::memcpy(&q5, array.form_coefficients(5) + first, sizeof q5);
+    const Four square = q0 * a * a + q1 * b * b + q2 * c * c + q3 * a * b + q4 * a * c + q5 * b * c;
+    const Four kept = square < none ? none : square;
+    const Four length = {std::sqrt(kept[0]), std::sqrt(kept[1]), std::sqrt(kept[2]), std::sqrt(kept[3])};
+    const Four error = length - g_mps2;
+    const Four units = (error < none ? -error : error) / kMaeUnit_mps2;
+    const Four held = units < most ? units : most;
+    const FourInts now = __builtin_convertvector((held + kNoFraction) - kNoFraction, FourInts);
+    std::memcpy(slot, &now, sizeof now);
+    const FourInts more = now - old;
+    for (size_t i = 0; i < kAtOnce; ++i) sum_[k + i] += more[i];
+  }
+  return first;
 }
 
 void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
@@ -137,12 +144,9 @@ void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, Senso
   const bool all_usable = usable.contains(array.all());
   int first = 0;
   while (first < triples_) {
-    const bool four = kVectors && all_usable && first + kAtOnce <= triples_;
-    if (four && replace_four(array, y_mps2, first, g_mps2)) {
-      first += kAtOnce;
-      continue;
-    }
-    const int end = four ? first + kAtOnce : triples_;
+    if (kVectors && all_usable) first = replace_fours(array, y_mps2, first, g_mps2);
+    // Four that do not all have a value there yet, the rest behind the last four, or all where a sensor is not usable.
+    const int end = kVectors && all_usable && first + kAtOnce <= triples_ ? first + kAtOnce : triples_;
     for (; first < end; ++first) {
       const auto k = static_cast<size_t>(first);
       const bool present = all_usable || usable.contains(array.triple(first).set());

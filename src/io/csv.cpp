@@ -90,6 +90,13 @@ bool LineSource::refill() {
   }
 }
 
+const unsigned char* LineSource::peek(std::size_t count) {
+  while (end_ - begin_ < count) {
+    if (!refill()) return nullptr;
+  }
+  return reinterpret_cast<const unsigned char*>(buffer_.data() + begin_);
+}
+
 LineSource::Status LineSource::next(std::string_view& line) {
   std::size_t searched = 0;
   for (;;) {
@@ -161,9 +168,7 @@ CellKind parse_whole(std::string_view cell, std::int64_t& value) noexcept {
   double number = 0.0;
   const CellKind kind = parse_cell(cell, number);
   if (kind != CellKind::number) return kind;
-  if (!(std::abs(number) < 9007199254740992.0) || number != std::floor(number)) return CellKind::text;
-  value = static_cast<std::int64_t>(number);
-  return CellKind::number;
+  return to_whole(number, value) ? CellKind::number : CellKind::text;
 }
 
 }  // namespace io

@@ -33,12 +33,19 @@ class LineSource {
   Status next(std::string_view& line);
   int error_number() const noexcept { return error_number_; }
 
+  /// For a source that does not hold lines: the next `count` bytes (at most 16 MB), valid until the next call; null
+  /// where there are not that many.
+  const unsigned char* peek(std::size_t count);
+  /// Past what was peeked at.
+  void skip(std::size_t count) noexcept { begin_ += count; }
+
   std::uint64_t bytes() const noexcept { return bytes_; }
   std::uint64_t hash() const noexcept { return hash_; }
   void hash_bytes();
   void stop_when(const volatile std::sig_atomic_t* flag) noexcept { stop_ = flag; }
   /// At the end of the file wait for what is appended; only a stop or an error ends the lines then.
   void follow() noexcept { following_ = true; }
+  bool following() const noexcept { return following_; }
   bool stopped() const noexcept { return stop_ != nullptr && *stop_ != 0; }
 
  private:
@@ -69,6 +76,14 @@ enum class CellKind : std::uint8_t { number, empty, text };
 CellKind parse_cell(std::string_view cell, double& value) noexcept;
 /// A whole number ("3", "3.0").
 CellKind parse_whole(std::string_view cell, std::int64_t& value) noexcept;
+/// `number` as one; false where it is none, or where a double no longer tells it from its neighbours.
+inline bool to_whole(double number, std::int64_t& value) noexcept {
+  if (!(number < 9007199254740992.0 && number > -9007199254740992.0)) return false;
+  const auto whole = static_cast<std::int64_t>(number);
+  if (static_cast<double>(whole) != number) return false;
+  value = whole;
+  return true;
+}
 
 }  // namespace io
 }  // namespace PLUMB_ABI

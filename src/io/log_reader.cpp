@@ -21,13 +21,13 @@ std::string listed(const std::vector<std::string>& names) {
   return joined({names.begin(), names.begin() + kShown}) + ", and " + std::to_string(names.size() - kShown) + " more";
 }
 
+}  // namespace
+
 bool matches(const ColumnFilter& filter, std::string_view cell) noexcept {
   if (!filter.numeric) return bare_cell(cell) == filter.text;
   double value = 0.0;
   return parse_cell(cell, value) == CellKind::number && value == filter.number;
 }
-
-}  // namespace
 
 FileError LogReader::State::io_failure(int error_number) const {
   FileError out;
@@ -130,12 +130,17 @@ FileError LogReader::State::bad_row() const {
   if (bad_column < header.size()) out.field = header[bad_column] + " (column " + std::to_string(bad_column + 1) + ")";
   out.what = bad_what;
   out.remedy = "mend the row, or run with --on-bad-row skip";
+  if (!binary) return out;
+  out.line = 0;
+  out.field = "row " + std::to_string(binary->row()) + (out.field.empty() ? "" : ", ") + out.field;
+  out.remedy = "have the recorder write it anew, or run with --on-bad-row skip";
   return out;
 }
 
 bool LogReader::State::selected() const noexcept {
   for (std::size_t k = 0; k < filters.size(); ++k) {
-    if (!matches(input.where[k], cells[filters[k]])) return false;
+    if (!(binary ? matches_binary(input.where[k], filters[k]) : matches(input.where[k], cells[filters[k]])))
+      return false;
   }
   return true;
 }
@@ -146,9 +151,10 @@ FileError LogReader::State::nothing_usable() const {
   out.line = line;
   out.what = "the log has a header, but no row that can be used (" + std::to_string(statistics.rows_bad) + " bad, " +
              std::to_string(statistics.rows_filtered) + " not selected by [input] where)";
-  out.remedy = statistics.rows_bad > 0
-                   ? "mend the rows, the first: line " + std::to_string(statistics.bad_rows.front().line) + ", " +
-                         statistics.bad_rows.front().what
+  out.remedy = statistics.rows_bad > 0 ? "mend the rows, the first: " +
+                                             (binary ? statistics.bad_rows.front().field
+                                                     : "line " + std::to_string(statistics.bad_rows.front().line)) +
+                                             ", " + statistics.bad_rows.front().what
                : statistics.rows_filtered > 0 ? "check [input] where in the array file against the log"
                                               : "give a log with rows";
   return out;
@@ -168,49 +174,67 @@ FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile
   state->policy = policy;
   const int error_number = state->source.open(path);
   if (error_number != 0) return tl::unexpected<FileError>(state->io_failure(error_number));
-  FileExpected<void> done = state->read_header();
+  const unsigned char* const first = state->source.peek(1);
+  const bool binary = first != nullptr && *first == static_cast<unsigned char>(kPlogMagic[0]);
+  FileExpected<void> done = binary ? state->read_binary_header(path) : state->read_header();
   if (done) done = state->map_columns();
+  if (done && binary) done = state->check_binary();
   if (!done) return tl::unexpected<FileError>(done.error());
   return LogReader(std::move(state));
 }
 
+/// The next row of a CSV, cut into cells.
+LogReader::State::Got LogReader::State::next_cells() {
+  std::string_view text;
+  const LineSource::Status status = source.next(text);
+  statistics.bytes = source.bytes();
+  statistics.hash = source.hash();
+  if (status == LineSource::Status::end) return Got::end;
+  if (status == LineSource::Status::failed) {
+    error = io_failure(source.error_number());
+    return Got::error;
+  }
+  ++line;
+  if (trimmed(text).empty()) return Got::skipped;
+  const std::size_t found = split_cells(text, cells);
+  if (found == cells.size()) return Got::row;
+  ++index;
+  refuse(kNoColumn,
+         "the row has " + std::to_string(found) + " cells, the header names " + std::to_string(cells.size()));
+  return note_bad(1, bad_row());
+}
+
+/// Counts rows that cannot be used; what follows from it.
+LogReader::State::Got LogReader::State::note_bad(std::uint64_t rows, FileError why) {
+  statistics.rows_bad += rows;
+  error = std::move(why);
+  if (statistics.bad_rows.size() < LogStatistics::kBadRowsKept) statistics.bad_rows.push_back(error);
+  return policy == BadRowPolicy::stop ? Got::error : Got::skipped;
+}
+
 LogReader::Next LogReader::next(Sample& sample) {
   State& s = *state_;
-  std::string_view text;
   for (;;) {
-    const LineSource::Status status = s.source.next(text);
-    s.statistics.bytes = s.source.bytes();
-    s.statistics.hash = s.source.hash();
-    if (status == LineSource::Status::failed) {
-      s.error = s.io_failure(s.source.error_number());
-      return Next::error;
-    }
-    if (status == LineSource::Status::end) {
+    State::Got got = s.binary ? s.next_binary() : s.next_cells();
+    if (got == State::Got::end) {
       if (s.statistics.rows > 0 || s.source.stopped()) return Next::end;
       s.error = s.nothing_usable();
       return Next::error;
     }
-    ++s.line;
-    if (trimmed(text).empty()) continue;
-    const std::size_t found = split_cells(text, s.cells);
-    bool good = found == s.cells.size();
-    if (!good) {
-      s.refuse(kNoColumn,
-               "the row has " + std::to_string(found) + " cells, the header names " + std::to_string(s.cells.size()));
-    } else if (!s.selected()) {
+    if (got == State::Got::row && !s.selected()) {
       ++s.statistics.rows_filtered;
       continue;
     }
-    ++s.index;
-    if (good && s.fill(sample)) {
-      if (s.statistics.rows++ == 0) s.statistics.first_time_s = sample.time_s;
-      s.statistics.last_time_s = sample.time_s;
-      return Next::row;
+    if (got == State::Got::row) {
+      ++s.index;
+      if (s.fill(sample)) {
+        if (s.statistics.rows++ == 0) s.statistics.first_time_s = sample.time_s;
+        s.statistics.last_time_s = sample.time_s;
+        return Next::row;
+      }
+      got = s.note_bad(1, s.bad_row());
     }
-    ++s.statistics.rows_bad;
-    s.error = s.bad_row();
-    if (s.statistics.bad_rows.size() < LogStatistics::kBadRowsKept) s.statistics.bad_rows.push_back(s.error);
-    if (s.policy == BadRowPolicy::stop) return Next::error;
+    if (got == State::Got::error) return Next::error;
   }
 }
 
@@ -218,10 +242,14 @@ const FileError& LogReader::error() const noexcept { return state_->error; }
 const LogStatistics& LogReader::statistics() const noexcept { return state_->statistics; }
 int LogReader::line() const noexcept { return state_->line; }
 void LogReader::hash_bytes() {
+  if (state_->binary) return state_->binary->hash_bytes();
   state_->source.hash_bytes();
   state_->statistics.hash = state_->source.hash();
 }
-void LogReader::follow() { state_->source.follow(); }
+void LogReader::follow() {
+  state_->source.follow();
+  if (state_->binary) state_->binary->unmap();
+}
 void LogReader::stop_when(const volatile std::sig_atomic_t* flag) { state_->source.stop_when(flag); }
 
 FileExpected<LogContent> read_log(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {

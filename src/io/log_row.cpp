@@ -9,17 +9,51 @@ inline namespace PLUMB_ABI {
 namespace io {
 namespace {
 constexpr std::int64_t kLargestCount = 0xFFFFFFFFLL;
+/// Copied in place: a temporary would be written and copied for every row.
+constexpr Sample kNoSample{};
 }  // namespace
 
-bool LogReader::State::fill_time(Sample& sample) {
+/// A column that is the same in all rows of a binary log.
+CellKind LogReader::State::text_in(std::size_t column, double& value) const noexcept {
+  return parse_cell(binary->header().columns[column].text, value);
+}
+
+/// What stands in a cell of the row at hand.
+template <bool kBinary>
+inline CellKind LogReader::State::number_in(std::size_t column, double& value) const noexcept {
+  if constexpr (!kBinary) return parse_cell(cells[column], value);
+  const std::size_t place = number_place[column];
+  if (place == kNoColumn) return text_in(column, value);
+  if (!binary->has(place)) return CellKind::empty;
+  value = binary->value(place);
+  return CellKind::number;
+}
+
+template <bool kBinary>
+inline CellKind LogReader::State::whole_in(std::size_t column, std::int64_t& value) const noexcept {
+  if constexpr (!kBinary) return parse_whole(cells[column], value);
+  double number = 0.0;
+  const CellKind kind = number_in<true>(column, number);
+  return kind == CellKind::number && !to_whole(number, value) ? CellKind::text : kind;
+}
+
+/// A cell for a message.
+std::string LogReader::State::shown(std::size_t column) const {
+  if (!binary) return in_quotes(cells[column]);
+  double value = 0.0;
+  if (number_place[column] == kNoColumn) return in_quotes(binary->header().columns[column].text);
+  return number_in<true>(column, value) == CellKind::number ? shortest(value) : "an empty cell";
+}
+
+template <bool kBinary>
+inline bool LogReader::State::fill_time(Sample& sample) {
   if (time == kNoColumn) {
     const auto number = static_cast<double>(index - 1);
     sample.time_s = input.rate_hz > 0.0 ? number / input.rate_hz : number;
     return true;
   }
   double value = 0.0;
-  if (parse_cell(cells[time], value) != CellKind::number)
-    return refuse(time, in_quotes(cells[time]) + " is not a time");
+  if (number_in<kBinary>(time, value) != CellKind::number) return refuse(time, shown(time) + " is not a time");
   if (!std::isfinite(value)) return refuse(time, "the time is not finite");
   sample.time_s = value * input.time_unit_s;
   if (statistics.rows > 0 && !(sample.time_s > statistics.last_time_s)) {
@@ -29,36 +63,38 @@ bool LogReader::State::fill_time(Sample& sample) {
   return true;
 }
 
-bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint32_t& tag) {
+template <bool kBinary>
+inline bool LogReader::State::fill_tag(std::size_t column, const char* what, std::uint32_t& tag) {
   if (column == kNoColumn) return true;
   std::int64_t value = 0;
-  const CellKind kind = parse_whole(cells[column], value);
+  const CellKind kind = whole_in<kBinary>(column, value);
   const bool fits = kind == CellKind::empty || (kind == CellKind::number && value >= -1 && value < kLargestCount);
   if (!fits)
-    return refuse(column,
-                  in_quotes(cells[column]) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
+    return refuse(column, shown(column) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
   tag = kind == CellKind::empty ? 0U : tag_of_label(value);
   return true;
 }
 
-bool LogReader::State::fill_tags(Sample& sample) {
-  if (!fill_tag(station, "a station number", sample.station)) return false;
-  if (!fill_tag(roll_group, "the number of a roll group", sample.roll_group)) return false;
+template <bool kBinary>
+inline bool LogReader::State::fill_tags(Sample& sample) {
+  if (!fill_tag<kBinary>(station, "a station number", sample.station)) return false;
+  if (!fill_tag<kBinary>(roll_group, "the number of a roll group", sample.roll_group)) return false;
   if (count != kNoColumn) {
     std::int64_t value = 0;
-    const bool fits = parse_whole(cells[count], value) == CellKind::number && value >= 1 && value <= kLargestCount;
-    if (!fits) return refuse(count, in_quotes(cells[count]) + " is not a number of samples (a whole number from 1 up)");
+    const bool fits = whole_in<kBinary>(count, value) == CellKind::number && value >= 1 && value <= kLargestCount;
+    if (!fits) return refuse(count, shown(count) + " is not a number of samples (a whole number from 1 up)");
     sample.count = static_cast<std::uint32_t>(value);
   }
   return true;
 }
 
-bool LogReader::State::fill_temperature(Sample& sample) {
+template <bool kBinary>
+inline bool LogReader::State::fill_temperature(Sample& sample) {
   sample.temperature_degc = input.default_temperature_degc;
   if (temperature == kNoColumn) return true;
   double value = 0.0;
-  const CellKind kind = parse_cell(cells[temperature], value);
-  if (kind == CellKind::text) return refuse(temperature, in_quotes(cells[temperature]) + " is not a temperature");
+  const CellKind kind = number_in<kBinary>(temperature, value);
+  if (kind == CellKind::text) return refuse(temperature, shown(temperature) + " is not a temperature");
   if (kind == CellKind::number && std::isfinite(value)) {
     last_temperature_degc = value;
     has_temperature = true;
@@ -71,14 +107,15 @@ bool LogReader::State::fill_temperature(Sample& sample) {
   return true;
 }
 
-bool LogReader::State::fill_rotation() {
+template <bool kBinary>
+inline bool LogReader::State::fill_rotation() {
   rotation = Rotation{};
   if (rates.empty()) return true;
   rotation.rate_known = true;
   for (std::size_t k = 0; k < rates.size(); ++k) {
     double value = 0.0;
-    const CellKind kind = parse_cell(cells[rates[k]], value);
-    if (kind == CellKind::text) return refuse(rates[k], in_quotes(cells[rates[k]]) + " is not a rate of turn");
+    const CellKind kind = number_in<kBinary>(rates[k], value);
+    if (kind == CellKind::text) return refuse(rates[k], shown(rates[k]) + " is not a rate of turn");
     if (kind != CellKind::number || !std::isfinite(value)) {
       rotation = Rotation{true, false, {}};
       return true;
@@ -89,42 +126,45 @@ bool LogReader::State::fill_rotation() {
   return true;
 }
 
-bool LogReader::State::fill_sensors(Sample& sample) {
+template <bool kBinary>
+inline bool LogReader::State::fill_sensors(Sample& sample) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     double value = 0.0;
-    const std::string_view cell = cells[sensors[i]];
-    switch (parse_cell(cell, value)) {
+    switch (number_in<kBinary>(sensors[i], value)) {
       case CellKind::number:
         sample.raw[i] = value;
         sample.delivered.bits |= 1U << static_cast<unsigned>(i);
         break;
       case CellKind::empty: break;
-      case CellKind::text: return refuse(sensors[i], in_quotes(cell) + " is not a number");
+      case CellKind::text: return refuse(sensors[i], shown(sensors[i]) + " is not a number");
     }
   }
   // Counted only now that the row is known to be good.
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (!sample.delivered.has(static_cast<int>(i))) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(i);
+    const double value = sample.raw[i];
+    if ((sample.delivered.bits & bit) == 0) {
       ++statistics.missing[i];
-    } else if (!std::isfinite(sample.raw[i])) {
+    } else if (!std::isfinite(value)) {
       ++statistics.not_finite[i];
-    } else {
-      note_value(i, sample.raw[i]);
+    } else if ((seen.bits & bit) == 0) {
+      seen.bits |= bit;
+      statistics.first_value[i] = value;
+    } else if (value != statistics.first_value[i]) {
+      statistics.varied.bits |= bit;
     }
   }
   return true;
 }
 
-void LogReader::State::note_value(std::size_t sensor, double value) {
-  const bool first = statistics.missing[sensor] + statistics.not_finite[sensor] == statistics.rows;
-  if (first) statistics.first_value[sensor] = value;
-  if (value != statistics.first_value[sensor]) statistics.varied.bits |= 1U << static_cast<unsigned>(sensor);
+template <bool kBinary>
+bool LogReader::State::fill_row(Sample& sample) {
+  sample = kNoSample;
+  return fill_time<kBinary>(sample) && fill_tags<kBinary>(sample) && fill_temperature<kBinary>(sample) &&
+         fill_rotation<kBinary>() && fill_sensors<kBinary>(sample);
 }
-
-bool LogReader::State::fill(Sample& sample) {
-  sample = Sample();
-  return fill_time(sample) && fill_tags(sample) && fill_temperature(sample) && fill_rotation() && fill_sensors(sample);
-}
+template bool LogReader::State::fill_row<true>(Sample& sample);
+template bool LogReader::State::fill_row<false>(Sample& sample);
 
 }  // namespace io
 }  // namespace PLUMB_ABI

@@ -1,14 +1,16 @@
-/// What LogReader keeps between rows. Its members are in log_reader.cpp (the file and its header) and log_row.cpp (one
-/// row).
+/// What LogReader keeps between rows. Its members are in log_reader.cpp (the file and its header), log_row.cpp (one
+/// row) and log_binary.cpp (what is different for a binary log).
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "csv.hpp"
+#include "plog_rows.hpp"
 #include "plumb/io/log_reader.hpp"
 
 namespace plumb {
@@ -17,11 +19,16 @@ namespace io {
 
 inline constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
+/// A cell of a CSV, or the text of a constant column.
+bool matches(const ColumnFilter& filter, std::string_view cell) noexcept;
+
 struct LogReader::State {
   std::string path;
   InputSpec input;
   BadRowPolicy policy = BadRowPolicy::stop;
   LineSource source;
+  std::optional<PlogRows> binary;         ///< a binary log: its rows
+  std::vector<std::size_t> number_place;  ///< ... where in a row the number of a column stands; kNoColumn: a constant
   std::vector<std::string> header;
   std::vector<std::string_view> cells;
   std::size_t time = kNoColumn;
@@ -38,6 +45,7 @@ struct LogReader::State {
   double last_temperature_degc = 0.0;
   bool has_temperature = false;
   LogStatistics statistics;
+  SensorSet seen;  ///< with a number so far
   FileError error;
 
   // What the row at hand is refused for.
@@ -53,15 +61,37 @@ struct LogReader::State {
   FileExpected<void> read_header();
   FileExpected<void> map_columns();
   FileExpected<std::size_t> column_of(const std::string& name, const std::string& role) const;
+  FileExpected<void> read_binary_header(const std::string& file);
+  FileExpected<void> check_unit(std::size_t column, const std::string& wanted, const char* key) const;
+  FileExpected<void> check_binary() const;
+  enum class Got : std::uint8_t { row, skipped, end, error };
+  Got next_cells();
+  Got next_binary();
+  CellKind text_in(std::size_t column, double& value) const noexcept;
+  std::string shown(std::size_t column) const;
+  bool matches_binary(const ColumnFilter& filter, std::size_t column) const noexcept;
   FileError bad_row() const;
-  bool fill(Sample& sample);
+  Got note_bad(std::uint64_t rows, FileError why);
+  /// A row of either kind of log; which kind is decided once for all its cells.
+  bool fill(Sample& sample) { return binary ? fill_row<true>(sample) : fill_row<false>(sample); }
+  template <bool kBinary>
+  CellKind number_in(std::size_t column, double& value) const noexcept;
+  template <bool kBinary>
+  CellKind whole_in(std::size_t column, std::int64_t& value) const noexcept;
+  template <bool kBinary>
+  bool fill_row(Sample& sample);
+  template <bool kBinary>
   bool fill_time(Sample& sample);
+  template <bool kBinary>
   bool fill_tag(std::size_t column, const char* what, std::uint32_t& tag);
+  template <bool kBinary>
   bool fill_tags(Sample& sample);
+  template <bool kBinary>
   bool fill_temperature(Sample& sample);
+  template <bool kBinary>
   bool fill_rotation();
+  template <bool kBinary>
   bool fill_sensors(Sample& sample);
-  void note_value(std::size_t sensor, double value);
   bool selected() const noexcept;
   FileError nothing_usable() const;
 };

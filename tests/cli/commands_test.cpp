@@ -26,7 +26,7 @@ TEST(Help, EveryCommandSaysWhatItDoesAndItsExitCodes) {
   const Directory where;
   const Outcome top = run(where, {"--help"});
   EXPECT_EQ(top.code, 0);
-  for (const char* command : {"demo", "geometry", "calibrate", "monitor", "simulate", "inject", "model"}) {
+  for (const char* command : {"demo", "geometry", "calibrate", "monitor", "simulate", "inject", "convert", "model"}) {
     EXPECT_NE(top.out.find(command), std::string::npos) << command;
     const Outcome help = run(where, {command, "--help"});
     EXPECT_EQ(help.code, 0);

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "plumb/array/named.hpp"
 #include "support/simulated_tool.hpp"
 
 namespace {
@@ -105,6 +109,49 @@ RC_GTEST_PROP(CombinationMaeLaw, WindowSumIsExactWhateverCameBefore, ()) {
     mae->add(*array, y, usable, &x, kG0_mps2);
   }
   for (int k = 0; k < array->triple_count(); ++k) RC_ASSERT(mae->triple_sum(k) == mae->fresh_triple_sum(k));
+}
+
+/// Error of triple k in units, by one triple alone.
+std::int32_t units_alone(const SensorArray& array, int k, const Readings& y, double g_mps2) {
+  const auto& s = array.triple(k).sensors;
+  const auto q = [&array, k](std::size_t c) { return array.form_coefficients(c)[k]; };
+  const double square = squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[s[0]], y[s[1]], y[s[2]]);
+  return to_mae_units(std::sqrt(square < 0.0 ? 0.0 : square) - g_mps2);
+}
+
+// Verifies: REQ-051
+RC_GTEST_PROP(CombinationMaeLaw, TriplesSideBySideGiveTheBitsOfOneAlone, ()) {
+  const int n = *rc::gen::inRange(4, kCapacity + 1);
+  AxisList axes{};
+  cone(axes, n);
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < n; ++i) {
+    auto& row = rows[static_cast<std::size_t>(i)];
+    row.id = make_id(("a" + std::to_string(i)).c_str());
+    row.axis = axes[static_cast<std::size_t>(i)];
+    row.sigma_mps2 = 1e-3;
+  }
+  const auto array = std::make_unique<SensorArray>(*SensorArray::make(rows.data(), n));
+  auto mae = std::make_unique<CombinationMae>();
+  mae->configure(array->triple_count(), 2);
+  std::vector<Readings> window;
+  for (int step = 0; step < 6; ++step) {
+    Readings y{};
+    for (int i = 0; i < n; ++i) {
+      const double odd[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, 5e-324, -0.0};
+      const int kind = *rc::gen::inRange(0, 40);
+      const double plain = 12.0 * (*rc::gen::inRange(-1000000, 1000000) / 999983.0);
+      y[static_cast<std::size_t>(i)] = kind < 6 ? odd[kind] : plain;
+    }
+    window.push_back(y);
+    mae->add(*array, y, array->all(), nullptr, kG0_mps2);
+    for (int k = 0; k < array->triple_count(); ++k) {
+      std::int64_t sum = units_alone(*array, k, y, kG0_mps2);
+      if (step > 0) sum += units_alone(*array, k, window[static_cast<std::size_t>(step - 1)], kG0_mps2);
+      RC_ASSERT(mae->triple_sum(k) == sum);
+      RC_ASSERT(mae->fresh_triple_sum(k) == sum);
+    }
+  }
 }
 
 // Verifies: REQ-051

@@ -80,7 +80,7 @@ class CombinationMae {
     return static_cast<double>(static_cast<std::uint32_t>(bits >> 32U)) * 4294967296.0 +
            static_cast<double>(static_cast<std::uint32_t>(bits));
   }
-  bool replace_four(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept;
+  int replace_fours(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept;
   std::size_t row(int slot) const noexcept {
     return static_cast<std::size_t>(slot) * static_cast<std::size_t>(triples_);
   }

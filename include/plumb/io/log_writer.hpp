@@ -1,9 +1,12 @@
-/// Writes the CSV that `LogReader` reads with the same array file, bit for bit.
+/// Writes the log that `LogReader` reads with the same array file, bit for bit: a CSV, or, to a path that ends in
+/// ".plog", a binary log.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "plumb/core/sample.hpp"
+#include "plumb/health/rotation.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/output_file.hpp"
 
@@ -11,22 +14,46 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
+class PlogWriter;
+
 class LogWriter {
  public:
+  enum class Columns : std::uint8_t {
+    samples,  ///< all but the rates of turn
+    all,      ///< the rates of turn too, where [input] names them
+  };
+  /// What a row says beyond its sample.
+  struct Notes {
+    bool temperature_held = false;  ///< of the row before: the cell becomes empty
+    Rotation rotation;              ///< with Columns::all
+  };
+
   /// Columns: time, station, count, temperature (those that [input] names), the columns of `where` with
-  /// their values, then the sensors. Without a time column the time is left to the reader.
-  static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array);
+  /// their values, the rates of turn, then the sensors. Without a time column the time is left to the reader.
+  static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array,
+                                        Columns columns = Columns::samples);
+
+  LogWriter(LogWriter&& other) noexcept;
+  LogWriter& operator=(LogWriter&& other) noexcept;
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+  ~LogWriter();
 
   /// A channel that is not in `sample.delivered` becomes an empty cell. Values must be in the log's unit.
-  FileExpected<void> write(const Sample& sample);
-  FileExpected<void> commit() { return file_.commit(); }
+  FileExpected<void> write(const Sample& sample) { return write(sample, Notes{}); }
+  FileExpected<void> write(const Sample& sample, const Notes& notes);
+  FileExpected<void> commit();
 
  private:
-  LogWriter(OutputFile file, const InputSpec& input);
+  LogWriter(OutputFile file, const InputSpec& input, Columns columns);
+  void choose_constants();
+  FileExpected<void> begin_csv();
+  FileExpected<void> begin_binary();
 
   OutputFile file_;
-  InputSpec input_;
+  InputSpec input_;  ///< `where` without what has a role already, rates of turn only where they are written
   std::string line_;
+  std::unique_ptr<PlogWriter> binary_;
 };
 
 }  // namespace io

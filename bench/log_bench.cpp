@@ -1,0 +1,166 @@
+// Logs: reading a binary one against the same as CSV, and the monitor on the way; the start of the tool.
+#include <benchmark/benchmark.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "pairs.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/health/health_monitor.hpp"
+#include "plumb/io/log_reader.hpp"
+#include "plumb/io/log_writer.hpp"
+
+extern char** environ;
+
+namespace {
+
+using namespace plumb;
+
+constexpr std::size_t kRows = 100000;
+
+/// The paper's tool, a new attitude every 32 rows, six digits behind the point as a recorder prints them; as CSV and
+/// binary. Removed at the end.
+class Logs {
+ public:
+  Logs() {
+    array_ = io::read_array_file(PLUMB_SOURCE_DIR "/examples/paper_tool.toml");
+    char name[] = "/tmp/plumb-bench-XXXXXX";
+    if (!array_ || mkdtemp(name) == nullptr) return;
+    directory_ = name;
+    sound_ = write(csv()) && write(binary());
+  }
+  ~Logs() {
+    for (const std::string& path : {csv(), binary()}) (void)std::remove(path.c_str());
+    (void)rmdir(directory_.c_str());
+  }
+  Logs(const Logs&) = delete;
+  Logs& operator=(const Logs&) = delete;
+
+  bool sound() const { return sound_; }
+  const io::ArrayFile& array() const { return *array_; }
+  std::string csv() const { return directory_ + "/log.csv"; }
+  std::string binary() const { return directory_ + "/log.plog"; }
+
+ private:
+  bool write(const std::string& path) const {
+    auto writer = io::LogWriter::create(path, *array_);
+    if (!writer) return false;
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> noise;
+    for (std::size_t k = 0; k < kRows; ++k) {
+      const double a = 0.7 * std::floor(static_cast<double>(k) / 32.0);
+      const Vec3 g = {std::sin(a) * kG0_mps2 * 0.6, std::sin(a) * kG0_mps2 * 0.8, std::cos(a) * kG0_mps2};
+      Sample s;
+      s.time_s = 0.01 * static_cast<double>(k);
+      s.temperature_degc = 25.0;
+      s.delivered = array_->array.all();
+      for (int i = 0; i < array_->array.size(); ++i) {
+        const double volts = 3.0 / kG0_mps2 * (dot(array_->array.axis(i), g) + 2e-3 * noise(engine));
+        s.raw[static_cast<std::size_t>(i)] = std::round(volts * 1e6) * 1e-6;
+      }
+      if (!writer->write(s)) return false;
+    }
+    return writer->commit().has_value();
+  }
+
+  io::FileExpected<io::ArrayFile> array_;
+  std::string directory_;
+  bool sound_ = false;
+};
+
+const std::shared_ptr<Logs>& logs() {
+  static const std::shared_ptr<Logs> both = std::make_shared<Logs>();
+  return both;
+}
+
+/// The whole log so many times; with `monitor` every sample goes through it.
+void read(const Logs& both, const std::string& path, std::size_t count, HealthMonitor* monitor) {
+  for (std::size_t k = 0; k < count; ++k) {
+    auto reader = io::LogReader::open(path, both.array(), io::BadRowPolicy::stop);
+    Sample sample;
+    double sum = 0.0;
+    while (reader && reader->next(sample) == io::LogReader::Next::row) {
+      sum += sample.raw[0];
+      if (monitor != nullptr) benchmark::DoNotOptimize(monitor->step(sample));
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+}
+
+plumb_bench::Runs reading(bool binary, bool monitored) {
+  const std::shared_ptr<Logs> both = logs();
+  if (!both->sound()) return {};
+  std::shared_ptr<MonitorSetup> setup;
+  auto monitor = std::make_shared<HealthMonitor>();
+  if (monitored) {
+    setup = std::make_shared<MonitorSetup>();
+    setup->array = both->array().array;
+    setup->model = both->array().datasheet.model();
+    setup->gravity = both->array().gravity;
+    setup->config = both->array().monitor;
+    if (!monitor->configure(*setup)) return {};
+  }
+  return [both, setup, monitor, binary](std::size_t count) {
+    if (setup) (void)monitor->configure(*setup);
+    read(*both, binary ? both->binary() : both->csv(), count, setup ? monitor.get() : nullptr);
+  };
+}
+
+const plumb_bench::Enrolled kReading{
+    {"log: a binary row, read", "the same as CSV", 5.0, [] {
+       return plumb_bench::Contest{reading(true, false), reading(false, false), static_cast<double>(kRows)};
+     }}};
+const plumb_bench::Enrolled kMonitored{
+    {"log: a CSV row, read and monitored (24 sensors)", "reading alone", 1.0 / 1.6, [] {
+       return plumb_bench::Contest{reading(false, true), reading(false, false), static_cast<double>(kRows)};
+     }}};
+const plumb_bench::Enrolled kMonitoredBinary{
+    {"log: a binary row, read and monitored", "the same as CSV", 0.0, [] {
+       return plumb_bench::Contest{reading(true, true), reading(false, true), static_cast<double>(kRows)};
+     }}};
+
+void BM_LogRead(benchmark::State& state) {
+  const plumb_bench::Runs runs = reading(state.range(0) != 0, false);
+  if (!runs) return state.SkipWithError("no log");
+  for (auto _ : state) runs(1);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kRows));
+}
+BENCHMARK(BM_LogRead)->ArgName("binary")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+#ifdef PLUMB_TOOL_PATH
+/// Least and median wall time of `plumb --version`, in ms: the whole start, with loading and libraries.
+std::vector<plumb_bench::Figure> startup() {
+  std::vector<double> times;
+  for (int k = 0; k < 31; ++k) {
+    std::string words[] = {PLUMB_TOOL_PATH, "--version"};
+    char* argv[] = {words[0].data(), words[1].data(), nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    pid_t id = 0;
+    int status = 0;
+    const bool ran = posix_spawn(&id, argv[0], &actions, nullptr, argv, environ) == 0 && waitpid(id, &status, 0) == id;
+    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    posix_spawn_file_actions_destroy(&actions);
+    if (!ran || status != 0) return {};
+  }
+  std::sort(times.begin(), times.end());
+  return {{"start of the tool (plumb --version), least of 31", times.front(), 30.0, "ms"},
+          {"start of the tool, median of 31", times[times.size() / 2], 30.0, "ms"}};
+}
+const plumb_bench::Enrolled kStartup{plumb_bench::Figures(startup)};
+#endif
+
+}  // namespace

@@ -1,0 +1,99 @@
+// plumb convert: a log from CSV to binary, or back.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "plumb/io/log_reader.hpp"
+#include "plumb/io/log_writer.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+struct Options {
+  std::string array;
+  std::string log;
+  std::string out;
+  io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
+};
+
+constexpr const char* kAbout =
+    "Write a log again in the other form: CSV, or the binary log, which is read several times faster and finds damage\n"
+    "by check sums. What is written is what the array file names; every command gives the same results on both.";
+constexpr const char* kNotes =
+    "The name of the output decides: one that ends in .plog becomes a binary log, any other a CSV. Every command "
+    "knows\n"
+    "by itself which of the two it reads. docs/array-file.md holds the layout of the binary log.\n\n"
+    "Examples:\n"
+    "  plumb convert --array tool.toml --log run.csv --out run.plog\n"
+    "  plumb convert --array tool.toml --log run.plog --out -      # as CSV, to look at\n\n"
+    "Cells come back as the same numbers, written the shortest way. Rows that [input] where does not select, and rows\n"
+    "skipped as bad, are left out.\n\n";
+
+io::FileExpected<io::LogStatistics> convert(const Options& options, const io::ArrayFile& array) {
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->stop_when(interrupt_flag());
+  io::FileExpected<io::LogWriter> writer = io::LogWriter::create(options.out, array, io::LogWriter::Columns::all);
+  if (!writer) return tl::unexpected<io::FileError>(writer.error());
+  Progress progress("converting " + options.log);
+  Sample sample;
+  std::uint64_t held = 0;
+  io::LogReader::Next status = reader->next(sample);
+  for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
+    const std::uint64_t now = reader->statistics().temperature_held;
+    const io::FileExpected<void> written = writer->write(sample, {now != held, reader->rotation()});
+    if (!written) return tl::unexpected<io::FileError>(written.error());
+    held = now;
+    progress.at(reader->statistics().rows, sample.time_s);
+  }
+  const io::FileExpected<void> kept = writer->commit();
+  if (!kept) return tl::unexpected<io::FileError>(kept.error());
+  if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
+  return reader->statistics();
+}
+
+io::ExitCode run(const Options& options) {
+  const std::vector<NamedFile> to_write = {{"--out", options.out}};
+  const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
+  if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
+  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  if (!array) return report(array.error());
+  watch_interrupts();
+  const io::FileExpected<io::LogStatistics> done = convert(options, *array);
+  if (!done) return report(done.error());
+  if (options.out != "-") {
+    print(fmt::format("written: {} ({} rows, {} bad rows skipped)\n", options.out, done->rows, done->rows_bad));
+  }
+  if (done->rows_bad > 0 && array->input.time_column.empty()) {
+    print_error(
+        "plumb: the log has no column of time: the rows behind those skipped have moved up and come earlier now.\n");
+  }
+  if (!interrupted()) return io::ExitCode::done;
+  print_error(fmt::format("plumb: interrupted; the rows up to t = {:.3f} s are written.\n", done->last_time_s));
+  return io::ExitCode::other;
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& tool) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app = tool.add_subcommand("convert", "write a log again: from CSV to binary, or back");
+  app->add_option("--array", options->array, "the array file: how the log looks")->required()->type_name("ARRAY.toml");
+  app->add_option("--log", options->log, "the log to read; `-` = standard input")->required()->type_name("LOG|-");
+  app->add_option("--out", options->out,
+                  "the log to write: OUT.plog binary, any other name CSV; `-` = CSV to standard output")
+      ->required()
+      ->type_name("OUT|-");
+  add_bad_row_option(*app, options->on_bad_row);
+  app->footer(kNotes + exit_codes_help());
+  return {app, kAbout, [options] { return run(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

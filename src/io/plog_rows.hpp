@@ -1,0 +1,91 @@
+/// The rows of a binary log, one block after the other (private to src/io). No row is given out before the check sum of
+/// its block was found right.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "csv.hpp"
+#include "mapped_file.hpp"
+#include "plog_format.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+
+class PlogRows {
+ public:
+  enum class Status : std::uint8_t {
+    row,
+    end,      ///< behind the end mark, or because a stop was asked for
+    damaged,  ///< a block of `rows_lost` rows cannot be trusted; the next one may
+    lost,     ///< from here on nothing can be read
+    failed,   ///< reading itself, see LineSource::error_number
+  };
+
+  /// `source` stands before the magic number. Errors: what is wrong with the header.
+  static FileExpected<PlogRows> open(LineSource& source, const std::string& path);
+
+  PlogRows(PlogRows&&) = default;
+  PlogRows& operator=(PlogRows&&) = delete;
+  PlogRows(const PlogRows&) = delete;
+  PlogRows& operator=(const PlogRows&) = delete;
+  ~PlogRows() = default;
+
+  const PlogHeader& header() const noexcept { return header_; }
+  /// From here on out of the mapped file, where it is a file. Before the first `next`.
+  void map(const std::string& path);
+  /// Back to reading: for a file that grows.
+  void unmap() noexcept { mapped_ = false; }
+  void hash_bytes();
+
+  Status next() {
+    if (left_ == 0) return next_block();
+    --left_;
+    ++row_number_;
+    row_ += row_bytes_;
+    present_ = u64_at(row_);
+    return Status::row;
+  }
+  /// Of the row at hand; `number` counts the columns that have a number in every row.
+  bool has(std::size_t number) const noexcept { return (present_ >> number & 1U) != 0; }
+  double value(std::size_t number) const noexcept { return double_at(row_ + 8 + 8 * number); }
+  bool marks_sound() const noexcept { return numbers_ == kPlogColumns || present_ >> numbers_ == 0; }
+  std::uint64_t row() const noexcept { return row_number_; }  ///< counted from 1
+
+  const std::string& what() const noexcept { return what_; }  ///< after `damaged` and `lost`
+  std::uint64_t rows_lost() const noexcept { return rows_lost_; }
+  std::uint64_t bytes() const noexcept { return offset_; }
+  std::uint64_t hash() const noexcept { return hash_; }
+
+ private:
+  PlogRows(LineSource& source, PlogHeader header, std::string header_bytes);
+  const unsigned char* peek(std::size_t count);
+  void consume(const unsigned char* bytes, std::size_t count);
+  Status next_block();
+  Status cut_short(std::size_t wanted);
+  Status end_mark(const unsigned char* at);
+  Status lose(std::string what);
+
+  LineSource* source_;
+  PlogHeader header_;
+  std::string header_bytes_;
+  std::size_t numbers_;
+  std::size_t row_bytes_;
+  MappedFile map_;
+  bool mapped_ = false;
+  bool hashing_ = false;
+  bool ended_ = false;
+  std::uint64_t offset_ = 0;  ///< of what comes next
+  std::uint64_t hash_ = 0;
+  const unsigned char* row_ = nullptr;
+  std::uint64_t present_ = 0;
+  std::uint32_t left_ = 0;  ///< rows of this block behind the one at hand
+  std::uint64_t row_number_ = 0;
+  std::uint64_t rows_lost_ = 0;
+  std::string what_;
+};
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb
