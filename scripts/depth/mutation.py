@@ -129,6 +129,7 @@ def main():
     parser.add_argument("--fresh", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop then; the next call goes on")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--build", default="build/release", help="whose objects are linked with")
     options = parser.parse_args()
 
     whole = everything()
@@ -136,7 +137,7 @@ def main():
     random.Random(options.seed).shuffle(chosen)
     if options.sample is not None:
         chosen = chosen[:options.sample]
-    workshop = oracles.Workshop(ROOT, ROOT / "build/release")
+    workshop = oracles.Workshop(ROOT, ROOT / options.build)
     store = workshop.work / "results.jsonl"
     if options.fresh:
         store.unlink(missing_ok=True)

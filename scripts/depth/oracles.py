@@ -11,7 +11,7 @@ import table
 
 COMPILER = "clang++-19"
 CELLS = table.HEADER
-TESTS = {"RC_PARAMS": "seed=20180227 max_success=100 noshrink=1"}
+TESTS = {"RC_PARAMS": "seed=20180227 max_success=100 noshrink=1", "LLVM_PROFILE_FILE": "/dev/null"}
 # Smallest first. The rooms of tests whose objects go into a program, what is run of it, the environment.
 STAGES = (
     ("induction", "core", "Induction.Every*:Induction.F*:Induction.P*:TransitionTable.*", {}),
@@ -61,6 +61,8 @@ class Workshop:
             words = shlex.split(entry["command"])
             target = words[words.index("-o") + 1].split(".dir/")[0]
             self.commands[entry["file"], target.rsplit("/", 1)[-1]] = words
+        # A build that counts coverage is as good as another; its programs write no profile here.
+        self.counts = any("-fprofile-instr-generate" in words for words in self.commands.values())
         self.library = build / "libplumb_8.a"
         core = sorted((build / "CMakeFiles/plumb_core_tests.dir").rglob("*.o"))
         law = sorted((build / "CMakeFiles/plumb_law_objects.dir").rglob("*.o"))
@@ -73,13 +75,12 @@ class Workshop:
     def compile(self, file, room, source=None, shadow=None):
         """The object of `file`, with `source` in its place or with a folder of changed headers before all others."""
         entry = self.commands[str(self.root / file), "plumb_core_tests" if file.startswith("tests/") else "plumb_8"]
-        words = entry[entry.index("-o") - len(entry):]
-        options = [w for w in entry if w.startswith(("-D", "-I", "-std", "-f")) and not w.startswith("-fpch")]
+        options = [w for w in entry if w.startswith(("-D", "-I", "-std", "-f")) and not w.startswith(("-fpch", "-fprofile", "-fcoverage"))]
         systems = [w for i, w in enumerate(entry) if w == "-isystem" or entry[i - 1] == "-isystem"]
         out = room / (file.replace("/", "_") + ".o")
         first = [f"-I{shadow}"] if shadow else []
         command = [COMPILER, *first, *options, *systems, f"-I{(self.root / file).parent}", "-O1", "-DNDEBUG", "-w",
-                   "-c", str(source or words[-1]), "-o", str(out)]
+                   "-c", str(source or self.root / file), "-o", str(out)]
         status, text = run(command, {}, 300, room)
         if status != 0:
             if "static assertion failed" in text or "static_assert" in text:
@@ -93,7 +94,7 @@ class Workshop:
         rest = [o for o in self.objects[kind] if str(o.relative_to(o.parents[2])).replace("/", "_") not in names]
         out = room / kind
         libraries = ["-lrapidcheck", "-lgmock", "-lgtest", "-lgtest_main", "-lpthread"]
-        command = ["g++", "-fuse-ld=gold", "-o", str(out), *map(str, [*objects, *rest, self.library]), *libraries]
+        command = [COMPILER, *(["-fprofile-instr-generate"] if self.counts else []), "-fuse-ld=gold", "-o", str(out), *map(str, [*objects, *rest, self.library]), *libraries]
         status, text = run(command, {}, 300, room)
         if status != 0:
             raise Stillborn(text[-2000:])
