@@ -13,7 +13,7 @@ import reviewed
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIST = ROOT / "tests/coverage/justified.txt"
 OPEN = ROOT / "tests/coverage/open.txt"
-OPEN_SAYS = """# Branches and conditions of floors 1 to 4 that the core's tests do not reach yet and nobody has judged: file | line | what.
+OPEN_SAYS = """# Branches and conditions of floors 1 to 4 that the core's tests do not reach yet, not judged yet: file | line | what.
 # This list may only get shorter: reach them by a test, remove them, or move them to justified.txt with a reason.
 # Written by scripts/coverage --open.
 """

@@ -7,6 +7,7 @@ import hashlib
 import json
 import pathlib
 import random
+import re
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -124,7 +125,7 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/mutate", description=__doc__.splitlines()[0])
     parser.add_argument("--sample", type=int, help="so many of them, drawn by --seed")
     parser.add_argument("--seed", type=int, default=20180227)
-    parser.add_argument("--only", default="", help="mutants whose file, function or change has this text")
+    parser.add_argument("--only", default="", help="mutants whose file, function, line or change this pattern meets")
     parser.add_argument("--again", action="store_true", help="after a change: keep what was killed, judge the survivors again")
     parser.add_argument("--fresh", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop then; the next call goes on")
@@ -133,7 +134,7 @@ def main():
     options = parser.parse_args()
 
     whole = everything()
-    chosen = [m for m in whole if options.only in m.identity]
+    chosen = [m for m in whole if re.search(options.only, m.identity)]
     random.Random(options.seed).shuffle(chosen)
     if options.sample is not None:
         chosen = chosen[:options.sample]
@@ -144,9 +145,10 @@ def main():
     results = Results(store, options.again)
     todo = [m for m in chosen if m.key not in results.known]
     print(f"{len(whole)} mutants, {len(chosen)} asked for, {len(todo)} to judge", flush=True)
-    if todo:
+    if any(workshop.needs_tests(m) for m in todo):
         workshop.baseline(sorted({m.file for m in whole}))
         print("without a mutant: " + ", ".join(f"{n} {s:.1f} s" for n, s in workshop.seconds.items()), flush=True)
+    if todo:
         judge_all(todo, workshop, results, options.jobs, time.monotonic() + 60 * options.minutes)
     left = [m for m in chosen if m.key not in results.known]
     if left:

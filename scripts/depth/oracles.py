@@ -19,7 +19,7 @@ STAGES = (
     ("requirements", "core", "Requirement*:Episode*:Inhibit*:Patience*:HealthMonitor.*:Snapshot*:Mirror*", {}),
     ("monitor", "core", "MonitorLaw.*:Recalibrating*:FirstCalibration*:HeldAxis*:Attack*:OfferedCalibration*:Probation*", {}),
     ("rates", "core", "IsolationRates.*:Verdict*:ReferenceStudy*:Recalibration*:CommonDrift*:Paper*", {}),
-    ("laws", "law", "Law.*:CounterExample.*", {"PLUMB_LAW_CASES": "400"}),
+    ("laws", "law", "Law.*:CounterExample.*:-Law.Five*", {"PLUMB_LAW_CASES": "400"}),
 )
 
 
@@ -70,12 +70,14 @@ class Workshop:
         self.objects = {"core": [o for o in core if o.parent.name in ("health", "detection")], "law": law}
         self.original = {}
         self.seconds = {}
+        self.specified = table.specified(root)
 
     # --- building ----------------------------------------------------------------------------------------------------
     def compile(self, file, room, source=None, shadow=None):
         """The object of `file`, with `source` in its place or with a folder of changed headers before all others."""
         entry = self.commands[str(self.root / file), "plumb_core_tests" if file.startswith("tests/") else "plumb_8"]
-        options = [w for w in entry if w.startswith(("-D", "-I", "-std", "-f")) and not w.startswith(("-fpch", "-fprofile", "-fcoverage"))]
+        options = [w for w in entry if w.startswith(("-D", "-I", "-std", "-f"))
+                   and not w.startswith(("-fpch", "-fprofile", "-fcoverage"))]
         systems = [w for i, w in enumerate(entry) if w == "-isystem" or entry[i - 1] == "-isystem"]
         out = room / (file.replace("/", "_") + ".o")
         first = [f"-I{shadow}"] if shadow else []
@@ -94,7 +96,9 @@ class Workshop:
         rest = [o for o in self.objects[kind] if str(o.relative_to(o.parents[2])).replace("/", "_") not in names]
         out = room / kind
         libraries = ["-lrapidcheck", "-lgmock", "-lgtest", "-lgtest_main", "-lpthread"]
-        command = [COMPILER, *(["-fprofile-instr-generate"] if self.counts else []), "-fuse-ld=gold", "-o", str(out), *map(str, [*objects, *rest, self.library]), *libraries]
+        counting = ["-fprofile-instr-generate"] if self.counts else []
+        parts = map(str, [*objects, *rest, self.library])
+        command = [COMPILER, *counting, "-fuse-ld=gold", "-o", str(out), *parts, *libraries]
         status, text = run(command, {}, 300, room)
         if status != 0:
             raise Stillborn(text[-2000:])
@@ -150,6 +154,11 @@ class Workshop:
         path.write_bytes(source)
         return path
 
+    @staticmethod
+    def needs_tests(mutant):
+        """The specification judges every cell but those of the event `none`, which it does not have."""
+        return mutant.operator != "cell" or mutant.function.endswith("[14]")
+
     def judge(self, mutant, name):
         """killed, survived, equivalent or stillborn, and by what."""
         room = self.room(name)
@@ -195,7 +204,7 @@ class Workshop:
                 raise Killed("static_assert")
             raise Stillborn(text[-2000:])
         status, text = run([str(program)], {}, 20, room)
-        if status != 0 or table.printed(text) != table.specified(self.root):
+        if status != 0 or table.printed(text) != self.specified:
             raise Killed("specification")
         shutil.rmtree(room / "include")
         self.judge_header(mutant, changed, room, ("induction",))
