@@ -5,6 +5,7 @@ Called by scripts/mutate, which builds what this links with.
 import argparse
 import hashlib
 import json
+import os
 import pathlib
 import random
 import re
@@ -48,11 +49,9 @@ class Results:
         self.path, self.tree, self.known = path, state_of_the_tree(), {}
         for text in path.read_text().splitlines() if path.exists() else []:
             record = json.loads(text)
-            same = record["tree"] == self.tree
-            if same or (kept_over_changes and record["verdict"] in ("killed", "equivalent", "stillborn")):
+            same, settled = record["tree"] == self.tree, record["verdict"] in ("killed", "equivalent", "stillborn")
+            if (settled and kept_over_changes) or (same and not kept_over_changes):
                 self.known[record["key"]] = record
-            elif record["key"] in self.known:
-                del self.known[record["key"]]
         path.write_text("".join(json.dumps(record) + "\n" for record in self.known.values()))
 
     def note(self, mutant, verdict, by, seconds):
@@ -67,7 +66,7 @@ class Results:
 def judge_all(todo, workshop, results, workers, deadline):
     free = Queue()
     for worker in range(workers):
-        free.put(f"worker_{worker}")
+        free.put(f"worker_{os.getpid()}_{worker}")
 
     def one(mutant):
         if time.monotonic() > deadline:
@@ -129,6 +128,8 @@ def main():
     parser.add_argument("--again", action="store_true", help="after a change: keep what was killed, judge the survivors again")
     parser.add_argument("--fresh", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop then; the next call goes on")
+    parser.add_argument("--oracles", type=int, default=len(oracles.STAGES),
+                        help="only so many, the quickest; --again then gives the survivors to all of them")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--build", default="build/release", help="whose objects are linked with")
     options = parser.parse_args()
@@ -138,7 +139,7 @@ def main():
     random.Random(options.seed).shuffle(chosen)
     if options.sample is not None:
         chosen = chosen[:options.sample]
-    workshop = oracles.Workshop(ROOT, ROOT / options.build)
+    workshop = oracles.Workshop(ROOT, ROOT / options.build, oracles.STAGES[:options.oracles])
     store = workshop.work / "results.jsonl"
     if options.fresh:
         store.unlink(missing_ok=True)

@@ -19,7 +19,7 @@ STAGES = (
     ("requirements", "core", "Requirement*:Episode*:Inhibit*:Patience*:HealthMonitor.*:Snapshot*:Mirror*", {}),
     ("monitor", "core", "MonitorLaw.*:Recalibrating*:FirstCalibration*:HeldAxis*:Attack*:OfferedCalibration*:Probation*", {}),
     ("rates", "core", "IsolationRates.*:Verdict*:ReferenceStudy*:Recalibration*:CommonDrift*:Paper*", {}),
-    ("laws", "law", "Law.*:CounterExample.*:-Law.Five*", {"PLUMB_LAW_CASES": "400"}),
+    ("laws", "law", "Law.*:CounterExample.*:-Law.Five*", {"PLUMB_LAW_CASES": "200"}),
 )
 
 
@@ -51,8 +51,8 @@ def run(command, environment, seconds, cwd):
 class Workshop:
     """Builds and judges, from the objects of a build that is complete."""
 
-    def __init__(self, root, build):
-        self.root, self.build = root, build
+    def __init__(self, root, build, stages=STAGES):
+        self.root, self.build, self.used = root, build, stages
         self.work = root / "build/mutation"
         self.work.mkdir(parents=True, exist_ok=True)
         commands = json.loads((build / "compile_commands.json").read_text())
@@ -117,7 +117,7 @@ class Workshop:
 
     def stages(self, objects, room, names=None):
         programs = {}
-        for name, kind, pattern, environment in STAGES:
+        for name, kind, pattern, environment in self.used:
             if names is not None and name not in names:
                 continue
             if kind not in programs:
@@ -135,7 +135,7 @@ class Workshop:
 
     def baseline(self, files):
         """Nothing changed: every oracle must be content."""
-        room = self.room("baseline")
+        room = self.room(f"baseline_{os.getpid()}")
         copies = {}
         for file in files:
             if file.endswith(".cpp"):
