@@ -19,7 +19,7 @@ function(plumb_test_executable name)
   add_executable(${name} ${sources} ${helpers})
   plumb_compile_settings(${name})
   if(PLUMB_COVERAGE)
-    target_compile_options(${name} PRIVATE -Wno-error)  # how tests put their questions is not what is counted
+    target_compile_options(${name} PRIVATE -Wno-error)  # what a newer compiler says of tests is not what is counted
   endif()
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${name} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
