@@ -244,4 +244,23 @@ TEST(RequirementAge, JustBelowTAgeTheOutputIsStillValid) {
   }
 }
 
+/// A request is served once, or not at all: what fails later needs a key of its own.
+// Negative: REQ-095
+TEST(RequirementReset, OneRequestLeavesFailedOnce) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
+  EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::nominal) << "nothing to leave";
+  const auto break_down = [&] {
+    rig.distort = [](int i, double r, int) { return i <= 1 ? std::numeric_limits<double>::infinity() : r; };
+    rig.stay(direction_at(60, 10));
+    rig.distort = [](int, double r, int) { return r; };
+    return rig.stay(direction_at(60, 10)).state;
+  };
+  EXPECT_EQ(break_down(), HealthState::failed) << "the request from before the failure is spent";
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
+  EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::suspect);
+  EXPECT_EQ(break_down(), HealthState::failed) << "and so is this one";
+}
+
 }  // namespace
