@@ -10,6 +10,7 @@ option(PLUMB_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_BENCH "Build the benchmarks (Google Benchmark)" OFF)
 option(PLUMB_PRECOMPILED_HEADERS "Tests: parse GoogleTest, RapidCheck and Eigen once; scripts/test does, other builds notice a missing include" OFF)
 option(PLUMB_BUILD_FUZZ "Build the fuzzers (Clang)" OFF)
+option(PLUMB_COVERAGE "Count which branches and conditions run (Clang 19, scripts/coverage)" OFF)
 option(PLUMB_INSTALL "Provide the install rules" ${PROJECT_IS_TOP_LEVEL})
 set(PLUMB_RC_PARAMS "seed=20180227 max_success=200" CACHE STRING "RC_PARAMS (RapidCheck) of every test run by ctest")
 

@@ -12,6 +12,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_FLAGS MATCHES "-fsanitize=
   list(APPEND PLUMB_WARNINGS -Wno-maybe-uninitialized)  # GCC's manual: false positives under sanitizers
 endif()
 
+if(PLUMB_COVERAGE AND NOT (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 19))
+  message(FATAL_ERROR "PLUMB_COVERAGE needs Clang 19 (clang-19): -DCMAKE_CXX_COMPILER=clang++-19")
+endif()
+
 # plumb_compile_settings(TARGET): C++17 without extensions, warnings as errors, no fused multiply-add
 # contraction (results must not depend on the compiler's choice of instructions, and the rounding that proofs/ bounds
 # is that of separate multiplications and additions). Nobody reads errno or the floating-point flags: without that promise
@@ -21,6 +25,10 @@ function(plumb_compile_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   if(NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")  # without an operating system nobody would fill the table of addresses
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  if(PLUMB_COVERAGE)  # a decision that it cannot follow is a warning that -Werror does not reach: scripts/coverage refuses it
+    target_compile_options(${target} PUBLIC -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc)
+    target_link_options(${target} PUBLIC -fprofile-instr-generate)
   endif()
   target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -fno-math-errno -fno-trapping-math ${PLUMB_WARNINGS})
 endfunction()

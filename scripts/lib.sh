@@ -3,6 +3,7 @@
 
 PLUMB_ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 PLUMB_STEP=""
+PLUMB_CORE_ROOMS=(core numeric array gravity calibration detection navigation health c)  # floors 1 to 4
 export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # without it ccache passes precompiled headers by
 
 # step TEXT...: says what comes next; named again if it fails.

@@ -207,7 +207,7 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
   const bool loosely = settled(problem, natural, kLooselySettled);
   if (phase_ == Phase::huber || phase_ == Phase::tukey) {
     const int most = phase_ == Phase::huber ? kHuberSteps : kHuberSteps + kTukeySteps;
-    if (!(loosely && weights_settled) && robust_steps_ < most) return false;
+    if ((!loosely || !weights_settled) && robust_steps_ < most) return false;
     if (phase_ == Phase::huber) {
       phase_ = Phase::tukey;
       robust_steps_ = kHuberSteps;

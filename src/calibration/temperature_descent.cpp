@@ -152,7 +152,7 @@ bool Descent::advance(bool weights_settled) noexcept {
   const bool loosely = settled(kLooselySettled);
   if (phase_ == Phase::huber || phase_ == Phase::tukey) {
     const int most = phase_ == Phase::huber ? kHuberSteps : kHuberSteps + kTukeySteps;
-    if (!(loosely && weights_settled) && robust_steps_ < most) return false;
+    if ((!loosely || !weights_settled) && robust_steps_ < most) return false;
     if (phase_ == Phase::huber) {
       phase_ = Phase::tukey;
       robust_steps_ = kHuberSteps;

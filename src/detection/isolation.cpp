@@ -198,7 +198,7 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) no
     const SetTest& t = tests.of(s);
     return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(s));
   };
-  out.full_alive = !(any_dead() && has_dead_subset(posed_)) && alive_here(posed_);
+  out.full_alive = (!any_dead() || !has_dead_subset(posed_)) && alive_here(posed_);
   if (strict_ < 1) return out;
 
   SensorSet innocent;
@@ -264,7 +264,7 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   SensorSet common = posed;
   const auto explains = [&](SensorSet rest, const SetTest& t) {
     const bool here = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
-    return here && !(deaths && has_dead_subset(rest));
+    return here && (!deaths || !has_dead_subset(rest));
   };
   const auto cover = [&](SensorSet rest, const SetTest& t) {
     if (!used.tested) return;

@@ -292,7 +292,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
     const bool modelled = rotation_.rate_known && lever_arms_known_;
     if (modelled) take_rotation_off(y, gate.usable);
     const bool still = rotation_.rate_known && norm(rotation_.rate_radps) <= kStillRate_radps;
-    rotation_locked_ = rotation_locked_ || !(modelled || still);
+    rotation_locked_ = rotation_locked_ || (!modelled && !still);
   }
   clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
   not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;

@@ -115,13 +115,14 @@ void HealthMonitor::publish_sample(const Sample& sample) noexcept {
 /// host, by time alone, or in the fit that is being made.
 bool HealthMonitor::news() const noexcept {
   const bool temperature_fine = (verdict_.usable & Usable::temperature) != 0;
+  const bool fine_now = !temperature_out_ && temperature_rate_.slow();
   const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
   // An offer that an inhibit keeps waiting raises no event, and is told all the same.
   const bool offered = verdict_.recalibration.offered != recalibration_.offered();
   return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now() ||
          mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != validity() ||
-         temperature_fine != (!temperature_out_ && temperature_rate_.slow()) || inhibited != inhibited_ ||
-         verdict_.reference_mps2 != gravity_.g_mps2 || verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
+         temperature_fine != fine_now || inhibited != inhibited_ || verdict_.reference_mps2 != gravity_.g_mps2 ||
+         verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
 }
 
 void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {

@@ -176,7 +176,8 @@ bool Recalibration::offer_is_plausible(const InForce& in_force) const noexcept {
       if (!(c * c <= offered_variance(a) * offered_variance(b) * (1.0 + 1e-9))) return false;
     }
     const double limit = a % 2 == 0 ? drift_.scale : drift_.bias_mps2;
-    if (sensors_.has(a / 2) && !(offered_variance(a) > 0.0 && offered_variance(a) <= limit * limit)) return false;
+    const bool sane = offered_variance(a) > 0.0 && offered_variance(a) <= limit * limit;
+    if (sensors_.has(a / 2) && !sane) return false;
   }
   const double any_time_s = std::numeric_limits<double>::infinity();
   return check_bounds(in_force.model, any_time_s).code == Errc::ok;

@@ -261,12 +261,12 @@ bool HealthMonitor::verdict_is_plausible() const noexcept {
     if (!(v.covariance[k] >= 0.0)) return false;
   }
   const Validity now = validity();
-  if (v.validity != now && !(v.validity == Validity::held && now != Validity::invalid)) return false;
+  if (v.validity != now && (v.validity != Validity::held || now == Validity::invalid)) return false;
   if (v.protection_available && !scan_.protection_available) return false;
   if (v.protection_level_rad != (v.protection_available ? scan_.protection_rad : 0.0)) return false;
   if (v.validity == now && v.usable != usable_bits()) return false;
   const bool within = v.protection_available && v.protection_level_rad <= config_.alert_limit_rad;
-  if (!v.alert && !(within && v.validity == Validity::valid)) return false;
+  if (!v.alert && (!within || v.validity != Validity::valid)) return false;
   if (!have_evidence_) return true;
   const SetTest t = test_set(array_, gravity_, limits_, evidence_, in_service_ & evidence_.usable);
   if (!t.tested) return true;

@@ -57,4 +57,9 @@ RC_GTEST_PROP(CommonBiasLaw, NoPatternShowsMoreThanTheBest, ()) {
 
 }  // namespace
 }  // namespace test
+TEST(CommonBias, NoSensorsHaveNoPlan) {
+  const PolarityPlan plan = best_polarity(SensorArray{});
+  EXPECT_TRUE(plan.reverse.empty());
+}
+
 }  // namespace plumb

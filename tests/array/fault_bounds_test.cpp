@@ -132,4 +132,10 @@ RC_GTEST_PROP(FaultBoundsLaw, NoExplanationIsFurtherAwayThanTheBound, ()) {
 
 }  // namespace
 }  // namespace test
+TEST(FaultBounds, NoSensorsBoundNothing) {
+  const FaultBounds bounds = fault_bounds(SensorArray{}, 0.1);
+  EXPECT_EQ(bounds.sensors, 0);
+  EXPECT_TRUE(std::isinf(bounds.vector_error[0]));
+}
+
 }  // namespace plumb

@@ -71,4 +71,12 @@ RC_GTEST_PROP(MirrorLaw, TheMirrorErrorIsAnExactUndetectablePair, ()) {
 
 }  // namespace
 }  // namespace test
+
+TEST(Mirror, AMemberThatATripleDoesNotHaveWeighsNothing) {
+  for (const int member : {-1, 3}) {
+    EXPECT_EQ(triple_weight(test::tetrahedron(), 0, member), Vec3{});
+    EXPECT_EQ(mirror_error(test::tetrahedron(), 0, member, {0.0, 0.0, 9.81}), 0.0);
+  }
+}
+
 }  // namespace plumb

@@ -48,5 +48,12 @@ RC_GTEST_PROP(ErrorTextLaw, AnyByteIsDescribed, ()) {
   RC_ASSERT(remedy(code) != nullptr && std::strlen(remedy(code)) > 0);
 }
 
+TEST(Error, IsTheSameByCodeAndPlace) {
+  const Error one{Errc::out_of_range, 2, 1.0, 3.0};
+  EXPECT_TRUE((one == Error{Errc::out_of_range, 2, 7.0, 8.0}));
+  EXPECT_FALSE((one == Error{Errc::not_finite, 2, 1.0, 3.0}));
+  EXPECT_FALSE((one == Error{Errc::out_of_range, 1, 1.0, 3.0}));
+}
+
 }  // namespace
 }  // namespace plumb

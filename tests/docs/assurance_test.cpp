@@ -58,6 +58,11 @@ TEST(Assurance, EveryItemOfTheModelIsRun) {
                8);
 }
 
+TEST(Assurance, EveryItemOfTheDepthOfTestIsRun) {
+  expect_known(names(table(), "`([a-z_]+)` \\(assure\\)"),
+               names(text_of(kRoot / "scripts/assure"), "item tested \\w+ (\\w+) "), 6);
+}
+
 TEST(Assurance, EveryPropertyHasItsRow) {
   const std::string page = table();
   for (int k = 1; k <= 26; ++k) {

@@ -158,6 +158,7 @@ TEST(TableGravity, InterpolatesAndRefusesOutside) {
   EXPECT_EQ(table_gravity(depth, g, 3, std::nan(""), 0.001).error().code, Errc::not_finite);
   EXPECT_EQ(table_gravity(depth, g, 0, 0, 0.001).error().index, 2);
   EXPECT_EQ(table_gravity(nullptr, g, 3, 0, 0.001).error().index, 2);
+  EXPECT_EQ(table_gravity(g, nullptr, 3, 0, 0.001).error().index, 2);
   EXPECT_EQ(table_gravity(depth, g, 3, 0, 0.2).error().index, 5);
 }
 

@@ -99,6 +99,29 @@ TEST(RequirementRecords, TheyChainWithoutHolesAndNothingChangesWithoutOne) {
   EXPECT_GE(sequence, 4U) << "else the test shows nothing";
 }
 
+// Verifies: REQ-101
+TEST(RequirementRecords, AConvictionTellsItsGradeAndNothingElseHasOne) {
+  Rig rig(plumb_test::cone_array(7));
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 5 ? r + 0.3 : r; };
+  for (int k = 0; k < 8; ++k) rig.stay(direction_at(40 + 10 * k, 50.0 * k));
+  int aside = 0, out = 0;
+  for (const TransitionRecord& record : rig.records) {
+    const bool set_aside = record.event == HealthEvent::set_aside, culprit = record.event == HealthEvent::culprit;
+    EXPECT_EQ(record.grade, set_aside ? Grade::parity
+                            : culprit ? Grade::strict
+                                      : Grade::none)
+        << to_string(record.event);
+    if (set_aside || culprit) {
+      EXPECT_EQ(record.sensors, SensorSet::of(5));
+    }
+    aside += set_aside ? 1 : 0;
+    out += culprit ? 1 : 0;
+  }
+  EXPECT_EQ(aside, 1);
+  EXPECT_EQ(out, 1);
+}
+
 // Negative: REQ-122
 TEST(RequirementNoRedundancy, ATriadIsDegradedWithoutABoundFromTheStart) {
   AxisList axes{};
@@ -219,6 +242,25 @@ TEST(RequirementAge, JustBelowTAgeTheOutputIsStillValid) {
     EXPECT_EQ(rig.monitor.step(silent).validity, age_s < 2.0 ? Validity::valid : Validity::held) << age_s;
     EXPECT_EQ(rig.monitor.verdict().alert, age_s > 2.0) << age_s;
   }
+}
+
+/// A request is served once, or not at all: what fails later needs a key of its own.
+// Negative: REQ-095
+TEST(RequirementReset, OneRequestLeavesFailedOnce) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
+  EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::nominal) << "nothing to leave";
+  const auto break_down = [&] {
+    rig.distort = [](int i, double r, int) { return i <= 1 ? std::numeric_limits<double>::infinity() : r; };
+    rig.stay(direction_at(60, 10));
+    rig.distort = [](int, double r, int) { return r; };
+    return rig.stay(direction_at(60, 10)).state;
+  };
+  EXPECT_EQ(break_down(), HealthState::failed) << "the request from before the failure is spent";
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
+  EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::suspect);
+  EXPECT_EQ(break_down(), HealthState::failed) << "and so is this one";
 }
 
 }  // namespace

@@ -109,6 +109,8 @@ TEST(Cholesky, RefusesArgumentsThatMakeNoMatrix) {
   EXPECT_FALSE(cholesky_factor(nullptr, 2, 2));
   EXPECT_FALSE(cholesky_factor(a, 0, 2));
   EXPECT_FALSE(cholesky_factor(a, 2, 1));
+  EXPECT_FALSE(cholesky_factor_packed(nullptr, 2));
+  EXPECT_FALSE(cholesky_factor_packed(a, 0));
 }
 
 RC_GTEST_PROP(CholeskyLaw, FactorTimesItsTransposeIsTheMatrix, ()) {

@@ -139,6 +139,18 @@ TEST(SymmetricEigen, ExtremeScalesNeitherOverflowNorVanish) {
   }
 }
 
+/// Twice the largest number is none.
+TEST(SymmetricEigen, RefusesWhoseValuesAreBeyondTheRange) {
+  const double most = std::numeric_limits<double>::max();
+  for (const double sign : {1.0, -1.0}) {
+    Problem p(2, 0);
+    p.set(0, 0, sign * most);
+    p.set(0, 1, most);
+    p.set(1, 1, sign * most);
+    EXPECT_FALSE(p.solve());
+  }
+}
+
 TEST(SymmetricEigen, RefusesWhatIsNoMatrix) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const double bad : {inf, -inf, std::nan("")}) {

@@ -55,6 +55,24 @@ TEST(SymmetricEigenvalues, OfDiagonalEmptyAndEqual) {
   EXPECT_NEAR(four[3], 4.0, 1e-15);
 }
 
+/// Twice the largest number is none.
+TEST(SymmetricEigenvalues, RefusesWhoseValuesAreBeyondTheRange) {
+  const double most = std::numeric_limits<double>::max();
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> a = {sign * most, most, most, sign * most}, values(2);
+    EXPECT_FALSE(plumb::symmetric_eigenvalues(a.data(), 2, 2, values.data()));
+  }
+}
+
+TEST(SymmetricEigenvalues, ExtremeScalesKeepTheirDigits) {
+  for (const double scale : {0x1.0p-1060, 0x1.0p-900, 0x1.0p900, 0x1.0p1020}) {
+    std::vector<double> a = {2.0 * scale, scale, scale, 2.0 * scale}, values(2);
+    ASSERT_TRUE(plumb::symmetric_eigenvalues(a.data(), 2, 2, values.data()));
+    EXPECT_NEAR(values[0] / scale, 1.0, 1e-15);
+    EXPECT_NEAR(values[1] / scale, 3.0, 1e-15);
+  }
+}
+
 TEST(SymmetricEigenvalues, RefusesWhatIsNoMatrix) {
   std::vector<double> a(16, 1.0), values(4);
   EXPECT_FALSE(plumb::symmetric_eigenvalues(nullptr, 4, 4, values.data()));

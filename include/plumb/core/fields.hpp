@@ -304,7 +304,7 @@ void transfer(Archive& archive, T& object, const Check& check) noexcept {
   } else if constexpr (kIsArray<Object>) {
     for (auto& element : object) transfer(archive, element, check);
   } else {
-    static_assert(!(std::is_signed_v<Object> && std::is_integral_v<Object> && sizeof(Object) > 1) ||
+    static_assert(!std::is_signed_v<Object> || !std::is_integral_v<Object> || sizeof(Object) == 1 ||
                       !std::is_same_v<Check, ByType>,
                   "a signed integer needs within()");
     static_assert(!std::is_enum_v<Object> || std::is_same_v<Check, Within>, "an enumeration needs up_to()");

@@ -1,0 +1,138 @@
+// Every pointer that a C program may forget, and every number of a configuration that is none: answers, argument by
+// argument.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "c_form.hpp"
+#include "health/snapshot_support.hpp"
+
+namespace {
+
+using namespace plumb;
+using c_test::c_form;
+using c_test::CForm;
+using c_test::Memory;
+using plumb_test::Life;
+
+void expect_missing(plumb_error e, int argument) {
+  EXPECT_EQ(e.code, PLUMB_NULL_POINTER);
+  EXPECT_EQ(e.index, argument);
+}
+
+TEST(CMisuse, ANullPointerIsNamedByItsPlace) {
+  Life life(4, 7);
+  const CForm form(life.tool.rig.setup);
+  Memory m;
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  void* storage = m.storage.data();
+  void* workspace = m.workspace.data();
+  const std::size_t room = 8 * m.storage.size(), desk = 8 * m.workspace.size();
+  expect_missing(plumb_config_defaults(nullptr), 0);
+  expect_missing(plumb_sensor_defaults(nullptr), 0);
+  expect_missing(plumb_sample_defaults(nullptr), 0);
+  expect_missing(plumb_verdict_defaults(nullptr), 0);
+  expect_missing(plumb_monitor_init(nullptr, room, workspace, desk, &form.config, &m.monitor), 0);
+  expect_missing(plumb_monitor_init(storage, room, nullptr, desk, &form.config, &m.monitor), 2);
+  expect_missing(plumb_monitor_init(storage, room, workspace, desk, &form.config, nullptr), 5);
+  expect_missing(plumb_monitor_restore(storage, room, workspace, desk, &form.config, nullptr, 0, &m.monitor), 5);
+  ASSERT_NE(m.monitor, nullptr) << "it runs without its history";
+  expect_missing(plumb_monitor_restore(storage, room, workspace, desk, nullptr, nullptr, 0, &m.monitor), 4);
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  std::uint8_t byte = 0;
+  std::size_t written = 0;
+  expect_missing(plumb_monitor_snapshot(m.monitor, nullptr, 1, &written), 1);
+  expect_missing(plumb_monitor_snapshot(m.monitor, nullptr, 1, nullptr), 1);
+  expect_missing(plumb_monitor_snapshot(m.monitor, &byte, 1, nullptr), 3);
+  expect_missing(plumb_monitor_step(m.monitor, nullptr, nullptr), 1);
+  expect_missing(plumb_monitor_verdict(m.monitor, nullptr), 1);
+  expect_missing(plumb_monitor_offer(m.monitor, nullptr, desk, &form.config), 1);
+  expect_missing(plumb_monitor_offer(m.monitor, workspace, desk, nullptr), 3);
+  expect_missing(plumb_monitor_calibration(m.monitor, 0, nullptr), 2);
+}
+
+TEST(CMisuse, NoFunctionTakesWhatIsNoMonitor) {
+  Life life(4, 8);
+  const CForm form(life.tool.rig.setup);
+  Memory m;
+  auto* nothing = reinterpret_cast<plumb_monitor*>(m.storage.data());  // storage that was never initialised
+  const plumb_sample sample = c_form(life.next({}));
+  plumb_verdict verdict;
+  plumb_verdict_defaults(&verdict);
+  plumb_sensor sensor;
+  plumb_sensor_defaults(&sensor);
+  std::uint8_t byte = 0;
+  std::size_t written = 0;
+  const double rate[3] = {};
+  for (plumb_monitor* none : {static_cast<plumb_monitor*>(nullptr), nothing}) {
+    const int code = none == nullptr ? PLUMB_NULL_POINTER : PLUMB_NOT_INITIALISED;
+    EXPECT_EQ(plumb_monitor_step(none, &sample, &verdict).code, code);
+    EXPECT_EQ(plumb_monitor_verdict(none, &verdict).code, code);
+    EXPECT_EQ(plumb_monitor_snapshot(none, &byte, 1, &written).code, code);
+    EXPECT_EQ(plumb_monitor_reset(none, 0, 0).code, code);
+    EXPECT_EQ(plumb_monitor_set_gravity(none, 9.81, 1e-3).code, code);
+    EXPECT_EQ(plumb_monitor_set_rotation(none, 1, rate).code, code);
+    EXPECT_EQ(plumb_monitor_request_recalibration(none).code, code);
+    EXPECT_EQ(plumb_monitor_inhibit(none, 1).code, code);
+    EXPECT_EQ(plumb_monitor_calibration(none, 0, &sensor).code, code);
+    EXPECT_EQ(plumb_monitor_offer(none, m.workspace.data(), 8 * m.workspace.size(), &form.config).code, code);
+  }
+}
+
+TEST(CMisuse, ACovarianceThatIsNoneIsRefused) {
+  Life life(4, 9);
+  CForm form(life.tool.rig.setup);
+  Memory m;
+  std::vector<double> covariance(form.config.covariance, form.config.covariance + form.config.covariance_size);
+  form.config.covariance = covariance.data();
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  covariance[3] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(m.init(&form.config).index, 3);
+  covariance[3] = 0.0;
+  covariance[0] = -1.0;
+  EXPECT_EQ(m.init(&form.config).code, static_cast<int>(Errc::implausible));
+  form.config.covariance = nullptr;  // then there is none, whatever its size says
+  EXPECT_EQ(m.init(&form.config).code, PLUMB_OK);
+}
+
+TEST(CMisuse, ASensorThatIsNotThereHasNoCalibration) {
+  Life life(4, 10);
+  const CForm form(life.tool.rig.setup);
+  Memory m;
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  plumb_sensor sensor;
+  plumb_sensor_defaults(&sensor);
+  for (const int other : {-1, 4}) {
+    const plumb_error e = plumb_monitor_calibration(m.monitor, other, &sensor);
+    EXPECT_EQ(e.code, static_cast<int>(Errc::out_of_range));
+    EXPECT_EQ(e.value, other);
+    EXPECT_EQ(e.limit, 3.0);
+  }
+  EXPECT_EQ(plumb_monitor_calibration(m.monitor, 3, &sensor).code, PLUMB_OK);
+}
+
+TEST(CMisuse, ReadsAndAlarmFormReachTheMonitor) {
+  Life life(4, 11);
+  CForm form(life.tool.rig.setup);
+  Memory m;
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  std::vector<std::uint8_t> bytes(plumb_snapshot_size_max());
+  std::size_t written = 0;
+  ASSERT_EQ(plumb_monitor_snapshot(m.monitor, bytes.data(), bytes.size(), &written).code, PLUMB_OK);
+  const auto restored = [&] {
+    return plumb_monitor_restore(m.storage.data(), 8 * m.storage.size(), m.workspace.data(), 8 * m.workspace.size(),
+                                 &form.config, bytes.data(), written, &m.monitor)
+        .code;
+  };
+  EXPECT_EQ(restored(), PLUMB_OK);
+  // A snapshot is bound to every setting: another one is told by a refusal.
+  form.config.alarm_for_average_tool = 1;
+  EXPECT_NE(restored(), PLUMB_OK);
+  form.config.alarm_for_average_tool = 0;
+  form.config.reads = -form.config.reads;
+  EXPECT_NE(restored(), PLUMB_OK);
+}
+
+}  // namespace
