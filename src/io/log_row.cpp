@@ -89,6 +89,16 @@ bool LogReader::State::fill_rotation() {
   return true;
 }
 
+bool LogReader::State::fill_depth() {
+  depth_m = std::nan("");
+  if (depth == kNoColumn) return true;
+  double value = 0.0;
+  const CellKind kind = parse_cell(cells[depth], value);
+  if (kind == CellKind::text) return refuse(depth, in_quotes(cells[depth]) + " is not a depth");
+  if (kind == CellKind::number && std::isfinite(value)) depth_m = value * input.depth_unit_m;
+  return true;
+}
+
 bool LogReader::State::fill_sensors(Sample& sample) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     double value = 0.0;
@@ -123,7 +133,8 @@ void LogReader::State::note_value(std::size_t sensor, double value) {
 
 bool LogReader::State::fill(Sample& sample) {
   sample = Sample();
-  return fill_time(sample) && fill_tags(sample) && fill_temperature(sample) && fill_rotation() && fill_sensors(sample);
+  return fill_time(sample) && fill_tags(sample) && fill_temperature(sample) && fill_rotation() && fill_depth() &&
+         fill_sensors(sample);
 }
 
 }  // namespace io

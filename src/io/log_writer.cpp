@@ -47,12 +47,13 @@ FileExpected<LogWriter> LogWriter::create(const std::string& path, const ArrayFi
   add(input.roll_group_column);
   add(input.count_column);
   add(input.temperature_column);
+  add(input.depth_column);
   // A filter on a column that has a role already is satisfied, or not, by the samples themselves.
   std::vector<ColumnFilter> constant;
   for (const ColumnFilter& filter : input.where) {
     bool taken = filter.column == input.time_column || filter.column == input.station_column ||
                  filter.column == input.roll_group_column || filter.column == input.count_column ||
-                 filter.column == input.temperature_column;
+                 filter.column == input.temperature_column || filter.column == input.depth_column;
     for (const std::string& column : input.sensor_columns) taken = taken || filter.column == column;
     if (!taken) constant.push_back(filter);
   }
@@ -88,6 +89,7 @@ FileExpected<void> LogWriter::write(const Sample& sample) {
     comma();
     append_shortest(line_, sample.temperature_degc);
   }
+  if (!input_.depth_column.empty()) comma();  // a Sample has none
   for (const ColumnFilter& filter : input_.where) {
     comma();
     line_ += cell_of(filter.text);

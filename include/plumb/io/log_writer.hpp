@@ -13,7 +13,7 @@ namespace io {
 
 class LogWriter {
  public:
-  /// Columns: time, station, count, temperature (those that [input] names), the columns of `where` with
+  /// Columns: time, station, count, temperature, depth (those that [input] names; the cells of depth stay empty), the columns of `where` with
   /// their values, then the sensors. Without a time column the time is left to the reader.
   static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array);
 
