@@ -13,8 +13,8 @@ namespace io {
 
 class LogWriter {
  public:
-  /// Columns: time, station, count, temperature, depth (those that [input] names; the cells of depth stay empty), the columns of `where` with
-  /// their values, then the sensors. Without a time column the time is left to the reader.
+  /// Columns: time, station, count, temperature, depth (those that [input] names; the cells of depth stay empty), the
+  /// columns of `where` with their values, then the sensors. Without a time column the time is left to the reader.
   static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array);
 
   /// A channel that is not in `sample.delivered` becomes an empty cell. Values must be in the log's unit.
