@@ -79,7 +79,8 @@ Section stations_view(const Json& report, const PagePictures& pictures) {
       {"station", "t, s", "depth, m", "verdict", "|G|, mg0", "off by, mg0", "limit, mg0", "inclination, deg",
        "toolface, deg", "bound, deg", "sensors used", "why"},
       station_rows(report),
-      "± is one standard deviation. Bound: how far the direction can be off whatever single fault is there and "
+      "± is one standard deviation of noise and calibration; a fault may do more. Bound: how far the direction can be "
+      "off whatever single fault is there and "
       "unseen; - where nothing bounds it. Figures are those of the last block of the station; a toolface needs an "
       "inclination of 3 deg.");
   return out;

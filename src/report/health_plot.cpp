@@ -63,7 +63,7 @@ std::string grid() { return "set grid lw 0.4 lc rgb '#999999'\n"; }
 std::string run_script() {
   return chart_head("run.svg", kWidth, 620) + grid() + kPalette +
          "set multiplot layout 2,1\nset lmargin 11\nset rmargin 3\nset xlabel 'station'\nset key outside top right "
-         "horizontal\nset xrange [0.5:*]\n"
+         "horizontal\nset xrange [0.5:*]\nset offsets 0,0.5,0,0\n"
          "set ylabel '|G| less reference, mg0'\nplot " +
          limits_over("$1") + ", " + by_colour("$1", "$4", true) + "\nunset key\nset ylabel 'inclination, deg'\nplot " +
          by_colour("$1", "$6", false) + "\nunset multiplot\nunset output\n";
