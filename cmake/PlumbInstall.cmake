@@ -53,6 +53,11 @@ endforeach()
 
 if(TARGET plumb_tool)
   install(TARGETS plumb_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(NOT CMAKE_CROSSCOMPILING)
+    install(FILES "${PROJECT_BINARY_DIR}/plumb.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+    install(FILES "${PROJECT_BINARY_DIR}/plumb.bash" RENAME plumb
+      DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions")
+  endif()
   if(TARGET plumb_campaign_mpi)
     install(TARGETS plumb_campaign_mpi RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   endif()

@@ -103,6 +103,19 @@ if(TARGET plumb_tool)
   endforeach()
 endif()
 
+# The manual page as man reads it, the completion as bash does, and the guided tour as it is printed.
+if(TARGET plumb_tool)
+  add_test(NAME cli.manual COMMAND bash "${PROJECT_SOURCE_DIR}/tests/cli/manual.sh" "$<TARGET_FILE:plumb_tool>"
+    "${PROJECT_BINARY_DIR}/manual_test")
+  if(PLUMB_PYTHON3)
+    add_test(NAME cli.tour COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/tour" --check
+      "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/tour_test")
+  else()
+    add_test(NAME cli.tour COMMAND bash -c "echo 'skipped: no python3'; exit 77")
+  endif()
+  set_tests_properties(cli.manual cli.tour PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+endif()
+
 # Campaigns: a program of their own, because it is linked with monitors of several capacities.
 if(TARGET plumb_report AND TARGET plumb_tool)
   plumb_test_executable(plumb_campaign_tests LABEL host ROOMS campaign LIBRARIES plumb_report plumb_24)

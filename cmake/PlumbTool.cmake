@@ -24,6 +24,12 @@ if(cli_sources)
   set_target_properties(plumb_tool PROPERTIES OUTPUT_NAME plumb)
   plumb_compile_settings(plumb_tool)
   target_link_libraries(plumb_tool PRIVATE plumb_cli)
+  if(NOT CMAKE_CROSSCOMPILING)  # the tool prints its own manual page and completion
+    add_custom_command(TARGET plumb_tool POST_BUILD
+      COMMAND plumb_tool --man > "${PROJECT_BINARY_DIR}/plumb.1"
+      COMMAND plumb_tool --completion > "${PROJECT_BINARY_DIR}/plumb.bash"
+      VERBATIM)
+  endif()
 endif()
 
 # The campaign over the ranks of an MPI job, where there is MPI.

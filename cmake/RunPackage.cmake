@@ -36,6 +36,14 @@ foreach(wanted IN ITEMS "share/doc/plumb/LICENSE" "share/doc/plumb/NOTICE" "incl
   endif()
 endforeach()
 
+if("${found}" MATCHES "bin/plumb;")  # a package with the tool tells how it is used
+  foreach(wanted IN ITEMS "share/man/man1/plumb\\.1" "share/bash-completion/completions/plumb")
+    if(NOT "${found}" MATCHES "${wanted}")
+      message(FATAL_ERROR "the package has no ${wanted}")
+    endif()
+  endforeach()
+endif()
+
 set(count 0)
 foreach(compiler IN ITEMS "g++;gcc" "clang++;clang")
   list(GET compiler 0 cxx)

@@ -46,7 +46,7 @@ io::FileExpected<io::LogStatistics> convert(const Options& options, const io::Ar
   io::LogReader::Next status = reader->next(sample);
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     const std::uint64_t now = reader->statistics().temperature_held;
-    const io::FileExpected<void> written = writer->write(sample, {now != held, reader->rotation()});
+    const io::FileExpected<void> written = writer->write(sample, {now != held, reader->rotation(), reader->depth_m()});
     if (!written) return tl::unexpected<io::FileError>(written.error());
     held = now;
     progress.at(reader->statistics().rows, sample.time_s);

@@ -5,6 +5,7 @@
 
 #include "../io/text_tools.hpp"
 #include "campaign_run.hpp"
+#include "manual.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -88,6 +89,13 @@ int run(int argc, char** argv) {
   if (argc < 2) {
     print_error(tool.help());
     return io::to_int(io::ExitCode::usage);
+  }
+  // For the build, which installs both: no part of what a user is told.
+  const std::string first = argv[1];
+  if (argc == 2 && (first == "--man" || first == "--completion")) {
+    const Manual manual{kAbout, commands};
+    print(first == "--man" ? man_page(manual) : bash_completion(manual));
+    return output_is_sound() ? 0 : io::to_int(io::ExitCode::other);
   }
   std::string answer;
   if (argv[1][0] != '-' && unknown_command(argv[1], commands, answer)) return usage(answer, "plumb");

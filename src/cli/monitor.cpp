@@ -8,6 +8,7 @@
 
 #include "monitor_options.hpp"
 #include "monitor_pipeline.hpp"
+#include "monitor_report.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
@@ -54,6 +55,8 @@ constexpr const char* kNotes =
     "fit\n"
     "of its own; the log ends with exit code 4 where it did not come to that. A constant error of a sensor is what a\n"
     "calibration takes off: only what varies shows.\n"
+    "--report grades every station green, orange or red and answers whether the tool may be surveyed with; it keeps\n"
+    "stations and events, not samples, so that it may end a run of any length. Name the depth column in [input].\n"
     "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
     "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -91,6 +94,7 @@ struct Outputs {
   std::optional<VerdictsFile> verdicts;
   std::optional<EventsFile> json;
   std::optional<TableSink> table;
+  std::unique_ptr<HealthReport> report;
   std::vector<VerdictSink*> sinks;
 };
 
@@ -109,6 +113,12 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
     out.sinks.push_back(
         &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
   }
+  if (!options.report.empty()) {
+    io::FileExpected<std::unique_ptr<HealthReport>> report = HealthReport::create(options, array, sensors);
+    if (!report) return tl::unexpected<io::FileError>(report.error());
+    out.report = *std::move(report);
+    out.sinks.push_back(out.report.get());
+  }
   // --events - writes there what --json would.
   const bool told = options.events == "-";
   if (options.json && told) return {};
@@ -122,11 +132,12 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
   return {};
 }
 
-io::FileExpected<void> commit(Outputs& out) {
+io::FileExpected<void> commit(Outputs& out, const MonitorRun& run) {
   io::FileExpected<void> done;
   if (out.events) done = out.events->commit();
   if (done && out.verdicts) done = out.verdicts->commit();
   if (done && out.json) done = out.json->commit();
+  if (done && out.report) done = out.report->write(run);
   return done;
 }
 
@@ -219,16 +230,18 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   const io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
-  const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, options.log, outputs.sinks, host);
+  LogSpec log = options.log;
+  log.hash = !options.report.empty();
+  const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, log, outputs.sinks, host);
   if (!done) return report(done.error());
-  io::FileExpected<void> kept = commit(outputs);
+  io::FileExpected<void> kept = commit(outputs, *done);
   if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
     print_now(summary_json(*done, sensors, array.output_frame));
   } else if (outputs.table) {
-    print_now(summary_text(*done, sensors, array.output_frame));
+    print_now(summary_text(*done, sensors, array.output_frame) + (outputs.report ? outputs.report->summary() : ""));
   }
   if (done->stopped) {
     print_error(
@@ -274,7 +287,11 @@ void warn_of_stations(const io::ArrayFile& array) {
 io::ExitCode run(const MonitorOptions& options) {
   if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
-  std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts}};
+  if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
+  std::vector<NamedFile> to_write = {{"--events", options.events},
+                                     {"--verdicts", options.verdicts},
+                                     {"--report", options.report},
+                                     {"--report", health_data_path(options.report)}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
     return report(*clash);
   to_write.push_back({"--snapshot-out", options.snapshot_out});
@@ -327,6 +344,9 @@ Command add_monitor(CLI::App& tool) {
   app->add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
       ->type_name("V.jsonl");
   app->add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
+  app->add_option("--report", options->report,
+                  "write the tool health report: a page, and its data as JSON beside it; docs/health-report.md")
+      ->type_name("R.html");
   app->add_option("--snapshot-in", options->snapshot_in, "go on from this snapshot instead of from power-on")
       ->type_name("S.bin");
   app->add_option("--snapshot-out", options->snapshot_out, "at the end of the run, write what the monitor remembers")

@@ -19,6 +19,7 @@ struct MonitorOptions {
   LogSpec log{"-", io::BadRowPolicy::stop, false};
   std::string events;
   std::string verdicts;
+  std::string report;
   std::string snapshot_in;
   std::string snapshot_out;
   std::vector<std::string> host;

@@ -152,6 +152,8 @@ io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& 
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
   if (log.follow) reader->follow();
+  if (log.hash) reader->hash_bytes();
+  const bool has_depth = !array.input.depth_column.empty();
   MonitorRun run;
   Progress progress("monitoring " + log.path);
   Sample sample;
@@ -164,6 +166,7 @@ io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& 
     if (verdict.transition.sequence != 0) ++run.transitions;
     run.last_time_s = sample.time_s;
     for (VerdictSink* sink : sinks) {
+      if (has_depth) sink->at_depth(reader->depth_m());
       const io::FileExpected<void> taken = sink->take(sample, verdict);
       if (!taken) return tl::unexpected<io::FileError>(taken.error());
     }

@@ -27,6 +27,8 @@ class VerdictSink {
   VerdictSink& operator=(const VerdictSink&) = delete;
   virtual ~VerdictSink() = default;
   virtual io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) = 0;
+  /// Before `take`, where the array file names a depth column; NaN where its cell says nothing.
+  virtual void at_depth(double) {}
 };
 
 /// One JSON line per change (--events).

@@ -21,6 +21,7 @@ struct LogSpec {
   std::string path;  ///< "-" = standard input
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
   bool follow = false;  ///< at the end wait for more
+  bool hash = false;    ///< of its bytes, into `LogStatistics::hash`
 };
 
 struct CalibrationRun {

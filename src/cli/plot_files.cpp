@@ -4,6 +4,7 @@
 
 #include "plumb/io/output_file.hpp"
 #include "plumb/report/plot.hpp"
+#include "tool.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -32,6 +33,26 @@ io::FileExpected<std::vector<std::string>> draw_files(const std::string& directo
     return written;
   }
   return pictures;
+}
+
+io::FileExpected<report::PagePictures> draw_pictures(const std::string& directory,
+                                                     const std::vector<report::PlotFile>& files, const char* script,
+                                                     const std::vector<std::string>& names) {
+  std::string missing;
+  const io::FileExpected<std::vector<std::string>> drawn = draw_files(directory, files, script, names, missing);
+  if (!drawn) return tl::unexpected<io::FileError>(drawn.error());
+  report::PagePictures out;
+  if (!missing.empty()) print_error("plumb: " + missing + "\n");
+  for (const std::string& name : names) {
+    report::PagePicture picture{"", missing};
+    if (missing.empty()) {
+      const io::FileExpected<std::string> svg = io::read_file((std::filesystem::path(directory) / name).string());
+      if (!svg) return tl::unexpected<io::FileError>(svg.error());
+      picture.svg = report::inline_svg(*svg);
+    }
+    out.emplace(name, std::move(picture));
+  }
+  return out;
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 
 #include "plumb/io/file_error.hpp"
 #include "plumb/report/fit_plot.hpp"
+#include "plumb/report/verification_page.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -17,6 +18,11 @@ namespace cli {
 io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
                                                       const std::vector<report::PlotFile>& files, const char* script,
                                                       std::vector<std::string> pictures, std::string& missing);
+
+/// The same, ready to stand in a page. Where gnuplot cannot draw, standard error and each picture say why.
+io::FileExpected<report::PagePictures> draw_pictures(const std::string& directory,
+                                                     const std::vector<report::PlotFile>& files, const char* script,
+                                                     const std::vector<std::string>& names);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -57,6 +57,10 @@ void print_error(std::string_view text);
 io::ExitCode report(const io::FileError& error);
 bool output_is_sound();
 
+/// What tells of a run rather than of its result.
+std::string now_utc();
+std::string host_name();
+
 /// A file named on the command line, with the option that named it. "" and "-" stand for no file.
 struct NamedFile {
   const char* option;

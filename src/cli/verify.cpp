@@ -1,9 +1,7 @@
 // plumb verify: everything about one array, in a report that can be signed.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -47,20 +45,6 @@ constexpr const char* kNotes =
     "is `open` at best, and the report lists what to record. The same inputs give the same bytes but for the block\n"
     "`run`. docs/verification-report.md explains every section.\n"
     "Exit code 6 where the array is not fit, where that is open, or where a requirement is an orphan.\n\n";
-
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32] = {};
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-std::string host_name() {
-  char text[256] = {};
-  return ::gethostname(text, sizeof text - 1) == 0 ? text : "unknown";
-}
 
 std::optional<io::FileError> misused(const VerifyOptions& options) {
   const auto refuse = [](const char* option, const char* what, const char* remedy) {
@@ -117,28 +101,6 @@ class Folder {
   std::optional<io::FileError> failure_;
 };
 
-/// The charts, where gnuplot is installed; without it the page says so in their place.
-io::FileExpected<report::PagePictures> draw(const std::string& out, const Json& report) {
-  const fs::path charts = fs::path(out) / report::kChartFolder;
-  const std::vector<std::string> names = report::verification_picture_names(report);
-  std::string missing;
-  const io::FileExpected<std::vector<std::string>> drawn =
-      draw_files(charts.string(), report::verification_plot_files(report), report::kVerificationScript, names, missing);
-  if (!drawn) return tl::unexpected<io::FileError>(drawn.error());
-  report::PagePictures out_pictures;
-  if (!missing.empty()) print_error("plumb: " + missing + "\n");
-  for (const std::string& name : names) {
-    report::PagePicture picture{"", missing};
-    if (missing.empty()) {
-      const io::FileExpected<std::string> svg = io::read_file((charts / name).string());
-      if (!svg) return tl::unexpected<io::FileError>(svg.error());
-      picture.svg = report::inline_svg(*svg);
-    }
-    out_pictures.emplace(name, std::move(picture));
-  }
-  return out_pictures;
-}
-
 /// The page on paper. weasyprint 57 cannot draw a line in the colour of the text around it, so that colour is spelled
 /// out.
 void print_pdf(const std::string& out, std::string html) {
@@ -173,7 +135,9 @@ io::ExitCode run(const VerifyOptions& options) {
   if (found->faults) folder.write("trials-faults.csv", report::trials_csv(*found->faults));
   if (found->healthy) folder.write("trials-healthy.csv", report::trials_csv(*found->healthy));
   if (folder.failure()) return report(*folder.failure());
-  const io::FileExpected<report::PagePictures> pictures = draw(options.out, found->report);
+  const io::FileExpected<report::PagePictures> pictures = draw_pictures(
+      (fs::path(options.out) / report::kChartFolder).string(), report::verification_plot_files(found->report),
+      report::kVerificationScript, report::verification_picture_names(found->report));
   if (!pictures) return report(pictures.error());
   folder.write("report.html", report::verification_html(found->report, *pictures));
   folder.write("junit.xml", report::junit_xml(found->report));

@@ -22,8 +22,9 @@ const std::vector<std::string>& known_sections() {
 }
 
 const std::vector<std::string>& known_input_keys() {
-  static const std::vector<std::string> names = {"rows",  "time",  "time_unit",   "rate",  "station", "roll_group",
-                                                 "count", "where", "temperature", "reads", "unit",    "rotation_radps"};
+  static const std::vector<std::string> names = {"rows",       "time",           "time_unit", "rate",        "station",
+                                                 "roll_group", "count",          "where",     "temperature", "reads",
+                                                 "unit",       "rotation_radps", "depth",     "depth_unit"};
   return names;
 }
 
@@ -67,6 +68,17 @@ void read_rotation(const TomlTable& table, InputSpec& input) {
       table.fail(list->line, "rotation_radps", "holds something that is not the name of a column", form);
     input.rotation_columns.push_back(item.text);
   }
+}
+
+void read_depth(const TomlTable& table, InputSpec& input) {
+  input.depth_column = table.text("depth", "");
+  if (!table.has("depth_unit")) return;
+  const TomlNode& value = table.need("depth_unit", "");
+  const std::string text = table.text_with_unit(value, "depth_unit", accepted_units(Quantity::length));
+  input.depth_unit_m = table.checked(parse_quantity(Quantity::length, "1 " + text), "depth_unit", value);
+  if (input.depth_column.empty())
+    table.fail(value.line, "depth_unit", "has no depth column to belong to",
+               "add depth = \"<column>\", or take it out");
 }
 
 void read_where(const TomlTable& table, InputSpec& input) {
@@ -189,6 +201,7 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   input.count_column = table.text("count", "");
   input.temperature_column = table.text("temperature", "");
   read_rotation(table, input);
+  read_depth(table, input);
   read_where(table, input);
   return input;
 }

@@ -45,6 +45,7 @@ FileExpected<void> LogReader::State::check_unit(std::size_t column, const std::s
 FileExpected<void> LogReader::State::check_binary() const {
   FileExpected<void> done = check_unit(time, plog_time_unit(input.time_unit_s), "[input] time_unit");
   if (done) done = check_unit(temperature, "degC", "[input] temperature");
+  if (done) done = check_unit(depth, plog_depth_unit(input.depth_unit_m), "[input] depth_unit");
   for (std::size_t k = 0; k < rates.size() && done; ++k) done = check_unit(rates[k], "rad/s", "[input] rotation_radps");
   for (std::size_t k = 0; k < sensors.size() && done; ++k) {
     if (!same_raw_unit(binary->header().columns[sensors[k]].text, input.unit))

@@ -97,7 +97,8 @@ FileExpected<void> LogReader::State::map_columns() {
                            {input.station_column, "input.station", station},
                            {input.roll_group_column, "input.roll_group", roll_group},
                            {input.count_column, "input.count", count},
-                           {input.temperature_column, "input.temperature", temperature}};
+                           {input.temperature_column, "input.temperature", temperature},
+                           {input.depth_column, "input.depth", depth}};
   for (const Wanted& one : wanted) {
     if (one.name.empty()) continue;
     const FileExpected<std::size_t> column = column_of(one.name, one.role);
@@ -238,6 +239,7 @@ LogReader::Next LogReader::next(Sample& sample) {
   }
 }
 
+double LogReader::depth_m() const noexcept { return state_->depth_m; }
 const FileError& LogReader::error() const noexcept { return state_->error; }
 const LogStatistics& LogReader::statistics() const noexcept { return state_->statistics; }
 int LogReader::line() const noexcept { return state_->line; }

@@ -127,6 +127,17 @@ inline bool LogReader::State::fill_rotation() {
 }
 
 template <bool kBinary>
+inline bool LogReader::State::fill_depth() {
+  depth_m = std::nan("");
+  if (depth == kNoColumn) return true;
+  double value = 0.0;
+  const CellKind kind = number_in<kBinary>(depth, value);
+  if (kind == CellKind::text) return refuse(depth, shown(depth) + " is not a depth");
+  if (kind == CellKind::number && std::isfinite(value)) depth_m = value * input.depth_unit_m;
+  return true;
+}
+
+template <bool kBinary>
 inline bool LogReader::State::fill_sensors(Sample& sample) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     double value = 0.0;
@@ -161,7 +172,7 @@ template <bool kBinary>
 bool LogReader::State::fill_row(Sample& sample) {
   sample = kNoSample;
   return fill_time<kBinary>(sample) && fill_tags<kBinary>(sample) && fill_temperature<kBinary>(sample) &&
-         fill_rotation<kBinary>() && fill_sensors<kBinary>(sample);
+         fill_rotation<kBinary>() && fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
 }
 template bool LogReader::State::fill_row<true>(Sample& sample);
 template bool LogReader::State::fill_row<false>(Sample& sample);

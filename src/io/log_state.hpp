@@ -36,10 +36,12 @@ struct LogReader::State {
   std::size_t roll_group = kNoColumn;
   std::size_t count = kNoColumn;
   std::size_t temperature = kNoColumn;
+  std::size_t depth = kNoColumn;
   std::vector<std::size_t> sensors;
   std::vector<std::size_t> filters;
   std::vector<std::size_t> rates;
   Rotation rotation;
+  double depth_m = 0.0;  ///< NaN: not known
   int line = 0;
   std::uint64_t index = 0;  ///< of the row among those not filtered out, bad ones included
   double last_temperature_degc = 0.0;
@@ -90,6 +92,8 @@ struct LogReader::State {
   bool fill_temperature(Sample& sample);
   template <bool kBinary>
   bool fill_rotation();
+  template <bool kBinary>
+  bool fill_depth();
   template <bool kBinary>
   bool fill_sensors(Sample& sample);
   bool selected() const noexcept;

@@ -83,7 +83,7 @@ void LogWriter::choose_constants() {
   for (const ColumnFilter& filter : input_.where) {
     bool taken = filter.column == input_.time_column || filter.column == input_.station_column ||
                  filter.column == input_.roll_group_column || filter.column == input_.count_column ||
-                 filter.column == input_.temperature_column;
+                 filter.column == input_.temperature_column || filter.column == input_.depth_column;
     for (const std::string& column : input_.rotation_columns) taken = taken || filter.column == column;
     for (const std::string& column : input_.sensor_columns) taken = taken || filter.column == column;
     if (!taken) constant.push_back(filter);
@@ -103,6 +103,7 @@ FileExpected<void> LogWriter::begin_csv() {
   add(input_.roll_group_column);
   add(input_.count_column);
   add(input_.temperature_column);
+  add(input_.depth_column);
   for (const ColumnFilter& filter : input_.where) add(filter.column);
   for (const std::string& column : input_.rotation_columns) add(column);
   for (const std::string& column : input_.sensor_columns) add(column);
@@ -120,6 +121,7 @@ FileExpected<void> LogWriter::begin_binary() {
   add(input_.roll_group_column, "");
   add(input_.count_column, "");
   add(input_.temperature_column, "degC");
+  add(input_.depth_column, plog_depth_unit(input_.depth_unit_m));
   for (const ColumnFilter& filter : input_.where)
     header.columns.push_back(PlogColumn{filter.column, true, filter.text});
   for (const std::string& column : input_.rotation_columns) add(column, "rad/s");
@@ -149,6 +151,7 @@ FileExpected<void> LogWriter::write(const Sample& sample, const Notes& notes) {
   if (!input_.roll_group_column.empty()) cells.whole(label_of_tag(sample.roll_group));
   if (!input_.count_column.empty()) cells.whole(static_cast<std::int64_t>(sample.count));
   if (!input_.temperature_column.empty()) cells.number(!notes.temperature_held, sample.temperature_degc);
+  if (!input_.depth_column.empty()) cells.number(std::isfinite(notes.depth_m), notes.depth_m / input_.depth_unit_m);
   for (const ColumnFilter& filter : input_.where) cells.constant(filter.text);
   for (std::size_t k = 0; k < input_.rotation_columns.size(); ++k) {
     cells.number(notes.rotation.rate_known || !notes.rotation.turning, notes.rotation.rate_radps[k]);

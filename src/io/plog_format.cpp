@@ -73,13 +73,20 @@ void put_double(std::string& out, double value) {
 
 std::uint32_t crc32_of(const void* data, std::size_t size) noexcept { return ::libdeflate_crc32(0, data, size); }
 
-std::string plog_time_unit(double unit_s) {
-  for (const char* name : {"s", "ms", "us", "min", "h"}) {
-    const FileExpected<double> unit = parse_quantity(Quantity::time, std::string("1 ") + name);
-    if (unit && *unit == unit_s) return name;
+namespace {
+std::string unit_of_size(Quantity quantity, std::initializer_list<const char*> names, double size) {
+  for (const char* name : names) {
+    const FileExpected<double> unit = parse_quantity(quantity, std::string("1 ") + name);
+    if (unit && *unit == size) return name;
   }
   return "";
 }
+}  // namespace
+
+std::string plog_time_unit(double unit_s) {
+  return unit_of_size(Quantity::time, {"s", "ms", "us", "min", "h"}, unit_s);
+}
+std::string plog_depth_unit(double unit_m) { return unit_of_size(Quantity::length, {"m", "ft", "km"}, unit_m); }
 
 std::string plog_misfit(const PlogHeader& header) {
   const std::size_t columns = header.columns.size();

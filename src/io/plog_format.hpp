@@ -84,8 +84,9 @@ inline double double_at(const unsigned char* at) noexcept {
 /// CRC-32 as in zlib, PNG and Ethernet.
 std::uint32_t crc32_of(const void* data, std::size_t size) noexcept;
 
-/// "ms" of 1e-3; "" of what no unit of time is.
+/// "ms" of 1e-3, "ft" of 0.3048; "" of what no unit of time, or of depth, is.
 std::string plog_time_unit(double unit_s);
+std::string plog_depth_unit(double unit_m);
 /// Why this header cannot be written; "" where it can.
 std::string plog_misfit(const PlogHeader& header);
 std::string plog_header_bytes(const PlogHeader& header);

@@ -20,11 +20,6 @@ std::vector<std::string> texts(const Json& list) {
   return out;
 }
 
-PagePicture picture_of(const PagePictures& pictures, const std::string& name) {
-  const auto found = pictures.find(name);
-  return found == pictures.end() ? PagePicture{"", "it was not drawn"} : found->second;
-}
-
 void sensor_tables(const Json& array, Section& out) {
   ViewRows axes, least;
   for (const Json& s : array["sensors"]) {

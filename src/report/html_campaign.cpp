@@ -11,11 +11,6 @@ inline namespace PLUMB_ABI {
 namespace report {
 namespace {
 
-PagePicture picture_of(const PagePictures& pictures, const std::string& name) {
-  const auto found = pictures.find(name);
-  return found == pictures.end() ? PagePicture{"", "it was not drawn"} : found->second;
-}
-
 void rates_table(const Json& rates, Section& out) {
   ViewRows rows;
   for (const auto& [name, rate] : rates.items())

@@ -2,14 +2,11 @@
 #include <fmt/format.h>
 
 #include "html_view.hpp"
-#include "verification_template.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
 namespace {
-
-using kainjow::mustache::data;
 
 std::string with_results(const Json& list) {
   std::string out;
@@ -152,25 +149,19 @@ Section change_view(const Json& report) {
 }
 
 std::string verification_html(const Json& report, const PagePictures& pictures) {
-  data root, sections{data::type::list};
-  for (Section section : {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
-                          campaign_view(report, pictures), machine_view(report), trace_view(report),
-                          identity_view(report), change_view(report)})
-    sections << section.take();
   const Json& build = report["identity"]["build"];
-  root.set("title", "Verification of " + report["subject"]["name"].get<std::string>());
-  root.set("lead",
-           fmt::format("{} sensors, judged by plumb {} ({}). Every figure stands in report.json beside this page.",
-                       report["subject"]["sensors"].dump(), build["version"].get<std::string>(),
-                       build["commit"].get<std::string>()));
-  root.set("sections", sections);
-  root.set("footer",
-           "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.");
   const Json& run = report["run"];
-  root.set("run", fmt::format("Run {} on {}, {} s, {} threads.", run.value("time", "-"), run.value("host", "-"),
-                              shown(run.value("seconds", Json())), shown(run.value("threads", Json()))));
-  kainjow::mustache::mustache page{kVerificationTemplate};
-  return page.render(root);
+  return sections_html(
+      {"Verification of " + report["subject"]["name"].get<std::string>(),
+       fmt::format("{} sensors, judged by plumb {} ({}). Every figure stands in report.json beside this page.",
+                   report["subject"]["sensors"].dump(), build["version"].get<std::string>(),
+                   build["commit"].get<std::string>()),
+       "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.",
+       fmt::format("Run {} on {}, {} s, {} threads.", run.value("time", "-"), run.value("host", "-"),
+                   shown(run.value("seconds", Json())), shown(run.value("threads", Json())))},
+      {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
+       campaign_view(report, pictures), machine_view(report), trace_view(report), identity_view(report),
+       change_view(report)});
 }
 
 }  // namespace report

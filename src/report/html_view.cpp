@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "verification_template.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
@@ -173,6 +175,23 @@ data Section::take() {
   out.set("gist", gist_);
   out.set("blocks", list);
   return out;
+}
+
+PagePicture picture_of(const PagePictures& pictures, const std::string& name) {
+  const auto found = pictures.find(name);
+  return found == pictures.end() ? PagePicture{"", "it was not drawn"} : found->second;
+}
+
+std::string sections_html(const PageFrame& frame, std::vector<Section> sections) {
+  data root, list{data::type::list};
+  for (Section& section : sections) list << section.take();
+  root.set("title", frame.title);
+  root.set("lead", frame.lead);
+  root.set("sections", list);
+  root.set("footer", frame.footer);
+  root.set("run", frame.run);
+  kainjow::mustache::mustache page{kVerificationTemplate};
+  return page.render(root);
 }
 
 }  // namespace report

@@ -60,6 +60,16 @@ class Section {
   std::vector<kainjow::mustache::data> blocks_;
 };
 
+/// A page of these sections, in the one style of plumb's reports. `run` is what tells of the run rather than of the
+/// result.
+struct PageFrame {
+  std::string title, lead, footer, run;
+};
+std::string sections_html(const PageFrame& frame, std::vector<Section> sections);
+
+/// The one with this name, or what says that there is none.
+PagePicture picture_of(const PagePictures& pictures, const std::string& name);
+
 /// The sections, from the master JSON and nothing else but its pictures.
 Section verdict_view(const Json& report);
 Section array_view(const Json& report, const PagePictures& pictures);

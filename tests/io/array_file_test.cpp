@@ -48,6 +48,19 @@ TEST(ArrayFile, ReadsHowTheToolTurnsAndWhereTheSensorsSit) {
   refused("[\"wx\", \"wy\", \"wz\"]", "[\"wx\", \"wy\", 3]", "input.rotation_radps");
 }
 
+TEST(ArrayFile, ReadsWhereTheDepthStands) {
+  EXPECT_TRUE(array_of().input.depth_column.empty());
+  const std::string text = changed("time = \"t_s\"", "time = \"t_s\"\ndepth = \"MD\"\ndepth_unit = \"ft\"");
+  EXPECT_EQ(array_of(text).input.depth_column, "MD");
+  EXPECT_EQ(array_of(text).input.depth_unit_m, 0.3048);
+  for (const auto& [from, to] : {std::pair("depth = \"MD\"\n", ""), std::pair("\"ft\"", "\"fathom\"")}) {
+    const auto answer = parse_array_text(changed(from, to, text), "array.toml");
+    ASSERT_FALSE(answer.has_value()) << to;
+    EXPECT_EQ(answer.error().field, "input.depth_unit");
+    EXPECT_FALSE(answer.error().remedy.empty());
+  }
+}
+
 TEST(ArrayFile, ReadsEveryPart) {
   const ArrayFile file = array_of();
   EXPECT_EQ(file.name, "four on a tool");

@@ -1,6 +1,6 @@
-"""browser.py TOOL SOURCE [SHOTS]: the page of plumb verify in a browser: no message on the console, no request but for the page
-itself, every link leads somewhere, every chart is to be seen, nothing wider than the window, no table cut on paper. With SHOTS,
-screenshots go into that directory: light, dark, phone, and the page as PDF."""
+"""browser.py TOOL SOURCE [SHOTS]: the pages of plumb verify and of plumb monitor --report in a browser: no message on the console,
+no request but for the page itself, every link leads somewhere, every chart is to be seen, nothing wider than the window, no table
+cut on paper. With SHOTS, screenshots go into that directory: light, dark, phone, and the page as PDF."""
 
 import base64
 import json
@@ -62,10 +62,10 @@ def check_links(browser, page):
             assert (page.parent / href).is_file(), href
 
 
-def check_charts(browser):
+def check_charts(browser, least):
     sizes = browser.execute_script("return [...document.querySelectorAll('figure')].map(f => { const s = f.querySelector('svg'); "
                                    "return s ? [s.getBoundingClientRect().width, s.getBoundingClientRect().height, s.querySelectorAll('path,rect,line,circle,image,use').length] : null })")
-    assert len(sizes) >= 6, sizes
+    assert len(sizes) >= least, sizes
     for size in sizes:
         assert size and size[0] > 100 and size[1] > 100 and size[2] > 5, sizes
     assert browser.execute_script("return [...document.querySelectorAll('[role=img]')].every(e => e.getAttribute('aria-label'))")
@@ -80,41 +80,64 @@ def check_paper(browser):
     assert not cut, cut
 
 
+def check_page(browser, page, charts, shots, name):
+    """`charts`: how many there are at least. Screenshots begin with `name`."""
+    list(requests_of(browser))  # those of the page before
+    browser.get(page.as_uri())
+    console = browser.get_log("browser")
+    assert not console, console
+    foreign = [url for url in requests_of(browser) if url != page.as_uri() and not url.startswith("data:")]
+    assert not foreign, foreign
+    headings = browser.execute_script("return [...document.querySelectorAll('h1,h2,h3')].map(h => +h.tagName[1])")
+    assert headings[0] == 1 and headings.count(1) == 1 and all(b - a <= 1 for a, b in zip(headings, headings[1:])), headings
+    check_links(browser, page)
+    check_charts(browser, charts)
+    for view, width in WIDTHS.items():
+        for dark in (False, True):
+            set_view(browser, width, dark)
+            wide = browser.execute_script("return document.documentElement.scrollWidth")
+            assert wide <= width, (name, view, wide)
+            assert contrast(browser) >= 7.0, (name, view, dark)
+            if shots:
+                high = browser.execute_script("return document.documentElement.scrollHeight")
+                clip = {"x": 0, "y": 0, "width": width, "height": min(high, 12000), "scale": 1}
+                shot = browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True, "clip": clip})
+                pathlib.Path(shots, f"{name}{view}-{'dark' if dark else 'light'}.png").write_bytes(base64.b64decode(shot["data"]))
+    check_paper(browser)
+    if shots:
+        pdf = browser.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})
+        pathlib.Path(shots, f"{name}paper.pdf").write_bytes(base64.b64decode(pdf["data"]))
+
+
+def verification_page(tool, source, folder):
+    array = str(pathlib.Path(source) / "examples/paper_tool.toml")
+    done = subprocess.run([tool, "verify", "--array", array, "--scenarios", "1500", "--out", folder + "/r"], capture_output=True, text=True)
+    assert done.returncode == 6, done.stderr  # its calibration is but predicted
+    return pathlib.Path(folder, "r", "report.html")
+
+
+def health_page(tool, source, folder):
+    """Of the drilling run of the examples, in which a2 dies."""
+    examples = pathlib.Path(source) / "examples"
+    array = ["--array", str(examples / "paper_tool.toml")]
+    for command in (["simulate", str(examples / "stand.toml"), "--out", "stand.csv"],
+                    ["calibrate", *array, "--log", "stand.csv", "--out", "cal.json"],
+                    ["simulate", str(examples / "drilling.toml"), "--out", "run.csv"],
+                    ["monitor", *array, "--calibration", "cal.json", "--log", "run.csv", "--report", "health.html"]):
+        done = subprocess.run([tool, *command], capture_output=True, text=True, cwd=folder)
+        assert done.returncode == 0, done.stderr
+    return pathlib.Path(folder, "health.html")
+
+
 def main(tool, source, shots=None):
     with tempfile.TemporaryDirectory() as folder:
-        array = str(pathlib.Path(source) / "examples/paper_tool.toml")
-        done = subprocess.run([tool, "verify", "--array", array, "--scenarios", "1500", "--out", folder + "/r"], capture_output=True, text=True)
-        assert done.returncode == 6, done.stderr  # its calibration is but predicted
-        page = pathlib.Path(folder, "r", "report.html")
         browser = open_browser()
         try:
-            browser.get(page.as_uri())
-            console = browser.get_log("browser")
-            assert not console, console
-            foreign = [url for url in requests_of(browser) if url != page.as_uri() and not url.startswith("data:")]
-            assert not foreign, foreign
-            headings = browser.execute_script("return [...document.querySelectorAll('h1,h2,h3')].map(h => +h.tagName[1])")
-            assert headings[0] == 1 and headings.count(1) == 1 and all(b - a <= 1 for a, b in zip(headings, headings[1:])), headings
-            check_links(browser, page)
-            check_charts(browser)
-            for name, width in WIDTHS.items():
-                for dark in (False, True):
-                    set_view(browser, width, dark)
-                    wide = browser.execute_script("return document.documentElement.scrollWidth")
-                    assert wide <= width, (name, wide)
-                    assert contrast(browser) >= 7.0, (name, dark)
-                    if shots:
-                        high = browser.execute_script("return document.documentElement.scrollHeight")
-                        clip = {"x": 0, "y": 0, "width": width, "height": min(high, 12000), "scale": 1}
-                        shot = browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True, "clip": clip})
-                        pathlib.Path(shots, f"{name}-{'dark' if dark else 'light'}.png").write_bytes(base64.b64decode(shot["data"]))
-            check_paper(browser)
-            if shots:
-                pdf = browser.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})
-                pathlib.Path(shots, "paper.pdf").write_bytes(base64.b64decode(pdf["data"]))
+            check_page(browser, verification_page(tool, source, folder), 6, shots, "")
+            check_page(browser, health_page(tool, source, folder), 2, shots, "health-")
         finally:
             browser.quit()
-    print("the page is sound")
+    print("the pages are sound")
 
 
 main(*sys.argv[1:])

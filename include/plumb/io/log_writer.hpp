@@ -2,6 +2,7 @@
 /// ".plog", a binary log.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -24,11 +25,12 @@ class LogWriter {
   };
   /// What a row says beyond its sample.
   struct Notes {
-    bool temperature_held = false;  ///< of the row before: the cell becomes empty
-    Rotation rotation;              ///< with Columns::all
+    bool temperature_held = false;                              ///< of the row before: the cell becomes empty
+    Rotation rotation;                                          ///< with Columns::all
+    double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< not finite: the cell stays empty
   };
 
-  /// Columns: time, station, count, temperature (those that [input] names), the columns of `where` with
+  /// Columns: time, station, count, temperature, depth (those that [input] names), the columns of `where` with
   /// their values, the rates of turn, then the sensors. Without a time column the time is left to the reader.
   static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array,
                                         Columns columns = Columns::samples);

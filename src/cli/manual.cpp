@@ -1,0 +1,168 @@
+#include "manual.hpp"
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+/// Text that roff prints as it stands. A dash stays one that can be copied into a shell.
+std::string in_roff(const std::string& text) {
+  std::string out;
+  bool fresh = true;  // at the beginning of a line, where a dot or a quote would be a request
+  for (const char c : text) {
+    if (fresh && (c == '.' || c == '\'')) out += "\\&";
+    switch (c) {
+      case '\\': out += "\\e"; break;
+      case '-': out += "\\-"; break;
+      case '^': out += "\\(ha"; break;
+      case '~': out += "\\(ti"; break;
+      case '`': out += "\\(ga"; break;
+      case '\'': out += "\\(aq"; break;
+      default: out += c;
+    }
+    fresh = c == '\n';
+  }
+  return out;
+}
+
+/// Lines kept as they are, without the blank ones at both ends.
+std::string verbatim(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  const std::size_t begin = text.find_first_not_of('\n');
+  if (begin == std::string::npos) return "";
+  return ".PP\n.nf\n" + in_roff(text.substr(begin)) + "\n.fi\n";
+}
+
+/// What stands below the options, without the exit codes, which have a section of their own.
+std::string notes_of(const CLI::App& app) {
+  std::string text = app.get_footer();
+  const std::string codes = exit_codes_help();
+  const std::size_t at = text.find(codes);
+  return at == std::string::npos ? text : text.erase(at, codes.size());
+}
+
+/// "--log LOG.csv|-", or the name of what stands without an option.
+std::string form_of(const CLI::Option& option) {
+  std::string names;
+  for (const std::string& name : option.get_snames()) names += (names.empty() ? "" : ", ") + ("-" + name);
+  for (const std::string& name : option.get_lnames()) names += (names.empty() ? "" : ", ") + ("--" + name);
+  if (names.empty()) return option.get_type_name().empty() ? option.get_name() : option.get_type_name();
+  return option.get_expected_max() == 0 ? names : names + " " + option.get_type_name();
+}
+
+std::string options_in_roff(const CLI::App& app) {
+  std::string out;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
+    out += ".TP\n.B \"" + in_roff(form_of(*option)) + "\"\n" + in_roff(option->get_description());
+    out += option->get_required() ? " (required)\n" : "\n";
+  }
+  return out;
+}
+
+/// "skip|stop": the words that an option takes; empty where it takes anything.
+std::vector<std::string> choices_of(const CLI::Option& option) {
+  std::vector<std::string> out;
+  const std::string type = option.get_type_name();
+  if (type.find('|') == std::string::npos ||
+      type.find_first_not_of("abcdefghijklmnopqrstuvwxyz-|") != std::string::npos)
+    return out;
+  std::istringstream in(type);
+  for (std::string word; std::getline(in, word, '|');) out.push_back(word);
+  return out;
+}
+
+/// A number, a text with rules of its own: nothing that completion could know.
+bool takes_file(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.find('.') != std::string::npos || type.find("DIR") != std::string::npos ||
+         type.find("FILE") != std::string::npos;
+}
+
+std::string joined_words(const std::vector<std::string>& words, const char* between) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
+struct Completion {
+  std::vector<std::string> flags, words, files, others;  ///< options; of those with a value: what it is
+  std::vector<std::string> word_cases;
+  bool positional = false;
+};
+
+Completion completion_of(const CLI::App& app) {
+  Completion out;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
+    std::vector<std::string> names;
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    out.positional = out.positional || names.empty();
+    out.flags.insert(out.flags.end(), names.begin(), names.end());
+    if (names.empty() || option->get_expected_max() == 0) continue;
+    const std::vector<std::string> choices = choices_of(*option);
+    if (!choices.empty()) {
+      out.word_cases.push_back(joined_words(names, "|") + ") COMPREPLY=($(compgen -W \"" + joined_words(choices, " ") +
+                               "\" -- \"$cur\")); return ;;");
+    } else {
+      std::vector<std::string>& list = takes_file(*option) ? out.files : out.others;
+      list.insert(list.end(), names.begin(), names.end());
+    }
+  }
+  return out;
+}
+
+std::string bash_case(const Command& command) {
+  const Completion c = completion_of(*command.app);
+  std::string out = "    " + command.app->get_name() + ")\n      case \"$prev\" in\n";
+  for (const std::string& line : c.word_cases) out += "        " + line + "\n";
+  if (!c.files.empty()) out += "        " + joined_words(c.files, "|") + ") _plumb_files; return ;;\n";
+  if (!c.others.empty()) out += "        " + joined_words(c.others, "|") + ") return ;;\n";
+  out += "      esac\n      if [[ $cur == -* ]]; then\n        COMPREPLY=($(compgen -W \"" +
+         joined_words(c.flags, " ") + "\" -- \"$cur\"))\n";
+  if (c.positional) out += "      else\n        _plumb_files\n";
+  return out + "      fi ;;\n";
+}
+
+}  // namespace
+
+std::string man_page(const Manual& manual) {
+  std::string out =
+      ".\\\" Printed by plumb --man from the definitions of the command line.\n.TH PLUMB 1 \"\" \"plumb " +
+      std::string(kVersion) + "\" \"User Commands\"\n.SH NAME\nplumb \\- keeps redundant accelerometers " +
+      "honest\n.SH SYNOPSIS\n.B plumb\n.I COMMAND\n[\n.I OPTIONS\n]\n.SH DESCRIPTION\n" + in_roff(manual.about) +
+      "\n.SH COMMANDS\n";
+  for (const Command& command : manual.commands) {
+    out +=
+        ".TP\n.B \"plumb " + in_roff(command.app->get_name()) + "\"\n" + in_roff(command.app->get_description()) + "\n";
+  }
+  for (const Command& command : manual.commands) {
+    std::string name = command.app->get_name();
+    for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    out += ".SH \"PLUMB " + in_roff(name) + "\"\n" + in_roff(command.about) + "\n" + options_in_roff(*command.app) +
+           verbatim(notes_of(*command.app));
+  }
+  out += ".SH \"EXIT STATUS\"\n" + verbatim(exit_codes_help());
+  return out + ".SH \"SEE ALSO\"\nThe pages below docs/ of the source.\n";
+}
+
+std::string bash_completion(const Manual& manual) {
+  std::vector<std::string> names;
+  for (const Command& command : manual.commands) names.push_back(command.app->get_name());
+  std::string out =
+      "# bash completion for plumb. Printed by plumb --completion from the definitions of the command line.\n"
+      "_plumb_files() {\n  compopt -o filenames 2>/dev/null\n  mapfile -t COMPREPLY < <(compgen -f -- \"$cur\")\n}\n"
+      "_plumb() {\n  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n  COMPREPLY=()\n"
+      "  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W \"" +
+      joined_words(names, " ") + " --help --version\" -- \"$cur\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n";
+  for (const Command& command : manual.commands) out += bash_case(command);
+  return out + "  esac\n}\ncomplete -F _plumb plumb\n";
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,52 @@
+/// --report: the health report of a run, written when it ends.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "monitor_options.hpp"
+#include "monitor_pipeline.hpp"
+#include "plumb/io/output_file.hpp"
+#include "plumb/report/tool_health.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// The name of the JSON beside the page; empty where `path` is not named as a page.
+std::string health_data_path(const std::string& path);
+
+/// What --report cannot be.
+std::optional<io::FileError> report_misuse(const MonitorOptions& options);
+
+class HealthReport : public VerdictSink {
+ public:
+  /// Both files are opened now, so that a directory that is not there is told before the run; they appear with
+  /// `write`.
+  static io::FileExpected<std::unique_ptr<HealthReport>> create(const MonitorOptions& options,
+                                                                const io::ArrayFile& array, const SensorArray& sensors);
+
+  io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
+  void at_depth(double depth_m) override { depth_m_ = depth_m; }
+
+  /// At the end of the run, however it ended.
+  io::FileExpected<void> write(const MonitorRun& run);
+  /// "usable for survey: yes" and what to do, for the end of a terminal's summary.
+  std::string summary() const;
+
+ private:
+  HealthReport(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& sensors,
+               io::OutputFile page, io::OutputFile data);
+
+  const MonitorOptions& options_;
+  const io::ArrayFile& array_;
+  const SensorArray& sensors_;
+  io::OutputFile page_, data_;
+  report::ToolHealth health_;
+  double depth_m_;
+};
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

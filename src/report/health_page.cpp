@@ -1,0 +1,194 @@
+#include "plumb/report/health_page.hpp"
+
+#include <fmt/format.h>
+
+#include "html_view.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace report {
+namespace {
+
+constexpr double kMg0 = 1e3 / kG0_mps2;
+
+std::string tone(const std::string& colour) {
+  return colour == "green" || colour == "yes" ? "good" : (colour == "red" || colour == "no" ? "bad" : "open");
+}
+
+std::string fixed(const Json& value, double factor, int decimals) {
+  return value.is_number() ? fmt::format("{:.{}f}", factor * value.get<double>(), decimals) : "-";
+}
+/// Three decimals, however large.
+std::string seconds(const Json& value) { return fixed(value, 1.0, 3); }
+std::string degrees(const Json& value) { return fixed(value, 1.0, 3); }
+std::string with_sigma(const Json& value, const Json& sigma) {
+  return value.is_number() ? degrees(value) + " ± " + shown(sigma) : "-";
+}
+std::string why(const Json& station) {
+  const std::string out = joined_list(station["reasons"], "text");
+  return out == "-" ? "" : out;
+}
+
+Section answer_view(const Json& report) {
+  const Json& a = report["answer"];
+  Section out("verdict", "1 Answer", "May this tool be surveyed with, and what is to be done.");
+  out.notice(a["sentence"], tone(a["usable_for_survey"]));
+  std::vector<std::string> actions;
+  for (const Json& action : a["actions"]) actions.push_back(action);
+  out.list("What to do", actions);
+  out.figures({{"Usable for survey", a["usable_for_survey"], "the tool as it is at the end of the run"},
+               {"Green stations", a["green"].dump(), "use them"},
+               {"Orange stations", a["orange"].dump(), "for orientation only"},
+               {"Red stations", a["red"].dump(), "do not use them"}});
+  out.table("The monitor at the end", {"question", "answer"},
+            {{"state", a["state"].get<std::string>() + ": " + a["state_means"].get<std::string>()},
+             {"output", a["output"].get<std::string>()},
+             {"sensors in service", joined_list(a["in_service"])},
+             {"excluded", joined_list(a["excluded"])},
+             {"set aside", joined_list(a["set_aside"])},
+             {"absent", joined_list(a["absent"])}});
+  return out;
+}
+
+ViewRows station_rows(const Json& report) {
+  ViewRows rows;
+  for (const Json& s : report["stations"]) {
+    const std::string colour = s["colour"];
+    rows.push_back({s["number"].dump(), seconds(s["begin_s"]), shown(s["depth_m"]), ViewCell(colour, tone(colour)),
+                    fixed(s["length_mps2"], kMg0, 3), shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
+                    with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
+                    with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), shown(s["protection_level_deg"]),
+                    joined_list(s["used"]), why(s)});
+  }
+  return rows;
+}
+
+Section stations_view(const Json& report, const PagePictures& pictures) {
+  Section out("stations", "2 Stations",
+              "Every still stretch, with what a survey would take from it, and how far to trust it.");
+  if (report["stations"].empty()) {
+    out.notice("The run holds no still stretch of a whole block.", "bad");
+    return out;
+  }
+  out.picture("From station to station", picture_of(pictures, "run.svg"),
+              "Length of gravity less its reference, with its limit, and inclination, by station and colour",
+              "The limit is three standard deviations of reference, noise and calibration together.");
+  out.table(
+      "Stations",
+      {"station", "t, s", "depth, m", "verdict", "|G|, mg0", "off by, mg0", "limit, mg0", "inclination, deg",
+       "toolface, deg", "bound, deg", "sensors used", "why"},
+      station_rows(report),
+      "± is one standard deviation of noise and calibration; a fault may do more. Bound: how far the direction can be "
+      "off whatever single fault is there and "
+      "unseen; - where nothing bounds it. Figures are those of the last block of the station; a toolface needs an "
+      "inclination of 3 deg.");
+  return out;
+}
+
+Section roll_view(const Json& report, const PagePictures& pictures) {
+  Section out("roll", "3 Roll test", "Length and inclination against the toolface.");
+  bool any = false;
+  for (const Json& s : report["stations"]) any = any || s["toolface_deg"].is_number();
+  if (!any) {
+    out.notice("No station has a toolface: the tool was within 3 deg of vertical, or had no direction.", "open");
+    return out;
+  }
+  out.picture(
+      "Roll test", picture_of(pictures, "roll.svg"),
+      "Length of gravity less its reference, and inclination, against the toolface",
+      "A healthy tool shows no pattern in the upper panel. A wave with one crest in a turn is a bias across the "
+      "tool, one with two crests a scale or an alignment. The lower panel tells something only where the tool was "
+      "rolled at one inclination.");
+  return out;
+}
+
+Section events_view(const Json& report) {
+  Section out("events", "4 Events", "Every change that the monitor reported, and why.");
+  ViewRows rows;
+  for (const Json& e : report["events"])
+    rows.push_back({e["sequence"].dump(), seconds(e["t_s"]), e["from"].get<std::string>(), e["to"].get<std::string>(),
+                    e["cause"].get<std::string>(), joined_list(e["sensors"]), shown(e["statistic"]), shown(e["limit"]),
+                    e["why"].get<std::string>()});
+  if (rows.empty()) {
+    out.text("There was none.");
+  } else {
+    out.table("Events", {"no.", "t, s", "from", "to", "cause", "sensors", "statistic", "limit", "in words"}, rows,
+              "Statistic and limit share a unit: standard deviations for parity and norm, m/s^2 for mae.");
+  }
+  return out;
+}
+
+Section extremes_view(const Json& report) {
+  const Json& e = report["extremes"];
+  Section out("extremes", "5 Extremes", "The worst that the run held.");
+  const double hours = (e["last_s"].get<double>() - e["first_s"].get<double>()) / 3600.0;
+  out.table(
+      "Of the run", {"figure", "value", "at t, s"},
+      {{"duration, h", shown(hours), "-"},
+       {"samples", e["samples"].dump(), "-"},
+       {"samples refused", e["samples_refused"].dump(), "-"},
+       {"quiet blocks", e["blocks"].dump(), "-"},
+       {"lowest temperature, degC", shown(e["temperature_min_degc"]), "-"},
+       {"highest temperature, degC", shown(e["temperature_max_degc"]), "-"},
+       {"fastest change of temperature, degC/min", shown(e["temperature_rate_degc_per_min"]), "-"},
+       {"largest error of |G|, mg0", shown(e["off_mps2"], kMg0), seconds(e["off_at_s"])},
+       {"largest statistic over its limit", shown(e["statistic_over_limit"]), seconds(e["statistic_over_limit_at_s"])},
+       {"largest MAE of a group of three, mg0", shown(e["worst_mae_mps2"], kMg0), "-"},
+       {"largest bound on the direction, deg", shown(e["protection_level_deg"]), "-"}});
+  ViewRows rows;
+  for (const Json& s : e["sensors"])
+    rows.push_back({s["id"].get<std::string>(), s["blocks_clipped"].dump(), s["blocks_restless"].dump(),
+                    s["blocks_not_finite"].dump(), shown(s.value("cells_empty", Json())),
+                    shown(s.value("cells_not_finite", Json()))});
+  out.table("By sensor",
+            {"sensor", "blocks clipped", "blocks restless", "blocks not finite", "cells empty", "cells not finite"},
+            rows, "Blocks are quiet ones. Restless: one sensor scattered more than its noise.");
+  return out;
+}
+
+std::string hash_of(const Json& input) {
+  return input.contains("sha256") ? "sha256 " + input["sha256"].get<std::string>()
+                                  : "fnv1a " + input["fnv1a"].get<std::string>();
+}
+
+Section identity_of(const Json& report) {
+  const Json& id = report["identity"];
+  const Json& build = id["build"];
+  Section out("identity", "6 Identity", "What exactly was run, and how to run it again.");
+  ViewRows rows = {{"tool", "plumb " + build["version"].get<std::string>()},
+                   {"commit", build["commit"].get<std::string>()},
+                   {"compiler", build["compiler"].get<std::string>()},
+                   {"configuration of the monitor", id["config_hash"].get<std::string>()},
+                   {"rows of the log", id["log"]["rows"].dump()},
+                   {"bad rows", id["log"]["rows_bad"].dump()},
+                   {"the log ended", id["log"]["ended"].get<std::string>()}};
+  out.table("Identity", {"what", "value"}, rows);
+  ViewRows inputs;
+  for (const Json& i : id["inputs"])
+    inputs.push_back({i["role"].get<std::string>(), i["name"].get<std::string>(), shown(i["bytes"]), hash_of(i)});
+  out.table("Inputs", {"role", "file", "bytes", "hash"}, inputs);
+  std::vector<std::string> lines;
+  lines.push_back(id["command"]);
+  out.commands(lines);
+  return out;
+}
+
+}  // namespace
+
+std::string health_html(const Json& report, const PagePictures& pictures, const std::string& data) {
+  const Json& run = report["run"];
+  const Json& id = report["identity"];
+  return sections_html(
+      {"Tool health: " + id["name"].get<std::string>(),
+       fmt::format("{} sensors, watched by plumb {}. Every figure stands in {} beside this page.",
+                   report["extremes"]["sensors"].size(), id["build"]["version"].get<std::string>(), data),
+       "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
+       fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
+      {answer_view(report), stations_view(report, pictures), roll_view(report, pictures), events_view(report),
+       extremes_view(report), identity_of(report)});
+}
+
+}  // namespace report
+}  // namespace PLUMB_ABI
+}  // namespace plumb

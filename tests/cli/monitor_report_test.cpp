@@ -1,0 +1,217 @@
+// plumb monitor --report: the health report of a run, from the command line to the files.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "plumb/core/units.hpp"
+#include "tool_runner.hpp"
+
+namespace {
+
+using namespace plumb_test;
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> reported(const std::string& log, std::vector<std::string> more = {}) {
+  std::vector<std::string> out = {"monitor", "--array", "array.toml", "--calibration", "calibration.json",
+                                  "--log",   log,       "--report",   "r.html"};
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+Json report_of(const Directory& where) { return Json::parse(read_text(where / "r.json")); }
+
+/// The drilling run of the examples without its fault.
+const std::string& clean_log() {
+  static const std::string text = [] {
+    Directory where;
+    std::string scenario = read_text(PLUMB_SOURCE_DIR "/examples/drilling.toml");
+    scenario =
+        with(scenario.substr(0, scenario.find("[[fault]]")), "array = \"paper_tool.toml\"", "array = \"array.toml\"");
+    write_text(where / "clean.toml", scenario);
+    std::filesystem::copy_file(example_files() / "array.toml", where / "array.toml");
+    EXPECT_EQ(run(where, {"simulate", "clean.toml", "--out", "clean.csv"}).code, 0);
+    return read_text(where / "clean.csv");
+  }();
+  return text;
+}
+
+std::string colours(const Json& report) {
+  std::string out;
+  for (const Json& s : report["stations"]) out += s["colour"].get<std::string>()[0];
+  return out;
+}
+
+// Verifies: REQ-179
+TEST(MonitorReport, ACleanRunEndsGreen) {
+  const Workshop shop;
+  shop.put("clean.csv", clean_log());
+  const Outcome outcome = run(shop, reported("clean.csv"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"r.html", "Usable for survey: yes", "Continue."}));
+  const Json report = report_of(shop);
+  EXPECT_EQ(report["schema"], "plumb-health");
+  EXPECT_EQ(report["answer"]["usable_for_survey"], "yes");
+  ASSERT_EQ(report["stations"].size(), 14U);
+  const std::string seen = colours(report);
+  EXPECT_EQ(seen.find('r'), std::string::npos) << seen;
+  EXPECT_EQ(seen.substr(8), "gggggg") << seen;  // once trust is earned
+  const Json& last = report["stations"][13];
+  const double inclination_deg = last["inclination_deg"];
+  EXPECT_NEAR(inclination_deg, 5.0 + 13 * 4.2, 2.0);  // gravity does not show how all axes sit in the housing
+  EXPECT_TRUE(says(outcome.out, {fmt::format("inclination {:.3f} deg", inclination_deg)}));
+  EXPECT_LT(last["inclination_sigma_deg"].get<double>(), 0.05);
+  EXPECT_EQ(last["used"].size(), 4U);
+  EXPECT_NEAR(last["length_mps2"].get<double>(), plumb::kG0_mps2, last["length_limit_mps2"].get<double>());
+  EXPECT_TRUE(last["depth_m"].is_null());
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"Usable for survey: yes", "<svg", "Roll test", "<svg"}));
+}
+
+// Negative: REQ-179
+TEST(MonitorReport, AFaultIsRedThenOrangeAndNoTripContinuesUnwarned) {
+  const Workshop shop;
+  const Outcome outcome = run(shop, reported("drilling.csv"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Json report = report_of(shop);
+  const std::string seen = colours(report);
+  ASSERT_EQ(seen.size(), 14U);
+  EXPECT_EQ(seen[5], 'r') << seen;                                 // a2 is dead, and it is not yet known who
+  EXPECT_EQ(seen.substr(6).find('g'), std::string::npos) << seen;  // three sensors are left
+  EXPECT_EQ(seen.back(), 'o') << seen;
+  EXPECT_EQ(report["answer"]["usable_for_survey"], "orientation only");
+  EXPECT_EQ(report["answer"]["excluded"], Json::array({"a2"}));
+  EXPECT_EQ(report["stations"][13]["used"], Json::array({"a1", "a3", "a4"}));
+  EXPECT_TRUE(says(outcome.out, {"orientation only", "next trip", "Do not use the red stations: 6"}));
+  bool excluded = false;
+  for (const Json& e : report["events"])
+    excluded = excluded || (e["cause"] == "isolated_fault" && e["sensors"] == Json::array({"a2"}));
+  EXPECT_TRUE(excluded) << report["events"].dump(1);
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"orientation only", "the sensors contradict one another"}));
+}
+
+// Verifies: REQ-179
+TEST(MonitorReport, AMonitorThatGaveUpMeansNo) {
+  const Workshop shop;
+  ASSERT_EQ(run(shop, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault", "a1:off@34s", "--out",
+                       "two.csv"})
+                .code,
+            0);
+  const Outcome outcome = run(shop, reported("two.csv"));
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  EXPECT_EQ(report_of(shop)["answer"]["usable_for_survey"], "no");
+  EXPECT_TRUE(says(outcome.out, {"Usable for survey: no", "Do not survey or steer"}));
+}
+
+TEST(MonitorReport, WithoutAStationTheAnswerIsNo) {
+  const Workshop shop;
+  const std::string log = shop.text("drilling.csv");
+  const std::string header = line_of(log, 1) + "\n";
+  shop.put("empty.csv", header);
+  EXPECT_EQ(run(shop, reported("empty.csv")).code, 3);
+  EXPECT_EQ(report_of(shop)["answer"]["usable_for_survey"], "no");
+  EXPECT_EQ(report_of(shop)["identity"]["log"]["ended"], "in an error");
+  std::string few = header;
+  for (int k = 2; k < 12; ++k) few += line_of(log, k) + "\n";
+  shop.put("few.csv", few);
+  const Outcome outcome = run(shop, reported("few.csv"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(says(outcome.out, {"Usable for survey: no", "no still stretch", "hold the tool still"}));
+  const Json report = report_of(shop);
+  EXPECT_EQ(report["extremes"]["samples"], 10);
+  EXPECT_TRUE(report["stations"].empty());
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"no still stretch of a whole block", "No station has a toolface"}));
+}
+
+TEST(MonitorReport, TakesDepthFromTheLog) {
+  const Workshop shop;
+  shop.put("array.toml", with(shop.text("array.toml"), "[input]", "[input]\ndepth = \"MD\"\ndepth_unit = \"ft\""));
+  std::istringstream in(shop.text("drilling.csv"));
+  std::string line, out;
+  for (int k = 0; std::getline(in, line); ++k)
+    out += line + (k == 0 ? ",MD" : (k % 100 == 1 ? "," + std::to_string(1000 + k / 100) : ",")) + "\n";
+  shop.put("deep.csv", out);
+  EXPECT_EQ(run(shop, reported("deep.csv")).code, 0);
+  const Json report = report_of(shop);
+  double before_m = 0.0;
+  for (const Json& s : report["stations"]) {
+    EXPECT_GT(s["depth_m"].get<double>(), before_m);
+    before_m = s["depth_m"];
+    EXPECT_NEAR(before_m / 0.3048, 1000.0 + s["end_s"].get<double>(), 1.0);
+  }
+  shop.put("bad.csv", with(out, ",1003", ",deep"));
+  const Outcome bad = run(shop, reported("bad.csv"));
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_TRUE(says(bad.err, {"MD", "\"deep\" is not a depth"}));
+  // What a log cannot say is not made up.
+  ASSERT_EQ(run(shop, {"inject", "--array", "array.toml", "--log", "deep.csv", "--fault", "a1:bias=1mg0@30s", "--out",
+                       "injected.csv"})
+                .code,
+            0);
+  EXPECT_EQ(run(shop, reported("injected.csv")).code, 0);
+  EXPECT_TRUE(report_of(shop)["stations"][0]["depth_m"].is_null());
+}
+
+TEST(MonitorReport, StandsBesideTheOtherOutputsAndRepeats) {
+  const Workshop shop;
+  const std::vector<std::string> more = {"--events", "e.jsonl", "--verdicts", "v.jsonl", "--snapshot-out", "s.bin"};
+  ASSERT_EQ(run(shop, reported("drilling.csv", more)).code, 0);
+  Json first = report_of(shop);
+  const std::string events = read_text(shop / "e.jsonl");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(events.begin(), events.end(), '\n')), first["events"].size());
+  EXPECT_FALSE(read_text(shop / "v.jsonl").empty());
+  ASSERT_EQ(run(shop, reported("drilling.csv")).code, 0);
+  Json second = report_of(shop);
+  EXPECT_FALSE(first["run"].empty());
+  first.erase("run");
+  second.erase("run");
+  EXPECT_EQ(first, second);
+  EXPECT_TRUE(says(first["identity"]["command"].get<std::string>(),
+                   {"plumb monitor", "--array array.toml", "--log drilling.csv", "--report r.html"}));
+}
+
+TEST(MonitorReport, AnInterruptionLosesNothing) {
+  const Workshop shop;
+  Process process(shop, reported("drilling.csv", {"--follow"}), -1, {});
+  ASSERT_TRUE(process.says("is faulty and excluded"));
+  process.interrupt();
+  EXPECT_EQ(process.wait().code, 1);
+  const Json report = report_of(shop);
+  EXPECT_EQ(report["identity"]["log"]["ended"], "by an interruption");
+  EXPECT_GE(report["stations"].size(), 7U);
+  EXPECT_NE(read_text(shop / "r.html").find("by an interruption"), std::string::npos);
+}
+
+TEST(MonitorReport, WithoutGnuplotThePageSaysSo) {
+  const Workshop shop;
+  const Outcome outcome = run(shop, reported("drilling.csv"), "", {"PATH=/nowhere"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("gnuplot"), std::string::npos);
+  EXPECT_NE(read_text(shop / "r.html").find("There is no picture: gnuplot: is not installed"), std::string::npos);
+}
+
+TEST(MonitorReport, WrongUseIsAnsweredWithWhatAndHow) {
+  const Workshop shop;
+  const auto answered = [&shop](const std::string& report, std::vector<std::string> more, int code,
+                                const std::vector<std::string>& words) {
+    std::vector<std::string> arguments = reported("drilling.csv", std::move(more));
+    *(std::find(arguments.begin(), arguments.end(), "--report") + 1) = report;
+    const Outcome outcome = run(shop, arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, words));
+  };
+  answered("-", {}, 2, {"--report", "name of a page", "FILE.html"});
+  answered("report.pdf", {}, 2, {"--report", "FILE.html"});
+  answered("r.html", {"--limits"}, 2, {"--report", "--limits", "leave one"});
+  answered("r.html", {"--events", "r.json"}, 2, {"r.json", "--events"});
+  answered("calibration.html", {}, 2, {"calibration.json", "overwritten"});
+  answered("nowhere/r.html", {}, 1, {"nowhere"});
+  EXPECT_FALSE(std::filesystem::exists(shop / "r.html"));
+}
+
+TEST(MonitorReport, NamesCannotBreakOut) {
+  const Workshop shop;
+  shop.put("array.toml", with(shop.text("array.toml"), "paper-tetrahedron", "<script>alert(1)</script>"));
+  EXPECT_EQ(run(shop, reported("drilling.csv")).code, 0);
+  EXPECT_EQ(read_text(shop / "r.html").find("<script"), std::string::npos);
+}
+
+}  // namespace
