@@ -175,7 +175,7 @@ bool CombinationMae::holds() const noexcept {
   const auto words_of = [](const std::int32_t* v, size_t count) noexcept {
     std::uint64_t sum = 0, odd = 0;
     for (; count >= 2; count -= 2, v += 2) {
-      std::uint64_t both;
+      std::uint64_t both = 0;
       std::memcpy(&both, v, sizeof both);
       sum += both & kAbsent;
       odd += both >> 32U;

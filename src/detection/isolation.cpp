@@ -144,7 +144,7 @@ ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClai
     const int claim = posed_.size() - set.size() >= 2 ? ReferenceClaims::index_of(set, rank, universe_) : -1;
     if (claim >= 0) {
       const double unit = t.norm_sigma_mps2 / std::sqrt(block.samples);
-      const double margin = limit * unit - limits.gravity * gravity.sigma_mps2;
+      const double margin = limit * unit - TestLimits::gravity * gravity.sigma_mps2;
       if (record != nullptr) record->hear(claim, t.norm_error_mps2, margin);
       if ((record != nullptr ? *record : claims_).refuted(claim)) return;
     }
@@ -167,7 +167,7 @@ SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnes
   const TestLimits& limits = tests.limits();
   // Where a posed sensor did not deliver, the published grade does not hold for the rest: nobody is convicted.
   const SensorSet asked = posed_;
-  const int grade = parity_;
+  const int grade = parity_grade();
   if (grade < 1 || !tests.block().usable.contains(asked)) return {};
   SensorSet cleared;
   const auto hear = [&](SensorSet s) {

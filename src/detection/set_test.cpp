@@ -252,7 +252,7 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   // Systematic terms: calibration at this attitude, gravity, and motion inside the block.
   const Systematic cal = uncertainty != nullptr ? calibration_bound(*uncertainty, rows, p, x) : Systematic{};
   const double reference =
-      (limits.gravity * gravity.sigma_mps2 + block.spread_mps2_sq / (2.0 * gravity.g_mps2)) / sigma_norm;
+      (TestLimits::gravity * gravity.sigma_mps2 + block.spread_mps2_sq / (2.0 * gravity.g_mps2)) / sigma_norm;
   out.parity_systematic = root_n * limits.calibration * cal.parity;
   out.norm_systematic = root_n * (limits.calibration * cal.norm + reference);
   out.systematic = root_n * (limits.calibration * cal.both + reference);

@@ -149,7 +149,7 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
   if (n < 3) return out;
   out.limits = TestLimits::from_rates(n, settings.false_alarm_rate, settings.rejection_rate);
   out.noise_factor = normal_tail_quantile(settings.rejection_rate / (2.0 * n));
-  out.gravity_mps2 = out.limits.gravity * gravity.sigma_mps2;
+  out.gravity_mps2 = TestLimits::gravity * gravity.sigma_mps2;
   double trace = 0.0;
   for (int i = 0; i < n; ++i) {
     const double sigma = array.sigma_mps2(i) / std::sqrt(settings.samples);

@@ -79,7 +79,7 @@ AttitudeLimits limits_of(const SetTest& t, const TestLimits& limits, const Gravi
   AttitudeLimits out;
   const double root_n = std::sqrt(window), s = t.norm_sigma_mps2;
   const double parity_left = t.parity_systematic / root_n / limits.calibration;
-  const double gravity_bound = limits.gravity * gravity.sigma_mps2 / s;
+  const double gravity_bound = TestLimits::gravity * gravity.sigma_mps2 / s;
   const double length_left = std::fmax(t.norm_systematic / root_n - gravity_bound, 0.0) / limits.calibration;
   const double alarm = limits.parity_alarm[static_cast<size_t>(t.parity_rows)];
   out.left = t.parity_rows > 0 ? parity_left : length_left;

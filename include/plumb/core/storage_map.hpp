@@ -190,7 +190,7 @@ std::uint64_t sum_in_line(const unsigned char* bytes, std::index_sequence<I...>)
 template <StoragePart kPart, class T>
 std::uint64_t storage_sum(const T& object) noexcept {
   constexpr std::size_t kCount = kStorageRuns<T, kPart>.size();
-  const auto* bytes = reinterpret_cast<const unsigned char*>(&object);
+  const auto* bytes = static_cast<const unsigned char*>(static_cast<const void*>(&object));
   if constexpr (kCount <= 16 || (kCount <= 256 && sizeof(void*) >= 8)) {
     return storage_detail::sum_in_line<T, kPart>(bytes, std::make_index_sequence<kCount>());
   } else {
