@@ -63,7 +63,7 @@ class Workshop:
             self.commands[entry["file"], target.rsplit("/", 1)[-1]] = words
         # A build that counts coverage is as good as another; its programs write no profile here.
         self.counts = any("-fprofile-instr-generate" in words for words in self.commands.values())
-        self.library = build / "libplumb_8.a"
+        self.core_archive = build / "libplumb_8.a"
         core = sorted((build / "CMakeFiles/plumb_core_tests.dir").rglob("*.o"))
         law = sorted((build / "CMakeFiles/plumb_law_objects.dir").rglob("*.o"))
         # Of the core's tests only the rooms that know decisions: a smaller program is linked sooner.
@@ -97,7 +97,7 @@ class Workshop:
         out = room / kind
         libraries = ["-lrapidcheck", "-lgmock", "-lgtest", "-lgtest_main", "-lpthread"]
         counting = ["-fprofile-instr-generate"] if self.counts else []
-        parts = map(str, [*objects, *rest, self.library])
+        parts = map(str, [*objects, *rest, self.core_archive])
         command = [COMPILER, *counting, "-fuse-ld=gold", "-o", str(out), *parts, *libraries]
         status, text = run(command, {}, 300, room)
         if status != 0:
