@@ -7,45 +7,11 @@
 #include <vector>
 
 #include "../src/io/plog_format.hpp"
-#include "files.hpp"
-#include "plumb/io/log_reader.hpp"
+#include "log_reading.hpp"
 
 namespace {
 
 using namespace plumb;
-
-struct Outcome {
-  std::uint64_t rows = 0;
-  std::uint64_t rows_bad = 0;
-  std::uint64_t hash = 0;
-};
-
-Outcome read_under(const std::string& path, io::BadRowPolicy policy) {
-  auto log = io::LogReader::open(path, fuzz::paper_tool(), policy);
-  if (!log) {
-    fuzz::demand_told(log.error());
-    return {};
-  }
-  log->hash_bytes();
-  Sample s;
-  double last_s = 0.0;
-  std::uint64_t rows = 0;
-  for (;;) {
-    const io::LogReader::Next next = log->next(s);
-    if (next == io::LogReader::Next::end) break;
-    if (next == io::LogReader::Next::error) {
-      fuzz::demand_told(log->error());
-      break;
-    }
-    fuzz::demand(s.time_s - s.time_s == 0.0 && (rows == 0 || s.time_s > last_s), "time is finite and increases");
-    fuzz::demand((s.delivered - fuzz::paper_tool().array.all()).empty(), "only sensors that there are");
-    fuzz::demand(s.temperature_degc - s.temperature_degc == 0.0, "a temperature that can be used");
-    last_s = s.time_s;
-    ++rows;
-  }
-  fuzz::demand(log->statistics().rows == rows, "rows are counted");
-  return {rows, log->statistics().rows_bad, log->statistics().hash};
-}
 
 void put_crc(std::vector<std::uint8_t>& log, std::size_t at, std::size_t begin, std::size_t end) {
   std::string crc;
@@ -77,14 +43,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<std::uint8_t> log(data, data + size);
   if (size % 2 == 0) mend(log);
   const fuzz::MemoryFile file(log.data(), log.size());
-  read_under(file.path(), io::BadRowPolicy::skip);
-  const Outcome mapped = read_under(file.path(), io::BadRowPolicy::stop);
+  fuzz::read_under(file.path(), io::BadRowPolicy::skip);
+  const fuzz::Outcome mapped = fuzz::read_under(file.path(), io::BadRowPolicy::stop);
   int ends[2];
   fuzz::demand(pipe(ends) == 0, "a pipe");
   if (log.size() < 60000) {  // what a pipe holds without a reader
     fuzz::demand(write(ends[1], log.data(), log.size()) == static_cast<ssize_t>(log.size()), "the pipe takes it");
     close(ends[1]);
-    const Outcome piped = read_under("/proc/self/fd/" + std::to_string(ends[0]), io::BadRowPolicy::stop);
+    const fuzz::Outcome piped = fuzz::read_under("/proc/self/fd/" + std::to_string(ends[0]), io::BadRowPolicy::stop);
     fuzz::demand(piped.rows == mapped.rows && piped.rows_bad == mapped.rows_bad && piped.hash == mapped.hash,
                  "a pipe gives what a file gives");
   } else {
