@@ -39,7 +39,7 @@ constexpr bool kVectors = sizeof(void*) >= 8;
 
 /// Written so that a NaN takes the clamp: no comparison with it is true.
 inline double whole_units(double error_mps2) noexcept {
-  const double units = (error_mps2 < 0.0 ? -error_mps2 : error_mps2) / kMaeUnit_mps2;
+  const double units = (error_mps2 < 0.0 ? -error_mps2 : error_mps2) * kMaeUnits_per_mps2;
   const double held = units < static_cast<double>(kMaeClamp) ? units : static_cast<double>(kMaeClamp);
   return (held + kNoFraction) - kNoFraction;
 }
@@ -129,7 +129,7 @@ int CombinationMae::replace_fours(const SensorArray& array, const Readings& y_mp
     const Four kept = square < none ? none : square;
     const Four length = {std::sqrt(kept[0]), std::sqrt(kept[1]), std::sqrt(kept[2]), std::sqrt(kept[3])};
     const Four error = length - g_mps2;
-    const Four units = (error < none ? -error : error) / kMaeUnit_mps2;
+    const Four units = (error < none ? -error : error) * kMaeUnits_per_mps2;
     const Four held = units < most ? units : most;
     const FourInts now = __builtin_convertvector((held + kNoFraction) - kNoFraction, FourInts);
     std::memcpy(slot, &now, sizeof now);

@@ -13,6 +13,6 @@ inline constexpr double kFormErrorInRange_m2ps4 = 0x1.35p-25;
 inline constexpr double kUnitsError_units = 0x1.000004p-1;
 /// An integer of the window against the exact error of a sample: form, root, difference and conversion together.
 /// Range of form.g, lengths 4 to 300 m/s^2, gravity 9 to 10 m/s^2. proofs/sample.g.
-inline constexpr double kSampleError_units = 0x1.1p-1;
+inline constexpr double kSampleError_units = 0x1.0ap-1;
 
 }  // namespace plumb_test

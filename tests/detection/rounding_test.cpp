@@ -159,7 +159,7 @@ RC_GTEST_PROP(RoundingLaw, SampleInTheWindowIsWithinItsProvedBound, ()) {
 std::int32_t scalar_units(const Form& q, double a, double b, double c, double g_mps2) {
   const double square = step_by_step(q, a, b, c);
   const double error = std::fabs(std::sqrt(square < 0.0 ? 0.0 : square) - g_mps2);  // a NaN stays one
-  const double units = error / kMaeUnit_mps2;
+  const double units = error * kMaeUnits_per_mps2;
   return units < kMaeClamp ? static_cast<std::int32_t>(std::nearbyint(units)) : kMaeClamp;
 }
 

@@ -1,5 +1,5 @@
 /// The paper's statistic: mean absolute error of the length of gravity from every triple over a
-/// sliding window, exact for ever. Errors are held as integers of 2^-26 g0, so that a sum
+/// sliding window, exact for ever. Errors are held as integers of 2^-22 m/s^2, so that a sum
 /// updated a billion times equals a fresh sum bit for bit, and a NaN cannot enter it.
 #pragma once
 
@@ -12,9 +12,11 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// One unit of the fixed-point errors [m/s^2].
-inline constexpr double kMaeUnit_mps2 = 9.80665 / 67108864.0;
-/// Largest error that is kept; larger ones (and non-finite ones) count as this, about 31.9 g0.
+/// One unit of the fixed-point errors [m/s^2], 2.4e-7: a power of two, so that the conversion is exact but for the
+/// rounding to a whole number, and a multiplication.
+inline constexpr double kMaeUnit_mps2 = 0x1p-22;
+inline constexpr double kMaeUnits_per_mps2 = 0x1p22;
+/// Largest error that is kept; larger ones (and non-finite ones) count as this, about 52 g0.
 inline constexpr std::int32_t kMaeClamp = 2140000000;
 
 /// Squared length of the vector that three readings make, by the six coefficients of their triple:
