@@ -1,0 +1,276 @@
+// A snapshot in which one figure was exchanged and the sums made true again: every figure, in every state of a monitor.
+// The laws of tests/health/snapshot_laws_test.cpp draw a few of them; each rule by which a state is judged has its own.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "first_calibration_support.hpp"
+#include "snapshot_support.hpp"
+
+namespace {
+
+using namespace plumb;
+using plumb_test::Bytes;
+using plumb_test::direction_at;
+using plumb_test::random_direction;
+using plumb_test::Rig;
+using plumb_test::snapshot_of;
+using plumb_test::Tool;
+using plumb_test::UncalibratedTool;
+
+/// Where every scalar of a snapshot lies: an archive that neither writes nor reads.
+class Places {
+ public:
+  struct Place {
+    std::size_t at, width;
+    bool real;
+  };
+  explicit Places(int sensors) : sensors_(sensors) {}
+  int sensors() const noexcept { return sensors_; }
+  void fail() noexcept { ADD_FAILURE() << "the monitor itself is none"; }
+  template <class T>
+  void done(T&) noexcept {}
+  template <class T, class Check>
+  void scalar(T&, const Check&) noexcept {
+    list.push_back({kSnapshotHeaderSize + end_, sizeof(T), std::is_same_v<T, double>});
+    end_ += sizeof(T);
+  }
+  std::size_t end() const { return end_; }
+
+  std::vector<Place> list;
+
+ private:
+  int sensors_;
+  std::size_t end_ = 0;
+};
+
+/// All of them, but of a long row of figures (covariances, stations) every eighth.
+std::vector<Places::Place> places_of(HealthMonitor& monitor) {
+  constexpr std::size_t kLongRow = 40, kOfLongRow = 8;
+  Places places(monitor.array().size());
+  transfer(places, monitor, AnyBits{});
+  EXPECT_EQ(kSnapshotFrameSize + places.end(), monitor.snapshot_size());
+  std::vector<Places::Place> out;
+  for (std::size_t k = 0; k < places.list.size();) {
+    std::size_t end = k;
+    while (end < places.list.size() && places.list[end].real) ++end;
+    const std::size_t step = end - k > kLongRow ? kOfLongRow : 1;
+    for (end = end > k ? end : k + 1; k < end; k += step) out.push_back(places.list[k]);
+    k = end;
+  }
+  return out;
+}
+
+std::uint64_t read(const Bytes& bytes, const Places::Place& p) {
+  std::uint64_t out = 0;
+  for (std::size_t k = 0; k < p.width; ++k) out |= std::uint64_t{bytes[p.at + k]} << (8 * k);
+  return out;
+}
+
+void write(Bytes& bytes, const Places::Place& p, std::uint64_t value) {
+  for (std::size_t k = 0; k < p.width; ++k) bytes[p.at + k] = static_cast<std::uint8_t>(value >> (8 * k));
+}
+
+/// What is put in the place of a figure: its neighbours, its bits, and what does most harm.
+std::vector<std::uint64_t> lies_for(std::uint64_t value, const Places::Place& p) {
+  if (!p.real) return {value ^ 1U, value ^ 2U, value ^ 4U, value + 1, value - 1, value ^ 8U, 0, ~std::uint64_t{0}};
+  double real = 0.0;
+  std::memcpy(&real, &value, sizeof real);
+  std::vector<std::uint64_t> out;
+  for (const double lie : {-real, 0.0, 2.0 * real + 1.0, 1e200, -1.0, real * (1.0 + 1e-12)}) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &lie, sizeof bits);
+    out.push_back(bits);
+  }
+  return out;
+}
+
+/// What a forged snapshot came to, and whether the monitor keeps its word for a while.
+struct Tally {
+  int refused = 0, taken = 0;
+};
+
+void expect_sane(const Verdict& v, int n) {
+  EXPECT_EQ(v.in_service | v.set_aside | v.excluded | v.absent, v.configured);
+  EXPECT_EQ(v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size(), n);
+  if (v.state == HealthState::failed) {
+    EXPECT_EQ(v.validity, Validity::invalid);
+  }
+  if (v.state == HealthState::suspect) {
+    EXPECT_NE(v.validity, Validity::valid);
+    EXPECT_NE(v.validity, Validity::degraded);
+  }
+}
+
+/// A refusal is told and leaves a monitor as fresh as one that was just switched on; what is taken is a state.
+void restore_forged(HealthMonitor& victim, const MonitorSetup& setup, const Bytes& bytes, const Sample& sample,
+                    Tally& tally) {
+  const Expected<void> taken = victim.restore(setup, bytes.data(), bytes.size());
+  if (!taken) {
+    ++tally.refused;
+    ASSERT_EQ(taken.error().code, Errc::snapshot_implausible);
+    ASSERT_EQ(victim.verdict().snapshot_refusal, Errc::snapshot_implausible);
+    ASSERT_NE(victim.verdict().qualifiers & Qualifier::unproven, 0);
+    return;
+  }
+  ++tally.taken;
+  for (int k = 0; k < 3; ++k) expect_sane(victim.step(sample), setup.array.size());
+}
+
+/// The figures of the monitor's snapshot, each with every lie.
+Tally forge_all(HealthMonitor& monitor, const MonitorSetup& setup, const Sample& sample, const std::string& name) {
+  const Bytes good = snapshot_of(monitor);
+  auto victim = std::make_unique<HealthMonitor>();
+  EXPECT_TRUE(victim->restore(setup, good.data(), good.size()).has_value()) << name;
+  Tally tally;
+  Bytes bytes = good;
+  for (const Places::Place& p : places_of(monitor)) {
+    const std::uint64_t true_value = read(good, p);
+    for (const std::uint64_t lie : lies_for(true_value, p)) {
+      write(bytes, p, lie);
+      if (bytes == good) continue;
+      plumb_test::seal(bytes);
+      restore_forged(*victim, setup, bytes, sample, tally);
+      if (testing::Test::HasFailure()) {
+        ADD_FAILURE() << name << ": byte " << p.at << ", " << true_value << " -> " << lie;
+        return tally;
+      }
+      bytes = good;
+    }
+  }
+  return tally;
+}
+
+/// Refusals must be the rule where much is remembered, and what is not judged must be taken.
+void expect_both(const Tally& tally, const std::string& name) {
+  EXPECT_GT(tally.refused, 100) << name;
+  EXPECT_GT(tally.taken, 100) << name;
+}
+
+void forge(Rig& rig, const std::string& name) {
+  HealthMonitor& monitor = rig.monitor;
+  const Sample next = rig.sample(direction_at(20, 200), kG0_mps2);
+  expect_both(forge_all(monitor, rig.setup, next, name), name);
+}
+
+void forge(UncalibratedTool& tool, const std::string& name) {
+  const Sample next = tool.sample(direction_at(20, 200));
+  expect_both(forge_all(tool.monitor, tool.setup, next, name), name);
+}
+
+RecalibrationPhase phase_of(const HealthMonitor& monitor) {
+  return monitor.recalibration().progress(monitor.array()).phase;
+}
+
+/// Steps until the collection has come to `phase`; under an inhibit an accepted fit waits.
+bool lead_to(Tool& tool, RecalibrationPhase phase) {
+  for (int k = 0; k < 60; ++k) {
+    const Vec3 u = random_direction(tool.directions);
+    for (int s = 0; s < 64; ++s) {
+      if (phase_of(tool.rig.monitor) == phase) return true;
+      if (phase_of(tool.rig.monitor) == RecalibrationPhase::fitting) tool.rig.monitor.inhibit(true);
+      tool.rig.step(tool.rig.sample(u, kG0_mps2));
+    }
+  }
+  return false;
+}
+
+// Negative: REQ-163
+TEST(ForgedFields, OfAProvenMonitorInTheMiddleOfABlock) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  for (int k = 0; k < 11; ++k) rig.step(rig.sample(direction_at(20, 30), kG0_mps2));
+  forge(rig, "nominal");
+}
+
+// Negative: REQ-163
+TEST(ForgedFields, OfASuspicionAndAnExclusion) {
+  Tool tool(4, {}, 3);
+  tool.rig.prove();
+  tool.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  tool.visit(2);
+  ASSERT_EQ(tool.state(), HealthState::suspect);
+  forge(tool.rig, "suspect");
+  Tool six(6, {}, 3);
+  six.rig.prove();
+  six.fault = tool.fault;
+  six.visit(8);
+  ASSERT_EQ(six.rig.monitor.verdict().excluded, SensorSet::of(2));
+  forge(six.rig, "excluded");
+}
+
+// Negative: REQ-163
+TEST(ForgedFields, OfARecalibrationInEachPhase) {
+  Tool tool(4, {}, 5);
+  tool.drift(2e-3);
+  tool.begin();
+  tool.visit(3);
+  forge(tool.rig, "collecting");
+  ASSERT_TRUE(lead_to(tool, RecalibrationPhase::fitting));
+  forge(tool.rig, "fitting");
+  ASSERT_TRUE(lead_to(tool, RecalibrationPhase::accepted));
+  forge(tool.rig, "accepted");
+  tool.rig.monitor.inhibit(false);
+  tool.visit(2);
+  ASSERT_EQ(tool.count(HealthEvent::fit_accepted), 1);
+  forge(tool.rig, "adopted");
+}
+
+// Negative: REQ-163
+TEST(ForgedFields, OfAnOfferThatWaitsAndOfOneThatIsTried) {
+  Tool tool(4, {}, 7);
+  tool.drift(1e-3);
+  tool.rig.prove();
+  SensorModel model = tool.rig.setup.model;
+  SensorArray array = tool.rig.setup.array;
+  for (std::size_t i = 0; i < 4; ++i) model.sensor[i].bias[0] = tool.bias[i];
+  plumb_test::leave_uncertainty(array, 3e-4, 3e-5);
+  ASSERT_TRUE(tool.rig.monitor.offer_calibration(model, array).has_value());
+  forge(tool.rig, "offered");
+  tool.visit(3);
+  ASSERT_EQ(tool.state(), HealthState::recalibrating);
+  forge(tool.rig, "offer tried");
+}
+
+// Negative: REQ-163
+TEST(ForgedFields, OfAFirstCalibrationAndWhatCameOfIt) {
+  UncalibratedTool tool(4, 3);
+  tool.start();
+  Vec3 u = direction_at(20, 200);
+  for (int k = 0; k < 5; ++k) tool.stay(random_direction(tool.noise));
+  forge(tool, "initial");
+  for (int k = 0; k < 4000 && phase_of(tool.monitor) == RecalibrationPhase::collecting; ++k) {
+    const Vec3 wanted = tool.monitor.verdict().recalibration.wanted_direction;
+    if (k % 32 == 0) u = norm(wanted) > 0.5 ? wanted : random_direction(tool.noise);
+    tool.step(tool.sample(u));
+  }
+  ASSERT_EQ(phase_of(tool.monitor), RecalibrationPhase::fitting);
+  forge(tool, "first fit");
+  tool.monitor.inhibit(true);
+  tool.follow(30);
+  ASSERT_EQ(phase_of(tool.monitor), RecalibrationPhase::accepted);
+  forge(tool, "first fit, accepted");
+  tool.monitor.inhibit(false);
+  tool.follow(30);
+  ASSERT_TRUE(tool.calibrated());
+  forge(tool, "calibrated by itself");
+}
+
+// Negative: REQ-163
+TEST(ForgedFields, OfAMonitorThatHasFailed) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  for (int k = 0; k < 50; ++k) {
+    Sample sample = rig.sample(direction_at(40, 10), kG0_mps2);
+    sample.delivered = SensorSet::first(2);
+    rig.step(sample);
+  }
+  ASSERT_EQ(rig.monitor.verdict().state, HealthState::failed);
+  forge(rig, "failed");
+}
+
+}  // namespace
