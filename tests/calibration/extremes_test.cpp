@@ -1,0 +1,217 @@
+// Numbers of every size in every place of a datasheet and of the stations: a fit ends with figures that are finite, or
+// with a reason. Overflow is no reason to go on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "calibration/temperature_support.hpp"
+#include "plumb/calibration/cross_check.hpp"
+#include "plumb/calibration/observability.hpp"
+#include "plumb/calibration/paper_calibration.hpp"
+
+namespace {
+
+using namespace temperature_test;
+using plumb::Calibration;
+using plumb::Datasheet;
+using plumb::DatasheetSensor;
+using plumb::Errc;
+using plumb::Expected;
+using plumb::FitOptions;
+using plumb::FitReport;
+using plumb::GravityReference;
+using plumb::Station;
+
+constexpr double kMost = std::numeric_limits<double>::max();
+
+/// From nothing to too much, and what is no number.
+constexpr double kSizes[] = {0.0,   5e-324, 1e-300, 1e-160, 1e-80,
+                             1e-20, 1e20,   1e80,   1e150,  1e155,
+                             1e160, 1e300,  kMost,  -1.0,   std::numeric_limits<double>::quiet_NaN()};
+
+struct Problem {
+  Datasheet sheet = paper_sheet();
+  GravityReference gravity = calibration_test::standard_gravity();
+  std::vector<Station> stations;
+  FitOptions options;
+
+  int count() const { return static_cast<int>(stations.size()); }
+};
+
+/// Twenty-four stations, at one temperature or at two.
+Problem sound(bool warmed = false) {
+  Problem p;
+  Noise noise(31);
+  p.stations = on_levels(temperature_test::draw_truth(p.sheet, noise),
+                         warmed ? levels_of(2) : std::vector<double>{25.0, 25.0}, noise);
+  return p;
+}
+
+using Change = std::function<void(Problem&, double)>;
+
+/// A number of one sensor, and the same of all.
+std::vector<Change> places() {
+  using Place = std::function<double&(DatasheetSensor&)>;
+  const std::vector<Place> of_sensor = {[](DatasheetSensor& s) -> double& { return s.row.sigma_mps2; },
+                                        [](DatasheetSensor& s) -> double& { return s.prior.bias_mps2; },
+                                        [](DatasheetSensor& s) -> double& { return s.prior.scale; },
+                                        [](DatasheetSensor& s) -> double& { return s.prior.axis_rad; },
+                                        [](DatasheetSensor& s) -> double& { return s.prior.bias_t_mps2[0]; },
+                                        [](DatasheetSensor& s) -> double& { return s.prior.scale_t[0]; },
+                                        [](DatasheetSensor& s) -> double& { return s.coefficients.scale[0]; },
+                                        [](DatasheetSensor& s) -> double& { return s.coefficients.bias[0]; },
+                                        [](DatasheetSensor& s) -> double& { return s.coefficients.scale[1]; }};
+  std::vector<Change> out;
+  for (const Place& place : of_sensor) {
+    out.push_back([place](Problem& p, double size) { place(p.sheet.sensor[1]) = size; });
+    out.push_back([place](Problem& p, double size) {
+      for (int i = 0; i < p.sheet.size; ++i) place(p.sheet.sensor[at(i)]) = size;
+    });
+  }
+  out.push_back([](Problem& p, double size) { p.gravity.g_mps2 = size; });
+  out.push_back([](Problem& p, double size) { p.stations[3].mean[2] = size; });
+  out.push_back([](Problem& p, double size) {
+    for (Station& s : p.stations) s.mean[2] = size;
+  });
+  out.push_back([](Problem& p, double size) {
+    for (Station& s : p.stations) s.mean.fill(size);
+  });
+  out.push_back([](Problem& p, double size) { p.stations[3].temperature_degc = size; });
+  out.push_back([](Problem& p, double size) { p.stations[3].scatter[1] = size; });
+  return out;
+}
+
+/// All places with all sizes: `judge` says what is wrong with the answer, in the way of EXPECT.
+void for_each_extreme(const std::function<void(Problem&)>& judge, bool warmed = false) {
+  const std::vector<Change> all = places();
+  for (std::size_t place = 0; place < all.size(); ++place) {
+    for (const double size : kSizes) {
+      SCOPED_TRACE(testing::Message() << "place " << place << ", size " << size);
+      Problem p = sound(warmed);
+      all[place](p, size);
+      judge(p);
+    }
+  }
+}
+
+void expect_finite(const Calibration& c) {
+  for (int i = 0; i < c.array.size(); ++i) {
+    EXPECT_NEAR(plumb::norm(c.array.axis(i)), 1.0, 1e-6) << i;
+    EXPECT_TRUE(std::isfinite(c.array.sigma_mps2(i))) << i;
+    EXPECT_TRUE(std::isfinite(c.model.sensor[at(i)].scale[0] + c.model.sensor[at(i)].bias[0])) << i;
+  }
+  for (const double v : c.array.uncertainty().covariance) EXPECT_TRUE(std::isfinite(v));
+  EXPECT_GE(c.report.p_value, 0.0);
+  EXPECT_LE(c.report.p_value, 1.0);
+}
+
+// Negative: REQ-034
+TEST(ExtremeNumbers, AFitIsFiniteOrRefused) {
+  int made = 0, refused = 0;
+  for (const bool estimated : {true, false}) {
+    for_each_extreme([&](Problem& p) {
+      p.options.estimate_misfit = estimated;
+      p.options.require_full_rank = estimated;
+      FitReport report;
+      const Expected<Calibration> c =
+          plumb::calibrate(p.sheet, p.gravity, p.stations.data(), p.count(), p.options, &report);
+      ++(c ? made : refused);
+      if (c) expect_finite(*c);
+    });
+  }
+  EXPECT_GT(made, 50);
+  EXPECT_GT(refused, 100);
+}
+
+// Negative: REQ-034
+TEST(ExtremeNumbers, AFitWithHeldAxesIsFiniteOrRefused) {
+  for_each_extreme([](Problem& p) {
+    for (int i = 0; i < p.sheet.size; ++i) p.sheet.sensor[at(i)].prior.axis_rad = 0.0;
+    p.options.estimate_misfit = false;
+    plumb::Calibrator fit(p.sheet, p.gravity, p.options);
+    const plumb::StationList list(p.stations.data(), p.count());
+    for (int k = 0; k < 200 && !fit.done(); ++k) fit.iterate_held(list);
+    plumb::HeldFit out;
+    if (fit.finish_held(list, out).code != Errc::ok) return;
+    for (int i = 0; i < p.sheet.size; ++i) EXPECT_TRUE(std::isfinite(out.length[at(i)] + out.bias_mps2[at(i)])) << i;
+    EXPECT_TRUE(std::isfinite(out.chi2));
+  });
+}
+
+// Negative: REQ-034
+TEST(ExtremeNumbers, AFitOverTemperatureIsFiniteOrRefused) {
+  for_each_extreme(
+      [](Problem& p) {
+        const Fit f = fit_of(p.sheet, p.stations, options_of(1));
+        if (f.made) expect_finite(*f.made);
+      },
+      true);
+}
+
+TEST(ExtremeNumbers, ThePapersFitStopsWithAReason) {
+  for_each_extreme([](Problem& p) {
+    for (const int n : {3, 4}) {
+      plumb::PaperFit fit;
+      const auto done =
+          plumb::paper_calibrate(p.sheet, p.gravity, p.stations.data(), p.count(), plumb::SensorSet::first(n), {}, fit);
+      if (!done) continue;
+      EXPECT_NE(fit.stop, plumb::StopReason::none);
+      if (fit.sound()) {
+        EXPECT_TRUE(std::isfinite(fit.cost));
+      }
+    }
+  });
+}
+
+TEST(ExtremeNumbers, ThePlannerNeverProposesWhatIsNoDirection) {
+  for_each_extreme([](Problem& p) {
+    auto planner = std::make_unique<plumb::StationPlanner>(p.sheet, p.gravity.g_mps2);
+    for (const double z : {1.0, -1.0}) planner->add({{0.0, 0.0, z}, plumb::SensorSet::first(4), 100.0});
+    const plumb::PlannedAttitude best = planner->best(100.0);
+    if (best.gain != 0.0) {
+      EXPECT_NEAR(plumb::norm(best.direction), 1.0, 1e-9);
+    }
+  });
+}
+
+TEST(ExtremeNumbers, NobodyIsAccusedByANumberThatIsNone) {
+  std::vector<Station> scratch(24);
+  for_each_extreme([&scratch](Problem& p) {
+    p.options.max_iterations = 20;
+    const plumb::OddSensor odd =
+        plumb::odd_sensor(p.sheet, p.gravity, p.stations.data(), p.count(), p.options, scratch.data());
+    EXPECT_GE(odd.sensor, -1);
+    EXPECT_LT(odd.sensor, 4);
+    EXPECT_FALSE(std::isnan(odd.ratio));
+  });
+}
+
+/// Readings that no ellipsoid holds: of noise alone, all alike, and in one plane.
+// Negative: REQ-034
+TEST(ExtremeNumbers, StationsOfNoToolAreRefused) {
+  for (int kind = 0; kind < 4; ++kind) {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+      Problem p = sound();
+      Noise noise(seed);
+      for (Station& s : p.stations) {
+        const double common = noise.normal();
+        for (int i = 0; i < 4; ++i) {
+          const double own = noise.normal();
+          s.mean[at(i)] = kind == 0   ? own
+                          : kind == 1 ? common
+                          : kind == 2 ? own * own * own
+                                      : (i < 2 ? own : std::sqrt(1.0 + own * own));
+        }
+      }
+      FitReport report;
+      EXPECT_FALSE(plumb::calibrate(p.sheet, p.gravity, p.stations.data(), p.count(), p.options, &report).has_value())
+          << kind << " " << seed;
+    }
+  }
+}
+
+}  // namespace
