@@ -199,6 +199,17 @@ TEST(HeldFitEdge, TakesAsManyStationsAsItCountsAndNoMore) {
   EXPECT_EQ(many.run().code, Errc::diverged);
 }
 
+TEST(StationListEdge, OnlyTheFirstCanBeLeftOut) {
+  std::vector<StationMean> means(60);
+  StationList list(means.data(), 60, SensorSet::first(4), 4);
+  EXPECT_EQ(list.size(), 45);
+  list.leave_out(StationList::kMarked - 1);
+  list.leave_out(StationList::kMarked);
+  EXPECT_EQ(list[StationList::kMarked - 1].count, 0U);
+  EXPECT_EQ(list[StationList::kMarked].count, 1U);
+  EXPECT_EQ(list[0].count, 1U);
+}
+
 TEST(HeldFitEdge, NumbersThatAreNoneAreRefused) {
   Held reading;
   reading.stations[5].mean[1] = kNan;
@@ -487,6 +498,29 @@ TEST(PaperEdge, StationsThatDoNotCountAreLeftOut) {
   EXPECT_FALSE(
       paper_calibrate(b.sheet, b.gravity, b.stations.data() + 48, 1, SensorSet::first(4), {}, none).has_value() &&
       none.stop == StopReason::converged);
+}
+
+/// A trace that is full takes no more, and the fit goes on.
+TEST(PaperEdge, AFullTraceTakesNoMore) {
+  Bench b;
+  auto trace = std::make_unique<PaperTrace>();
+  trace->size = kMaxPaperIterations + 1;
+  PaperFit fit;
+  EXPECT_TRUE(
+      paper_calibrate(b.sheet, b.gravity, b.stations.data(), b.count(), SensorSet::first(4), {}, fit, trace.get())
+          .has_value());
+}
+
+/// Held biases and scales with stations that stray. As few as there are parameters: nothing is left to judge by.
+TEST(HeldFitEdge, StraysRefuseItAndTooFewAreNotJudged) {
+  Held strays;
+  strays.stations[3].mean[1] += 0.2;
+  strays.stations[9].mean[2] -= 0.2;
+  EXPECT_NE(strays.run().code, Errc::ok) << "without the misfit there is no noise that explains them";
+  Held few(4);
+  few.run();
+  EXPECT_LE(few.out.degrees_of_freedom, 0);
+  EXPECT_EQ(few.out.p_value, 1.0);
 }
 
 TEST(PaperEdge, FormsOfArraysThatDoNotMatch) {

@@ -5,7 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "plumb/array/geometry.hpp"
 #include "plumb/detection/alarm_form.hpp"
+#include "plumb/detection/block_tests.hpp"
 #include "plumb/detection/detectable.hpp"
 #include "plumb/detection/mae_test.hpp"
 #include "plumb/detection/stationarity.hpp"
@@ -31,6 +33,52 @@ TEST(BlockEdge, OfNoSamplesThereIsNothingToJudge) {
   EXPECT_TRUE(j.evidence.usable.empty());
   EXPECT_EQ(restless_factor(0, 32, 1e-6), 0.0);
   EXPECT_EQ(restless_factor(4, 1, 1e-6), 0.0);
+}
+
+/// Sets that name sensors which no build has: those that there are count, and nothing is read beyond them.
+// Negative: REQ-140
+TEST(BlockEdge, SensorsThatThereAreNotAreNotRead) {
+  const SensorSet all(~std::uint32_t{0});
+  BlockAccumulator block;
+  Readings y{};
+  y.fill(1.0);
+  block.add(y, all, 1);
+  block.add(y, all, 1);
+  EXPECT_EQ(block.usable(), SensorSet::first(kCapacity));
+  EXPECT_EQ(block.mean()[kCapacity - 1], 1.0);
+  EXPECT_TRUE(block.holds());
+  LeastSquares map = least_squares(plumb_test::tetrahedron(kSigma), SensorSet::first(4));
+  const Vec3 x = map.estimate(y);
+  map.used = all;
+  EXPECT_EQ(map.estimate(y), x) << "columns of no sensor are zero";
+}
+
+/// Two pairs: without one of the single axes the others are a plane, so nobody vouches for it.
+// Negative: REQ-060
+TEST(BlockTestsEdge, NobodyVouchesForALengthThatNobodyChecks) {
+  AxisList axes{};
+  axes[0] = {1.0, 0.0, 0.0};
+  axes[1] = {0.0, 1.0, 0.0};
+  axes[2] = axes[3] = {0.0, 0.0, 1.0};
+  const SensorArray array = plumb_test::make_array(axes, 4, kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  BlockEvidence block;
+  block.usable = array.all();
+  block.samples = 32.0;
+  block.mean_mps2[2] = block.mean_mps2[3] = kG0_mps2;
+  const BlockTests tests(array, gravity, TestLimits::from_rates(4, 1e-5, 1e-6), block);
+  EXPECT_FALSE(tests.vouches_for_norm(array.all(), SetTest{}));
+  EXPECT_FALSE(tests.vouches_for_norm(array.all(), tests.of(array.all())));
+  const SensorArray cone = plumb_test::cone_array(6, kSigma);
+  for (int i = 0; i < 6; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = cone.axis(i)[2] * kG0_mps2;
+  block.usable = cone.all();
+  const BlockTests six(cone, gravity, TestLimits::from_rates(6, 1e-5, 1e-6), block);
+  SetTest badly_checked = six.of(cone.all());
+  badly_checked.least_leverage = 0.0;
+  for (double& c : badly_checked.covariance) c *= 10.0;
+  EXPECT_TRUE(six.vouches_for_norm(cone.all(), badly_checked)) << "the others say the same";
+  badly_checked.norm_error_mps2 += 1.0;
+  EXPECT_FALSE(six.vouches_for_norm(cone.all(), badly_checked)) << "the others deny it";
 }
 
 // Negative: REQ-052
@@ -129,6 +177,10 @@ TEST(ThresholdsEdge, AnArrayOfNothingProtectsNothing) {
   const double level = protection_level_rad(array, gravity, {});
   EXPECT_EQ(level, thresholds_of(array, gravity, {}).protection_rad);
   EXPECT_LT(level, 0.1);
+  TestSettings settings;
+  settings.false_alarm_rate = 1e-9;
+  settings.rejection_rate = 1e-2;
+  EXPECT_GT(protection_level_rad(array, gravity, settings), level) << "an alarm that is seldom hides more";
 }
 
 /// A stream into a finder, a sample at a time.

@@ -142,6 +142,12 @@ TEST(RawBlockEdge, OfNoSamplesThereIsNoMean) {
   const StationMean mean = none.mean(SensorSet::first(4), {0.0, 0.0, 1.0}, 32.0);
   EXPECT_EQ(mean.raw[0], 0.0);
   EXPECT_TRUE(none.holds());
+  RawBlock block;
+  std::array<double, kCapacity> raw{};
+  raw.fill(2.0);
+  block.add(raw, SensorSet(~std::uint32_t{0}), 20.0);
+  EXPECT_TRUE(block.holds());
+  EXPECT_EQ(block.mean(SensorSet::first(4), {0.0, 0.0, 1.0}, 32.0).raw[3], 2.0);
 }
 
 /// Coefficients that a laboratory hands in for some of the sensors: the others keep theirs, and their uncertainty.
@@ -178,6 +184,19 @@ TEST(OfferEdge, OnlyTheSensorsThatItIsForAreTaken) {
   SensorModel again = taken;
   shadow.fit->apply(again, into, shadow.gravity, 0.0, false);
   EXPECT_TRUE(plumb_test::same_model(again, taken));
+}
+
+/// Taken back before it was tried: nothing is left of it but the word.
+// Verifies: REQ-135
+TEST(OfferEdge, OneThatIsTakenBackInTimeIsGone) {
+  Shadow shadow(4, 14);
+  const Recalibration::InForce in_force = {shadow.model, shadow.array, shadow.gravity, shadow.limits};
+  shadow.fit->withdraw_offer();
+  EXPECT_EQ(shadow.step(0.0), Recalibration::Outcome::none) << "there was none";
+  ASSERT_TRUE(shadow.fit->offer(in_force, shadow.model, shadow.array, shadow.used, 0.0).has_value());
+  shadow.fit->withdraw_offer();
+  EXPECT_FALSE(shadow.fit->offered());
+  EXPECT_EQ(shadow.step(0.0), Recalibration::Outcome::rejected);
 }
 
 // Negative: REQ-135

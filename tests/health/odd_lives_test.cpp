@@ -144,6 +144,28 @@ TEST(OddLife, AFirstCalibrationKeepsTheSpanThatWasStated) {
   }
 }
 
+/// A sensor that never spoke is left out of it, and takes nothing of it.
+// Verifies: REQ-136
+TEST(OddLife, AFirstCalibrationOfThoseThatSpeak) {
+  UncalibratedTool tool(6, 5);
+  tool.silent = SensorSet::of(2);
+  tool.start();
+  tool.follow(80);
+  ASSERT_TRUE(tool.calibrated());
+  EXPECT_EQ(tool.monitor.calibrated(), SensorSet::first(6).without(2));
+  EXPECT_EQ(tool.monitor.array().axis(2), tool.setup.array.axis(2));
+}
+
+/// A scale far beyond what the datasheet leaves open is never adopted.
+// Negative: REQ-137
+TEST(OddLife, ASensorOfAnotherScaleThanItsDatasheetIsNotTakenForIt) {
+  UncalibratedTool tool(5, 6);
+  tool.truth(1).w = scaled(tool.truth(1).w, 1.15);
+  tool.start();
+  tool.roam(60);
+  EXPECT_FALSE(tool.calibrated());
+}
+
 /// Attitudes at which one sensor was silent are no part of the record by which gravity is judged.
 // Verifies: REQ-062
 TEST(OddLife, ALengthThatIsOffIsStudiedWhereAllDeliver) {
