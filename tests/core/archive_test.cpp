@@ -85,6 +85,35 @@ Outer example() {
   return object;
 }
 
+/// As many of its list as it says, which no archive believes.
+struct Boaster {
+  std::int64_t wide = 0;
+  int says = 0;
+  std::array<std::uint8_t, 4> list{};
+  int count() const noexcept { return says; }
+  static constexpr auto fields() noexcept {
+    return field_list(within(&Boaster::wide, -5'000'000'000, 5'000'000'000), within(&Boaster::says, -9, 9),
+                      counted(&Boaster::list, &Boaster::count));
+  }
+};
+
+TEST(Archive, ACountThatIsNoneIsNotFollowed) {
+  for (const int says : {-1, 0, 3, 4, 5, 9}) {
+    Boaster boaster;
+    boaster.wide = -4'999'999'999;
+    boaster.says = says;
+    std::array<std::uint8_t, 64> bytes{};
+    ArchiveWriter out(bytes.data(), bytes.size(), kSensors);
+    out.put(boaster);
+    EXPECT_EQ(out.used(), 12U + (says >= 0 && says <= 4 ? static_cast<std::size_t>(says) : 0U)) << says;
+    Boaster back;
+    ArchiveReader in(bytes.data(), bytes.size(), kSensors);
+    in.get(back);
+    EXPECT_EQ(back.wide, -4'999'999'999);
+    EXPECT_EQ(in.sound(), says >= 0 && says <= 4) << says;
+  }
+}
+
 TEST(Archive, BytesAreLittleEndianIeeeWithoutGaps) {
   const std::vector<std::uint8_t> expected = {
       1,                                         // flag

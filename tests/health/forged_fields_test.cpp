@@ -77,7 +77,7 @@ void write(Bytes& bytes, const Places::Place& p, std::uint64_t value) {
 
 /// What is put in the place of a figure: its neighbours, its bits, and what does most harm.
 std::vector<std::uint64_t> lies_for(std::uint64_t value, const Places::Place& p) {
-  if (!p.real) return {value ^ 1U, value ^ 2U, value ^ 4U, value + 1, value - 1, 3, 5, 6, 7, 0, ~std::uint64_t{0}};
+  if (!p.real) return {value ^ 1U, value ^ 2U, value ^ 4U, value + 1, value - 1, value ^ 8U, 0, ~std::uint64_t{0}};
   double real = 0.0;
   std::memcpy(&real, &value, sizeof real);
   std::vector<std::uint64_t> out;

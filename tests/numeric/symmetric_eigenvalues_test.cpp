@@ -55,6 +55,18 @@ TEST(SymmetricEigenvalues, OfDiagonalEmptyAndEqual) {
   EXPECT_NEAR(four[3], 4.0, 1e-15);
 }
 
+/// A chain: nothing on the diagonal, where the shift of every step may be nothing too.
+TEST(SymmetricEigenvalues, OfADiagonalOfZeros) {
+  for (int n = 2; n <= 9; ++n) {
+    std::vector<double> a(at(n * n)), values(at(n));
+    for (int i = 1; i < n; ++i) a[at(i * n + i - 1)] = a[at((i - 1) * n + i)] = 1.0;
+    ASSERT_TRUE(plumb::symmetric_eigenvalues(a.data(), n, n, values.data()));
+    for (int k = 0; k < n; ++k) {
+      EXPECT_NEAR(values[at(k)], -2.0 * std::cos((k + 1) * std::acos(-1.0) / (n + 1)), 1e-14) << n;
+    }
+  }
+}
+
 /// Twice the largest number is none.
 TEST(SymmetricEigenvalues, RefusesWhoseValuesAreBeyondTheRange) {
   const double most = std::numeric_limits<double>::max();
