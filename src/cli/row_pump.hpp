@@ -35,7 +35,7 @@ class RowPump {
 
  private:
   static constexpr std::size_t kBatchRows = 1024;  ///< some 64 kB of four sensors: they stay in the cache
-  static constexpr std::uint64_t kBatches = 4;
+  static constexpr std::uint64_t kBatches = 16;
 
   void fill(stepping::Rows& rows, std::size_t most);
   void read_ahead() noexcept;

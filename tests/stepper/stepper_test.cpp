@@ -1,15 +1,19 @@
 // The monitor that `plumb monitor` steps, of every capacity, beside the one for all arrays: the same bytes in every
 // output.
+#include <gtest/gtest.h>
+// RapidCheck's header needs what is above.
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/tool_runner.hpp"
 #include "monitor_pipeline.hpp"
 #include "monitor_report.hpp"
 #include "plumb/io/log_writer.hpp"
+#include "plumb/io/records.hpp"
 #include "plumb/report/health_page.hpp"
 #include "plumb/report/timeline.hpp"
 #include "support/recording.hpp"
