@@ -17,9 +17,11 @@
 
 #include "pairs.hpp"
 #include "plumb/core/units.hpp"
-#include "plumb/health/health_monitor.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
+#ifdef PLUMB_TOOL_PATH
+#include "monitor_pipeline.hpp"
+#endif
 
 extern char** environ;
 
@@ -84,54 +86,64 @@ const std::shared_ptr<Logs>& logs() {
   return both;
 }
 
-/// The whole log so many times; with `monitor` every sample goes through it.
-void read(const Logs& both, const std::string& path, std::size_t count, HealthMonitor* monitor) {
-  for (std::size_t k = 0; k < count; ++k) {
-    auto reader = io::LogReader::open(path, both.array(), io::BadRowPolicy::stop);
-    Sample sample;
-    double sum = 0.0;
-    while (reader && reader->next(sample) == io::LogReader::Next::row) {
-      sum += sample.raw[0];
-      if (monitor != nullptr) benchmark::DoNotOptimize(monitor->step(sample));
-    }
-    benchmark::DoNotOptimize(sum);
-  }
-}
-
-plumb_bench::Runs reading(bool binary, bool monitored) {
+/// The whole log so many times.
+plumb_bench::Runs reading(bool binary) {
   const std::shared_ptr<Logs> both = logs();
   if (!both->sound()) return {};
-  std::shared_ptr<MonitorSetup> setup;
-  auto monitor = std::make_shared<HealthMonitor>();
-  if (monitored) {
-    setup = std::make_shared<MonitorSetup>();
-    setup->array = both->array().array;
-    setup->model = both->array().datasheet.model();
-    setup->gravity = both->array().gravity;
-    setup->config = both->array().monitor;
-    if (!monitor->configure(*setup)) return {};
-  }
-  return [both, setup, monitor, binary](std::size_t count) {
-    if (setup) (void)monitor->configure(*setup);
-    read(*both, binary ? both->binary() : both->csv(), count, setup ? monitor.get() : nullptr);
+  return [both, binary](std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      auto reader = io::LogReader::open(binary ? both->binary() : both->csv(), both->array(), io::BadRowPolicy::stop);
+      Sample sample;
+      double sum = 0.0;
+      while (reader && reader->next(sample) == io::LogReader::Next::row) sum += sample.raw[0];
+      benchmark::DoNotOptimize(sum);
+    }
   };
 }
 
 const plumb_bench::Enrolled kReading{
     {"log: a binary row, read", "the same as CSV", 5.0, [] {
-       return plumb_bench::Contest{reading(true, false), reading(false, false), static_cast<double>(kRows)};
-     }}};
-const plumb_bench::Enrolled kMonitored{
-    {"log: a CSV row, read and monitored (24 sensors)", "reading alone", 1.0 / 1.6, [] {
-       return plumb_bench::Contest{reading(false, true), reading(false, false), static_cast<double>(kRows)};
-     }}};
-const plumb_bench::Enrolled kMonitoredBinary{
-    {"log: a binary row, read and monitored", "the same as CSV", 0.0, [] {
-       return plumb_bench::Contest{reading(true, true), reading(false, true), static_cast<double>(kRows)};
+       return plumb_bench::Contest{reading(true), reading(false), static_cast<double>(kRows)};
      }}};
 
+#ifdef PLUMB_TOOL_PATH
+/// The same as `plumb monitor` does it, for whom nothing but a change would be printed.
+plumb_bench::Runs monitoring(bool binary) {
+  const std::shared_ptr<Logs> both = logs();
+  if (!both->sound()) return {};
+  const auto calibration = std::make_shared<Calibration>();
+  calibration->array = both->array().array;
+  calibration->model = both->array().datasheet.model();
+  calibration->report.temperature_min_degc = MonitorConfig{}.temperature_min_degc;  // of any temperature
+  calibration->report.temperature_max_degc = MonitorConfig{}.temperature_max_degc;
+  return [both, calibration, binary](std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto stepper = cli::make_stepper(both->array(), calibration.get());
+      const auto run = cli::run_stepper(*stepper, both->array(), {binary ? both->binary() : both->csv()}, {});
+      if (!run || run->samples != kRows) std::abort();
+    }
+  };
+}
+
+plumb_bench::Contest monitored(bool binary, plumb_bench::Runs rival) {
+  return {monitoring(binary), std::move(rival), static_cast<double>(kRows)};
+}
+const plumb_bench::Enrolled kMonitored{{"log: a CSV row, read and monitored, processor time", "reading alone",
+                                        1.0 / 1.6, [] { return monitored(false, reading(false)); },
+                                        plumb_bench::Clock::program}};
+const plumb_bench::Enrolled kMonitoredByTheClock{{"log: a CSV row, read and monitored, by the clock", "reading alone",
+                                                  1.0 / 1.6, [] { return monitored(false, reading(false)); },
+                                                  plumb_bench::Clock::wall}};
+const plumb_bench::Enrolled kMonitoredBinary{{"log: a binary row, read and monitored, processor time",
+                                              "the same as CSV", 0.0, [] { return monitored(true, monitoring(false)); },
+                                              plumb_bench::Clock::program}};
+const plumb_bench::Enrolled kMonitoredBinaryByTheClock{
+    {"log: a binary row, read and monitored, by the clock", "the same as CSV", 0.0,
+     [] { return monitored(true, monitoring(false)); }, plumb_bench::Clock::wall}};
+#endif
+
 void BM_LogRead(benchmark::State& state) {
-  const plumb_bench::Runs runs = reading(state.range(0) != 0, false);
+  const plumb_bench::Runs runs = reading(state.range(0) != 0);
   if (!runs) return state.SkipWithError("no log");
   for (auto _ : state) runs(1);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kRows));

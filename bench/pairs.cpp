@@ -15,34 +15,37 @@ namespace {
 constexpr double kLeastRun_s = 0.01;
 constexpr int kRounds = 21;
 
-/// Processor time of this thread: others who use the machine do not count, but for the caches they take.
-double now_s() {
+/// Processor time: others who use the machine do not count, but for the caches they take. On the wall they do.
+double now_s(Clock clock) {
   timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(clock == Clock::thread    ? CLOCK_THREAD_CPUTIME_ID
+                : clock == Clock::program ? CLOCK_PROCESS_CPUTIME_ID
+                                          : CLOCK_MONOTONIC,
+                &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double seconds_of(const Runs& runs, std::size_t count) {
-  const double begin = now_s();
+double seconds_of(const Runs& runs, std::size_t count, Clock clock) {
+  const double begin = now_s(clock);
   runs(count);
-  return now_s() - begin;
+  return now_s(clock) - begin;
 }
 
 /// So many times that a run is long beside the clock.
-std::size_t enough(const Runs& runs) {
+std::size_t enough(const Runs& runs, Clock clock) {
   std::size_t count = 1;
-  while (seconds_of(runs, count) < kLeastRun_s && count < std::size_t{1} << 30U) count *= 2;
+  while (seconds_of(runs, count, clock) < kLeastRun_s && count < std::size_t{1} << 30U) count *= 2;
   return count;
 }
 
 /// Least time of one, of many rounds in which the two take turns.
-void compete(const Contest& contest, double& plumb_s, double& rival_s) {
-  const std::size_t ours = enough(contest.plumb);
-  const std::size_t theirs = enough(contest.rival);
+void compete(const Contest& contest, Clock clock, double& plumb_s, double& rival_s) {
+  const std::size_t ours = enough(contest.plumb, clock);
+  const std::size_t theirs = enough(contest.rival, clock);
   plumb_s = rival_s = 1e9;
   for (int k = 0; k < kRounds; ++k) {
-    plumb_s = std::min(plumb_s, seconds_of(contest.plumb, ours) / static_cast<double>(ours));
-    rival_s = std::min(rival_s, seconds_of(contest.rival, theirs) / static_cast<double>(theirs));
+    plumb_s = std::min(plumb_s, seconds_of(contest.plumb, ours, clock) / static_cast<double>(ours));
+    rival_s = std::min(rival_s, seconds_of(contest.rival, theirs, clock) / static_cast<double>(theirs));
   }
   plumb_s /= contest.each;
   rival_s /= contest.each;
@@ -90,7 +93,7 @@ int print_table() {
     }
     double ours = 0.0;
     double theirs = 0.0;
-    compete(contest, ours, theirs);
+    compete(contest, pair.clock, ours, theirs);
     char bar[32] = "";
     if (pair.least > 0.0) std::snprintf(bar, sizeof bar, "%.3g", pair.least);
     std::printf("| %s | %s | %s | %s | %.2f | %s |\n", pair.work.c_str(), time_text(ours).c_str(), pair.rival.c_str(),

@@ -18,11 +18,15 @@ struct Contest {
   double each = 1.0;  ///< pieces of work in one run, as rows of a log
 };
 
+/// Whose time: the processor's for this thread, or for all threads of the program; that on the wall.
+enum class Clock { thread, program, wall };
+
 struct Pair {
   std::string work;
   std::string rival;
   double least = 0.0;  ///< the rival's time over plumb's, as asked for; 0: nothing was
   std::function<Contest()> make;
+  Clock clock = Clock::thread;  ///< of both
 };
 
 struct Figure {

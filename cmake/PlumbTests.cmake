@@ -130,6 +130,14 @@ if(TARGET plumb_report AND TARGET plumb_tool)
   endif()
 endif()
 
+# The monitors of several capacities behind `plumb monitor`, linked into one program.
+if(TARGET plumb_cli)
+  plumb_test_executable(plumb_stepper_tests LABEL host ROOMS stepper LIBRARIES plumb_cli)
+  set_target_properties(plumb_stepper_tests PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # one file does not pay for them
+  add_dependencies(plumb_stepper_tests plumb_tool)
+  target_compile_definitions(plumb_stepper_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
+endif()
+
 # The model's states counted without the model checker, and its table against the tool's.
 add_library(plumb_model_shim STATIC EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/model/shim.cpp")
 plumb_compile_settings(plumb_model_shim)

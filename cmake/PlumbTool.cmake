@@ -20,6 +20,17 @@ if(cli_sources)
   endforeach()
   target_link_libraries(plumb_cli PUBLIC CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
 
+  # What steps the rows of a log, with the monitors for 4, 8 and 24 sensors. By path: a target would hand its capacity on.
+  plumb_sources(stepper_sources cli/kernel)
+  foreach(capacity IN LISTS PLUMB_KERNELS)
+    add_library(plumb_stepper_${capacity} STATIC ${stepper_sources})
+    plumb_compile_settings(plumb_stepper_${capacity})
+    target_link_libraries(plumb_stepper_${capacity} PUBLIC plumb_${capacity})
+    target_link_libraries(plumb_cli PUBLIC "$<LINK_ONLY:plumb_stepper_${capacity}>")
+    set_property(SOURCE "${PROJECT_SOURCE_DIR}/src/cli/steppers.cpp" APPEND PROPERTY
+      COMPILE_DEFINITIONS PLUMB_STEPPER_${capacity})
+  endforeach()
+
   add_executable(plumb_tool "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
   set_target_properties(plumb_tool PROPERTIES OUTPUT_NAME plumb)
   plumb_compile_settings(plumb_tool)

@@ -79,6 +79,7 @@ class TableSink : public VerdictSink {
     if (verdict.transition.sequence != 0) print_now(report::table_line(report::row_of(verdict, array_, frame_)));
     return {};
   }
+  stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
 
  private:
   const SensorArray& array_;
@@ -215,9 +216,10 @@ io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonito
 /// `run` has refused the options: there is nothing to keep.
 io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
 
-/// The run itself, with either monitor.
+/// The run itself, with either monitor; `stepper`, where there is one, is stepped in its place.
 template <class Monitor>
-io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor) {
+io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor,
+                   stepping::Stepper* stepper = nullptr) {
   const SensorArray& sensors = monitor.array();
   std::vector<scenario::HostRequest> requests;
   for (const std::string& text : options.host) {
@@ -232,7 +234,8 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   watch_interrupts();
   LogSpec log = options.log;
   log.hash = !options.report.empty();
-  const io::FileExpected<MonitorRun> done = run_monitor(monitor, array, log, outputs.sinks, host);
+  const io::FileExpected<MonitorRun> done = stepper != nullptr ? run_stepper(*stepper, array, log, outputs.sinks)
+                                                               : run_monitor(monitor, array, log, outputs.sinks, host);
   if (!done) return report(done.error());
   io::FileExpected<void> kept = commit(outputs, *done);
   if (kept) kept = keep(options.snapshot_out, monitor);
@@ -258,6 +261,14 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   return io::ExitCode::not_accepted;
 }
 
+/// The monitor that a run steps: of the smallest build that holds the array. A snapshot is bound to the capacity that
+/// wrote it, so that a run with one, or with requests of a host, keeps to the monitor for all arrays (null).
+std::unique_ptr<stepping::Stepper> stepper_of(const MonitorOptions& options, const io::ArrayFile& array,
+                                              const Calibration* calibration) {
+  const bool kept = !options.snapshot_in.empty() || !options.snapshot_out.empty() || !options.host.empty();
+  return kept ? nullptr : make_stepper(array, calibration);
+}
+
 /// --limits: what the monitor would decide by.
 io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& calibrated) {
   const report::MonitorLimits limits = report::monitor_limits(calibrated, array.gravity, array.monitor);
@@ -273,7 +284,8 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
   }
   const auto monitor =
       options.snapshot_in.empty() ? make_monitor(array, nullptr) : restore_monitor(array, nullptr, options.snapshot_in);
-  return monitor ? watch(options, array, **monitor) : report(monitor.error());
+  if (!monitor) return report(monitor.error());
+  return watch(options, array, **monitor, stepper_of(options, array, nullptr).get());
 }
 
 void warn_of_stations(const io::ArrayFile& array) {
@@ -318,8 +330,9 @@ io::ExitCode run(const MonitorOptions& options) {
   const auto monitor = options.snapshot_in.empty()
                            ? make_monitor(*array, &calibration->calibration)
                            : restore_monitor(*array, &calibration->calibration, options.snapshot_in);
-  if (monitor && options.limits) return tell_limits(options, *array, (*monitor)->array());
-  return monitor ? watch(options, *array, **monitor) : report(monitor.error());
+  if (!monitor) return report(monitor.error());
+  if (options.limits) return tell_limits(options, *array, (*monitor)->array());
+  return watch(options, *array, **monitor, stepper_of(options, *array, &calibration->calibration).get());
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include "monitor_pipeline.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "plumb/io/records.hpp"
+#include "row_pump.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -68,6 +70,24 @@ tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::Array
     error.remedy = "calibrate with plumb calibrate, or give the tolerances of the datasheet, 1 sigma";
   }
   return tl::unexpected<io::FileError>(error);
+}
+
+/// Every sink every row whose verdict somebody wanted: it chooses itself.
+io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& said,
+                            const std::vector<VerdictSink*>& sinks) {
+  stepping_detail::Unpacker unpacker(said.bytes.data());
+  Sample sample;
+  Verdict verdict;
+  for (const std::size_t k : said.row) {
+    stepping_detail::take_row(rows, k, sample);
+    unpacker(verdict);
+    for (VerdictSink* sink : sinks) {
+      if (!rows.depth_m.empty()) sink->at_depth(rows.depth_m[k]);
+      const io::FileExpected<void> taken = sink->take(sample, verdict);
+      if (!taken) return taken;
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -146,36 +166,49 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
   return refused_setup(configured.error(), array);
 }
 
-io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
-                                       const std::vector<VerdictSink*>& sinks) {
+std::unique_ptr<stepping::Stepper> make_stepper(const io::ArrayFile& array, const Calibration* calibration,
+                                                int least_capacity) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration);
+  if (!setup) return nullptr;
+  const int sensors = (*setup)->array.size();
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < sensors; ++i) rows[static_cast<std::size_t>(i)] = (*setup)->array.row(i);
+  std::vector<std::uint8_t> bytes(2 * sizeof(MonitorSetup));
+  stepping_detail::Packer packer(bytes.data());
+  stepping_detail::lead(packer, std::as_const(**setup), rows, (*setup)->array.uncertainty());
+  return stepping::make_stepper(bytes, sensors, array.monitor.window, least_capacity);
+}
+
+io::FileExpected<MonitorRun> run_stepper(stepping::Stepper& stepper, const io::ArrayFile& array, const LogSpec& log,
+                                         const std::vector<VerdictSink*>& sinks) {
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
   if (log.follow) reader->follow();
   if (log.hash) reader->hash_bytes();
-  const bool has_depth = !array.input.depth_column.empty();
+  stepping::Wanted wanted = stepping::Wanted::changes;
+  for (const VerdictSink* sink : sinks) wanted = std::max(wanted, sink->wanted());
   MonitorRun run;
+  stepping::Said said;
   Progress progress("monitoring " + log.path);
-  Sample sample;
-  io::LogReader::Next status = reader->next(sample);
-  for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
-    if (watch.turn && !array.input.rotation_columns.empty()) watch.turn(reader->rotation());
-    const Verdict& verdict = watch.step(sample);
-    ++run.samples;
-    if (verdict.tick) ++run.blocks;
-    if (verdict.transition.sequence != 0) ++run.transitions;
-    run.last_time_s = sample.time_s;
-    for (VerdictSink* sink : sinks) {
-      if (has_depth) sink->at_depth(reader->depth_m());
-      const io::FileExpected<void> taken = sink->take(sample, verdict);
-      if (!taken) return tl::unexpected<io::FileError>(taken.error());
-    }
-    progress.at(run.samples, sample.time_s);
+  RowPump pump(*reader, array, is_live(log));
+  while (const stepping::Rows* rows = pump.next()) {
+    stepper.step(*rows, run.samples == 0, wanted, said);
+    const io::FileExpected<void> told = tell(*rows, said, sinks);
+    if (!told) return tl::unexpected<io::FileError>(told.error());
+    run.samples += rows->row.size();
+    run.blocks += said.blocks;
+    run.transitions += said.changes;
+    run.last_time_s = rows->row.back().time_s;
+    progress.at(run.samples, run.last_time_s);
   }
   run.interrupted = interrupted();
-  run.stopped = status == io::LogReader::Next::error;
+  run.stopped = pump.ended() == io::LogReader::Next::error;
   if (run.stopped) run.stop = reader->error();
-  run.last = watch.now;
+  said.clear();
+  stepper.now(said.bytes);
+  stepping_detail::Unpacker unpacker(said.bytes.data());
+  unpacker(run.last);
   run.log = reader->statistics();
   return run;
 }

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "kernel/step_rows.hpp"
 #include "pipeline.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/health/paper_monitor.hpp"
@@ -19,7 +18,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 
-/// Receives every sample with its verdict, in order.
+/// Receives samples with their verdicts, in order: the first of the run, and at least those that it wants.
 class VerdictSink {
  public:
   VerdictSink() = default;
@@ -27,6 +26,7 @@ class VerdictSink {
   VerdictSink& operator=(const VerdictSink&) = delete;
   virtual ~VerdictSink() = default;
   virtual io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) = 0;
+  virtual stepping::Wanted wanted() const { return stepping::Wanted::samples; }
   /// Before `take`, where the array file names a depth column; NaN where its cell says nothing.
   virtual void at_depth(double) {}
 };
@@ -38,6 +38,7 @@ class EventsFile : public VerdictSink {
   EventsFile(io::OutputFile file, const SensorArray& array, bool live)
       : file_(std::move(file)), array_(array), live_(live) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
+  stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
   io::FileExpected<void> commit() { return file_.commit(); }
 
  private:
@@ -53,6 +54,9 @@ class VerdictsFile : public VerdictSink {
   VerdictsFile(io::OutputFile file, const SensorArray& array, const Mat3& frame, bool every_sample, bool live)
       : file_(std::move(file)), array_(array), frame_(frame), every_sample_(every_sample), live_(live) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
+  stepping::Wanted wanted() const override {
+    return every_sample_ ? stepping::Wanted::samples : stepping::Wanted::blocks;
+  }
   io::FileExpected<void> commit() { return file_.commit(); }
 
  private:
@@ -100,30 +104,39 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
                                                                    const io::CalibrationFile& calibration,
                                                                    const std::string& path);
 
-/// What a run needs of a monitor, whichever it is.
-struct Watch {
-  std::function<const Verdict&(const Sample&)> step;
-  const Verdict& now;                         ///< the monitor's verdict
-  std::function<void(const Rotation&)> turn;  ///< where the monitor makes use of it
-};
+/// The stepper for a log of this array: a monitor of the smallest build that holds it, with the setup of
+/// `make_monitor`, whose outcome it shares: to be asked for only where that was made. Null where this program has none
+/// of `least_capacity` or more that holds it.
+std::unique_ptr<stepping::Stepper> make_stepper(const io::ArrayFile& array, const Calibration* calibration,
+                                                int least_capacity = 0);
 
-/// Steps all samples of the log through the monitor; `run_monitor` lets `host` ask of it what it has to ask. An error
-/// of the log is returned in `stop`, an error of a sink (a file that cannot be written) as the error.
-io::FileExpected<MonitorRun> run_watch(const Watch& watch, const io::ArrayFile& array, const LogSpec& log,
-                                       const std::vector<VerdictSink*>& sinks);
+/// Steps all samples of the log. An error of the log is returned in `stop`, an error of a sink (a file that cannot be
+/// written) as the error.
+io::FileExpected<MonitorRun> run_stepper(stepping::Stepper& stepper, const io::ArrayFile& array, const LogSpec& log,
+                                         const std::vector<VerdictSink*>& sinks);
+
+/// Steps a monitor that somebody else keeps, and lets `host` ask of it what it has to ask.
+template <class Monitor>
+class HostedStepper final : public stepping::Stepper {
+ public:
+  HostedStepper(Monitor& monitor, scenario::Host& host) : monitor_(monitor), host_(host) {}
+  void step(const stepping::Rows& rows, bool first, stepping::Wanted wanted, stepping::Said& said) override {
+    stepping_detail::step_rows(monitor_, rows, first, wanted, said,
+                               [this](double time_s) { host_.before(time_s, monitor_); });
+  }
+  void now(std::vector<std::uint8_t>& bytes) const override { stepping_detail::pack(monitor_.verdict(), bytes); }
+  int capacity() const noexcept override { return kCapacity; }
+
+ private:
+  Monitor& monitor_;
+  scenario::Host& host_;
+};
 
 template <class Monitor>
 io::FileExpected<MonitorRun> run_monitor(Monitor& monitor, const io::ArrayFile& array, const LogSpec& log,
                                          const std::vector<VerdictSink*>& sinks, scenario::Host& host) {
-  const auto step = [&monitor, &host](const Sample& sample) -> const Verdict& {
-    host.before(sample.time_s, monitor);
-    return monitor.step(sample);
-  };
-  std::function<void(const Rotation&)> turn;
-  if constexpr (std::is_same_v<Monitor, HealthMonitor>) {
-    turn = [&monitor](const Rotation& rotation) { (void)monitor.set_rotation(rotation); };  // the reader's are finite
-  }
-  return run_watch({step, monitor.verdict(), turn}, array, log, sinks);
+  HostedStepper<Monitor> stepper(monitor, host);
+  return run_stepper(stepper, array, log, sinks);
 }
 
 }  // namespace cli
