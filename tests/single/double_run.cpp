@@ -3,6 +3,8 @@
 
 namespace single_test {
 
-std::vector<Told> double_run(double sigma_mps2, std::uint32_t seed) { return recorded_run(sigma_mps2, seed); }
+std::vector<Told> double_run(double sigma_mps2, std::uint32_t seed, bool rough) {
+  return recorded_run(sigma_mps2, seed, rough);
+}
 
 }  // namespace single_test

@@ -16,7 +16,18 @@ namespace {
 
 using namespace plumb;
 
-double any_in(double low, double high) { return low + (high - low) * (*rc::gen::inRange(0, 1 << 30) / 1073741824.0); }
+/// Even numbers from a seed: a generator of the library would start with the least of each, and three equal axes.
+class Even {
+ public:
+  explicit Even(std::uint32_t seed) : random_(seed) {}
+  double in(double low, double high) {
+    random_ = random_ * 1664525U + 1013904223U;
+    return low + (high - low) * ((random_ >> 8U) / 16777216.0);
+  }
+
+ private:
+  std::uint32_t random_;
+};
 
 struct Near {
   std::array<double, 3> reading{}, difference{};
@@ -24,11 +35,11 @@ struct Near {
 };
 
 /// Three axes that vote, readings of a length from 8 to 12 m/s^2, differences up to `most`.
-Near any_near(double most_mps2) {
+Near any_near(double most_mps2, Even& even) {
   for (;;) {
     std::array<Vec3, 3> axis{};
     for (Vec3& h : axis) {
-      h = {any_in(-1.0, 1.0), any_in(-1.0, 1.0), any_in(-1.0, 1.0)};
+      h = {even.in(-1.0, 1.0), even.in(-1.0, 1.0), even.in(-1.0, 1.0)};
       if (norm(h) > 0.1) h = scaled(h, 1.0 / norm(h));
     }
     std::array<SensorRow, 3> rows{};
@@ -40,11 +51,11 @@ Near any_near(double most_mps2) {
     if (!array || !array->triple(0).votes) continue;
     Near out;
     out.form = array->form(0);
-    const Vec3 towards = {any_in(-1.0, 1.0), any_in(-1.0, 1.0), any_in(0.1, 1.0)};
-    const Vec3 x = scaled(towards, any_in(8.0, 12.0) / norm(towards));
+    const Vec3 towards = {even.in(-1.0, 1.0), even.in(-1.0, 1.0), even.in(0.1, 1.0)};
+    const Vec3 x = scaled(towards, even.in(8.0, 12.0) / norm(towards));
     for (std::size_t i = 0; i < 3; ++i) {
       out.reading[i] = dot(axis[i], x);
-      out.difference[i] = any_in(-most_mps2, most_mps2);
+      out.difference[i] = even.in(-most_mps2, most_mps2);
     }
     return out;
   }
@@ -83,15 +94,17 @@ Made made_of(const Near& n) {
 }
 
 RC_GTEST_PROP(NearLengthsLaw, TheChangeOfASquareIsWithinTheProvedBound, ()) {
-  const Made made = made_of(any_near(0.125));
+  Even even(*rc::gen::arbitrary<std::uint32_t>());
+  const Made made = made_of(any_near(0.125, even));
   RC_ASSERT(std::fabs(static_cast<long double>(made.change) - made.exact_change) <=
             static_cast<long double>(plumb_test::kNearFormError_m2ps4));
 }
 
 RC_GTEST_PROP(NearLengthsLaw, TheIntegerIsWithinTheProvedBound, ()) {
-  const Made made = made_of(any_near(0.125));
+  Even even(*rc::gen::arbitrary<std::uint32_t>());
+  const Made made = made_of(any_near(0.125, even));
   RC_PRE(std::fabs(made.exact_change) <= 8.0L);
-  const double g_mps2 = any_in(9.0, 10.0);
+  const double g_mps2 = even.in(9.0, 10.0);
   NearLength length;
   length.take(static_cast<double>(made.square), g_mps2);
   const std::int32_t units = length.units(made.change);
@@ -113,20 +126,16 @@ TEST(NearLengths, AreWithinAUnitForThePapersAxes) {
   const Expected<SensorArray> array = SensorArray::make(rows.data(), 4);
   ASSERT_TRUE(array.has_value());
   long double worst = 0.0L;
-  std::uint32_t random = 1;
-  const auto uniform = [&random] {
-    random = random * 1664525U + 1013904223U;
-    return (random >> 8U) / 8388608.0 - 1.0;
-  };
+  Even even(1);
   for (int k = 0; k < 100000; ++k) {
     const Triple& t = array->triple(k % 4);
-    const Vec3 towards = {uniform(), uniform(), uniform()};
+    const Vec3 towards = {even.in(-1.0, 1.0), even.in(-1.0, 1.0), even.in(-1.0, 1.0)};
     if (norm(towards) < 0.1) continue;
     Near n;
     n.form = array->form(k % 4);
     for (std::size_t i = 0; i < 3; ++i) {
       n.reading[i] = dot(array->axis(t.sensors[i]), scaled(towards, kG0_mps2 / norm(towards)));
-      n.difference[i] = 0.02 * uniform();
+      n.difference[i] = 0.02 * even.in(-1.0, 1.0);
     }
     const Made made = made_of(n);
     NearLength length;

@@ -15,6 +15,7 @@
 namespace {
 
 constexpr int kRunSteps = 10000;
+constexpr int kFirstFault = 3000;
 
 /// Raw values are volts: 2 V/g0 or so, an offset, and a thermometer that drifts.
 inline plumb::MonitorSetup four_sensors(double sigma_mps2) {
@@ -38,18 +39,20 @@ inline plumb::MonitorSetup four_sensors(double sigma_mps2) {
   return setup;
 }
 
-/// A new attitude every 4 s, 100 samples a second, turned to over 0.2 s; single spikes, some as the first sample of a
-/// block; a2 is dead from 30 s to 55 s, a3 is silent from 70 s on, the whole tool shakes from 60 s to 62 s.
+/// A new attitude every 4 s, 100 samples a second, turned to over 0.2 s; where it is `rough` single spikes, some as the
+/// first sample of a block; a2 is dead from 30 s to 55 s, a3 is silent from 70 s on, the whole tool shakes from 60 s to
+/// 62 s.
 class RecordedRun {
  public:
-  RecordedRun(const plumb::MonitorSetup& setup, std::uint32_t seed) : setup_(&setup), random_(seed) {}
+  RecordedRun(const plumb::MonitorSetup& setup, std::uint32_t seed, bool rough)
+      : setup_(&setup), random_(seed), rough_(rough) {}
 
   plumb::Sample sample(int k) {
     const int stand = k / 400;
     const double into = (k % 400) / 20.0, late = into < 1.0 ? into - 1.0 : 0.0;
     const double tilt_rad = 0.3 + 0.15 * ((stand + late) - 6.0 * std::floor((stand + late) / 6.0));
     const double turn_rad = 1.1 * (stand + late);
-    const double shaken = k >= 6000 && k < 6200 ? 3.0 * std::sin(0.7 * k) : 0.0;
+    const double shaken = rough_ && k >= 6000 && k < 6200 ? 3.0 * std::sin(0.7 * k) : 0.0;
     const plumb::Vec3 down = {std::sin(tilt_rad) * std::cos(turn_rad), std::sin(tilt_rad) * std::sin(turn_rad),
                               std::cos(tilt_rad)};
     plumb::Sample out;
@@ -60,11 +63,11 @@ class RecordedRun {
       const plumb::Vec3 axis = setup_->array.axis(i);
       const double y =
           plumb::kG0_mps2 * plumb::dot(axis, down) + shaken * axis[0] + noise() * setup_->array.sigma_mps2(i);
-      const double spike = k % 997 == 32 * (i + 1) ? 40.0 : 0.0;
+      const double spike = rough_ && k % 997 == 32 * (i + 1) ? 40.0 : 0.0;
       out.raw[static_cast<std::size_t>(i)] = setup_->model.scale_at(i, out.temperature_degc) *
                                              (y + spike + setup_->model.bias_at(i, out.temperature_degc));
     }
-    if (k >= 3000 && k < 5500) out.raw[1] = 0.0;
+    if (k >= kFirstFault && k < 5500) out.raw[1] = 0.0;
     if (k >= 7000) out.delivered = out.delivered.without(2);
     return out;
   }
@@ -81,6 +84,7 @@ class RecordedRun {
   }
   const plumb::MonitorSetup* setup_;
   std::uint32_t random_;
+  bool rough_;
 };
 
 inline single_test::Told told_by(const plumb::Verdict& v) {
@@ -110,12 +114,12 @@ inline single_test::Told told_by(const plumb::Verdict& v) {
   return out;
 }
 
-inline std::vector<single_test::Told> recorded_run(double sigma_mps2, std::uint32_t seed) {
+inline std::vector<single_test::Told> recorded_run(double sigma_mps2, std::uint32_t seed, bool rough) {
   const plumb::MonitorSetup setup = four_sensors(sigma_mps2);
   const auto monitor = std::make_unique<plumb::HealthMonitor>();
   std::vector<single_test::Told> out;
   if (!monitor->configure(setup)) return out;
-  RecordedRun run(setup, seed);
+  RecordedRun run(setup, seed, rough);
   for (int k = 0; k < kRunSteps; ++k) {
     if (k == 5800) static_cast<void>(monitor->reset(setup.config.reset_key, plumb::SensorSet::of(1)));
     out.push_back(told_by(monitor->step(run.sample(k))));

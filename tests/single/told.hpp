@@ -15,6 +15,6 @@ struct Told {
   std::array<double, 2> mae_mps2{};
 };
 
-std::vector<Told> double_run(double sigma_mps2, std::uint32_t seed);
+std::vector<Told> double_run(double sigma_mps2, std::uint32_t seed, bool rough);
 
 }  // namespace single_test
