@@ -3,7 +3,7 @@
 option(PLUMB_ALL_CAPACITIES "Build floors 1-4 for 4 and 16 sensors too (8 is always built, 24 for the host)" ON)
 option(PLUMB_RECALIBRATION "The monitor can estimate biases and scales anew; OFF spares an instrument the code" ON)
 option(PLUMB_FIRST_CALIBRATION "The monitor can make its very first calibration (needs PLUMB_RECALIBRATION)" ON)
-set(PLUMB_SCALAR double CACHE STRING "Type of what runs at every sample: double, or float for a processor with single precision only")
+set(PLUMB_SCALAR double CACHE STRING "Type of what runs at every sample: double, or float for a processor without double precision")
 set_property(CACHE PLUMB_SCALAR PROPERTY STRINGS double float)
 option(PLUMB_FAST_STEP "Compile what runs at every sample with -O2, for builds at -Os" OFF)
 option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})

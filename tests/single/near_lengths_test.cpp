@@ -61,9 +61,11 @@ Near any_near(double most_mps2, Even& even) {
   }
 }
 
+constexpr long double wide(double value) { return static_cast<long double>(value); }
+
 long double square_of(const TripleForm& q, const std::array<long double, 3>& y) {
-  return q[0] * y[0] * y[0] + q[1] * y[1] * y[1] + q[2] * y[2] * y[2] + q[3] * y[0] * y[1] + q[4] * y[0] * y[2] +
-         q[5] * y[1] * y[2];
+  return wide(q[0]) * y[0] * y[0] + wide(q[1]) * y[1] * y[1] + wide(q[2]) * y[2] * y[2] + wide(q[3]) * y[0] * y[1] +
+         wide(q[4]) * y[0] * y[2] + wide(q[5]) * y[1] * y[2];
 }
 
 /// What the kernel makes of it, and what it should.
@@ -85,8 +87,8 @@ Made made_of(const Near& n) {
   out.change = near_change(slope, single, d[0], d[1], d[2]);
   std::array<long double, 3> at{}, moved{};
   for (std::size_t k = 0; k < 3; ++k) {
-    at[k] = y[k];
-    moved[k] = at[k] + static_cast<long double>(n.difference[k]);
+    at[k] = wide(y[k]);
+    moved[k] = at[k] + wide(n.difference[k]);
   }
   out.square = square_of(q, at);
   out.exact_change = square_of(q, moved) - out.square;
@@ -97,7 +99,7 @@ RC_GTEST_PROP(NearLengthsLaw, TheChangeOfASquareIsWithinTheProvedBound, ()) {
   Even even(*rc::gen::arbitrary<std::uint32_t>());
   const Made made = made_of(any_near(0.125, even));
   RC_ASSERT(std::fabs(static_cast<long double>(made.change) - made.exact_change) <=
-            static_cast<long double>(plumb_test::kNearFormError_m2ps4));
+            wide(plumb_test::kNearFormError_m2ps4));
 }
 
 RC_GTEST_PROP(NearLengthsLaw, TheIntegerIsWithinTheProvedBound, ()) {
@@ -108,10 +110,10 @@ RC_GTEST_PROP(NearLengthsLaw, TheIntegerIsWithinTheProvedBound, ()) {
   NearLength length;
   length.take(static_cast<double>(made.square), g_mps2);
   const std::int32_t units = length.units(made.change);
-  const long double exact = std::fabs(std::sqrt(made.square + made.exact_change) - static_cast<long double>(g_mps2));
+  const long double exact = std::fabs(std::sqrt(made.square + made.exact_change) - wide(g_mps2));
   RC_ASSERT(units >= 0);
-  RC_ASSERT(std::fabs(units - exact * static_cast<long double>(kMaeUnits_per_mps2)) <=
-            static_cast<long double>(plumb_test::kNearSampleError_units) + 0.01L);
+  RC_ASSERT(std::fabs(static_cast<long double>(units) - exact * wide(kMaeUnits_per_mps2)) <=
+            wide(plumb_test::kNearSampleError_units) + 0.01L);
 }
 
 /// The noise of an instrument, in the paper's array: what is left is the rounding to a unit, as in double.
@@ -140,10 +142,9 @@ TEST(NearLengths, AreWithinAUnitForThePapersAxes) {
     const Made made = made_of(n);
     NearLength length;
     length.take(static_cast<double>(made.square), kG0_mps2);
-    const long double exact =
-        std::fabs(std::sqrt(made.square + made.exact_change) - static_cast<long double>(kG0_mps2));
-    worst =
-        std::max(worst, std::fabs(length.units(made.change) - exact * static_cast<long double>(kMaeUnits_per_mps2)));
+    const long double exact = std::fabs(std::sqrt(made.square + made.exact_change) - wide(kG0_mps2));
+    worst = std::max(worst,
+                     std::fabs(static_cast<long double>(length.units(made.change)) - exact * wide(kMaeUnits_per_mps2)));
   }
   std::printf("figure: at most %.3Lf units from the exact error\n", worst);
   EXPECT_LT(worst, 1.0L);
