@@ -5,7 +5,9 @@ include(GNUInstallDirs)
 
 set(PLUMB_CORE_ROOMS core numeric array gravity calibration detection navigation health)
 set(PLUMB_CAPACITIES 8)
-if(PLUMB_ALL_CAPACITIES)
+if(PLUMB_SCALAR STREQUAL "float")
+  list(APPEND PLUMB_CAPACITIES 4)  # those that config.hpp allows
+elseif(PLUMB_ALL_CAPACITIES)
   list(APPEND PLUMB_CAPACITIES 4 16 24)
 elseif(PLUMB_BUILD_HOST)
   list(APPEND PLUMB_CAPACITIES 24)
@@ -49,7 +51,7 @@ function(plumb_core_library target capacity)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen tl::expected)
   if(PLUMB_FAST_STEP)
     set(often calibration/sensor_model core/storage_map detection/block detection/channel_monitor detection/combination_mae
-      health/health_monitor health/intake health/memory)
+      detection/near_lengths health/health_monitor health/intake health/memory)
     list(TRANSFORM often REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/\\1.cpp")
     set_source_files_properties(${often} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -O2)
   endif()
@@ -61,16 +63,20 @@ if(NOT PLUMB_RECALIBRATION)
 elseif(NOT PLUMB_FIRST_CALIBRATION)
   list(APPEND PLUMB_LEFT_OUT PLUMB_FIRST_CALIBRATION=0)
 endif()
+if(PLUMB_SCALAR STREQUAL "float")
+  list(APPEND PLUMB_LEFT_OUT PLUMB_SCALAR=float)
+endif()
 foreach(capacity IN LISTS PLUMB_CAPACITIES)
   plumb_core_library(plumb_${capacity} ${capacity} ${PLUMB_LEFT_OUT})
 endforeach()
 add_library(plumb::plumb ALIAS plumb_8)
 
-# What a build may leave out, for the tests and scripts/baremetal: built where they ask for it.
+# What a build may leave out, and single precision, for the tests and scripts/baremetal: built where they ask for it.
 if(4 IN_LIST PLUMB_CAPACITIES AND NOT PLUMB_LEFT_OUT)
   plumb_core_library(plumb_4_held 4 PLUMB_FIRST_CALIBRATION=0)
   plumb_core_library(plumb_4_fixed 4 PLUMB_RECALIBRATION=0)
-  set_target_properties(plumb_4_held plumb_4_fixed PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  plumb_core_library(plumb_4_float 4 PLUMB_SCALAR=float)
+  set_target_properties(plumb_4_held plumb_4_fixed plumb_4_float PROPERTIES EXCLUDE_FROM_ALL TRUE)
 endif()
 
 # --- The C functions: the same monitor for programs in C, one library per capacity; a program links one of them. ---

@@ -6,7 +6,7 @@ target_link_libraries(metal_record PRIVATE plumb_scenario plumb_24)
 add_executable(metal_judge EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/baremetal/judge.cpp")
 plumb_compile_settings(metal_judge)
 set(replays)
-foreach(name IN ITEMS 4 8 4_fixed)
+foreach(name IN ITEMS 4 8 4_fixed 4_float)
   if(TARGET plumb_${name})
     add_executable(metal_host_${name} EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/baremetal/host_main.cpp"
       "${PROJECT_SOURCE_DIR}/baremetal/replay.cpp")

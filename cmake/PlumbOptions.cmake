@@ -3,6 +3,8 @@
 option(PLUMB_ALL_CAPACITIES "Build floors 1-4 for 4 and 16 sensors too (8 is always built, 24 for the host)" ON)
 option(PLUMB_RECALIBRATION "The monitor can estimate biases and scales anew; OFF spares an instrument the code" ON)
 option(PLUMB_FIRST_CALIBRATION "The monitor can make its very first calibration (needs PLUMB_RECALIBRATION)" ON)
+set(PLUMB_SCALAR double CACHE STRING "Type of what runs at every sample: double, or float for a processor without double precision")
+set_property(CACHE PLUMB_SCALAR PROPERTY STRINGS double float)
 option(PLUMB_FAST_STEP "Compile what runs at every sample with -O2, for builds at -Os" OFF)
 option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
@@ -20,6 +22,15 @@ endif()
 
 if(PLUMB_BUILD_HOST AND NOT (PLUMB_RECALIBRATION AND PLUMB_FIRST_CALIBRATION))
   message(FATAL_ERROR "PLUMB_BUILD_HOST, PLUMB_BUILD_TOOL and the tests need PLUMB_RECALIBRATION and PLUMB_FIRST_CALIBRATION")
+endif()
+
+if(NOT PLUMB_SCALAR MATCHES "^(double|float)$")
+  message(FATAL_ERROR "PLUMB_SCALAR is double or float; found \"${PLUMB_SCALAR}\"")
+endif()
+
+if(PLUMB_BUILD_HOST AND NOT PLUMB_SCALAR STREQUAL "double")
+  message(FATAL_ERROR "PLUMB_BUILD_HOST, PLUMB_BUILD_TOOL and the tests need PLUMB_SCALAR=double (24 sensors): switch them off, "
+    "the target plumb_4_float is there in either build")
 endif()
 
 if(PROJECT_IS_TOP_LEVEL)

@@ -73,6 +73,14 @@ if(TARGET plumb_4_held)
       LIBRARIES plumb_lean_full plumb_4_${build})
   endforeach()
 endif()
+# Single precision beside double.
+if(TARGET plumb_4_float)
+  add_library(plumb_single_double STATIC "${PROJECT_SOURCE_DIR}/tests/single/double_run.cpp")
+  plumb_compile_settings(plumb_single_double)
+  target_link_libraries(plumb_single_double PRIVATE plumb_4)
+  plumb_test_executable(plumb_single_tests LABEL core PREFIX "single." ROOMS single
+    LIBRARIES plumb_single_double plumb_4_float)
+endif()
 plumb_test_executable(plumb_trace_tests LABEL trace ROOMS trace)  # requirements and tests name each other
 
 include(PlumbLaws)

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "plumb/detection/near_lengths.hpp"
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define PLUMB_SANITIZED
 #elif defined(__has_feature)
@@ -158,6 +160,23 @@ void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, Senso
   replace(all_ring_[static_cast<size_t>(head_)], all, all_sum_, all_count_);
   head_ = head_ + 1 == window_ ? 0 : head_ + 1;
 }
+
+#if PLUMB_SINGLE
+void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const NearLengths& lengths,
+                         const Differences& d_mps2, std::int32_t all_units, double g_mps2) noexcept {
+  const SensorSet near = NearLengths::near(d_mps2, usable);
+  const bool all_near = near.contains(array.all());
+  for (int k = 0; k < triples_; ++k) {
+    const auto a = static_cast<size_t>(k);
+    std::int32_t now = -1;
+    if (all_near || near.contains(array.triple(k).set())) now = lengths.triple_units(array, k, d_mps2);
+    if (now < 0 && usable.contains(array.triple(k).set())) now = error_of(array, y_mps2, k, g_mps2);
+    replace(ring_[row(head_) + a], now, sum_[a], count_[a]);
+  }
+  replace(all_ring_[static_cast<size_t>(head_)], all_units, all_sum_, all_count_);
+  head_ = head_ + 1 == window_ ? 0 : head_ + 1;
+}
+#endif
 
 std::int64_t CombinationMae::fresh_triple_sum(int k) const noexcept {
   std::int64_t sum = 0;

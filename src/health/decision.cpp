@@ -13,6 +13,7 @@ SizeClass HealthMonitor::classify(SensorSet set) const noexcept {
 void HealthMonitor::sets_changed() noexcept {
   size_class_ = classify(in_service_);
   map_ = least_squares(array_, in_service_);
+  forget_near();
   mae_.clear_all_sensor();
   isolation_.pose(array_, in_service_ | set_aside_);
   trend_.clear();

@@ -105,6 +105,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   config_ = setup.config;
   model_ = setup.model;
   coefficients_.forget();
+  forget_near();
   array_ = setup.array;
   gravity_ = setup.gravity;
   frame_ = setup.output_frame;
@@ -212,6 +213,7 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   if (!sound) return sound;
   if (!whole()) return fail(Errc::not_calibrated);
   gravity_ = gravity;
+  forget_near();
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {
     recalibration_.forget();
@@ -285,6 +287,33 @@ void HealthMonitor::refuse(const Sample& sample) noexcept {
   }
 }
 
+/// Readings of one sample into the block and the window.
+#if PLUMB_SINGLE
+void HealthMonitor::add_readings(const Readings& y, SensorSet usable, double count) noexcept {
+  Differences d;
+  block_.add(y, usable, count, d);
+  if (block_.size() == 1 || !near_.is_of(block_)) near_.take(array_, map_, frame_, block_, gravity_.g_mps2);
+  NearLengths::Estimate latest;
+  if (map_.valid && usable.contains(in_service_)) {
+    if (NearLengths::near(d, usable).contains(in_service_)) latest = near_.estimate(d, in_service_);
+    if (latest.units < 0) {
+      const Vec3 x = map_.estimate(y);
+      latest = {times(frame_, x), to_mae_units(norm(x) - gravity_.g_mps2)};
+    }
+    verdict_.latest_mps2 = latest.framed_mps2;
+  }
+  mae_.add(array_, y, usable, near_, d, latest.units, gravity_.g_mps2);
+}
+#else
+void HealthMonitor::add_readings(const Readings& y, SensorSet usable, double count) noexcept {
+  const bool map_usable = map_.valid && usable.contains(in_service_);
+  const Vec3 latest = map_usable ? map_.estimate(y) : Vec3{};
+  mae_.add(array_, y, usable, map_usable ? &latest : nullptr, gravity_.g_mps2);
+  if (map_usable) verdict_.latest_mps2 = times(frame_, latest);
+  block_.add(y, usable, count);
+}
+#endif
+
 /// One sample into the block and the windows.
 void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexcept {
   Readings y = readings_of(model_, coefficients_, sample, last_temperature_degc_, gate);
@@ -302,11 +331,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   if (outside) count_up(counters_.temperature_out);
   temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
   if (std::isfinite(t)) last_temperature_degc_ = t;
-  const bool map_usable = map_.valid && gate.usable.contains(in_service_);
-  const Vec3 latest = map_usable ? map_.estimate(y) : Vec3{};
-  mae_.add(array_, y, gate.usable, map_usable ? &latest : nullptr, gravity_.g_mps2);
-  if (map_usable) verdict_.latest_mps2 = times(frame_, latest);
-  block_.add(y, gate.usable, sample.count > 0 ? sample.count : 1);
+  add_readings(y, gate.usable, sample.count > 0 ? sample.count : 1);
   raw_.add(sample.raw, gate.usable, last_temperature_degc_);
   verdict_.accepted = true;
 }

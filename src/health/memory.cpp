@@ -23,7 +23,8 @@ bool HealthMonitor::core_holds() const noexcept {
 /// Everything else, but for clocks, counters and what single channels did in the last samples: a flip in those costs a
 /// block, or the sensor whose record it is.
 bool HealthMonitor::steady_holds() const noexcept {
-  return steady_now() == steady_sum_ && block_.holds() && raw_.holds() && mae_.holds() && coefficients_.hold(model_);
+  return steady_now() == steady_sum_ && block_.holds() && raw_.holds() && mae_.holds() && near_holds() &&
+         coefficients_.hold(model_);
 }
 
 /// A monitor that was never configured has no sum. Without that, one flipped bit would pass for it, and what was

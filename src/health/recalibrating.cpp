@@ -118,6 +118,7 @@ void HealthMonitor::adopt() noexcept {
     recalibration_.apply(model_, array_, gravity_, clock_.last_s(), base_ == Mode::suspect);
   }
   coefficients_.forget();
+  forget_near();
   three_sensor_fit_ = size_class_ == SizeClass::critical;
   forget_episode();
   empty_windows();

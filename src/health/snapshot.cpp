@@ -135,6 +135,7 @@ std::uint64_t HealthMonitor::identity(const MonitorSetup& setup) const noexcept 
   out.put(setup.array.uncertainty());
   out.put(setup.output_frame);
   out.put(setup.lever_arms_known);
+  if (kSingle) out.put(kSingle);                     // readings that add up to other sums
   if (!setup.calibrated) out.put(setup.calibrated);  // what was written before there was the choice keeps its name
   return out.crc();
 }
@@ -191,6 +192,7 @@ bool HealthMonitor::resume(const MonitorSetup& setup) noexcept {
   if (!sets_are_plausible()) return false;
   if (!calibration_is_plausible(setup)) return false;
   coefficients_.forget();
+  forget_near();
   derive_limits();
   size_class_ = classify(in_service_);
   map_ = least_squares(array_, in_service_);

@@ -10,6 +10,8 @@ inline namespace PLUMB_ABI {
 
 /// Readings of the sensors of one array, indexed by sensor [m/s^2].
 using Readings = std::array<double, kCapacity>;
+/// What the readings of a sample differ by from the first of their block [m/s^2].
+using Differences = std::array<Scalar, kCapacity>;
 
 /// Rank of the axes of `used` (0..3), with singular values below 1e-6 counted as zero.
 int rank_of(const SensorArray& array, SensorSet used) noexcept;

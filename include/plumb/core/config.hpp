@@ -2,7 +2,7 @@
 ///
 /// The number of sensors that fit (the *capacity*) is part of every type: it selects an inline
 /// namespace, so that objects of two capacities can never be mixed: a mismatch fails to link. So is what a build
-/// leaves out to spare an instrument's memory (docs/embedding.md).
+/// leaves out to spare an instrument's memory, and single precision (docs/embedding.md).
 #pragma once
 
 #ifndef PLUMB_CAPACITY
@@ -24,16 +24,36 @@
 #if PLUMB_CAPACITY != 4 && PLUMB_CAPACITY != 8 && PLUMB_CAPACITY != 16 && PLUMB_CAPACITY != 24
 #error "PLUMB_CAPACITY is 4, 8, 16 or 24"
 #endif
-#define PLUMB_JOIN_(a, b, c) a##b##c
-#define PLUMB_JOIN(a, b, c) PLUMB_JOIN_(a, b, c)
+#define PLUMB_JOIN_(a, b, c, d) a##b##c##d
+#define PLUMB_JOIN(a, b, c, d) PLUMB_JOIN_(a, b, c, d)
+
+// The type of what runs at every sample; everything else is double in either build (docs/embedding.md).
+#ifndef PLUMB_SCALAR
+#define PLUMB_SCALAR double
+#endif
+#define PLUMB_SCALAR_IS_double 1
+#define PLUMB_SCALAR_IS_float 2
+#if PLUMB_JOIN(PLUMB_SCALAR_IS_, PLUMB_SCALAR, , ) == 1
+#define PLUMB_SINGLE 0
+#define PLUMB_SCALAR_NAME
+#elif PLUMB_JOIN(PLUMB_SCALAR_IS_, PLUMB_SCALAR, , ) == 2
+#define PLUMB_SINGLE 1
+#define PLUMB_SCALAR_NAME _float
+#else
+#error "PLUMB_SCALAR is double or float"
+#endif
+#if PLUMB_SINGLE && PLUMB_CAPACITY > 8
+#error "PLUMB_SCALAR=float is for capacities 4 and 8: its block sums are bounded for 32 samples"
+#endif
+
 #if PLUMB_FIRST_CALIBRATION && !PLUMB_RECALIBRATION
 #error "a monitor that makes its first calibration recalibrates too: PLUMB_FIRST_CALIBRATION=0"
 #elif PLUMB_FIRST_CALIBRATION
-#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, )
+#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, , PLUMB_SCALAR_NAME)
 #elif PLUMB_RECALIBRATION
-#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _held)
+#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _held, PLUMB_SCALAR_NAME)
 #else
-#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _fixed)
+#define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, _fixed, PLUMB_SCALAR_NAME)
 #endif
 // NOLINTEND(cppcoreguidelines-macro-usage)
 
@@ -57,6 +77,10 @@ inline constexpr int kWindowCapacity = kCapacity <= 8 ? 32 : 256;
 constexpr int triple_count_of(int n) noexcept { return n * (n - 1) * (n - 2) / 6; }
 
 inline constexpr int kTripleCapacity = triple_count_of(kCapacity);
+
+/// What a sample differs by from the first of its block, and what is added up of it.
+using Scalar = PLUMB_SCALAR;
+inline constexpr bool kSingle = PLUMB_SINGLE != 0;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

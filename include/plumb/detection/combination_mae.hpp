@@ -35,6 +35,10 @@ inline double squared_length(const TripleForm& q, double a_mps2, double b_mps2, 
 /// Absolute error as an integer number of units, to the nearest, ties to even; clamped; a NaN becomes the clamp.
 std::int32_t to_mae_units(double error_mps2) noexcept;
 
+#if PLUMB_SINGLE
+class NearLengths;
+#endif
+
 class CombinationMae {
  public:
   /// Empties everything; `window` 1 .. kWindowCapacity.
@@ -48,6 +52,12 @@ class CombinationMae {
   /// `in_service` is the estimate of the sensors in service (null: slot absent).
   void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
            double g_mps2) noexcept;
+#if PLUMB_SINGLE
+  /// The same in single precision, but for triples with a member outside `near`. `all_units`: what becomes of the
+  /// estimate of the sensors in service (-1: slot absent).
+  void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const NearLengths& lengths,
+           const Differences& d_mps2, std::int32_t all_units, double g_mps2) noexcept;
+#endif
 
   /// Eqs (26)-(29): MAE of triple k over the samples present in the window [m/s^2]; 0 where there are none.
   double triple_mps2(int k) const noexcept {

@@ -23,6 +23,11 @@ class BlockAccumulator {
   void clear() noexcept;
   /// Adds one set of readings; those outside `usable` are not read. `count` raw samples stand behind it.
   void add(const Readings& y_mps2, SensorSet usable, double count) noexcept;
+  /// The same; leaves in `difference` what was added, zero for a channel that is not usable.
+  void add(const Readings& y_mps2, SensorSet usable, double count, Differences& difference) noexcept;
+  /// What the differences are from, for the channels of `seen`.
+  const Readings& origin_mps2() const noexcept { return origin_; }
+  SensorSet seen() const noexcept { return usable_; }
   int size() const noexcept { return size_; }
   /// Channels that were usable in at least half of the samples: a few dropouts do not silence a channel.
   SensorSet usable() const noexcept;
@@ -40,8 +45,8 @@ class BlockAccumulator {
   void rebuild() noexcept { check_ = check(); }
 
   std::array<double, kCapacity> origin_{};
-  std::array<double, kCapacity> sum_{};
-  std::array<double, kCapacity*(kCapacity + 1) / 2> product_{};
+  std::array<Scalar, kCapacity> sum_{};
+  std::array<Scalar, kCapacity*(kCapacity + 1) / 2> product_{};
   std::array<int, kCapacity> present_{};  ///< samples of each channel
   SensorSet usable_;                      ///< seen at all
   double inverse_count_ = 0.0;            ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples

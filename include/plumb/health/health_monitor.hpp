@@ -12,6 +12,7 @@
 #include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/combination_mae.hpp"
 #include "plumb/detection/isolation.hpp"
+#include "plumb/detection/near_lengths.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/health/decision.hpp"
 #include "plumb/health/episode.hpp"
@@ -161,6 +162,7 @@ class HealthMonitor {
   void empty_windows() noexcept;
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
+  void add_readings(const Readings& y, SensorSet usable, double count) noexcept;
   bool is_eventful(Arrival arrival, const GateResult& gate) const noexcept;
   void serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept;
   EventMask allowed(EventMask raised) const noexcept;
@@ -331,7 +333,15 @@ class HealthMonitor {
   Isolation isolation_;
   Episode episode_;
   StationTrack station_;
-  LeastSquares map_;        ///< of the sensors in service
+  LeastSquares map_;  ///< of the sensors in service
+#if PLUMB_SINGLE
+  NearLengths near_;  ///< of the block at hand, by that map
+  void forget_near() noexcept { near_.forget(); }
+  bool near_holds() const noexcept { return near_.holds(); }
+#else
+  void forget_near() noexcept {}
+  bool near_holds() const noexcept { return true; }
+#endif
   BlockEvidence evidence_;  ///< last quiet block
   IsolationAnswer answer_;
   FaultSetScan scan_;
@@ -348,7 +358,11 @@ class HealthMonitor {
     using M = HealthMonitor;
     return field_list(&M::coefficients_, &M::temperature_out_, &M::last_temperature_degc_, &M::clock_, &M::counters_,
                       &M::rotation_locked_, &M::block_, &M::raw_, &M::mae_, &M::clipped_, &M::not_finite_,
-                      &M::core_sum_, &M::steady_sum_);
+                      &M::core_sum_,
+#if PLUMB_SINGLE
+                      &M::near_,
+#endif
+                      &M::steady_sum_);
   }
   static constexpr auto core() noexcept {
     using M = HealthMonitor;
@@ -385,8 +399,12 @@ class HealthMonitor {
         up_to(&M::reference_notice_, ReferenceKind::common_bias),
         // evidence
         &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
-        &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_), &M::evidence_, &M::answer_,
-        &M::scan_, &M::clipped_, &M::not_finite_, &M::recalibration_, &M::verdict_, not_stored(&M::steady_sum_));
+        &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
+#if PLUMB_SINGLE
+        not_stored(&M::near_),
+#endif
+        &M::evidence_, &M::answer_, &M::scan_, &M::clipped_, &M::not_finite_, &M::recalibration_, &M::verdict_,
+        not_stored(&M::steady_sum_));
   }
 };
 

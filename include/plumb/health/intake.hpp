@@ -57,6 +57,7 @@ class CoefficientsAt {
   void take(const SensorModel& model, double temperature_degc) noexcept;
   /// Whether they are what the model says at the temperature that they were taken for.
   bool hold(const SensorModel& model) const noexcept;
+  /// Its reciprocal in a build in single precision; 0 where the scale is 0.
   double scale(std::size_t a) const noexcept { return scale_[a]; }
   double bias_mps2(std::size_t a) const noexcept { return bias_mps2_[a]; }
 
