@@ -57,6 +57,9 @@ if(TARGET plumb_tool)
     install(FILES "${PROJECT_BINARY_DIR}/plumb.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
     install(FILES "${PROJECT_BINARY_DIR}/plumb.bash" RENAME plumb
       DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions")
+    install(FILES "${PROJECT_BINARY_DIR}/plumb.zsh" RENAME _plumb
+      DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/zsh/vendor-completions")
+    install(FILES "${PROJECT_BINARY_DIR}/plumb.fish" DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d")
   endif()
   if(TARGET plumb_campaign_mpi)
     install(TARGETS plumb_campaign_mpi RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")

@@ -96,11 +96,11 @@ if(PLUMB_BUILD_HOST)
   endif()
 endif()
 
-# The report as others read it: its schema, and its page in a browser.
+# The reports as others read them: their schemas, the findings as SARIF, and the pages in a browser.
 if(TARGET plumb_tool)
   find_program(PLUMB_PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
   mark_as_advanced(PLUMB_PYTHON3)
-  foreach(name IN ITEMS schema browser)
+  foreach(name IN ITEMS schema sarif browser)
     if(PLUMB_PYTHON3)
       add_test(NAME report.${name} COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/report/${name}.py"
         "$<TARGET_FILE:plumb_tool>" "${PROJECT_SOURCE_DIR}")
@@ -111,7 +111,7 @@ if(TARGET plumb_tool)
   endforeach()
 endif()
 
-# The manual page as man reads it, the completion as bash does, and the guided tour as it is printed.
+# The manual page as man reads it, the completion as the shells do, and the guided tour as it is printed.
 if(TARGET plumb_tool)
   add_test(NAME cli.manual COMMAND bash "${PROJECT_SOURCE_DIR}/tests/cli/manual.sh" "$<TARGET_FILE:plumb_tool>"
     "${PROJECT_BINARY_DIR}/manual_test")

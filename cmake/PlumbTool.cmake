@@ -39,6 +39,8 @@ if(cli_sources)
     add_custom_command(TARGET plumb_tool POST_BUILD
       COMMAND plumb_tool --man > "${PROJECT_BINARY_DIR}/plumb.1"
       COMMAND plumb_tool --completion > "${PROJECT_BINARY_DIR}/plumb.bash"
+      COMMAND plumb_tool --completion-zsh > "${PROJECT_BINARY_DIR}/plumb.zsh"
+      COMMAND plumb_tool --completion-fish > "${PROJECT_BINARY_DIR}/plumb.fish"
       VERBATIM)
   endif()
 endif()

@@ -37,7 +37,8 @@ foreach(wanted IN ITEMS "share/doc/plumb/LICENSE" "share/doc/plumb/NOTICE" "incl
 endforeach()
 
 if("${found}" MATCHES "bin/plumb;")  # a package with the tool tells how it is used
-  foreach(wanted IN ITEMS "share/man/man1/plumb\\.1" "share/bash-completion/completions/plumb")
+  foreach(wanted IN ITEMS "share/man/man1/plumb\\.1" "share/bash-completion/completions/plumb"
+          "share/zsh/vendor-completions/_plumb" "share/fish/vendor_completions\\.d/plumb\\.fish")
     if(NOT "${found}" MATCHES "${wanted}")
       message(FATAL_ERROR "the package has no ${wanted}")
     endif()

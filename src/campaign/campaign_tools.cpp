@@ -18,6 +18,7 @@ using io::Quantity;
 using io::TomlTable;
 using std::size_t;
 
+constexpr int kMostBehindARow = 1000000;
 /// A bias of this many MDB is missed by the parity test of one block in one case of a thousand.
 constexpr double kMissed = 1e-3;
 
@@ -85,7 +86,7 @@ void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, Too
     const auto a = static_cast<size_t>(i);
     const double leverage = 1.0 - dot(array.axis(i), map.column[a]);
     if (!(leverage > 1e-9)) continue;  // nobody checks this one
-    tool.detectable_mps2[a] = shift * array.sigma_mps2(i) / std::sqrt(leverage * monitor.window);
+    tool.detectable_mps2[a] = shift * tool.sigma_mps2[a] / std::sqrt(leverage * monitor.window);
   }
 }
 
@@ -94,13 +95,15 @@ void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, Too
 std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& monitor) {
   std::vector<ToolPlan> out;
   for (const TomlTable& table :
-       tables_of(top, "tool", {"name", "geometry", "sensors", "noise", "array", "resolution"})) {
+       tables_of(top, "tool", {"name", "geometry", "sensors", "noise", "array", "resolution", "samples_per_row"})) {
     ToolPlan tool;
     const SensorArray array = array_from(table, tool);
     tool.sensors = array.size();
+    // A row that is the mean of so many samples scatters less than one of them.
+    const double shrink = std::sqrt(static_cast<double>(whole(table, "samples_per_row", 1, 1, kMostBehindARow)));
     for (int i = 0; i < array.size(); ++i) {
       tool.axis[static_cast<size_t>(i)] = array.axis(i);
-      tool.sigma_mps2[static_cast<size_t>(i)] = array.sigma_mps2(i);
+      tool.sigma_mps2[static_cast<size_t>(i)] = array.sigma_mps2(i) / shrink;
     }
     tool.volt_per_mps2 = 3.0 / kG0_mps2;  // the paper's sensors
     tool.resolution_raw = tool.volt_per_mps2 * table.quantity(Quantity::acceleration, "resolution", 0.0);

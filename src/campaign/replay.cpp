@@ -1,5 +1,6 @@
 #include "plumb/campaign/replay.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -96,14 +97,20 @@ Spec told_of(const scenario::Scenario& scenario, const Plan& plan, int tool) {
 
 /// Plays a scenario through the monitor; `look` sees every verdict with its row and what gravity really was.
 template <class Look>
-tl::expected<void, std::string> play(HealthMonitor& monitor, const scenario::Scenario& scenario, Look look) {
+tl::expected<void, std::string> play(HealthMonitor& monitor, const scenario::Scenario& scenario,
+                                     std::vector<std::int64_t>* step_ns, Look look) {
+  using Clock = std::chrono::steady_clock;
   auto simulator = scenario::Simulator::make(scenario);
   if (!simulator) return tl::unexpected<std::string>(simulator.error());
   const Vec3 turn_rad = campaign_kernel::common_turn_rad(scenario.tool);
   Sample sample;
   for (int row = 0; simulator->next(sample); ++row) {
     const Vec3& felt = simulator->truth().gravity_mps2;
-    look(monitor.step(sample), row, minus(felt, cross(turn_rad, felt)));
+    const Clock::time_point begin = step_ns == nullptr ? Clock::time_point() : Clock::now();
+    const Verdict& verdict = monitor.step(sample);
+    if (step_ns != nullptr)
+      step_ns->push_back(std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count());
+    look(verdict, row, minus(felt, cross(turn_rad, felt)));
   }
   return {};
 }
@@ -155,20 +162,21 @@ std::string case_text(const Plan& plan, const Spec& spec) {
 }
 
 tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scenario::Scenario& scenario,
-                                          const std::function<void(const Verdict&)>& look) {
+                                          const std::function<void(const Verdict&)>& look,
+                                          std::vector<std::int64_t>* step_ns) {
   const auto monitor = std::make_unique<HealthMonitor>();
   const Expected<MonitorSetup> setup = campaign_kernel::setup_of(plan, tool);
   if (!setup || !monitor->configure(*setup)) return tl::unexpected<std::string>("the monitor cannot be configured");
   if (plan.start == Start::proven) {
     const Spec trust = campaign_kernel::trust_spec(plan, tool);
-    const auto done =
-        play(*monitor, campaign_kernel::scenario_of(plan, trust, 0.0), [](const Verdict&, int, const Vec3&) {});
+    const auto done = play(*monitor, campaign_kernel::scenario_of(plan, trust, 0.0), step_ns,
+                           [](const Verdict&, int, const Vec3&) {});
     if (!done) return tl::unexpected<std::string>(done.error());
   }
   Outcome outcome;
   campaign_kernel::Judge judge;
   judge.begin(plan, told_of(scenario, plan, tool), outcome);
-  const auto done = play(*monitor, scenario, [&](const Verdict& verdict, int row, const Vec3& truth) {
+  const auto done = play(*monitor, scenario, step_ns, [&](const Verdict& verdict, int row, const Vec3& truth) {
     judge.look(verdict, row, truth);
     look(verdict);
   });

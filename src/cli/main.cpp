@@ -90,11 +90,13 @@ int run(int argc, char** argv) {
     print_error(tool.help());
     return io::to_int(io::ExitCode::usage);
   }
-  // For the build, which installs both: no part of what a user is told.
-  const std::string first = argv[1];
-  if (argc == 2 && (first == "--man" || first == "--completion")) {
-    const Manual manual{kAbout, commands};
-    print(first == "--man" ? man_page(manual) : bash_completion(manual));
+  // For the build, which installs them: no part of what a user is told.
+  for (const auto& [name, print_it] : {std::pair<const char*, std::string (*)(const Manual&)>{"--man", man_page},
+                                       {"--completion", bash_completion},
+                                       {"--completion-zsh", zsh_completion},
+                                       {"--completion-fish", fish_completion}}) {
+    if (argc != 2 || std::string(argv[1]) != name) continue;
+    print(print_it(Manual{kAbout, commands}));
     return output_is_sound() ? 0 : io::to_int(io::ExitCode::other);
   }
   std::string answer;

@@ -128,6 +128,52 @@ std::string bash_case(const Command& command) {
   return out + "      fi ;;\n";
 }
 
+/// One line, each of `marks` after a backslash, in the single quotes of a shell that ends them by '\\''.
+std::string quoted(const std::string& text, const std::string& marks) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (marks.find(c) != std::string::npos) out += '\\';
+    out += c == '\n' ? std::string(" ") : c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return out + "'";
+}
+
+/// As _arguments of zsh wants it: --out[what it is]:value:_files.
+void zsh_option(const CLI::Option& option, std::string& out) {
+  const std::vector<std::string> choices = choices_of(option);
+  std::string value;
+  if (option.get_expected_max() != 0) {
+    value = ":value:";
+    if (!choices.empty()) {
+      value += "(" + joined_words(choices, " ") + ")";
+    } else if (takes_file(option)) {
+      value += "_files";
+    }
+  }
+  const std::string about = quoted(option.get_description(), "[]:\\");
+  const std::string many = option.get_expected_max() > 1 ? "*" : "";
+  const auto add = [&](const std::string& name) {
+    out += " \\\n        '" + many + name + "['" + about + "']" + value + "'";
+  };
+  for (const std::string& name : option.get_lnames()) add("--" + name);
+  for (const std::string& name : option.get_snames()) add("-" + name);
+  if (option.get_lnames().empty() && option.get_snames().empty()) out += " \\\n        '*:file:_files'";
+}
+
+void fish_option(const std::string& begin, const CLI::Option& option, std::string& out) {
+  std::string line = begin;
+  for (const std::string& name : option.get_lnames()) line += " -l " + name;
+  for (const std::string& name : option.get_snames()) line += " -s " + name;
+  const std::vector<std::string> choices = choices_of(option);
+  if (option.get_lnames().empty() && option.get_snames().empty()) {
+    line += " -F";  // what stands without an option is a file
+  } else if (option.get_expected_max() != 0) {
+    line += takes_file(option) && choices.empty() ? " -r -F" : " -x";
+    if (!choices.empty()) line += " -a '" + joined_words(choices, " ") + "'";
+  }
+  out += line + " -d " + quoted(option.get_description(), "") + "\n";
+}
+
 }  // namespace
 
 std::string man_page(const Manual& manual) {
@@ -161,6 +207,41 @@ std::string bash_completion(const Manual& manual) {
       joined_words(names, " ") + " --help --version\" -- \"$cur\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n";
   for (const Command& command : manual.commands) out += bash_case(command);
   return out + "  esac\n}\ncomplete -F _plumb plumb\n";
+}
+
+std::string zsh_completion(const Manual& manual) {
+  std::string out =
+      "#compdef plumb\n# zsh completion for plumb. Printed by plumb --completion-zsh from the definitions of the "
+      "command line.\n_plumb() {\n  local -a commands\n  commands=(\n";
+  for (const Command& command : manual.commands)
+    out += "    " + quoted(command.app->get_name() + ":" + command.app->get_description(), "\\") + "\n";
+  out +=
+      "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
+      "  local command=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $command in\n";
+  for (const Command& command : manual.commands) {
+    out += "    " + command.app->get_name() + ")\n      _arguments";
+    for (const CLI::Option* option : command.app->get_options()) {
+      if (!option->get_group().empty()) zsh_option(*option, out);
+    }
+    out += " ;;\n";
+  }
+  return out + "  esac\n}\nif [[ $funcstack[1] == _plumb ]]; then _plumb \"$@\"; else compdef _plumb plumb; fi\n";
+}
+
+std::string fish_completion(const Manual& manual) {
+  std::string out =
+      "# fish completion for plumb. Printed by plumb --completion-fish from the definitions of the command line.\n"
+      "complete -c plumb -f\n";
+  for (const Command& command : manual.commands) {
+    const std::string name = command.app->get_name();
+    out += "complete -c plumb -n __fish_use_subcommand -a " + name + " -d " +
+           quoted(command.app->get_description(), "") + "\n";
+    for (const CLI::Option* option : command.app->get_options()) {
+      if (!option->get_group().empty())
+        fish_option("complete -c plumb -n '__fish_seen_subcommand_from " + name + "'", *option, out);
+    }
+  }
+  return out;
 }
 
 }  // namespace cli

@@ -17,8 +17,10 @@ struct Manual {
 
 /// For man(7): `plumb --man`.
 std::string man_page(const Manual& manual);
-/// For bash: `plumb --completion`.
+/// For the shells: `plumb --completion`, `plumb --completion-zsh`, `plumb --completion-fish`.
 std::string bash_completion(const Manual& manual);
+std::string zsh_completion(const Manual& manual);
+std::string fish_completion(const Manual& manual);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -1,13 +1,15 @@
 #include "tool.hpp"
 
 #include <fmt/format.h>
+#include <sys/utsname.h>
 #include <unistd.h>
-#include <charconv>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -102,6 +104,19 @@ std::string now_utc() {
 std::string host_name() {
   char text[256] = {};
   return ::gethostname(text, sizeof text - 1) == 0 ? text : "unknown";
+}
+
+std::string machine_name() {
+  utsname system{};
+  std::string out = ::uname(&system) == 0 ? std::string(system.machine) + ", " + system.sysname + " " + system.release
+                                          : std::string("unknown");
+  std::ifstream processors("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(processors, line)) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2) + ", " + out;
+  }
+  return out;
 }
 
 io::ExitCode report(const io::FileError& error) {

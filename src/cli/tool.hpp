@@ -60,6 +60,8 @@ bool output_is_sound();
 /// What tells of a run rather than of its result.
 std::string now_utc();
 std::string host_name();
+/// Processor and system, as the system names them.
+std::string machine_name();
 
 /// A file named on the command line, with the option that named it. "" and "-" stand for no file.
 struct NamedFile {

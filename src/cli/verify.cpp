@@ -123,6 +123,7 @@ io::ExitCode run(const VerifyOptions& options) {
   if (!found) return report(found.error());
   found->report["run"]["time"] = now_utc();
   found->report["run"]["host"] = host_name();
+  found->report["run"]["machine"] = machine_name();
   Folder folder(options.out);
   const io::FileExpected<void> made = folder.make();
   if (!made) return report(made.error());

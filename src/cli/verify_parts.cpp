@@ -69,6 +69,13 @@ Json trace_of(const CalibrationRun& run, const io::ArrayFile& array) {
   return out;
 }
 
+/// How many samples a row of this log stands for at least: what one row tells the monitor in the worst case.
+std::uint32_t fewest_samples(const std::vector<Station>& stations) {
+  const auto fewer = [](const Station& a, const Station& b) { return a.count < b.count; };
+  const auto least = std::min_element(stations.begin(), stations.end(), fewer);
+  return least == stations.end() ? 1 : std::max<std::uint32_t>(least->count, 1);
+}
+
 /// Of a fit that was made here.
 CalibrationPart part_of(CalibrationRun run, const io::ArrayFile& array, const char* mode) {
   CalibrationPart out;
@@ -159,7 +166,11 @@ io::FileExpected<CalibrationPart> calibration_of_positions(const std::string& pa
   log.path = path;
   io::FileExpected<CalibrationRun> run = run_calibration(array, log);
   if (!run) return tl::unexpected<io::FileError>(run.error());
-  return part_of(*std::move(run), array, "positions");
+  const bool means = array.input.rows == io::RowKind::stations && !array.input.count_column.empty();
+  const std::uint32_t fewest = means ? fewest_samples(run->stations) : 1;
+  CalibrationPart out = part_of(*std::move(run), array, "positions");
+  out.samples_per_row = fewest;
+  return out;
 }
 
 CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t seed) {

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 struct CalibrationPart {
   std::unique_ptr<const Calibration> calibration;  ///< null where it was refused
   Json section;
-  double e_cal_mps2 = 0.0;  ///< of the worst sensor; 0 where there is none
+  double e_cal_mps2 = 0.0;            ///< of the worst sensor; 0 where there is none
+  std::uint32_t samples_per_row = 1;  ///< fewest behind a station of the log, where its rows are means that say so
 };
 
 /// Of a file that `plumb calibrate` wrote.

@@ -141,6 +141,7 @@ GeometrySubject subject_of(const io::ArrayFile& array, const CalibrationPart& pa
   out.calibrated = part.calibration != nullptr;
   out.gravity = array.gravity;
   out.settings = settings_of(array);
+  out.settings.samples *= part.samples_per_row;
   out.file = std::make_unique<const io::ArrayFile>(array);
   return out;
 }
@@ -168,7 +169,7 @@ io::FileExpected<std::optional<report::Trials>> play(const std::string& text, co
 }
 
 io::FileExpected<void> play_campaigns(const VerifyOptions& options, const report::TrialSettings& settings, int threads,
-                                      Verification& out, Json& section) {
+                                      Verification& out, Json& section, std::vector<std::int64_t>& step_ns) {
   section = {{"healthy", Json()}, {"faults", Json()}};
   if (out.array.monitor.mode == MonitorMode::paper) {
     section["healthy"] = section["faults"] =
@@ -194,7 +195,7 @@ io::FileExpected<void> play_campaigns(const VerifyOptions& options, const report
   if (out.healthy) played.push_back(&*out.healthy);
   if (out.faults) played.push_back(&*out.faults);
   if (played.empty()) return {};
-  const auto again = report::replayed_json(played, kReplayed);
+  const auto again = report::replayed_json(played, kReplayed, &step_ns);
   if (!again)
     return tl::unexpected<io::FileError>(
         io::FileError{options.array, 0, "", again.error(), "report this", io::ExitCode::other});
@@ -252,8 +253,10 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   settings.e_cal_mps2 = part->e_cal_mps2;
   settings.seed = options.seed;
   settings.scenarios = scenarios;
+  settings.samples_per_row = part->samples_per_row;
   Json campaigns;
-  const io::FileExpected<void> played = play_campaigns(options, settings, threads, out, campaigns);
+  std::vector<std::int64_t> step_ns;
+  const io::FileExpected<void> played = play_campaigns(options, settings, threads, out, campaigns, step_ns);
   if (!played) return tl::unexpected<io::FileError>(played.error());
   campaigns["table2"] = table2_section(out.array, options.seed);
   const GeometrySubject subject = subject_of(out.array, *part);
@@ -264,7 +267,8 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["run"] = Json::object();
   report["subject"] = {{"name", out.array.name},
                        {"sensors", out.array.array.size()},
-                       {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"}};
+                       {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"},
+                       {"samples_per_row", part->samples_per_row}};
   report["verdict"] = Json();
   report["array"] = array_section(subject, study_geometry(subject));
   report["calibration"] = part->section;
@@ -282,7 +286,9 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["verdict"] = report::verdict_section(inputs->limits, report);
   report["change"] = inputs->before ? report::change_section(*inputs->before, report)
                                     : Json{{"given", false}, {"how", "--compare report.json of an earlier run"}};
-  report["run"] = {{"threads", threads}, {"seconds", seconds_since(start)}};
+  report["run"] = {{"threads", threads},
+                   {"seconds", seconds_since(start)},
+                   {"monitor_step", report::step_times_json(std::move(step_ns))}};
   return out;
 }
 

@@ -1,11 +1,15 @@
 #include "plumb/report/evidence.hpp"
 
+#include <fmt/format.h>
+
+#include <cctype>
 #include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "plumb/io/output_file.hpp"
 
@@ -75,10 +79,22 @@ Json place_of(const Line& line) {
   return {{"file", line.file}, {"line", line.line}, {"column", line.column}, {"text", line.text}};
 }
 
+/// A path as a URI reference (RFC 3986): what is not unreserved is spelled by its bytes; an absolute one names its
+/// host.
+std::string uri_of(const std::string& path) {
+  std::string out = path.rfind('/', 0) == 0 ? "file://" : "";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        (byte < 0x80 && std::isalnum(byte) != 0) || std::string_view("-._~/").find(c) != std::string::npos;
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return out;
+}
+
 Json location_of(const Json& place) {
-  Json uri = place["file"];
   return {{"physicalLocation",
-           {{"artifactLocation", {{"uri", std::move(uri)}}},
+           {{"artifactLocation", {{"uri", uri_of(place["file"].get<std::string>())}}},
             {"region", {{"startLine", place["line"]}, {"startColumn", place["column"]}}}}}};
 }
 

@@ -72,8 +72,10 @@ Section stations_view(const Json& report, const PagePictures& pictures) {
     return out;
   }
   out.picture("From station to station", picture_of(pictures, "run.svg"),
-              "Length of gravity less its reference, with its limit, and inclination, by station and colour",
-              "The limit is three standard deviations of reference, noise and calibration together.");
+              "Length of gravity less its reference, with its limit, inclination, and the largest statistic of the "
+              "tests over its limit, by station and colour",
+              "Limit of |G|: three standard deviations of reference, noise and calibration together. Statistic: of "
+              "parity, norm or MAE, whichever came nearest to its own limit in the station; above 1 is an alarm.");
   out.table(
       "Stations",
       {"station", "t, s", "depth, m", "verdict", "|G|, mg0", "off by, mg0", "limit, mg0", "inclination, deg",
@@ -147,6 +149,43 @@ Section extremes_view(const Json& report) {
   return out;
 }
 
+Section basis_view(const Json& report) {
+  const Json& basis = report["basis"];
+  const Json& g = basis["gravity"];
+  const Json& c = basis["calibration"];
+  Section out("basis", "6 What it rests on", "The length of gravity, and the calibration.");
+  out.table("Gravity", {"figure", "value"},
+            {{"model", g["model"].get<std::string>()},
+             {"length, m/s^2", fixed(g["g_mps2"], 1.0, 6)},
+             {"standard deviation, mg0", shown(g["sigma_mps2"], kMg0)}},
+            "From [gravity] of the array file.");
+  if (c.is_null()) {
+    out.text("There was no calibration file: the run began by calibrating itself.");
+    return out;
+  }
+  out.table("Calibration, as it was read", {"figure", "value"},
+            {{"log", c["log"].get<std::string>()},
+             {"made by", "plumb " + c["made_by"].get<std::string>()},
+             {"stations", c["stations"].dump()},
+             {"length of gravity then, m/s^2", fixed(c["g_mps2"], 1.0, 6)},
+             {"lowest temperature, degC", shown(c["temperature_min_degc"])},
+             {"highest temperature, degC", shown(c["temperature_max_degc"])},
+             {"rms of |G| less gravity, mg0", shown(c["norm_rms_mps2"], kMg0)},
+             {"rms of parity, mg0", shown(c["parity_rms_mps2"], kMg0)},
+             {"chance of such residuals or worse", shown(c["p_value"])}},
+            "The file holds no date. Its hash is in the next section.");
+  ViewRows rows;
+  for (const Json& s : c["sensors"])
+    rows.push_back({s["id"].get<std::string>(), shown(s["bias_mps2"][0], kMg0), shown(s["scale_raw_per_mps2"][0]),
+                    fixed(s["axis"][0], 1.0, 5), fixed(s["axis"][1], 1.0, 5), fixed(s["axis"][2], 1.0, 5),
+                    shown(s["sigma_mps2"], kMg0), shown(s["e_cal_mps2"], kMg0), shown(s["residual_rms_mps2"], kMg0)});
+  out.table("Coefficients by sensor",
+            {"sensor", "bias, mg0", "scale, raw per m/s^2", "x", "y", "z", "noise of a sample, mg0",
+             "left by the calibration, mg0", "rms residual, mg0"},
+            rows, "At the reference temperature; every coefficient with all its digits stands in the data file.");
+  return out;
+}
+
 std::string hash_of(const Json& input) {
   return input.contains("sha256") ? "sha256 " + input["sha256"].get<std::string>()
                                   : "fnv1a " + input["fnv1a"].get<std::string>();
@@ -155,7 +194,7 @@ std::string hash_of(const Json& input) {
 Section identity_of(const Json& report) {
   const Json& id = report["identity"];
   const Json& build = id["build"];
-  Section out("identity", "6 Identity", "What exactly was run, and how to run it again.");
+  Section out("identity", "7 Identity", "What exactly was run, and how to run it again.");
   ViewRows rows = {{"tool", "plumb " + build["version"].get<std::string>()},
                    {"commit", build["commit"].get<std::string>()},
                    {"compiler", build["compiler"].get<std::string>()},
@@ -186,7 +225,7 @@ std::string health_html(const Json& report, const PagePictures& pictures, const 
        "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
        fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
       {answer_view(report), stations_view(report, pictures), roll_view(report, pictures), events_view(report),
-       extremes_view(report), identity_of(report)});
+       extremes_view(report), basis_view(report), identity_of(report)});
 }
 
 }  // namespace report

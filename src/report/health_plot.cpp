@@ -28,13 +28,15 @@ std::string cell(const Json& value, double factor = 1.0) {
 constexpr double kMg0 = 1e3 / kG0_mps2;
 
 PlotFile stations_csv(const Json& stations) {
-  std::string csv = "number,begin_s,colour,off_mg0,limit_mg0,inclination_deg,inclination_sigma_deg,toolface_deg\n";
+  std::string csv =
+      "number,begin_s,colour,off_mg0,limit_mg0,inclination_deg,inclination_sigma_deg,toolface_deg,"
+      "statistic_over_limit\n";
   for (const Json& s : stations) {
     const std::string colour = s["colour"];
-    csv += fmt::format("{},{},{},{},{},{},{},{}\n", s["number"].dump(), cell(s["begin_s"]),
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", s["number"].dump(), cell(s["begin_s"]),
                        colour == "green" ? 1 : (colour == "orange" ? 2 : 3), cell(s["off_mps2"], kMg0),
                        cell(s["length_limit_mps2"], kMg0), cell(s["inclination_deg"]), cell(s["inclination_sigma_deg"]),
-                       cell(s["toolface_deg"]));
+                       cell(s["toolface_deg"]), cell(s["worst_statistic_over_limit"]));
   }
   return {"stations.csv", csv};
 }
@@ -61,12 +63,14 @@ std::string limits_over(const char* x) {
 std::string grid() { return "set grid lw 0.4 lc rgb '#999999'\n"; }
 
 std::string run_script() {
-  return chart_head("run.svg", kWidth, 620) + grid() + kPalette +
-         "set multiplot layout 2,1\nset lmargin 11\nset rmargin 3\nset xlabel 'station'\nset key outside top right "
+  return chart_head("run.svg", kWidth, 860) + grid() + kPalette +
+         "set multiplot layout 3,1\nset lmargin 11\nset rmargin 3\nset xlabel 'station'\nset key outside top right "
          "horizontal\nset xrange [0.5:*]\nset offsets 0,0.5,0,0\n"
          "set ylabel '|G| less reference, mg0'\nplot " +
          limits_over("$1") + ", " + by_colour("$1", "$4", true) + "\nunset key\nset ylabel 'inclination, deg'\nplot " +
-         by_colour("$1", "$6", false) + "\nunset multiplot\nunset output\n";
+         by_colour("$1", "$6", false) +
+         "\nset ylabel 'statistic over limit'\nset yrange [0:*]\nplot 1 with lines dt 2 lc rgb bound notitle, " +
+         by_colour("$1", "$9", false) + "\nunset multiplot\nset yrange [*:*]\nunset output\n";
 }
 
 std::string roll_script() {

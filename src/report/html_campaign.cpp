@@ -64,6 +64,13 @@ void reused_table(const Json& section, Section& out) {
             "The same campaign with more scenarios, played elsewhere (--reuse). The verdict judges these rates.");
 }
 
+/// A row that is a station has no time of its own.
+std::string block_words(const Json& subject, const Json& plan) {
+  const std::string rows = plan["block_samples"].dump();
+  if (subject["rows"] != "stations") return rows + " samples, " + shown(plan["block_s"]) + " s";
+  return rows + " rows, each as the mean of " + subject["samples_per_row"].dump() + " samples";
+}
+
 std::string mae(const Json& measured_g0, const Json& printed_g) {
   return shown(measured_g0) + " / " + shown(printed_g);
 }
@@ -174,11 +181,10 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
   } else {
     const Json& plan = faults["plan"];
     out.text(
-        fmt::format("{} scenarios of {} stations, {} combinations, seed {}; attitudes: {}; a block is {} samples, {} "
-                    "s; alert limit {} deg. "
-                    "Up to {} sensors at fault at once.",
+        fmt::format("{} scenarios of {} stations, {} combinations, seed {}; attitudes: {}; a block is {}; alert limit "
+                    "{} deg. Up to {} sensors at fault at once.",
                     plan["scenarios"].dump(), plan["stations"].dump(), plan["cells"].dump(), plan["seed"].dump(),
-                    joined_list(plan["attitudes"]), plan["block_samples"].dump(), shown(plan["block_s"]),
+                    joined_list(plan["attitudes"]), block_words(report["subject"], plan),
                     shown(plan["alert_limit_deg"]), faults["largest_faulty"].dump()));
     rates_table(faults["rates"], out);
     reused_table(faults, out);

@@ -125,6 +125,10 @@ Section identity_view(const Json& report) {
             {{"sensors", r["sensors"].dump()},
              {"capacity of the tool", r["tool_capacity"].dump()},
              {"monitor of the tool, bytes", r["tool_monitor_bytes"].dump()}});
+  out.text(
+      "How long a step of the monitor took on the machine that made this report stands in the last line of the page "
+      "and "
+      "in `run` of report.json, because it differs from run to run.");
   target_table(r["target"], out);
   analysis_table(report["analysis"], out);
   return out;
@@ -148,17 +152,33 @@ Section change_view(const Json& report) {
   return out;
 }
 
+namespace {
+
+/// What the run cost, and how long a step of the monitor took while it did.
+std::string run_words(const Json& run) {
+  std::string out = fmt::format("Run {} on {}, {} s, {} threads.", run.value("time", "-"), run.value("host", "-"),
+                                shown(run.value("seconds", Json())), shown(run.value("threads", Json())));
+  const Json step = run.value("monitor_step", Json());
+  if (!step.is_object()) return out;
+  const auto us = [&step](const char* key) { return shown(step[key], 1e-3); };
+  return out + fmt::format(
+                   " One step of the monitor took at most {} us in {} calls (median {} us, 99.9 % within {} us; "
+                   "{}; {}): a high-water mark of this machine under this load, no worst-case time.",
+                   us("high_water_ns"), step["calls"].dump(), us("median_ns"), us("p999_ns"),
+                   step["clock"].get<std::string>(), run.value("machine", "machine unknown"));
+}
+
+}  // namespace
+
 std::string verification_html(const Json& report, const PagePictures& pictures) {
   const Json& build = report["identity"]["build"];
-  const Json& run = report["run"];
   return sections_html(
       {"Verification of " + report["subject"]["name"].get<std::string>(),
        fmt::format("{} sensors, judged by plumb {} ({}). Every figure stands in report.json beside this page.",
                    report["subject"]["sensors"].dump(), build["version"].get<std::string>(),
                    build["commit"].get<std::string>()),
        "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.",
-       fmt::format("Run {} on {}, {} s, {} threads.", run.value("time", "-"), run.value("host", "-"),
-                   shown(run.value("seconds", Json())), shown(run.value("threads", Json())))},
+       run_words(report["run"])},
       {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
        campaign_view(report, pictures), machine_view(report), trace_view(report), identity_view(report),
        change_view(report)});

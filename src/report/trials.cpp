@@ -106,6 +106,8 @@ std::string common_part(const io::ArrayFile& array, const std::string& array_pat
   out += "\n[[tool]]\narray = " + quoted(array_path) + "\n";
   const double resolution = resolution_mps2(array);
   if (resolution > 0.0) out += "resolution = \"" + shortest(resolution) + " m/s^2\"\n";
+  if (settings.samples_per_row > 1)
+    out += fmt::format("samples_per_row = {}  # a row is a mean\n", settings.samples_per_row);
   const double rate_hz = array.input.rate_hz > 0.0 ? array.input.rate_hz : 100.0;
   out += fmt::format("\n[run]\nstations = {}\nsamples = {}\nrate = \"{} Hz\"\nmove = \"{} s\"\nonset = [1, 3]\n",
                      stations, monitor.window, shortest(rate_hz), shortest(std::fmin(1.0, 0.5 * monitor.max_gap_s)));

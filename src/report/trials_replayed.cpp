@@ -1,4 +1,5 @@
 // The first scenarios of the campaigns a second time, by other code, with an eye on the state machine.
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -87,7 +88,8 @@ Json coverage_json(const Seen& seen) {
 
 }  // namespace
 
-tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& campaigns, std::uint64_t scenarios) {
+tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& campaigns, std::uint64_t scenarios,
+                                              std::vector<std::int64_t>* step_ns) {
   Seen seen;
   std::uint64_t replayed = 0, agreed = 0;
   Json differing = Json::array();
@@ -99,8 +101,8 @@ tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& 
     for (std::uint64_t number = 0; number < std::min(scenarios, plan.scenarios); ++number) {
       const campaign::Spec spec = campaign::spec_of(plan, number);
       (*kernel)->play(spec, *played);
-      const auto again = campaign::replay(plan, spec.tool, campaign::scenario_of(plan, spec),
-                                          [&seen](const Verdict& verdict) { seen.look(verdict); });
+      const auto look = [&seen](const Verdict& verdict) { seen.look(verdict); };
+      const auto again = campaign::replay(plan, spec.tool, campaign::scenario_of(plan, spec), look, step_ns);
       if (!again) return tl::unexpected<std::string>(again.error());
       ++replayed;
       if (same(*played, *again)) {
@@ -113,6 +115,18 @@ tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& 
   Json out = {{"scenarios", replayed}, {"agree", agreed}, {"differing", std::move(differing)}};
   out["coverage"] = coverage_json(seen);
   return out;
+}
+
+Json step_times_json(std::vector<std::int64_t> step_ns) {
+  if (step_ns.empty()) return {};
+  std::sort(step_ns.begin(), step_ns.end());
+  // The smallest time that so many of a thousand calls did not exceed.
+  const auto at = [&step_ns](size_t of_1000) { return step_ns[(step_ns.size() * of_1000 + 999) / 1000 - 1]; };
+  return {{"calls", step_ns.size()},
+          {"median_ns", at(500)},
+          {"p999_ns", at(999)},
+          {"high_water_ns", step_ns.back()},
+          {"clock", "std::chrono::steady_clock"}};
 }
 
 }  // namespace report

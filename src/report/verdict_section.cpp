@@ -155,7 +155,12 @@ void judge_campaign(const UserLimits& limits, const Json& report, Criteria& out)
   const Json& faults = report["campaign"]["faults"];
   out.judge_never("Healthy sensors excluded", rate_of(faults, "wrong_exclusion"), limits.wrong_exclusion_rate);
   out.judge_never("Misleading output", rate_of(faults, "misleading"), limits.misleading_rate);
-  if (limits.detect_within_s) {
+  if (limits.detect_within_s && report["subject"].value("rows", "") == "stations") {
+    out.add("Time to detect, 95 % of the detected faults", fmt::format("at most {:.4g} s", *limits.detect_within_s),
+            "limits file", "not in seconds", "open",
+            "rows are stations, and the array file does not say how long lies between two of them: judge the blocks to "
+            "detect in section 4 by your own pace");
+  } else if (limits.detect_within_s) {
     const double within_s = detected_within_s(faults);
     out.judge(within_s >= 0.0 && within_s <= *limits.detect_within_s, "Time to detect, 95 % of the detected faults",
               fmt::format("at most {:.4g} s", *limits.detect_within_s), "limits file",
@@ -208,6 +213,19 @@ void judge_evidence(const Json& report, Criteria& out) {
             above.empty() ? "all within" : "above: " + above, "above its ceiling on the target: " + above);
 }
 
+/// What a row of a log of stations is taken for.
+std::string row_words(const Json& subject) {
+  const auto samples = subject.value("samples_per_row", std::uint64_t{1});
+  if (samples > 1)
+    return fmt::format(
+        "Every row is the mean of {} samples, the fewest behind any row of the log of positions, and scatters by the "
+        "noise of the array file over the root of that: the monitor will be given no row of fewer.",
+        samples);
+  return "Every row counts as one sample with the noise of the array file. Where rows are means, let `count` of "
+         "[input] "
+         "name the column that says of how many samples, and give the log (--positions).";
+}
+
 Json assumptions_of(const UserLimits& limits, const Json& report) {
   Json out = Json::array();
   const Json& array = report["array"];
@@ -224,11 +242,7 @@ Json assumptions_of(const UserLimits& limits, const Json& report) {
     out.push_back(
         "No calibration was given: what it leaves is predicted from a simulated stand with sensors drawn from the "
         "priors of the array file. Verify again with the real one (--positions or --calibration).");
-  if (report["subject"].value("rows", "") == "stations")
-    out.push_back(
-        "Every row counts as one sample with the noise of the array file: geometry and campaigns are harsher than a "
-        "log "
-        "whose rows are means of many samples.");
+  if (report["subject"].value("rows", "") == "stations") out.push_back(row_words(report["subject"]));
   out.push_back(
       "The campaigns speak of the scenarios that they draw: the faults, sizes and attitudes listed, in equal "
       "shares. A rate in the field is another number.");

@@ -124,6 +124,66 @@ TEST(VerifyCommand, TheCalibrationThatIsGivenIsTheOneThatIsJudged) {
   EXPECT_NE(a["calibration"]["sensors"], paper_report()["calibration"]["sensors"]);
 }
 
+/// The paper's tool with a log whose rows are the means of 200 samples at a station; `input` says what the array file
+/// knows of that.
+Directory& with_means(Directory& where, const std::string& input) {
+  std::string tool = read_text(PLUMB_SOURCE_DIR "/examples/paper_tool.toml");
+  tool = with(tool, "unit = \"V\"", "rows = \"stations\"\n" + input + "unit = \"V\"");
+  write_text(where / "tool.toml", tool + "\n[monitor]\nwindow = 1\nmax_gap = \"1000 s\"\n");
+  const std::string stand = read_text(PLUMB_SOURCE_DIR "/examples/stand.toml");
+  write_text(where / "stand.toml", with(stand, "paper_tool.toml", "tool.toml"));
+  EXPECT_EQ(run(where, {"simulate", "stand.toml", "--out", "stand.csv"}).code, 0);
+  return where;
+}
+
+Json verified_means(const Directory& where) {
+  const Outcome outcome = verify(where, {"--array", "tool.toml", "--positions", "stand.csv", "--out", "r"});
+  EXPECT_TRUE(outcome.code == 0 || outcome.code == 6) << outcome.err;
+  return report_in(where / "r");
+}
+
+double block_noise(const Json& report) { return report["array"]["sensors"][0]["thresholds_mps2"]["block_noise"]; }
+
+TEST(VerifyCommand, ARowThatIsAMeanIsJudgedByItsOwnNoise) {
+  Directory where, crude;
+  const Json report = verified_means(with_means(where, "count = \"n\"\n"));
+  const Json single = verified_means(with_means(crude, ""));
+  EXPECT_EQ(report["subject"]["samples_per_row"], 200);
+  EXPECT_EQ(single["subject"]["samples_per_row"], 1);
+  EXPECT_NEAR(block_noise(report), block_noise(single) / std::sqrt(200.0), 1e-9);
+  EXPECT_LT(report["array"]["protection_level_deg"], single["array"]["protection_level_deg"]);
+  EXPECT_NE(report["campaign"]["faults"]["plan"]["plan_hash"], single["campaign"]["faults"]["plan"]["plan_hash"]);
+  EXPECT_NE(read_text(where / "r" / "faults.toml").find("samples_per_row = 200"), std::string::npos);
+  EXPECT_EQ(report["campaign"]["replayed"]["agree"], report["campaign"]["replayed"]["scenarios"]);
+  EXPECT_NE(report["verdict"]["assumptions"].dump().find("the mean of 200 samples"), std::string::npos);
+  EXPECT_NE(single["verdict"]["assumptions"].dump().find("counts as one sample"), std::string::npos);
+}
+
+TEST(VerifyCommand, TheScarcestRowDecidesAndSecondsAreNotInvented) {
+  Directory where;
+  with_means(where, "count = \"n\"\n");
+  std::string log = read_text(where / "stand.csv");
+  const std::size_t at = log.find(",200", log.find('\n'));
+  ASSERT_NE(at, std::string::npos) << log.substr(0, 300);
+  write_text(where / "stand.csv", log.replace(at, 4, ",50"));
+  EXPECT_EQ(verified_means(where)["subject"]["samples_per_row"], 50);
+  write_text(where / "limits.toml", "[limits]\ndetect_within = \"1 h\"\n");
+  const Outcome outcome =
+      verify(where, {"--array", "tool.toml", "--positions", "stand.csv", "--limits", "limits.toml", "--out", "r"});
+  EXPECT_EQ(outcome.code, 6);
+  EXPECT_NE(outcome.out.find("not in seconds"), std::string::npos) << outcome.out;
+}
+
+TEST(VerifyCommand, TheStepsOfTheMonitorAreTimedOnThisHost) {
+  const Json& step = paper_report()["run"]["monitor_step"];
+  EXPECT_GT(step["calls"].get<int>(), 10000);
+  EXPECT_LE(step["median_ns"], step["p999_ns"]);
+  EXPECT_LE(step["p999_ns"], step["high_water_ns"]);
+  EXPECT_FALSE(paper_report()["run"]["machine"].get<std::string>().empty());
+  const std::string page = read_text(verified_paper_tool() / "report" / "report.html");
+  EXPECT_TRUE(says(page, {"<p id=\"run\">", "high-water mark", "no worst-case time"}));
+}
+
 TEST(VerifyCommand, ComparesWithAnEarlierReport) {
   Directory where;
   with_tool(where);

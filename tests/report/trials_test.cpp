@@ -79,6 +79,43 @@ TEST(VerificationTrials, TheMonitorIsTheOneOfTheArrayFile) {
   EXPECT_NE(monitor_of(array, s), bytes);
 }
 
+double first_sigma(const report::TrialSettings& s) {
+  return parsed(report::fault_campaign(paper_array(), kPath, s)).plan.tools.at(0).sigma_mps2[0];
+}
+
+TEST(VerificationTrials, ARowOfManySamplesScattersByTheRootOfThemLess) {
+  report::TrialSettings one = settings(9), many = one;
+  many.samples_per_row = 400;
+  EXPECT_DOUBLE_EQ(first_sigma(many), first_sigma(one) / 20.0);
+  const campaign::Plan before = parsed(report::fault_campaign(paper_array(), kPath, one)).plan;
+  const campaign::Plan after = parsed(report::fault_campaign(paper_array(), kPath, many)).plan;
+  EXPECT_DOUBLE_EQ(after.tools[0].detectable_mps2[3], before.tools[0].detectable_mps2[3] / 20.0);
+  EXPECT_NE(campaign::hash_of(before), campaign::hash_of(after));  // a result of the one is none of the other
+}
+
+TEST(VerificationTrials, TheTimesOfStepsAreOrderedAndTheLongestIsTheMark) {
+  std::vector<std::int64_t> times;
+  for (int k = 2000; k > 0; --k) times.push_back(k);
+  const Json json = report::step_times_json(times);
+  EXPECT_EQ(json["calls"], 2000);
+  EXPECT_EQ(json["median_ns"], 1000);
+  EXPECT_EQ(json["p999_ns"], 1998);
+  EXPECT_EQ(json["high_water_ns"], 2000);
+  EXPECT_EQ(report::step_times_json({7})["median_ns"], 7);
+  EXPECT_TRUE(report::step_times_json({}).is_null());  // nothing was replayed: no time is made up
+}
+
+TEST(VerificationTrials, ARowOfNoSamplesIsRefused) {
+  const std::string text = report::fault_campaign(paper_array(), kPath, settings(9));
+  for (const char* wrong : {"0", "-3", "1.5", "\"many\"", "10000001"}) {
+    std::string damaged = text;
+    damaged.insert(damaged.find("\n\n[run]"), std::string("\nsamples_per_row = ") + wrong);
+    const io::FileExpected<campaign::CampaignFile> file = campaign::parse_campaign_text(damaged, "test");
+    ASSERT_FALSE(file) << wrong;
+    EXPECT_NE(file.error().text().find("samples_per_row"), std::string::npos) << file.error().text();
+  }
+}
+
 TEST(VerificationTrials, TheNameOfTheArrayFileDoesNotMatter) {
   const io::ArrayFile array = paper_array();
   const std::string copy = testing::TempDir() + "/array with \"quotes\".toml";

@@ -22,7 +22,7 @@ struct ToolPlan {
   std::string name;
   int sensors = 0;
   std::array<std::array<double, 3>, kMostSensors> axis{};
-  std::array<double, kMostSensors> sigma_mps2{};       ///< of one sample
+  std::array<double, kMostSensors> sigma_mps2{};       ///< of one row
   std::array<double, kMostSensors> detectable_mps2{};  ///< MDB: missed by parity in one block in a thousand; 0 = none
   double volt_per_mps2 = 0.0;                          ///< scale factor, raw unit
   double resolution_raw = 0.0;                         ///< one code [V]; 0 = not known, nothing is rounded

@@ -2,9 +2,11 @@
 /// code than the campaign's (`scenario::Simulator`, and the monitor of the tool).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "plumb/campaign/kernel.hpp"
 #include "plumb/campaign/tally.hpp"
@@ -25,9 +27,11 @@ Spec shrunk(const Plan& plan, Kernel& kernel, const Spec& spec, Count what);
 std::string case_text(const Plan& plan, const Spec& spec);
 
 /// Plays the stations of trust, then the scenario; `look` sees every verdict of the latter. `tool` is an index of the
-/// plan. Errors: those of the simulator and of the monitor's configuration.
+/// plan. `step_ns`, where given, gets how long every call of `HealthMonitor::step` took, by std::chrono::steady_clock.
+/// Errors: those of the simulator and of the monitor's configuration.
 tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scenario::Scenario& scenario,
-                                          const std::function<void(const Verdict&)>& look);
+                                          const std::function<void(const Verdict&)>& look,
+                                          std::vector<std::int64_t>* step_ns = nullptr);
 
 /// The spec as the simulator plays it.
 scenario::Scenario scenario_of(const Plan& plan, const Spec& spec);

@@ -26,7 +26,8 @@ struct TrialSettings {
   double alert_limit_rad = 0.0;
   double e_cal_mps2 = 0.0;  ///< 1 sigma of what calibration left in a reading; 0 = nothing
   std::uint64_t seed = 1;
-  std::uint64_t scenarios = 0;  ///< of each campaign
+  std::uint64_t scenarios = 0;        ///< of each campaign
+  std::uint32_t samples_per_row = 1;  ///< behind every row of the log, where its rows are means
 };
 
 /// The campaign files (docs/campaign.md). `array_path` is how they name the array file.
@@ -68,8 +69,13 @@ Json fault_trials_json(const Trials& trials, const std::string& command);
 Json healthy_trials_json(const Trials& trials, const std::string& command);
 
 /// The first scenarios again by other code (the simulator, and the monitor for 24 sensors): whether both agree, and
-/// which states, transitions and cells of the table they led through.
-tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& campaigns, std::uint64_t scenarios);
+/// which states, transitions and cells of the table they led through. `step_ns`, where given, gets how long every step
+/// of that monitor took.
+tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& campaigns, std::uint64_t scenarios,
+                                              std::vector<std::int64_t>* step_ns = nullptr);
+
+/// Number, median, 99.9 % and high-water mark of these times; null where there are none.
+Json step_times_json(std::vector<std::int64_t> step_ns);
 
 /// k of n with its 95 % Clopper-Pearson interval.
 Json rate_json(std::uint64_t count, std::uint64_t of);
