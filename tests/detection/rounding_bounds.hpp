@@ -14,8 +14,8 @@ inline constexpr double kUnitsError_units = 0x1.000004p-1;
 /// An integer of the window against the exact error of a sample: form, root, difference and conversion together.
 /// Range of form.g, lengths 4 to 300 m/s^2, gravity 9 to 10 m/s^2. proofs/sample.g.
 inline constexpr double kSampleError_units = 0x1.0ap-1;
-/// PLUMB_SCALAR=float: what a squared length changes by, in (m/s^2)^2, for differences up to 1/8 m/s^2 and a triple that
-/// votes. proofs/near_form.g.
+/// PLUMB_SCALAR=float: what a squared length changes by, in (m/s^2)^2, for differences up to 1/8 m/s^2 and a triple
+/// that votes. proofs/near_form.g.
 inline constexpr double kNearFormError_m2ps4 = 0x1.1fp-14;
 /// The same up to the integer of the window, for lengths of 8 to 12 m/s^2. proofs/near_sample.g.
 inline constexpr double kNearSampleError_units = 0x1.46p4;
