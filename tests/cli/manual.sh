@@ -64,7 +64,6 @@ if command -v zsh >/dev/null; then
   zask monitor | grep -q '^--on-bad-row\[.*\]:value:(skip stop)$' || fail "choices in zsh: $(zask monitor)"
   zask verify | grep -q '^--array\[.*\]:value:_files$' || fail "files in zsh: $(zask verify)"
   zask verify | grep -q '^--seed\[.*\]:value:$' || fail "a number is no file in zsh: $(zask verify)"
-  zask verify | grep -q '^\*--reuse\[.*\]:value:_files$' || fail "given more than once in zsh: $(zask verify)"
   compared="$compared, zsh"
 fi
 if command -v fish >/dev/null; then
