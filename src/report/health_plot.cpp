@@ -69,8 +69,8 @@ std::string run_script() {
          "set ylabel '|G| less reference, mg0'\nplot " +
          limits_over("$1") + ", " + by_colour("$1", "$4", true) + "\nunset key\nset ylabel 'inclination, deg'\nplot " +
          by_colour("$1", "$6", false) +
-         "\nset ylabel 'statistic over limit'\nset yrange [0:*]\nplot 1 with lines dt 2 lc rgb bound notitle, " +
-         by_colour("$1", "$9", false) + "\nunset multiplot\nset yrange [*:*]\nunset output\n";
+         "\nset ylabel 'statistic over limit'\nset logscale y\nplot 1 with lines dt 2 lc rgb bound notitle, " +
+         by_colour("$1", "$9", false) + "\nunset logscale y\nunset multiplot\nunset output\n";
 }
 
 std::string roll_script() {
