@@ -119,7 +119,7 @@ std::uint64_t NearLengths::check() const noexcept {
   constexpr size_t kSummed = sizeof triple_ + sizeof column_ + sizeof frame_ + sizeof twice_ + sizeof length_ +
                              sizeof known_ + sizeof framed_mps2_;
   static_assert(kSummed + sizeof check_ == sizeof(NearLengths), "no padding, and the sum behind all that it is over");
-  return sum_of_bytes(reinterpret_cast<const unsigned char*>(this), kSummed);
+  return sum_of_bytes(static_cast<const unsigned char*>(static_cast<const void*>(this)), kSummed);
 }
 
 bool NearLengths::holds() const noexcept {
