@@ -126,11 +126,6 @@ bool ScatterRecord::plausible() const noexcept {
 
 void BlockAccumulator::clear() noexcept { *this = BlockAccumulator{}; }
 
-void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double count) noexcept {
-  Differences difference{};
-  add(y_mps2, usable, count, difference);
-}
-
 void BlockAccumulator::add(const Readings& y_mps2, SensorSet usable, double count, Differences& d) noexcept {
   // A channel's origin is where it first delivers in the block.
   const SensorSet fresh = usable - usable_;

@@ -66,13 +66,15 @@ TEST(BlockTestsEdge, NobodyVouchesForALengthThatNobodyChecks) {
   block.usable = array.all();
   block.samples = 32.0;
   block.mean_mps2[2] = block.mean_mps2[3] = kG0_mps2;
-  const BlockTests tests(array, gravity, TestLimits::from_rates(4, 1e-5, 1e-6), block);
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  const BlockTests tests(array, gravity, limits, block);
   EXPECT_FALSE(tests.vouches_for_norm(array.all(), SetTest{}));
   EXPECT_FALSE(tests.vouches_for_norm(array.all(), tests.of(array.all())));
   const SensorArray cone = plumb_test::cone_array(6, kSigma);
   for (int i = 0; i < 6; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = cone.axis(i)[2] * kG0_mps2;
   block.usable = cone.all();
-  const BlockTests six(cone, gravity, TestLimits::from_rates(6, 1e-5, 1e-6), block);
+  const TestLimits limits_of_six = TestLimits::from_rates(6, 1e-5, 1e-6);
+  const BlockTests six(cone, gravity, limits_of_six, block);
   SetTest badly_checked = six.of(cone.all());
   badly_checked.least_leverage = 0.0;
   for (double& c : badly_checked.covariance) c *= 10.0;

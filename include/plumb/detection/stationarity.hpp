@@ -22,7 +22,10 @@ class BlockAccumulator {
  public:
   void clear() noexcept;
   /// Adds one set of readings; those outside `usable` are not read. `count` raw samples stand behind it.
-  void add(const Readings& y_mps2, SensorSet usable, double count) noexcept;
+  void add(const Readings& y_mps2, SensorSet usable, double count) noexcept {
+    Differences unused{};
+    add(y_mps2, usable, count, unused);
+  }
   /// The same; leaves in `difference` what was added, zero for a channel that is not usable.
   void add(const Readings& y_mps2, SensorSet usable, double count, Differences& difference) noexcept;
   /// What the differences are from, for the channels of `seen`.
