@@ -62,9 +62,11 @@ Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sampl
     const auto a = static_cast<size_t>(i);
     // A cubic scale factor may pass through zero far from its calibrated span: what comes of it is not finite.
     const double scale = kept.scale(a);
-    const double specific_force = kSingle ? sample.raw[a] * scale : sample.raw[a] / scale;
-    const double v =
-        scale == 0.0 ? std::numeric_limits<double>::quiet_NaN() : sign * (specific_force - kept.bias_mps2(a));
+    double v = std::numeric_limits<double>::quiet_NaN();
+    if (scale != 0.0) {
+      const double specific_force = kSingle ? sample.raw[a] * scale : sample.raw[a] / scale;
+      v = sign * (specific_force - kept.bias_mps2(a));
+    }
     const double size = std::fabs(v);
     if (size <= kReadingClamp_mps2) {  // a NaN is not
       y[a] = v;
