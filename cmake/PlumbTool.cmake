@@ -19,6 +19,7 @@ if(cli_sources)
     endif()
   endforeach()
   target_link_libraries(plumb_cli PUBLIC CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
+  plumb_parse_once(plumb_cli <CLI/CLI.hpp> <nlohmann/json.hpp> <fmt/format.h>)
 
   # What steps the rows of a log, with the monitors for 4, 8 and 24 sensors. By path: a target would hand its capacity on.
   plumb_sources(stepper_sources cli/kernel)

@@ -4,6 +4,7 @@
 
 namespace plumb {
 namespace test {
+namespace common_bias_test {
 namespace {
 
 /// Safety note 5: parity of the paper's tool sees half of it and the vector takes 1.5 b along z; with the fourth sensor
@@ -56,6 +57,7 @@ RC_GTEST_PROP(CommonBiasLaw, NoPatternShowsMoreThanTheBest, ()) {
 }
 
 }  // namespace
+}  // namespace common_bias_test
 }  // namespace test
 TEST(CommonBias, NoSensorsHaveNoPlan) {
   const PolarityPlan plan = best_polarity(SensorArray{});

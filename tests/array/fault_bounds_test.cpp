@@ -7,6 +7,7 @@
 
 namespace plumb {
 namespace test {
+namespace fault_bounds_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -131,6 +132,7 @@ RC_GTEST_PROP(FaultBoundsLaw, NoExplanationIsFurtherAwayThanTheBound, ()) {
 }
 
 }  // namespace
+}  // namespace fault_bounds_test
 }  // namespace test
 TEST(FaultBounds, NoSensorsBoundNothing) {
   const FaultBounds bounds = fault_bounds(SensorArray{}, 0.1);

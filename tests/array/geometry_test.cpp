@@ -7,6 +7,7 @@
 
 namespace plumb {
 namespace test {
+namespace array_geometry_test {
 namespace {
 
 const double kR2 = std::sqrt(2.0);
@@ -364,5 +365,6 @@ RC_GTEST_PROP(GeometryLaw, FiguresOfMeritDoNotDependOnTheFrame, ()) {
 }
 
 }  // namespace
+}  // namespace array_geometry_test
 }  // namespace test
 }  // namespace plumb

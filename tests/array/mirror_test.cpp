@@ -4,6 +4,7 @@
 
 namespace plumb {
 namespace test {
+namespace array_mirror_test {
 namespace {
 
 Vec3 vector_of(const SensorArray& array, int triple, const Readings& y) {
@@ -70,6 +71,7 @@ RC_GTEST_PROP(MirrorLaw, TheMirrorErrorIsAnExactUndetectablePair, ()) {
 }
 
 }  // namespace
+}  // namespace array_mirror_test
 }  // namespace test
 
 TEST(Mirror, AMemberThatATripleDoesNotHaveWeighsNothing) {

@@ -6,6 +6,7 @@
 
 namespace plumb {
 namespace test {
+namespace named_test {
 namespace {
 
 /// H'H, row-major.
@@ -124,5 +125,6 @@ RC_GTEST_PROP(NamedLaw, AConeHasItsHalfAngleAndEqualAzimuths, ()) {
 }
 
 }  // namespace
+}  // namespace named_test
 }  // namespace test
 }  // namespace plumb

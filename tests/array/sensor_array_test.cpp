@@ -7,6 +7,7 @@
 
 namespace plumb {
 namespace test {
+namespace sensor_array_test {
 namespace {
 
 static_assert(std::is_trivially_copyable<SensorArray>::value, "a monitor holds one and must stay trivially copyable");
@@ -282,5 +283,6 @@ RC_GTEST_PROP(SensorArrayLaw, DeterminantAndConditionBoundEachOther, ()) {
 }
 
 }  // namespace
+}  // namespace sensor_array_test
 }  // namespace test
 }  // namespace plumb

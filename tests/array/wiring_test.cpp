@@ -4,6 +4,7 @@
 
 namespace plumb {
 namespace test {
+namespace wiring_test {
 namespace {
 
 constexpr double kVisible = 1e-9;
@@ -83,5 +84,6 @@ RC_GTEST_PROP(WiringLaw, NoAttitudeShowsMoreThanTheEffectSays, ()) {
 }
 
 }  // namespace
+}  // namespace wiring_test
 }  // namespace test
 }  // namespace plumb

@@ -9,6 +9,7 @@
 #include "health/first_calibration_support.hpp"
 #include "health/recalibration_support.hpp"
 
+namespace plumb_c_calibration_test {
 namespace {
 
 using namespace plumb;
@@ -147,3 +148,4 @@ TEST(CCalibration, AnOfferThatIsNoneIsAnswered) {
 }
 
 }  // namespace
+}  // namespace plumb_c_calibration_test

@@ -9,6 +9,7 @@
 #include "c_form.hpp"
 #include "health/snapshot_support.hpp"
 
+namespace plumb_c_misuse_test {
 namespace {
 
 using namespace plumb;
@@ -136,3 +137,4 @@ TEST(CMisuse, ReadsAndAlarmFormReachTheMonitor) {
 }
 
 }  // namespace
+}  // namespace plumb_c_misuse_test

@@ -11,6 +11,7 @@
 #include "c_form.hpp"
 #include "health/snapshot_support.hpp"
 
+namespace plumb_c_test {
 namespace {
 
 using namespace plumb;
@@ -173,3 +174,4 @@ TEST(CFunctions, DefaultsAreThoseOfTheMonitor) {
 }
 
 }  // namespace
+}  // namespace plumb_c_test

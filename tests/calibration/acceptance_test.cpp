@@ -8,6 +8,7 @@
 
 #include "calibration_support.hpp"
 
+namespace acceptance_test {
 namespace {
 
 using namespace calibration_test;
@@ -262,3 +263,4 @@ TEST(CrossCheck, TakesNothingForAnAnswer) {
 }
 
 }  // namespace
+}  // namespace acceptance_test

@@ -5,6 +5,7 @@
 
 #include "calibration_support.hpp"
 
+namespace accuracy_test {
 namespace {
 
 using namespace calibration_test;
@@ -134,3 +135,4 @@ TEST(FitAccuracy, ConditionIsTheRatioOfTheExtremeSingularValues) {
 }
 
 }  // namespace
+}  // namespace accuracy_test

@@ -14,6 +14,7 @@
 #include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/calibration/paper_parameters.hpp"
 
+namespace around_fit_edges_test {
 namespace {
 
 using namespace calibration_test;
@@ -312,3 +313,4 @@ TEST(PaperEdge, FormsOfArraysThatDoNotMatch) {
 }
 
 }  // namespace
+}  // namespace around_fit_edges_test

@@ -7,6 +7,7 @@
 
 #include "calibration_support.hpp"
 
+namespace calibration_laws_test {
 namespace {
 
 using namespace calibration_test;
@@ -104,3 +105,4 @@ RC_GTEST_PROP(CalibrationLaws, AnyReadingsAtAllComeBackAsAValue, ()) {
 }
 
 }  // namespace
+}  // namespace calibration_laws_test

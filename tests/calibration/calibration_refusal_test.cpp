@@ -6,6 +6,7 @@
 
 #include "calibration_support.hpp"
 
+namespace calibration_refusal_test {
 namespace {
 
 using namespace calibration_test;
@@ -310,3 +311,4 @@ TEST(CalibrationRefusal, EveryStopReasonHasAName) {
 }
 
 }  // namespace
+}  // namespace calibration_refusal_test

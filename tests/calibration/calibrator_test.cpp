@@ -10,6 +10,7 @@
 
 #include "calibration_support.hpp"
 
+namespace calibrator_test {
 namespace {
 
 using namespace calibration_test;
@@ -405,3 +406,4 @@ TEST(StationResidual, VanishesForTheTruthAndNamesTheLiar) {
 }
 
 }  // namespace
+}  // namespace calibrator_test

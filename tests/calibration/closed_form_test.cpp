@@ -5,6 +5,7 @@
 
 #include "calibration_support.hpp"
 
+namespace closed_form_test {
 namespace {
 
 using namespace calibration_test;
@@ -170,3 +171,4 @@ TEST(FitStart, WithThePriorEveryStationSetConverges) {
 }
 
 }  // namespace
+}  // namespace closed_form_test

@@ -7,6 +7,7 @@
 #include "calibration_support.hpp"
 #include "plumb/calibration/acceptance.hpp"
 
+namespace common_turn_test {
 namespace {
 
 using namespace calibration_test;
@@ -155,3 +156,4 @@ TEST(CommonTurn, AnyDirectionOfTheRollAxisIsJudgedAlike) {
 }
 
 }  // namespace
+}  // namespace common_turn_test

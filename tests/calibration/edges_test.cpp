@@ -8,6 +8,7 @@
 
 #include "calibration/edges_support.hpp"
 
+namespace calibration_edges_test {
 namespace {
 
 using namespace calibration_test;
@@ -229,3 +230,4 @@ TEST(HeldFitEdge, StraysRefuseItAndTooFewAreNotJudged) {
 }
 
 }  // namespace
+}  // namespace calibration_edges_test

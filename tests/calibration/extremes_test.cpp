@@ -13,6 +13,7 @@
 #include "plumb/calibration/observability.hpp"
 #include "plumb/calibration/paper_calibration.hpp"
 
+namespace extremes_test {
 namespace {
 
 using namespace temperature_test;
@@ -225,3 +226,4 @@ TEST(ExtremeNumbers, StationsOfNoToolAreRefused) {
 }
 
 }  // namespace
+}  // namespace extremes_test

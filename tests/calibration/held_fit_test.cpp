@@ -5,6 +5,7 @@
 
 #include "calibration/calibration_support.hpp"
 
+namespace held_fit_test {
 namespace {
 
 using namespace calibration_test;
@@ -95,3 +96,4 @@ TEST(HeldFit, RefusesWhatTheGeneralFitRefuses) {
 }
 
 }  // namespace
+}  // namespace held_fit_test

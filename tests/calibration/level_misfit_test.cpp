@@ -6,6 +6,7 @@
 #include "calibration/temperature_support.hpp"
 #include "plumb/calibration/acceptance.hpp"
 
+namespace level_misfit_test {
 namespace {
 
 using namespace temperature_test;
@@ -174,3 +175,4 @@ TEST(FollowsTime, IsToldOfARampAndNotOfOneThatComesBack) {
 }
 
 }  // namespace
+}  // namespace level_misfit_test

@@ -9,6 +9,7 @@
 
 #include "calibration_support.hpp"
 
+namespace null_directions_test {
 namespace {
 
 using namespace calibration_test;
@@ -226,3 +227,4 @@ TEST(NullCombinations, OfAReportOfAnythingAreBounded) {
 }
 
 }  // namespace
+}  // namespace null_directions_test

@@ -11,6 +11,7 @@
 
 #include "calibration_support.hpp"
 
+namespace observability_test {
 namespace {
 
 using namespace calibration_test;
@@ -164,3 +165,4 @@ RC_GTEST_PROP(StationPlannerLaw, FollowingThePlanMakesAnySetSufficient, ()) {
 }
 
 }  // namespace
+}  // namespace observability_test

@@ -5,6 +5,7 @@
 
 #include "calibration_support.hpp"
 
+namespace outlier_test {
 namespace {
 
 using namespace calibration_test;
@@ -384,3 +385,4 @@ TEST(FaultySensor, HealthySensorsShareTheResiduals) {
 }
 
 }  // namespace
+}  // namespace outlier_test

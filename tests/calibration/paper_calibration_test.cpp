@@ -10,6 +10,7 @@
 
 #include "paper_support.hpp"
 
+namespace paper_calibration_test {
 namespace {
 
 using namespace calibration_test;
@@ -250,3 +251,4 @@ TEST(PaperCalibration, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
+}  // namespace paper_calibration_test

@@ -7,6 +7,7 @@
 
 #include "paper_support.hpp"
 
+namespace paper_convergence_test {
 namespace {
 
 using namespace calibration_test;
@@ -172,3 +173,4 @@ TEST(PaperConvergence, ItsNormIsPerfectAndItsParityIsNot) {
 }
 
 }  // namespace
+}  // namespace paper_convergence_test

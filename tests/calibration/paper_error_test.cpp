@@ -8,6 +8,7 @@
 #include "calibration_support.hpp"
 #include "plumb/calibration/paper_calibration.hpp"
 
+namespace paper_error_test {
 namespace {
 
 using namespace calibration_test;
@@ -210,3 +211,4 @@ TEST(PaperError, VanishingScaleFactorIsNoReading) {
 }
 
 }  // namespace
+}  // namespace paper_error_test

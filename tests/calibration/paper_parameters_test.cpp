@@ -10,6 +10,7 @@
 #include "calibration_support.hpp"
 #include "plumb/array/geometry.hpp"
 
+namespace paper_parameters_test {
 namespace {
 
 using namespace calibration_test;
@@ -254,3 +255,4 @@ TEST(PaperParameters, SingularMisalignmentsHaveNoCommonFrameForm) {
 }
 
 }  // namespace
+}  // namespace paper_parameters_test

@@ -7,6 +7,7 @@
 
 #include "paper_support.hpp"
 
+namespace paper_three_test {
 namespace {
 
 using namespace calibration_test;
@@ -70,3 +71,4 @@ TEST(PaperThree, ATripleOverTemperatureIsThatOfTheGeneralForm) {
 }
 
 }  // namespace
+}  // namespace paper_three_test

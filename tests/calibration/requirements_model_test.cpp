@@ -6,6 +6,7 @@
 
 #include "plumb/calibration/sensor_model.hpp"
 
+namespace requirements_model_test {
 namespace {
 
 using namespace plumb;
@@ -62,3 +63,4 @@ RC_GTEST_PROP(RequirementSensorModel, AgreesWithExtendedPrecision, ()) {
 }
 
 }  // namespace
+}  // namespace requirements_model_test

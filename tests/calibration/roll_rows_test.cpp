@@ -7,6 +7,7 @@
 
 #include "calibration_support.hpp"
 
+namespace roll_rows_test {
 namespace {
 
 using namespace calibration_test;
@@ -275,3 +276,4 @@ TEST(RollRows, FullRankIsAskedForWithTheRowsInMind) {
 }
 
 }  // namespace
+}  // namespace roll_rows_test

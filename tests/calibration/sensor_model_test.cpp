@@ -8,6 +8,7 @@
 
 #include "calibration_support.hpp"
 
+namespace sensor_model_test {
 namespace {
 
 using calibration_test::at;
@@ -150,3 +151,4 @@ TEST(Datasheet, YieldsItsModelAndItsArray) {
 }
 
 }  // namespace
+}  // namespace sensor_model_test

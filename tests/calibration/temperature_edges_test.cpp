@@ -7,6 +7,7 @@
 
 #include "calibration/temperature_support.hpp"
 
+namespace temperature_edges_test {
 namespace {
 
 using namespace temperature_test;
@@ -181,3 +182,4 @@ TEST(TemperatureEdge, ADatasheetTakesTheTermsThatThereAre) {
 }
 
 }  // namespace
+}  // namespace temperature_edges_test

@@ -8,6 +8,7 @@
 #include "calibration/temperature_support.hpp"
 #include "plumb/calibration/cross_check.hpp"
 
+namespace temperature_fit_test {
 namespace {
 
 using namespace temperature_test;
@@ -293,3 +294,4 @@ TEST(TemperatureFit, ForecastGrowsWhereNothingWasRecorded) {
 }
 
 }  // namespace
+}  // namespace temperature_fit_test

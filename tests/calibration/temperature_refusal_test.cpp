@@ -5,6 +5,7 @@
 
 #include "calibration/temperature_support.hpp"
 
+namespace temperature_refusal_test {
 namespace {
 
 using namespace temperature_test;
@@ -232,3 +233,4 @@ TEST(TemperatureRefusal, RollGroupsStayAtOrderZero) {
 }
 
 }  // namespace
+}  // namespace temperature_refusal_test

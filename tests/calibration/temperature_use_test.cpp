@@ -5,6 +5,7 @@
 #include "plumb/calibration/cross_check.hpp"
 #include "plumb/health/health_monitor.hpp"
 
+namespace temperature_use_test {
 namespace {
 
 using namespace temperature_test;
@@ -230,3 +231,4 @@ TEST(TemperatureUse, ALevelOfOneStationConfirmsNothing) {
 }
 
 }  // namespace
+}  // namespace temperature_use_test

@@ -1,6 +1,7 @@
 // plumb campaign as a user sees it.
 #include "cli/tool_runner.hpp"
 
+namespace command_test {
 namespace {
 
 using namespace plumb_test;
@@ -91,3 +92,4 @@ TEST(CampaignCommand, AFailingScenarioIsSavedAndItsCommandFailsAgain) {
 }
 
 }  // namespace
+}  // namespace command_test

@@ -10,10 +10,12 @@
 #include "plumb/campaign/result_file.hpp"
 #include "plumb/io/scenario_file.hpp"
 
+namespace engine_test {
 namespace {
 
 using namespace plumb_test;
 using namespace plumb::campaign;
+using plumb::campaign::Outcome;
 
 constexpr std::uint64_t kScenarios = 700;
 
@@ -281,3 +283,4 @@ TEST(CampaignFile, TheHashTellsPlansApart) {
 }
 
 }  // namespace
+}  // namespace engine_test

@@ -7,10 +7,12 @@
 #include "plumb/campaign/replay.hpp"
 #include "plumb/scenario/random.hpp"
 
+namespace kernel_test {
 namespace {
 
 using namespace plumb_test;
 using namespace plumb::campaign;
+using plumb::campaign::Outcome;
 
 TEST(CampaignNoise, ManyNormalsAtOnceAreThoseDrawnOneByOne) {
   // 40 000 of them: every branch of the ziggurat, its tail (one in 4000) among them.
@@ -139,3 +141,4 @@ TEST(CampaignSpec, CellsComeInTurnAndSensorsAllAlike) {
 }
 
 }  // namespace
+}  // namespace kernel_test

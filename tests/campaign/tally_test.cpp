@@ -4,10 +4,12 @@
 #include "campaign_support.hpp"
 #include "plumb/core/units.hpp"
 
+namespace tally_test {
 namespace {
 
 using namespace plumb_test;
 using namespace plumb::campaign;
+using plumb::campaign::Outcome;
 
 constexpr double kDeg = plumb::rad_from_deg(1.0);
 
@@ -200,3 +202,4 @@ TEST(Tally, AnyOrderOfPartsGivesTheSame) {
 }
 
 }  // namespace
+}  // namespace tally_test

@@ -1,6 +1,7 @@
 // Bad input through the tool: a message with file, line, field and remedy, and the right exit code.
 #include "tool_runner.hpp"
 
+namespace bad_input_test {
 namespace {
 
 using namespace plumb_test;
@@ -279,3 +280,4 @@ TEST(SameFile, AnOutputThatIsAnInputIsRefusedAndTheInputKept) {
 }
 
 }  // namespace
+}  // namespace bad_input_test

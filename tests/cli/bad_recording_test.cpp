@@ -3,6 +3,7 @@
 
 #include "tool_runner.hpp"
 
+namespace bad_recording_test {
 namespace {
 
 using namespace plumb_test;
@@ -289,3 +290,4 @@ TEST(BadRecording, AxesNearOnePlaneAndThePapersFit) {
 }
 
 }  // namespace
+}  // namespace bad_recording_test

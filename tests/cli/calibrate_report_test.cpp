@@ -4,6 +4,7 @@
 
 #include "tool_runner.hpp"
 
+namespace calibrate_report_test {
 namespace {
 
 using namespace plumb_test;
@@ -294,3 +295,4 @@ TEST(PlotsOption, WithoutGnuplotTheRestIsDone) {
 }
 
 }  // namespace
+}  // namespace calibrate_report_test

@@ -10,6 +10,7 @@
 
 #include "tool_runner.hpp"
 
+namespace commands_test {
 namespace {
 
 using namespace plumb_test;
@@ -345,3 +346,4 @@ TEST(Output, FullDiskIsNotSuccess) {
 }
 
 }  // namespace
+}  // namespace commands_test

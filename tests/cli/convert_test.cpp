@@ -1,6 +1,7 @@
 // plumb convert, and every command on a binary log: the same results as on the CSV.
 #include "tool_runner.hpp"
 
+namespace convert_test {
 namespace {
 
 using namespace plumb_test;
@@ -82,3 +83,4 @@ TEST(Convert, ACutOffLogKeepsWhatCameBefore) {
 }
 
 }  // namespace
+}  // namespace convert_test

@@ -7,6 +7,7 @@
 
 #include "tool_runner.hpp"
 
+namespace demo_test {
 namespace {
 
 using namespace plumb_test;
@@ -258,3 +259,4 @@ TEST(Demo, RefusesASeedThatIsNoSeed) {
 }
 
 }  // namespace
+}  // namespace demo_test

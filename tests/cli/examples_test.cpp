@@ -1,6 +1,7 @@
 // The drills of examples/ run as their first lines say.
 #include "tool_runner.hpp"
 
+namespace examples_test {
 namespace {
 
 using namespace plumb_test;
@@ -45,3 +46,4 @@ TEST(Examples, DrillBTakesBackWhatHasRecovered) {
 }
 
 }  // namespace
+}  // namespace examples_test

@@ -3,6 +3,7 @@
 
 #include "tool_runner.hpp"
 
+namespace cli_geometry_test {
 namespace {
 
 using namespace plumb_test;
@@ -195,3 +196,4 @@ TEST(GeometryCommand, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
+}  // namespace cli_geometry_test

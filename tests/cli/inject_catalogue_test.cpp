@@ -6,6 +6,7 @@
 #include "plumb/scenario/catalogue.hpp"
 #include "tool_runner.hpp"
 
+namespace inject_catalogue_test {
 namespace {
 
 using namespace plumb_test;
@@ -84,3 +85,4 @@ TEST(InjectCatalogue, SaysWhereALogHasNoThermometerToTellWrong) {
 }
 
 }  // namespace
+}  // namespace inject_catalogue_test

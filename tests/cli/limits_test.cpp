@@ -3,6 +3,7 @@
 
 #include "tool_runner.hpp"
 
+namespace limits_test {
 namespace {
 
 using namespace plumb_test;
@@ -46,3 +47,4 @@ TEST(MonitorLimitsCommand, RefusesPaperMode) {
 }
 
 }  // namespace
+}  // namespace limits_test

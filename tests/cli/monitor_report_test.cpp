@@ -6,6 +6,7 @@
 #include "plumb/core/units.hpp"
 #include "tool_runner.hpp"
 
+namespace monitor_report_test {
 namespace {
 
 using namespace plumb_test;
@@ -215,3 +216,4 @@ TEST(MonitorReport, NamesCannotBreakOut) {
 }
 
 }  // namespace
+}  // namespace monitor_report_test

@@ -4,6 +4,7 @@
 
 #include "tool_runner.hpp"
 
+namespace paper_mode_test {
 namespace {
 
 using namespace plumb_test;
@@ -178,3 +179,4 @@ TEST(MonitorPaper, HelpSaysWhatItIs) {
 }
 
 }  // namespace
+}  // namespace paper_mode_test

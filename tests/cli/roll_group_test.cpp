@@ -4,6 +4,7 @@
 
 #include "tool_runner.hpp"
 
+namespace roll_group_test {
 namespace {
 
 using namespace plumb_test;
@@ -273,3 +274,4 @@ TEST(RollGroups, OptionsThatMeanNothingAreRefused) {
 }
 
 }  // namespace
+}  // namespace roll_group_test

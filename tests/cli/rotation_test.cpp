@@ -3,6 +3,7 @@
 
 #include "tool_runner.hpp"
 
+namespace rotation_test {
 namespace {
 
 using namespace plumb_test;
@@ -55,3 +56,4 @@ TEST(MonitorRotation, WithoutTheArmsEvidenceRests) {
 }
 
 }  // namespace
+}  // namespace rotation_test

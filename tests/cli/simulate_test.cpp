@@ -5,6 +5,7 @@
 
 #include "tool_runner.hpp"
 
+namespace simulate_test {
 namespace {
 
 using namespace plumb_test;
@@ -204,3 +205,4 @@ TEST(Simulate, HelpIsForStrangers) {
 }
 
 }  // namespace
+}  // namespace simulate_test

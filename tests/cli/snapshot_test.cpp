@@ -3,6 +3,7 @@
 #include "plumb/core/version.hpp"
 #include "tool_runner.hpp"
 
+namespace cli_snapshot_test {
 namespace {
 
 using namespace plumb_test;
@@ -95,3 +96,4 @@ TEST(Version, IsTheNumberThatSnapshotsCarry) {
 }
 
 }  // namespace
+}  // namespace cli_snapshot_test

@@ -5,6 +5,7 @@
 
 #include "tool_runner.hpp"
 
+namespace temperature_test {
 namespace {
 
 using namespace plumb_test;
@@ -243,3 +244,4 @@ TEST(ToolTemperature, BadOptionsAreRefused) {
 }
 
 }  // namespace
+}  // namespace temperature_test

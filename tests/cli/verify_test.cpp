@@ -1,6 +1,7 @@
 // plumb verify as a user meets it: what it writes, how it ends, what it says when something is wrong.
 #include "report/verify_support.hpp"
 
+namespace verify_test {
 namespace {
 
 using namespace plumb_test;
@@ -296,3 +297,4 @@ TEST(VerifyCommand, TableTwoIsPlayedWithThePapersTetrahedronAlone) {
 }
 
 }  // namespace
+}  // namespace verify_test

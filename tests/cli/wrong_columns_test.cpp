@@ -5,6 +5,7 @@
 
 #include "tool_runner.hpp"
 
+namespace wrong_columns_test {
 namespace {
 
 using namespace plumb_test;
@@ -227,3 +228,4 @@ TEST(WrongColumns, ArraysWithWiringsThatNothingTellsApartSaySo) {
 }
 
 }  // namespace
+}  // namespace wrong_columns_test

@@ -10,6 +10,7 @@
 
 #include "plumb/core/units.hpp"
 
+namespace angles_test {
 namespace {
 
 using namespace plumb;
@@ -88,3 +89,4 @@ RC_GTEST_PROP(AnglesLaw, TheAngleWithASineIsTheTrueOneToTwoUnits, ()) {
 }
 
 }  // namespace
+}  // namespace angles_test

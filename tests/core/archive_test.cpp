@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+namespace archive_test {
 namespace {
 
 using namespace plumb;
@@ -214,3 +215,4 @@ RC_GTEST_PROP(Crc64Law, SeesEveryBurstOfSixtyFourBits, ()) {
 }
 
 }  // namespace
+}  // namespace archive_test

@@ -8,6 +8,7 @@
 #include <string>
 
 namespace plumb {
+namespace error_test {
 namespace {
 
 constexpr int kLast = static_cast<int>(kLastErrc);
@@ -56,4 +57,5 @@ TEST(Error, IsTheSameByCodeAndPlace) {
 }
 
 }  // namespace
+}  // namespace error_test
 }  // namespace plumb

@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace plumb {
+namespace sensor_set_test {
 namespace {
 
 static_assert(std::is_trivially_copyable<SensorSet>::value, "part of every snapshot");
@@ -114,4 +115,5 @@ RC_GTEST_PROP(SensorSetLaw, NextHasTheSameSizeAndNothingLiesBetween, ()) {
 }
 
 }  // namespace
+}  // namespace sensor_set_test
 }  // namespace plumb

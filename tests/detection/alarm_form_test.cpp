@@ -7,6 +7,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace alarm_form_test {
 namespace {
 
 using namespace plumb;
@@ -99,3 +100,4 @@ TEST(AlarmForm, AnUntestedSetStaysUntested) {
 }
 
 }  // namespace
+}  // namespace alarm_form_test

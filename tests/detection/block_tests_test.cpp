@@ -10,6 +10,7 @@
 
 // Serves: REQ-162
 
+namespace block_tests_test {
 namespace {
 
 using namespace plumb;
@@ -87,3 +88,4 @@ RC_GTEST_PROP(BlockTestsLaw, TheLeastLimitOfATripleIsItsNoise, ()) {
 }
 
 }  // namespace
+}  // namespace block_tests_test

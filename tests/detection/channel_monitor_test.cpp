@@ -4,6 +4,7 @@
 
 #include <limits>
 
+namespace channel_monitor_test {
 namespace {
 
 using namespace plumb;
@@ -90,3 +91,4 @@ TEST(ChannelGate, ASilentBusIsAGapAndLosesNobody) {
 }
 
 }  // namespace
+}  // namespace channel_monitor_test

@@ -13,6 +13,7 @@
 #include "plumb/array/named.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace combination_mae_test {
 namespace {
 
 using namespace plumb;
@@ -169,3 +170,4 @@ TEST(CombinationMae, ATripleWithAMissingMemberUsesItsOwnCount) {
 }
 
 }  // namespace
+}  // namespace combination_mae_test

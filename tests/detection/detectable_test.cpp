@@ -10,6 +10,7 @@
 
 // Serves: REQ-055
 
+namespace detectable_test {
 namespace {
 
 using namespace plumb;
@@ -84,3 +85,4 @@ RC_GTEST_PROP(DetectableShiftLaw, IsMissedAsOftenAsAskedFor, ()) {
 }
 
 }  // namespace
+}  // namespace detectable_test

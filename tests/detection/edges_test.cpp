@@ -15,6 +15,7 @@
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace detection_edges_test {
 namespace {
 
 using namespace plumb;
@@ -278,3 +279,4 @@ TEST(StationFinderEdge, BlocksOfOneSampleHaveNoScatter) {
 }
 
 }  // namespace
+}  // namespace detection_edges_test

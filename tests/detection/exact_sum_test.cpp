@@ -11,6 +11,7 @@
 #include "support/long_run.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace exact_sum_test {
 namespace {
 
 using namespace plumb;
@@ -91,3 +92,4 @@ TEST(ExactSum, ARunningSumInFloatingPointWouldNot) {
 }
 
 }  // namespace
+}  // namespace exact_sum_test

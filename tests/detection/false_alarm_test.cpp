@@ -16,6 +16,7 @@
 #include "support/long_run.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace false_alarm_test {
 namespace {
 
 using namespace plumb;
@@ -222,3 +223,4 @@ TEST(FalseAlarm, TheMonitorAsksEachTripleForItsShareOrForWhatIsConfigured) {
 }
 
 }  // namespace
+}  // namespace false_alarm_test

@@ -16,6 +16,7 @@
 #include "support/binomial_interval.hpp"
 #include "support/long_run.hpp"
 
+namespace fitted_false_alarm_test {
 namespace {
 
 using namespace plumb;
@@ -186,3 +187,4 @@ TEST(FittedFalseAlarm, SixSensorsKeepTheRate) { measure(6, 150); }
 TEST(FittedFalseAlarm, EightSensorsKeepTheRate) { measure(8, 100); }
 
 }  // namespace
+}  // namespace fitted_false_alarm_test

@@ -10,6 +10,7 @@
 #include "plumb/detection/isolation.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace isolation_edges_test {
 namespace {
 
 using namespace plumb;
@@ -153,3 +154,4 @@ TEST(IsolationEdge, AnotherArrayStartsAnew) {
 }
 
 }  // namespace
+}  // namespace isolation_edges_test

@@ -7,6 +7,7 @@
 #include "support/isolation_trials.hpp"
 #include "support/long_run.hpp"
 
+namespace isolation_rates_test {
 namespace {
 
 using namespace plumb;
@@ -173,3 +174,4 @@ TEST(ReferenceDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
 }
 
 }  // namespace
+}  // namespace isolation_rates_test

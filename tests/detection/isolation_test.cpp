@@ -9,6 +9,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace isolation_test {
 namespace {
 
 using namespace plumb;
@@ -302,3 +303,4 @@ TEST(Isolation, ScanNamesTheFewestFaults) {
 }
 
 }  // namespace
+}  // namespace isolation_test

@@ -7,6 +7,7 @@
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace mae_test_test {
 namespace {
 
 using namespace plumb;
@@ -76,3 +77,4 @@ TEST(MaeLimit, TheRateIsSharedByTheTriplesThatVote) {
 }
 
 }  // namespace
+}  // namespace mae_test_test

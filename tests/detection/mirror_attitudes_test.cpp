@@ -11,6 +11,7 @@
 
 // Serves: REQ-074
 
+namespace mirror_attitudes_test {
 namespace {
 
 using namespace plumb;
@@ -116,3 +117,4 @@ TEST(MirrorAttitudes, AFaultThatMovesDefeatsTheStrictRuleAsProved) {
 }
 
 }  // namespace
+}  // namespace mirror_attitudes_test

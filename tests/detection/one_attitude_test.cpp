@@ -11,6 +11,7 @@
 
 // Serves: REQ-017
 
+namespace one_attitude_test {
 namespace {
 
 using namespace plumb;
@@ -135,3 +136,4 @@ RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolatedByTheVote, ())
 }
 
 }  // namespace
+}  // namespace one_attitude_test

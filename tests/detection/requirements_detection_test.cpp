@@ -8,6 +8,7 @@
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace requirements_detection_test {
 namespace {
 
 using namespace plumb;
@@ -153,3 +154,4 @@ RC_GTEST_PROP(RequirementEpisodeLaw, WhatDiedStaysDeadWhateverFollows, ()) {
 }
 
 }  // namespace
+}  // namespace requirements_detection_test

@@ -15,6 +15,7 @@
 
 // Serves: REQ-051
 
+namespace rounding_test {
 namespace {
 
 using namespace plumb;
@@ -227,3 +228,4 @@ TEST(Rounding, ASquareThatRoundingTurnedNegativeIsALengthOfZero) {
 }
 
 }  // namespace
+}  // namespace rounding_test

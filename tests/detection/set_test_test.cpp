@@ -8,6 +8,7 @@
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace set_test_test {
 namespace {
 
 using namespace plumb;
@@ -179,3 +180,4 @@ TEST(SetTest, HealthyFullSetExceedsItsAlarmLimitAtTheRequestedRate) {
 }
 
 }  // namespace
+}  // namespace set_test_test

@@ -8,6 +8,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace stationarity_test {
 namespace {
 
 using namespace plumb;
@@ -244,3 +245,4 @@ TEST(StationFinder, AnotherRollGroupEndsAStationLikeAnotherTag) {
 }
 
 }  // namespace
+}  // namespace stationarity_test

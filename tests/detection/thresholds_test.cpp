@@ -12,6 +12,7 @@
 
 // Serves: REQ-016
 
+namespace thresholds_test {
 namespace {
 
 using namespace plumb;
@@ -230,3 +231,4 @@ RC_GTEST_PROP(SureFaultLaw, IsToldFromEveryOtherWhereTwiceTheFaultsAreAllowedFor
 }
 
 }  // namespace
+}  // namespace thresholds_test

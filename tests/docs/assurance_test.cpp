@@ -9,6 +9,7 @@
 
 #include "house.hpp"
 
+namespace assurance_test {
 namespace {
 
 using house::kRoot;
@@ -72,3 +73,4 @@ TEST(Assurance, EveryPropertyHasItsRow) {
 }
 
 }  // namespace
+}  // namespace assurance_test

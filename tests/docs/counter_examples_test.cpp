@@ -10,6 +10,7 @@
 
 #include "house.hpp"
 
+namespace docs_counter_examples_test {
 namespace {
 
 using house::kRoot;
@@ -79,3 +80,4 @@ TEST(PlantedDefectsPage, ListsEveryDefectWithItsRule) {
 }
 
 }  // namespace
+}  // namespace docs_counter_examples_test

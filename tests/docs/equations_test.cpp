@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+namespace equations_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,3 +171,4 @@ TEST(Equations, EveryRowNamesATestAndEveryTestOnThePageExists) {
 }
 
 }  // namespace
+}  // namespace equations_test

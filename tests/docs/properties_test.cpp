@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+namespace properties_test {
 namespace {
 
 std::string text_of(const std::filesystem::path& path) {
@@ -52,3 +53,4 @@ TEST(Properties, EveryPropertyHasItsRow) {
 }
 
 }  // namespace
+}  // namespace properties_test

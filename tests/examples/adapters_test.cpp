@@ -11,6 +11,7 @@
 #include "navigation/stub/px4_messages.hpp"
 #include "verdicts.hpp"
 
+namespace adapters_test {
 namespace {
 
 using example_test::good;
@@ -204,3 +205,4 @@ TEST(FprimeComponent, saysWhyItWasNotConfigured) {
 }
 
 }  // namespace
+}  // namespace adapters_test

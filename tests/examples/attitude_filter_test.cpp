@@ -14,6 +14,7 @@
 
 #include "verdicts.hpp"
 
+namespace attitude_filter_test {
 namespace {
 
 using example_test::good;
@@ -102,3 +103,4 @@ TEST(AttitudeFilter, turnsTheVectorBackwards) {
 }
 
 }  // namespace
+}  // namespace attitude_filter_test

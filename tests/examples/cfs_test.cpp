@@ -12,6 +12,7 @@ extern "C" {
 }
 #include "verdicts.hpp"
 
+namespace cfs_test {
 namespace {
 
 plumb_verdict usable_verdict() {
@@ -140,3 +141,4 @@ TEST(CfsLimitChecker, theRowsAreSuchAsLcTakes) {
 }
 
 }  // namespace
+}  // namespace cfs_test

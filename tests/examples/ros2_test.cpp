@@ -19,6 +19,7 @@ using ros2_stub::Imu;
 using Status = ros2_stub::DiagnosticStatus;
 #endif
 
+namespace ros2_test {
 namespace {
 
 using example_test::good;
@@ -159,3 +160,4 @@ TEST(Ros2Status, figuresThatAreNotFiniteAreTextAllTheSame) {
 }
 
 }  // namespace
+}  // namespace ros2_test

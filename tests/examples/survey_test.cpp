@@ -8,6 +8,7 @@
 #include "navigation/body.hpp"
 #include "verdicts.hpp"
 
+namespace survey_test {
 namespace {
 
 using example_test::good;
@@ -90,3 +91,4 @@ TEST(SurveyStation, throughAFailureEveryGoIsTrueToItsBound) {
 }
 
 }  // namespace
+}  // namespace survey_test

@@ -8,6 +8,7 @@
 #include <vector>
 
 namespace plumb {
+namespace gravity_test {
 namespace {
 
 NormalGravityInput at_latitude(double latitude_deg, double depth_m = 0.0, double elevation_m = 0.0) {
@@ -252,4 +253,5 @@ RC_GTEST_PROP(TableGravityLaw, IsMonotoneBetweenRowsAndExactOnALine, ()) {
 }
 
 }  // namespace
+}  // namespace gravity_test
 }  // namespace plumb

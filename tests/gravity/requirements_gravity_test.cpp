@@ -3,6 +3,7 @@
 
 #include "plumb/gravity/gravity.hpp"
 
+namespace requirements_gravity_test {
 namespace {
 
 using namespace plumb;
@@ -21,3 +22,4 @@ TEST(RequirementPaperGravity, FallsWithDepthWhereTheNormalModelRises) {
 }
 
 }  // namespace
+}  // namespace requirements_gravity_test

@@ -7,6 +7,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace attack_test {
 namespace {
 
 using namespace plumb;
@@ -337,3 +338,4 @@ TEST(Attack, WhoWasSetAsideTwiceServesAgainOnceOthersAreConvicted) {
 }
 
 }  // namespace
+}  // namespace attack_test

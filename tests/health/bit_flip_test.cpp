@@ -26,6 +26,7 @@ struct StorageAccess {
 }  // namespace PLUMB_ABI
 }  // namespace plumb
 
+namespace bit_flip_test {
 namespace {
 
 using namespace plumb;
@@ -184,3 +185,4 @@ TEST(BitFlips, WhatIsNotANumberIsNeverClean) {
 }
 
 }  // namespace
+}  // namespace bit_flip_test

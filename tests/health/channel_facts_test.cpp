@@ -7,6 +7,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace channel_facts_test {
 namespace {
 
 using namespace plumb;
@@ -253,3 +254,4 @@ TEST(ChannelFacts, AHealthyRunCountsNothing) {
 }
 
 }  // namespace
+}  // namespace channel_facts_test

@@ -6,6 +6,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace common_drift_test {
 namespace {
 
 using namespace plumb;
@@ -60,3 +61,4 @@ TEST(CommonDrift, WithoutTheTermValidBlocksAreBeyondIt) {
 }
 
 }  // namespace
+}  // namespace common_drift_test

@@ -12,6 +12,7 @@
 #include "plumb/calibration/datasheet.hpp"
 #include "plumb/health/reference_study.hpp"
 
+namespace health_edges_test {
 namespace {
 
 using namespace plumb;
@@ -234,3 +235,4 @@ TEST(OfferEdge, StationsAlikeTryNothingAndTheTrialEnds) {
 }
 
 }  // namespace
+}  // namespace health_edges_test

@@ -10,6 +10,7 @@
 
 // Serves: REQ-071
 
+namespace episode_test {
 namespace {
 
 using namespace plumb;
@@ -75,3 +76,4 @@ TEST(DirectionRecord, ADirectionThatIsNoneIsNoNews) {
 }
 
 }  // namespace
+}  // namespace episode_test

@@ -7,6 +7,7 @@
 
 // Serves: REQ-136, REQ-137
 
+namespace first_calibration_laws_test {
 namespace {
 
 using namespace plumb;
@@ -111,3 +112,4 @@ RC_GTEST_PROP(FirstCalibrationLaw, NothingIsAcceptedWhileTheToolMoves, ()) {
 }
 
 }  // namespace
+}  // namespace first_calibration_laws_test

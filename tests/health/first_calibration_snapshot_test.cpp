@@ -6,6 +6,7 @@
 
 // Serves: REQ-136, REQ-163
 
+namespace first_calibration_snapshot_test {
 namespace {
 
 using namespace plumb;
@@ -109,3 +110,4 @@ TEST(FirstCalibrationSnapshot, AForgedOneIsRefusedOrHarmless) {
 }
 
 }  // namespace
+}  // namespace first_calibration_snapshot_test

@@ -10,6 +10,7 @@
 
 // Serves: REQ-136
 
+namespace first_calibration_test {
 namespace {
 
 using namespace plumb;
@@ -360,3 +361,4 @@ TEST(FirstCalibration, AnArrayWithoutUncertaintyIsNoDatasheet) {
 }
 
 }  // namespace
+}  // namespace first_calibration_test

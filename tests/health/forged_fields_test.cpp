@@ -11,6 +11,7 @@
 #include "first_calibration_support.hpp"
 #include "snapshot_support.hpp"
 
+namespace forged_fields_test {
 namespace {
 
 using namespace plumb;
@@ -283,3 +284,4 @@ TEST(ForgedFields, OfAMonitorThatHasFailed) {
 }
 
 }  // namespace
+}  // namespace forged_fields_test

@@ -8,6 +8,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace health_monitor_test {
 namespace {
 
 using namespace plumb;
@@ -264,3 +265,4 @@ TEST(HealthMonitor, RefusesWhatItCannotWatch) {
 }
 
 }  // namespace
+}  // namespace health_monitor_test

@@ -11,6 +11,7 @@
 
 // Serves: REQ-130
 
+namespace held_axis_test {
 namespace {
 
 using namespace plumb;
@@ -161,3 +162,4 @@ TEST(HeldAxis, WithoutStationsThePriorStays) {
 }
 
 }  // namespace
+}  // namespace held_axis_test

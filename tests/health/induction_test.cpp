@@ -11,6 +11,7 @@
 #include "plumb/health/decision.hpp"
 #include "support/long_run.hpp"
 
+namespace induction_test {
 namespace {
 
 using namespace plumb;
@@ -428,3 +429,4 @@ TEST(Induction, EveryPairOfEventsIsTakenInRankOrder) {
 }
 
 }  // namespace
+}  // namespace induction_test

@@ -7,6 +7,7 @@
 
 #include "recalibration_support.hpp"
 
+namespace inhibit_test {
 namespace {
 
 using namespace plumb;
@@ -283,3 +284,4 @@ TEST(VerdictFields, AfterAnExclusionTheMarginIsThatOfTheSurvivors) {
 }
 
 }  // namespace
+}  // namespace inhibit_test

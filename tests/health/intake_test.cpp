@@ -9,6 +9,7 @@
 
 // Serves: REQ-146
 
+namespace intake_test {
 namespace {
 
 using namespace plumb;
@@ -119,3 +120,4 @@ TEST(SilenceCounter, NamesChannelsThatAreSilentBlockAfterBlock) {
 }
 
 }  // namespace
+}  // namespace intake_test

@@ -4,6 +4,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace health_mirror_test {
 namespace {
 
 using namespace plumb;
@@ -91,3 +92,4 @@ TEST(MirrorFault, WithoutAnAssertionTheMirrorBiasTakesFourStations) {
 }
 
 }  // namespace
+}  // namespace health_mirror_test

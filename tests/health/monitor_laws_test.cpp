@@ -9,6 +9,7 @@
 #include "plumb/health/health_monitor.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace monitor_laws_test {
 namespace {
 
 using namespace plumb;
@@ -188,3 +189,4 @@ RC_GTEST_PROP(MonitorLaw, VibrationNeverExcludesNorFails, ()) {
 }
 
 }  // namespace
+}  // namespace monitor_laws_test

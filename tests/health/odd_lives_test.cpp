@@ -11,6 +11,7 @@
 #include "health/paper_rig.hpp"
 #include "health/recalibration_support.hpp"
 
+namespace odd_lives_test {
 namespace {
 
 using namespace plumb;
@@ -222,3 +223,4 @@ TEST(OddLife, PaperModeRefusesFitsOfOtherSensors) {
 }
 
 }  // namespace
+}  // namespace odd_lives_test

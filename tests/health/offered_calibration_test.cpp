@@ -9,6 +9,7 @@
 
 // Serves: REQ-135
 
+namespace offered_calibration_test {
 namespace {
 
 using namespace plumb;
@@ -323,3 +324,4 @@ TEST(OfferedCalibration, OutlivesAPowerCycle) {
 }
 
 }  // namespace
+}  // namespace offered_calibration_test

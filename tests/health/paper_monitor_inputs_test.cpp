@@ -10,6 +10,7 @@
 
 // Serves: REQ-190
 
+namespace paper_monitor_inputs_test {
 namespace {
 
 using namespace plumb;
@@ -232,3 +233,4 @@ TEST(HealthMonitor, LeavesPaperModeToThePaperMonitor) {
 }
 
 }  // namespace
+}  // namespace paper_monitor_inputs_test

@@ -11,6 +11,7 @@
 
 // Serves: REQ-190
 
+namespace paper_monitor_laws_test {
 namespace {
 
 using namespace plumb;
@@ -101,3 +102,4 @@ RC_GTEST_PROP(PaperMonitorLaw, OneStuckSensorOfFourIsNeverBlamedOnAnother, ()) {
 }
 
 }  // namespace
+}  // namespace paper_monitor_laws_test

@@ -10,6 +10,7 @@
 
 // Serves: REQ-190
 
+namespace paper_monitor_test {
 namespace {
 
 using namespace plumb;
@@ -313,3 +314,4 @@ TEST(PaperMonitor, ASensorThatShakesDoesNotFeignAttitudes) {
 }
 
 }  // namespace
+}  // namespace paper_monitor_test

@@ -12,6 +12,7 @@
 
 // Serves: REQ-190
 
+namespace paper_rule_test {
 namespace {
 
 using namespace plumb;
@@ -302,3 +303,4 @@ TEST(PaperRuleLimit, AtOneAttitudeTwoFaultsThatAgreeGetAHealthySensorBlamed) {
 }
 
 }  // namespace
+}  // namespace paper_rule_test

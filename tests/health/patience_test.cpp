@@ -6,6 +6,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace patience_test {
 namespace {
 
 using namespace plumb;
@@ -155,3 +156,4 @@ TEST(Patience, BlocksAtOneAttitudeDoNotCountOtherwise) {
 }
 
 }  // namespace
+}  // namespace patience_test

@@ -11,6 +11,7 @@
 
 // Serves: REQ-130
 
+namespace recalibrating_laws_test {
 namespace {
 
 using namespace plumb;
@@ -68,3 +69,4 @@ RC_GTEST_PROP(RecalibratingLaw, NobodyHealthyIsBlamedAndValidOutputIsWithinItsBo
 }
 
 }  // namespace
+}  // namespace recalibrating_laws_test

@@ -10,6 +10,7 @@
 
 // Serves: REQ-130
 
+namespace recalibrating_request_test {
 namespace {
 
 using namespace plumb;
@@ -236,3 +237,4 @@ TEST(Recalibrating, AStepIsAtMostOneIterationAndStationsTakenBeforeTheRequestCou
 }
 
 }  // namespace
+}  // namespace recalibrating_request_test

@@ -5,6 +5,7 @@
 
 // Serves: REQ-134
 
+namespace recalibrating_suspect_test {
 namespace {
 
 using namespace plumb;
@@ -61,3 +62,4 @@ TEST(RecalibratingSuspect, PatienceGivesWayToTheAlarmAndTheFitIsDiscarded) {
 }
 
 }  // namespace
+}  // namespace recalibrating_suspect_test

@@ -10,6 +10,7 @@
 
 // Serves: REQ-130
 
+namespace recalibrating_test {
 namespace {
 
 using namespace plumb;
@@ -262,3 +263,4 @@ TEST(Recalibrating, ARefusedFitLeavesEverythingAndSaysWhy) {
 }
 
 }  // namespace
+}  // namespace recalibrating_test

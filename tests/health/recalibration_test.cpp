@@ -10,6 +10,7 @@
 
 // Serves: REQ-130
 
+namespace recalibration_test {
 namespace {
 
 using namespace plumb;
@@ -258,3 +259,4 @@ RC_GTEST_PROP(RecalibrationLaw, AcceptedFitsAreWithinTheirStatedUncertainty, ())
 }
 
 }  // namespace
+}  // namespace recalibration_test

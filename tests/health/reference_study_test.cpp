@@ -6,6 +6,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace reference_study_test {
 namespace {
 
 using namespace plumb;
@@ -92,3 +93,4 @@ RC_GTEST_PROP(ReferenceStudyLaw, NoConfidentAnswerIsWrong, ()) {
 }
 
 }  // namespace
+}  // namespace reference_study_test

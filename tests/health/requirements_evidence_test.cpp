@@ -7,6 +7,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace requirements_evidence_test {
 namespace {
 
 using namespace plumb;
@@ -220,3 +221,4 @@ TEST(RequirementGravityBetweenSteps, NonsenseIsRefusedAndChangesNothing) {
 }
 
 }  // namespace
+}  // namespace requirements_evidence_test

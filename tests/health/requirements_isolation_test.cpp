@@ -7,6 +7,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace requirements_isolation_test {
 namespace {
 
 using namespace plumb;
@@ -196,3 +197,4 @@ TEST(RequirementContradiction, TwoRandomFaultsAmongFourBlameNobody) {
 }
 
 }  // namespace
+}  // namespace requirements_isolation_test

@@ -11,6 +11,7 @@
 
 #include "support/simulated_tool.hpp"
 
+namespace requirements_state_test {
 namespace {
 
 using namespace plumb;
@@ -264,3 +265,4 @@ TEST(RequirementReset, OneRequestLeavesFailedOnce) {
 }
 
 }  // namespace
+}  // namespace requirements_state_test

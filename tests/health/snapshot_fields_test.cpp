@@ -15,6 +15,7 @@
 
 // Serves: REQ-163
 
+namespace snapshot_fields_test {
 namespace {
 
 using namespace plumb;
@@ -102,3 +103,4 @@ TEST(SnapshotFields, TheFormatIsPinned) {
 }
 
 }  // namespace
+}  // namespace snapshot_fields_test

@@ -6,6 +6,7 @@
 
 #include "snapshot_support.hpp"
 
+namespace snapshot_laws_test {
 namespace {
 
 using namespace plumb;
@@ -214,3 +215,4 @@ RC_GTEST_PROP(SnapshotLaw, NoiseWithAValidCheckSumIsRefused, ()) {
 }
 
 }  // namespace
+}  // namespace snapshot_laws_test

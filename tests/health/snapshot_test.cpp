@@ -11,6 +11,7 @@
 #include "plumb/core/version.hpp"
 #include "snapshot_support.hpp"
 
+namespace health_snapshot_test {
 namespace {
 
 using namespace plumb;
@@ -359,3 +360,4 @@ TEST(Snapshot, NeedsAConfiguredMonitorAndRoom) {
 }
 
 }  // namespace
+}  // namespace health_snapshot_test

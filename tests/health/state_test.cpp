@@ -9,6 +9,7 @@
 #include "plumb/health/transition_table.hpp"
 #include "plumb/health/verdict.hpp"
 
+namespace state_test {
 namespace {
 
 using namespace plumb;
@@ -64,3 +65,4 @@ TEST(StateWords, WhatIsNoValueTrustsNothing) {
 }
 
 }  // namespace
+}  // namespace state_test

@@ -9,6 +9,7 @@
 
 // Serves: REQ-131
 
+namespace station_store_test {
 namespace {
 
 using namespace plumb;
@@ -146,3 +147,4 @@ RC_GTEST_PROP(StationStoreLaw, HoldsDifferentAttitudesOnly, ()) {
 }
 
 }  // namespace
+}  // namespace station_store_test

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+namespace transition_table_test {
 namespace {
 
 using namespace plumb;
@@ -129,3 +130,4 @@ TEST(TransitionTable, AgreesWithTheHandWrittenSpecificationCellByCell) {
 }
 
 }  // namespace
+}  // namespace transition_table_test

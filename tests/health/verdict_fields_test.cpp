@@ -9,6 +9,7 @@
 
 // Serves: REQ-124
 
+namespace verdict_fields_test {
 namespace {
 
 using namespace plumb;
@@ -114,3 +115,4 @@ TEST(VerdictFields, EveryVerdictNamesItsConfiguration) {
 }
 
 }  // namespace
+}  // namespace verdict_fields_test

@@ -13,6 +13,7 @@
 #include "support/long_run.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace vibration_test {
 namespace {
 
 using namespace plumb;
@@ -272,3 +273,4 @@ TEST(QuietAndNormOff, TwoFaultsThatParityCannotSeeAreNeverValidWhereTheLengthIsO
 }
 
 }  // namespace
+}  // namespace vibration_test

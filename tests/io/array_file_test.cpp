@@ -8,6 +8,7 @@
 #include "io_test_support.hpp"
 #include "plumb/health/paper_rule.hpp"
 
+namespace array_file_test {
 namespace {
 
 using namespace plumb;
@@ -339,3 +340,4 @@ TEST(ArrayFileRefuses, WhatTheMonitorRefuses) {
 }
 
 }  // namespace
+}  // namespace array_file_test

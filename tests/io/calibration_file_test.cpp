@@ -19,6 +19,7 @@
 #include "plumb/io/hash.hpp"
 #include "plumb/io/output_file.hpp"
 
+namespace calibration_file_test {
 namespace {
 
 using namespace plumb;
@@ -384,3 +385,4 @@ RC_GTEST_PROP(CalibrationFileLaw, EveryDoubleComesBackBitForBit, ()) {
 }
 
 }  // namespace
+}  // namespace calibration_file_test

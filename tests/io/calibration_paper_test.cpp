@@ -11,6 +11,7 @@
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/output_file.hpp"
 
+namespace calibration_paper_test {
 namespace {
 
 using namespace plumb;
@@ -185,3 +186,4 @@ TEST(CalibrationFilePaperRefuses, CoefficientsThatContradictTheCalibrationBeside
 }
 
 }  // namespace
+}  // namespace calibration_paper_test

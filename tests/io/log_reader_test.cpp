@@ -10,6 +10,7 @@
 
 #include "io_test_support.hpp"
 
+namespace log_reader_test {
 namespace {
 
 using namespace plumb;
@@ -305,3 +306,4 @@ TEST(LogReader, ASignalEndsTheWaitForALiveStream) {
 }
 
 }  // namespace
+}  // namespace log_reader_test

@@ -13,6 +13,7 @@
 #include "io_test_support.hpp"
 #include "plumb/io/log_reader.hpp"
 
+namespace log_writer_test {
 namespace {
 
 using namespace plumb;
@@ -94,3 +95,4 @@ RC_GTEST_PROP(LogWriterLaw, WhatIsWrittenReadsBackBitForBit, ()) {
 }
 
 }  // namespace
+}  // namespace log_writer_test

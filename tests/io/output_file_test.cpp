@@ -9,6 +9,7 @@
 
 #include "io_test_support.hpp"
 
+namespace output_file_test {
 namespace {
 
 using namespace plumb::io;
@@ -86,3 +87,4 @@ TEST(FileErrorText, LeavesOutWhatDoesNotApply) {
 }
 
 }  // namespace
+}  // namespace output_file_test

@@ -15,6 +15,7 @@
 #include "plumb/io/log_writer.hpp"
 #include "plumb/io/units.hpp"
 
+namespace plog_test {
 namespace {
 
 using namespace plumb;
@@ -373,3 +374,4 @@ RC_GTEST_PROP(BinaryLogLaw, EveryRowComesBackBitForBit, ()) {
 }
 
 }  // namespace
+}  // namespace plog_test

@@ -9,6 +9,7 @@
 
 #include "io_test_support.hpp"
 
+namespace records_test {
 namespace {
 
 using namespace plumb;
@@ -222,3 +223,4 @@ TEST(Records, StringsAreEscaped) {
 }
 
 }  // namespace
+}  // namespace records_test

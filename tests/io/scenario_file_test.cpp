@@ -11,6 +11,7 @@
 #include "plumb/io/output_file.hpp"
 #include "plumb/scenario/library.hpp"
 
+namespace scenario_file_test {
 namespace {
 
 using namespace plumb;
@@ -462,3 +463,4 @@ TEST(ScenarioFile, ToolWithTemperatureInCountsReadsBackIdentical) {
 }
 
 }  // namespace
+}  // namespace scenario_file_test

@@ -8,6 +8,7 @@
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/scenario_file.hpp"
 
+namespace scenario_refusal_test {
 namespace {
 
 using namespace plumb;
@@ -166,3 +167,4 @@ TEST(ScenarioPage, TheOfTheDocumentationIsTrue) {
 }
 
 }  // namespace
+}  // namespace scenario_refusal_test

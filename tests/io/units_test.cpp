@@ -10,6 +10,7 @@
 
 #include "plumb/io/units.hpp"
 
+namespace units_test {
 namespace {
 
 using namespace plumb;
@@ -154,3 +155,4 @@ RC_GTEST_PROP(UnitsLaw, AnyTextIsEitherFiniteOrRefusedWithARemedy, ()) {
 }
 
 }  // namespace
+}  // namespace units_test

@@ -9,6 +9,7 @@
 #include "plumb/array/named.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace laws_counter_examples_test {
 namespace {
 
 using namespace plumb;
@@ -210,3 +211,4 @@ TEST(CounterExample, ASensorOnItsMirrorAxisIsNeverToldAndNobodyElseIsBlamed) {
 }
 
 }  // namespace
+}  // namespace laws_counter_examples_test

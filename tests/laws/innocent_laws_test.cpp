@@ -1,6 +1,7 @@
 // Whom the monitor never blames: laws 1, 4, 7 and 8 of docs/property-testing.md, each over a hundred thousand cases.
 #include "laws/law_run.hpp"
 
+namespace innocent_laws_test {
 namespace {
 
 using namespace plumb;
@@ -265,3 +266,4 @@ TEST(Law, SevenTroubleThatIsNoSensorsFaultExcludesNobody) {
 }
 
 }  // namespace
+}  // namespace innocent_laws_test

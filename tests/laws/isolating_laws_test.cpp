@@ -3,6 +3,7 @@
 
 #include "laws/law_run.hpp"
 
+namespace isolating_laws_test {
 namespace {
 
 using namespace plumb;
@@ -225,3 +226,4 @@ TEST(Law, NineWhatTheParityGradeBearsIsSetAsideAtTheFirstStation) {
 }
 
 }  // namespace
+}  // namespace isolating_laws_test

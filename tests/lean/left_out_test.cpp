@@ -6,6 +6,7 @@
 #include "plumb/health/snapshot.hpp"
 #include "short_run.hpp"
 
+namespace left_out_test {
 namespace {
 
 using namespace plumb;
@@ -103,3 +104,4 @@ TEST(LeftOut, ASnapshotIsTakenUp) {
 }
 
 }  // namespace
+}  // namespace left_out_test

@@ -8,6 +8,7 @@
 
 #include "breadth_first.hpp"
 
+namespace breadth_first_test {
 namespace {
 
 std::map<int, std::uint64_t> pinned() {
@@ -43,3 +44,4 @@ TEST_P(BreadthFirst, ReachesAsManyStatesAsTheModelChecker) {
 INSTANTIATE_TEST_SUITE_P(Model, BreadthFirst, testing::Values(4, 5, 6));
 
 }  // namespace
+}  // namespace breadth_first_test

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+namespace specification_test {
 namespace {
 
 struct Cell {
@@ -152,3 +153,4 @@ TEST(Specification, EveryChangedCellIsNoticed) {
 }
 
 }  // namespace
+}  // namespace specification_test

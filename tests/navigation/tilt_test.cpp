@@ -10,6 +10,7 @@
 #include "plumb/core/units.hpp"
 
 namespace plumb {
+namespace tilt_test {
 namespace {
 
 constexpr double kG = 9.81;
@@ -163,4 +164,5 @@ RC_GTEST_PROP(TiltLaw, SigmasAreThoseOfTheNumericalGradient, ()) {
 }
 
 }  // namespace
+}  // namespace tilt_test
 }  // namespace plumb

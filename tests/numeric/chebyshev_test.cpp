@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+namespace chebyshev_test {
 namespace {
 
 using plumb::ChebyshevSpan;
@@ -60,3 +61,4 @@ RC_GTEST_PROP(ChebyshevLaw, BothFormsAgreeEverywhereAndConvertBack, ()) {
 }
 
 }  // namespace
+}  // namespace chebyshev_test

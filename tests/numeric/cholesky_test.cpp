@@ -9,6 +9,7 @@
 #include <vector>
 
 namespace plumb {
+namespace cholesky_test {
 namespace {
 
 constexpr double kSentinel = -12345.0;
@@ -193,4 +194,5 @@ TEST(Cholesky, PackedIsTheSameDigitForDigit) {
 }
 
 }  // namespace
+}  // namespace cholesky_test
 }  // namespace plumb

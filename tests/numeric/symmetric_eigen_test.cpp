@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace plumb {
+namespace symmetric_eigen_test {
 namespace {
 
 constexpr double kSentinel = -12345.0;
@@ -224,4 +225,5 @@ RC_GTEST_PROP(SymmetricEigenLaw, LargestSizeConverges, ()) {
 }
 
 }  // namespace
+}  // namespace symmetric_eigen_test
 }  // namespace plumb

@@ -10,6 +10,7 @@
 
 #include "plumb/numeric/symmetric_eigen.hpp"
 
+namespace symmetric_eigenvalues_test {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -125,3 +126,4 @@ TEST(SymmetricEigenvalues, OfFewAreTheSameDigitForDigit) {
 }
 
 }  // namespace
+}  // namespace symmetric_eigenvalues_test

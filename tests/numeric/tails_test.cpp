@@ -14,6 +14,7 @@
 #include "support/long_run.hpp"
 
 namespace plumb {
+namespace tails_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -328,4 +329,5 @@ RC_GTEST_PROP(TailLaw, HalfNormalMeanQuantileStaysBelowChernoff, ()) {
 }
 
 }  // namespace
+}  // namespace tails_test
 }  // namespace plumb

@@ -11,6 +11,7 @@
 #include "plumb/core/units.hpp"
 #include "support/recording.hpp"
 
+namespace calibration_recordings_test {
 namespace {
 
 using plumb::Vec3;
@@ -344,3 +345,4 @@ TEST(CarlssonRecording, TheWanderingAxisOfRunOneIsRefusedByNameAndStandsOut) {
 }
 
 }  // namespace
+}  // namespace calibration_recordings_test

@@ -11,6 +11,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "support/recording.hpp"
 
+namespace monitor_recordings_test {
 namespace {
 
 using namespace plumb;
@@ -144,3 +145,4 @@ TEST_F(MikoffZ, EveryStuckAndFrozenAxisIsExcludedWithinEightStationsAndNoHealthy
 }
 
 }  // namespace
+}  // namespace monitor_recordings_test

@@ -7,6 +7,7 @@
 #include "../cli/tool_runner.hpp"
 #include "support/recording.hpp"
 
+namespace tool_recordings_test {
 namespace {
 
 using plumb_test::Directory;
@@ -91,3 +92,4 @@ TEST(ToolOnRecordings, HeldOutStationsArePredictedAsClaimed) {
 }
 
 }  // namespace
+}  // namespace tool_recordings_test

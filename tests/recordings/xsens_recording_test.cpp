@@ -11,6 +11,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "support/recording.hpp"
 
+namespace xsens_recording_test {
 namespace {
 
 using namespace plumb;
@@ -76,3 +77,4 @@ TEST(XsensRecording, StaticStretchesFoundByPlumbCalibrateTheTriad) {
 }
 
 }  // namespace
+}  // namespace xsens_recording_test

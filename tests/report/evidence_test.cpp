@@ -7,6 +7,7 @@
 
 #include "cli/tool_runner.hpp"
 
+namespace evidence_test {
 namespace {
 
 using namespace plumb;
@@ -85,3 +86,4 @@ TEST(VerificationEvidence, ResourcesAreReadOrRefusedWithARemedy) {
 }
 
 }  // namespace
+}  // namespace evidence_test

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+namespace fit_plot_test {
 namespace {
 
 using namespace plumb;
@@ -89,3 +90,4 @@ TEST(FitPlot, LeavesOutWhatIsNotKnown) {
 }
 
 }  // namespace
+}  // namespace fit_plot_test

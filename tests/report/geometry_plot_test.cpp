@@ -9,6 +9,7 @@
 
 #include "plumb/report/plot.hpp"
 
+namespace geometry_plot_test {
 namespace {
 
 using namespace plumb;
@@ -75,3 +76,4 @@ TEST(GeometryPlot, GnuplotDrawsEveryPictureWithoutAWord) {
 }
 
 }  // namespace
+}  // namespace geometry_plot_test

@@ -9,6 +9,7 @@
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace monitor_limits_test {
 namespace {
 
 using namespace plumb;
@@ -101,3 +102,4 @@ TEST(MonitorLimits, TheAverageFormIsTheNarrower) {
 }
 
 }  // namespace
+}  // namespace monitor_limits_test

@@ -8,6 +8,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/array_file.hpp"
 
+namespace tool_health_test {
 namespace {
 
 using namespace plumb;
@@ -291,3 +292,4 @@ TEST(ToolHealthExtremes, CountAndKeepTheWorst) {
 }
 
 }  // namespace
+}  // namespace tool_health_test

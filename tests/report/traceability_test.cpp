@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+namespace traceability_test {
 namespace {
 
 using namespace plumb;
@@ -132,3 +133,4 @@ TEST(Traceability, FilesAreRefusedInWords) {
 }
 
 }  // namespace
+}  // namespace traceability_test

@@ -9,6 +9,7 @@
 #include "plumb/core/archive.hpp"
 #include "plumb/io/array_file.hpp"
 
+namespace trials_test {
 namespace {
 
 using namespace plumb;
@@ -202,3 +203,4 @@ TEST(VerificationTrials, AHealthyScenarioIsAtRiskUpToItsFirstAlarm) {
 }
 
 }  // namespace
+}  // namespace trials_test

@@ -8,6 +8,7 @@
 #include "plumb/report/trials.hpp"
 #include "verify_support.hpp"
 
+namespace verdict_test {
 namespace {
 
 using namespace plumb;
@@ -184,3 +185,4 @@ TEST(VerificationIdentity, HashesAreThoseOfTheStandard) {
 }
 
 }  // namespace
+}  // namespace verdict_test

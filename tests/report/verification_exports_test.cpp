@@ -6,6 +6,7 @@
 #include "plumb/report/traceability.hpp"
 #include "verify_support.hpp"
 
+namespace verification_exports_test {
 namespace {
 
 using namespace plumb;
@@ -99,3 +100,4 @@ TEST(VerificationExports, TheArgumentTurnsRedWithItsEvidence) {
 }
 
 }  // namespace
+}  // namespace verification_exports_test

@@ -12,6 +12,7 @@
 #include "plumb/report/change.hpp"
 #include "verify_support.hpp"
 
+namespace verification_page_test {
 namespace {
 
 using namespace plumb;
@@ -144,3 +145,4 @@ TEST(VerificationChange, IsEmptyBetweenEqualReportsAndNamesWhatDiffers) {
 }
 
 }  // namespace
+}  // namespace verification_page_test

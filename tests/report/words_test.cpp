@@ -4,6 +4,7 @@
 
 namespace plumb {
 namespace report {
+namespace words_test {
 namespace {
 
 std::string about(HealthEvent event) { return explain(Cause::calibration, Grade::none, event); }
@@ -24,5 +25,6 @@ TEST(Words, TellAnExclusionFromASettingAside) {
 }
 
 }  // namespace
+}  // namespace words_test
 }  // namespace report
 }  // namespace plumb

@@ -9,6 +9,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace attitude_test {
 namespace {
 
 double inclination_of(const Vec3& g) { return std::atan2(std::hypot(g[0], g[1]), g[2]); }
@@ -135,5 +136,6 @@ TEST(Perpendicular, IsPerpendicularEverywhere) {
 }
 
 }  // namespace
+}  // namespace attitude_test
 }  // namespace scenario
 }  // namespace plumb

@@ -13,6 +13,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace catalogue_test {
 namespace {
 
 FaultContext volts() {
@@ -156,5 +157,6 @@ TEST(Catalogue, ThePageIsTheTable) {
 }
 
 }  // namespace
+}  // namespace catalogue_test
 }  // namespace scenario
 }  // namespace plumb

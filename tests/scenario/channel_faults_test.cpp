@@ -10,6 +10,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace channel_faults_test {
 namespace {
 
 constexpr double kScale = kPaperScale_VpMps2;
@@ -281,5 +282,6 @@ TEST(Surroundings, WhatCannotBePlayedIsRefused) {
 }
 
 }  // namespace
+}  // namespace channel_faults_test
 }  // namespace scenario
 }  // namespace plumb

@@ -9,6 +9,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace delivery_test {
 namespace {
 
 Fault on_log(FaultKind kind, double magnitude, double first_row, double rows) {
@@ -113,5 +114,6 @@ TEST(Delivery, TheSimulatorRewindsAndNumbersItsRows) {
 }
 
 }  // namespace
+}  // namespace delivery_test
 }  // namespace scenario
 }  // namespace plumb

@@ -12,6 +12,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace drill_test {
 namespace {
 
 constexpr std::uint64_t kSeeds = 30;
@@ -143,5 +144,6 @@ TEST(Drill, HealthyTwinsRaiseNoAlarm) {
 }
 
 }  // namespace
+}  // namespace drill_test
 }  // namespace scenario
 }  // namespace plumb

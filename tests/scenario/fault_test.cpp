@@ -9,6 +9,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace fault_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -133,5 +134,6 @@ TEST(Fault, NonsenseIsRefusedWithARemedy) {
 }
 
 }  // namespace
+}  // namespace fault_test
 }  // namespace scenario
 }  // namespace plumb

@@ -10,6 +10,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace fault_text_test {
 namespace {
 
 FaultContext volts() {
@@ -323,5 +324,6 @@ RC_GTEST_PROP(FaultTextLaw, AnyTextIsParsedOrRefusedWithARemedy, ()) {
 }
 
 }  // namespace
+}  // namespace fault_text_test
 }  // namespace scenario
 }  // namespace plumb

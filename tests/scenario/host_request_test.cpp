@@ -7,6 +7,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace host_request_test {
 namespace {
 
 SensorArray tetrahedron() {
@@ -103,5 +104,6 @@ TEST(Host, AsksInOrderOfTimeAndKeepsTheAnswers) {
 }
 
 }  // namespace
+}  // namespace host_request_test
 }  // namespace scenario
 }  // namespace plumb

@@ -9,6 +9,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace injector_test {
 namespace {
 
 Fault make(FaultKind kind, int sensor, double onset, double magnitude) {
@@ -167,5 +168,6 @@ TEST(Injector, BadFaultsAreNamedByPosition) {
 }
 
 }  // namespace
+}  // namespace injector_test
 }  // namespace scenario
 }  // namespace plumb

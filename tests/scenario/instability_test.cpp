@@ -6,6 +6,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace instability_test {
 namespace {
 
 constexpr int kRuns = 4000;
@@ -54,5 +55,6 @@ TEST(Instability, IsAFunctionOfSeedSensorAndTickAlone) {
 }
 
 }  // namespace
+}  // namespace instability_test
 }  // namespace scenario
 }  // namespace plumb

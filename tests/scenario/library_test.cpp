@@ -7,6 +7,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace library_test {
 namespace {
 
 double inclination_deg(const Vec3& g) { return deg_from_rad(std::atan2(std::hypot(g[0], g[1]), g[2])); }
@@ -121,5 +122,6 @@ TEST(Library, DemoLogsArePinned) {
 }
 
 }  // namespace
+}  // namespace library_test
 }  // namespace scenario
 }  // namespace plumb

@@ -7,6 +7,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace noise_test {
 namespace {
 
 TEST(Noise, QuantisesToTheNearestStep) {
@@ -48,5 +49,6 @@ TEST(Noise, VibrationHasItsRmsOnEveryAxis) {
 }
 
 }  // namespace
+}  // namespace noise_test
 }  // namespace scenario
 }  // namespace plumb

@@ -9,6 +9,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace portable_math_test {
 namespace {
 
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
@@ -59,5 +60,6 @@ TEST(PortableMath, AngleInvertsSineAndCosine) {
 }
 
 }  // namespace
+}  // namespace portable_math_test
 }  // namespace scenario
 }  // namespace plumb

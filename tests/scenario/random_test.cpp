@@ -10,6 +10,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace random_test {
 namespace {
 
 // Random123's published known answers for philox4x32-10 (its file kat_vectors).
@@ -193,5 +194,6 @@ TEST(Stream, DirectionsCoverTheSphereEvenly) {
 }
 
 }  // namespace
+}  // namespace random_test
 }  // namespace scenario
 }  // namespace plumb

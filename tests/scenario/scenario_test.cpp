@@ -10,6 +10,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace scenario_test {
 namespace {
 
 bool same(const Sample& a, const Sample& b) {
@@ -255,5 +256,6 @@ TEST(Simulator, BadScenariosAreRefusedWithARemedy) {
 }
 
 }  // namespace
+}  // namespace scenario_test
 }  // namespace scenario
 }  // namespace plumb

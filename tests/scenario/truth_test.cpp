@@ -8,6 +8,7 @@
 
 namespace plumb {
 namespace scenario {
+namespace truth_test {
 namespace {
 
 TEST(Truth, PerfectToolIsItsDatasheet) {
@@ -77,5 +78,6 @@ TEST(Truth, TemperatureCoefficientsScaleWithTheScaleFactor) {
 }
 
 }  // namespace
+}  // namespace truth_test
 }  // namespace scenario
 }  // namespace plumb

@@ -10,6 +10,7 @@
 
 #include "plumb/detection/stationarity.hpp"
 
+namespace block_sums_test {
 namespace {
 
 using namespace plumb;
@@ -51,3 +52,4 @@ RC_GTEST_PROP(BlockSumsLaw, MeanAndVarianceAreWithinTheStatedBounds, ()) {
 }
 
 }  // namespace
+}  // namespace block_sums_test

@@ -12,6 +12,7 @@
 #include "plumb/array/named.hpp"
 #include "plumb/detection/combination_mae.hpp"
 
+namespace near_lengths_test {
 namespace {
 
 using namespace plumb;
@@ -172,3 +173,4 @@ TEST(NearLengths, WhatIsFarOrNotANumberIsLeftToDouble) {
 }
 
 }  // namespace
+}  // namespace near_lengths_test

@@ -7,6 +7,7 @@
 
 #include "recorded_run.hpp"
 
+namespace single_precision_test {
 namespace {
 
 using namespace plumb;
@@ -89,3 +90,4 @@ TEST(SinglePrecisionSnapshot, GoesOnWhereItStoppedBitForBit) {
 }
 
 }  // namespace
+}  // namespace single_precision_test

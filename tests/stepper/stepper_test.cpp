@@ -18,6 +18,7 @@
 #include "plumb/report/timeline.hpp"
 #include "support/recording.hpp"
 
+namespace stepper_test {
 namespace {
 
 using namespace plumb_test;
@@ -228,3 +229,4 @@ RC_GTEST_PROP(StepperLaw, AnythingThatBefallsALogIsToldAlikeByEveryCapacity, ())
 }
 
 }  // namespace
+}  // namespace stepper_test

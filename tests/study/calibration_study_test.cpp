@@ -5,6 +5,7 @@
 
 #include "study_test_support.hpp"
 
+namespace calibration_study_test {
 namespace {
 
 using namespace study_test;
@@ -105,3 +106,4 @@ TEST(CalibrationStudy, OnlyForFourSensors) {
 }
 
 }  // namespace
+}  // namespace calibration_study_test

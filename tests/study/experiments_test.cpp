@@ -7,6 +7,7 @@
 #include "plumb/health/paper_rule.hpp"
 #include "study_test_support.hpp"
 
+namespace experiments_test {
 namespace {
 
 using namespace study_test;
@@ -88,3 +89,4 @@ TEST(WithFault, DrawsBySeed) {
 }
 
 }  // namespace
+}  // namespace experiments_test

@@ -3,6 +3,7 @@
 
 #include "study_test_support.hpp"
 
+namespace gravity_error_study_test {
 namespace {
 
 using namespace study_test;
@@ -54,3 +55,4 @@ TEST(Survey, StationsAreTheMeansOfTheirSamples) {
 }
 
 }  // namespace
+}  // namespace gravity_error_study_test

@@ -8,6 +8,7 @@
 
 #include "study_test_support.hpp"
 
+namespace paper_form_test {
 namespace {
 
 using namespace study_test;
@@ -100,3 +101,4 @@ TEST(PaperForm, APerfectToolHasNoMisalignment) {
 }
 
 }  // namespace
+}  // namespace paper_form_test

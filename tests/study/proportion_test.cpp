@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+namespace proportion_test {
 namespace {
 
 using plumb::study::proportion;
@@ -46,3 +47,4 @@ RC_GTEST_PROP(ProportionLaw, HoldsTheShareAndMirrors, ()) {
 }
 
 }  // namespace
+}  // namespace proportion_test

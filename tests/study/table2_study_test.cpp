@@ -7,6 +7,7 @@
 #include "plumb/study/one_attitude_study.hpp"
 #include "study_test_support.hpp"
 
+namespace table2_study_test {
 namespace {
 
 using namespace study_test;
@@ -135,3 +136,4 @@ TEST(OneAttitudeStudy, SameSeedSameCounts) {
 }
 
 }  // namespace
+}  // namespace table2_study_test

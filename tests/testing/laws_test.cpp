@@ -13,6 +13,7 @@
 
 namespace plumb {
 namespace testing {
+namespace laws_test {
 namespace {
 
 TEST(MonitorLaws, HoldOnAConeOfSeven) { EXPECT_MONITOR_LAWS(cone_of(7), MonitorConfig()); }
@@ -124,5 +125,6 @@ TEST(Generators, ShrinkToTheFewestFaultsAndStationsAndToRoundNumbers) {
 }
 
 }  // namespace
+}  // namespace laws_test
 }  // namespace testing
 }  // namespace plumb

@@ -3,6 +3,7 @@
 
 #include "trace/audit.hpp"
 
+namespace trace_test {
 namespace {
 
 using namespace trace;
@@ -209,3 +210,4 @@ TEST(TraceCheck, ATagBelongsToTheTestDirectlyBelowIt) {
 }
 
 }  // namespace
+}  // namespace trace_test

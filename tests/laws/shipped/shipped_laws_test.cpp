@@ -10,6 +10,7 @@
 
 namespace plumb {
 namespace testing {
+namespace shipped_laws_test {
 namespace {
 
 /// Seven axes, four of them in the horizontal plane: c = 4, m_strict = 2.
@@ -46,5 +47,6 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedLaw, ::testing::Range<std::size_t>(0, 10), 
 TEST(ShippedLaws, AreTen) { EXPECT_EQ(laws().size(), 10U); }
 
 }  // namespace
+}  // namespace shipped_laws_test
 }  // namespace testing
 }  // namespace plumb
