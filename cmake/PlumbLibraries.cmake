@@ -37,14 +37,6 @@ function(plumb_library target export_name)
   endif()
 endfunction()
 
-# plumb_parse_once(TARGET HEADER...): of other libraries, dear to parse. Only where PLUMB_BATCHED_TESTS asks for it.
-function(plumb_parse_once target)
-  if(PLUMB_BATCHED_TESTS)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
-  endif()
-endfunction()
-
 # --- Floors 1 to 4: one static library per capacity; a mixture of two does not link. ---------------------
 plumb_sources(core_sources ${PLUMB_CORE_ROOMS})
 if(NOT core_sources)
@@ -177,7 +169,9 @@ if(report_sources)
   target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   include(PlumbVerification)
-  plumb_parse_once(plumb_report <nlohmann/json.hpp> <fmt/format.h>)
+  if(PLUMB_BATCHED)
+    set_target_properties(plumb_report PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
   # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
   target_link_libraries(plumb_report PUBLIC plumb_campaign_24)
   foreach(capacity IN LISTS PLUMB_KERNELS)

@@ -10,7 +10,7 @@ option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJ
 option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_BENCH "Build the benchmarks (Google Benchmark)" OFF)
-option(PLUMB_BATCHED_TESTS "Parse the headers of GoogleTest, RapidCheck, CLI11 and JSON once, and compile several tests at a time; scripts/test does, other builds notice a missing include" OFF)
+option(PLUMB_BATCHED "Compile several sources of the tests, the tool and the reports at a time; scripts/test does, other builds notice a missing include" OFF)
 option(PLUMB_BUILD_FUZZ "Build the fuzzers (Clang)" OFF)
 option(PLUMB_COVERAGE "Count which branches and conditions run (Clang 19, scripts/coverage)" OFF)
 option(PLUMB_INSTALL "Provide the install rules" ${PROJECT_IS_TOP_LEVEL})

@@ -29,13 +29,14 @@ function(plumb_test_executable name)
     endif()
   endforeach()
   target_link_libraries(${name} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest GTest::gtest_main)
-  if(PLUMB_BATCHED_TESTS)
+  if(PLUMB_BATCHED)
     # What a test costs to compile is its libraries' templates: the files of a batch share them.
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    plumb_parse_once(${name} <gtest/gtest.h> <rapidcheck/gtest.h>)
+    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h>)
     if(arg_LIBRARIES)  # of plumb: they bring Eigen
-      plumb_parse_once(${name} <Eigen/Dense>)
+      target_precompile_headers(${name} PRIVATE <Eigen/Dense>)
     endif()
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
   endif()
   gtest_discover_tests(${name}
     DISCOVERY_TIMEOUT 60

@@ -19,7 +19,10 @@ if(cli_sources)
     endif()
   endforeach()
   target_link_libraries(plumb_cli PUBLIC CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
-  plumb_parse_once(plumb_cli <CLI/CLI.hpp> <nlohmann/json.hpp> <fmt/format.h>)
+  if(PLUMB_BATCHED)  # most of what a command costs to compile are the templates of JSON and CLI11
+    set_target_properties(plumb_cli PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_source_files_properties("${PROJECT_SOURCE_DIR}/src/cli/steppers.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
 
   # What steps the rows of a log, with the monitors for 4, 8 and 24 sensors. By path: a target would hand its capacity on.
   plumb_sources(stepper_sources cli/kernel)

@@ -131,7 +131,7 @@ def main():
     parser.add_argument("--oracles", type=int, default=len(oracles.STAGES),
                         help="only so many, the quickest; --again then gives the survivors to all of them")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--build", default="build/release", help="whose objects are linked with")
+    parser.add_argument("--build", default="build/mutants", help="whose objects are linked with")
     options = parser.parse_args()
 
     whole = everything()

@@ -17,7 +17,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
   std::string array;
   LogSpec log;
   std::string out;
@@ -29,13 +29,13 @@ struct Options {
   bool rolls = false;  ///< something was said about the roll groups
 };
 
-constexpr const char* kAbout =
+constexpr const char* kCalibrateAbout =
     "Estimate what every sensor really does (bias, scale, direction) from a log in which the tool is held\n"
     "still at many attitudes. Gravity is the only reference. plumb finds the still stretches by itself, or\n"
     "takes every row as one where the array file says rows = \"stations\". The calibration file is written\n"
     "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible, and\n"
     "stations that were held out predicted as well as the fit claims.";
-constexpr const char* kNotes =
+constexpr const char* kCalibrateNotes =
     "Example:\n"
     "  plumb calibrate --array tool.toml --log calibration.csv --out calibration.json\n\n"
     "Units: mg0 = 0.001 x 9.80665 m/s^2; angles in deg; scales in the unit of the log per g0. Attitudes are named by\n"
@@ -79,7 +79,8 @@ std::string read_wobble(const std::string& text, double& wobble_rad) {
 }
 
 /// The pictures, where asked for. Without gnuplot the rest is done all the same.
-io::FileExpected<void> draw(const Options& options, const CalibrationRun& fit, const io::ArrayFile& array) {
+io::FileExpected<void> draw_fit(const CalibrateOptions& options, const CalibrationRun& fit,
+                                const io::ArrayFile& array) {
   if (options.plots.empty()) return {};
   std::string missing;
   const io::FileExpected<std::vector<std::string>> names = draw_fit(options.plots, fit, array, missing);
@@ -89,7 +90,7 @@ io::FileExpected<void> draw(const Options& options, const CalibrationRun& fit, c
   return {};
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_calibrate(const CalibrateOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
@@ -109,7 +110,7 @@ io::ExitCode run(const Options& options) {
   const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log, choice);
   if (!fit) return report(fit.error());
   print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, {options.verbose, options.suggest}));
-  const io::FileExpected<void> drawn = draw(options, *fit, *array);
+  const io::FileExpected<void> drawn = draw_fit(options, *fit, *array);
   if (!drawn) return report(drawn.error());
   if (!fit->accepted) {
     const Refusal refusal = refusal_of(*fit, *array);
@@ -135,7 +136,7 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_calibrate(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateOptions>();
   CLI::App* app =
       tool.add_subcommand("calibrate", "find bias, scale and direction of every sensor from a log of quiet attitudes");
   app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
@@ -202,8 +203,8 @@ Command add_calibrate(CLI::App& tool) {
   app->add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
   app->add_flag("--json", options->json, "the report as JSON, for machines");
   app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kCalibrateNotes + exit_codes_help());
+  return {app, kCalibrateAbout, [options] { return run_calibrate(*options); }};
 }
 
 }  // namespace cli

@@ -10,7 +10,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 
 namespace {
-constexpr const char* kAbout =
+constexpr const char* kCampaignAbout =
     "Play a campaign: as many scenarios as you like - tools, attitudes, faults, sizes, errors of gravity and of\n"
     "calibration - through the monitor, and count what became of them: detected, isolated, ambiguous, wrongly "
     "excluded,\n"
@@ -21,7 +21,7 @@ Command add_campaign(CLI::App& tool) {
   auto options = std::make_shared<CampaignOptions>();
   CLI::App* app = tool.add_subcommand("campaign", "many scenarios through the monitor, counted, with their intervals");
   add_campaign_options(*app, *options);
-  return {app, kAbout, [options] {
+  return {app, kCampaignAbout, [options] {
             campaign::Ranks alone;
             return run_campaign(*options, alone);
           }};

@@ -14,17 +14,17 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Options {
+struct ConvertOptions {
   std::string array;
   std::string log;
   std::string out;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
 
-constexpr const char* kAbout =
+constexpr const char* kConvertAbout =
     "Write a log again in the other form: CSV, or the binary log, which is read several times faster and finds damage\n"
     "by check sums. What is written is what the array file names; every command gives the same results on both.";
-constexpr const char* kNotes =
+constexpr const char* kConvertNotes =
     "The name of the output decides: one that ends in .plog becomes a binary log, any other a CSV. Every command "
     "knows\n"
     "by itself which of the two it reads. docs/array-file.md holds the layout of the binary log.\n\n"
@@ -34,7 +34,7 @@ constexpr const char* kNotes =
     "Cells come back as the same numbers, written the shortest way. Rows that [input] where does not select, and rows\n"
     "skipped as bad, are left out.\n\n";
 
-io::FileExpected<io::LogStatistics> convert(const Options& options, const io::ArrayFile& array) {
+io::FileExpected<io::LogStatistics> convert(const ConvertOptions& options, const io::ArrayFile& array) {
   io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
@@ -57,7 +57,7 @@ io::FileExpected<io::LogStatistics> convert(const Options& options, const io::Ar
   return reader->statistics();
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_convert(const ConvertOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
@@ -81,7 +81,7 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_convert(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertOptions>();
   CLI::App* app = tool.add_subcommand("convert", "write a log again: from CSV to binary, or back");
   app->add_option("--array", options->array, "the array file: how the log looks")->required()->type_name("ARRAY.toml");
   app->add_option("--log", options->log, "the log to read; `-` = standard input")->required()->type_name("LOG|-");
@@ -90,8 +90,8 @@ Command add_convert(CLI::App& tool) {
       ->required()
       ->type_name("OUT|-");
   add_bad_row_option(*app, options->on_bad_row);
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kConvertNotes + exit_codes_help());
+  return {app, kConvertAbout, [options] { return run_convert(*options); }};
 }
 
 }  // namespace cli

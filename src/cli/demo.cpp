@@ -16,7 +16,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Options {
+struct DemoOptions {
   std::string out = "plumb-demo";
   std::uint64_t seed = 1;
 };
@@ -26,10 +26,10 @@ constexpr io::FileExpected<DemoSection> (*kSections[])(const DemoContext&) = {
     demo_geometry, demo_calibration, demo_gravity_error, demo_table2, demo_drill_a, demo_drill_b,
 };
 
-constexpr const char* kAbout =
+constexpr const char* kDemoAbout =
     "What plumb does, without any file of yours: simulated tools are calibrated and watched while their\n"
     "accelerometers fail. Writes an index page with pictures, and all its data as JSON and CSV.";
-constexpr const char* kNotes =
+constexpr const char* kDemoNotes =
     "Examples:\n"
     "  plumb demo\n"
     "  plumb demo --out /tmp/demo --seed 7\n\n"
@@ -54,7 +54,7 @@ std::string missing_picture(const report::Page& page) {
   return "";
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_demo(const DemoOptions& options) {
   const io::FileExpected<void> made = make_directory(options.out);
   if (!made) return report(made.error());
   const DemoContext context{options.out, options.seed, scenario::paper_tool(options.seed)};
@@ -94,14 +94,14 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_demo(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DemoOptions>();
   CLI::App* app = tool.add_subcommand("demo", "what plumb does, on simulated tools; needs no file");
   app->add_option("--out", options->out, "the directory to write to, plumb-demo by default")->type_name("DIR");
   app->add_option("--seed", options->seed, "which tools, noise and attitudes are drawn, 1 by default")
       ->check(seed_refusal)
       ->type_name("N");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kDemoNotes + exit_codes_help());
+  return {app, kDemoAbout, [options] { return run_demo(*options); }};
 }
 
 }  // namespace cli

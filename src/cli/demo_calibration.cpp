@@ -6,6 +6,7 @@
 
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
+#include "figures.hpp"
 #include "plumb/study/calibration_study.hpp"
 
 namespace plumb {
@@ -17,7 +18,6 @@ using study::FitHistory;
 using study::IterationPoint;
 
 constexpr int kPlainInverseTools = 50;
-constexpr double kMg0_mps2 = 1e-3 * kG0_mps2;
 
 /// Positions of the sensors of a set, counted from 1: "1234".
 std::string digits_of(SensorSet used) {
@@ -47,7 +47,7 @@ enum class Kind { bias, scale, misalignment };
 /// Factor to the unit of the picture: mg0, V/g0, none.
 double unit_of(Kind kind) {
   switch (kind) {
-    case Kind::bias: return 1.0 / kMg0_mps2;
+    case Kind::bias: return 1.0 / kMilliG0_mps2;
     case Kind::scale: return kG0_mps2;
     case Kind::misalignment: return 1.0;
   }
@@ -197,7 +197,7 @@ report::Table summary_table(const std::vector<FitHistory>& histories) {
       const study::ParameterError error = study::error_of(h, points.back());
       out.rows.push_back({study::name_of(h.used), method, std::to_string(points.size() - 1),
                           fmt::format("{:.2e}", points.front().cost_g4), fmt::format("{:.2e}", points.back().cost_g4),
-                          fmt::format("{:.4f}", error.bias_mps2 / kMg0_mps2),
+                          fmt::format("{:.4f}", error.bias_mps2 / kMilliG0_mps2),
                           fmt::format("{:.5f}", 100.0 * error.scale), fmt::format("{:.6f}", error.misalignment)});
     };
     row("paper", h.paper);
@@ -217,7 +217,7 @@ report::Table parameter_table(const FitHistory& all) {
   const int n = all.used.size();
   for (int i = 0; i < n; ++i) {
     const auto bias = [&](const PaperParameters& p) {
-      return fmt::format("{:.3f}", p[study::bias_index(i)] / kMg0_mps2);
+      return fmt::format("{:.3f}", p[study::bias_index(i)] / kMilliG0_mps2);
     };
     const auto scale = [&](const PaperParameters& p) {
       return fmt::format("{:.5f}", p[study::scale_index(n, i)] * kG0_mps2);
@@ -251,7 +251,7 @@ nlohmann::ordered_json facts_of(const std::vector<FitHistory>& histories, const 
       return nlohmann::ordered_json{{"iterations", points.size() - 1},
                                     {"cost_start_g0_4", rounded(points.front().cost_g4)},
                                     {"cost_end_g0_4", rounded(points.back().cost_g4)},
-                                    {"bias_error_mg0", rounded(error.bias_mps2 / kMg0_mps2)},
+                                    {"bias_error_mg0", rounded(error.bias_mps2 / kMilliG0_mps2)},
                                     {"scale_error", rounded(error.scale)},
                                     {"misalignment_error", rounded(error.misalignment)}};
     };
@@ -327,8 +327,8 @@ std::string console_of(const std::vector<FitHistory>& histories, const study::Pr
       "                                          plumb's fit    {} iterations, E_g {:.1e} to {:.1e} g0^4, biases off "
       "by {:.3f} mg0 rms\n"
       "  eq (11) with the plain inverse, as printed, ends in {} of {} tools ({:.1f} to {:.1f} %)\n",
-      all.paper.size() - 1, all.paper.front().cost_g4, all.paper.back().cost_g4, paper.bias_mps2 / kMg0_mps2,
-      all.own.size() - 1, all.own.front().cost_g4, all.own.back().cost_g4, own.bias_mps2 / kMg0_mps2, ends.count,
+      all.paper.size() - 1, all.paper.front().cost_g4, all.paper.back().cost_g4, paper.bias_mps2 / kMilliG0_mps2,
+      all.own.size() - 1, all.own.front().cost_g4, all.own.back().cost_g4, own.bias_mps2 / kMilliG0_mps2, ends.count,
       ends.trials, 100.0 * ends.low, 100.0 * ends.high);
 }
 

@@ -3,6 +3,7 @@
 
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
+#include "figures.hpp"
 #include "plumb/study/gravity_error_study.hpp"
 
 namespace plumb {
@@ -13,7 +14,6 @@ namespace {
 using study::GravityErrors;
 using study::GravityErrorStudy;
 
-constexpr double kMg0_mps2 = 1e-3 * kG0_mps2;
 constexpr const char* kCsv = "fig11_gravity_error.csv";
 
 /// The three answers that are compared, in the order of the columns of the CSV.
@@ -35,7 +35,7 @@ std::string csv_of(const GravityErrorStudy& study) {
     const GravityErrors& errors = study.combination[c];
     for (std::size_t k = 0; k < errors.own_mps2.size(); ++k) {
       std::vector<std::string> cells = {std::to_string(c), study::name_of(errors.used), std::to_string(k + 1)};
-      for (const Method& m : kMethods) cells.push_back(fmt::format("{:.5f}", (errors.*m.errors)[k] / kMg0_mps2));
+      for (const Method& m : kMethods) cells.push_back(fmt::format("{:.5f}", (errors.*m.errors)[k] / kMilliG0_mps2));
       out += csv_line(cells);
     }
   }
@@ -59,7 +59,7 @@ std::string script_of(const GravityErrorStudy& study) {
     const GravityErrors& errors = study.combination[c];
     tics += fmt::format("{}'{}' {}", c == 0 ? "" : ", ", c == 0 ? "all four" : study::name_of(errors.used), c);
     for (std::size_t m = 0; m < 3; ++m) {
-      const double rms = study::rms_of(errors.*kMethods[m].errors) / kMg0_mps2;
+      const double rms = study::rms_of(errors.*kMethods[m].errors) / kMilliG0_mps2;
       const double x = static_cast<double>(c) + 0.28 * (static_cast<double>(m) - 1.0);
       out += fmt::format("set arrow {} from {:.3f},{:.5f} to {:.3f},{:.5f} nohead front lw 2.6 lc rgb '{}'\n", arrow++,
                          x - 0.125, rms, x + 0.125, rms, kMethods[m].colour);
@@ -83,9 +83,10 @@ report::Table table_of(const GravityErrorStudy& study) {
               "datasheet largest", "paper largest", "plumb largest"};
   for (const GravityErrors& errors : study.combination) {
     std::vector<std::string> row = {study::name_of(errors.used)};
-    for (const Method& m : kMethods) row.push_back(fmt::format("{:.3f}", study::rms_of(errors.*m.errors) / kMg0_mps2));
     for (const Method& m : kMethods)
-      row.push_back(fmt::format("{:.3f}", study::largest_of(errors.*m.errors) / kMg0_mps2));
+      row.push_back(fmt::format("{:.3f}", study::rms_of(errors.*m.errors) / kMilliG0_mps2));
+    for (const Method& m : kMethods)
+      row.push_back(fmt::format("{:.3f}", study::largest_of(errors.*m.errors) / kMilliG0_mps2));
     out.rows.push_back(std::move(row));
   }
   out.note =
@@ -98,8 +99,8 @@ nlohmann::ordered_json facts_of(const GravityErrorStudy& study) {
   for (const GravityErrors& errors : study.combination) {
     nlohmann::ordered_json one = {{"sensors", study::name_of(errors.used)}, {"attitudes", errors.own_mps2.size()}};
     for (const Method& m : kMethods) {
-      one["rms_mg0"][m.key] = std::stod(fmt::format("{:.4f}", study::rms_of(errors.*m.errors) / kMg0_mps2));
-      one["largest_mg0"][m.key] = std::stod(fmt::format("{:.4f}", study::largest_of(errors.*m.errors) / kMg0_mps2));
+      one["rms_mg0"][m.key] = std::stod(fmt::format("{:.4f}", study::rms_of(errors.*m.errors) / kMilliG0_mps2));
+      one["largest_mg0"][m.key] = std::stod(fmt::format("{:.4f}", study::largest_of(errors.*m.errors) / kMilliG0_mps2));
     }
     out["combinations"].push_back(std::move(one));
   }
@@ -141,8 +142,8 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
   out.console = fmt::format(
       "3 error of gravity at {} fresh attitudes, all four, rms: datasheet {:.2f} mg0, paper's fit {:.3f}, plumb's fit "
       "{:.3f}\n",
-      all.own_mps2.size(), study::rms_of(all.datasheet_mps2) / kMg0_mps2, study::rms_of(all.paper_mps2) / kMg0_mps2,
-      study::rms_of(all.own_mps2) / kMg0_mps2);
+      all.own_mps2.size(), study::rms_of(all.datasheet_mps2) / kMilliG0_mps2,
+      study::rms_of(all.paper_mps2) / kMilliG0_mps2, study::rms_of(all.own_mps2) / kMilliG0_mps2);
   return out;
 }
 

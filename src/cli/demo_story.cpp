@@ -22,7 +22,7 @@ using report::TimelineRow;
 
 std::string degrees(double deg) { return fmt::format("{:.2g}°", deg); }
 
-std::string at(double time_s) { return fmt::format("At {:.2f} s", time_s); }
+std::string at_time(double time_s) { return fmt::format("At {:.2f} s", time_s); }
 
 SensorSet faulty_at(const Timeline& timeline, double time_s) {
   SensorSet faulty;
@@ -59,7 +59,7 @@ std::string exclusion_sentence(const DrillRecord& record, const TimelineRow& row
   if (row.grade == Grade::strict) {
     why += fmt::format(", confirmed at {} stations in different directions", record.array.monitor.isolation_stations);
   }
-  return fmt::format("{}{}, {}: {} is excluded. {}{}", at(row.time_s), after_fault(record, row), why, row.sensors,
+  return fmt::format("{}{}, {}: {} is excluded. {}{}", at_time(row.time_s), after_fault(record, row), why, row.sensors,
                      is_it_right(record, row), state_and_output(row));
 }
 
@@ -67,11 +67,11 @@ std::string trust_sentence(const TimelineRow& row) {
   return fmt::format(
       "{} trust is earned: block after block agrees within its limits, at attitudes that have moved "
       "every sensor in service. {}",
-      at(row.time_s), state_and_output(row));
+      at_time(row.time_s), state_and_output(row));
 }
 
 std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
-  const std::string when = at(row.time_s);
+  const std::string when = at_time(row.time_s);
   switch (row.event) {
     case HealthEvent::none:
       return "At power-on plumb trusts nobody: every sensor must first be seen to follow the tool. " +
@@ -115,8 +115,8 @@ std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
 }
 
 std::string answer_sentence(const DrillRecord& record, const scenario::Host::Answer& answer) {
-  const std::string asked =
-      fmt::format("{} the host asks for {}", at(answer.time_s), scenario::describe(answer.request, record.array.array));
+  const std::string asked = fmt::format("{} the host asks for {}", at_time(answer.time_s),
+                                        scenario::describe(answer.request, record.array.array));
   if (answer.refusal == Errc::ok) return asked + ". The request is granted.";
   return fmt::format("{}. It is refused: {}. Nothing changes.", asked, describe(answer.refusal));
 }
@@ -255,12 +255,13 @@ std::vector<std::string> story_of(const DrillRecord& record) {
   std::vector<std::pair<double, std::string>> items;
   const scenario::FaultContext context = io::fault_context(record.array);
   for (const FaultRecord& fault : record.faults) {
-    items.emplace_back(fault.begin_s, fmt::format("{} a sensor fails: {}. plumb is told nothing of it.",
-                                                  at(fault.begin_s), scenario::describe_effect(fault.fault, context)));
+    items.emplace_back(fault.begin_s,
+                       fmt::format("{} a sensor fails: {}. plumb is told nothing of it.", at_time(fault.begin_s),
+                                   scenario::describe_effect(fault.fault, context)));
     const std::string id = report::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
     if (std::isfinite(fault.end_s))
       items.emplace_back(fault.end_s,
-                         fmt::format("{} {} is sound again. plumb is not told that either.", at(fault.end_s), id));
+                         fmt::format("{} {} is sound again. plumb is not told that either.", at_time(fault.end_s), id));
   }
   for (const scenario::Host::Answer& answer : record.answers) {
     items.emplace_back(answer.time_s, answer_sentence(record, answer));

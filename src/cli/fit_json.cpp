@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "column_facts.hpp"
+#include "figures.hpp"
 #include "fit_summary.hpp"
 #include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
@@ -13,12 +14,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr double kMilliG0_mps2 = 1e-3 * kG0_mps2;
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json columns_json(const CalibrationRun& run, const io::ArrayFile& array) {
   Json out = Json::array();
@@ -58,7 +53,7 @@ Json stations_json(const CalibrationRun& run) {
     const Vec3& u = run.study.attitudes[k].direction;
     one["down"] = norm(u) > 0.0 ? Json(u) : Json();
     const bool fitted = k < run.study.residuals.size();
-    one["norm_error_mps2"] = fitted ? finite(run.study.residuals[k].norm_error_mps2) : Json();
+    one["norm_error_mps2"] = fitted ? finite_or_null(run.study.residuals[k].norm_error_mps2) : Json();
     one["held_out"] = Json();
     if (k < run.study.predicted.size() && run.study.predicted[k].judged) {
       const StationPrediction& p = run.study.predicted[k];
@@ -124,9 +119,9 @@ Json outliers_json(const CalibrationRun& run, const io::ArrayFile& array) {
   for (int k = 0; k < std::min(r.outliers, kMaxOutliers); ++k) {
     const Outlier& o = r.outlier[static_cast<std::size_t>(k)];
     listed.push_back({{"station", o.station + 1},
-                      {"sigmas", finite(o.standardised)},
+                      {"sigmas", finite_or_null(o.standardised)},
                       {"sensor", o.sensor >= 0 ? Json(id_of(array, o.sensor)) : Json()},
-                      {"share", o.sensor >= 0 ? finite(o.share) : Json()}});
+                      {"share", o.sensor >= 0 ? finite_or_null(o.share) : Json()}});
   }
   Json stations = Json::array();
   for (const int k : run.study.set_aside) stations.push_back(k + 1);
@@ -147,7 +142,7 @@ Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
   const int loudest = run.told().loud_sensor;
   const std::string loud = loudest >= 0 ? id_of(array, loudest) : "";
   for (const SensorFigures& f : sensor_figures(run, array)) {
-    const auto known = [&f](double value) { return f.known ? finite(value) : Json(); };
+    const auto known = [&f](double value) { return f.known ? finite_or_null(value) : Json(); };
     out.push_back({{"id", f.id},
                    {"bias_mps2", known(f.bias_mg * kMilliG0_mps2)},
                    {"bias_sigma_mps2", known(f.bias_sigma_mg * kMilliG0_mps2)},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "figures.hpp"
 #include "fit_summary.hpp"
 #include "plot_files.hpp"
 #include "plumb/core/units.hpp"
@@ -11,8 +12,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 report::FitPictures pictures_of(const CalibrationRun& run, const io::ArrayFile& array) {
   report::FitPictures out;

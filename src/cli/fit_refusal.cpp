@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "column_facts.hpp"
+#include "figures.hpp"
 #include "fit_words.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
@@ -22,8 +23,6 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
   for (const std::string& part : parts) out += (out.empty() ? "" : between) + part;
   return out;
 }
-
-double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 std::string more_attitudes(const CalibrationRun& run) {
   std::vector<std::string> words;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/words.hpp"
 
@@ -10,8 +11,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-constexpr double kMilliG0_mps2 = 1e-3 * kG0_mps2;
 
 double share_of(double sigma, double prior) {
   return prior > 0.0 ? std::clamp(1.0 - sigma * sigma / (prior * prior), 0.0, 1.0) : 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "column_facts.hpp"
+#include "figures.hpp"
 #include "fit_summary.hpp"
 #include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
@@ -24,8 +25,6 @@ constexpr double kToldNoise = 1.25;
 constexpr double kNoExcitation = 1e-9;
 constexpr std::size_t kTextWidth = 116;
 constexpr std::size_t kLabelWidth = 20;
-
-double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 /// "  label   text", the text wrapped at blanks and indented below itself.
 std::string line(const std::string& label, const std::string& text) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "plumb/core/units.hpp"
 #include "temperature_words.hpp"
 

@@ -22,7 +22,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Options {
+struct GeometryOptions {
   std::string array;
   std::string name;
   std::string calibration;
@@ -33,10 +33,10 @@ struct Options {
   bool json = false;
 };
 
-constexpr const char* kAbout =
+constexpr const char* kGeometryAbout =
     "Judge a geometry: the array as it was read, how well its axes determine a vector, how many faulty sensors it\n"
     "bears, the least faults that are found, the tilt error that can go undetected, and what no test can see.";
-constexpr const char* kNotes =
+constexpr const char* kGeometryNotes =
     "Built-in geometries for --name:\n"
     "  paper-tetrahedron   the paper's four axes (three on a cone about z, the fourth along z)\n"
     "  triad               orthogonal x, y, z\n"
@@ -101,7 +101,7 @@ io::FileError refused(const char* option, std::string what, std::string remedy) 
   return io::FileError{option, 0, "", std::move(what), std::move(remedy), io::ExitCode::usage};
 }
 
-io::FileExpected<void> name_subject(const Options& options, GeometrySubject& subject) {
+io::FileExpected<void> name_subject(const GeometryOptions& options, GeometrySubject& subject) {
   io::FileExpected<double> sigma = io::parse_quantity(io::Quantity::acceleration, options.noise);
   if (!sigma) {
     sigma.error().code = io::ExitCode::usage;
@@ -115,7 +115,7 @@ io::FileExpected<void> name_subject(const Options& options, GeometrySubject& sub
   return {};
 }
 
-io::FileExpected<void> read_subject(const Options& options, GeometrySubject& subject) {
+io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubject& subject) {
   io::FileExpected<io::ArrayFile> file = io::read_array_file(options.array);
   if (!file) return tl::unexpected<io::FileError>(file.error());
   subject.name = file->name;
@@ -134,7 +134,7 @@ io::FileExpected<void> read_subject(const Options& options, GeometrySubject& sub
   return {};
 }
 
-std::optional<io::FileError> misused(const Options& options) {
+std::optional<io::FileError> misused(const GeometryOptions& options) {
   if (options.array.empty() && options.name.empty())
     return refused("geometry", "nothing to judge", "give an array file, or --name paper-tetrahedron");
   if (!options.array.empty() && !options.name.empty())
@@ -144,7 +144,8 @@ std::optional<io::FileError> misused(const Options& options) {
   return std::nullopt;
 }
 
-io::FileExpected<void> draw(const Options& options, const GeometrySubject& subject, const GeometryStudy& study) {
+io::FileExpected<void> draw_geometry(const GeometryOptions& options, const GeometrySubject& subject,
+                                     const GeometryStudy& study) {
   if (options.plots.empty()) return {};
   report::GeometryPictures pictures;
   pictures.name = subject.name;
@@ -167,7 +168,7 @@ io::FileExpected<void> draw(const Options& options, const GeometrySubject& subje
   return {};
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_geometry(const GeometryOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   GeometrySubject subject;
   const io::FileExpected<void> ready =
@@ -176,7 +177,7 @@ io::ExitCode run(const Options& options) {
   if (options.samples > 0) subject.settings.samples = options.samples;
   const GeometryStudy study = study_geometry(subject);
   print(options.json ? geometry_json(subject, study) : geometry_text(subject, study));
-  const io::FileExpected<void> drawn = draw(options, subject, study);
+  const io::FileExpected<void> drawn = draw_geometry(options, subject, study);
   if (!drawn) return report(drawn.error());
   if (!options.check || study.warnings.empty()) return io::ExitCode::done;
   for (const Finding& f : study.warnings) print_error(fmt::format("plumb: {}: {}: {}\n", subject.name, f.name, f.text));
@@ -186,7 +187,7 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_geometry(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GeometryOptions>();
   CLI::App* app =
       tool.add_subcommand("geometry", "judge a set of axes: what it determines, and how many faults it can isolate");
   app->add_option("array", options->array, "the array file to judge")->type_name("ARRAY.toml");
@@ -206,8 +207,8 @@ Command add_geometry(CLI::App& tool) {
       ->type_name("DIR");
   app->add_flag("--check", options->check, "refuse a geometry with a warning: exit code 6");
   app->add_flag("--json", options->json, "JSON instead of text, for machines");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kGeometryNotes + exit_codes_help());
+  return {app, kGeometryAbout, [options] { return run_geometry(*options); }};
 }
 
 }  // namespace cli

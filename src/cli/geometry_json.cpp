@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "figures.hpp"
 #include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
 
@@ -9,12 +10,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json ids(SensorSet set, const SensorArray& array) {
   Json list = Json::array();
@@ -40,12 +35,12 @@ Json sensors_json(const GeometrySubject& subject, const GeometryStudy& study) {
                              {"horizontal_toolface_90", s.expected.raw[2]}};
     }
     one["thresholds_mps2"] = {{"block_noise", study.budget.noise_mps2[at(i)]},
-                              {"detectable", number(t.detectable_mps2)},
-                              {"sure_detection", number(t.sure_detection_mps2)},
-                              {"set_aside", number(t.set_aside_mps2)},
-                              {"sure_isolation", number(study.thresholds.sure.fault[2][at(i)])},
-                              {"blind_half_width", isolable ? number(s.blind_half_width_mps2) : Json(nullptr)},
-                              {"any_attitude", isolable ? number(s.any_attitude_mps2) : Json(nullptr)}};
+                              {"detectable", finite_or_null(t.detectable_mps2)},
+                              {"sure_detection", finite_or_null(t.sure_detection_mps2)},
+                              {"set_aside", finite_or_null(t.set_aside_mps2)},
+                              {"sure_isolation", finite_or_null(study.thresholds.sure.fault[2][at(i)])},
+                              {"blind_half_width", isolable ? finite_or_null(s.blind_half_width_mps2) : Json(nullptr)},
+                              {"any_attitude", isolable ? finite_or_null(s.any_attitude_mps2) : Json(nullptr)}};
     one["nearest_mirror_axis_deg"] = deg_from_rad(s.nearest_remount_rad);
     out.push_back(std::move(one));
   }
@@ -57,9 +52,9 @@ Json constants_json(const GeometrySubject& subject, const GeometryStudy& study) 
   const int most = subject.array.size() - 1 - study.merit.coplanarity;
   for (int m = 1; m <= most; ++m) {
     out.push_back({{"faults", m},
-                   {"detected_e", number(study.constants.worst_fault(m))},
-                   {"told_apart_e", 2 * m <= most ? number(study.constants.worst_fault(2 * m)) : Json(nullptr)},
-                   {"vector_error_e", number(study.constants.vector_error[at(m)])}});
+                   {"detected_e", finite_or_null(study.constants.worst_fault(m))},
+                   {"told_apart_e", 2 * m <= most ? finite_or_null(study.constants.worst_fault(2 * m)) : Json(nullptr)},
+                   {"vector_error_e", finite_or_null(study.constants.vector_error[at(m)])}});
   }
   return out;
 }
@@ -76,8 +71,8 @@ Json one_attitude_json(const GeometryStudy& study) {
   if (study.map.empty()) return nullptr;
   const MapSummary& s = study.one_attitude;
   return {{"blind_share", s.blind_share},
-          {"clear_from_best_mps2", number(s.least_clear_mps2)},
-          {"clear_from_worst_mps2", number(s.largest_clear_mps2)},
+          {"clear_from_best_mps2", finite_or_null(s.least_clear_mps2)},
+          {"clear_from_worst_mps2", finite_or_null(s.largest_clear_mps2)},
           {"best_inclination_deg", s.best_inclination_deg},
           {"best_toolface_deg", s.best_toolface_deg}};
 }
@@ -101,7 +96,7 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
                              {"condition", f.condition},
                              {"nearest_angle_deg", deg_from_rad(f.nearest_angle_rad)},
                              {"min_triple_det", f.min_triple_det},
-                             {"max_triple_condition", number(f.max_triple_condition)},
+                             {"max_triple_condition", finite_or_null(f.max_triple_condition)},
                              {"common_bias_visibility", f.common_bias_visibility},
                              {"coplanarity", f.coplanarity},
                              {"strict_grade", f.strict_grade},
@@ -133,7 +128,7 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
     const Triple& t = array.triple(k);
     triples.push_back({{"sensors", ids(t.set(), array)},
                        {"det", t.det},
-                       {"condition", number(t.condition)},
+                       {"condition", finite_or_null(t.condition)},
                        {"near_singular", !t.votes}});
   }
   out["triples"] = std::move(triples);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "figures.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/report/words.hpp"
@@ -20,8 +21,6 @@ constexpr double kUnseenBias = 0.05;
 /// Two axes closer than this are the same for wiring: to exchange them changes nothing.
 constexpr double kHarmless_rad = 1e-6;
 constexpr int kMapStep_deg = 5;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// ISCWSA axes: what `tilt_of` takes apart.
 Vec3 down_at(double inclination_deg, double toolface_deg) {

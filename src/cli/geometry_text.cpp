@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "figures.hpp"
 #include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/words.hpp"
@@ -15,10 +16,6 @@ namespace {
 
 constexpr std::size_t kMostListed = 12;
 constexpr double kNone = std::numeric_limits<double>::infinity();
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 /// A figure in a column, or a dash where the geometry has none.
 std::string figure(double value, int width, int digits) {
@@ -36,7 +33,7 @@ std::string reading_text(const GeometrySubject& subject, const GeometryStudy& st
     out += fmt::format("reads {}; the log is in {}; gravity {:.5f} m/s^2 (1 sigma {:.3f} mg0)\n",
                        f.datasheet.reads == Reads::gravity ? "gravity (a sensor that points down counts up)"
                                                            : "specific force (a sensor that points up counts up)",
-                       f.input.unit.name, subject.gravity.g_mps2, mg0(subject.gravity.sigma_mps2));
+                       f.input.unit.name, subject.gravity.g_mps2, in_mg0(subject.gravity.sigma_mps2));
   }
   out += fmt::format("\n  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>32}\n", "sensor", "x", "y", "z", "noise",
                      file ? "expected in the log, tool at" : "expected, g0, tool at");
@@ -45,7 +42,7 @@ std::string reading_text(const GeometrySubject& subject, const GeometryStudy& st
   for (int i = 0; i < subject.array.size(); ++i) {
     const Vec3& h = subject.array.axis(i);
     out += fmt::format("  {:<15} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.4f}  ", study.sensors[at(i)].id, h[0], h[1], h[2],
-                       mg0(subject.array.sigma_mps2(i)));
+                       in_mg0(subject.array.sigma_mps2(i)));
     const ExpectedReading& e = study.sensors[at(i)].expected;
     for (std::size_t a = 0; a < 3; ++a)
       out += fmt::format(" {:>10.4g}", file ? e.raw[a] : g0_from_mps2(e.down_mps2[a]));
@@ -106,11 +103,12 @@ std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& 
     const SensorThresholds& t = study.thresholds.sensor[at(i)];
     const SensorStudy& one = study.sensors[at(i)];
     const bool isolable = study.merit.strict_grade > 0;
-    out += fmt::format("  {:<15} {} {} {} {} {} {} {}\n", one.id, figure(mg0(study.budget.noise_mps2[at(i)]), 10, 4),
-                       figure(mg0(t.detectable_mps2), 10, 3), figure(mg0(t.sure_detection_mps2), 10, 3),
-                       figure(mg0(t.set_aside_mps2), 10, 3), figure(mg0(study.thresholds.sure.fault[2][at(i)]), 10, 3),
-                       figure(isolable ? mg0(one.blind_half_width_mps2) : kNone, 12, 1),
-                       figure(isolable ? mg0(one.any_attitude_mps2) : kNone, 12, 1));
+    out += fmt::format("  {:<15} {} {} {} {} {} {} {}\n", one.id, figure(in_mg0(study.budget.noise_mps2[at(i)]), 10, 4),
+                       figure(in_mg0(t.detectable_mps2), 10, 3), figure(in_mg0(t.sure_detection_mps2), 10, 3),
+                       figure(in_mg0(t.set_aside_mps2), 10, 3),
+                       figure(in_mg0(study.thresholds.sure.fault[2][at(i)]), 10, 3),
+                       figure(isolable ? in_mg0(one.blind_half_width_mps2) : kNone, 12, 1),
+                       figure(isolable ? in_mg0(one.any_attitude_mps2) : kNone, 12, 1));
   }
   return out;
 }

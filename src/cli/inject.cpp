@@ -18,7 +18,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Options {
+struct InjectOptions {
   std::string array;
   std::string log;
   std::string out;
@@ -27,10 +27,10 @@ struct Options {
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
 
-constexpr const char* kAbout =
+constexpr const char* kInjectAbout =
     "Put faults into a recorded log and write the log anew: what would the monitor have said, had this sensor\n"
     "died at that moment? Rows and times stay as they are but for faults of the whole log (`log:`).";
-constexpr const char* kNotes =
+constexpr const char* kInjectNotes =
     "A fault is SENSOR:KIND[=SIZE]@ONSET[+DURATION]:\n"
     "  a2:stuck=0V@12s          stands at 0 V from t = 12 s on (also 3V, FS, -FS, 12count, 1g0)\n"
     "  a3:last@5s               stands at its last value; last=0.5LSB dithers about it\n"
@@ -55,7 +55,7 @@ io::FileError fault_error(std::string what) {
 }
 
 /// Copies the log row by row through the injector.
-io::FileExpected<io::LogStatistics> copy(const Options& options, const io::ArrayFile& array,
+io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io::ArrayFile& array,
                                          scenario::Injector& injector, scenario::Delivery& delivery) {
   io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
@@ -91,7 +91,7 @@ io::FileExpected<io::LogStatistics> copy(const Options& options, const io::Array
   return done;
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_inject(const InjectOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
@@ -136,7 +136,7 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_inject(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InjectOptions>();
   CLI::App* app =
       tool.add_subcommand("inject", "put faults into a recorded log, to see what the monitor makes of them");
   app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
@@ -153,8 +153,8 @@ Command add_inject(CLI::App& tool) {
       ->type_name("N");
   app->add_option("--out", options->out, "the log to write; `-` = standard output")->required()->type_name("OUT.csv|-");
   add_bad_row_option(*app, options->on_bad_row);
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kInjectNotes + exit_codes_help());
+  return {app, kInjectAbout, [options] { return run_inject(*options); }};
 }
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
 #include "unit_guess.hpp"
@@ -22,16 +23,12 @@ constexpr double kQuietest = 0.1;
 constexpr double kNoiseFactor = 1.5;
 constexpr double kLengthFactor = 1.2;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + k, values.end());
   return values[static_cast<std::size_t>(k)];
 }
-
-double in_mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 }  // namespace
 

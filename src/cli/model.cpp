@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "figures.hpp"
 #include "model.hpp"
 #include "plumb/health/transition_table.hpp"
 #include "plumb/report/plot.hpp"
@@ -21,14 +22,14 @@ namespace {
 
 enum class Format { markdown, dot, json };
 
-struct Options {
+struct ModelOptions {
   Format format = Format::markdown;
 };
 
-constexpr const char* kAbout =
+constexpr const char* kModelAbout =
     "Print the state machine of the monitor: for every state and every event, what is done and where it leads.\n"
     "It is printed from the very table that runs in the monitor, so it cannot be out of date.";
-constexpr const char* kNotes =
+constexpr const char* kModelNotes =
     "Examples:\n"
     "  plumb model                                  a Markdown table, events in rank order\n"
     "  plumb model --format dot | dot -Tsvg > m.svg a drawing (needs Graphviz)\n"
@@ -165,8 +166,7 @@ bool depends_on(Target target, unsigned bits) {
 }
 
 /// The rows of one target: every combination of the facts that it depends on, and where it then leads.
-nlohmann::ordered_json resolution(Target target) {
-  using Json = nlohmann::ordered_json;
+Json resolution(Target target) {
   unsigned relevant = depends_on(target, 3U) ? 3U : 0U;
   for (std::size_t k = 0; k < kYesNoFacts.size(); ++k) {
     if (depends_on(target, 4U << k)) relevant |= 4U << k;
@@ -184,7 +184,7 @@ nlohmann::ordered_json resolution(Target target) {
   return rows;
 }
 
-std::string dot() {
+std::string transition_graph() {
   std::string out =
       "digraph plumb {\n  rankdir=LR;\n  node [shape=box, style=\"rounded,filled\", fontname=\"sans-serif\", "
       "fontcolor=white];\n"
@@ -214,10 +214,10 @@ std::string dot() {
   return out + "}\n";
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_model(const ModelOptions& options) {
   switch (options.format) {
     case Format::markdown: print(markdown()); break;
-    case Format::dot: print(dot()); break;
+    case Format::dot: print(transition_graph()); break;
     case Format::json: print(model_json()); break;
   }
   return io::ExitCode::done;
@@ -226,7 +226,6 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 std::string model_json() {
-  using Json = nlohmann::ordered_json;
   Json out;
   Json states = Json::array();
   for (int m = 0; m < kModeCount; ++m) {
@@ -265,15 +264,15 @@ std::string model_json() {
 }
 
 Command add_model(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ModelOptions>();
   CLI::App* app = tool.add_subcommand("model", "print the state machine of the monitor: table, drawing or JSON");
   const std::map<std::string, Format> names{
       {"markdown", Format::markdown}, {"dot", Format::dot}, {"json", Format::json}};
   app->add_option("--format", options->format, "`markdown` (default), `dot` (Graphviz) or `json`")
       ->transform(CLI::CheckedTransformer(names).description(""))
       ->type_name("markdown|dot|json");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kModelNotes + exit_codes_help());
+  return {app, kModelAbout, [options] { return run_model(*options); }};
 }
 
 }  // namespace cli

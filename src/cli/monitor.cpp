@@ -22,11 +22,11 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-constexpr const char* kAbout =
+constexpr const char* kMonitorAbout =
     "Watch an array of accelerometers: read a log (or a live stream) sample by sample, say which sensors may\n"
     "be believed, which way is down, and within what bound. A table line is printed at every change of state;\n"
     "a summary follows at the end. A sensor is excluded only when no other explanation of the data is left.";
-constexpr const char* kNotes =
+constexpr const char* kMonitorNotes =
     "States: nominal (all sensors agree), suspect (a limit was crossed, or trust is not yet earned; output\n"
     "unconfirmed), isolated (a faulty sensor is out, the rest still check one another), degraded (no sensor\n"
     "can be spared, usually three are left), failed (too few sensors or no bound: do not use the output).\n"
@@ -296,7 +296,7 @@ void warn_of_stations(const io::ArrayFile& array) {
                   array.path, array.monitor.window));
 }
 
-io::ExitCode run(const MonitorOptions& options) {
+io::ExitCode run_monitor(const MonitorOptions& options) {
   if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
@@ -371,8 +371,8 @@ Command add_monitor(CLI::App& tool) {
   add_bad_row_option(*app, options->log.on_bad_row);
   app->add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
   app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kMonitorNotes + exit_codes_help());
+  return {app, kMonitorAbout, [options] { return run_monitor(*options); }};
 }
 
 }  // namespace cli

@@ -19,7 +19,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string scenario;
   std::string out = "-";
   std::string truth;
@@ -27,11 +27,11 @@ struct Options {
   std::optional<std::uint64_t> seed;
 };
 
-constexpr const char* kAbout =
+constexpr const char* kSimulateAbout =
     "Play a scenario into a log: a tool whose sensors are really like this, held so, shaken so, breaking then.\n"
     "The log looks as the scenario's array file says, so `plumb calibrate` and `plumb monitor` read it like a\n"
     "recorded one. The scenario is a TOML file; docs/scenario-file.md lists its keys.";
-constexpr const char* kNotes =
+constexpr const char* kSimulateNotes =
     "Examples (a stand to calibrate on, then a drilling run with a fault, watched through a pipe):\n"
     "  plumb simulate examples/stand.toml --out stand.csv\n"
     "  plumb calibrate --array examples/paper_tool.toml --log stand.csv --out cal.json\n"
@@ -52,7 +52,7 @@ io::FileError usage_error(const char* option, std::string what, std::string reme
 }
 
 /// The files must not run into one another, and an array file that exists already is not written again.
-std::optional<io::FileError> conflict(const Options& options, const io::ScenarioFile& file) {
+std::optional<io::FileError> conflict(const SimulateOptions& options, const io::ScenarioFile& file) {
   const std::string& truth = options.truth;
   if (!truth.empty() && (truth == options.out || truth == options.array_out)) {
     return usage_error("--truth", "goes to the same place as another output", "give it a file of its own");
@@ -107,7 +107,7 @@ class TruthFile {
 /// Plays one scenario from its first sample to its last.
 class Play {
  public:
-  Play(const Options& options, const io::ScenarioFile& file, scenario::Simulator simulator)
+  Play(const SimulateOptions& options, const io::ScenarioFile& file, scenario::Simulator simulator)
       : options_(options), file_(file), simulator_(std::move(simulator)), shown_(file.scenario.faults.size()) {}
 
   io::FileExpected<void> run() {
@@ -180,7 +180,7 @@ class Play {
     }
   }
 
-  const Options& options_;
+  const SimulateOptions& options_;
   const io::ScenarioFile& file_;
   scenario::Simulator simulator_;
   std::optional<TruthFile> truth_;
@@ -190,7 +190,7 @@ class Play {
 };
 
 /// What was played, where it does not stand in the way of the log.
-void tell(const Options& options, const io::ScenarioFile& file, const Play& play) {
+void tell(const SimulateOptions& options, const io::ScenarioFile& file, const Play& play) {
   const scenario::FaultContext context = io::fault_context(file.array);
   const bool to_pipe = options.out == "-" || options.truth == "-" || options.array_out == "-";
   if (!to_pipe) {
@@ -211,7 +211,7 @@ void tell(const Options& options, const io::ScenarioFile& file, const Play& play
   }
 }
 
-io::ExitCode run(const Options& options) {
+io::ExitCode run_simulate(const SimulateOptions& options) {
   io::FileExpected<io::ScenarioFile> file = io::read_scenario(options.scenario);
   if (!file) return report(file.error());
   if (options.seed) file->scenario.seed = *options.seed;
@@ -239,7 +239,7 @@ io::ExitCode run(const Options& options) {
 }  // namespace
 
 Command add_simulate(CLI::App& tool) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   CLI::App* app = tool.add_subcommand("simulate", "play a scenario into a log: sensors, attitudes, noise and faults");
   app->add_option("scenario", options->scenario, "the scenario file: what happens to which tool")
       ->required()
@@ -253,8 +253,8 @@ Command add_simulate(CLI::App& tool) {
       ->type_name("TRUTH.csv");
   app->add_option("--array-out", options->array_out, "the array file of a scenario with tool = \"paper\"")
       ->type_name("ARRAY.toml");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kSimulateNotes + exit_codes_help());
+  return {app, kSimulateAbout, [options] { return run_simulate(*options); }};
 }
 
 }  // namespace cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures.hpp"
 #include "fit_words.hpp"
 #include "temperature_words.hpp"
 
@@ -10,10 +11,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json levels_json(const TemperatureLevels& levels) {
   Json out = Json::array();
@@ -41,9 +38,9 @@ Json coefficients_json(const std::array<TemperatureCoefficient, kMaxTemperatureO
   Json values = Json::array(), sigmas = Json::array(), shares = Json::array();
   for (int k = 0; k <= order; ++k) {
     const TemperatureCoefficient& one = c[static_cast<std::size_t>(k)];
-    values.push_back(finite(one.value));
-    sigmas.push_back(finite(one.sigma));
-    shares.push_back(finite(one.data_share));
+    values.push_back(finite_or_null(one.value));
+    sigmas.push_back(finite_or_null(one.sigma));
+    shares.push_back(finite_or_null(one.data_share));
   }
   return {{"value", std::move(values)}, {"sigma", std::move(sigmas)}, {"data_share", std::move(shares)}};
 }
@@ -65,19 +62,19 @@ Json temperature_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["parameters"] = t.parameters;
   out["rank"] = t.rank;
   out["gauge"] = t.gauge;
-  out["condition"] = finite(t.condition);
+  out["condition"] = finite_or_null(t.condition);
   Json nulls = Json::array();
   for (int k = 0; k < std::min(t.null_directions, kMaxNullDirections); ++k)
     nulls.push_back(null_json(t.null[static_cast<std::size_t>(k)], array));
   out["null_directions"] = t.null_directions;
   out["null"] = std::move(nulls);
   if (!run.accepted) return out;
-  out["inflation"] = finite(t.inflation);
+  out["inflation"] = finite_or_null(t.inflation);
   for (const TemperatureForecast& f : t.forecast) {
     out["expected_error"].push_back({{"degc", f.degc},
-                                     {"reading_mps2", finite(f.reading_mps2)},
+                                     {"reading_mps2", finite_or_null(f.reading_mps2)},
                                      {"sensor", id_of(array, f.sensor)},
-                                     {"direction_rad", finite(f.tilt_rad)}});
+                                     {"direction_rad", finite_or_null(f.tilt_rad)}});
   }
   for (int i = 0; i < array.array.size(); ++i) {
     const auto a = static_cast<std::size_t>(i);

@@ -22,11 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAbout =
+constexpr const char* kVerifyAbout =
     "Verify an array: judge its geometry, its calibration and its monitor against your own limits, by analysis and\n"
     "by campaigns of simulated faults, and write a report that says what the array can detect, isolate and\n"
     "guarantee, how that is known, and what remains open.";
-constexpr const char* kNotes =
+constexpr const char* kVerifyNotes =
     "Examples:\n"
     "  plumb verify --array examples/paper_tool.toml --scenarios 2000\n"
     "  plumb verify --array tool.toml --limits limits.toml --positions stand.csv --out report\n"
@@ -116,7 +116,7 @@ void print_pdf(const std::string& out, std::string html) {
   if (!done) print_error("plumb: " + done.error().text() + "\n");
 }
 
-io::ExitCode run(const VerifyOptions& options) {
+io::ExitCode run_verify(const VerifyOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   watch_interrupts();
   io::FileExpected<Verification> found = verify(options);
@@ -203,8 +203,8 @@ Command add_verify(CLI::App& tool) {
       ->type_name("N");
   app->add_flag("--pdf", options->pdf, "print the page to report.pdf too (needs weasyprint; takes half a minute)");
   app->add_flag("--json", options->json, "print the report as JSON instead of a summary");
-  app->footer(kNotes + exit_codes_help());
-  return {app, kAbout, [options] { return run(*options); }};
+  app->footer(kVerifyNotes + exit_codes_help());
+  return {app, kVerifyAbout, [options] { return run_verify(*options); }};
 }
 
 }  // namespace cli

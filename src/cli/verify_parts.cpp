@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "figures.hpp"
 #include "fit_summary.hpp"
 #include "fit_words.hpp"
 #include "model.hpp"
@@ -20,8 +21,6 @@ namespace {
 
 constexpr int kPlannedStations = 24;
 constexpr double kPlannedDwell_s = 2.0;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double worst_of(const Calibration& calibration) {
   double out = 0.0;
@@ -40,7 +39,7 @@ Json sensors_of(const Calibration& calibration) {
 
 /// What the fit held for the case after every iteration, the datasheet first. Of a fit over temperature there is none.
 Json trace_of(const CalibrationRun& run, const io::ArrayFile& array) {
-  constexpr int kMostIterations = 1000;
+  constexpr int kMostTraced = 1000;
   Json out = Json::array();
   if (!run.accepted || run.temperature.order > 0) return out;
   const auto add = [&out, &array](const study::CommonFrame& frame, const Json& cost) {
@@ -58,7 +57,7 @@ Json trace_of(const CalibrationRun& run, const io::ArrayFile& array) {
   auto calibrator = std::make_unique<Calibrator>(array.datasheet, array.gravity, run.options);
   add(study::frame_of(array.datasheet, calibrator->parameters()), Json());
   const int stations = static_cast<int>(run.stations.size());
-  for (int k = 0; k < kMostIterations && !calibrator->done(); ++k) {
+  for (int k = 0; k < kMostTraced && !calibrator->done(); ++k) {
     calibrator->iterate(run.stations.data(), stations);
     if (calibrator->iterations() == 0 || !std::isfinite(calibrator->cost())) continue;
     // The same point as the last iteration, turned onto the nominal axes: what the monitor is given.

@@ -30,14 +30,14 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A line on standard error, only where that is a terminal.
-class Watch {
+class TrialWatch {
  public:
-  Watch(std::string what, std::uint64_t of) : what_(std::move(what)), of_(of), on_(::isatty(STDERR_FILENO) != 0) {}
-  ~Watch() {
+  TrialWatch(std::string what, std::uint64_t of) : what_(std::move(what)), of_(of), on_(::isatty(STDERR_FILENO) != 0) {}
+  ~TrialWatch() {
     if (on_) print_error("\r\033[K");
   }
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
+  TrialWatch(const TrialWatch&) = delete;
+  TrialWatch& operator=(const TrialWatch&) = delete;
   bool see(std::uint64_t done) {
     if (on_) {
       const double elapsed_s = seconds_since(start_);
@@ -156,7 +156,7 @@ io::FileExpected<std::optional<report::Trials>> play(const std::string& text, co
     section = not_played(file.error().text());
     return std::optional<report::Trials>();
   }
-  Watch watch(what, file->plan.scenarios);
+  TrialWatch watch(what, file->plan.scenarios);
   tl::expected<report::Trials, std::string> trials =
       report::play_trials(*file, threads, [&watch](std::uint64_t done) { return watch.see(done); });
   if (trials) return std::optional<report::Trials>(*std::move(trials));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "figures.hpp"
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
 
@@ -10,9 +11,7 @@ inline namespace PLUMB_ABI {
 namespace report {
 namespace {
 
-constexpr double kMg0 = 1e3 / kG0_mps2;
-
-std::string tone(const std::string& colour) {
+std::string tone_of_colour(const std::string& colour) {
   return colour == "green" || colour == "yes" ? "good" : (colour == "red" || colour == "no" ? "bad" : "open");
 }
 
@@ -33,7 +32,7 @@ std::string why(const Json& station) {
 Section answer_view(const Json& report) {
   const Json& a = report["answer"];
   Section out("verdict", "1 Answer", "May this tool be surveyed with, and what is to be done.");
-  out.notice(a["sentence"], tone(a["usable_for_survey"]));
+  out.notice(a["sentence"], tone_of_colour(a["usable_for_survey"]));
   std::vector<std::string> actions;
   for (const Json& action : a["actions"]) actions.push_back(action);
   out.list("What to do", actions);
@@ -55,8 +54,9 @@ ViewRows station_rows(const Json& report) {
   ViewRows rows;
   for (const Json& s : report["stations"]) {
     const std::string colour = s["colour"];
-    rows.push_back({s["number"].dump(), seconds(s["begin_s"]), shown(s["depth_m"]), ViewCell(colour, tone(colour)),
-                    fixed(s["length_mps2"], kMg0, 3), shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
+    rows.push_back({s["number"].dump(), seconds(s["begin_s"]), shown(s["depth_m"]),
+                    ViewCell(colour, tone_of_colour(colour)), fixed(s["length_mps2"], kMg0, 3),
+                    shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
                     with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
                     with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), shown(s["protection_level_deg"]),
                     joined_list(s["used"]), why(s)});

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "chart.hpp"
+#include "figures.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/health_page.hpp"
 
@@ -13,7 +14,7 @@ inline namespace PLUMB_ABI {
 namespace report {
 namespace {
 
-constexpr int kWidth = 900;
+constexpr int kPlotWidth = 900;
 /// Of green, orange and red, readable on white and on black; with a shape each, for those who see no colours.
 constexpr const char* kPalette =
     "green = '#2c8f57'\norange = '#c98a00'\nred = '#d0553c'\nbound = '#8a8a8a'\n"
@@ -24,8 +25,6 @@ constexpr const char* kPalette =
 std::string cell(const Json& value, double factor = 1.0) {
   return value.is_number() ? fmt::format("{:.8g}", factor * value.get<double>()) : std::string();
 }
-
-constexpr double kMg0 = 1e3 / kG0_mps2;
 
 PlotFile stations_csv(const Json& stations) {
   std::string csv =
@@ -63,7 +62,7 @@ std::string limits_over(const char* x) {
 std::string grid() { return "set grid lw 0.4 lc rgb '#999999'\n"; }
 
 std::string run_script() {
-  return chart_head("run.svg", kWidth, 860) + grid() + kPalette +
+  return chart_head("run.svg", kPlotWidth, 860) + grid() + kPalette +
          "set multiplot layout 3,1\nset lmargin 11\nset rmargin 3\nset xlabel 'station'\nset key outside top right "
          "horizontal\nset xrange [0.5:*]\nset offsets 0,0.5,0,0\n"
          "set ylabel '|G| less reference, mg0'\nplot " +
@@ -74,7 +73,7 @@ std::string run_script() {
 }
 
 std::string roll_script() {
-  return chart_head("roll.svg", kWidth, 620) + grid() + kPalette +
+  return chart_head("roll.svg", kPlotWidth, 620) + grid() + kPalette +
          "set multiplot layout 2,1\nset lmargin 11\nset rmargin 3\nset xlabel 'toolface, deg'\nset xrange [0:360]\nset "
          "xtics 45\nset key outside top right horizontal\n"
          "set ylabel '|G| less reference, mg0'\nplot " +

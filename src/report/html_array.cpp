@@ -1,6 +1,7 @@
 // Sections 1 to 3 of the verification page: verdict, array, calibration.
 #include <fmt/format.h>
 
+#include "figures.hpp"
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/report/plot.hpp"
@@ -10,8 +11,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace report {
 namespace {
-
-constexpr double kMg0 = 1e3 / kG0_mps2;  ///< m/s^2 -> mg0
 
 std::vector<std::string> texts(const Json& list) {
   std::vector<std::string> out;
@@ -100,13 +99,14 @@ Section verdict_view(const Json& report) {
   ViewRows rows;
   for (const Json& c : v["criteria"]) {
     const std::string result = c["result"];
+    // What a phone shows without being pushed stands first.
     rows.push_back({c["name"].get<std::string>(),
-                    c["limit"].get<std::string>() + " (" + c["limit_from"].get<std::string>() + ")",
-                    c["found"].get<std::string>(),
                     {result, tone_of(result)},
+                    c["found"].get<std::string>(),
+                    c["limit"].get<std::string>() + " (" + c["limit_from"].get<std::string>() + ")",
                     c["reason"].get<std::string>()});
   }
-  out.table("Against the limits", {"what", "limit (from)", "found", "result", "why"}, rows,
+  out.table("Against the limits", {"what", "result", "found", "limit (from)", "why"}, rows,
             v["limits_file"].is_null()
                 ? "No limits file was given: false alarms, fault size, rates and times were not judged "
                   "(--limits)."

@@ -35,7 +35,7 @@ std::string text_at(Point p, const std::string& text, const std::string& style) 
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", p.x, p.y, style, in_markup(text));
 }
 
-constexpr std::array<const char*, 6> kColours = {"#2f78b7", "#d0553c", "#2c8f57", "#b97a00", "#8f55c4", "#1f8a99"};
+constexpr std::array<const char*, 6> kAxisColours = {"#2f78b7", "#d0553c", "#2c8f57", "#b97a00", "#8f55c4", "#1f8a99"};
 
 constexpr double kCentreX = 400.0, kCentreY = 235.0;
 
@@ -89,7 +89,7 @@ std::string axes_svg(const Json& array) {
   std::size_t k = 0;
   for (const Json& sensor : array["sensors"]) {
     const double x = sensor["axis"][0], y = sensor["axis"][1], z = sensor["axis"][2];
-    const std::string colour = kColours[k++ % kColours.size()];
+    const std::string colour = kAxisColours[k++ % kAxisColours.size()];
     const Point tip = seen(x, y, z), foot = seen(x, y, 0);
     out += line(tip, foot, "stroke=\"" + colour + "\" stroke-dasharray=\"3 4\"") +
            line(origin, foot, "stroke=\"" + colour + "\" stroke-dasharray=\"3 4\"");

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "markup.hpp"
 #include "verification_template.hpp"
 
 namespace plumb {
@@ -13,16 +14,6 @@ namespace report {
 namespace {
 
 using kainjow::mustache::data;
-
-/// Gives every name inside the picture a prefix, where it is defined and where it is used.
-std::string with_own_names(std::string svg, const std::string& prefix) {
-  for (const char* mark : {" id=\"", " id='", "url(#", "href=\"#", "href='#"}) {
-    const std::string text = mark;
-    for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + text.size()))
-      svg.insert(at + text.size(), prefix);
-  }
-  return svg;
-}
 
 /// A cell of more than this is a sentence or a path: it may be broken anywhere.
 constexpr std::size_t kLongCell = 34;

@@ -24,6 +24,16 @@ inline std::string in_markup(const std::string& text) {
   return out;
 }
 
+/// Gives every name inside the picture a prefix, where it is defined and where it is used.
+inline std::string with_own_names(std::string svg, const std::string& prefix) {
+  for (const char* mark : {" id=\"", " id='", "url(#", "href=\"#", "href='#"}) {
+    const std::string text = mark;
+    for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + text.size()))
+      svg.insert(at + text.size(), prefix);
+  }
+  return svg;
+}
+
 }  // namespace report
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -17,18 +17,18 @@ namespace {
 
 using std::size_t;
 
-constexpr int kAttitudes = 100;
+constexpr int kSearched = 100;
 constexpr double kLargestFault_mps2 = 2.0 * kG0_mps2;
 constexpr double kFaultStep = 1.02;  ///< ratio of one fault looked at to the next
 
 Vec3 attitude(int k) {
-  const double z = 1.0 - (2.0 * k + 1.0) / kAttitudes, a = k * kPi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
+  const double z = 1.0 - (2.0 * k + 1.0) / kSearched, a = k * kPi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
   return {r * std::cos(a), r * std::sin(a), z};
 }
 
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + kAttitudes / 2, values.end());
-  return values[kAttitudes / 2];
+  std::nth_element(values.begin(), values.begin() + kSearched / 2, values.end());
+  return values[kSearched / 2];
 }
 
 /// Figures of one test over the attitudes.
@@ -136,7 +136,7 @@ void look_for_hidden(const SensorArray& array, const GravityReference& gravity, 
   std::vector<Mat3> maps;
   for (int k = 0; k < array.triple_count(); ++k) maps.push_back(array.triple(k).votes ? triple_map(array, k) : Mat3{});
   std::vector<double> hidden;
-  for (int k = 0; k < kAttitudes; ++k) {
+  for (int k = 0; k < kSearched; ++k) {
     const Vec3 g = scaled(attitude(k), gravity.g_mps2);
     double most = 0.0;
     for (int i = 0; i < array.size(); ++i) {
@@ -182,7 +182,7 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
   for (int i = 0; i < n; ++i) noise += array.sigma_mps2(i) * array.sigma_mps2(i) / n;
   out.noise_mps2 = std::sqrt(noise);
   Collected parity, length, triple;
-  for (int k = 0; k < kAttitudes; ++k) {
+  for (int k = 0; k < kSearched; ++k) {
     const Vec3 u = attitude(k);
     const BlockEvidence block = block_at(array, scaled(u, gravity.g_mps2), config.window);
     const SetTest t = test_set(array, gravity, limits, block, array.all());
@@ -192,7 +192,7 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
     length.add(at.length_noise_mps2, at.length_mps2, at.length_mps2 / std::fmax(seen.length, 1e-9));
     const MaeLimit widest = widest_triple(array, gravity, limits, block, config, quantile);
     triple.add(widest.noise_mps2, widest.limit_mps2(), 0.0);
-    left += at.left * at.left / kAttitudes;
+    left += at.left * at.left / kSearched;
   }
   if (n > 3) out.parity = parity.median_of();
   out.length = length.median_of();
@@ -205,7 +205,7 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
 
 std::string limits_text(const MonitorLimits& l) {
   std::string out =
-      fmt::format("{} sensors, blocks of {} samples; medians over {} attitudes\n\n", l.sensors, l.window, kAttitudes);
+      fmt::format("{} sensors, blocks of {} samples; medians over {} attitudes\n\n", l.sensors, l.window, kSearched);
   out += fmt::format("{:<28}{:>12}{:>12}{:>12}{:>14}\n", "test", "noise", "systematic", "limit", "bias at limit");
   if (l.sensors > 3) out += row("parity", l.parity, true);
   out += row("length of the vector", l.length, true);

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <kainjow/mustache.hpp>
 
+#include "markup.hpp"
 #include "page_template.hpp"
 #include "plumb/report/plot.hpp"
 
@@ -31,7 +32,7 @@ void set_list(data& out, const std::string& name, const std::vector<std::string>
 }
 
 /// Starts like a number, or stands for one that is not known.
-bool is_numeric(const std::string& cell) {
+bool is_figure(const std::string& cell) {
   if (cell.empty() || cell == "-" || cell == "–") return true;
   const std::size_t begin = cell.find_first_not_of("+-<≤≥± ");
   return begin != std::string::npos && std::isdigit(static_cast<unsigned char>(cell[begin])) != 0;
@@ -41,7 +42,7 @@ bool is_numeric(const std::string& cell) {
 std::vector<bool> numeric_columns(const Table& table) {
   std::vector<bool> numeric(table.head.size(), true);
   for (const std::vector<std::string>& row : table.rows) {
-    for (std::size_t k = 0; k < numeric.size() && k < row.size(); ++k) numeric[k] = numeric[k] && is_numeric(row[k]);
+    for (std::size_t k = 0; k < numeric.size() && k < row.size(); ++k) numeric[k] = numeric[k] && is_figure(row[k]);
   }
   return numeric;
 }
@@ -84,17 +85,6 @@ data table_data(const Table& table) {
   out.set("note", table.note);
   out.set("has_note", !table.note.empty());
   return out;
-}
-
-/// Gives every name inside the picture a prefix, where it is defined and where it is used.
-std::string with_own_names(std::string svg, const std::string& prefix) {
-  for (const char* mark : {" id=\"", " id='", "url(#", "href=\"#", "href='#"}) {
-    const std::string text = mark;
-    for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + text.size())) {
-      svg.insert(at + text.size(), prefix);
-    }
-  }
-  return svg;
 }
 
 data picture_data(const Picture& picture, const std::string& prefix) {

@@ -15,7 +15,7 @@ namespace report {
 namespace {
 
 // Sizes in pixels of the picture.
-constexpr double kWidth = 1000.0;
+constexpr double kLineWidth = 1000.0;
 constexpr double kLeft = 105.0;
 constexpr double kRight = 25.0;
 constexpr std::size_t kMarkLines = 3;
@@ -26,7 +26,7 @@ constexpr double kBottom = 60.0;
 constexpr double kCharacter = 8.0;  ///< width of a letter, generously
 
 /// Colours that are readable on white and on black.
-constexpr const char* kColours =
+constexpr const char* kLineColours =
     "without_plumb = '#d0553c'\nwith_plumb = '#2f78b7'\nunconfirmed = '#c98a00'\ntruth = '#8a8a8a'\nbound = "
     "'#2c8f57'\n";
 constexpr const char* kFaultColour = "#c53a3a";
@@ -103,7 +103,7 @@ std::string draw_lane(const std::vector<Stretch>& lane, double middle) {
 
 /// Names the runs of equal text where there is room.
 std::string name_runs(const Timeline& timeline, const std::vector<Stretch>& lane, double middle) {
-  const double pixels_per_s = (kWidth - kLeft - kRight) / (timeline.end_s - timeline.begin_s);
+  const double pixels_per_s = (kLineWidth - kLeft - kRight) / (timeline.end_s - timeline.begin_s);
   std::vector<Stretch> runs;
   for (const Stretch& s : lane) {
     if (s.text.empty()) continue;
@@ -165,7 +165,7 @@ std::string vertical_lines(const Timeline& timeline, bool changes) {
 
 /// Beside their lines, each on the lowest line of text that is still free there.
 std::string mark_labels(const Timeline& timeline) {
-  const double s_per_pixel = (timeline.end_s - timeline.begin_s) / (kWidth - kLeft - kRight);
+  const double s_per_pixel = (timeline.end_s - timeline.begin_s) / (kLineWidth - kLeft - kRight);
   std::array<double, kMarkLines> free_s{};
   free_s.fill(timeline.begin_s);
   std::string out;
@@ -295,7 +295,8 @@ std::string timeline_script(const Timeline& timeline, const std::string& csv, co
       "set datafile separator ','\nset datafile missing ''\n{4}"
       "set lmargin at screen {5}\nset rmargin at screen {6}\n"
       "set xrange [{7:.6g}:{8:.6g}]\nset border 31 lw 0.7\nset tics scale 0.6\nset multiplot\n",
-      csv, svg, kWidth, height, kColours, kLeft / kWidth, 1.0 - kRight / kWidth, timeline.begin_s, timeline.end_s);
+      csv, svg, kLineWidth, height, kLineColours, kLeft / kLineWidth, 1.0 - kRight / kLineWidth, timeline.begin_s,
+      timeline.end_s);
   Sheet sheet(height);
   out += lanes(timeline, sheet);
   out += frame(sheet, kTitle + 24.0, kRatio, "statistic / limit of the test that decides (above 1: alarm)");

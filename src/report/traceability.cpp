@@ -12,7 +12,8 @@ inline namespace PLUMB_ABI {
 namespace report {
 namespace {
 
-tl::unexpected<io::FileError> refuse(const std::string& path, const std::string& what, const std::string& remedy) {
+tl::unexpected<io::FileError> refuse_trace(const std::string& path, const std::string& what,
+                                           const std::string& remedy) {
   return tl::unexpected<io::FileError>(io::FileError{path, 0, "", what, remedy});
 }
 
@@ -106,9 +107,9 @@ void collect(const boost::property_tree::ptree& tree, TestResults& out) {
 io::FileExpected<Json> parse_traceability(const std::string& text, const std::string& path) {
   Json json = Json::parse(text, nullptr, false);
   const std::string remedy = "take traceability.json of a report of plumb verify as the pattern";
-  if (json.is_discarded()) return refuse(path, "is not JSON", remedy);
+  if (json.is_discarded()) return refuse_trace(path, "is not JSON", remedy);
   const std::string wrong = shortcoming(json);
-  if (!wrong.empty()) return refuse(path, wrong, remedy);
+  if (!wrong.empty()) return refuse_trace(path, wrong, remedy);
   return json;
 }
 
@@ -132,7 +133,7 @@ io::FileExpected<TestResults> read_test_results(const std::string& path) {
   }
   TestResults out;
   collect(tree, out);
-  if (out.empty()) return refuse(path, "holds no test", remedy);
+  if (out.empty()) return refuse_trace(path, "holds no test", remedy);
   return out;
 }
 
@@ -141,9 +142,10 @@ io::FileExpected<AssuranceResults> read_assurance(const std::string& path) {
   if (!text) return tl::unexpected<io::FileError>(text.error());
   const std::string remedy = "write it by scripts/assure: build/assure/results.json";
   const Json json = Json::parse(*text, nullptr, false);
-  if (json.is_discarded() || !json.is_object()) return refuse(path, "is not a JSON object", remedy);
-  if (json.value("schema", Json()) != Json(2)) return refuse(path, "is not of schema 2 of scripts/assure", remedy);
-  if (!json.contains("items") || !json["items"].is_array()) return refuse(path, "holds no items", remedy);
+  if (json.is_discarded() || !json.is_object()) return refuse_trace(path, "is not a JSON object", remedy);
+  if (json.value("schema", Json()) != Json(2))
+    return refuse_trace(path, "is not of schema 2 of scripts/assure", remedy);
+  if (!json.contains("items") || !json["items"].is_array()) return refuse_trace(path, "holds no items", remedy);
   AssuranceResults out;
   try {
     out.version = json.value("version", "");
@@ -168,7 +170,8 @@ io::FileExpected<AssuranceResults> read_assurance(const std::string& path) {
       }
     }
   } catch (const Json::exception& error) {
-    return refuse(path, std::string("has an item that is not as docs/assurance.md says: ") + error.what(), remedy);
+    return refuse_trace(path, std::string("has an item that is not as docs/assurance.md says: ") + error.what(),
+                        remedy);
   }
   return out;
 }

@@ -26,7 +26,7 @@ constexpr int kHealthyStations = 16;
 constexpr std::uint64_t kSlice = 64, kBatch = 4096;
 
 /// The text as a TOML string.
-std::string quoted(const std::string& text) {
+std::string toml_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -100,10 +100,10 @@ std::string common_part(const io::ArrayFile& array, const std::string& array_pat
   const MonitorConfig& monitor = array.monitor;
   const bool promised = strict_grade(array.array, array.array.all()) > 0;
   std::string out = "# Written by plumb verify. Play it again in this directory: plumb campaign " + what + ".toml\n";
-  out += "name = " + quoted(array.name + ": " + what) + "\n";
+  out += "name = " + toml_text(array.name + ": " + what) + "\n";
   out += fmt::format("scenarios = {}\nseed = {}\nwithin_grade = \"{}\"\n", settings.scenarios, settings.seed,
                      promised ? "yes" : "no");
-  out += "\n[[tool]]\narray = " + quoted(array_path) + "\n";
+  out += "\n[[tool]]\narray = " + toml_text(array_path) + "\n";
   const double resolution = resolution_mps2(array);
   if (resolution > 0.0) out += "resolution = \"" + shortest(resolution) + " m/s^2\"\n";
   if (settings.samples_per_row > 1)
@@ -183,7 +183,9 @@ std::string fault_campaign(const io::ArrayFile& array, const std::string& array_
   const int most = std::min(std::max(grade, 1), std::max(settings.faults, 1));
   std::string sensors;
   for (int m = 1; m <= std::min(most, campaign::kMostFaults); ++m) sensors += (m > 1 ? ", " : "") + std::to_string(m);
-  out += "\n[[fault]]\nspec = [\"none\", \"shake=20mg0\"]\n";
+  // White vibration of 20 mg0 in every sample, of which a row that is a mean of several keeps less.
+  out += fmt::format("\n[[fault]]\nspec = [\"none\", \"shake={:.4g}mg0\"]\n",
+                     20.0 / std::sqrt(static_cast<double>(settings.samples_per_row)));
   out +=
       "[[fault]]  # the output stands still, is random, or drowns in noise\n"
       "spec = [\"stuck=0g0\", \"stuck=1g0\", \"stuck=-1g0\", \"last\", \"held=-1g0..1g0\", \"random=-1g0..1g0\", "

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kBlue = "#2f78b7";
 constexpr const char* kRed = "#d0553c";
 
-std::string terminal(const char* name, int width, int height) {
+std::string chart_terminal(const char* name, int width, int height) {
   return chart_head(name, width, height) + "set grid lw 0.4 lc rgb '#999999'\n";
 }
 
@@ -137,7 +137,7 @@ std::string traces_script(const Json& trace) {
     }
     names += (names.empty() ? "" : " ") + id;
   }
-  std::string out = terminal("traces.svg", 1000, 760) +
+  std::string out = chart_terminal("traces.svg", 1000, 760) +
                     fmt::format(
                         "set multiplot layout 2,2\nset xrange [-0.2:{}.2]\nset xtics 1\nset xlabel 'iteration'\nset "
                         "format y '%g'\nset palette defined (0 '#2f78b7', 1 '#2c8f57', 2 '#c98a00', 3 '#d0553c', 4 "
@@ -166,7 +166,7 @@ std::string traces_script(const Json& trace) {
 }
 
 std::string by_size_script() {
-  return terminal("by-size.svg", 800, 440) +
+  return chart_terminal("by-size.svg", 800, 440) +
          fmt::format(
              "set logscale x\nset xlabel 'size, multiples of the minimal detectable bias'\nset ylabel 'share'\nset "
              "yrange [-0.03:1.03]\nset key right bottom\n"
@@ -179,7 +179,7 @@ std::string by_size_script() {
 }
 
 std::string times_script() {
-  return terminal("times.svg", 800, 400) +
+  return chart_terminal("times.svg", 800, 400) +
          fmt::format(
              "set xlabel 'time at rest since the onset, s'\nset ylabel 'share'\nset yrange [0:1.03]\nset key right "
              "bottom\n"
@@ -191,7 +191,7 @@ std::string times_script() {
 
 std::string stanford_script(double alert_limit_deg) {
   // A cell of the diagram ends at its octave; the row above all has no protection level.
-  return terminal("stanford.svg", 800, 640) +
+  return chart_terminal("stanford.svg", 800, 640) +
          fmt::format(
              "set logscale xy 2\nset xlabel 'tilt error up to, deg'\nset ylabel 'protection level up to, deg'\nset "
              "format '%.3g'\nset xrange [0.0004:1100]\nset yrange [0.0004:1100]\n"
@@ -208,7 +208,7 @@ std::string stanford_script(double alert_limit_deg) {
 }
 
 std::string residuals_script() {
-  return terminal("residuals.svg", 800, 380) +
+  return chart_terminal("residuals.svg", 800, 380) +
          fmt::format(
              "set xlabel 'station'\nset ylabel 'length of the vector less gravity, mg0'\nset xzeroaxis lw 0.7\nset key "
              "top right\n"

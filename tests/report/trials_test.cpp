@@ -91,6 +91,8 @@ TEST(VerificationTrials, ARowOfManySamplesScattersByTheRootOfThemLess) {
   const campaign::Plan before = parsed(report::fault_campaign(paper_array(), kPath, one)).plan;
   const campaign::Plan after = parsed(report::fault_campaign(paper_array(), kPath, many)).plan;
   EXPECT_DOUBLE_EQ(after.tools[0].detectable_mps2[3], before.tools[0].detectable_mps2[3] / 20.0);
+  const std::string text = report::fault_campaign(paper_array(), kPath, many);
+  EXPECT_NE(text.find("\"shake=1mg0\""), std::string::npos) << "the vibration too is white, and the mean of a row";
   EXPECT_NE(campaign::hash_of(before), campaign::hash_of(after));  // a result of the one is none of the other
 }
 
