@@ -133,7 +133,7 @@ ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClai
   bool agrees = false;
   const auto ask = [&](SensorSet set, int rank) {
     const SetTest& t = tests.of(set);
-    if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
+    if (!t.tested || !t.parity_alive(limits)) return;  // four or more: there is parity
     if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
     const double limit = t.norm_reject_limit(limits);
