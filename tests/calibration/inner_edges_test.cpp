@@ -308,14 +308,26 @@ TEST(InnerEdge, WhatIsNoRotationOfAllIsNotCalledOne) {
   const NullCombination pair = combination(rotation(0));
   EXPECT_FALSE(pair.rotates_all);
   EXPECT_EQ(pair.terms, 2);
-  Parameters all{}, bent{};
+  Parameters all{};
   for (int q = 0; q < 3; ++q) {
     for (int k = 0; k < kSize; ++k) all[at(k)] += rotation(q)[at(k)] / std::sqrt(3.0);
   }
   EXPECT_TRUE(combination(all).rotates_all);
-  bent = all;
-  for (const int k : {1, 6, 8}) bent[at(k)] = -bent[at(k)];
+  Parameters bent = all;
+  bent[1] = -bent[1];
   EXPECT_FALSE(combination(bent).rotates_all);
+}
+
+/// A perfect tool whose noise is far above what is open of it: residuals of nothing, with freedom to spare.
+TEST(InnerEdge, ResidualsOfNothingAreNoMisfit) {
+  Scene s;
+  for (int i = 0; i < 3; ++i) s.sheet.sensor[at(i)].row.sigma_mps2 = 1000.0;
+  s.options.require_full_rank = false;
+  FitReport report;
+  calibrate(s.sheet, {10.0, 0.0, GravityModel::value}, s.stations.data(), 6, s.options, &report);
+  EXPECT_EQ(report.chi2, 0.0);
+  EXPECT_EQ(report.misfit_mps2, 0.0);
+  EXPECT_EQ(report.stop, StopReason::converged);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Edges of the parts of the fit over temperature, and fits whose priors, stations or options leave them no way out.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -75,25 +76,31 @@ TEST(TemperatureInnerEdge, InformationBeyondAllNumbersHasNoRank) {
 /// Where nothing but the slopes over temperature is open, nothing is at the middle of the span: no multiple of the mean
 /// is as small.
 TEST(TemperatureInnerEdge, ACovarianceThatVanishesSomewhereHasNoCover) {
-  Scene s;
-  const int size = s.joint.parameters(), per = s.joint.per_sensor();
+  plumb::AxisList axes{};
+  const double h = std::sqrt(1.0 / 3.0);
+  for (int i = 0; i < 4; ++i) axes[at(i)] = {i % 2 == 0 ? h : -h, i < 2 ? h : -h, i % 3 == 0 ? h : -h};
+  const plumb::Datasheet sheet = sheet_of(axes, 4);
+  const plumb::fit::Joint joint(sheet, {kLow_degc, kHigh_degc}, 1);
+  const auto work = std::make_unique<plumb::TemperatureWork>();
+  const int size = joint.parameters(), per = joint.per_sensor();
   const auto open = [&](int parameter, double variance) {
-    for (int i = 0; i < s.joint.sensors(); ++i) {
+    for (int i = 0; i < joint.sensors(); ++i) {
       const int k = per * i + parameter;
-      s.work->information[at(k * size + k)] = variance;
+      work->information[at(k * size + k)] = variance;
     }
   };
   open(4, 1e-6);
   open(5, 1e-6);
-  EXPECT_EQ(plumb::fit::covering_covariance(s.joint, s.state, {kLow_degc, kHigh_degc}, *s.work), 0.0);
+  EXPECT_EQ(plumb::fit::covering_covariance(joint, joint.nominal, {kLow_degc, kHigh_degc}, *work), 0.0);
   for (int p = 0; p < 4; ++p) open(p, 1e-6);
-  EXPECT_GE(plumb::fit::covering_covariance(s.joint, s.state, {kLow_degc, kHigh_degc}, *s.work), 1.0);
+  EXPECT_GE(plumb::fit::covering_covariance(joint, joint.nominal, {kLow_degc, kHigh_degc}, *work), 1.0);
 }
 
 // Negative: REQ-034
 TEST(TemperatureInnerEdge, SumsBeyondAllNumbersAreNotFinite) {
   Scene s;
-  for (int i = 0; i < s.joint.sensors(); ++i) s.joint.sheet.sensor[at(i)].row.sigma_mps2 = 1e-154;
+  for (int i = 0; i < s.joint.sensors(); ++i) s.joint.sheet.sensor[at(i)].row.sigma_mps2 = 1e-50;
+  for (const std::size_t k : {3U, 20U}) s.stations[k].mean[0] = 3e103;
   plumb::fit::reduce_all(s.joint, s.state, s.stations.data(), s.count(), s.scratch.data());
   const plumb::fit::Problem problem = {s.joint.sheet, plumb::kG0_mps2, {s.scratch.data(), s.count()}, s.count(), {},
                                        nullptr};

@@ -11,6 +11,7 @@
 #include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/combination_mae.hpp"
 #include "plumb/detection/isolation.hpp"
+#include "plumb/detection/stationarity.hpp"
 #include "plumb/detection/thresholds.hpp"
 #include "support/member.hpp"
 #include "support/simulated_tool.hpp"
@@ -151,6 +152,113 @@ TEST(DamageEdge, AnIsolationWithAByteLostEndsItsQuestions) {
     EXPECT_TRUE(answer.strict.empty()) << byte;
     EXPECT_TRUE(answer.parity.empty()) << byte;
   }
+}
+
+/// Two sensors of six are wrong. A grade that memory has lowered convicts no more than it says.
+// Negative: REQ-166
+TEST(DamageEdge, ALoweredGradeConvictsNoMoreThanItSays) {
+  const SensorArray array = plumb_test::cone_array(6, kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
+  Isolation sound;
+  sound.pose(array, array.all());
+  ASSERT_GE(sound.strict_grade(), 2);
+  Isolation damaged = sound;
+  member<7, std::int8_t>(damaged) = 1;
+  SensorSet convicted;
+  for (int k = 0; k < 8; ++k) {
+    BlockEvidence block = block_at(array, plumb_test::direction_at(20 + 20 * k, 70 * k));
+    block.mean_mps2[1] += 0.5;
+    block.mean_mps2[4] -= 0.7;
+    const BlockTests tests(array, gravity, limits, block);
+    convicted = convicted | sound.vote(tests, array.all()).strict;
+    EXPECT_TRUE(damaged.vote(tests, array.all()).strict.empty()) << k;
+  }
+  EXPECT_EQ(convicted, SensorSet(0b10010U));
+}
+
+/// One sensor is far off, another by a little more and more: those that agree in fours need not agree in fives, and
+/// where they do not, nobody is set aside.
+// Negative: REQ-070
+TEST(IsolationDoubt, WhoAgreesInPartsButNotTogetherAccusesNobody) {
+  const SensorArray array = plumb_test::cone_array(6, kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
+  Isolation isolation;
+  int one = 0, two = 0, nobody = 0;
+  for (int k = 0; k < 400; ++k) {
+    BlockEvidence block = block_at(array, plumb_test::direction_at(60, 30));
+    block.mean_mps2[5] += 1.0;
+    block.mean_mps2[0] += 1e-4 * k;
+    isolation.clear();
+    isolation.pose(array, array.all());
+    const BlockTests tests(array, gravity, limits, block);
+    const SensorSet accused = isolation.vote(tests, array.all()).parity;
+    one += accused == SensorSet::of(5) ? 1 : 0;
+    two += accused == SensorSet::of(5).with(0) ? 1 : 0;
+    nobody += accused.empty() ? 1 : 0;
+  }
+  EXPECT_GT(one, 0);
+  EXPECT_GT(two, 0);
+  EXPECT_GT(nobody, 0);
+  EXPECT_EQ(one + two + nobody, 400);
+}
+
+/// Four sensors nearly in one plane and one across it, which they check badly: what it makes of the length is no doubt
+/// of gravity while they deny it.
+// Negative: REQ-070
+TEST(IsolationDoubt, WhoIsHardlyCheckedDoesNotDoubtGravity) {
+  AxisList axes{};
+  for (int i = 0; i < 4; ++i) {
+    const double a = 0.5 * kPi * i + 0.3 * i, lift = i % 2 == 0 ? 0.02 : -0.02, level = std::sqrt(1.0 - lift * lift);
+    axes[static_cast<std::size_t>(i)] = {level * std::cos(a), level * std::sin(a), lift};
+  }
+  axes[4] = {0.0, 0.0, 1.0};
+  const SensorArray array = plumb_test::make_array(axes, 5, kSigma);
+  const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(5, 1e-5, 1e-6);
+  Isolation isolation;
+  int silenced = 0;
+  for (int k = 0; k < 400; ++k) {
+    BlockEvidence block = block_at(array, {0.0, 0.0, 1.0});
+    block.mean_mps2[4] += 2e-4 * k;
+    isolation.clear();
+    isolation.pose(array, array.all());
+    const BlockTests tests(array, gravity, limits, block);
+    const SetTest& all = tests.of(array.all());
+    ASSERT_LT(all.least_leverage, 0.002);
+    const bool denied = !tests.vouches_for_norm(array.all(), all);
+    const bool doubted = isolation.vote(tests, array.all()).norm_void;
+    if (!all.parity_alive(limits)) continue;
+    silenced += denied ? 1 : 0;
+    EXPECT_FALSE(denied && doubted) << k;
+  }
+  EXPECT_GT(silenced, 0);
+}
+
+/// Means of one sample each: the one with the next tag ends the station before it, and is a block by itself.
+TEST(StationEdge, OfBlocksOfOneSampleANewTagEndsTheStation) {
+  const SensorArray array = plumb_test::tetrahedron(kSigma);
+  StationFinder::Settings settings;
+  settings.block = 1;
+  settings.min_blocks = 2;
+  StationFinder finder(array, kG0_mps2, settings);
+  Station finished;
+  int found = 0;
+  for (int k = 0; k < 12; ++k) {
+    Sample sample;
+    sample.time_s = 0.01 * k;
+    sample.delivered = array.all();
+    sample.station = static_cast<std::uint32_t>(1 + k / 6);
+    sample.temperature_degc = 25.0;
+    const BlockEvidence block = block_at(array, plumb_test::direction_at(40, k < 6 ? 20 : 120));
+    sample.raw = block.mean_mps2;
+    const bool written = finder.add(sample, block.mean_mps2, array.all(), finished);
+    found += written ? 1 : 0;
+    EXPECT_EQ(written, k == 6) << k;
+  }
+  EXPECT_EQ(found, 1);
+  EXPECT_EQ(finished.tag, 1U);
 }
 
 }  // namespace

@@ -56,4 +56,17 @@ TEST(BlockEdge, NoisyAndAtFullScaleIsNamedByFullScale) {
   EXPECT_EQ(v.sensor_cause[2], Cause::clipped) << to_string(v.sensor_cause[2]);
 }
 
+/// Two faults are asserted, which of four sensors nobody could tell apart: the votes of the stations convict one alone.
+// Verifies: REQ-070
+TEST(BlockEdge, WhatTheAssertionCannotNameTheVotesMay) {
+  MonitorConfig config;
+  config.asserted_faults = 2;
+  Rig rig(plumb_test::tetrahedron(), config);
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  for (int k = 0; k < 12; ++k) rig.stay(direction_at(25 + 37 * (k % 4), 67 * k), 2);
+  EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(2));
+  EXPECT_EQ(rig.ever_blamed, SensorSet::of(2));
+}
+
 }  // namespace

@@ -246,6 +246,23 @@ TEST(FirstCalibrationEdge, AttitudesInOnePlaneAskNothingOfASilentSensor) {
   EXPECT_FALSE(p.lacking.has(1));
 }
 
+/// "No more faults" is said of a calibrated tool: by a datasheet nothing refutes it.
+// Negative: REQ-136
+TEST(FirstCalibrationEdge, AnAlarmByTheDatasheetRefutesNoAssertion) {
+  MonitorConfig config;
+  config.asserted_faults = 0;
+  UncalibratedTool tool(5, 37, 1.0, config);
+  tool.start();
+  for (int k = 0; k < 10; ++k) tool.stay(random_direction(tool.noise));
+  tool.distort = [](int i, double r, int) { return i == 3 ? r + 5.0 : r; };
+  tool.stay(direction_at(50, 50));
+  EXPECT_EQ(tool.monitor.mode(), Mode::initial);
+  EXPECT_EQ(tool.monitor.verdict().cause, Cause::parity);
+  tool.distort = [](int, double r, int) { return r; };
+  EXPECT_LT(tool.follow(60), 60);
+  EXPECT_EQ(tool.count(HealthEvent::contradiction), 0);
+}
+
 /// By hand, with the truth of the datasheet.
 struct FirstByHand {
   explicit FirstByHand(std::uint64_t seed) : tool(4, seed, 0.0), noise(seed) {
