@@ -103,7 +103,7 @@ Expected<CommonFrameForm> common_frame_form(const SensorArray& nominal, const Se
   out.model.misalignment = {};
   for (int i = 0; i < n; ++i) {
     const double length = norm(row[at(i)]);
-    if (!(length >= kMinPaperDet) || !std::isfinite(length)) return fail(Errc::not_invertible, i, length, kMinPaperDet);
+    if (!(length >= kMinPaperDet)) return fail(Errc::not_invertible, i, length, kMinPaperDet);
     out.axis[at(i)] = scaled(row[at(i)], 1.0 / length);
     out.model.sensor[at(i)] = stretched(out.model.sensor[at(i)], 1.0 / length);
   }

@@ -184,7 +184,8 @@ SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnes
   const SensorSet convicted = asked - cleared;
   if (convicted.empty() || convicted.size() > grade) return {};
   const SetTest& rest = tests.of(asked - convicted);
-  return rest.tested && rest.parity_alive(limits) ? convicted : SensorSet{};
+  const bool agree = rest.tested && rest.parity_alive(limits);
+  return agree ? convicted : SensorSet{};
 }
 
 IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) noexcept {

@@ -38,7 +38,7 @@ struct PaperScene {
   std::unique_ptr<paper::Workspace> work = std::make_unique<paper::Workspace>();
 };
 
-TEST(PaperEdge, AMatrixWithAnEntryBeyondAllNumbersHasNoStepAndNoRank) {
+TEST(PaperInnerEdge, AMatrixWithAnEntryBeyondAllNumbersHasNoStepAndNoRank) {
   PaperScene one;
   one.work->entry(0, 0) = 1.0;
   one.work->entry(1, 0) = kInf;
@@ -55,7 +55,7 @@ TEST(PaperEdge, AMatrixWithAnEntryBeyondAllNumbersHasNoStepAndNoRank) {
   EXPECT_NE(sound.work->step[0], 0.0);
 }
 
-TEST(PaperEdge, AxesBeyondAllNumbersAreNoAxes) {
+TEST(PaperInnerEdge, AxesBeyondAllNumbersAreNoAxes) {
   PaperScene s;
   for (double& h : s.sheet.sensor[1].row.axis) h = 1e200;
   const auto made = PaperError::make(s.sheet, s.gravity, SensorSet::first(3));
@@ -63,7 +63,7 @@ TEST(PaperEdge, AxesBeyondAllNumbersAreNoAxes) {
   EXPECT_EQ(made.error().code, Errc::axes_rank_deficient);
 }
 
-TEST(PaperEdge, ThreeSensorsWithoutAScaleOrWithoutAStationHaveNoCost) {
+TEST(PaperInnerEdge, ThreeSensorsWithoutAScaleOrWithoutAStationHaveNoCost) {
   PaperScene s;
   for (int i = 0; i < 3; ++i) s.sheet.sensor[at(i)].coefficients.bias = {0.02, 0.0, 0.0, 0.0};
   s.error = *PaperError::make(s.sheet, s.gravity, SensorSet::first(3));
@@ -89,7 +89,7 @@ TEST(PaperEdge, ThreeSensorsWithoutAScaleOrWithoutAStationHaveNoCost) {
 }
 
 /// Misalignments so large, or so nearly one another's inverse, that the rows of the common frame have no length.
-TEST(PaperEdge, MisalignmentsThatLeaveNoLengthHaveNoCommonFrame) {
+TEST(PaperInnerEdge, MisalignmentsThatLeaveNoLengthHaveNoCommonFrame) {
   AxisList axes{};
   const Datasheet sheet = datasheet_of(axes, orthogonal_triad(axes), kEdgeSigma);
   const Expected<SensorArray> array = sheet.array();

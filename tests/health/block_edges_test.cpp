@@ -12,7 +12,7 @@ using plumb_test::Shadow;
 
 /// Three sensors that read gravity to the last bit, a channel of which missed a sample: nothing is off, nobody checks a
 /// triple, and there is no limit of which something would be left.
-TEST(BlockEdge, WithoutNoiseAndWithoutATestedTripleThereIsNoMargin) {
+TEST(MonitorBlockEdge, WithoutNoiseAndWithoutATestedTripleThereIsNoMargin) {
   Rig rig(Shadow::triad());
   const Vec3 up = {0.0, 0.0, 1.0};
   rig.distort = [&rig, &up](int i, double, int) { return dot(rig.setup.array.axis(i), up) * kG0_mps2; };
@@ -32,7 +32,7 @@ TEST(BlockEdge, WithoutNoiseAndWithoutATestedTripleThereIsNoMargin) {
 }
 
 /// More blocks at one station than are counted: it stays the station that it was.
-TEST(BlockEdge, AStationThatNeverEndsIsCountedUpToItsBound) {
+TEST(MonitorBlockEdge, AStationThatNeverEndsIsCountedUpToItsBound) {
   MonitorConfig config;
   config.window = 8;
   Rig rig(plumb_test::tetrahedron(), config);
@@ -44,7 +44,7 @@ TEST(BlockEdge, AStationThatNeverEndsIsCountedUpToItsBound) {
 }
 
 /// It jumps from one end of its range to the other: full scale says more than noise.
-TEST(BlockEdge, NoisyAndAtFullScaleIsNamedByFullScale) {
+TEST(MonitorBlockEdge, NoisyAndAtFullScaleIsNamedByFullScale) {
   Rig rig(plumb_test::cone_array(6));
   rig.setup.full_scale_raw.fill(1.05 * kG0_mps2);
   rig.restart();
@@ -58,7 +58,7 @@ TEST(BlockEdge, NoisyAndAtFullScaleIsNamedByFullScale) {
 
 /// Two faults are asserted, which of four sensors nobody could tell apart: the votes of the stations convict one alone.
 // Verifies: REQ-070
-TEST(BlockEdge, WhatTheAssertionCannotNameTheVotesMay) {
+TEST(MonitorBlockEdge, WhatTheAssertionCannotNameTheVotesMay) {
   MonitorConfig config;
   config.asserted_faults = 2;
   Rig rig(plumb_test::tetrahedron(), config);

@@ -13,7 +13,7 @@ using paper_test::PaperRig;
 
 /// A fit that is not sound reads nobody, nor do triples that were not fitted.
 // Negative: REQ-190
-TEST(PaperEdge, WithoutASoundFitNobodyHasHisOwn) {
+TEST(PaperMonitorEdge, WithoutASoundFitNobodyHasHisOwn) {
   const Datasheet sheet = paper_test::sheet_of(4);
   const Expected<SensorArray> array = sheet.array();
   ASSERT_TRUE(array.has_value());
@@ -33,7 +33,7 @@ TEST(PaperEdge, WithoutASoundFitNobodyHasHisOwn) {
 
 /// A cubic that passes through zero has no reading there: no vector is shown, and the block is no evidence.
 // Negative: REQ-190
-TEST(PaperEdge, AScaleThatVanishesShowsNoVector) {
+TEST(PaperMonitorEdge, AScaleThatVanishesShowsNoVector) {
   Datasheet sheet = paper_test::sheet_of(4);
   for (int i = 0; i < 4; ++i) {
     SensorCoefficients& c = sheet.sensor[static_cast<std::size_t>(i)].coefficients;
@@ -58,7 +58,7 @@ TEST(PaperEdge, AScaleThatVanishesShowsNoVector) {
 }
 
 /// The same attitude again is no further station.
-TEST(PaperEdge, AnAttitudeThatRepeatsDoesNotBringTheFitNearer) {
+TEST(PaperMonitorEdge, AnAttitudeThatRepeatsDoesNotBringTheFitNearer) {
   PaperRig rig(6);
   rig.prove();
   rig.stick(5, 0.3 * kG0_mps2);
