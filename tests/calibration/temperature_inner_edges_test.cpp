@@ -126,11 +126,11 @@ TEST(TemperatureInnerEdge, AScaleThatBendsBeyondItsBoundIsRefused) {
 }
 
 // Negative: REQ-034
-TEST(TemperatureInnerEdge, GravityOfNoLengthHasNoFit) {
+TEST(TemperatureInnerEdge, GravityThatIsNoNumberHasNoFit) {
   Scene s;
   const auto made =
-      plumb::calibrate_over_temperature(s.sheet, {0.0, 0.0, plumb::GravityModel::value}, s.stations.data(), s.count(),
-                                        options_of(1), s.scratch.data(), *s.work);
+      plumb::calibrate_over_temperature(s.sheet, {std::nan(""), 0.0, plumb::GravityModel::value}, s.stations.data(),
+                                        s.count(), options_of(1), s.scratch.data(), *s.work);
   ASSERT_FALSE(made.has_value());
   EXPECT_EQ(made.error().code, Errc::diverged);
 }

@@ -25,7 +25,6 @@ SensorSet& calibrated_of(HealthMonitor& m) { return member<22, SensorSet>(m); }
 Mode& base_of(HealthMonitor& m) { return member<49, Mode>(m); }
 Cause& suspicion_of(HealthMonitor& m) { return member<50, Cause>(m); }
 BlockEvidence& evidence_of(HealthMonitor& m) { return member<87, BlockEvidence>(m); }
-FaultSetScan& scan_of(HealthMonitor& m) { return member<89, FaultSetScan>(m); }
 int& sensors_of(HealthMonitor& m) { return member<4, int>(member<3, SensorArray>(m)); }
 int& model_size_of(HealthMonitor& m) { return member<1, SensorModel>(m).size; }
 int& block_size_of(HealthMonitor& m) { return member<6, int>(member<80, BlockAccumulator>(m)); }
@@ -147,29 +146,6 @@ TEST(ForgedEdge, ACalibrationOfTwoSensorsIsNotTakenUp) {
   EXPECT_TRUE(taken_up(tool.setup, bytes));
   forge(tool.monitor, calibrated_of(tool.monitor), SensorSet::first(2), bytes);
   EXPECT_FALSE(taken_up(tool.setup, bytes));
-}
-
-/// Suspects without whom no vector is left ask for no turn that would tell them apart.
-// Negative: REQ-163
-TEST(ForgedEdge, SuspectsThatNobodyCanDoWithoutAskForNoTurn) {
-  Tool tool(5, {}, 5);
-  tool.rig.prove();
-  tool.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
-  tool.visit(1);
-  ASSERT_EQ(tool.state(), HealthState::suspect);
-  HealthMonitor& m = tool.rig.monitor;
-  const Bytes good = snapshot_of(m);
-  for (const int left : {2, 3}) {
-    Bytes bytes = good;
-    evidence_of(m);
-    forge(m, scan_of(m).least, 1, bytes);
-    forge(m, scan_of(m).suspects, m.verdict().configured, bytes);
-    forge(m, evidence_of(m).usable, SensorSet::first(left), bytes);
-    auto victim = std::make_unique<HealthMonitor>();
-    if (!victim->restore(tool.rig.setup, bytes.data(), bytes.size()).has_value()) continue;
-    const Verdict& v = victim->step(tool.rig.sample(direction_at(50, 50), kG0_mps2));
-    EXPECT_TRUE(std::isfinite(v.rotation.change_mps2));
-  }
 }
 
 }  // namespace
