@@ -81,9 +81,9 @@ TEST(DamageEdge, AnAlarmThatIsRarerThanARejectionSetsTheThreshold) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
   TestSettings usual, rare;
-  rare.false_alarm_rate = 1e-300;
-  rare.rejection_rate = usual.rejection_rate = 0.5;
-  usual.false_alarm_rate = 0.5;
+  rare.false_alarm_rate = 1e-12;
+  rare.rejection_rate = usual.rejection_rate = 1e-2;
+  usual.false_alarm_rate = 1e-2;
   const Thresholds a = thresholds_of(array, gravity, usual), b = thresholds_of(array, gravity, rare);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_GT(b.sensor[i].detectable_mps2, a.sensor[i].detectable_mps2);
 }
