@@ -34,7 +34,7 @@ Selection select(const SensorArray& array, SensorSet used, Weights weights) noex
     out.sensor[index(out.count++)] = i;
     if (array.sigma_mps2(i) < sigma_min) sigma_min = array.sigma_mps2(i);
   }
-  if (weights == Weights::whitened && out.count > 0) out.sigma_min = sigma_min;
+  if (weights == Weights::whitened) out.sigma_min = sigma_min;
   for (int r = 0; r < out.count; ++r) {
     const double sigma = array.sigma_mps2(out.sensor[index(r)]);
     out.weight[index(r)] = weights == Weights::whitened ? sigma_min / sigma : 1.0;

@@ -193,7 +193,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, Info
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
   fitted.theta = fit::natural(datasheet_, roots, theta_);
   fit::turn_to_datasheet(datasheet_, problem.roll, fitted.theta);
-  fit::note_outliers(problem, r, &r.outlier);
+  fit::note_outliers(problem, r, r.outlier);
   fit::note_common_scale(datasheet_, fitted.theta, r);
   fit::Parameters gradient;
   fit::RollSums roll;

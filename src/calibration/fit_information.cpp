@@ -312,7 +312,7 @@ int rank_of_held(const Datasheet& datasheet, const double* blocks, double floor)
   if (!symmetric_eigenvalues_of_few(information.data(), n2, kStride, values.data())) return -1;
   int rank = 0;
   for (int k = 0; k < n2; ++k) {
-    if (values[at(k)] > floor * values[at(n2 - 1)] && values[at(n2 - 1)] > 0.0) ++rank;
+    if (values[at(k)] > floor * values[at(n2 - 1)]) ++rank;
   }
   return rank;
 }

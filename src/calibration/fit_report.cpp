@@ -132,7 +132,7 @@ double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigure
     noise += sigma * sigma / problem.stations[k].count;
     ++stations;
   }
-  noise /= stations > 0 ? stations : 1;
+  noise /= stations;  // a sensor is loud at stations
   const double common = report.misfit_mps2 * report.misfit_mps2;
   report.loud_misfit_mps2 = std::sqrt(factor * (common + noise) - noise);
   return factor;
@@ -165,13 +165,13 @@ Error noisy_samples(const Datasheet& datasheet, const FitOptions& options, const
   return worst;
 }
 
-void note_outliers(const Problem& problem, FitFigures& report, std::array<Outlier, kMaxOutliers>* list) noexcept {
+void note_outliers(const Problem& problem, FitFigures& report, std::array<Outlier, kMaxOutliers>& list) noexcept {
   if (problem.screen == nullptr) return;
   Screening screening(problem);
   for (int k = 0; k < problem.count; ++k) {
     if (!screening.out(problem.stations[k])) continue;
-    if (list != nullptr && report.outliers < kMaxOutliers) {
-      Outlier& outlier = (*list)[at(report.outliers)];
+    if (report.outliers < kMaxOutliers) {
+      Outlier& outlier = list[at(report.outliers)];
       outlier.station = k;
       outlier.standardised = std::sqrt(screening.solver.chi2);
       outlier.sensor = blamed(screening.solver, outlier.share);

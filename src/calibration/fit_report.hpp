@@ -27,9 +27,8 @@ double rank_floor(const FitTally& tally) noexcept;
 
 /// Temperatures, clipped readings, noise of the samples.
 void note_stations(const Problem& problem, FitFigures& report) noexcept;
-/// The stations that the screen leaves out: how many, and where there is a list which.
-void note_outliers(const Problem& problem, FitFigures& report,
-                   std::array<Outlier, kMaxOutliers>* list = nullptr) noexcept;
+/// The stations that the screen leaves out: how many, and the first of them.
+void note_outliers(const Problem& problem, FitFigures& report, std::array<Outlier, kMaxOutliers>& list) noexcept;
 /// The sensor to which most of the outliers point; -1 where none does.
 int most_blamed(const Problem& problem) noexcept;
 void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitFigures& report) noexcept;

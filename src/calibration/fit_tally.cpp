@@ -95,7 +95,7 @@ double root_mean(double sum, int count) noexcept {
 
 int blamed(const StationSolver& station, double& share) noexcept {
   share = 0.0;
-  if (station.rows <= 3 || !(station.chi2 > 0.0)) return -1;
+  if (station.rows <= 3) return -1;
   int most = 0;
   for (int k = 1; k < station.rows; ++k) {
     if (explained_by(station, k) > explained_by(station, most)) most = k;
@@ -139,9 +139,7 @@ void FitTally::write(int n, FitFigures& report) const noexcept {
   report.parity_rms_mps2 = root_mean(squared_parity_, rows_ - 3 * stations_);
 }
 
-double Harmonics::excitation(int stations) const noexcept {
-  return stations > 0 ? least_eigenvalue(gram_, stations) : 0.0;
-}
+double Harmonics::excitation(int stations) const noexcept { return least_eigenvalue(gram_, stations); }
 
 /// Mean square of what is the sensor's own, against the mean square of the rest in the degrees of freedom that the fit
 /// has left.
@@ -163,7 +161,6 @@ int FitTally::loudest(int n, int freedom, double& excess) const noexcept {
 bool FitTally::beyond_chance(int sensor, int freedom, double excess) const noexcept {
   constexpr double kChance = 3.0;  // one sided 1e-3, before the choice of the sensor
   const double own = alone_[at(sensor)], rest = freedom - own;
-  if (!(own > 0.0) || !(rest > 0.0)) return false;
   const double z = std::log(excess) - 0.5 * (1.0 / rest - 1.0 / own);
   return z > kChance * std::sqrt(0.5 * (1.0 / own + 1.0 / rest));
 }

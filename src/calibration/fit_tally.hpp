@@ -38,7 +38,7 @@ class FitTally {
   /// Sensor whose residuals are most above those of the others, and by what factor (rms); -1 where none can be told
   /// from the rest.
   int loudest(int n, int freedom, double& excess) const noexcept;
-  /// Whether noise alike in all sensors would hardly ever single out one of them so (Fisher's z).
+  /// Whether noise alike in all sensors would hardly ever single out the loudest of them so (Fisher's z).
   bool beyond_chance(int sensor, int freedom, double excess) const noexcept;
   /// Variance of that sensor's reading at a station over what the weights of the fit say.
   double variance_factor(int sensor, int n, int freedom) const noexcept;
@@ -57,7 +57,7 @@ class FitTally {
   int rows_ = 0;
 };
 
-/// Sensor whose reading explains most of a station's residual, and how much of it; -1 with three readings.
+/// Sensor whose reading explains most of an outlier's residual, and how much of it; -1 with three readings.
 int blamed(const StationSolver& station, double& share) noexcept;
 
 }  // namespace fit

@@ -38,7 +38,8 @@ struct Solvers {
 /// Where a bend is steep, its own stations are those set aside: they pull half as much as a station may that is not, so
 /// that a few stray ones decide nothing.
 double vote_of_one_aside(StationSolver& with_misfit, const Station& station) noexcept {
-  if (with_misfit.solve(station) != Loaded::used || !(with_misfit.chi2 > with_misfit.limit_squared)) return 1.0;
+  with_misfit.solve(station);  // as without the misfit it could be
+  if (!(with_misfit.chi2 > with_misfit.limit_squared)) return 1.0;
   return kVote * std::sqrt(with_misfit.limit_squared / with_misfit.chi2);
 }
 

@@ -42,7 +42,7 @@ double median_of(const std::array<Count, kBins>& histogram, int stations) noexce
   for (int bin = 0; bin < kBins; ++bin) {
     const double here = histogram[at(bin)];
     if (below + here >= half) {
-      return edge_of(bin) + (edge_of(bin + 1) - edge_of(bin)) * (here > 0.0 ? (half - below) / here : 0.0);
+      return edge_of(bin) + (edge_of(bin + 1) - edge_of(bin)) * ((half - below) / here);
     }
     below += here;
   }

@@ -28,7 +28,7 @@ double change_between(const PaperParameters& now, const PaperParameters& before,
 }
 
 void note(const PaperParameters& theta, double cost, double change, PaperTrace* trace) noexcept {
-  if (trace == nullptr || trace->size > kMaxPaperIterations) return;
+  if (trace == nullptr) return;
   PaperIteration& entry = trace->iteration[at(trace->size++)];
   entry.parameter = theta;
   entry.cost = cost;
@@ -56,7 +56,7 @@ Error check_stations(const Problem& problem, bool sound) noexcept {
   return Error{};
 }
 
-/// Standard deviation of a station mean relative to gravity, all sensors and stations together.
+/// Standard deviation of a station mean relative to gravity, all sensors and usable stations together.
 double relative_noise(const Datasheet& datasheet, const Problem& problem, double g_mps2) noexcept {
   double variance = 0.0, shares = 0.0;
   for (int i = 0; i < datasheet.size; ++i) {
@@ -69,7 +69,7 @@ double relative_noise(const Datasheet& datasheet, const Problem& problem, double
     shares += 1.0 / problem.stations[s].count;
     ++used;
   }
-  return used > 0 ? std::sqrt(variance * shares / used) / g_mps2 : 0.0;
+  return std::sqrt(variance * shares / used) / g_mps2;
 }
 
 /// The storage of a fit, and the form that its steps take: that of three sensors where it holds, else the general one.

@@ -14,8 +14,6 @@ using fit::at;
 /// The n sensors that paper and calibration share when the paper's form is unique.
 constexpr int kUniqueUpTo = 4;
 
-bool finite(const Vec3& v) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
 bool has_cross_terms(const SensorModel& model) noexcept {
   return std::any_of(model.misalignment.begin(), model.misalignment.end(), [](double m) { return m != 0.0; });
 }
@@ -46,7 +44,7 @@ Expected<SensorModel> of_three(const SensorArray& nominal, const SensorArray& ca
   for (int i = 0; i < 3; ++i) {
     p[at(i)] = combination(a, b, c, det, nominal.axis(i));
     const double d = p[at(i)][at(i)];
-    if (!finite(p[at(i)]) || !(d >= kMinPaperDet)) return fail(Errc::not_invertible, i, d, kMinPaperDet);
+    if (!(d >= kMinPaperDet)) return fail(Errc::not_invertible, i, d, kMinPaperDet);
     out.sensor[at(i)] = stretched(out.sensor[at(i)], d);
   }
   for (int i = 0; i < 3; ++i) {
@@ -105,7 +103,7 @@ Expected<CommonFrameForm> common_frame_form(const SensorArray& nominal, const Se
   out.model.misalignment = {};
   for (int i = 0; i < n; ++i) {
     const double length = norm(row[at(i)]);
-    if (!(length >= kMinPaperDet) || !std::isfinite(length)) return fail(Errc::not_invertible, i, length, kMinPaperDet);
+    if (!(length >= kMinPaperDet)) return fail(Errc::not_invertible, i, length, kMinPaperDet);
     out.axis[at(i)] = scaled(row[at(i)], 1.0 / length);
     out.model.sensor[at(i)] = stretched(out.model.sensor[at(i)], 1.0 / length);
   }

@@ -182,9 +182,8 @@ void Descent::iterate() noexcept {
   const JointVector x = joint_prior_units(joint_, state_);
   double cost = sums_.sums.chi2;
   for (int k = 0; k < joint_.parameters(); ++k) cost += x[at(k)] * x[at(k)];
-  const bool finite = sums_.sums.finite && std::isfinite(cost);
   if (!goes_down(cost)) {
-    if (fresh_ && !finite) {
+    if (fresh_) {  // a sum that has nothing to be compared with is refused where it is no number
       stop_ = StopReason::not_finite;
       bad_station_ = sums_.sums.bad_station;
       return;

@@ -40,7 +40,6 @@ void store(void* to, std::uint64_t bits, std::size_t width) noexcept {
 }
 
 std::int64_t sign_extended(std::uint64_t bits, std::size_t width) noexcept {
-  if (width == 0 || width >= sizeof bits) return static_cast<std::int64_t>(bits);
   const std::uint64_t sign = std::uint64_t{1} << (8 * width - 1);
   return static_cast<std::int64_t>((bits ^ sign) - sign);
 }

@@ -133,7 +133,7 @@ ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClai
   bool agrees = false;
   const auto ask = [&](SensorSet set, int rank) {
     const SetTest& t = tests.of(set);
-    if (!t.tested || t.parity_rows < 1 || !t.parity_alive(limits)) return;
+    if (!t.tested || !t.parity_alive(limits)) return;  // four or more: there is parity
     if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return;
     const double off = t.norm < 0.0 ? -t.norm : t.norm;
     const double limit = t.norm_reject_limit(limits);
@@ -184,7 +184,8 @@ SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnes
   const SensorSet convicted = asked - cleared;
   if (convicted.empty() || convicted.size() > grade) return {};
   const SetTest& rest = tests.of(asked - convicted);
-  return rest.tested && rest.parity_alive(limits) ? convicted : SensorSet{};
+  const bool agree = rest.tested && rest.parity_alive(limits);
+  return agree ? convicted : SensorSet{};
 }
 
 IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) noexcept {

@@ -144,7 +144,7 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
     recalibration_.drop_last();
     return;
   }
-  if (view.kind == Kind::none || view.kind == Kind::soft || !raw.complete().contains(in_service_)) return;
+  if (view.kind == Kind::soft || !raw.complete().contains(in_service_)) return;
   recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 

@@ -34,8 +34,6 @@ Expected<void> check_fits(const PaperSetup& setup) noexcept {
   return {};
 }
 
-bool finite(const Vec3& v) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
 }  // namespace
 
 Expected<void> PaperMonitor::configure(const PaperSetup& setup) noexcept {
@@ -154,7 +152,7 @@ void PaperMonitor::collect(const Sample& sample, GateResult& gate) noexcept {
   }
   // Step 2, for this one sample.
   const Vec3 x = paper_vector_in_use(fits(), raw_of(kept), kept.temperature_degc, in_service_);
-  if (finite(x)) verdict_.latest_mps2 = times(frame_, x);
+  if (std::isfinite(norm(x))) verdict_.latest_mps2 = times(frame_, x);
 }
 
 const Verdict& PaperMonitor::step(const Sample& sample) noexcept {

@@ -79,7 +79,7 @@ HealthEvent PaperMonitor::decide(EventMask raised, double time_s) noexcept {
   const bool was_reset = reset_pending_;
   const Cell& cell = cell_of(mode_, event);
   const Mode from = mode_;
-  const SensorSet sets[3] = {in_service_, excluded_, absent_};
+  const SensorSet sets[2] = {in_service_, excluded_};  // who leaves or joins the absent is one of these
   const SensorSet named = act(cell.actions);
   if (event == HealthEvent::fit_rejected) refused_ = in_service_;
   if (was_reset) {
@@ -95,7 +95,7 @@ HealthEvent PaperMonitor::decide(EventMask raised, double time_s) noexcept {
   mode_ = resolve(from, cell.target, facts);
   if (from == Mode::suspect && mode_ != Mode::suspect) restart_pool();
 
-  const bool changed = mode_ != from || sets[0] != in_service_ || sets[1] != excluded_ || sets[2] != absent_;
+  const bool changed = mode_ != from || sets[0] != in_service_ || sets[1] != excluded_;
   if (!changed) return event;
   const Cause cause = cause_of(event, verdict_.cause);
   verdict_.cause = event == HealthEvent::clean_block ? verdict_.cause : cause;

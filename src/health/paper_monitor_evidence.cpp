@@ -24,7 +24,7 @@ constexpr int kProvingAttitudes = 2;
 
 /// False where too few samples were complete, or no finite vector came of them: no evidence.
 bool PaperMonitor::read_block(const BlockJudgement& judged) noexcept {
-  if (kept_count_ == 0 || 2 * kept_count_ < config_.window) return false;
+  if (2 * kept_count_ < config_.window) return false;
   mean_ = Kept{};
   for (int k = 0; k < kept_count_; ++k) {
     const Kept& kept = kept_[static_cast<size_t>(k)];
@@ -56,7 +56,7 @@ PaperMae PaperMonitor::mae_of_block() const noexcept {
 
 void PaperMonitor::show_parity(const BlockEvidence& evidence) noexcept {
   const SetTest test = test_set(array_, gravity_, limits_, evidence, in_service_ & evidence.usable);
-  const bool has_parity = test.tested && test.parity_rows > 0;
+  const bool has_parity = test.parity_rows > 0;
   verdict_.parity = has_parity ? test.parity : 0.0;
   verdict_.parity_limit = has_parity ? test.parity_alarm_limit(limits_) : 0.0;
 }

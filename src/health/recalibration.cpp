@@ -98,9 +98,9 @@ void Recalibration::stop() noexcept {
 int Recalibration::stations_needed(int n) noexcept {
   // A station tells n - 2 figures, two parameters a sensor are asked for.
   const int rows = n > 3 ? n - 2 : 1;
-  const int fitted = (2 * n + rows - 1) / rows + kSpareStations;
+  const int fitted = (2 * n + rows - 1) / rows + kSpareStations;  // at most 10, for three sensors
   int needed = kHeldOutNeeded * StationStore::kHeldOutStride;
-  while (needed < StationStore::kMax && needed - needed / StationStore::kHeldOutStride < fitted) ++needed;
+  while (needed - needed / StationStore::kHeldOutStride < fitted) ++needed;
   return needed;
 }
 

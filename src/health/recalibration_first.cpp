@@ -25,12 +25,10 @@ constexpr double kLeastDataShare = 0.75;
 /// How seldom the residuals of a good fit may be so large.
 constexpr double kLeastProbability = 1e-4;
 
-/// The k-th of a set.
+/// The k-th of a set; -1 where it has none.
 int member(SensorSet set, int k) noexcept {
-  for (int i = 0; i < kCapacity; ++i) {
-    if (set.has(i) && k-- == 0) return i;
-  }
-  return -1;
+  for (; k > 0; --k) set = set.without(set.lowest());
+  return set.lowest();
 }
 
 }  // namespace
@@ -175,7 +173,7 @@ bool Recalibration::install(const Calibration& fit, SensorModel& model, SensorAr
   if (!array.set_rows(rows.data())) return false;
   RowUncertainty out = array.uncertainty();
   const RowUncertainty& found = fit.array.uncertainty();
-  const auto packed = [](int a, int b) { return at(a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a); };
+  const auto packed = [](int a, int b) { return at(a * (a + 1) / 2 + b); };  // b <= a, and so are those fitted
   for (int a = 0; a < 4 * array.size(); ++a) {
     for (int b = 0; b <= a; ++b) {
       const int i = fitted[at(a / 4)], j = fitted[at(b / 4)];

@@ -56,7 +56,7 @@ Vec3 HealthMonitor::vote(const BlockTests& tests, const BlockView& view) noexcep
         answer_.strict = noisy_;
     }
     const SetTest& full = tests.of(posed & evidence.usable);
-    const bool visible = full.tested && (!full.alive(limits_) || !full.parity_alive(limits_));
+    const bool visible = !full.alive(limits_) || !full.parity_alive(limits_);
     if (answer_.strict != episode_.candidate) {
       episode_.candidate = answer_.strict;
       episode_.agreeing.clear();

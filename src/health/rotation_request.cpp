@@ -20,7 +20,7 @@ void HealthMonitor::study_reference(const BlockView& view) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet used = in_service_ & evidence_.usable;
   const bool trusted = view.kind == Kind::clean && mode_ != Mode::suspect && mode_ != Mode::recalibrating;
-  if (view.kind == Kind::alarm || view.kind == Kind::none || trusted || view.used.parity_rows < 1) {
+  if (view.kind == Kind::alarm || trusted || view.used.parity_rows < 1) {
     reference_study_.clear();
   } else if (view.kind == Kind::reference || !reference_study_.empty()) {
     // Reject, not alarm: as wide as what latches, for the finding is believed for long. Without the gravity term, which

@@ -88,8 +88,8 @@ double half_normal_mean_tail(int n, double t) noexcept {
     constexpr double kSkewness = 0.99527174643115610;  // sqrt(2) (4 - pi) / (pi - 2)^1.5
     return normal_tail(t * std::sqrt(n * k.curvature)) - kSkewness / (6.0 * std::sqrt(2.0 * kPi * n));
   }
-  const double exponent = t * k.slope - k.value;
-  const double w = std::copysign(std::sqrt(2.0 * n * (exponent > 0.0 ? exponent : 0.0)), t);
+  const double exponent = t * k.slope - k.value;  // K is convex: above zero off the mean
+  const double w = std::copysign(std::sqrt(2.0 * n * exponent), t);
   const double u = t * std::sqrt(n * k.curvature);
   return normal_tail(w) + normal_density(w) * (1.0 / u - 1.0 / w);
 }
