@@ -9,6 +9,7 @@
 #include "plumb/array/named.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace geometry_edges_test {
 namespace {
 
 using namespace plumb;
@@ -69,3 +70,4 @@ TEST(GeometryEdge, RowsThatAreNoneLeaveTheArrayAsItWas) {
 }
 
 }  // namespace
+}  // namespace geometry_edges_test

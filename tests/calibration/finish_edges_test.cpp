@@ -8,6 +8,7 @@
 #include "plumb/calibration/cross_check.hpp"
 #include "support/member.hpp"
 
+namespace finish_edges_test {
 namespace {
 
 using namespace calibration_test;
@@ -132,3 +133,4 @@ TEST(FinishEdge, WhereEveryFitIsPerfectNobodyIsOdd) {
 }
 
 }  // namespace
+}  // namespace finish_edges_test

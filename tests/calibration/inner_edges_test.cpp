@@ -13,6 +13,7 @@
 #include "plumb/calibration/null_directions.hpp"
 #include "plumb/calibration/observability.hpp"
 
+namespace inner_edges_test {
 namespace {
 
 using namespace calibration_test;
@@ -331,3 +332,4 @@ TEST(InnerEdge, ResidualsOfNothingAreNoMisfit) {
 }
 
 }  // namespace
+}  // namespace inner_edges_test

@@ -10,6 +10,7 @@
 #include "calibration/edges_support.hpp"
 #include "plumb/calibration/paper_parameters.hpp"
 
+namespace paper_inner_edges_test {
 namespace {
 
 using namespace calibration_test;
@@ -111,3 +112,4 @@ TEST(PaperInnerEdge, MisalignmentsThatLeaveNoLengthHaveNoCommonFrame) {
 }
 
 }  // namespace
+}  // namespace paper_inner_edges_test

@@ -8,6 +8,7 @@
 #include "../../src/calibration/temperature_model.hpp"
 #include "calibration/temperature_support.hpp"
 
+namespace temperature_inner_edges_test {
 namespace {
 
 using namespace temperature_test;
@@ -191,3 +192,4 @@ TEST(TemperatureInnerEdge, WhereNoOrderIsAskedForNoLevelIsMissing) {
 }
 
 }  // namespace
+}  // namespace temperature_inner_edges_test

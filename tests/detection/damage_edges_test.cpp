@@ -16,6 +16,7 @@
 #include "support/member.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace detection_damage_edges_test {
 namespace {
 
 using namespace plumb;
@@ -263,3 +264,4 @@ TEST(StationEdge, OfBlocksOfOneSampleANewTagEndsTheStation) {
 }
 
 }  // namespace
+}  // namespace detection_damage_edges_test

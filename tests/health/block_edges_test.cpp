@@ -3,6 +3,7 @@
 
 #include "health/recalibration_support.hpp"
 
+namespace block_edges_test {
 namespace {
 
 using namespace plumb;
@@ -70,3 +71,4 @@ TEST(MonitorBlockEdge, WhatTheAssertionCannotNameTheVotesMay) {
 }
 
 }  // namespace
+}  // namespace block_edges_test

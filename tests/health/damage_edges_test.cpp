@@ -9,6 +9,7 @@
 #include "snapshot_support.hpp"
 #include "support/member.hpp"
 
+namespace health_damage_edges_test {
 namespace {
 
 using namespace plumb;
@@ -149,3 +150,4 @@ TEST(ForgedEdge, ACalibrationOfTwoSensorsIsNotTakenUp) {
 }
 
 }  // namespace
+}  // namespace health_damage_edges_test

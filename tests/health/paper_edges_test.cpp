@@ -5,6 +5,7 @@
 
 #include "health/paper_rig.hpp"
 
+namespace paper_edges_test {
 namespace {
 
 using namespace plumb;
@@ -72,3 +73,4 @@ TEST(PaperMonitorEdge, AnAttitudeThatRepeatsDoesNotBringTheFitNearer) {
 }
 
 }  // namespace
+}  // namespace paper_edges_test

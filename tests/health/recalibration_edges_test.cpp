@@ -9,6 +9,7 @@
 #include "health/recalibration_support.hpp"
 #include "support/member.hpp"
 
+namespace recalibration_edges_test {
 namespace {
 
 using namespace plumb;
@@ -338,3 +339,4 @@ TEST(FirstCalibrationEdge, AFitWhoseStationsAreGoneIsNeitherAcceptedNorAdopted) 
 }
 
 }  // namespace
+}  // namespace recalibration_edges_test

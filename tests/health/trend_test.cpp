@@ -5,6 +5,7 @@
 #include "support/member.hpp"
 #include "support/simulated_tool.hpp"
 
+namespace trend_test {
 namespace {
 
 using namespace plumb;
@@ -54,3 +55,4 @@ TEST(Trend, ALineWithoutScatterIsNotTold) {
 }
 
 }  // namespace
+}  // namespace trend_test
