@@ -1,6 +1,5 @@
 #include "plumb/detection/combination_mae.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -10,6 +9,15 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 using std::size_t;
+
+#if PLUMB_WIDE_LANES
+/// What is rare stays out of the way of what is not, and the registers are for that alone.
+#define PLUMB_APART __attribute__((noinline))
+#define PLUMB_WITHIN __attribute__((always_inline)) inline
+#else
+#define PLUMB_APART inline
+#define PLUMB_WITHIN inline
+#endif
 
 namespace {
 
@@ -41,22 +49,16 @@ inline std::int32_t error_of(const SensorArray& array, const Readings& y, int tr
 
 /// As many at a time as `lanes` says, then the rest by fewer. Returns the first triple that is not done.
 inline int replace_side_by_side(Lanes lanes, const SensorArray& array, const double* y_mps2, double g_mps2,
-                                const MaeRow& row, int first) noexcept {
+                                std::int32_t* slots, std::int64_t* sums, int triples, int first) noexcept {
 #if PLUMB_WIDE_LANES
-  if (kTripleCapacity >= 8 && lanes == Lanes::eight) first = replace_eights(array, y_mps2, g_mps2, row, first);
-  if (lanes >= Lanes::four && first + 4 <= row.triples) first = replace_fours(array, y_mps2, g_mps2, row, first);
+  if (kTripleCapacity >= 8 && lanes == Lanes::eight)
+    first = replace_eights(array, y_mps2, g_mps2, slots, sums, triples, first);
+  if (lanes >= Lanes::four && first + 4 <= triples)
+    first = replace_fours(array, y_mps2, g_mps2, slots, sums, triples, first);
 #else
   (void)lanes;
 #endif
-  return first + 2 <= row.triples ? replace_twos(array, y_mps2, g_mps2, row, first) : first;
-}
-
-/// The same for fewer sensors than fit.
-int replace_for_fewer(Lanes lanes, const SensorArray& array, const Readings& y_mps2, double g_mps2, const MaeRow& row,
-                      int first) noexcept {
-  Readings moved{};
-  std::copy_n(y_mps2.data(), static_cast<size_t>(array.size()), moved.data() + (kCapacity - array.size()));
-  return replace_side_by_side(lanes, array, moved.data(), g_mps2, row, first);
+  return first + 2 <= triples ? replace_twos(array, y_mps2, g_mps2, slots, sums, triples, first) : first;
 }
 
 }  // namespace
@@ -83,7 +85,8 @@ void CombinationMae::clear_all_sensor() noexcept {
   all_count_ = 0;
 }
 
-void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_t& sum, std::uint16_t& count) noexcept {
+inline void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_t& sum,
+                                    std::uint16_t& count) noexcept {
   if (slot >= 0) {
     sum -= slot;
     --count;
@@ -95,20 +98,23 @@ void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_
   }
 }
 
-/// What both `add` do: the lanes that there are for the triples that all have their members.
-inline void CombinationMae::add_by(Lanes lanes, const SensorArray& array, const Readings& y_mps2, SensorSet usable,
-                                   const Vec3* in_service, double g_mps2) noexcept {
+/// What is not all there side by side: where a sensor is not usable, where some do not all have a value yet, fewer
+/// sensors than fit, the rest behind the last two.
+PLUMB_APART void CombinationMae::add_from(int first, Lanes lanes, const SensorArray& array, const Readings& y_mps2,
+                                          SensorSet usable, double g_mps2) noexcept {
   constexpr int kMostAtOnce = 8;
-  const bool side_by_side = kPortableLanes != Lanes::one && lanes != Lanes::one && usable.contains(array.all());
+  const bool side_by_side = kPortableLanes != Lanes::one && lanes != Lanes::one && array.size() >= 0 &&
+                            array.size() <= kCapacity && usable.contains(array.all());
+  Readings moved{};
+  const int fewer = kCapacity - array.size();
+  if (side_by_side) {
+    for (int i = fewer; i < kCapacity; ++i) moved[static_cast<size_t>(i)] = y_mps2[static_cast<size_t>(i - fewer)];
+  }
   std::int32_t* const slots = &ring_[row(head_)];
-  int first = 0;
   while (first < triples_) {
     if (side_by_side) {
-      const MaeRow now = {slots, sum_.data(), triples_};
-      first = array.size() == kCapacity ? replace_side_by_side(lanes, array, y_mps2.data(), g_mps2, now, first)
-                                        : replace_for_fewer(lanes, array, y_mps2, g_mps2, now, first);
+      first = replace_side_by_side(lanes, array, moved.data(), g_mps2, slots, sum_.data(), triples_, first);
     }
-    // Some that do not all have a value there yet, the rest behind the last two, or all where a sensor is not usable.
     const int end = side_by_side && first + kMostAtOnce <= triples_ ? first + kMostAtOnce : triples_;
     for (; first < end; ++first) {
       const auto k = static_cast<size_t>(first);
@@ -117,6 +123,17 @@ inline void CombinationMae::add_by(Lanes lanes, const SensorArray& array, const 
       replace(slots[k], now, sum_[k], count_[k]);
     }
   }
+}
+
+PLUMB_WITHIN void CombinationMae::add_by(Lanes lanes, const SensorArray& array, const Readings& y_mps2,
+                                         SensorSet usable, const Vec3* in_service, double g_mps2) noexcept {
+  int first = 0;
+  if (kPortableLanes != Lanes::one && lanes != Lanes::one && array.size() == kCapacity &&
+      usable.contains(SensorSet::first(kCapacity))) {
+    std::int32_t* const slots = &ring_[row(head_)];
+    first = replace_side_by_side(lanes, array, y_mps2.data(), g_mps2, slots, sum_.data(), triples_, 0);
+  }
+  if (first < triples_) add_from(first, lanes, array, y_mps2, usable, g_mps2);
   const std::int32_t all = in_service != nullptr ? to_mae_units(norm(*in_service) - g_mps2) : -1;
   replace(all_ring_[static_cast<size_t>(head_)], all, all_sum_, all_count_);
   head_ = head_ + 1 == window_ ? 0 : head_ + 1;

@@ -131,10 +131,9 @@ inline bool replace_two(Two square, double g_mps2, std::int32_t* slots, std::int
 
 /// While the squares of some triples become errors, those of the next are already computed, here and below: one after
 /// the other they are a long chain, of which a processor has too few at work at once.
-int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, const MaeRow& row, int first) noexcept {
-  const size_t members = members_of(row.triples), end = static_cast<size_t>(row.triples);
-  std::int32_t* const slots = row.slots;
-  std::int64_t* const sums = row.sums;
+int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots, std::int64_t* sums,
+                 int triples, int first) noexcept {
+  const size_t members = members_of(triples), end = static_cast<size_t>(triples);
   auto k = static_cast<size_t>(first);
   if (k + 2 > end) return first;
   Two square = squares_of_two(array, y_mps2, members, k);
@@ -235,11 +234,9 @@ PLUMB_AVX512 PLUMB_WITHIN bool replace_eight(__m512d square, double g_mps2, std:
 
 }  // namespace
 
-PLUMB_AVX2 int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2, const MaeRow& row,
-                             int first) noexcept {
-  const size_t members = members_of(row.triples), end = static_cast<size_t>(row.triples);
-  std::int32_t* const slots = row.slots;
-  std::int64_t* const sums = row.sums;
+PLUMB_AVX2 int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                             std::int64_t* sums, int triples, int first) noexcept {
+  const size_t members = members_of(triples), end = static_cast<size_t>(triples);
   auto k = static_cast<size_t>(first);
   if (k + 4 > end) return first;
   __m256d square = squares_of_four(array, y_mps2, members, k);
@@ -251,11 +248,9 @@ PLUMB_AVX2 int replace_fours(const SensorArray& array, const double* y_mps2, dou
   return static_cast<int>(replace_four(square, g_mps2, slots + k, sums + k) ? k + 4 : k);
 }
 
-PLUMB_AVX512 int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2, const MaeRow& row,
-                                int first) noexcept {
-  const size_t members = members_of(row.triples), end = static_cast<size_t>(row.triples);
-  std::int32_t* const slots = row.slots;
-  std::int64_t* const sums = row.sums;
+PLUMB_AVX512 int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                                std::int64_t* sums, int triples, int first) noexcept {
+  const size_t members = members_of(triples), end = static_cast<size_t>(triples);
   auto k = static_cast<size_t>(first);
   if (k + 8 > end) return first;
   constexpr size_t kSecond = kCapacity > 8 ? 8 : 0, kThird = kCapacity > 16 ? 16 : 0;

@@ -96,6 +96,8 @@ class CombinationMae {
     return static_cast<double>(static_cast<std::uint32_t>(bits >> 32U)) * 4294967296.0 +
            static_cast<double>(static_cast<std::uint32_t>(bits));
   }
+  void add_from(int first, Lanes lanes, const SensorArray& array, const Readings& y_mps2, SensorSet usable,
+                double g_mps2) noexcept;
   void add_by(Lanes lanes, const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
               double g_mps2) noexcept;
   std::size_t row(int slot) const noexcept {

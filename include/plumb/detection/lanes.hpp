@@ -33,21 +33,17 @@ inline Lanes most_lanes() noexcept {
   return kPortableLanes;
 }
 
-/// One row of the window: the errors of all triples in one slot of the ring, and the sums that they are part of.
-struct MaeRow {
-  std::int32_t* slots;
-  std::int64_t* sums;
-  int triples;
-};
-
-/// Puts the errors of triples from `first` on in place of those in the row, two, four or eight at a time, as long as
-/// all that are taken at once had a value before. Returns the first triple that is not done. Before the readings
-/// `y_mps2` stand so many zeros as there are sensors fewer than fit.
-int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, const MaeRow& row, int first) noexcept;
+/// One row of the window is the errors of all triples in one slot of the ring, and the sums that they are part of. Puts
+/// the errors from triple `first` on in place of those in the row, two, four or eight at a time, as long as all that
+/// are taken at once had a value before. Returns the first triple that is not done. Before the readings `y_mps2` stand
+/// so many zeros as there are sensors fewer than fit. As many parameters as go in registers.
+int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots, std::int64_t* sums,
+                 int triples, int first) noexcept;
 #if PLUMB_WIDE_LANES
-int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2, const MaeRow& row, int first) noexcept;
-int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2, const MaeRow& row,
-                   int first) noexcept;
+int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                  std::int64_t* sums, int triples, int first) noexcept;
+int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                   std::int64_t* sums, int triples, int first) noexcept;
 #endif
 
 }  // namespace PLUMB_ABI
