@@ -137,10 +137,17 @@ int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, 
   auto k = static_cast<size_t>(first);
   if (k + 2 > end) return first;
   Two square = squares_of_two(array, y_mps2, members, k);
-  for (; k + 4 <= end; k += 2) {
-    const Two next = squares_of_two(array, y_mps2, members, k + 2);
+  if (k + 4 <= end) {
+    Two next = squares_of_two(array, y_mps2, members, k + 2);
+    for (; k + 6 <= end; k += 2) {
+      const Two after = squares_of_two(array, y_mps2, members, k + 4);
+      if (!replace_two(square, g_mps2, slots + k, sums + k)) return static_cast<int>(k);
+      square = next;
+      next = after;
+    }
     if (!replace_two(square, g_mps2, slots + k, sums + k)) return static_cast<int>(k);
     square = next;
+    k += 2;
   }
   return static_cast<int>(replace_two(square, g_mps2, slots + k, sums + k) ? k + 2 : k);
 }
@@ -240,10 +247,17 @@ PLUMB_AVX2 int replace_fours(const SensorArray& array, const double* y_mps2, dou
   auto k = static_cast<size_t>(first);
   if (k + 4 > end) return first;
   __m256d square = squares_of_four(array, y_mps2, members, k);
-  for (; kTripleCapacity >= 8 && k + 8 <= end; k += 4) {
-    const __m256d next = squares_of_four(array, y_mps2, members, k + 4);
+  if (kTripleCapacity >= 8 && k + 8 <= end) {
+    __m256d next = squares_of_four(array, y_mps2, members, k + 4);
+    for (; k + 12 <= end; k += 4) {
+      const __m256d after = squares_of_four(array, y_mps2, members, k + 8);
+      if (!replace_four(square, g_mps2, slots + k, sums + k)) return static_cast<int>(k);
+      square = next;
+      next = after;
+    }
     if (!replace_four(square, g_mps2, slots + k, sums + k)) return static_cast<int>(k);
     square = next;
+    k += 4;
   }
   return static_cast<int>(replace_four(square, g_mps2, slots + k, sums + k) ? k + 4 : k);
 }
@@ -256,10 +270,17 @@ PLUMB_AVX512 int replace_eights(const SensorArray& array, const double* y_mps2, 
   constexpr size_t kSecond = kCapacity > 8 ? 8 : 0, kThird = kCapacity > 16 ? 16 : 0;
   const Eights y = {_mm512_loadu_pd(y_mps2), _mm512_loadu_pd(y_mps2 + kSecond), _mm512_loadu_pd(y_mps2 + kThird)};
   __m512d square = squares_of_eight(array, y, members, k);
-  for (; k + 16 <= end; k += 8) {
-    const __m512d next = squares_of_eight(array, y, members, k + 8);
+  if (k + 16 <= end) {
+    __m512d next = squares_of_eight(array, y, members, k + 8);
+    for (; k + 24 <= end; k += 8) {
+      const __m512d after = squares_of_eight(array, y, members, k + 16);
+      if (!replace_eight(square, g_mps2, slots + k, sums + k)) return static_cast<int>(k);
+      square = next;
+      next = after;
+    }
     if (!replace_eight(square, g_mps2, slots + k, sums + k)) return static_cast<int>(k);
     square = next;
+    k += 8;
   }
   return static_cast<int>(replace_eight(square, g_mps2, slots + k, sums + k) ? k + 8 : k);
 }
