@@ -16,10 +16,12 @@ namespace {
 
 using namespace plumb;
 
+constexpr std::size_t kSamples = 1 << 10;  // a power of two: finding one costs nothing
+
 std::vector<Readings> stream_of(const SensorArray& array) {
   std::mt19937_64 engine(1);
   std::normal_distribution<double> noise;
-  std::vector<Readings> out(1 << 10);
+  std::vector<Readings> out(kSamples);
   for (Readings& y : out) {
     for (int i = 0; i < array.size(); ++i)
       y[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2 + array.sigma_mps2(i) * noise(engine);
@@ -33,10 +35,10 @@ struct Kernel {
   std::vector<Readings> stream = stream_of(array);
   CombinationMae mae;
   Kernel() { mae.configure(array.triple_count(), 32); }
-  void add(std::size_t k) { mae.add(array, stream[k % stream.size()], array.all(), nullptr, kG0_mps2); }
+  void add(std::size_t k) { mae.add(array, stream[k % kSamples], array.all(), nullptr, kG0_mps2); }
   /// What every processor can, though this one may do more at a time.
   void add_portable(std::size_t k) {
-    mae.add(array, stream[k % stream.size()], array.all(), nullptr, kG0_mps2, kPortableLanes);
+    mae.add(array, stream[k % kSamples], array.all(), nullptr, kG0_mps2, kPortableLanes);
   }
 };
 
@@ -75,7 +77,7 @@ void per_triple(benchmark::State& state, Solve solve) {
   std::size_t k = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(by_eigen(kernel->array, kernel->stream[k], solve));
-    k = (k + 1) % kernel->stream.size();
+    k = (k + 1) % kSamples;
   }
 }
 
@@ -94,18 +96,18 @@ void BM_KernelByEigenInverse(benchmark::State& state) {
 }
 BENCHMARK(BM_KernelByEigenInverse)->Arg(kCapacity);
 
-template <class Solve>
-plumb_bench::Contest contest(void (Kernel::*add)(std::size_t), Solve solve) {
+template <auto Add, class Solve>
+plumb_bench::Contest contest(Solve solve) {
   const auto kernel = std::make_shared<Kernel>();
-  return {[kernel, add](std::size_t count) {
+  return {[kernel](std::size_t count) {
             for (std::size_t k = 0; k < count; ++k) {
-              (kernel.get()->*add)(k);
+              (kernel.get()->*Add)(k);
               benchmark::ClobberMemory();
             }
           },
           [kernel, solve](std::size_t count) {
             for (std::size_t k = 0; k < count; ++k)
-              benchmark::DoNotOptimize(by_eigen(kernel->array, kernel->stream[k % kernel->stream.size()], solve));
+              benchmark::DoNotOptimize(by_eigen(kernel->array, kernel->stream[k % kSamples], solve));
           }};
 }
 
@@ -120,10 +122,10 @@ const char* widest() {
   return most_lanes() == Lanes::eight ? "AVX-512" : most_lanes() == Lanes::four ? "AVX2" : "no vectors beyond portable";
 }
 const plumb_bench::Enrolled kLu{
-    {work(widest()), "Eigen LU of every triple", bar(40.0, 140.0, 130.0), [] { return contest(&Kernel::add, by_lu); }}};
+    {work(widest()), "Eigen LU of every triple", bar(40.0, 140.0, 130.0), [] { return contest<&Kernel::add>(by_lu); }}};
 const plumb_bench::Enrolled kLuPortable{{work("portable"), "Eigen LU of every triple", bar(18.0, 50.0, 60.0),
-                                         [] { return contest(&Kernel::add_portable, by_lu); }}};
+                                         [] { return contest<&Kernel::add_portable>(by_lu); }}};
 const plumb_bench::Enrolled kInverse{{work("portable"), "Eigen inverse of every triple", 2.5,
-                                      [] { return contest(&Kernel::add_portable, by_inverse); }}};
+                                      [] { return contest<&Kernel::add_portable>(by_inverse); }}};
 
 }  // namespace
