@@ -52,7 +52,7 @@ constexpr double kMost_mps2 = kMaeClamp * kMaeUnit_mps2;
 using Two = double __attribute__((vector_size(16)));
 using TwoBits = std::uint64_t __attribute__((vector_size(16)));
 using TwoInts = std::uint32_t __attribute__((vector_size(8)));
-constexpr std::uint64_t kLowHalf = 0xFFFF'FFFFU;
+constexpr int kUnitsLastHigh = 0x41D0'0000;  ///< the high half of `kUnitsLast_mps2`, whose low half is zero
 constexpr std::uint64_t kNoSign = 0x7FFF'FFFF'FFFF'FFFFU;
 
 /// The second where one of them is a NaN, and where they are equal: what the instruction of x86 does.
@@ -71,15 +71,16 @@ inline Two smaller(Two a, Two b) noexcept {
 #endif
 }
 
-/// Two slots of the ring, widened; false where one is absent.
+/// Two slots of the ring, each as the low half of a `kUnitsLast_mps2` that it was added to; false where one is absent.
 inline bool two_slots(const std::int32_t* slots, TwoBits& out) noexcept {
 #if PLUMB_WIDE_LANES
   const __m128i both = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(slots));
   if (_mm_movemask_ps(_mm_castsi128_ps(both)) != 0) return false;
-  out = reinterpret_cast<TwoBits>(_mm_unpacklo_epi32(both, _mm_setzero_si128()));
+  out = reinterpret_cast<TwoBits>(_mm_unpacklo_epi32(both, _mm_set1_epi32(kUnitsLastHigh)));
 #else
   if ((slots[0] | slots[1]) < 0) return false;
   out = TwoBits{static_cast<std::uint64_t>(slots[0]), static_cast<std::uint64_t>(slots[1])};
+  out += std::uint64_t{kUnitsLastHigh} << 32U;
 #endif
   return true;
 }
@@ -117,7 +118,7 @@ inline bool replace_two(Two square, double g_mps2, std::int32_t* slots, std::int
   const Two kept = larger(none, square);
   const Two length = {std::sqrt(kept[0]), std::sqrt(kept[1])};
   const auto error = reinterpret_cast<Two>(reinterpret_cast<TwoBits>(length - g_mps2) & kNoSign);
-  const TwoBits now = reinterpret_cast<TwoBits>(smaller(error, most) + kUnitsLast_mps2) & kLowHalf;
+  const TwoBits now = reinterpret_cast<TwoBits>(smaller(error, most) + kUnitsLast_mps2);
   const TwoInts narrow = __builtin_convertvector(now, TwoInts);
   std::memcpy(slots, &narrow, sizeof narrow);
   TwoBits sum;
@@ -230,8 +231,10 @@ PLUMB_AVX512 PLUMB_WITHIN bool replace_eight(__m512d square, double g_mps2, std:
   const __m256i old = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(slots));
   if (_mm256_movemask_ps(_mm256_castsi256_ps(old)) != 0) return false;
   const __m512d length = _mm512_maskz_sqrt_pd(kAll, _mm512_maskz_max_pd(kAll, _mm512_setzero_pd(), square));
-  const __m512d error = _mm512_abs_pd(length - _mm512_set1_pd(g_mps2));
-  const __m512d held = _mm512_maskz_min_pd(kAll, error, _mm512_set1_pd(kMost_mps2)) + _mm512_set1_pd(kUnitsLast_mps2);
+  const __m512i error = _mm512_castpd_si512(_mm512_abs_pd(length - _mm512_set1_pd(g_mps2)));
+  // Without a sign, doubles are ordered as their bits are, a NaN behind all: the other units do this.
+  const __m512i most = _mm512_castpd_si512(_mm512_set1_pd(kMost_mps2));
+  const __m512d held = _mm512_castsi512_pd(_mm512_maskz_min_epu64(kAll, error, most)) + _mm512_set1_pd(kUnitsLast_mps2);
   const __m256i now = _mm512_maskz_cvtepi64_epi32(kAll, _mm512_castpd_si512(held));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(slots), now);
   const __m512i more = _mm512_maskz_cvtepi32_epi64(kAll, _mm256_sub_epi32(now, old));
