@@ -51,7 +51,7 @@ function(plumb_core_library target capacity)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen tl::expected)
   if(PLUMB_FAST_STEP)
     set(often calibration/sensor_model core/storage_map detection/block detection/channel_monitor detection/combination_mae
-      detection/near_lengths health/health_monitor health/intake health/memory)
+      detection/lanes detection/near_lengths health/health_monitor health/intake health/memory)
     list(TRANSFORM often REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/\\1.cpp")
     set_source_files_properties(${often} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS -O2)
   endif()

@@ -5,40 +5,25 @@
 
 #include "plumb/detection/near_lengths.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PLUMB_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define PLUMB_SANITIZED
-#endif
-#endif
-
 namespace plumb {
 inline namespace PLUMB_ABI {
 
 using std::size_t;
+
+#if PLUMB_WIDE_LANES
+/// What is rare stays out of the way of what is not, and the registers are for that alone.
+#define PLUMB_APART __attribute__((noinline))
+#define PLUMB_WITHIN __attribute__((always_inline)) inline
+#else
+#define PLUMB_APART inline
+#define PLUMB_WITHIN inline
+#endif
 
 namespace {
 
 /// A double beyond this has no fraction left: adding and subtracting it rounds to the nearest integer, ties to even, in
 /// a way that several triples can go at once.
 constexpr double kNoFraction = 4503599627370496.0;
-/// Four triples side by side (vectors of GCC and Clang). Lane by lane the same operations in the same order as for one
-/// triple alone, and none of them fused: the same bits, however wide the registers are.
-using Four = double __attribute__((vector_size(32)));
-using FourInts = std::int32_t __attribute__((vector_size(16)));
-constexpr int kAtOnce = 4;
-/// A processor of 32 bits has no registers for them: the compiler would take them apart again, by way of the stack.
-constexpr bool kVectors = sizeof(void*) >= 8;
-
-/// Under Linux on x86-64 a function may be compiled twice, and the loader takes the one that fits the processor.
-/// Everywhere else, and where a sanitizer would be asked before it has started, there is one.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(PLUMB_SANITIZED)
-#define PLUMB_FOR_WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
-#else
-#define PLUMB_FOR_WIDE_REGISTERS
-#endif
-
 /// Written so that a NaN takes the clamp: no comparison with it is true.
 inline double whole_units(double error_mps2) noexcept {
   const double units = (error_mps2 < 0.0 ? -error_mps2 : error_mps2) * kMaeUnits_per_mps2;
@@ -60,6 +45,20 @@ inline std::int32_t error_of(const SensorArray& array, const Readings& y, int tr
       squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[index_of(s[0])], y[index_of(s[1])], y[index_of(s[2])]);
   const double kept = square < 0.0 ? 0.0 : square;  // a NaN goes through to the clamp
   return static_cast<std::int32_t>(whole_units(std::sqrt(kept) - g_mps2));
+}
+
+/// As many at a time as `lanes` says, then the rest by fewer. Returns the first triple that is not done.
+inline int replace_side_by_side(Lanes lanes, const SensorArray& array, const double* y_mps2, double g_mps2,
+                                std::int32_t* slots, std::int64_t* sums, int triples, int first) noexcept {
+#if PLUMB_WIDE_LANES
+  if (kTripleCapacity >= 8 && lanes == Lanes::eight)
+    first = replace_eights(array, y_mps2, g_mps2, slots, sums, triples, first);
+  if (lanes >= Lanes::four && first + 4 <= triples)
+    first = replace_fours(array, y_mps2, g_mps2, slots, sums, triples, first);
+#else
+  (void)lanes;
+#endif
+  return first + 2 <= triples ? replace_twos(array, y_mps2, g_mps2, slots, sums, triples, first) : first;
 }
 
 }  // namespace
@@ -86,7 +85,8 @@ void CombinationMae::clear_all_sensor() noexcept {
   all_count_ = 0;
 }
 
-void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_t& sum, std::uint16_t& count) noexcept {
+inline void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_t& sum,
+                                    std::uint16_t& count) noexcept {
   if (slot >= 0) {
     sum -= slot;
     --count;
@@ -98,67 +98,55 @@ void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std::int64_
   }
 }
 
-/// Four triples at a time, as long as every one of them has a value in this slot before; returns the first triple that
-/// is not done. `error_of` written out: a vector must not be handed to a function that is compiled for narrower
-/// registers.
-PLUMB_FOR_WIDE_REGISTERS
-int CombinationMae::replace_fours(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept {
-  constexpr auto kClamp = static_cast<double>(kMaeClamp);
-  const Four none = {0.0, 0.0, 0.0, 0.0};
-  const Four most = {kClamp, kClamp, kClamp, kClamp};
-  for (; first + kAtOnce <= triples_; first += kAtOnce) {
-    const auto k = static_cast<size_t>(first);
-    std::int32_t* const slot = &ring_[row(head_) + k];
-    FourInts old;
-    std::memcpy(&old, slot, sizeof old);
-    if ((old[0] | old[1] | old[2] | old[3]) < 0) return first;
-    const auto& s = array.triple(first).sensors;
-    const auto& t = array.triple(first + 1).sensors;
-    const auto& u = array.triple(first + 2).sensors;
-    const auto& v = array.triple(first + 3).sensors;
-    const Four a = {y_mps2[index_of(s[0])], y_mps2[index_of(t[0])], y_mps2[index_of(u[0])], y_mps2[index_of(v[0])]};
-    const Four b = {y_mps2[index_of(s[1])], y_mps2[index_of(t[1])], y_mps2[index_of(u[1])], y_mps2[index_of(v[1])]};
-    const Four c = {y_mps2[index_of(s[2])], y_mps2[index_of(t[2])], y_mps2[index_of(u[2])], y_mps2[index_of(v[2])]};
-    // Not in a loop, for which the compiler would keep them on the stack.
-    Four q0, q1, q2, q3, q4, q5;
-    std::memcpy(&q0, array.form_coefficients(0) + first, sizeof q0);
-    std::memcpy(&q1, array.form_coefficients(1) + first, sizeof q1);
-    std::memcpy(&q2, array.form_coefficients(2) + first, sizeof q2);
-    std::memcpy(&q3, array.form_coefficients(3) + first, sizeof q3);
-    std::memcpy(&q4, array.form_coefficients(4) + first, sizeof q4);
-    std::memcpy(&q5, array.form_coefficients(5) + first, sizeof q5);
-    const Four square = q0 * a * a + q1 * b * b + q2 * c * c + q3 * a * b + q4 * a * c + q5 * b * c;
-    const Four kept = square < none ? none : square;
-    const Four length = {std::sqrt(kept[0]), std::sqrt(kept[1]), std::sqrt(kept[2]), std::sqrt(kept[3])};
-    const Four error = length - g_mps2;
-    const Four units = (error < none ? -error : error) * kMaeUnits_per_mps2;
-    const Four held = units < most ? units : most;
-    const FourInts now = __builtin_convertvector((held + kNoFraction) - kNoFraction, FourInts);
-    std::memcpy(slot, &now, sizeof now);
-    const FourInts more = now - old;
-    for (size_t i = 0; i < kAtOnce; ++i) sum_[k + i] += more[i];
+/// What is not all there side by side: where a sensor is not usable, where some do not all have a value yet, fewer
+/// sensors than fit, the rest behind the last two.
+PLUMB_APART void CombinationMae::add_from(int first, Lanes lanes, const SensorArray& array, const Readings& y_mps2,
+                                          SensorSet usable, double g_mps2) noexcept {
+  constexpr int kMostAtOnce = 8;
+  const bool side_by_side = kPortableLanes != Lanes::one && lanes != Lanes::one && array.size() >= 0 &&
+                            array.size() <= kCapacity && usable.contains(array.all());
+  Readings moved{};
+  const int fewer = kCapacity - array.size();
+  if (side_by_side) {
+    for (int i = fewer; i < kCapacity; ++i) moved[static_cast<size_t>(i)] = y_mps2[static_cast<size_t>(i - fewer)];
   }
-  return first;
+  std::int32_t* const slots = &ring_[row(head_)];
+  while (first < triples_) {
+    if (side_by_side) {
+      first = replace_side_by_side(lanes, array, moved.data(), g_mps2, slots, sum_.data(), triples_, first);
+    }
+    const int end = side_by_side && first + kMostAtOnce <= triples_ ? first + kMostAtOnce : triples_;
+    for (; first < end; ++first) {
+      const auto k = static_cast<size_t>(first);
+      const bool present = side_by_side || usable.contains(array.triple(first).set());
+      const std::int32_t now = present ? error_of(array, y_mps2, first, g_mps2) : -1;
+      replace(slots[k], now, sum_[k], count_[k]);
+    }
+  }
+}
+
+PLUMB_WITHIN void CombinationMae::add_by(Lanes lanes, const SensorArray& array, const Readings& y_mps2,
+                                         SensorSet usable, const Vec3* in_service, double g_mps2) noexcept {
+  int first = 0;
+  if (kPortableLanes != Lanes::one && lanes != Lanes::one && array.size() == kCapacity &&
+      usable.contains(SensorSet::first(kCapacity))) {
+    std::int32_t* const slots = &ring_[row(head_)];
+    first = replace_side_by_side(lanes, array, y_mps2.data(), g_mps2, slots, sum_.data(), triples_, 0);
+  }
+  if (first < triples_) add_from(first, lanes, array, y_mps2, usable, g_mps2);
+  const std::int32_t all = in_service != nullptr ? to_mae_units(norm(*in_service) - g_mps2) : -1;
+  replace(all_ring_[static_cast<size_t>(head_)], all, all_sum_, all_count_);
+  head_ = head_ + 1 == window_ ? 0 : head_ + 1;
 }
 
 void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
                          double g_mps2) noexcept {
-  const bool all_usable = usable.contains(array.all());
-  int first = 0;
-  while (first < triples_) {
-    if (kVectors && all_usable) first = replace_fours(array, y_mps2, first, g_mps2);
-    // Four that do not all have a value there yet, the rest behind the last four, or all where a sensor is not usable.
-    const int end = kVectors && all_usable && first + kAtOnce <= triples_ ? first + kAtOnce : triples_;
-    for (; first < end; ++first) {
-      const auto k = static_cast<size_t>(first);
-      const bool present = all_usable || usable.contains(array.triple(first).set());
-      const std::int32_t now = present ? error_of(array, y_mps2, first, g_mps2) : -1;
-      replace(ring_[row(head_) + k], now, sum_[k], count_[k]);
-    }
-  }
-  const std::int32_t all = in_service != nullptr ? to_mae_units(norm(*in_service) - g_mps2) : -1;
-  replace(all_ring_[static_cast<size_t>(head_)], all, all_sum_, all_count_);
-  head_ = head_ + 1 == window_ ? 0 : head_ + 1;
+  add_by(most_lanes(), array, y_mps2, usable, in_service, g_mps2);
+}
+
+void CombinationMae::add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
+                         double g_mps2, Lanes lanes) noexcept {
+  add_by(lanes, array, y_mps2, usable, in_service, g_mps2);
 }
 
 #if PLUMB_SINGLE

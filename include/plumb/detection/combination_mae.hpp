@@ -8,6 +8,7 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/config.hpp"
+#include "plumb/detection/lanes.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -52,6 +53,9 @@ class CombinationMae {
   /// `in_service` is the estimate of the sensors in service (null: slot absent).
   void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
            double g_mps2) noexcept;
+  /// The same with no more lanes than told, which the processor must have: for tests and benchmarks.
+  void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service, double g_mps2,
+           Lanes lanes) noexcept;
 #if PLUMB_SINGLE
   /// The same in single precision, but for triples with a member outside `near`. `all_units`: what becomes of the
   /// estimate of the sensors in service (-1: slot absent).
@@ -92,7 +96,10 @@ class CombinationMae {
     return static_cast<double>(static_cast<std::uint32_t>(bits >> 32U)) * 4294967296.0 +
            static_cast<double>(static_cast<std::uint32_t>(bits));
   }
-  int replace_fours(const SensorArray& array, const Readings& y_mps2, int first, double g_mps2) noexcept;
+  void add_from(int first, Lanes lanes, const SensorArray& array, const Readings& y_mps2, SensorSet usable,
+                double g_mps2) noexcept;
+  void add_by(Lanes lanes, const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
+              double g_mps2) noexcept;
   std::size_t row(int slot) const noexcept {
     return static_cast<std::size_t>(slot) * static_cast<std::size_t>(triples_);
   }
