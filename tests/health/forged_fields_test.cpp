@@ -2,6 +2,7 @@
 // The laws of tests/health/snapshot_laws_test.cpp draw a few of them; each rule by which a state is judged has its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -222,7 +223,7 @@ TEST(ForgedFields, OfARecalibrationInEachPhase) {
 }
 
 /// Of a snapshot of that monitor, the bytes of its recalibration's lengths: they follow upon the commissioning
-/// calibration, scales first. 0 where they are not found, or not once.
+/// calibration, scales first, and are about 1. 0 where they are not found, or not once.
 std::size_t place_of_lengths(const HealthMonitor& monitor, const SensorModel& commissioned, const Bytes& bytes) {
   const auto n = static_cast<std::size_t>(monitor.array().size());
   std::vector<double> before(2 * n);
@@ -235,6 +236,9 @@ std::size_t place_of_lengths(const HealthMonitor& monitor, const SensorModel& co
   int times = 0;
   for (std::size_t k = 0; k + width + n * sizeof(double) <= bytes.size(); ++k) {
     if (std::memcmp(bytes.data() + k, before.data(), width) != 0) continue;
+    std::vector<double> length(n);
+    std::memcpy(length.data(), bytes.data() + k + width, n * sizeof(double));
+    if (std::any_of(length.begin(), length.end(), [](double l) { return !(std::fabs(l - 1.0) < 0.01); })) continue;
     found = k + width;
     ++times;
   }
