@@ -55,7 +55,6 @@ Error compose(const Datasheet& datasheet, const GravityReference& gravity, const
   for (int i = 0; i < n; ++i) {
     const Vec3 w = row_of(theta, i);
     length[at(i)] = norm(w);
-    if (!(length[at(i)] > 0.0)) return Error{Errc::diverged, -1};
     rows[at(i)] = datasheet.sensor[at(i)].row;
     rows[at(i)].axis = scaled(w, 1.0 / length[at(i)]);
     rows[at(i)].sigma_mps2 /= length[at(i)];

@@ -21,8 +21,8 @@ struct Deviation {
 Deviation deviation_of(const Datasheet& datasheet, const Parameters& theta, int i) noexcept {
   const Vec3 w = row_of(theta, i);
   const double ratio = norm(w);
-  return {ratio > 0.0 ? std::fmax(ratio, 1.0 / ratio) - 1.0 : kInfinity,
-          angle_between_rad(w, datasheet.sensor[at(i)].row.axis), theta[at(4 * i + 3)]};
+  return {std::fmax(ratio, 1.0 / ratio) - 1.0, angle_between_rad(w, datasheet.sensor[at(i)].row.axis),
+          theta[at(4 * i + 3)]};
 }
 
 /// The parameter furthest beyond its bound, in bounds.

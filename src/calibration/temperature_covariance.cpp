@@ -1,7 +1,6 @@
 /// What a fit over temperature leaves: the posterior in natural units, as it acts at one temperature, and one
 /// covariance that covers a span.
 #include <cmath>
-#include <limits>
 
 #include "plumb/numeric/cholesky.hpp"
 #include "plumb/numeric/symmetric_eigenvalues.hpp"
@@ -30,7 +29,6 @@ struct Action {
   /// Row p of the map times the vector of one sensor's parameters, entry k at v[k * step].
   double apply(int p, const double* v, int step) const noexcept {
     double out = v[at(p * step)];
-    if (scale == 0.0) return std::numeric_limits<double>::infinity();
     const double by_scale = (p < 3 ? w[at(p)] : offset) / scale;
     for (int j = 1; j <= order; ++j) {
       out += by_scale * t[at(j)] * v[at((2 + 2 * j) * step)];

@@ -98,6 +98,12 @@ TEST(CalibrationRefusal, NumbersTooSmallOrTooLargeToBeSquared) {
       EXPECT_GT(b.report.iterations, 0) << at_the_edge;
     }
   }
+  Bench resumed;
+  plumb::Calibrator fit(resumed.sheet, resumed.gravity, resumed.options);
+  EXPECT_FALSE(fit.done());
+  resumed.sheet.sensor[0].row.sigma_mps2 = 1e-200;
+  fit.resume(resumed.sheet, resumed.options);
+  EXPECT_TRUE(fit.done());
   Bench frozen;
   for (auto& s : frozen.sheet.sensor) s.prior = {0.0, 0.0, 0.0, {}, {}};
   frozen.run();

@@ -212,6 +212,45 @@ TEST(ExtremeNumbers, AFitWithTwoOfThemIsFiniteOrRefused) {
   }
 }
 
+/// A scale factor that passes through zero just in the middle of the span, for which all others are told.
+// Negative: REQ-034
+TEST(ExtremeNumbers, AScaleWithoutAMeanOverTheSpanIsRefused) {
+  Problem p = sound(true);
+  auto& c = p.sheet.sensor[1].coefficients;
+  plumb::TemperatureOptions options = options_of(1);
+  options.use_degc = {c.reference_degc - 8.0, c.reference_degc + 24.0};
+  c.scale[1] = -c.scale[0] / 8.0;
+  const Fit f = fit_of(p.sheet, p.stations, options);
+  ASSERT_FALSE(f.made.has_value());
+  EXPECT_EQ(f.made.error().code, Errc::diverged);
+}
+
+TEST(ExtremeNumbers, AScaleOfZeroHasNoTemperatureTermsToCarryOver) {
+  const Problem p = sound();
+  Calibration c;
+  c.model = p.sheet.model();
+  c.model.sensor[1].scale[0] = 0.0;
+  c.model.sensor[1].scale[1] = 7.0;
+  c.model.sensor[2].scale[1] = 7.0;
+  const Datasheet out = plumb::with_temperature_of(p.sheet, c);
+  EXPECT_EQ(out.sensor[1].coefficients.scale[1], p.sheet.sensor[1].coefficients.scale[1]);
+  EXPECT_EQ(out.sensor[2].coefficients.scale[1], 7.0);
+}
+
+/// A channel that says nothing and of which nothing is known beforehand: its row shrinks to nothing.
+// Negative: REQ-034
+TEST(ExtremeNumbers, ARowThatVanishesIsRefused) {
+  for (const double open : {1.0, 1e4, 1e8, 1e16, 1e50, 1e100}) {
+    Problem p = sound();
+    p.options.start = plumb::FitStart::datasheet;
+    p.options.estimate_misfit = false;
+    p.options.reject_outliers = false;
+    p.sheet.sensor[3].prior = {open, open, open, {}, {}};
+    for (Station& s : p.stations) s.mean[3] = 0.0;
+    EXPECT_FALSE(plumb::calibrate(p.sheet, p.gravity, p.stations.data(), p.count(), p.options).has_value()) << open;
+  }
+}
+
 /// Readings that no ellipsoid holds: of noise alone, all alike, and in one plane.
 // Negative: REQ-034
 TEST(ExtremeNumbers, StationsOfNoToolAreRefused) {
