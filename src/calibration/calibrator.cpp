@@ -25,6 +25,8 @@ constexpr int kPriorTurns = 3;  ///< an iteration
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMaxDamping = 1e9;
 
+bool usual_prior(double sigma) noexcept { return sigma == 0.0 || fit::usual(sigma); }
+
 /// While outliers are looked for a step of this size, in prior sigmas, is the end: the set counts, not the digits.
 constexpr double kLooselySettled = 1e-4;
 constexpr double kMisfitSettled = 0.05;
@@ -37,14 +39,13 @@ constexpr int kScreenFreedom = 6;
 
 }  // namespace
 
-bool fit::acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept {
+bool fit::acceptable(const Datasheet& datasheet, double g_mps2) noexcept {
   if (datasheet.size < 3 || datasheet.size > kCapacity) return false;
-  if (!std::isfinite(gravity.g_mps2) || !(gravity.g_mps2 > 0.0)) return false;
+  if (!usual(g_mps2)) return false;
   for (int i = 0; i < datasheet.size; ++i) {
     const DatasheetSensor& s = datasheet.sensor[at(i)];
-    if (!(s.row.sigma_mps2 > 0.0) || !std::isfinite(s.row.sigma_mps2)) return false;
-    if (!(s.prior.bias_mps2 >= 0.0) || !(s.prior.scale >= 0.0) || !(s.prior.axis_rad >= 0.0)) return false;
-    if (!std::isfinite(s.prior.bias_mps2 + s.prior.scale + s.prior.axis_rad)) return false;
+    if (!usual(s.row.sigma_mps2)) return false;
+    if (!usual_prior(s.prior.bias_mps2) || !usual_prior(s.prior.scale) || !usual_prior(s.prior.axis_rad)) return false;
   }
   return true;
 }
@@ -101,12 +102,13 @@ fit::Problem fit::problem_of(const Datasheet& datasheet, double g_mps2, const Fi
 
 Calibrator::Calibrator(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options) noexcept
     : datasheet_(datasheet), gravity_(gravity), options_(options) {
-  if (!fit::acceptable(datasheet_, gravity_)) stop_ = StopReason::not_finite;
+  if (!fit::acceptable(datasheet_, gravity_.g_mps2)) stop_ = StopReason::not_finite;
 }
 
 void Calibrator::resume(const Datasheet& datasheet, const FitOptions& options) noexcept {
   datasheet_ = datasheet;
   options_ = options;
+  if (!fit::acceptable(datasheet_, gravity_.g_mps2)) stop_ = StopReason::not_finite;
 }
 
 /// Not inlined: the roots need no room while the sums are made.

@@ -97,9 +97,11 @@ struct Screen {
   double misfit_variance = 0.0;
 };
 
+/// Positive, and neither so small nor so large that squares and their reciprocals vanish or overflow.
+inline bool usual(double value) noexcept { return value >= 1e-100 && value <= 1e100; }
 /// Whether datasheet and gravity have numbers that a fit can start from. A prior sigma of zero is allowed: it freezes
 /// the parameter.
-bool acceptable(const Datasheet& datasheet, const GravityReference& gravity) noexcept;
+bool acceptable(const Datasheet& datasheet, double g_mps2) noexcept;
 /// Whether nothing is frozen. A frozen parameter stays at its nominal value, which the closed form knows nothing of.
 bool all_free(const Datasheet& datasheet) noexcept;
 /// Whether a step (natural units, common rotation taken out) is below so much of each value, or of its prior sigma.

@@ -163,10 +163,7 @@ Coverage coverage_of(const Datasheet& datasheet, const SeenAttitude* attitudes, 
 }
 
 StationPlanner::StationPlanner(const Datasheet& datasheet, double g_mps2) noexcept
-    : datasheet_(&datasheet),
-      g_mps2_(g_mps2),
-      usable_(datasheet.size >= 3 && datasheet.size <= kCapacity && g_mps2 > 0.0 && std::isfinite(g_mps2)) {
-  for (int i = 0; usable_ && i < datasheet.size; ++i) usable_ = datasheet.sensor[at(i)].row.sigma_mps2 > 0.0;
+    : datasheet_(&datasheet), g_mps2_(g_mps2), usable_(fit::acceptable(datasheet, g_mps2)) {
   const int n4 = usable_ ? 4 * datasheet.size : 0;
   for (int k = 0; k < n4; ++k) information_[at(k * n4 + k)] = 1.0;
 }

@@ -55,9 +55,7 @@ Expected<PaperError> PaperError::make(const Datasheet& datasheet, const GravityR
                 n > kPaperCapacity ? kPaperCapacity : kCapacity);
   }
   if (!SensorSet::first(datasheet.size).contains(used)) return fail(Errc::out_of_range, 3, n, datasheet.size);
-  if (!(gravity.g_mps2 > 0.0) || !std::isfinite(gravity.g_mps2)) {
-    return fail(Errc::out_of_range, 4, gravity.g_mps2, 0.0);
-  }
+  if (!fit::usual(gravity.g_mps2)) return fail(Errc::out_of_range, 4, gravity.g_mps2, 0.0);
   PaperError out;
   out.n_ = n;
   out.used_ = used;

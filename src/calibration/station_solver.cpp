@@ -114,7 +114,9 @@ void StationSolver::find_direction() noexcept {
   for (int step = 0; step < kDirectionSteps; ++step) {
     const Vec3 a = times(spread, u);
     const Vec3 off = minus(target, u);
-    const Vec3 tangent = minus(off, scaled(a, dot(u, off) / dot(u, a)));
+    const double level = dot(u, a);
+    if (level == 0.0) break;  // `solve` finds it out
+    const Vec3 tangent = minus(off, scaled(a, dot(u, off) / level));
     const double square = dot(tangent, tangent);
     const bool last = !(square > kDirectionStop);
     // The root, as a series where that is exact.
@@ -149,6 +151,7 @@ Loaded StationSolver::solve(const Station& station) noexcept {
   find_direction();
   gravity = scaled(direction, problem_.g_mps2);
   along = dot(direction, times(spread, direction));
+  if (!(along > 0.0)) return Loaded::not_finite;
   const double deviation = 1.0 / std::sqrt(along);
   norm_residual = (dot(direction, estimate) - problem_.g_mps2) * deviation;
   double sum = norm_residual * norm_residual;

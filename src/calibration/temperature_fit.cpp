@@ -265,6 +265,7 @@ Datasheet with_temperature_of(const Datasheet& datasheet, const Calibration& cal
   for (int i = 0; i < datasheet.size && i < calibration.model.size; ++i) {
     SensorCoefficients& c = out.sensor[at(i)].coefficients;
     const SensorCoefficients& now = calibration.model.sensor[at(i)];
+    if (c.scale[0] == 0.0 || now.scale[0] == 0.0) continue;  // no sensor: nothing to carry over
     const double length = now.scale[0] / c.scale[0];
     for (std::size_t k = 1; k < c.scale.size(); ++k) {
       c.scale[k] = now.scale[k] / length;
@@ -301,7 +302,7 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
     const Error wrong = fit::refused_input(datasheet, gravity, options.fit, stations, count, attempt);
     r = attempt;
     if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
-    if (!fit::acceptable(datasheet, gravity)) return fail(Errc::diverged);
+    if (!fit::acceptable(datasheet, gravity.g_mps2)) return fail(Errc::diverged);
     Expected<Calibration> out =
         Attempt(datasheet, gravity, stations, count, options.fit, scratch, work, told, r).run(order);
     const bool too_much = !out && out.error().code == Errc::unobservable;

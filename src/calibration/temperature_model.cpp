@@ -1,11 +1,14 @@
 #include "temperature_model.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Chebyshev amplitude, over the span, of a coefficient of the k-th power: T_k leads with 2^(k-1).
 double amplitude(double coefficient, double half_width, int k) noexcept {
@@ -42,7 +45,7 @@ Joint::Joint(const Datasheet& nominal_sheet, const ChebyshevSpan& use, int highe
     const double reference = s.coefficients.reference_degc;
     Cubic scale = chebyshev_from_powers(s.coefficients.scale, use, reference);
     const double mean = scale[0];
-    for (double& c : scale) c /= mean;
+    for (double& c : scale) c = mean != 0.0 ? c / mean : kInfinity;  // which no station survives
     Cubic bias = chebyshev_from_powers(s.coefficients.bias, use, reference);
     for (double& c : bias) c *= sign;
     nominal.scale[at(i)] = scale;
@@ -68,7 +71,8 @@ Station reduced(const Joint& joint, const JointState& state, const Station& stat
   for (int i = 0; i < joint.sensors(); ++i) {
     const double mean = joint.sheet.sensor[at(i)].coefficients.scale[0];
     const double offset = joint.sign * mean * sum_of(state.bias[at(i)], t);
-    out.mean[at(i)] = station.mean[at(i)] / sum_of(state.scale[at(i)], t) - offset;
+    const double scale = sum_of(state.scale[at(i)], t);
+    out.mean[at(i)] = scale != 0.0 ? station.mean[at(i)] / scale - offset : kInfinity;
   }
   return out;
 }

@@ -15,6 +15,8 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 constexpr double kLeastDataShare = 0.75;
 /// How seldom the residuals of a good fit may be so large. A refusal costs time only.
 constexpr double kLeastProbability = 1e-4;
+/// Of a scale, relative: beyond what any drift sigma that a configuration may name lets pass (three times 0.1).
+constexpr double kMostChange = 0.5;
 
 /// Not fmax, for which a NaN is no number: here it breaks every bound.
 double larger(double a, double b) noexcept { return std::isnan(a) || b <= a ? a : b; }
@@ -172,8 +174,13 @@ void Recalibration::add_change(const SensorArray& array, const Change& change, R
   }
 }
 
-/// Bounds on the change of bias and scale, each in its drift sigma.
+/// Bounds on the change of bias and scale, each in its drift sigma. A length that was read back is tried before it is
+/// divided by.
 Error Recalibration::check_bounds(const SensorModel& model, double time_s) const noexcept {
+  for (int i = 0; i < model.size; ++i) {
+    const double change = std::fabs(length_[at(i)] - 1.0);
+    if (sensors_.has(i) && !(change <= kMostChange)) return Error{Errc::implausible, i, change, kMostChange};
+  }
   SensorModel next = model;
   write_coefficients(next);
   double last = kLastSigmas;

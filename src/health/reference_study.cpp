@@ -26,6 +26,16 @@ const char* to_string(ReferenceKind kind) noexcept {
   return "?";
 }
 
+namespace {
+
+/// None for a bound, read back from a snapshot, whose square vanishes.
+double weight_of(double bound_mps2) noexcept {
+  const double square = bound_mps2 * bound_mps2;
+  return square > 0.0 ? 1.0 / square : 0.0;
+}
+
+}  // namespace
+
 void ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double bound_mps2,
                          double apart_rad) noexcept {
   const double length = norm(direction);
@@ -49,7 +59,7 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   std::array<double, kParameters> p{};
   const auto row = [this](int k, int j) { return j == 0 ? 1.0 : entry_[at(k)].u[at(j - 1)]; };
   for (int k = 0; k < size_; ++k) {
-    const double weight = 1.0 / (entry_[at(k)].bound_mps2 * entry_[at(k)].bound_mps2);
+    const double weight = weight_of(entry_[at(k)].bound_mps2);
     for (int i = 0; i < kParameters; ++i) {
       p[at(i)] += weight * row(k, i) * entry_[at(k)].off_mps2;
       for (int j = 0; j < kParameters; ++j) m[at(kParameters * i + j)] += weight * row(k, i) * row(k, j);
@@ -69,7 +79,7 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   for (int k = 0; k < size_; ++k) {
     const Entry& e = entry_[at(k)];
     const double bound = e.bound_mps2 + curve;
-    const double weight = 1.0 / (e.bound_mps2 * e.bound_mps2);
+    const double weight = weight_of(e.bound_mps2);
     for (int i = 0; i < kParameters; ++i) {
       double gain = 0.0;
       for (int j = 0; j < kParameters; ++j) gain += m[at(kParameters * i + j)] * row(k, j) * weight;

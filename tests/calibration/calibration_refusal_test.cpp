@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calibration_support.hpp"
+#include "plumb/calibration/observability.hpp"
 
 namespace calibration_refusal_test {
 namespace {
@@ -70,6 +71,44 @@ TEST(CalibrationRefusal, NumbersThatAreNone) {
   Bench prior;
   prior.sheet.sensor[1].prior.scale = -1.0;
   EXPECT_EQ(prior.refusal(), plumb::Errc::diverged);
+}
+
+/// What cannot be squared, or whose square cannot be divided by.
+// Negative: REQ-034
+TEST(CalibrationRefusal, NumbersTooSmallOrTooLargeToBeSquared) {
+  using Place = double& (*)(Bench&);
+  constexpr Place kPlaces[] = {[](Bench& b) -> double& { return b.gravity.g_mps2; },
+                               [](Bench& b) -> double& { return b.sheet.sensor[2].row.sigma_mps2; },
+                               [](Bench& b) -> double& { return b.sheet.sensor[2].prior.bias_mps2; },
+                               [](Bench& b) -> double& { return b.sheet.sensor[2].prior.scale; },
+                               [](Bench& b) -> double& { return b.sheet.sensor[2].prior.axis_rad; }};
+  for (const Place place : kPlaces) {
+    for (const double beyond : {9e-101, 1e-300, 1.1e100, 1e300}) {
+      Bench b;
+      place(b) = beyond;
+      EXPECT_EQ(b.refusal(), plumb::Errc::diverged) << beyond;
+      EXPECT_EQ(b.report.stop, plumb::StopReason::not_finite) << beyond;
+      EXPECT_EQ(b.report.iterations, 0) << beyond;
+      plumb::StationPlanner planner(b.sheet, b.gravity.g_mps2);
+      EXPECT_EQ(planner.best(100.0).gain, 0.0) << beyond;
+    }
+    for (const double at_the_edge : {1e-100, 1e100}) {
+      Bench b;
+      place(b) = at_the_edge;
+      b.run();
+      EXPECT_GT(b.report.iterations, 0) << at_the_edge;
+    }
+  }
+  Bench resumed;
+  plumb::Calibrator fit(resumed.sheet, resumed.gravity, resumed.options);
+  EXPECT_FALSE(fit.done());
+  resumed.sheet.sensor[0].row.sigma_mps2 = 1e-200;
+  fit.resume(resumed.sheet, resumed.options);
+  EXPECT_TRUE(fit.done());
+  Bench frozen;
+  for (auto& s : frozen.sheet.sensor) s.prior = {0.0, 0.0, 0.0, {}, {}};
+  frozen.run();
+  EXPECT_GT(frozen.report.iterations, 0);
 }
 
 // Negative: REQ-030

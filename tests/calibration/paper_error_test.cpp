@@ -180,6 +180,8 @@ TEST(PaperError, RefusesWhatItCannotUse) {
   refused(d, g, SensorSet(0b10011U), Errc::out_of_range, 3);
   refused(d, {0.0, 0.0, plumb::GravityModel::value}, SensorSet::first(4), Errc::out_of_range, 4);
   refused(d, {kNan, 0.0, plumb::GravityModel::value}, SensorSet::first(4), Errc::out_of_range, 4);
+  refused(d, {1e-101, 0.0, plumb::GravityModel::value}, SensorSet::first(4), Errc::out_of_range, 4);
+  refused(d, {1e101, 0.0, plumb::GravityModel::value}, SensorSet::first(4), Errc::out_of_range, 4);
   d.sensor[2].prior.axis_rad = -0.01;
   refused(d, g, SensorSet::first(4), Errc::out_of_range, 5);
   EXPECT_TRUE(PaperError::make(d, g, SensorSet(0b1011U)).has_value()) << "what is not used does not matter";

@@ -57,6 +57,16 @@ TEST(ReferenceStudy, OneCircleOfRollsCannotTellAndSaysSo) {
   }
 }
 
+/// Only a forged snapshot has one: nothing is known so well.
+// Negative: REQ-062
+TEST(ReferenceStudy, ABoundWhoseSquareVanishesTellsNothing) {
+  ReferenceStudy study;
+  Noise noise(4);
+  for (int k = 0; k < 12; ++k) study.add(random_direction(noise), 0.05, 1e-200, 0.0);
+  ASSERT_GE(study.find(kG0_mps2, 1e-3, 0.01).attitudes, ReferenceStudy::kLeast);
+  EXPECT_EQ(study.find(kG0_mps2, 1e-3, 0.01).kind, ReferenceKind::undecided);
+}
+
 /// Wide and honest: whatever the truth (scale, bias, both, or lengths that follow no rule), attitudes and errors within
 /// the bound, no confident answer is wrong.
 // Negative: REQ-062

@@ -233,9 +233,9 @@ class Calibrator {
 
   /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`; not_finite
   /// (index = sensor: scale factor 0 or no number); out_of_range (index 0: roll axis not of unit length, 1: more than
-  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite, or a
-  /// temperature outside kPlausibleMin_degc .. kPlausibleMax_degc: index = station where one is to blame; or not
-  /// converged); unobservable (value = rank, limit = rank needed); implausible
+  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite; gravity, a
+  /// sigma or a prior but 0 outside 1e-100 .. 1e100; a temperature outside kPlausibleMin_degc .. kPlausibleMax_degc:
+  /// index = station where one is to blame; or not converged); unobservable (value = rank, limit = needed); implausible
   /// (index = sensor, -1 where it is one of report.suspects, or where roll groups turned all axes beyond what the
   /// nominal ones allow, value = turn; value = limit = 0 where it holds the same numbers as another); poor_fit (index =
   /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be

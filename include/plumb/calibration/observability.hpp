@@ -51,7 +51,7 @@ struct PlannedAttitude {
 /// Greedy D-optimal choice of stations. Plain state, no heap: 170 KB at capacity 24, 19 KB at 8, 6 KB at 4.
 class StationPlanner {
  public:
-  /// A planner of a datasheet with a size outside 3 .. kCapacity or a sigma that is not positive proposes nothing.
+  /// Proposes nothing where no fit would start: size, sigmas, priors and gravity as in `Calibrator::finish`.
   StationPlanner(const Datasheet& datasheet, double g_mps2) noexcept;
 
   /// Takes note of an attitude. False (and nothing changes) where it tells nothing: fewer than three sensors, no

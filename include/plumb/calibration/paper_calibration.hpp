@@ -37,8 +37,8 @@ class ThreeSensorStep;
 class PaperError {
  public:
   /// Errors: too_few_sensors; too_many_sensors; out_of_range (index 3: `used` names a sensor beyond the datasheet,
-  /// 4: gravity, 5: a prior sigma below 0); not_finite (index = sensor: axis, prior, coefficient, or SF = 0);
-  /// axes_rank_deficient.
+  /// 4: gravity outside 1e-100 .. 1e100, 5: a prior sigma below 0); not_finite (index = sensor: axis, prior,
+  /// coefficient, or SF = 0); axes_rank_deficient.
   static Expected<PaperError> make(const Datasheet& datasheet, const GravityReference& gravity,
                                    SensorSet used) noexcept;
 
