@@ -143,9 +143,8 @@ TEST(TemperatureEdge, NumbersThatAreNoneAreRefused) {
 
 TEST(TemperatureEdge, WithoutFreedomNothingIsJudgedByTheResiduals) {
   Bench b;
-  auto stations = b.on(2);
-  stations.erase(stations.begin() + 2, stations.begin() + 12);
-  stations.resize(4);
+  const auto all = b.on(2);
+  const std::vector<plumb::Station> stations = {all.at(0), all.at(1), all.at(12), all.at(13)};
   plumb::TemperatureOptions options = options_of(1);
   options.fit.require_full_rank = false;
   options.fit.estimate_misfit = false;
