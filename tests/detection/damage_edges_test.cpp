@@ -16,6 +16,8 @@
 #include "support/member.hpp"
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-166
+
 namespace detection_damage_edges_test {
 namespace {
 

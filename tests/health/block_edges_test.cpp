@@ -3,6 +3,8 @@
 
 #include "health/recalibration_support.hpp"
 
+// Serves: REQ-070
+
 namespace block_edges_test {
 namespace {
 

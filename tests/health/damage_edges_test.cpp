@@ -9,6 +9,8 @@
 #include "snapshot_support.hpp"
 #include "support/member.hpp"
 
+// Serves: REQ-163
+
 namespace health_damage_edges_test {
 namespace {
 

@@ -5,6 +5,8 @@
 
 #include "health/paper_rig.hpp"
 
+// Serves: REQ-190
+
 namespace paper_edges_test {
 namespace {
 

@@ -9,6 +9,8 @@
 #include "health/recalibration_support.hpp"
 #include "support/member.hpp"
 
+// Serves: REQ-135
+
 namespace recalibration_edges_test {
 namespace {
 

@@ -5,6 +5,8 @@
 #include "support/member.hpp"
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-127
+
 namespace trend_test {
 namespace {
 
