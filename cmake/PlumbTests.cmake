@@ -32,11 +32,11 @@ function(plumb_test_executable name)
   if(PLUMB_BATCHED)
     # What a test costs to compile is its libraries' templates: the files of a batch share them.
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h>)
-    if(arg_LIBRARIES)  # of plumb: they bring Eigen
-      target_precompile_headers(${name} PRIVATE <Eigen/Dense>)
+    list(LENGTH sources count)
+    if(count GREATER 24)  # a few batches do not pay for it
+      target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h> <Eigen/Dense>)
+      target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
     endif()
-    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
   endif()
   gtest_discover_tests(${name}
     DISCOVERY_TIMEOUT 60
@@ -148,7 +148,6 @@ endif()
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
 if(TARGET plumb_cli)
   plumb_test_executable(plumb_stepper_tests LABEL host ROOMS stepper LIBRARIES plumb_cli)
-  set_target_properties(plumb_stepper_tests PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # one file does not pay for them
   add_dependencies(plumb_stepper_tests plumb_tool)
   target_compile_definitions(plumb_stepper_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
 endif()
