@@ -39,8 +39,9 @@ void store(void* to, std::uint64_t bits, std::size_t width) noexcept {
   }
 }
 
+/// A shift by more digits than there are has no meaning; no width asks for one, and none can.
 std::int64_t sign_extended(std::uint64_t bits, std::size_t width) noexcept {
-  const std::uint64_t sign = std::uint64_t{1} << (8 * width - 1);
+  const std::uint64_t sign = std::uint64_t{1} << ((8 * width - 1) % 64);
   return static_cast<std::int64_t>((bits ^ sign) - sign);
 }
 

@@ -12,6 +12,9 @@
 #include <immintrin.h>
 #endif
 
+// The same bits as another vector, and places in memory as the instructions name them, have no other cast.
+// NOLINTBEGIN(cppcoreguidelines-pro-type-reinterpret-cast)
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
@@ -118,7 +121,7 @@ inline bool replace_two(Two square, double g_mps2, std::int32_t* slots, std::int
   const Two kept = larger(none, square);
   const Two length = {std::sqrt(kept[0]), std::sqrt(kept[1])};
   const auto error = reinterpret_cast<Two>(reinterpret_cast<TwoBits>(length - g_mps2) & kNoSign);
-  const TwoBits now = reinterpret_cast<TwoBits>(smaller(error, most) + kUnitsLast_mps2);
+  const auto now = reinterpret_cast<TwoBits>(smaller(error, most) + kUnitsLast_mps2);
   const TwoInts narrow = __builtin_convertvector(now, TwoInts);
   std::memcpy(slots, &narrow, sizeof narrow);
   TwoBits sum;
@@ -291,3 +294,5 @@ PLUMB_AVX512 int replace_eights(const SensorArray& array, const double* y_mps2, 
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb
+
+// NOLINTEND(cppcoreguidelines-pro-type-reinterpret-cast)
