@@ -94,6 +94,14 @@ class Folder {
     const io::FileExpected<void> done = io::write_file((fs::path(path_) / name).string(), text);
     if (!done) failure_ = done.error();
   }
+  /// A file that this report does not have: what stands there is of an earlier one, and must not be signed with it.
+  void leave_out(const std::string& name) {
+    std::error_code ignored;
+    if (fs::remove(fs::path(path_) / name, ignored))
+      print_error("plumb: note: removed " + name + " of an earlier report from " + path_ + "\n");
+  }
+  /// Writes what is there, and leaves out what is not.
+  void put(const std::string& name, const std::string& text) { text.empty() ? leave_out(name) : write(name, text); }
   const std::optional<io::FileError>& failure() const { return failure_; }
 
  private:
@@ -131,10 +139,10 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   folder.write("report.json", text);
   folder.write("traceability.json", found->traceability.dump(1) + "\n");
   folder.write(kArrayCopy, found->array.text);
-  if (!found->faults_toml.empty()) folder.write(kFaultsFile, found->faults_toml);
-  if (!found->healthy_toml.empty()) folder.write(kHealthyFile, found->healthy_toml);
-  if (found->faults) folder.write("trials-faults.csv", report::trials_csv(*found->faults));
-  if (found->healthy) folder.write("trials-healthy.csv", report::trials_csv(*found->healthy));
+  folder.put(kFaultsFile, found->faults_toml);
+  folder.put(kHealthyFile, found->healthy_toml);
+  folder.put("trials-faults.csv", found->faults ? report::trials_csv(*found->faults) : "");
+  folder.put("trials-healthy.csv", found->healthy ? report::trials_csv(*found->healthy) : "");
   if (folder.failure()) return report(*folder.failure());
   const io::FileExpected<report::PagePictures> pictures = draw_pictures(
       (fs::path(options.out) / report::kChartFolder).string(), report::verification_plot_files(found->report),
@@ -145,10 +153,11 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   folder.write("needs.json", report::needs_json(found->report));
   folder.write("requirements.sdoc", report::requirements_sdoc(found->report));
   folder.write("spdx.json", report::spdx_json(found->report));
-  if (found->report["analysis"]["given"].get<bool>())
-    folder.write("analysis.sarif", report::sarif_json(found->report["analysis"], PLUMB_VERSION));
+  const bool analysed = found->report["analysis"]["given"].get<bool>();
+  folder.put("analysis.sarif", analysed ? report::sarif_json(found->report["analysis"], PLUMB_VERSION) : "");
   folder.write("argument.svg", report::argument_svg(found->report));
   if (folder.failure()) return report(*folder.failure());
+  folder.leave_out("report.pdf");
   if (options.pdf) print_pdf(options.out, report::verification_html(found->report, *pictures));
   print(options.json ? text : summary(found->report, options.out));
   const Json& verdict = found->report["verdict"];

@@ -237,6 +237,20 @@ TEST(VerifyCommand, WithoutOptionalProgramsTheRestIsWritten) {
     EXPECT_TRUE(std::filesystem::exists(where / "r" / name)) << name;
 }
 
+TEST(VerifyCommand, ADirectoryHoldsOneReport) {
+  Directory where;
+  with_tool(where);
+  std::filesystem::create_directory(where / "r");
+  for (const char* name : {"report.pdf", "analysis.sarif", "notes.txt"})
+    write_text(where / "r" / name, "of an earlier report");
+  const Outcome outcome = verify(where, {"--array", "tool.toml", "--out", "r"});
+  EXPECT_EQ(outcome.code, 6);
+  EXPECT_TRUE(says(outcome.err, {"removed analysis.sarif", "removed report.pdf"}));
+  EXPECT_FALSE(std::filesystem::exists(where / "r" / "report.pdf"));
+  EXPECT_FALSE(std::filesystem::exists(where / "r" / "analysis.sarif"));
+  EXPECT_EQ(read_text(where / "r" / "notes.txt"), "of an earlier report") << "it is the user's";
+}
+
 TEST(VerifyCommand, ALongerCampaignIsTakenIn) {
   Directory where;
   with_tool(where);
