@@ -121,10 +121,11 @@ bool RowUncertainty::is_zero(int sensors) const noexcept {
 }
 
 bool RowUncertainty::is_covariance() const noexcept {
-  constexpr double kRounding = 1e-6;
+  constexpr double kRounding = 1e-6, kMostVariance = 1e12;
   const auto entry = [this](int a, int b) { return covariance[index(a * (a + 1) / 2 + b)]; };
   double largest = 0.0;
   for (int a = 0; a < 4 * kCapacity; ++a) largest = std::fmax(largest, entry(a, a));
+  if (!(largest <= kMostVariance)) return false;
   const double floor = kRounding * kRounding * largest;
   for (int a = 0; a < 4 * kCapacity; ++a) {
     if (!(entry(a, a) >= -floor)) return false;

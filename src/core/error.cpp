@@ -40,6 +40,7 @@ const char* describe(Errc code) noexcept {
     case Errc::snapshot_capacity: return "the snapshot was written by a build for another number of sensors";
     case Errc::snapshot_foreign: return "the snapshot belongs to another configuration, array or calibration";
     case Errc::snapshot_implausible: return "the snapshot holds what no monitor can have remembered";
+    case Errc::frame_not_orthogonal: return "the output frame is no rotation, with or without a mirror";
   }
   return "unknown error code";
 }
@@ -81,6 +82,8 @@ const char* remedy(Errc code) noexcept {
     case Errc::snapshot_capacity: return "use the build that wrote it, or start without history";
     case Errc::snapshot_foreign: return "offer the snapshot of this tool with these settings, or start without history";
     case Errc::snapshot_implausible: return "start without history, and look for what rewrote the snapshot";
+    case Errc::frame_not_orthogonal:
+      return "give rows of unit length at right angles; the identity leaves the tool frame";
   }
   return "report this code as a defect of plumb";
 }

@@ -20,8 +20,6 @@ namespace {
 /// Output beyond the calibrated span by more than this is unconfirmed (design, section 4).
 constexpr double kTemperatureMargin_degc = 5.0;
 constexpr double kRestlessRate = 1e-6;
-/// Beyond this ratio of the sigmas the precise sensors alone would decide and the normal matrix loses its digits.
-constexpr double kMaxSigmaRatio = 300.0;
 /// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.
 int faults_to_cover(int n, double prior, double risk) noexcept {
   double term = 1.0;
@@ -36,61 +34,6 @@ int faults_to_cover(int n, double prior, double risk) noexcept {
 }
 
 }  // namespace
-
-Expected<void> plausible(const GravityReference& gravity) noexcept {
-  const auto given = given_gravity(gravity.g_mps2, gravity.sigma_mps2);
-  if (given) return {};
-  const Error& e = given.error();
-  return fail(Errc::implausible_gravity, e.index == 0 ? 0 : 1, e.value, e.limit);
-}
-
-Expected<void> checked(const MonitorSetup& setup) noexcept {
-  const int n = setup.array.size();
-  if (n < 3) return fail(Errc::too_few_sensors, -1, n, 3);
-  if (setup.model.size != n) return fail(Errc::not_calibrated, -1, setup.model.size, n);
-  for (double m : setup.model.misalignment) {
-    if (m != 0.0) return fail(Errc::not_calibrated, -1, m, 0.0);
-  }
-  double least_sigma = setup.array.sigma_mps2(0);
-  for (int i = 1; i < n; ++i) least_sigma = std::fmin(least_sigma, setup.array.sigma_mps2(i));
-  for (int i = 0; i < n; ++i) {
-    const double sigma = setup.array.sigma_mps2(i);
-    if (!(sigma <= kMaxSigmaRatio * least_sigma))
-      return fail(Errc::out_of_range, i, sigma, kMaxSigmaRatio * least_sigma);
-  }
-  for (int i = 0; i < n; ++i) {
-    const double full = setup.full_scale_raw[static_cast<size_t>(i)];
-    const double reference_degc = setup.model.sensor[static_cast<size_t>(i)].reference_degc;
-    const double scale = std::fabs(setup.model.scale_at(i, reference_degc));
-    const double reach_mps2 = full / scale - std::fabs(setup.model.bias_at(i, reference_degc));
-    const double needed_mps2 = (1.0 + kFullScaleMargin) * setup.gravity.g_mps2;
-    if (full > 0.0 && !(reach_mps2 >= needed_mps2)) return fail(Errc::range_too_small, i, reach_mps2, needed_mps2);
-  }
-  if (!kCalibratesItself && !setup.calibrated) return fail(Errc::not_calibrated, -1, 0.0, 1.0);
-  for (int i = 0; i < n && !setup.calibrated; ++i) {
-    const Prior open = prior_in(setup.array, i), most = Recalibration::kMostOpen;
-    const std::array<std::array<double, 2>, 3> figures = {
-        {{open.bias_mps2, most.bias_mps2}, {open.scale, most.scale}, {open.axis_rad, most.axis_rad}}};
-    for (const std::array<double, 2>& f : figures) {
-      if (!(f[0] >= Recalibration::kLeastOpen && f[0] <= f[1])) return fail(Errc::implausible, i, f[0], f[1]);
-    }
-  }
-  return plausible(setup.gravity);
-}
-
-Expected<void> set_datasheet(const Datasheet& datasheet, MonitorSetup& setup) noexcept {
-  const Expected<SensorArray> array = datasheet.array();
-  if (!array) return tl::unexpected<Error>(array.error());
-  setup.model = datasheet.model();
-  setup.array = *array;
-  setup.array.set_uncertainty(datasheet.uncertainty());
-  for (int i = 0; i < datasheet.size; ++i) {
-    setup.full_scale_raw[static_cast<size_t>(i)] = datasheet.sensor[static_cast<size_t>(i)].full_scale_raw;
-    setup.resolution_raw[static_cast<size_t>(i)] = datasheet.sensor[static_cast<size_t>(i)].resolution_raw;
-  }
-  setup.calibrated = false;
-  return {};
-}
 
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   configured_ = false;

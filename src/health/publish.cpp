@@ -12,9 +12,19 @@ namespace {
 
 /// Nearer to vertical than this, toolface is noise.
 constexpr double kLeastInclination_rad = rad_from_deg(3.0);
+constexpr double kMostVariance = 1e300;
 
 /// Part of gravity across the tool's axis. No std::hypot, whose last digit is the C library's.
 double across_tool(const Vec3& g) noexcept { return std::sqrt(g[0] * g[0] + g[1] * g[1]); }
+
+/// A calibration that is known to no digit leaves less than nothing by rounding, or more than there are numbers for:
+/// what such a vector is worth, nobody can tell.
+bool has_variances(const Mat3& covariance) noexcept {
+  const auto variance = [&covariance](size_t k) {
+    return covariance[4 * k] >= 0.0 && covariance[4 * k] <= kMostVariance;
+  };
+  return variance(0) && variance(1) && variance(2);
+}
 
 }  // namespace
 
@@ -74,6 +84,7 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
 
 Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || owes_calibration() || !have_evidence_) return Validity::invalid;
+  if (!has_variances(verdict_.covariance)) return Validity::invalid;
   if (moving_ || !(clock_.last_s() - evidence_time_s_ <= config_.max_age_s)) return Validity::held;
   const Mode mode = published_mode();
   if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;

@@ -259,9 +259,6 @@ bool HealthMonitor::verdict_is_plausible() const noexcept {
   const bool masks = v.configured == array_.all() && v.in_service == in_service_ && v.set_aside == set_aside_ &&
                      v.excluded == excluded_ && v.absent == absent_;
   if (!masks || v.state != state_of(mode_)) return false;
-  for (size_t k = 0; k < 9; k += 4) {
-    if (!(v.covariance[k] >= 0.0)) return false;
-  }
   const Validity now = validity();
   if (v.validity != now && (v.validity != Validity::held || now == Validity::invalid)) return false;
   if (v.protection_available && !scan_.protection_available) return false;

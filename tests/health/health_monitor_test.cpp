@@ -241,28 +241,5 @@ TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
   EXPECT_TRUE(rig.ever_blamed.empty());
 }
 
-// Verifies: REQ-170
-TEST(HealthMonitor, RefusesWhatItCannotWatch) {
-  Rig rig(plumb_test::tetrahedron());
-  auto monitor = std::make_unique<HealthMonitor>();
-  MonitorSetup bad = rig.setup;
-  bad.config.window = 0;
-  EXPECT_EQ(monitor->configure(bad).error().code, Errc::out_of_range);
-  EXPECT_EQ(monitor->step(Sample{}).validity, Validity::invalid);
-  bad = rig.setup;
-  bad.model.misalignment[1] = 0.1;
-  EXPECT_EQ(monitor->configure(bad).error().code, Errc::not_calibrated);
-  bad = rig.setup;
-  bad.full_scale_raw[3] = 9.9;
-  EXPECT_EQ(monitor->configure(bad).error().code, Errc::range_too_small);
-  EXPECT_EQ(monitor->configure(bad).error().index, 3);
-  bad = rig.setup;
-  bad.config.false_alarm_rate = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(monitor->configure(bad).error().code, Errc::not_finite);
-  bad = rig.setup;
-  bad.gravity.g_mps2 = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(monitor->configure(bad).error().code, Errc::implausible_gravity);
-}
-
 }  // namespace
 }  // namespace health_monitor_test

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "plumb/calibration/calibration.hpp"
 #include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/combination_mae.hpp"
 #include "plumb/detection/isolation.hpp"
@@ -18,6 +17,7 @@
 #include "plumb/health/episode.hpp"
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
+#include "plumb/health/monitor_setup.hpp"
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
@@ -28,26 +28,6 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-
-/// Everything a monitor is built from.
-struct MonitorSetup {
-  SensorModel model;  ///< of an accepted calibration, common-frame form
-  SensorArray array;  ///< calibrated axes with their uncertainty
-  GravityReference gravity;
-  MonitorConfig config;
-  std::array<double, kCapacity> full_scale_raw{};  ///< 0 = unknown
-  std::array<double, kCapacity> resolution_raw{};  ///< one code: within it a reading may repeat; 0 = unknown
-  Mat3 output_frame{1, 0, 0, 0, 1, 0, 0, 0, 1};    ///< tool frame -> output frame, applied to published vectors only
-  std::array<Vec3, kCapacity> lever_arm_m{};       ///< of each sensor from the axis of rotation, tool frame
-  bool lever_arms_known = false;                   ///< else evidence is locked out while the tool turns
-  /// False: there is no calibration yet, the monitor makes its own (`set_datasheet`). Model and axes are then the
-  /// datasheet's, and the array's uncertainty is how far a sensor may be from it, 1 sigma.
-  bool calibrated = true;
-};
-
-/// A monitor that is to calibrate itself: fills in model, array, ranges and codes, and says `calibrated = false`.
-/// Errors: those of `Datasheet::array`.
-Expected<void> set_datasheet(const Datasheet& datasheet, MonitorSetup& setup) noexcept;
 
 /// What was not used, and why.
 struct MonitorCounters {
@@ -64,17 +44,6 @@ struct MonitorCounters {
                       &C::rotating_blocks);
   }
 };
-
-/// A length of gravity in feet, in g0 or from elsewhere would make every healthy sensor look off. Error:
-/// implausible_gravity outside what `given_gravity` takes.
-Expected<void> plausible(const GravityReference& gravity) noexcept;
-
-/// Checks a setup but for its configuration. Errors: too_few_sensors; not_calibrated; range_too_small; out_of_range
-/// (index = sensor whose sigma is too large beside the least); implausible_gravity; implausible where there is no
-/// calibration (index = sensor of whose bias, scale or axis the uncertainty is below
-/// `Recalibration::kLeastOpen` or beyond
-/// `Recalibration::kMostOpen`: value, limit).
-Expected<void> checked(const MonitorSetup& setup) noexcept;
 
 class HealthMonitor {
  public:
