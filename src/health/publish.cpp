@@ -1,5 +1,6 @@
 // What a verdict says: the figures of the last block, who is in and who is out, what may be used.
 #include <cmath>
+#include <cstring>
 
 #include "block_view.hpp"
 
@@ -12,16 +13,19 @@ namespace {
 
 /// Nearer to vertical than this, toolface is noise.
 constexpr double kLeastInclination_rad = rad_from_deg(3.0);
-constexpr double kMostVariance = 1e300;
 
 /// Part of gravity across the tool's axis. No std::hypot, whose last digit is the C library's.
 double across_tool(const Vec3& g) noexcept { return std::sqrt(g[0] * g[0] + g[1] * g[1]); }
 
 /// A calibration that is known to no digit leaves less than nothing by rounding, or more than there are numbers for:
-/// what such a vector is worth, nobody can tell.
+/// what such a vector is worth, nobody can tell. Doubles of no sign are ordered as their bits are, infinity and what is
+/// no number behind all, and a sign is behind those: this is asked in every sample, also where doubles are software.
 bool has_variances(const Mat3& covariance) noexcept {
   const auto variance = [&covariance](size_t k) {
-    return covariance[4 * k] >= 0.0 && covariance[4 * k] <= kMostVariance;
+    constexpr std::uint64_t kInfinity = 0x7FF0'0000'0000'0000U;
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &covariance[4 * k], sizeof bits);
+    return bits < kInfinity;
   };
   return variance(0) && variance(1) && variance(2);
 }
