@@ -127,14 +127,14 @@ void print_pdf(const std::string& out, std::string html) {
 io::ExitCode run_verify(const VerifyOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   watch_interrupts();
+  Folder folder(options.out);  // before the long work: where it cannot be, nothing is played in vain
+  const io::FileExpected<void> made = folder.make();
+  if (!made) return report(made.error());
   io::FileExpected<Verification> found = verify(options);
   if (!found) return report(found.error());
   found->report["run"]["time"] = now_utc();
   found->report["run"]["host"] = host_name();
   found->report["run"]["machine"] = machine_name();
-  Folder folder(options.out);
-  const io::FileExpected<void> made = folder.make();
-  if (!made) return report(made.error());
   const std::string text = found->report.dump(1) + "\n";
   folder.write("report.json", text);
   folder.write("traceability.json", found->traceability.dump(1) + "\n");

@@ -223,11 +223,13 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
         "the same curves.",
         "traces.csv");
   }
-  out.picture(
-      "Residuals", picture_of(pictures, "residuals.svg"),
-      "Error of the length of gravity at every station, in mg0, in the fit and held out.",
-      "Length of the vector less gravity, station by station; held out: predicted by a fit without the station.",
-      "residuals.csv");
+  if (!fit["stations"].empty()) {
+    out.picture(
+        "Residuals", picture_of(pictures, "residuals.svg"),
+        "Error of the length of gravity at every station, in mg0, in the fit and held out.",
+        "Length of the vector less gravity, station by station; held out: predicted by a fit without the station.",
+        "residuals.csv");
+  }
   ViewRows next;
   for (const Json& p : fit["attitudes"]["record_next"])
     next.push_back({shown(p["inclination_deg"]), shown(p["toolface_deg"]), shown(p["gain"])});

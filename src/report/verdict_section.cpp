@@ -71,7 +71,10 @@ bool played(const Json& report, const char* which) {
   return report["campaign"].contains(which) && report["campaign"][which].value("played", false);
 }
 
-void judge_array(const UserLimits& limits, const Json& array, Criteria& out) {
+bool refused(const Json& report) { return !report["calibration"].value("accepted", false); }
+
+void judge_array(const UserLimits& limits, const Json& report, Criteria& out) {
+  const Json& array = report["array"];
   const int grade = array["figures_of_merit"]["strict_grade"];
   out.judge(grade >= limits.faults, "Faulty sensors isolated for good", fmt::format("at least {}", limits.faults),
             limits.faults_from, fmt::format("{} (strict grade)", grade),
@@ -83,6 +86,10 @@ void judge_array(const UserLimits& limits, const Json& array, Criteria& out) {
   if (level.is_null()) {
     out.add("Protection level against the alert limit", most, limits.alert_limit_from, "not available", "not met",
             "parity does not check every sensor, so nothing bounds the tilt error");
+  } else if (refused(report)) {
+    out.add("Protection level against the alert limit", most, limits.alert_limit_from,
+            fmt::format("{:.4g} deg of an exact tool", level.get<double>()), "open",
+            "without an accepted calibration nothing is known of the part that calibration leaves");
   } else {
     out.judge(level.get<double>() <= alert_deg, "Protection level against the alert limit", most,
               limits.alert_limit_from, fmt::format("{:.4g} deg", level.get<double>()),
@@ -242,6 +249,10 @@ Json assumptions_of(const UserLimits& limits, const Json& report) {
     out.push_back(
         "No calibration was given: what it leaves is predicted from a simulated stand with sensors drawn from the "
         "priors of the array file. Verify again with the real one (--positions or --calibration).");
+  if (refused(report))
+    out.push_back(
+        "The calibration was refused: bounds and campaigns take axes, scales and biases of the array file for exact. A "
+        "real tool is worse; mend the calibration before any figure here is used.");
   if (report["subject"].value("rows", "") == "stations") out.push_back(row_words(report["subject"]));
   out.push_back(
       "The campaigns speak of the scenarios that they draw: the faults, sizes and attitudes listed, in equal "
@@ -280,6 +291,7 @@ std::string distrust_of(const Json& report) {
       "gravity";
   if (report["calibration"].value("mode", "") == "predicted")
     out += "; every figure here for a tool that was not calibrated: they are of a simulated one";
+  if (refused(report)) out += "; any figure here: the calibration was refused, and they are of an exact tool";
   return out;
 }
 
@@ -309,7 +321,8 @@ Json answers_of(const Json& report) {
            : "nothing checks every sensor");
   const Json& level = report["array"]["protection_level_deg"];
   add("How wrong unnoticed?", level.is_number() ? fmt::format("{:.3g} deg", level.get<double>()) : "unbounded",
-      "tilt error that can stay without an alarm (protection level)");
+      std::string("tilt error that can stay without an alarm (protection level)") +
+          (refused(report) ? ", were the array file exact" : ""));
   if (played(report, "faults")) {
     const Json& wrong = rate_of(report["campaign"]["faults"], "wrong_exclusion");
     add("How sure?", fmt::format("{} of {}", wrong["count"].get<std::uint64_t>(), wrong["of"].get<std::uint64_t>()),
@@ -327,7 +340,7 @@ Json answers_of(const Json& report) {
 
 Json verdict_section(const UserLimits& limits, const Json& report) {
   Criteria criteria;
-  judge_array(limits, report["array"], criteria);
+  judge_array(limits, report, criteria);
   judge_calibration(report["calibration"], criteria);
   judge_campaign(limits, report, criteria);
   judge_requirements(report["traceability"], criteria);

@@ -1,6 +1,7 @@
 // The charts of the verification page, drawn by gnuplot from the master JSON.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -39,7 +40,13 @@ GeometryPictures geometry_of(const Json& report) {
 }
 
 bool has_faults(const Json& report) { return report["campaign"]["faults"].value("played", false); }
-bool has_fit(const Json& report) { return report["calibration"].contains("fit"); }
+/// A fit that was refused before it began has no stations, and gnuplot ends at a chart without a point.
+bool has_residuals(const Json& report) {
+  const Json& calibration = report["calibration"];
+  if (!calibration.contains("fit")) return false;
+  const Json& stations = calibration["fit"]["stations"];
+  return std::any_of(stations.begin(), stations.end(), [](const Json& s) { return s["norm_error_mps2"].is_number(); });
+}
 bool has_trace(const Json& report) { return !report["calibration"].value("trace", Json::array()).empty(); }
 
 double share(const Json& rate) {
@@ -222,7 +229,7 @@ std::string residuals_script() {
 std::vector<std::string> verification_picture_names(const Json& report) {
   std::vector<std::string> out = geometry_picture_names(geometry_of(report));
   if (has_trace(report)) out.emplace_back("traces.svg");
-  if (has_fit(report)) out.emplace_back("residuals.svg");
+  if (has_residuals(report)) out.emplace_back("residuals.svg");
   if (!has_faults(report)) return out;
   if (!report["campaign"]["faults"]["by_size"].empty()) out.emplace_back("by-size.svg");
   out.emplace_back("times.svg");
@@ -244,7 +251,7 @@ std::vector<PlotFile> verification_plot_files(const Json& report) {
     out.push_back(traces_csv(report["calibration"]["trace"]));
     script += traces_script(report["calibration"]["trace"]);
   }
-  if (has_fit(report)) {
+  if (has_residuals(report)) {
     out.push_back(residuals_csv(report["calibration"]["fit"]["stations"]));
     script += residuals_script();
   }

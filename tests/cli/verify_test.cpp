@@ -237,6 +237,37 @@ TEST(VerifyCommand, WithoutOptionalProgramsTheRestIsWritten) {
     EXPECT_TRUE(std::filesystem::exists(where / "r" / name)) << name;
 }
 
+// Bounds of a tool whose calibration was refused take the array file for exact: nothing of that is met.
+TEST(VerifyCommand, ARefusedCalibrationFlattersNothing) {
+  Directory where;
+  with_tool(where);
+  write_text(where / "few.csv", "t_s,station,a1,a2,a3,a4\n0.0,1,0.5,0.5,0.5,-0.5\n0.01,1,0.5,0.5,0.5,-0.5\n");
+  const Outcome outcome = verify(where, {"--array", "tool.toml", "--positions", "few.csv", "--out", "r"});
+  EXPECT_EQ(outcome.code, 6);
+  EXPECT_TRUE(says(outcome.err, {"the calibration was refused"}));
+  EXPECT_EQ(outcome.err.find("gnuplot"), std::string::npos) << outcome.err;
+  const Json report = report_in(where / "r");
+  EXPECT_EQ(report["verdict"]["verdict"], "not fit");
+  const Json& criteria = report["verdict"]["criteria"];
+  const auto level = std::find_if(criteria.begin(), criteria.end(), [](const Json& one) {
+    return one["name"] == "Protection level against the alert limit";
+  });
+  ASSERT_NE(level, criteria.end());
+  EXPECT_EQ((*level)["result"], "open");
+  const std::string html = read_text(where / "r" / "report.html");
+  EXPECT_NE(html.find("take axes, scales and biases of the array file for exact"), std::string::npos);
+  EXPECT_EQ(html.find("There is no picture"), std::string::npos);
+}
+
+TEST(VerifyCommand, WhereNothingCanBeWrittenNothingIsPlayed) {
+  Directory where;
+  with_tool(where);
+  const Outcome outcome =
+      run(where, {"verify", "--array", "tool.toml", "--scenarios", "50000000", "--out", "/dev/full"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(says(outcome.err, {"/dev/full", "Remedy"}));
+}
+
 TEST(VerifyCommand, ADirectoryHoldsOneReport) {
   Directory where;
   with_tool(where);
