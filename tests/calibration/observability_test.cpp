@@ -131,7 +131,8 @@ TEST(StationPlanner, SamplesOfNoWeightAndBeyondAllNumbersTellNothing) {
   };
   EXPECT_FALSE(planner->add(with(1e-30)));
   EXPECT_GT(planner->best(100.0).gain, 0.0);
-  EXPECT_EQ(planner->best(1e302).gain, 0.0);
+  for (const double samples : {1e302, 1e305}) EXPECT_EQ(planner->best(samples).gain, 0.0) << samples;
+  EXPECT_FALSE(planner->add(with(1e305)));
   EXPECT_TRUE(planner->add(with(100.0)));
 }
 
