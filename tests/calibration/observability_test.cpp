@@ -121,7 +121,6 @@ TEST(StationPlanner, BeatsAsManyRandomStations) {
 }
 
 /// So few samples that they weigh nothing, and so many that no number holds what they would tell.
-// Negative: REQ-034
 TEST(StationPlanner, SamplesOfNoWeightAndBeyondAllNumbersTellNothing) {
   plumb::Datasheet d = paper_tool(kSigma);
   for (int i = 0; i < d.size; ++i) d.sensor[at(i)].prior.bias_mps2 = 50.0;

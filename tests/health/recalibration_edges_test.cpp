@@ -98,7 +98,6 @@ TEST(RecalibrationEdge, AnOfferIsNotTakenUpInTheMiddleOfAFit) {
   EXPECT_FALSE(s.fit->resume({s.model, s.array, s.gravity, s.limits}));
 }
 
-// Negative: REQ-131
 TEST(RecalibrationEdge, NothingIsWithinABoundOfWhatIsNoNumber) {
   Shadow s(5, 22);
   member<2, std::array<double, kCapacity>>(*s.fit)[1] = kNan;
