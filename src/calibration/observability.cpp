@@ -54,13 +54,15 @@ double take_out(std::array<double, kCapacity>& v, const std::array<double, kCapa
   return square;
 }
 
-bool normalise(std::array<double, kCapacity>& v, int n) noexcept {
+double squared_length(const std::array<double, kCapacity>& v, int n) noexcept {
   double square = 0.0;
   for (int k = 0; k < n; ++k) square += v[at(k)] * v[at(k)];
-  if (!(square > 1e-18)) return false;
+  return square;
+}
+
+void normalise(std::array<double, kCapacity>& v, int n, double square) noexcept {
   const double scale = 1.0 / std::sqrt(square);
   for (int k = 0; k < n; ++k) v[at(k)] *= scale;
-  return true;
 }
 
 /// Two directions across u.
@@ -90,7 +92,9 @@ Across across_of(const Datasheet& datasheet, const SeenAttitude& attitude) noexc
       const Vec3& h = datasheet.sensor[at(out.sensor[at(k)])].row.axis;
       v[at(k)] = c < 2 ? out.root_weight[at(k)] * dot(h, tangent[at(c)]) : (k == c - 2 ? 1.0 : 0.0);
     }
-    if (!normalise(v, n)) return Across{};
+    const double square = squared_length(v, n);
+    if (!(square > 1e-18) || !std::isfinite(square)) return Across{};  // samples of no weight, or beyond all numbers
+    normalise(v, n, square);
     double left = 1.0;
     for (int pass = 0; pass < 2; ++pass) {
       for (int b = 0; b < size; ++b) left = take_out(v, basis[at(b)], n);
@@ -99,7 +103,7 @@ Across across_of(const Datasheet& datasheet, const SeenAttitude& attitude) noexc
       if (c < 2) return Across{};  // the sensors see one tangent only: no direction
       continue;
     }
-    if (!normalise(v, n)) continue;
+    normalise(v, n, squared_length(v, n));
     basis[at(size++)] = v;
   }
   out.rows = size - 2;

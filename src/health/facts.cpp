@@ -86,8 +86,10 @@ void HealthMonitor::name_causes(SensorSet named, Cause cause) noexcept {
     const auto a = static_cast<size_t>(i);
     if (named.has(i)) {
       // The fact says more than "a fault was isolated".
-      const Cause fact = stuck_.has(i) ? Cause::stuck : full_scale_.has(i) ? Cause::clipped : cause;
-      sensor_cause_[a] = cause == Cause::isolated_fault && noisy_.has(i) && fact == cause ? Cause::noisy : fact;
+      sensor_cause_[a] = stuck_.has(i)                                     ? Cause::stuck
+                         : full_scale_.has(i)                              ? Cause::clipped
+                         : cause == Cause::isolated_fault && noisy_.has(i) ? Cause::noisy
+                                                                           : cause;
     }
     if (in_service_.has(i)) {
       sensor_cause_[a] = noisy_.has(i)        ? Cause::noisy

@@ -227,15 +227,18 @@ TEST(ExtremeNumbers, AScaleWithoutAMeanOverTheSpanIsRefused) {
 }
 
 TEST(ExtremeNumbers, AScaleOfZeroHasNoTemperatureTermsToCarryOver) {
-  const Problem p = sound();
+  Problem p = sound();
   Calibration c;
   c.model = p.sheet.model();
+  p.sheet.sensor[3].coefficients.scale[0] = 0.0;
+  c.model.sensor[3].scale[1] = 7.0;
   c.model.sensor[1].scale[0] = 0.0;
   c.model.sensor[1].scale[1] = 7.0;
   c.model.sensor[2].scale[1] = 7.0;
   const Datasheet out = plumb::with_temperature_of(p.sheet, c);
   EXPECT_EQ(out.sensor[1].coefficients.scale[1], p.sheet.sensor[1].coefficients.scale[1]);
   EXPECT_EQ(out.sensor[2].coefficients.scale[1], 7.0);
+  EXPECT_EQ(out.sensor[3].coefficients.scale[1], p.sheet.sensor[3].coefficients.scale[1]);
 }
 
 /// A channel that says nothing and of which nothing is known beforehand: its row shrinks to nothing.
@@ -249,6 +252,13 @@ TEST(ExtremeNumbers, ARowThatVanishesIsRefused) {
     p.sheet.sensor[3].prior = {open, open, open, {}, {}};
     for (Station& s : p.stations) s.mean[3] = 0.0;
     EXPECT_FALSE(plumb::calibrate(p.sheet, p.gravity, p.stations.data(), p.count(), p.options).has_value()) << open;
+    Problem warm = sound(true);
+    plumb::Prior& prior = warm.sheet.sensor[3].prior;
+    prior.scale = prior.axis_rad = prior.bias_mps2 = open;
+    for (Station& s : warm.stations) s.mean[3] = 0.0;
+    plumb::TemperatureOptions options = options_of(1);
+    options.fit.estimate_misfit = options.fit.reject_outliers = false;
+    EXPECT_FALSE(fit_of(warm.sheet, warm.stations, options).made.has_value()) << open;
   }
 }
 

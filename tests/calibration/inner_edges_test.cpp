@@ -125,6 +125,46 @@ TEST(InnerEdge, InformationBelowZeroHasNoInverse) {
   EXPECT_FALSE(analysed(information_of(1e6, -5.0, 0.0), 1e-4, report));
 }
 
+/// Neither that of a fit, nor that of bias and scale alone.
+// Negative: REQ-034
+TEST(InnerEdge, InformationThatIsNoNumberHasNoRank) {
+  FitReport report;
+  Information m = information_of(1e6, 0.0, 0.0);
+  m[at(5 * kSize + 2)] = kNan;
+  EXPECT_FALSE(analysed(m, 1e-4, report));
+  fit::Blocks blocks{};
+  EXPECT_EQ(fit::rank_of_held(triad(), blocks.data(), 1e-4), 0);
+  blocks[at(2 * fit::kMomentCount - 1)] = kNan;
+  EXPECT_EQ(fit::rank_of_held(triad(), blocks.data(), 1e-4), -1);
+}
+
+/// A bias that is no number is named, and not the one that is merely far off.
+// Negative: REQ-034
+TEST(InnerEdge, AValueThatIsNoNumberIsWorseThanAnyOther) {
+  Scene s;
+  s.theta[at(4 * 1 + 3)] = kNan;
+  s.theta[at(4 * 2 + 3)] = 1e3 * s.options.max_bias_sigmas;
+  SensorSet suspects;
+  const Error worst = fit::implausible(s.sheet, {}, s.options, s.theta, suspects);
+  EXPECT_EQ(worst.code, Errc::implausible);
+  EXPECT_EQ(worst.index, 1);
+  EXPECT_TRUE(std::isnan(worst.value));
+}
+
+/// A length that is a number, and in units of its noise none.
+// Negative: REQ-034
+TEST(InnerEdge, AResidualBeyondAllNumbersIsNotUsed) {
+  Scene s;
+  for (int i = 0; i < 3; ++i) s.sheet.sensor[at(i)].row.sigma_mps2 = 1e-3;
+  const fit::Problem problem = s.problem();
+  fit::StationSolver solver(problem, s.theta, 0.0);
+  EXPECT_EQ(solver.solve(s.stations[0]), fit::Loaded::used);
+  Station far = s.stations[0];
+  far.mean[0] = 1e153;
+  EXPECT_EQ(solver.read(far), fit::Loaded::used);
+  EXPECT_EQ(solver.solve(far), fit::Loaded::not_finite);
+}
+
 TEST(InnerEdge, SumsWithoutAStationAreNothing) {
   fit::Harmonics harmonics;
   const fit::FitTally empty;

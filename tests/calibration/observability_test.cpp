@@ -120,6 +120,21 @@ TEST(StationPlanner, BeatsAsManyRandomStations) {
   EXPECT_GT(planned, 2.0 * random);
 }
 
+/// So few samples that they weigh nothing, and so many that no number holds what they would tell.
+TEST(StationPlanner, SamplesOfNoWeightAndBeyondAllNumbersTellNothing) {
+  plumb::Datasheet d = paper_tool(kSigma);
+  for (int i = 0; i < d.size; ++i) d.sensor[at(i)].prior.bias_mps2 = 50.0;
+  const auto planner = std::make_unique<plumb::StationPlanner>(d, plumb::kG0_mps2);
+  const auto with = [](double samples) {
+    return plumb::SeenAttitude{{0.0, 0.0, 1.0}, plumb::SensorSet::first(4), samples};
+  };
+  EXPECT_FALSE(planner->add(with(1e-30)));
+  EXPECT_GT(planner->best(100.0).gain, 0.0);
+  for (const double samples : {1e302, 1e305}) EXPECT_EQ(planner->best(samples).gain, 0.0) << samples;
+  EXPECT_FALSE(planner->add(with(1e305)));
+  EXPECT_TRUE(planner->add(with(100.0)));
+}
+
 /// Stations that do not suffice: one circle, two circles, a plane, a few, or all alike.
 std::vector<Vec3> poor_set(int kind, Noise& noise) {
   std::vector<Vec3> out;

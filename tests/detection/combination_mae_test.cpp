@@ -172,6 +172,25 @@ RC_GTEST_PROP(CombinationMaeLaw, TriplesSideBySideGiveTheBitsOfOneAlone, ()) {
   }
 }
 
+/// Four triples, of which fewer are left than are taken side by side.
+// Verifies: REQ-051
+TEST(CombinationMae, FewerTriplesThanLanesAreLeftAsTheyAre) {
+  const SensorArray array = plumb_test::tetrahedron();
+  Readings y{};
+  std::array<std::int32_t, kTripleCapacity> slots{};
+  std::array<std::int64_t, kTripleCapacity> sums{};
+  slots.fill(5);
+  sums.fill(5);
+  EXPECT_EQ(replace_twos(array, y.data(), kG0_mps2, slots.data(), sums.data(), 4, 3), 3);
+#if PLUMB_WIDE_LANES
+  if (most_lanes() >= Lanes::four) {
+    EXPECT_EQ(replace_fours(array, y.data(), kG0_mps2, slots.data(), sums.data(), 4, 1), 1);
+  }
+#endif
+  for (const std::int32_t slot : slots) EXPECT_EQ(slot, 5);
+  for (const std::int64_t sum : sums) EXPECT_EQ(sum, 5);
+}
+
 // Verifies: REQ-051
 TEST(CombinationMae, ATripleWithAMissingMemberUsesItsOwnCount) {
   const SensorArray array = plumb_test::tetrahedron();

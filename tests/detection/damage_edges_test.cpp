@@ -111,6 +111,25 @@ TEST(DamageEdge, AWindowWhoseIndicesWouldLeadOutOfItDoesNotFit) {
   EXPECT_FALSE(damaged->fits(4, 60000));
 }
 
+/// The readings are moved by as many places as sensors are missing: of an array that says that it has fewer than none,
+/// or more than fit, none is moved, and each triple is taken alone.
+// Negative: REQ-166
+TEST(DamageEdge, AnArrayOfAnImpossibleSizeMovesNoReading) {
+  const SensorArray array = plumb_test::tetrahedron(kSigma);
+  const Readings y = block_at(array, plumb_test::direction_at(40, 70)).mean_mps2;
+  const auto sound = std::make_unique<CombinationMae>();
+  sound->configure(4, 8);
+  sound->add(array, y, array.all(), nullptr, kG0_mps2);
+  for (const int size : {-1, kCapacity + 1}) {
+    SensorArray damaged = array;
+    member<4, int>(damaged) = size;
+    const auto mae = std::make_unique<CombinationMae>();
+    mae->configure(4, 8);
+    mae->add(damaged, y, array.all(), nullptr, kG0_mps2);
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(mae->triple_sum(k), sound->triple_sum(k)) << size << " " << k;
+  }
+}
+
 TEST(DamageEdge, AWindowIsNeverEmptyAndNeverTooLong) {
   const auto mae = std::make_unique<CombinationMae>();
   mae->configure(4, 0);

@@ -98,6 +98,17 @@ TEST(RecalibrationEdge, AnOfferIsNotTakenUpInTheMiddleOfAFit) {
   EXPECT_FALSE(s.fit->resume({s.model, s.array, s.gravity, s.limits}));
 }
 
+TEST(RecalibrationEdge, NothingIsWithinABoundOfWhatIsNoNumber) {
+  Shadow s(5, 22);
+  member<2, std::array<double, kCapacity>>(*s.fit)[1] = kNan;
+  const SensorArray offered = s.array;
+  const auto made = s.fit->offer({s.model, s.array, s.gravity, s.limits}, s.model, offered, s.array.all(), 0.0);
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().code, Errc::implausible);
+  EXPECT_EQ(made.error().index, 1);
+  EXPECT_NE(made.error().value, made.error().value);
+}
+
 // Negative: REQ-163
 TEST(RecalibrationEdge, WithoutACalibrationThereIsNoOfferAndNoFitInFlight) {
   UncalibratedTool tool(4, 3);

@@ -170,6 +170,17 @@ TEST(SymmetricEigen, RefusesWhatIsNoMatrix) {
   EXPECT_FALSE(symmetric_eigen(p.a.data(), kLargest + 1, kLargest + 1, p.values.data(), p.vectors.data()));
 }
 
+TEST(SymmetricEigen, AnEntryBelowTheNormalNumbersTurnsNothing) {
+  Problem p(3, 0);
+  for (double& v : p.a) v = 0.0;
+  p.set(2, 2, 1.0);
+  p.set(0, 1, 1e-310);
+  ASSERT_TRUE(p.solve());
+  EXPECT_EQ(p.values, (std::vector<double>{0.0, 0.0, 1.0}));
+  EXPECT_EQ(p.vector(0, 0), 1.0);
+  EXPECT_EQ(p.vector(1, 0), 0.0);
+}
+
 RC_GTEST_PROP(SymmetricEigenLaw, DecomposesAnySymmetricMatrix, ()) {
   Problem p(*rc::gen::inRange(1, kLargest < 16 ? kLargest + 1 : 17), *rc::gen::inRange(0, 3));
   for (int i = 0; i < p.n; ++i) {
