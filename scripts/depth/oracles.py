@@ -23,7 +23,7 @@ TESTS = {"RC_PARAMS": "seed=20180227 max_success=100 noshrink=1", "PLUMB_LAW_CAS
 # What is asked: of the core's tests the rooms that know decisions, without those that measure rates of false alarms or
 # damage every bit (long, and not about decisions); the laws without the one that needs more cases.
 PROGRAMS = {
-    "core": "*:-FalseAlarm*:FittedFalseAlarm*:Threshold*:ForgedFields*:BitFlips*:Snapshot.EverySingle*:SnapshotLaw*:Rounding*",
+    "core": "*:-ExactSum*:FalseAlarm*:FittedFalseAlarm*:Threshold*:ForgedFields*:BitFlips*:Snapshot.EverySingle*:SnapshotLaw*:Rounding*",
     "law": "*:-Law.Five*",
 }
 QUICK_s = 0.02  # tests that take no longer are asked before all others
@@ -100,7 +100,6 @@ class Workshop:
         self.asked = ()      # (program, tests, stage), in order
         self.killers = {}    # which tests have killed mutants of a function: asked first
         self.same = {}       # verdicts by object
-        self.specified = table.specified(root)
 
     # --- building ----------------------------------------------------------------------------------------------------
     def compile(self, file, room, source=None, shadow=None):
@@ -111,8 +110,14 @@ class Workshop:
         systems = [w for i, w in enumerate(entry) if w == "-isystem" or entry[i - 1] == "-isystem"]
         out = room / f"{library_of(file)}.o"
         first = [f"-I{shadow}"] if shadow else []
-        quick = "-O0" if file.startswith("tests/") else "-O2"
-        command = [COMPILER, *first, *options, *systems, f"-I{(self.root / file).parent}", quick, "-fPIC", "-DNDEBUG", "-w",
+        speed = ["-O2"]
+        if file.startswith("tests/"):  # what they take longest to read is the headers of the test library
+            parsed = self.originals / "gtest.pch"
+            speed = ["-O1", "-include-pch", str(parsed)]
+            if not parsed.exists():
+                run([COMPILER, *options, *systems, "-O1", "-fPIC", "-DNDEBUG", "-w", "-x", "c++-header",
+                     "/usr/include/gtest/gtest.h", "-o", str(parsed)], {}, 300, room)
+        command = [COMPILER, *first, *options, *systems, f"-I{(self.root / file).parent}", *speed, "-fPIC", "-DNDEBUG", "-w",
                    "-c", str(source or self.root / file), "-o", str(out)]
         status, text = run(command, {}, 300, room)
         if status != 0:
@@ -157,7 +162,10 @@ class Workshop:
         for objects in self.objects.values():
             for path in objects:
                 digest.update(path.read_bytes())
-        for file in (*READERS, "model/specification.pml", "tests/mutation/print_table.cpp", *INDUCTION):
+        asserted = table.asserted(self.root)
+        (self.originals / "specification.cpp").write_text(asserted)
+        digest.update(asserted.encode())
+        for file in (*READERS, *INDUCTION):
             digest.update((self.root / file).read_bytes())
         digest.update(repr((PROGRAMS, TESTS)).encode())
         return digest.hexdigest()
@@ -272,16 +280,15 @@ class Workshop:
         return room / "include"
 
     def judge_cell(self, mutant, changed, room):
+        """By compilation alone: what the specification says of every cell is asserted at compile time."""
         shadow = self.shadow(mutant, changed, room)
-        program = room / "print_table"
-        command = [COMPILER, "-std=c++17", "-DPLUMB_CAPACITY=8", f"-I{shadow}", f"-I{self.root / 'include'}",
-                   str(self.root / "tests/mutation/print_table.cpp"), "-o", str(program)]
+        command = [COMPILER, "-std=c++17", "-DPLUMB_CAPACITY=8", f"-I{shadow}", f"-I{self.root / 'include'}", "-fsyntax-only",
+                   "-ferror-limit=0", "-w", str(self.originals / "specification.cpp")]
         status, text = run(command, {}, 120, room)
-        if status != 0:
-            if "static assertion failed" in text:
-                raise Killed("static_assert")
-            raise Stillborn(text[-2000:])
-        status, text = run([str(program)], {}, 20, room)
-        if status != 0 or table.printed(text) != self.specified:
-            raise Killed("specification")
         shutil.rmtree(room / "include")
+        if status == 0:
+            return
+        failed = re.findall(r"error: static assertion failed[^\n]*", text)
+        if any("specification" not in line for line in failed):
+            raise Killed("static_assert")
+        raise Killed("specification") if failed else Stillborn(text[-2000:])
