@@ -40,7 +40,7 @@ class Results:
         for text in path.read_text().splitlines() if path.exists() else []:
             record = json.loads(text)
             same, settled = record["tree"] == self.tree, record["verdict"] in ("killed", "equivalent", "stillborn")
-            if same or (settled and kept_over_changes):
+            if (settled and kept_over_changes) or (same and not kept_over_changes):
                 self.known[record["key"]] = record
             self.last[record["key"]] = record
         path.write_text("".join(json.dumps(record) + "\n" for record in self.last.values()))
@@ -122,6 +122,8 @@ def main():
     parser.add_argument("--again", action="store_true", help="after a change: keep what was killed, judge the survivors again")
     parser.add_argument("--fresh", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop then; the next call goes on")
+    parser.add_argument("--oracles", type=int, default=3, choices=(1, 2, 3),
+                        help="quick tests; and laws; and longer tests: --again then gives the survivors to all of them")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--build", default="build/mutants", help="whose objects are linked with")
     options = parser.parse_args()
@@ -131,7 +133,7 @@ def main():
     random.Random(options.seed).shuffle(chosen)
     if options.sample is not None:
         chosen = chosen[:options.sample]
-    workshop = oracles.Workshop(ROOT, ROOT / options.build)
+    workshop = oracles.Workshop(ROOT, ROOT / options.build, options.oracles)
     store = workshop.work / "results.jsonl"
     if options.fresh:
         store.unlink(missing_ok=True)
