@@ -27,7 +27,8 @@ PROGRAMS = {
             "ExactSum*",
     "law": "*:-Law.Five*",
 }
-QUICK_s = 0.02  # tests that take no longer are asked before all others
+QUICK_s = 0.02  # tests that take no longer are asked before all others, and so is the one that notices most
+NOTICES_MOST = "IsolationOracle."
 INDUCTION = ("tests/health/induction_test.cpp", "tests/health/transition_table_test.cpp")
 # The sources that have mutants, and the tests that compile a changed header themselves: each is a library of its own.
 APART = ("src/health/decision.cpp", "src/health/record.cpp", "src/detection/isolation.cpp",
@@ -180,7 +181,7 @@ class Workshop:
             for _, test, milliseconds in RESULT.findall(text):
                 self.seconds[test], self.program_of[test] = int(milliseconds) / 1000, program
         core = [t for t, program in self.program_of.items() if program == "core"]
-        quick = [t for t in core if self.seconds[t] <= QUICK_s]
+        quick = [t for t in core if self.seconds[t] <= QUICK_s or t.startswith(NOTICES_MOST)]
         law = [t for t in self.program_of if t not in core]
         self.asked = (("core", quick, "quick tests"), ("law", law, "laws"),
                       ("core", [t for t in core if t not in quick], "longer tests"))
@@ -207,7 +208,7 @@ class Workshop:
         def place(whole):
             return self.killers.setdefault((mutant.file, mutant.function.split(" (")[0] if whole else None), Counter())
         likely = [hint] + [t for t, _ in place(True).most_common(4)] + [t for t, _ in place(False).most_common(3)]
-        return [t for t in dict.fromkeys(likely) if t in self.seconds and (t == hint or self.seconds[t] < 0.2)]
+        return [t for t in dict.fromkeys(likely) if t in self.seconds and (t == hint or self.seconds[t] < 0.5)]
 
     def stages(self, mutant, room, hint):
         likely = self.known_killers(mutant, hint)

@@ -1,6 +1,6 @@
 // The isolation rule against a second one, written from the design's text over plain sets: every subset is asked, in no
-// order and without a short cut, and what died is kept in a std::set. Both answer the same evidence, episode by
-// episode.
+// order and without a short cut, and what died is kept in a std::set. Both answer the same evidence.
+// Serves: REQ-061, REQ-070, REQ-072, REQ-073, REQ-075, REQ-121
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,6 @@
 #include "plumb/detection/isolation.hpp"
 #include "support/simulated_tool.hpp"
 
-// Serves: REQ-061, REQ-070, REQ-072, REQ-073, REQ-075, REQ-121
 namespace isolation_oracle_test {
 namespace {
 
