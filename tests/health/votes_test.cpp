@@ -2,13 +2,16 @@
 // Serves: REQ-070, REQ-104
 #include <gtest/gtest.h>
 
-#include "support/simulated_tool.hpp"
+#include <cmath>
+
+#include "health/recalibration_support.hpp"
 
 namespace votes_test {
 namespace {
 
 using namespace plumb;
 using plumb_test::direction_at;
+using plumb_test::Noise;
 using plumb_test::Rig;
 
 /// The estimate with a faulty sensor in it is another direction, of the survivors it is not: between two votes of a
@@ -24,6 +27,56 @@ TEST(Votes, BetweenThemTheToolPointsWhereTheSurvivorsSay) {
       ASSERT_EQ(v.state, HealthState::suspect) << "block " << block;
     }
   }
+}
+
+/// Who scatters by itself for certain speaks against the others' faults where so many may be asserted that parity would
+/// tell: the answer does not wait for a calm block. Beyond that grade its scatter may be a push that liars hide.
+// Serves: REQ-073, REQ-143
+TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
+  if (kCapacity < 6) GTEST_SKIP() << "six sensors";
+  MonitorConfig config;
+  for (const int n : {5, 6}) {
+    for (const int asserted : {1, 2, 3}) {
+      config.asserted_faults = asserted;
+      Rig rig(plumb_test::cone_array(n), config);
+      rig.prove();
+      Noise noise(4);
+      rig.distort = [&](int i, double r, int) { return i == 1 ? r + 3.0 + 0.3 * noise.normal() : r; };
+      const Verdict& v = rig.stay(direction_at(55, 77));
+      const bool within = asserted <= parity_grade(rig.setup.array, rig.setup.array.all());
+      EXPECT_EQ(v.excluded, within ? SensorSet::of(1) : SensorSet{}) << asserted << " of " << n;
+    }
+  }
+}
+
+/// Losing a channel while suspect changes who is in service and not the state: what the host has asked for stands.
+// Serves: REQ-131
+TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
+  if (kCapacity < 6) GTEST_SKIP() << "six sensors";
+  plumb_test::Tool tool(6, {}, 3);
+  tool.rig.prove();
+  tool.bias.fill(2.5e-2);
+  for (int k = 0; k < 10 && tool.state() == HealthState::nominal; ++k) tool.visit(1);
+  ASSERT_EQ(tool.state(), HealthState::suspect);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::reference);
+  tool.fault = [](int i, double r, int) { return i == 5 ? std::nan("") : r; };
+  for (int k = 0; k < 200; ++k) {
+    HealthMonitor before = tool.rig.monitor;
+    const Sample sample = tool.rig.sample(direction_at(70, 70), kG0_mps2);
+    if (tool.rig.step(sample).absent.empty()) continue;
+    ASSERT_TRUE(before.request_recalibration().has_value());
+    const Verdict& lost = before.step(sample);
+    EXPECT_EQ(lost.absent, SensorSet::of(5));
+    EXPECT_EQ(lost.state, HealthState::suspect);
+    int samples = 0;
+    while (samples < 64 && before.verdict().state == HealthState::suspect) {
+      before.step(tool.rig.sample(direction_at(70, 70), kG0_mps2));
+      ++samples;
+    }
+    EXPECT_EQ(before.verdict().state, HealthState::recalibrating) << samples;
+    return;
+  }
+  FAIL() << "the channel was not missed";
 }
 
 }  // namespace
