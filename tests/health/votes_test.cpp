@@ -1,7 +1,7 @@
 // Where a vote says the tool points, block by block: a fault must not pass for a movement of the tool.
-// Serves: REQ-070, REQ-104
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "health/recalibration_support.hpp"
@@ -16,6 +16,7 @@ using plumb_test::Rig;
 
 /// The estimate with a faulty sensor in it is another direction, of the survivors it is not: between two votes of a
 /// station (blocks 1, 2, 4, 8, 16) nothing seems to have turned.
+// Negative: REQ-105
 TEST(Votes, BetweenThemTheToolPointsWhereTheSurvivorsSay) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -31,7 +32,7 @@ TEST(Votes, BetweenThemTheToolPointsWhereTheSurvivorsSay) {
 
 /// Who scatters by itself for certain speaks against the others' faults where so many may be asserted that parity would
 /// tell: the answer does not wait for a calm block. Beyond that grade its scatter may be a push that liars hide.
-// Serves: REQ-073, REQ-143
+// Verifies: REQ-073
 TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   MonitorConfig config;
@@ -49,8 +50,48 @@ TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
   }
 }
 
+/// Two convicted where one was asserted: the claim is used up, and the next alarm contradicts it.
+// Negative: REQ-073
+TEST(Votes, MoreConvictedThanAssertedLeaveNoneToAssert) {
+  if (kCapacity < 6) GTEST_SKIP() << "six sensors";
+  MonitorConfig config;
+  config.asserted_faults = 1;
+  Rig rig(plumb_test::cone_array(6), config);
+  rig.prove();
+  bool third = false;
+  rig.distort = [&third](int i, double r, int) {
+    const double fault[] = {0.0, 2.0, 0.0, 0.0, -1.4, third ? 0.5 : 0.0};
+    return r + fault[i];
+  };
+  Noise noise(8);
+  for (int k = 0; k < 10 && rig.monitor.verdict().excluded.empty(); ++k) rig.stay(plumb_test::random_direction(noise));
+  ASSERT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1).with(4));
+  third = true;
+  for (int k = 0; k < 3 && rig.records.back().event != HealthEvent::contradiction; ++k)
+    rig.stay(plumb_test::random_direction(noise));
+  EXPECT_EQ(rig.records.back().event, HealthEvent::contradiction);
+}
+
+/// Where parity has a grade, who scatters is set aside and comes back: no number of stations convicts it by its
+/// scatter.
+// Negative: REQ-143
+TEST(Votes, WhereParityHasAGradeScatterAloneConvictsNobody) {
+  MonitorConfig config;
+  config.isolation_stations = 1;
+  for (int n = 5; n <= std::min(7, kCapacity); ++n) {
+    Rig rig(plumb_test::cone_array(n), config);
+    rig.prove();
+    Noise noise(9), directions(4);
+    rig.distort = [&noise](int i, double r, int) { return i == 1 ? r + 0.02 * kG0_mps2 * noise.normal() : r; };
+    for (int k = 0; k < 20; ++k) rig.stay(plumb_test::random_direction(directions));
+    EXPECT_EQ(rig.ever_blamed, SensorSet::of(1));
+    EXPECT_EQ(rig.monitor.verdict().set_aside, SensorSet::of(1)) << n;
+    EXPECT_TRUE(rig.monitor.verdict().excluded.empty()) << n;
+  }
+}
+
 /// Losing a channel while suspect changes who is in service and not the state: what the host has asked for stands.
-// Serves: REQ-131
+// Verifies: REQ-101
 TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   plumb_test::Tool tool(6, {}, 3);
