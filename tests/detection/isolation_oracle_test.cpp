@@ -235,7 +235,7 @@ struct Episode {
   SensorSet faulty;
   std::array<double, kCapacity> fault{};
   double g_mps2 = kG0_mps2;
-  bool wild = false;
+  bool wild = false, exact = false;
 
   Episode(const SensorArray& of, std::uint64_t seed) : luck(seed), array(of) {
     const int faults = static_cast<int>(5 * luck.uniform());
@@ -250,6 +250,7 @@ struct Episode {
     if (gravity < 0.4) g_mps2 *= 1.0 + 0.01 * (luck.uniform() - 0.5);
     if (gravity < 0.05) g_mps2 = 0.0;
     wild = luck.uniform() < 0.2;
+    exact = luck.uniform() < 0.1;
   }
   SensorSet some(double share) {
     SensorSet out;
@@ -260,10 +261,15 @@ struct Episode {
     BlockEvidence block;
     block.usable = luck.uniform() < 0.8 ? array.all() : some(0.85);
     block.samples = luck.uniform() < 0.02 ? 0.0 : luck.uniform() < 0.5 ? 1.0 : 32.0;
-    const Vec3 u = plumb_test::random_direction(luck);
+    // Without noise, and pointing where a bias that all share pushes: it turns nothing.
+    Vec3 common{};
+    const LeastSquares map = least_squares(array, array.all());
+    for (int i = 0; i < array.size(); ++i) common = plus(common, map.column[static_cast<std::size_t>(i)]);
+    const bool pushed = exact && norm(common) > 0.1;
+    const Vec3 u = pushed ? scaled(common, 1.0 / norm(common)) : plumb_test::random_direction(luck);
     for (int i = 0; i < array.size(); ++i) {
       const auto a = static_cast<std::size_t>(i);
-      const double sigma = kSigma / std::sqrt(std::max(1.0, block.samples));
+      const double sigma = exact ? 0.0 : kSigma / std::sqrt(std::max(1.0, block.samples));
       const double turning = wild && faulty.has(i) ? 2.0 * luck.uniform() : 1.0;
       block.mean_mps2[a] = dot(array.axis(i), u) * g_mps2 + turning * fault[a] + sigma * luck.normal();
     }
@@ -354,6 +360,9 @@ TEST(IsolationOracle, AnswersAsASecondRuleDoesOverPlainSets) {
         array_of({{.004, -.863, .506}, {-.86, .011, .51}, {.013, .876, .483}, {.876, .006, .483}, {.002, .001, 1}}));
     arrays.push_back(array_of({{1, 0, 0}, {-.5, .87, 0}, {-.5, -.87, 0}, {.3, .95, .03}, {-.9, .4, .02}, {0, 0, 1}}));
     arrays.push_back(array_of({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}));
+    if (kCapacity >= 8)  // seventy voting sets: more than a word has bits
+      arrays.push_back(array_of(
+          {{1, 0, 0}, {0, 1, 0}, {.7, .7, 0}, {0, 0, 1}, {.6, .2, .7}, {-.5, .6, .6}, {.2, -.7, .6}, {-.6, -.4, .6}}));
     arrays.push_back(uneven(5));
     arrays.push_back(uneven(6));
   }
