@@ -90,6 +90,80 @@ TEST(Votes, WhereParityHasAGradeScatterAloneConvictsNobody) {
   }
 }
 
+/// Two come back: the second earns its return from the start once the first has it.
+// Negative: REQ-099
+TEST(Votes, TheSecondOfTwoOnProbationEarnsItsReturnAnew) {
+  if (kCapacity < 7) GTEST_SKIP() << "seven sensors";
+  Rig rig(plumb_test::cone_array(7));
+  rig.prove();
+  bool broken = true;
+  rig.distort = [&broken](int i, double r, int) { return broken && (i == 1 || i == 4) ? r + 0.5 + 0.3 * i : r; };
+  Noise noise(6);
+  rig.stay(plumb_test::random_direction(noise));
+  broken = false;
+  const SensorSet both = SensorSet::of(1).with(4), all = SensorSet::first(7);
+  ASSERT_EQ(all - rig.monitor.verdict().in_service, both);
+  int first = 0, second = 0;
+  for (int k = 1; k <= 60 && second == 0; ++k) {
+    const SensorSet out = all - rig.stay(plumb_test::random_direction(noise)).in_service;
+    if (first == 0 && out != both) first = k;
+    if (out.empty()) second = k;
+  }
+  EXPECT_GT(first, 0);
+  EXPECT_GE(second - first, rig.setup.config.probation_stations);
+}
+
+/// What agreed before a channel was lost answered another question.
+// Negative: REQ-071
+TEST(Votes, ALostChannelStartsTheAnswerAnew) {
+  if (kCapacity < 5) GTEST_SKIP() << "five sensors";
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Rig rig(plumb_test::cone_array(5), {}, seed);
+    rig.prove();
+    bool lost = false;
+    rig.distort = [&lost](int i, double r, int) { return i == 4 && lost ? std::nan("") : i == 2 ? r + 2.0 : r; };
+    Noise noise(seed);
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(rig.stay(plumb_test::random_direction(noise)).excluded.empty());
+    lost = true;
+    for (int k = 0; k < 3; ++k) EXPECT_FALSE(rig.stay(plumb_test::random_direction(noise)).excluded.has(2)) << k;
+    EXPECT_TRUE(rig.monitor.verdict().absent.has(4));
+  }
+}
+
+/// A fault while a fit is made: the record names the faulty one, not those whose fit is dropped.
+// Verifies: REQ-101
+TEST(Votes, TheRecordOfADroppedFitNamesTheFaultyOne) {
+  if (kCapacity < 6) GTEST_SKIP() << "six sensors";
+  plumb_test::Tool tool(6);
+  tool.begin();
+  tool.fault = [](int i, double r, int) { return i == 3 ? r + 1.0 : r; };
+  tool.rig.stay(direction_at(40, 120));
+  const TransitionRecord& record = tool.rig.records.back();
+  EXPECT_EQ(record.event, HealthEvent::set_aside);
+  EXPECT_EQ(record.sensors, SensorSet::of(3));
+  EXPECT_EQ(tool.rig.monitor.verdict().cause, record.cause);
+}
+
+/// The key forgets the episode: what was told of the tool before it was repaired.
+// Verifies: REQ-095
+TEST(Votes, TheKeyForgetsTheEpisode) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.7 : i == 1 ? r - 1.9 : r; };
+  Noise noise(3);
+  for (int k = 0; k < 40 && rig.monitor.verdict().state != HealthState::failed; ++k)
+    rig.stay(plumb_test::random_direction(noise));
+  ASSERT_EQ(rig.monitor.verdict().state, HealthState::failed);
+  ASSERT_GT(rig.monitor.verdict().stations_on_record, 0);
+  rig.distort = [](int, double r, int) { return r; };
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
+  const Verdict& v = rig.step(rig.sample(direction_at(50, 50), kG0_mps2));
+  EXPECT_EQ(v.state, HealthState::suspect);
+  EXPECT_EQ(v.stations_on_record, 0);
+  EXPECT_TRUE(v.suspects.empty());
+  EXPECT_EQ(rig.stay(direction_at(50, 50)).live_hypotheses, 4);
+}
+
 /// Losing a channel while suspect changes who is in service and not the state: what the host has asked for stands.
 // Verifies: REQ-101
 TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
@@ -108,6 +182,7 @@ TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
     ASSERT_TRUE(before.request_recalibration().has_value());
     const Verdict& lost = before.step(sample);
     EXPECT_EQ(lost.absent, SensorSet::of(5));
+    EXPECT_EQ(lost.cause, lost.transition.cause);
     EXPECT_EQ(lost.state, HealthState::suspect);
     int samples = 0;
     while (samples < 64 && before.verdict().state == HealthState::suspect) {
