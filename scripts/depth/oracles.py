@@ -18,7 +18,6 @@ from collections import Counter
 import table
 
 COMPILER = "clang++-19"
-CELLS = table.HEADER
 TESTS = {"RC_PARAMS": "seed=20180227 max_success=100 noshrink=1", "PLUMB_LAW_CASES": "200", "LLVM_PROFILE_FILE": "/dev/null"}
 # What is asked: of the core's tests the rooms that know decisions, without those that measure rates of false alarms or
 # damage every bit (long, and not about decisions); the laws without the one that needs more cases.
@@ -27,8 +26,8 @@ PROGRAMS = {
             "ExactSum*",
     "law": "*:-Law.Five*",
 }
-QUICK_s = 0.02  # tests that take no longer are asked before all others, and so is the one that notices most
-NOTICES_MOST = "IsolationOracle."
+QUICK_s = 0.02  # tests that take no longer are asked before all others, and so are those that notice most
+NOTICE_MOST = ("IsolationOracle.", "Induction.")
 INDUCTION = ("tests/health/induction_test.cpp", "tests/health/transition_table_test.cpp")
 # The sources that have mutants, and the tests that compile a changed header themselves: each is a library of its own.
 APART = ("src/health/decision.cpp", "src/health/record.cpp", "src/detection/isolation.cpp",
@@ -181,7 +180,7 @@ class Workshop:
             for _, test, milliseconds in RESULT.findall(text):
                 self.seconds[test], self.program_of[test] = int(milliseconds) / 1000, program
         core = [t for t, program in self.program_of.items() if program == "core"]
-        quick = [t for t in core if self.seconds[t] <= QUICK_s or t.startswith(NOTICES_MOST)]
+        quick = [t for t in core if self.seconds[t] <= QUICK_s or t.startswith(NOTICE_MOST)]
         law = [t for t in self.program_of if t not in core]
         self.asked = (("core", quick, "quick tests"), ("law", law, "laws"),
                       ("core", [t for t in core if t not in quick], "longer tests"))
