@@ -179,12 +179,19 @@ class Finder:
 
 
 def sources(root, arguments):
-    """The decision code and the isolation rule."""
+    """The decision code and the isolation rule: of `record.cpp` what turns answers at several attitudes into culprits."""
     header = ["-x", "c++", *arguments]
-    decided = {"bit", "first_taken", "mode_by_size", "resolve"}
+    sources = {
+        "src/health/decision.cpp": None,
+        "src/health/record.cpp": {"vote", "culprits", "witnesses"},
+        "src/detection/isolation.cpp": None,
+        "src/detection/reference_doubt.cpp": None,
+        "include/plumb/health/decision.hpp": {"decide"},
+        "include/plumb/health/transition_table.hpp": {"bit", "first_taken", "mode_by_size", "resolve"},
+        "include/plumb/detection/isolation.hpp": {"is_dead", "kill"},
+        "include/plumb/detection/reference_doubt.hpp": {"index_of", "refuted"},
+    }
     out = []
-    for file in ("src/health/decision.cpp", "src/detection/isolation.cpp", "src/detection/reference_doubt.cpp"):
-        out += Finder(root, file, arguments).all()
-    out += Finder(root, "include/plumb/health/decision.hpp", header, {"decide"}).all()
-    out += Finder(root, "include/plumb/health/transition_table.hpp", header, decided).all()
+    for file, functions in sources.items():
+        out += Finder(root, file, header if file.endswith(".hpp") else arguments, functions).all()
     return out

@@ -3,7 +3,6 @@
 Called by scripts/mutate, which builds what this links with.
 """
 import argparse
-import hashlib
 import json
 import os
 import pathlib
@@ -32,27 +31,22 @@ def everything():
     return [*mutants.sources(ROOT, arguments), *table.cells(ROOT)]
 
 
-def state_of_the_tree():
-    """A result counts for these sources and these tests."""
-    digest = hashlib.sha256()
-    for folder in ("src", "include", "tests/health", "tests/detection", "tests/laws", "tests/support", "model"):
-        for path in sorted((ROOT / folder).rglob("*")):
-            if path.suffix in (".cpp", ".hpp", ".pml"):
-                digest.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
-    return digest.hexdigest()
-
-
 class Results:
-    """What is known already; every new verdict is written down at once."""
+    """What is known already; every new verdict is written down at once. A verdict counts for the objects it was found with
+    (`tree`); after a change the test that killed a mutant is asked before all others, which is nearly always enough."""
 
-    def __init__(self, path, kept_over_changes):
-        self.path, self.tree, self.known = path, state_of_the_tree(), {}
+    def __init__(self, path, tree, kept_over_changes):
+        self.path, self.tree, self.known, self.last = path, tree, {}, {}
         for text in path.read_text().splitlines() if path.exists() else []:
             record = json.loads(text)
             same, settled = record["tree"] == self.tree, record["verdict"] in ("killed", "equivalent", "stillborn")
             if (settled and kept_over_changes) or (same and not kept_over_changes):
                 self.known[record["key"]] = record
-        path.write_text("".join(json.dumps(record) + "\n" for record in self.known.values()))
+            self.last[record["key"]] = record
+        path.write_text("".join(json.dumps(record) + "\n" for record in self.last.values()))
+
+    def hint(self, mutant):
+        return self.last[mutant.key]["by"].rpartition(": ")[2] if mutant.key in self.last else None
 
     def note(self, mutant, verdict, by, seconds):
         record = {"key": mutant.key, "tree": self.tree, "file": mutant.file, "function": mutant.function,
@@ -74,7 +68,7 @@ def judge_all(todo, workshop, results, workers, deadline):
         name = free.get()
         begin = time.monotonic()
         try:
-            verdict, by = workshop.judge(mutant, name)
+            verdict, by = workshop.judge(mutant, name, results.hint(mutant))
         finally:
             free.put(name)
         results.note(mutant, verdict, by, time.monotonic() - begin)
@@ -128,8 +122,8 @@ def main():
     parser.add_argument("--again", action="store_true", help="after a change: keep what was killed, judge the survivors again")
     parser.add_argument("--fresh", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop then; the next call goes on")
-    parser.add_argument("--oracles", type=int, default=len(oracles.STAGES),
-                        help="only so many, the quickest; --again then gives the survivors to all of them")
+    parser.add_argument("--oracles", type=int, default=3, choices=(1, 2, 3),
+                        help="quick tests; and laws; and longer tests: --again then gives the survivors to all of them")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--build", default="build/mutants", help="whose objects are linked with")
     options = parser.parse_args()
@@ -139,16 +133,17 @@ def main():
     random.Random(options.seed).shuffle(chosen)
     if options.sample is not None:
         chosen = chosen[:options.sample]
-    workshop = oracles.Workshop(ROOT, ROOT / options.build, oracles.STAGES[:options.oracles])
+    workshop = oracles.Workshop(ROOT, ROOT / options.build, options.oracles)
     store = workshop.work / "results.jsonl"
     if options.fresh:
         store.unlink(missing_ok=True)
-    results = Results(store, options.again)
+    results = Results(store, workshop.prepare(), options.again)
     todo = [m for m in chosen if m.key not in results.known]
     print(f"{len(whole)} mutants, {len(chosen)} asked for, {len(todo)} to judge", flush=True)
     if any(workshop.needs_tests(m) for m in todo):
-        workshop.baseline(sorted({m.file for m in whole}))
-        print("without a mutant: " + ", ".join(f"{n} {s:.1f} s" for n, s in workshop.seconds.items()), flush=True)
+        workshop.baseline()
+        print("without a mutant: " + ", ".join(f"{len(tests)} {stage} {sum(map(workshop.seconds.get, tests)):.1f} s"
+                                               for _, tests, stage in workshop.asked), flush=True)
     if todo:
         judge_all(todo, workshop, results, options.jobs, time.monotonic() + 60 * options.minutes)
     left = [m for m in chosen if m.key not in results.known]

@@ -58,10 +58,17 @@ def specified(root):
     return table
 
 
-def printed(text):
-    """What tests/mutation/print_table.cpp prints."""
-    table = {}
-    for line in text.splitlines():
-        mode, event, kind, target, actions = line.split()
-        table[int(mode), int(event)] = (kind, int(target), int(actions))
-    return table
+ASSERTED = """#include "plumb/health/transition_table.hpp"
+using namespace plumb;
+constexpr bool is(int mode, int event, CellKind kind, int target, unsigned actions) {
+  const Cell& cell = cell_of(static_cast<Mode>(mode), static_cast<HealthEvent>(event));
+  return cell.kind == kind && static_cast<int>(cell.target) == target && cell.actions == actions;
+}
+"""
+
+
+def asserted(root):
+    """A source that compiles only where every cell of the table is as specified."""
+    return ASSERTED + "".join(
+        f'static_assert(is({mode}, {event}, CellKind::{kind.lower()}, {target}, {actions}), "specification");\n'
+        for (mode, event), (kind, target, actions) in sorted(specified(root).items()))

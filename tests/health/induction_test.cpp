@@ -428,5 +428,26 @@ TEST(Induction, EveryPairOfEventsIsTakenInRankOrder) {
   }
 }
 
+/// Patience that is used up stays so until somebody is convicted, the key turned or a fit adopted.
+// Verifies: REQ-098
+TEST(Induction, ExhaustedEndsByAConvictionTheKeyOrAFitAlone) {
+  for (int m = 0; m < kModeCount; ++m) {
+    for (int e = 0; e < kEventCount; ++e) {
+      for (const bool before : {false, true}) {
+        DecisionState state;
+        state.mode = static_cast<Mode>(m);
+        state.sensors.in_service = SensorSet::first(5);
+        state.exhausted = before;
+        DecisionInput input;
+        input.raised = bit(static_cast<HealthEvent>(e));
+        const Decision d = decide(kTransitionTable, state, input, [](SensorSet) { return SizeClass::reduced; });
+        const bool convicts = (d.actions & Action::exclude) != 0, turned = (d.actions & Action::rearm) != 0;
+        const bool adopts = (d.actions & Action::adopt_fit) != 0, sets = (d.actions & Action::exhausted) != 0;
+        EXPECT_EQ(state.exhausted, sets || (before && !convicts && !turned && !adopts)) << m << " " << e;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace induction_test

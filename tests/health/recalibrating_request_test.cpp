@@ -148,6 +148,10 @@ TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
                                      [](const TransitionRecord& r) { return r.event == HealthEvent::fit_rejected; });
   ASSERT_NE(rejected, tool.rig.records.end());
   EXPECT_EQ(rejected->to, HealthState::suspect) << "back to where it came from";
+  const Error refusal = tool.rig.monitor.verdict().recalibration.last_refusal;
+  EXPECT_EQ(rejected->statistic, refusal.value) << "the record says by how much the fit was refused";
+  EXPECT_EQ(rejected->limit, refusal.limit);
+  EXPECT_GT(refusal.value, 0.0);
   EXPECT_TRUE(tool.calibration_untouched());
 }
 

@@ -28,6 +28,16 @@ TEST(TransitionTable, EveryEventOfEveryModeIsWritten) {
   EXPECT_EQ(cells, 7 * 15);
 }
 
+// Negative: REQ-090
+TEST(TransitionTable, WhereNothingHappenedNothingIsDone) {
+  for (int m = 0; m < kModeCount; ++m) {
+    const Cell& cell = cell_of(static_cast<Mode>(m), HealthEvent::none);
+    EXPECT_EQ(cell.kind, CellKind::ignored) << m;
+    EXPECT_EQ(cell.target, Target::stay) << m;
+    EXPECT_EQ(cell.actions, Action::none) << m;
+  }
+}
+
 // Negative: REQ-095
 TEST(TransitionTable, FailedIsLeftByResetAlone) {
   TargetFacts best;

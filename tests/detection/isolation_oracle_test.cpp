@@ -1,0 +1,379 @@
+// The isolation rule against a second one, written from the design's text over plain sets: every subset is asked, in no
+// order and without a short cut, and what died is kept in a std::set. Both answer the same evidence.
+// Serves: REQ-061, REQ-070, REQ-072, REQ-073, REQ-075, REQ-121
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "plumb/detection/isolation.hpp"
+#include "support/simulated_tool.hpp"
+
+namespace isolation_oracle_test {
+namespace {
+
+using namespace plumb;
+using plumb_test::Noise;
+
+constexpr double kSigma = 2e-4 * kG0_mps2;
+
+std::vector<SensorSet> subsets(SensorSet of, int from, int to) {
+  std::vector<SensorSet> out;
+  for (std::uint32_t bits = 0; bits <= of.bits; ++bits) {
+    const SensorSet s(bits);
+    if (of.contains(s) && s.size() >= from && s.size() <= to) out.push_back(s);
+  }
+  return out;
+}
+
+/// The wrong gravities that explain what a set was off by at all stations so far.
+struct Claim {
+  float low = 0, high = 0;
+};
+
+/// The rule as the design has it, and what it remembers of an episode.
+struct Rule {
+  SensorSet posed;
+  int universe = 0, c = 2, size = 3;
+  std::set<std::uint32_t> dead;
+  std::map<std::uint32_t, Claim> claims;
+
+  int strict() const { return std::max(0, posed.size() - 1 - c); }
+  int parity() const { return std::max(0, posed.size() - 2 - c); }
+
+  void clear() {
+    dead.clear();
+    claims.clear();
+  }
+  void pose(const SensorArray& array, SensorSet set) {
+    const int now = coplanarity(array, set);
+    if (now + 1 != size || !posed.contains(set) || universe != array.size()) clear();
+    posed = set;
+    c = now;
+    size = c + 1;
+    universe = array.size();
+  }
+  int voting() const { return strict() < 1 ? 0 : static_cast<int>(subsets(posed, size, size).size()); }
+  bool died(SensorSet set) const {
+    if (strict() < 1) return false;
+    return std::any_of(dead.begin(), dead.end(), [&](std::uint32_t bits) { return set.contains(SensorSet(bits)); });
+  }
+  int live() const {
+    if (strict() < 1) return 0;
+    int count = 0;
+    for (const SensorSet s : subsets(posed, size, size)) count += dead.count(s.bits) == 0 ? 1 : 0;
+    return count;
+  }
+
+  struct Doubt {
+    std::vector<SensorSet> sets;
+    bool excuses(SensorSet set) const {
+      if (sets.size() > 64) return true;
+      return std::any_of(sets.begin(), sets.end(), [&](SensorSet s) { return s.contains(set); });
+    }
+  };
+  /// One set of four or more: may it doubt gravity, and does it?
+  void ask(const BlockTests& tests, SensorSet set, bool record, bool& agrees, Doubt& doubt) {
+    const TestLimits& limits = tests.limits();
+    const SetTest t = tests.of(set);
+    if (!t.tested || !t.parity_alive(limits)) return;
+    if (t.least_leverage < 0.002 && !tests.vouches_for_norm(set, t)) return;
+    const double limit = t.norm_reject_limit(limits);
+    const bool doubts = std::fabs(t.norm) > 0.5 * limit;
+    if (!doubts) agrees = true;
+    if (posed.size() - set.size() >= 2) {
+      const double margin = limit * (t.norm_sigma_mps2 / std::sqrt(tests.block().samples)) -
+                            TestLimits::gravity * tests.gravity().sigma_mps2;
+      const bool first = claims.count(set.bits) == 0;
+      if (record) {
+        Claim& claim = claims[set.bits];
+        const auto low = static_cast<float>(t.norm_error_mps2 - margin);
+        const auto high = static_cast<float>(t.norm_error_mps2 + margin);
+        claim.low = first ? low : std::max(claim.low, low);
+        claim.high = first ? high : std::min(claim.high, high);
+      }
+      const auto known = claims.find(set.bits);
+      if (known != claims.end() && known->second.low > known->second.high) return;
+    }
+    if (doubts) doubt.sets.push_back(set);
+  }
+  Doubt doubt(const BlockTests& tests, bool record) {
+    Doubt out;
+    const SensorSet there = posed & tests.block().usable;
+    const int smallest = std::max(c + 2, 4), deep = there.size() - 3;
+    bool agrees = false;
+    std::vector<int> sizes;
+    for (int k = there.size(); k >= std::max(smallest, deep); --k) sizes.push_back(k);
+    if (deep > smallest) sizes.push_back(smallest);
+    for (const int k : sizes) {
+      if (agrees) break;
+      for (const SensorSet s : subsets(there, k, k)) ask(tests, s, record, agrees, out);
+    }
+    return out;
+  }
+
+  SensorSet by_parity(const BlockTests& tests, SensorSet witnesses) const {
+    if (parity() < 1 || !tests.block().usable.contains(posed)) return {};
+    SensorSet cleared;
+    for (const SensorSet f : subsets(posed, 0, parity())) {
+      if (f.size() > 3 && f.size() != parity()) continue;
+      const SensorSet s = posed - f;
+      if (!witnesses.contains(s) || tests.of(s).parity_alive(tests.limits())) cleared = cleared | s;
+    }
+    const SensorSet convicted = posed - cleared;
+    if (convicted.empty() || convicted.size() > parity()) return {};
+    const SetTest rest = tests.of(posed - convicted);
+    return rest.tested && rest.parity_alive(tests.limits()) ? convicted : SensorSet{};
+  }
+
+  IsolationAnswer vote(const BlockTests& tests, SensorSet witnesses) {
+    const TestLimits& limits = tests.limits();
+    IsolationAnswer out;
+    out.voting = voting();
+    const Doubt doubted = doubt(tests, witnesses.contains(posed));
+    const auto alive = [&](SensorSet s) {
+      const SetTest t = tests.of(s);
+      return t.parity_alive(limits) && (t.alive(limits) || doubted.excuses(s));
+    };
+    out.norm_void = !doubted.sets.empty();
+    out.parity = by_parity(tests, witnesses);
+    out.full_alive = !died(posed) && alive(posed);
+    if (strict() < 1) return out;
+    SensorSet innocent;
+    for (const SensorSet s : subsets(posed, size, size)) {
+      if (dead.count(s.bits) != 0) continue;
+      if (witnesses.contains(s) && !alive(s)) {
+        dead.insert(s.bits);
+      } else {
+        innocent = innocent | s;
+      }
+    }
+    out.live = live();
+    out.contradiction = out.live == 0;
+    const SensorSet accused = posed - innocent, left = posed - accused;
+    if (!out.contradiction && !accused.empty() && accused.size() <= strict() && tests.of(left).tested && alive(left))
+      out.strict = accused;
+    return out;
+  }
+
+  /// Angle by which a bias that all of `set` share turns its estimate.
+  static double shared_turn(const SensorArray& array, SensorSet set, const SetTest& t, double bias) {
+    Vec3 moved{};
+    for (int i = 0; i < array.size(); ++i) {
+      if (set.has(i)) moved = plus(moved, scaled(estimate_column(array, t, i), bias));
+    }
+    const double length = norm(t.x_mps2);
+    if (bias <= 0.0 || length <= 0.0) return 0.0;
+    const double across = norm(cross(moved, scaled(t.x_mps2, 1.0 / length)));
+    return std::atan2(across, std::max(0.0, length - norm(moved)));
+  }
+
+  FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted,
+                    const ProtectionTerms& terms, SensorSet witnesses) {
+    const TestLimits& limits = tests.limits();
+    FaultSetScan out;
+    out.fewest_faults.fill(255);
+    const SensorSet there = posed & tests.block().usable, serves = in_service & tests.block().usable;
+    const SetTest used = tests.of(serves);
+    const Doubt doubted = doubt(tests, false);
+    const auto explains = [&](SensorSet rest) {
+      const SetTest t = tests.of(rest);
+      return t.tested && t.parity_alive(limits) && (t.alive(limits) || doubted.excuses(rest)) && !died(rest);
+    };
+    const auto level = [&](SensorSet rest) {
+      const SetTest t = tests.of(rest);
+      const double spread =
+          std::hypot(tilt_sigma_rad(t.x_mps2, t.covariance), calibration_tilt_sigma_rad(tests.array(), t, rest));
+      return angle_between_rad(t.x_mps2, used.x_mps2) + terms.k_integrity * spread +
+             shared_turn(tests.array(), rest, t, terms.common_drift_mps2);
+    };
+    bool bounded = true, any_bound = false, any_asserted = false;
+    SensorSet common = there;
+    for (const SensorSet f : subsets(there, 0, std::min(3, std::max(0, depth)))) {
+      const SensorSet rest = there - f;
+      const bool tested = tests.of(rest).tested, good = explains(rest);
+      if (f.size() <= asserted && (good || !tested || !witnesses.contains(rest))) {
+        any_asserted = true;
+        common = common & f;
+      }
+      if (!tested && f.size() <= terms.faults) bounded = false;
+      if (!good) continue;
+      for (int i = 0; i < universe; ++i) {
+        auto& fewest = out.fewest_faults[static_cast<std::size_t>(i)];
+        if (rest.has(i)) fewest = static_cast<std::uint8_t>(std::min<int>(fewest, f.size()));
+      }
+      if (f.size() < out.least) out.suspects = SensorSet{};
+      if (f.size() <= out.least) out.suspects = out.suspects | f;
+      out.least = std::min(out.least, f.size());
+      if (f.size() <= terms.faults && used.tested) {
+        any_bound = true;
+        out.protection_rad = std::max(out.protection_rad, level(rest));
+      }
+    }
+    const SensorSet left = there & in_service;
+    for (const SensorSet f : subsets(left != there ? left : SensorSet{}, 0, std::min(3, std::max(0, terms.faults)))) {
+      if (!tests.of(left - f).tested) bounded = false;
+      if (explains(left - f) && used.tested) out.protection_rad = std::max(out.protection_rad, level(left - f));
+    }
+    out.protection_available = bounded && any_bound && used.tested && used.parity_rows > 0 && terms.faults <= 3;
+    const SetTest rest = tests.of(there - common);
+    const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubted.excuses(there - common));
+    if (any_asserted && rest.tested && alive) out.asserted = common;
+    return out;
+  }
+};
+
+/// An episode: faults that stay, some of them in league or turning with the tool, a gravity that may be wrong.
+struct Episode {
+  Noise luck;
+  SensorArray array;
+  SensorSet faulty;
+  std::array<double, kCapacity> fault{};
+  double g_mps2 = kG0_mps2;
+  bool wild = false, exact = false;
+
+  Episode(const SensorArray& of, std::uint64_t seed) : luck(seed), array(of) {
+    const int faults = static_cast<int>(5 * luck.uniform());
+    for (int k = 0; k < faults; ++k) faulty = faulty.with(static_cast<int>(luck.uniform() * array.size()));
+    const Vec3 lie = scaled(plumb_test::random_direction(luck), std::pow(10.0, 3.0 * luck.uniform() - 2.5));
+    const bool league = luck.uniform() < 0.3;
+    for (int i = 0; i < array.size(); ++i) {
+      const double own = std::pow(10.0, 3.5 * luck.uniform() - 2.5) * (luck.uniform() < 0.5 ? -1 : 1);
+      if (faulty.has(i)) fault[static_cast<std::size_t>(i)] = league ? dot(array.axis(i), lie) : own;
+    }
+    const double gravity = luck.uniform();
+    if (gravity < 0.4) g_mps2 *= 1.0 + 0.01 * (luck.uniform() - 0.5);
+    if (gravity < 0.05) g_mps2 = 0.0;
+    wild = luck.uniform() < 0.2;
+    exact = luck.uniform() < 0.1;
+  }
+  SensorSet some(double share) {
+    SensorSet out;
+    for (int i = 0; i < array.size(); ++i) out = luck.uniform() < share ? out.with(i) : out;
+    return out;
+  }
+  BlockEvidence station() {
+    BlockEvidence block;
+    block.usable = luck.uniform() < 0.8 ? array.all() : some(0.85);
+    block.samples = luck.uniform() < 0.02 ? 0.0 : luck.uniform() < 0.5 ? 1.0 : 32.0;
+    // Without noise, and pointing where a bias that all share pushes: it turns nothing.
+    Vec3 common{};
+    const LeastSquares map = least_squares(array, array.all());
+    for (int i = 0; i < array.size(); ++i) common = plus(common, map.column[static_cast<std::size_t>(i)]);
+    const bool pushed = exact && norm(common) > 0.1;
+    const Vec3 u = pushed ? scaled(common, 1.0 / norm(common)) : plumb_test::random_direction(luck);
+    for (int i = 0; i < array.size(); ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      const double sigma = exact ? 0.0 : kSigma / std::sqrt(std::max(1.0, block.samples));
+      const double turning = wild && faulty.has(i) ? 2.0 * luck.uniform() : 1.0;
+      block.mean_mps2[a] = dot(array.axis(i), u) * g_mps2 + turning * fault[a] + sigma * luck.normal();
+    }
+    return block;
+  }
+};
+
+void expect_same(const FaultSetScan& code, const FaultSetScan& rule) {
+  EXPECT_EQ(code.fewest_faults, rule.fewest_faults);
+  EXPECT_EQ(code.suspects, rule.suspects);
+  EXPECT_EQ(code.asserted, rule.asserted);
+  EXPECT_EQ(code.least, rule.least);
+  EXPECT_EQ(code.protection_available, rule.protection_available);
+  EXPECT_NEAR(code.protection_rad, rule.protection_rad, 1e-7 + 1e-9 * rule.protection_rad);
+}
+
+void expect_same(const IsolationAnswer& code, const IsolationAnswer& rule) {
+  EXPECT_EQ(code.strict, rule.strict);
+  EXPECT_EQ(code.parity, rule.parity);
+  EXPECT_EQ(code.live, rule.live);
+  EXPECT_EQ(code.voting, rule.voting);
+  EXPECT_EQ(code.contradiction, rule.contradiction);
+  EXPECT_EQ(code.norm_void, rule.norm_void);
+  EXPECT_EQ(code.full_alive, rule.full_alive);
+}
+
+void play(const SensorArray& array, std::uint64_t seed, int stations) {
+  Episode episode(array, seed);
+  Noise& luck = episode.luck;
+  const TestLimits limits = TestLimits::from_rates(array.size(), 1e-5, 1e-6);
+  const GravityReference gravity{kG0_mps2, luck.uniform() < 0.5 ? 1e-3 : 1e-2, GravityModel::value};
+  Isolation code;
+  Rule rule;
+  SensorSet posed = luck.uniform() < 0.7 ? array.all() : episode.some(0.85);
+  code.pose(array, posed);
+  rule.pose(array, posed);
+  for (int k = 0; k < stations; ++k) {
+    const BlockEvidence block = episode.station();
+    const BlockTests tests(array, gravity, limits, block);
+    const SensorSet witnesses = luck.uniform() < 0.7 ? array.all() : episode.some(0.8);
+    if (luck.uniform() < 0.7) expect_same(code.vote(tests, witnesses), rule.vote(tests, witnesses));
+    EXPECT_EQ(code.live(), rule.live());
+    const int depth = static_cast<int>(6 * luck.uniform()) - 1, asserted = static_cast<int>(6 * luck.uniform()) - 1;
+    const ProtectionTerms terms{static_cast<int>(5 * luck.uniform()), 5.0 * luck.uniform(),
+                                luck.uniform() < 0.5 ? 0.0 : std::pow(10.0, 3.0 * luck.uniform() - 3.0)};
+    const SensorSet in_service = luck.uniform() < 0.5 ? posed : luck.uniform() < 0.5 ? array.all() : episode.some(0.8);
+    expect_same(code.scan(tests, in_service, depth, asserted, terms, witnesses),
+                rule.scan(tests, in_service, depth, asserted, terms, witnesses));
+    if (luck.uniform() < 0.1) {
+      posed = luck.uniform() < 0.7 ? posed.without(posed.lowest()) : array.all();
+      code.pose(array, posed);
+      rule.pose(array, posed);
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+SensorArray array_of(const std::vector<Vec3>& directions) {
+  AxisList axes{};
+  for (std::size_t i = 0; i < directions.size(); ++i) axes[i] = scaled(directions[i], 1.0 / norm(directions[i]));
+  return plumb_test::make_array(axes, static_cast<int>(directions.size()), kSigma);
+}
+
+/// One sensor is a hundred times as good as the others, and what calibration leaves is not.
+SensorArray uneven(int n) {
+  std::array<SensorRow, kCapacity> rows{};
+  AxisList axes{};
+  cone_with_axis(axes, n);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    rows[i].id = make_id(("a" + std::to_string(i)).c_str());
+    rows[i].axis = axes[i];
+    rows[i].sigma_mps2 = i == 2 ? 0.01 * kSigma : kSigma;
+  }
+  SensorArray array = *SensorArray::make(rows.data(), n);
+  RowUncertainty left;
+  for (std::size_t a = 0; a < 4 * static_cast<std::size_t>(n); ++a)
+    left.covariance[a * (a + 1) / 2 + a] = a % 4 == 3 ? 1e-6 : 1e-8;
+  array.set_uncertainty(left);
+  return array;
+}
+
+TEST(IsolationOracle, AnswersAsASecondRuleDoesOverPlainSets) {
+  std::vector<SensorArray> arrays = {array_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), plumb_test::tetrahedron(kSigma)};
+  for (int n = 5; n <= std::min(8, kCapacity); ++n) arrays.push_back(plumb_test::cone_array(n, kSigma));
+  if (kCapacity >= 6) {
+    // Members that nobody checks: three of five in a plane, or nearly; pairs of one axis.
+    arrays.push_back(
+        array_of({{.004, -.863, .506}, {-.86, .011, .51}, {.013, .876, .483}, {.876, .006, .483}, {.002, .001, 1}}));
+    arrays.push_back(array_of({{1, 0, 0}, {-.5, .87, 0}, {-.5, -.87, 0}, {.3, .95, .03}, {-.9, .4, .02}, {0, 0, 1}}));
+    arrays.push_back(array_of({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}));
+    if (kCapacity >= 8)  // seventy voting sets: more than a word has bits
+      arrays.push_back(array_of(
+          {{1, 0, 0}, {0, 1, 0}, {.7, .7, 0}, {0, 0, 1}, {.6, .2, .7}, {-.5, .6, .6}, {.2, -.7, .6}, {-.6, -.4, .6}}));
+    arrays.push_back(uneven(5));
+    arrays.push_back(uneven(6));
+  }
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    const int episodes = arrays[a].size() <= 5 ? 200 : 80;
+    for (int k = 0; k < episodes; ++k) {
+      play(arrays[a], 1000 * a + static_cast<std::uint64_t>(k), 8);
+      ASSERT_FALSE(testing::Test::HasFailure()) << "array " << a << ", episode " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace isolation_oracle_test
