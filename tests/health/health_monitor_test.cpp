@@ -224,6 +224,22 @@ TEST(HealthMonitor, WithoutAQuietBlockForTAgeNothingIsValid) {
   EXPECT_EQ(rig.monitor.verdict().validity, Validity::held);
 }
 
+/// Given up for its share and not for a silence: as soon as it speaks again it is back, though on trial.
+// Verifies: REQ-141
+TEST(HealthMonitor, AChannelGivenUpForItsGapsComesBack) {
+  Rig rig(plumb_test::cone_array(5));
+  rig.prove();
+  for (int k = 0; k < 4 * rig.setup.config.window; ++k) {
+    Sample s = rig.sample(direction_at(30, 60), kG0_mps2);
+    if (k % 3 != 0) s.delivered = s.delivered.without(1);
+    rig.step(s);
+  }
+  EXPECT_EQ(rig.monitor.verdict().absent, SensorSet::of(1));
+  const Verdict& v = rig.stay(direction_at(30, 60));
+  EXPECT_TRUE(v.absent.empty());
+  EXPECT_EQ(v.excluded, SensorSet::of(1));
+}
+
 // Verifies: REQ-064
 TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
   MonitorConfig config;
