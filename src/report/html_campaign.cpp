@@ -16,8 +16,26 @@ void rates_table(const Json& rates, Section& out) {
   for (const auto& [name, rate] : rates.items())
     rows.push_back({rate["words"].get<std::string>(), shown(rate["count"]), shown(rate["of"]),
                     shown(rate["low"], 100.0), shown(rate["high"], 100.0)});
-  out.table("All scenarios with faults", {"what became of them", "k", "of n", "from, %", "to, %"}, rows,
-            "A scenario may count in several rows. Every rate with its 95 % Clopper-Pearson interval.");
+  out.table("All scenarios of the fault campaign", {"what became of them", "k", "of n", "from, %", "to, %"}, rows,
+            "A scenario may count in several rows; those drawn without a fault count too. Every rate with its 95 % "
+            "Clopper-Pearson interval.");
+}
+
+/// The unit of the campaign's sizes, which is not the size that section 2 vouches for.
+std::string mdb_words(const Json& mdb_mps2) {
+  double least = 0.0, most = 0.0;
+  for (const Json& one : mdb_mps2) {
+    const double size = one.get<double>();
+    least = least == 0.0 || size < least ? size : least;
+    most = size > most ? size : most;
+  }
+  if (!(most > 0.0)) return "";
+  const std::string low = fmt::format("{:.3g}", 1e3 * g0_from_mps2(least));
+  const std::string high = fmt::format("{:.3g}", 1e3 * g0_from_mps2(most));
+  return fmt::format(
+      " One MDB of a campaign is what shows through the noise of one block alone, {} mg0 here: a unit of size. What "
+      "section 2 vouches for is larger, for it holds at every attitude with all that calibration may leave.",
+      low == high ? high : low + " to " + high);
 }
 
 void fault_table(const Json& faults, Section& out) {
@@ -43,9 +61,12 @@ void fault_table(const Json& faults, Section& out) {
       {"fault", "sensors", "detected", "isolated exactly", "healthy one excluded", "misleading",
        "tilt before alarm, deg", "tilt while usable, deg"},
       rows,
-      "k/n (95 % interval). Names as in plumb inject: stuck at a level, last value held, random, noise, missing, "
-      "drift, scale, "
-      "axis turned, spikes, bias in multiples of the minimal detectable one (MDB), ghost = a gravity that is turned.");
+      std::string(
+          "k/n (95 % interval). Names as in plumb inject: stuck at a level, last value held, random, noise, missing, "
+          "drift, scale, "
+          "axis turned, spikes, bias in multiples of the minimal detectable one (MDB), ghost = a gravity that is "
+          "turned.") +
+          mdb_words(faults["mdb_mps2"]));
   out.table("Times from the onset, s",
             {"fault", "sensors", "detected", "median", "95 %", "last", "isolated", "median", "95 %", "last"}, times, "",
             true);
@@ -246,9 +267,11 @@ void coverage_tables(const Json& coverage, Section& out) {
   for (const auto& [mode, events] : cells) missed.push_back({mode, events});
   out.table("States, in samples", {"state", "samples"}, states, "", true);
   out.table("Transitions that were taken", {"from", "to", "times"}, moves, "", true);
-  out.table("Cells that no replayed scenario reached", {"state", "events"}, missed,
-            "What the host asks for and fits do not occur in campaigns. The tests and the model reach these cells.",
-            true);
+  out.table(
+      "Cells in which no replayed scenario left a record", {"state", "events"}, missed,
+      "Cells that only count leave none, and what the host asks for and fits do not occur in campaigns. That tests "
+      "and model reach every cell is shown by their results, where they are given (--test-results, --assurance).",
+      true);
 }
 
 /// Proved, exhaustively checked and sampled are three different things, and stand in tables of their own.
@@ -282,7 +305,8 @@ void assurance_tables(const Json& given, Section& out) {
 
 Section machine_view(const Json& report) {
   const Json& machine = report["state_machine"];
-  Section out("machine", "5 State machine", "The one table that runs in the monitor, and where the campaigns went.");
+  Section out("machine", "5 State machine",
+              "The one table that runs in the monitor, and where some replayed scenarios went.");
   const Json& coverage = machine["coverage"];
   out.picture("States and transitions", {machine_svg(machine), ""},
               "The states of the monitor; thick lines are transitions that the replayed scenarios took, thin ones "
@@ -292,12 +316,15 @@ Section machine_view(const Json& report) {
   if (coverage.is_null()) {
     out.notice("No campaign was played, so nothing is known of coverage.", "open");
   } else {
-    out.text(fmt::format(
-        "The replayed scenarios, the first of each campaign, visited {} of {} states, took {} of {} transitions "
-        "between "
-        "them, and left a record in {} of {} cells of the table that do something.",
-        coverage["modes_visited"].dump(), coverage["modes"].dump(), coverage["moves"].size(),
-        coverage["moves_possible"].dump(), coverage["cells_recorded"].dump(), coverage["cells_taken"].dump()));
+    out.text(
+        fmt::format("{} scenarios were replayed for this, the first of each campaign, and not the campaigns as a "
+                    "whole. They visited "
+                    "{} of {} states, took {} of {} transitions between them, and left a record in {} of {} cells of "
+                    "the table that "
+                    "do something.",
+                    report["campaign"]["replayed"]["scenarios"].dump(), coverage["modes_visited"].dump(),
+                    coverage["modes"].dump(), coverage["moves"].size(), coverage["moves_possible"].dump(),
+                    coverage["cells_recorded"].dump(), coverage["cells_taken"].dump()));
     coverage_tables(coverage, out);
     for (const Json& cell : coverage["cells"])
       records[{cell["mode"], cell["event"]}] = cell["records"].get<std::uint64_t>();

@@ -140,6 +140,19 @@ TEST(VerificationVerdict, TheFirstPageAnswersTheFourQuestionsInWords) {
   EXPECT_TRUE(plumb_test::says(answer("How sure?")["label"], {"healthy sensor", "95 % confidence"}));
   EXPECT_TRUE(plumb_test::says(answer("What not to trust?")["label"],
                                {"more than 1 of 4", "three sensors", "same wrong gravity", "not calibrated"}));
+  const Json& isolated = paper_report()["campaign"]["faults"]["rates"]["isolated"];
+  EXPECT_EQ(answer("How often left out?")["value"], isolated["count"].dump() + " of " + isolated["of"].dump());
+  EXPECT_TRUE(plumb_test::says(answer("How often left out?")["label"], {"nobody left out"}));
+}
+
+// What no result was given of has not failed, and has not passed either.
+TEST(VerificationVerdict, RequirementsAreJudgedByResultsThatWereGiven) {
+  Json report = calibrated_report();
+  EXPECT_EQ(result_of(report::verdict_section(limits(""), report), "Requirements failed"), "not judged");
+  report["traceability"]["test_results"]["given"] = true;
+  EXPECT_EQ(result_of(report::verdict_section(limits(""), report), "Requirements failed"), "met");
+  report["traceability"]["counts"]["failed"] = 1;
+  EXPECT_EQ(result_of(report::verdict_section(limits(""), report), "Requirements failed"), "not met");
 }
 
 TEST(VerificationVerdict, EvidenceThatIsGivenIsJudged) {

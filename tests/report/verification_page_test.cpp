@@ -93,6 +93,16 @@ TEST(VerificationPage, SaysWhatWasNotGivenAndHowToGiveIt) {
   EXPECT_NE(html.find("There is no picture: it was not drawn"), std::string::npos);
 }
 
+/// A size of the campaign is no size that is vouched for, and a few replayed scenarios are no coverage.
+TEST(VerificationPage, SaysWhatItsSizesAndItsCoverageAreOf) {
+  const std::string html = report::verification_html(paper_report(), {});
+  const std::string replayed = paper_report()["campaign"]["replayed"]["scenarios"].dump();
+  EXPECT_TRUE(plumb_test::says(
+      html, {"One MDB of a campaign", "noise of one block alone", " mg0 here", "section 2 vouches for is larger",
+             replayed + " scenarios were replayed for this", "not the campaigns as a whole",
+             "Cells in which no replayed scenario left a record", "--test-results, --assurance"}));
+}
+
 TEST(VerificationPage, NamesCannotBreakOut) {
   Json report = paper_report();
   report["subject"]["name"] = "<script>alert(1)</script>";
