@@ -41,7 +41,7 @@ nav ol { max-width: 74rem; margin: 0 auto; padding: .5rem 1rem; display: flex; g
 .card { background: var(--card); border: 1px solid var(--line); border-radius: .5rem; padding: .9rem; }
 .notice { border-left: .45rem solid var(--soft); margin: .8rem 0; } #verdict > .notice { font-size: 1.25rem; font-weight: 600; max-width: none; }
 .notice.good { border-color: var(--good); } .notice.bad { border-color: var(--bad); } .notice.open { border-color: var(--open); }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(12rem, 1fr)); gap: .8rem; margin: 1rem 0; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(18rem, 100%), 1fr)); gap: .8rem; margin: 1rem 0; }
 .figures b { display: block; font-size: 1.5rem; line-height: 1.2; color: var(--accent); }
 .figures span { color: var(--soft); font-size: .9rem; }
 .wide { overflow-x: auto; }
