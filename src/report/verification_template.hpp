@@ -69,7 +69,7 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
   body { font-size: 9.5pt; } main { max-width: none; padding: 0; } nav ol { display: block; white-space: normal; padding: 0; }
   nav { position: static; border: 0; } nav a { text-decoration: none; } nav a::after { content: leader(".") target-counter(attr(href), page); }
   .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: .7mm .9mm; } td.long { min-width: 0; }
-  tr, figure, .card.figure, .notice { break-inside: avoid; } h2, h3, summary { break-after: avoid; } thead { display: table-header-group; }
+  tr, figure, .card.figure, .figures .card, .notice { break-inside: avoid; } h2, h3, summary { break-after: avoid; } thead { display: table-header-group; }
   section { break-before: page; border-top: 0; } #verdict { break-before: auto; } .card { padding: 1.5mm; } figure .wide svg { min-width: 0; max-width: 150mm; } pre { white-space: pre-wrap; }
   .folded { display: none; }
 }
