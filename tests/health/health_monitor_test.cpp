@@ -189,6 +189,45 @@ TEST(HealthMonitor, ARecoveredSensorReturnsOnlyByProbation) {
   EXPECT_EQ(rig.records.back().event, HealthEvent::probation_passed);
 }
 
+/// What the key brings back has its probation still before it.
+// Verifies: REQ-099
+TEST(HealthMonitor, TheKeyUsesUpNoProbation) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i <= 3 ? std::numeric_limits<double>::infinity() : r; };
+  rig.stay(direction_at(60, 10));
+  ASSERT_EQ(rig.monitor.verdict().state, HealthState::failed);
+  rig.distort = [](int, double r, int) { return r; };
+  rig.stay(direction_at(60, 10));
+  ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(6)).has_value());
+  ASSERT_EQ(rig.prove().state, HealthState::nominal);
+  rig.distort = [](int i, double r, int) { return i == 1 ? r + 0.4 : r; };
+  plumb_test::Noise noise(12);
+  for (int k = 0; k < 8; ++k) rig.stay(plumb_test::random_direction(noise));
+  ASSERT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1));
+  rig.distort = [](int, double r, int) { return r; };
+  for (int k = 0; k < 16; ++k) rig.stay(plumb_test::random_direction(noise));
+  EXPECT_TRUE(rig.monitor.verdict().excluded.empty());
+}
+
+/// A loss names who is lost now, and nobody who was lost before.
+// Verifies: REQ-141
+TEST(HealthMonitor, ALossNamesTheLostOneAlone) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.prove();
+  SensorSet silent;
+  for (const int lost : {4, 2}) {
+    silent = silent.with(lost);
+    for (int k = 0; k < 8; ++k) {
+      Sample s = rig.sample(direction_at(30, 60), kG0_mps2);
+      s.delivered = s.delivered - silent;
+      rig.step(s);
+    }
+    EXPECT_EQ(rig.monitor.verdict().absent, silent);
+    EXPECT_EQ(rig.records.back().sensors, SensorSet::of(lost));
+  }
+}
+
 // Verifies: REQ-146
 TEST(HealthMonitor, RefusedTimesChangeNothingButHoldTheOutput) {
   Rig rig(plumb_test::tetrahedron());
