@@ -33,6 +33,12 @@ plumb_compile_check(compile.config_works SOURCE include_config.cpp)
 plumb_compile_check(compile.fast_math_is_refused
   SOURCE include_config.cpp OPTIONS -ffast-math MUST_FAIL_WITH "plumb refuses -ffast-math")
 # Negative: REQ-164
+plumb_compile_check(compile.finite_math_is_refused
+  SOURCE include_config.cpp OPTIONS -ffinite-math-only MUST_FAIL_WITH "plumb refuses -ffast-math")
+# Negative: REQ-164
+plumb_compile_check(compile.older_language_is_refused
+  SOURCE include_config.cpp OPTIONS -std=c++14 MUST_FAIL_WITH "compile with -std=c\\+\\+17")
+# Negative: REQ-164
 plumb_compile_check(compile.capacity_of_5_is_refused
   SOURCE include_config.cpp DEFINES PLUMB_CAPACITY=5 MUST_FAIL_WITH "PLUMB_CAPACITY is 4, 8, 16 or 24")
 # A first calibration is a fit.

@@ -53,9 +53,11 @@ const char* plumb_error_remedy(std::int32_t code) noexcept {
   switch (code) {
     case PLUMB_NULL_POINTER: return "pass the argument that `index` counts from 0";
     case PLUMB_WRONG_STRUCT: return "call the ..._defaults function, or build against the header of the library";
-    case PLUMB_STORAGE_TOO_SMALL: return "ask plumb_monitor_size() and plumb_workspace_size()";
-    case PLUMB_STORAGE_MISALIGNED: return "ask plumb_monitor_align() and plumb_workspace_align()";
+    case PLUMB_STORAGE_TOO_SMALL:
+      return "give argument `index` the bytes that plumb_monitor_size() or _workspace_size() says";
+    case PLUMB_STORAGE_MISALIGNED: return "align argument `index` as plumb_monitor_align() or _workspace_align() says";
     case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init first";
+    case static_cast<std::int32_t>(Errc::buffer_too_small): return "give at least plumb_snapshot_size_max() bytes";
     default: break;
   }
   const bool known = code >= 0 && code <= static_cast<std::int32_t>(kLastErrc);
@@ -98,6 +100,7 @@ plumb_error plumb_monitor_init(void* storage, size_t storage_size, void* workspa
 plumb_error plumb_monitor_restore(void* storage, size_t storage_size, void* workspace, size_t workspace_size,
                                   const plumb_config* config, const std::uint8_t* snapshot, size_t snapshot_size,
                                   plumb_monitor** monitor) noexcept {
+  if (monitor == nullptr) return missing(7);
   const plumb_error e = plumb_monitor_init(storage, storage_size, workspace, workspace_size, config, monitor);
   if (e.code != PLUMB_OK) return e;
   if (snapshot == nullptr) return missing(5);

@@ -40,6 +40,7 @@ TEST(CMisuse, ANullPointerIsNamedByItsPlace) {
   expect_missing(plumb_monitor_init(storage, room, workspace, desk, &form.config, nullptr), 5);
   expect_missing(plumb_monitor_restore(storage, room, workspace, desk, &form.config, nullptr, 0, &m.monitor), 5);
   ASSERT_NE(m.monitor, nullptr) << "it runs without its history";
+  expect_missing(plumb_monitor_restore(storage, room, workspace, desk, &form.config, nullptr, 0, nullptr), 7);
   expect_missing(plumb_monitor_restore(storage, room, workspace, desk, nullptr, nullptr, 0, &m.monitor), 4);
   ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
   std::uint8_t byte = 0;
@@ -112,6 +113,19 @@ TEST(CMisuse, ASensorThatIsNotThereHasNoCalibration) {
     EXPECT_EQ(e.limit, 3.0);
   }
   EXPECT_EQ(plumb_monitor_calibration(m.monitor, 3, &sensor).code, PLUMB_OK);
+}
+
+TEST(CMisuse, ASnapshotWithoutRoomIsToldTheFunctionOfThisHeader) {
+  Life life(4, 12);
+  const CForm form(life.tool.rig.setup);
+  Memory m;
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  std::uint8_t byte = 0;
+  std::size_t written = 0;
+  const plumb_error e = plumb_monitor_snapshot(m.monitor, &byte, 1, &written);
+  EXPECT_EQ(e.code, static_cast<int>(Errc::buffer_too_small));
+  EXPECT_GT(e.limit, 1.0);
+  EXPECT_STREQ(plumb_error_remedy(e.code), "give at least plumb_snapshot_size_max() bytes");
 }
 
 TEST(CMisuse, ReadsAndAlarmFormReachTheMonitor) {

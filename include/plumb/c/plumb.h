@@ -29,9 +29,9 @@ extern "C" {
 /* 0 is success; the other codes and their figures are those of plumb/core/error.hpp, and these. */
 #define PLUMB_OK 0
 #define PLUMB_NULL_POINTER 1000       /* index = argument, from 0 */
-#define PLUMB_WRONG_STRUCT 1001       /* value = struct_size given, limit = that of the library's header */
-#define PLUMB_STORAGE_TOO_SMALL 1002  /* value = bytes given, limit = bytes needed */
-#define PLUMB_STORAGE_MISALIGNED 1003 /* limit = alignment needed */
+#define PLUMB_WRONG_STRUCT 1001       /* index = argument, or sensor; value = struct_size, limit = the library's */
+#define PLUMB_STORAGE_TOO_SMALL 1002  /* index = argument; value = bytes given, limit = bytes needed */
+#define PLUMB_STORAGE_MISALIGNED 1003 /* index = argument; limit = alignment needed */
 #define PLUMB_NOT_INITIALISED 1004    /* no monitor in this storage */
 
 typedef struct plumb_error {
@@ -41,7 +41,7 @@ typedef struct plumb_error {
   double limit;  /* what would have been allowed */
 } plumb_error;
 
-/* What is wrong, and how to mend it. Never null, for any number. */
+/* What is wrong, and how to mend it; `index`, `value` and `limit` say where. Never null, for any number. */
 const char* plumb_error_text(int32_t code) PLUMB_NOEXCEPT;
 const char* plumb_error_remedy(int32_t code) PLUMB_NOEXCEPT;
 
@@ -78,7 +78,8 @@ typedef struct plumb_config {
   double output_frame[9];   /* row-major */
   int32_t lever_arms_known; /* 0: evidence rests while the tool turns */
 
-  /* Settings of the monitor; `plumb_config_defaults` fills them in. Reasons: plumb/health/monitor_config.hpp. */
+  /* Settings of the monitor; `plumb_config_defaults` fills them in. Reasons, and the order in which an out_of_range
+   * counts them: plumb/health/monitor_config.hpp. */
   int32_t window;
   int32_t asserted_faults;
   int32_t isolation_stations, patience, clean_blocks, forget_blocks, probation_stations, missing_confirm;
@@ -161,7 +162,7 @@ typedef struct plumb_verdict {
   double mae_all_mps2, mae_worst_mps2, mae_worst_limit_mps2, parity, parity_limit, norm_error_mps2;
   double reference_mps2, reference_sigma_mps2, temperature_degc;
   double gravity_mps2[3], covariance[9], age_s, latest_mps2[3];
-  double protection_level_rad, toolface_protection_rad;
+  double protection_level_rad, toolface_protection_rad;   /* 0 and pi: no bound (`protection_available` 0) */
   double turn_along[3], turn_change_mps2, turn_angle_rad; /* of the rotation that is wanted */
   double drift_mps2_per_h[PLUMB_C_SENSORS];
 } plumb_verdict;

@@ -1,15 +1,15 @@
-/// Build-wide settings of plumb. Every public header of floors 1 to 4 includes this one.
-///
-/// The number of sensors that fit (the *capacity*) is part of every type: it selects an inline
-/// namespace, so that objects of two capacities can never be mixed: a mismatch fails to link. So is what a build
-/// leaves out to spare an instrument's memory, and single precision (docs/embedding.md).
+/// Build-wide settings of plumb. Every public header of floors 1 to 4 includes this one. The number of sensors that fit
+/// (the *capacity*) is part of every type: it selects an inline namespace, so that a mixture of two fails to link. So
+/// is what a build leaves out to spare an instrument's memory, and single precision (docs/embedding.md).
 #pragma once
 
 #ifndef PLUMB_CAPACITY
 #define PLUMB_CAPACITY 8
 #endif
 
-#if defined(__FAST_MATH__)
+#if defined(__cplusplus) && __cplusplus < 201703L
+#error "plumb is C++17: compile with -std=c++17 or later"
+#elif defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "plumb refuses -ffast-math: it removes the NaN checks that keep a broken channel out of a sum"
 #endif
 
