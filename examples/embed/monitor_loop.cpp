@@ -10,7 +10,7 @@
 namespace {
 
 constexpr double kSigma_mps2 = 0.002;  // noise of one sample, 1 sigma
-plumb::MonitorSetup setup;             // both are plain state, some ten kB: better static than on a small stack
+plumb::MonitorSetup setup;             // both are plain state, 10 and 33 kB: better static than on a small stack
 plumb::HealthMonitor monitor;
 std::array<std::uint8_t, plumb::HealthMonitor::snapshot_size_max()> bytes;  // yours, static
 
