@@ -17,11 +17,12 @@ option(PLUMB_INSTALL "Provide the install rules" ${PROJECT_IS_TOP_LEVEL})
 set(PLUMB_RC_PARAMS "seed=20180227 max_success=200" CACHE STRING "RC_PARAMS (RapidCheck) of every test run by ctest")
 
 if(PLUMB_BUILD_TOOL AND NOT PLUMB_BUILD_HOST)
-  message(FATAL_ERROR "PLUMB_BUILD_TOOL needs PLUMB_BUILD_HOST")
+  message(FATAL_ERROR "PLUMB_BUILD_TOOL needs PLUMB_BUILD_HOST: switch both off, -DPLUMB_BUILD_HOST=OFF -DPLUMB_BUILD_TOOL=OFF")
 endif()
 
 if(PLUMB_BUILD_HOST AND NOT (PLUMB_RECALIBRATION AND PLUMB_FIRST_CALIBRATION))
-  message(FATAL_ERROR "PLUMB_BUILD_HOST, PLUMB_BUILD_TOOL and the tests need PLUMB_RECALIBRATION and PLUMB_FIRST_CALIBRATION")
+  message(FATAL_ERROR "PLUMB_BUILD_HOST, PLUMB_BUILD_TOOL and the tests need PLUMB_RECALIBRATION and PLUMB_FIRST_CALIBRATION: switch "
+    "them off, -DPLUMB_BUILD_HOST=OFF -DPLUMB_BUILD_TOOL=OFF -DPLUMB_BUILD_TESTS=OFF")
 endif()
 
 if(NOT PLUMB_SCALAR MATCHES "^(double|float)$")
@@ -30,7 +31,7 @@ endif()
 
 if(PLUMB_BUILD_HOST AND NOT PLUMB_SCALAR STREQUAL "double")
   message(FATAL_ERROR "PLUMB_BUILD_HOST, PLUMB_BUILD_TOOL and the tests need PLUMB_SCALAR=double (24 sensors): switch them off, "
-    "the target plumb_4_float is there in either build")
+    "-DPLUMB_BUILD_HOST=OFF -DPLUMB_BUILD_TOOL=OFF -DPLUMB_BUILD_TESTS=OFF; the target plumb_4_float is there in either build")
 endif()
 
 if(PROJECT_IS_TOP_LEVEL)
