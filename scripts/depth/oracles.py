@@ -27,8 +27,9 @@ PROGRAMS = {
     "law": "*:-Law.Five*",
 }
 QUICK_s = 0.02  # tests that take no longer are asked before all others, and so are those that notice most
-NOTICE_MOST = ("IsolationOracle.", "Induction.")
-INDUCTION = ("tests/health/induction_test.cpp", "tests/health/transition_table_test.cpp")
+NOTICE_MOST = ("IsolationOracle.", "Induction.", "Decision.")
+INDUCTION = ("tests/health/induction_test.cpp", "tests/health/transition_table_test.cpp",
+             "tests/health/decision_test.cpp")
 # The sources that have mutants, and the tests that compile a changed header themselves: each is a library of its own.
 APART = ("src/health/decision.cpp", "src/health/record.cpp", "src/detection/isolation.cpp",
          "src/detection/reference_doubt.cpp", *INDUCTION)

@@ -92,6 +92,7 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState
   excluded_ = after.sensors.excluded;
   absent_ = after.sensors.absent;
   readmitted_ = after.sensors.readmitted;
+  base_ = after.base;
   if ((actions & Action::exclude) != 0) {
     if (asserted_left_ > 0) asserted_left_ -= named.size() < asserted_left_ ? named.size() : asserted_left_;
     forget_episode();
@@ -159,7 +160,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
                       : by_noise                        ? Cause::noisy
                                                         : cause_of(event, verdict_.cause);
   name_causes(named - in_service_, cause);
-  if (event != HealthEvent::alarm && event != HealthEvent::clean_block) verdict_.cause = cause;
+  verdict_.cause = cause;
   TransitionRecord& record = verdict_.transition;
   record.sequence = ++sequence_;
   record.time_s = time_s;

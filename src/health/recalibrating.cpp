@@ -71,7 +71,6 @@ EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
 SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
   if (!kRecalibrates) return {};
   if ((actions & Action::start_fit) != 0) {
-    base_ = mode_;
     recalibration_.start(in_service_);
     return in_service_;
   }

@@ -299,7 +299,9 @@ void expect_same(const IsolationAnswer& code, const IsolationAnswer& rule) {
 void play(const SensorArray& array, std::uint64_t seed, int stations) {
   Episode episode(array, seed);
   Noise& luck = episode.luck;
-  const TestLimits limits = TestLimits::from_rates(array.size(), 1e-5, 1e-6);
+  // At the second pair of rates noise alone lies about the limits: what one set allows its part does not.
+  const bool sharp = luck.uniform() < 0.7;
+  const TestLimits limits = TestLimits::from_rates(array.size(), sharp ? 1e-5 : 0.3, sharp ? 1e-6 : 0.2);
   const GravityReference gravity{kG0_mps2, luck.uniform() < 0.5 ? 1e-3 : 1e-2, GravityModel::value};
   Isolation code;
   Rule rule;
@@ -322,6 +324,10 @@ void play(const SensorArray& array, std::uint64_t seed, int stations) {
       posed = luck.uniform() < 0.7 ? posed.without(posed.lowest()) : array.all();
       code.pose(array, posed);
       rule.pose(array, posed);
+    }
+    if (luck.uniform() < 0.05) {  // the episode is over
+      code.clear();
+      rule.clear();
     }
     if (testing::Test::HasFailure()) return;
   }

@@ -137,6 +137,25 @@ TEST(Patience, RestsWhileOnlyTheReferenceIsInDoubt) {
   }
 }
 
+/// Where the error is bounded patience ends in a qualifier; clean stations take it back with the episode.
+// Verifies: REQ-098
+TEST(Patience, WhatIsExhaustedIsForgottenWithTheEpisode) {
+  if (kCapacity < 6) GTEST_SKIP() << "six sensors";
+  Held held(plumb_test::cone_array(6));
+  held.rig.prove();
+  const auto exhausted = [&held] { return (held.rig.monitor.verdict().qualifiers & Qualifier::exhausted) != 0; };
+  for (int round = 0; round < 2; ++round) {
+    int k = 0;
+    while (k < 24 && !exhausted()) held.stay(spiral(k++), kAlarm);
+    EXPECT_GE(k, held.rig.setup.config.patience) << round;
+    EXPECT_TRUE(exhausted()) << round;
+    EXPECT_EQ(held.rig.monitor.verdict().state, HealthState::suspect);
+    for (int clean = 0; clean < 8; ++clean) held.stay(spiral(k++), kClean);
+    EXPECT_FALSE(exhausted()) << round;
+    EXPECT_EQ(held.rig.monitor.verdict().state, HealthState::nominal);
+  }
+}
+
 // Verifies: REQ-106
 TEST(Patience, BlocksAtOneAttitudeCountWhereConfigured) {
   MonitorConfig config;

@@ -38,14 +38,16 @@ TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
   MonitorConfig config;
   for (const int n : {5, 6}) {
     for (const int asserted : {1, 2, 3}) {
-      config.asserted_faults = asserted;
-      Rig rig(plumb_test::cone_array(n), config);
-      rig.prove();
-      Noise noise(4);
-      rig.distort = [&](int i, double r, int) { return i == 1 ? r + 3.0 + 0.3 * noise.normal() : r; };
-      const Verdict& v = rig.stay(direction_at(55, 77));
-      const bool within = asserted <= parity_grade(rig.setup.array, rig.setup.array.all());
-      EXPECT_EQ(v.excluded, within ? SensorSet::of(1) : SensorSet{}) << asserted << " of " << n;
+      for (const int lies : {0, 1}) {
+        config.asserted_faults = asserted;
+        Rig rig(plumb_test::cone_array(n), config);
+        rig.prove();
+        Noise noise(4);
+        rig.distort = [&](int i, double r, int) { return i == lies ? r + 3.0 + 0.3 * noise.normal() : r; };
+        const Verdict& v = rig.stay(direction_at(55, 77));
+        const bool within = asserted <= parity_grade(rig.setup.array, rig.setup.array.all());
+        EXPECT_EQ(v.excluded, within ? SensorSet::of(lies) : SensorSet{}) << asserted << " of " << n;
+      }
     }
   }
 }
@@ -193,6 +195,148 @@ TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
     return;
   }
   FAIL() << "the channel was not missed";
+}
+
+/// A fault that comes and goes: a station is judged again up to its 16th block, and then no more.
+// Verifies: REQ-076
+TEST(Votes, AreTakenUpToTheSixteenthBlockOfAStation) {
+  MonitorConfig config;
+  config.isolation_stations = 2;
+  config.clean_blocks = config.forget_blocks = 20;
+  for (const int begins : {12, 17}) {
+    Rig rig(plumb_test::tetrahedron(), config);
+    for (int k = 0; k < 6; ++k) rig.prove();
+    bool faulty = true;
+    rig.distort = [&faulty](int i, double r, int) { return faulty && i == 3 ? r + 0.1 : r; };
+    rig.stay(direction_at(120, 90));
+    for (int block = 1; block <= 34; ++block) {
+      faulty = block >= begins;
+      const SensorSet expected = begins <= 16 && block >= 16 ? SensorSet::of(3) : SensorSet{};
+      ASSERT_EQ(rig.stay(direction_at(45, 200)).excluded, expected) << "block " << block << ", faulty as of " << begins;
+    }
+  }
+}
+
+/// Four survivors check one another: one station is enough where the host says so. Three do not: one may be a mirror.
+// Verifies: REQ-071
+TEST(Votes, OneStationIsEnoughWhereTheSurvivorsCheckOneAnother) {
+  MonitorConfig config;
+  config.isolation_stations = 1;
+  for (int n = 4; n <= std::min(6, kCapacity); ++n) {
+    Rig rig(n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n), config);
+    rig.prove();
+    rig.distort = [](int i, double r, int) { return i == 2 ? r + 2.0 : r; };
+    EXPECT_EQ(rig.stay(direction_at(33, 140)).excluded, n == 4 ? SensorSet{} : SensorSet::of(2)) << n;
+    EXPECT_EQ(rig.stay(direction_at(75, 260)).excluded, SensorSet::of(2)) << n;
+  }
+}
+
+/// What was seen once stays the answer; a station at which nothing is seen does not confirm it. One sensor out of
+/// service for good, which goes on lying, makes nothing visible.
+// Negative: REQ-071
+TEST(Votes, AStationWhereNothingIsSeenConfirmsNothing) {
+  MonitorConfig config;
+  config.clean_blocks = config.forget_blocks = 20;
+  for (const bool another : {false, true}) {
+    const int n = another ? 6 : 4;
+    if (n > kCapacity) continue;
+    Rig rig(another ? plumb_test::cone_array(6) : plumb_test::tetrahedron(), config);
+    for (int k = 0; k < 6; ++k) rig.prove();
+    bool lying = false, faulty = false;
+    rig.distort = [&](int i, double r, int) { return lying && i == 5 ? r + 3.0 : faulty && i == 1 ? r + 1.0 : r; };
+    Noise noise(11);
+    lying = another;
+    for (int k = 0; another && k < 10; ++k) rig.stay(plumb_test::random_direction(noise));
+    const SensorSet out = another ? SensorSet::of(5) : SensorSet{};
+    ASSERT_EQ(rig.monitor.verdict().excluded, out);
+    faulty = true;
+    for (int k = 0; k < 2; ++k) rig.stay(plumb_test::random_direction(noise));
+    faulty = false;
+    ASSERT_EQ(rig.monitor.verdict().excluded, out);
+    for (int k = 0; k < 8; ++k) ASSERT_EQ(rig.stay(plumb_test::random_direction(noise)).excluded, out) << k;
+    faulty = true;
+    for (int k = 0; k < 8; ++k) rig.stay(plumb_test::random_direction(noise));
+    EXPECT_TRUE(rig.monitor.verdict().excluded.has(1));
+  }
+}
+
+/// Parity alone sees what leaves the length of the estimate as it is: such a station confirms the answer like any
+/// other.
+// Verifies: REQ-071
+TEST(Votes, AFaultThatParityAloneSeesIsConfirmedByEveryStation) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const LeastSquares ls = least_squares(rig.setup.array, rig.setup.array.all());
+  const Vec3 moved = ls.column[1];
+  Vec3 across = cross(moved, direction_at(50, 70));
+  across = scaled(across, 1.0 / norm(across));
+  const Vec3 other = scaled(cross(moved, across), 1.0 / norm(moved));
+  rig.distort = [](int i, double r, int) { return i == 1 ? r + 0.05 : r; };
+  for (int station = 0; station < rig.setup.config.isolation_stations; ++station) {
+    EXPECT_TRUE(rig.monitor.verdict().excluded.empty()) << station;
+    const double turn = 0.4 + 0.9 * station;
+    rig.stay(plus(scaled(across, std::cos(turn)), scaled(other, std::sin(turn))));
+  }
+  EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1));
+}
+
+/// Who scatters is the answer only where the others agree with gravity: else it is not the only one.
+// Negative: REQ-143
+TEST(Votes, WhoScattersIsNotTheAnswerWhereTheOthersAreOff) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  Noise noise(9), directions(4);
+  rig.distort = [&noise](int i, double r, int) {
+    return i == 1 ? r + 0.02 * kG0_mps2 * noise.normal() : i == 2 ? r + 1.5 : r;
+  };
+  for (int k = 0; k < 10; ++k) {
+    rig.stay(plumb_test::random_direction(directions));
+    EXPECT_TRUE(rig.ever_blamed.empty()) << k;
+  }
+}
+
+/// An episode that clean stations end is forgotten with everything that was decided in it.
+// Negative: REQ-098
+TEST(Votes, AForgottenEpisodeLeavesNothingBehind) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.3 : r; };
+  rig.stay(direction_at(33, 140));
+  ASSERT_EQ(rig.monitor.verdict().stations_on_record, 1);
+  rig.distort = [](int, double r, int) { return r; };
+  Noise noise(21);
+  for (int k = 0; k < 12 && rig.monitor.verdict().stations_on_record > 0; ++k)
+    rig.stay(plumb_test::random_direction(noise));
+  const Verdict& v = rig.monitor.verdict();
+  EXPECT_EQ(v.stations_on_record, 0);
+  EXPECT_EQ(v.qualifiers & Qualifier::exhausted, 0);
+  EXPECT_EQ(v.state, HealthState::nominal);
+}
+
+/// One long station over which the tool creeps: what was answered in an episode is no answer in the next, though no
+/// vote comes in between.
+// Negative: REQ-071
+TEST(Votes, AForgottenContradictionIsNotToldAgain) {
+  MonitorConfig config;
+  config.station_angle_rad = 1.5;
+  config.clean_blocks = 2;
+  Rig rig(plumb_test::tetrahedron(), config);
+  rig.prove();
+  const auto at = [](int k) { return direction_at(60 + 0.5 * k, 200); };
+  bool two = true, one = false;
+  rig.distort = [&](int i, double r, int) {
+    return two && i == 0 ? r + 0.7 : two && i == 1 ? r - 1.9 : one && i == 3 ? r + 0.4 : r;
+  };
+  int k = 0;
+  while (k < 16) rig.stay(at(k++));
+  ASSERT_EQ(rig.records.back().event, HealthEvent::contradiction);
+  two = false;
+  while (k < 60) rig.stay(at(k++));
+  ASSERT_EQ(rig.monitor.verdict().stations_on_record, 0);
+  ASSERT_EQ(rig.monitor.verdict().state, HealthState::nominal);
+  one = true;
+  rig.stay(at(k));
+  EXPECT_EQ(rig.records.back().event, HealthEvent::alarm);
 }
 
 }  // namespace
