@@ -93,7 +93,7 @@ py::array_t<double> apply(const Calibration& calibration, const Log& log) {
 
 void bind_calibration(py::module_& module) {
   py::class_<Calibration>(module, "Calibration", "An accepted calibration: what every sensor really does.")
-      .def_static("read", &read, py::arg("array"), py::arg("path"),
+      .def_static("read", &read, array_argument(), py::arg("path"),
                   "Read a calibration file. Refuses one that was edited, or made for another array.")
       .def(
           "save",
@@ -142,7 +142,7 @@ void bind_calibration(py::module_& module) {
            "Accelerations along the sensor axes [m/s^2], positive down, (rows, n); NaN where a channel said nothing.");
 
   module.def(
-      "calibrate", &calibrate, py::arg("array"), py::arg("log"), py::arg("hold_out") = "",
+      "calibrate", &calibrate, array_argument(), py::arg("log"), py::arg("hold_out") = "",
       py::arg("temperature_order") = "auto", py::arg("keep_outliers") = false,
       "Estimate bias, scale and direction of every sensor from a log of quiet attitudes, as `plumb calibrate` does:\n"
       "it finds the still stretches by itself, or takes rows as stations where the array file says so. Raises Error\n"

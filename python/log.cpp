@@ -1,6 +1,9 @@
 // Logs: samples as numpy columns, from arrays, from a CSV file, or played from a scenario.
 #include <pybind11/stl.h>
 
+#include <cmath>
+#include <limits>
+
 #include "demo_files.hpp"
 #include "module.hpp"
 #include "plumb/io/log_reader.hpp"
@@ -138,6 +141,21 @@ Log::View::Column<T> Log::View::column(const py::object& from, const char* name,
   return out;
 }
 
+Log::View::Column<std::uint32_t> Log::View::whole_numbers(const py::object& from, const char* name) const {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  if (!from.is_none() && !py::isinstance<Tags>(from)) {
+    const Column<double> given = column<double>(from, name, 0);
+    for (py::ssize_t r = 0; r < rows_; ++r) {
+      const double value = given.at(r);
+      if (value >= 0.0 && value <= kMost && value == std::floor(value)) continue;
+      refuse(std::string(name) + ": row " + std::to_string(r) + " is " +
+                 py::str(py::float_(value)).cast<std::string>() + ", must be a whole number from 0 to 4294967295",
+             "give 0 where there is none");
+    }
+  }
+  return column<std::uint32_t>(from, name, 0);
+}
+
 Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
     : rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
       sensors_(array.array.size()),
@@ -145,9 +163,9 @@ Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
   raw_ = column<double>(log.raw, "raw", sensors_);
   time_ = column<double>(log.time_s, "time_s", 0);
   delivered_ = column<bool>(log.delivered, "delivered", sensors_);
-  station_ = column<std::uint32_t>(log.station, "station", 0);
-  count_ = column<std::uint32_t>(log.count, "count", 0);
-  roll_group_ = column<std::uint32_t>(log.roll_group, "roll_group", 0);
+  station_ = whole_numbers(log.station, "station");
+  count_ = whole_numbers(log.count, "count");
+  roll_group_ = whole_numbers(log.roll_group, "roll_group");
   if (py::isinstance<py::float_>(log.temperature_degc) || py::isinstance<py::int_>(log.temperature_degc)) {
     default_temperature_degc_ = log.temperature_degc.cast<double>();
   } else {
@@ -197,7 +215,7 @@ void bind_log(py::module_& module) {
       .def("__len__", &Log::rows)
       .def("__repr__", [](const Log& log) { return "<plumb.Log: " + std::to_string(log.rows()) + " rows>"; });
 
-  module.def("read_log", &read_log, py::arg("array"), py::arg("path"),
+  module.def("read_log", &read_log, array_argument(), py::arg("path"),
              "Read a CSV log as the array file says that it looks. Raises Error with the line and the column.");
   module.def(
       "simulate",

@@ -5,10 +5,12 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "monitor_pipeline.hpp"
@@ -28,6 +30,8 @@ T taken(plumb::io::FileExpected<T> result) {
   if (!result) throw Refused(result.error().text());
   return *std::move(result);
 }
+/// The argument that names an array file: None would be a null pointer.
+inline py::arg array_argument() { return std::move(py::arg("array").none(false)); }
 
 using Doubles = py::array_t<double, py::array::forcecast>;
 using Flags = py::array_t<bool, py::array::forcecast>;
@@ -58,12 +62,22 @@ class Log::View {
     py::array kept;
     const char* data = nullptr;
     py::ssize_t stride = 0, across = 0;
-    const T& at(py::ssize_t row, py::ssize_t column = 0) const {
-      return *reinterpret_cast<const T*>(data + row * stride + column * across);
+    /// By bytes: a field of a packed record is not aligned, and a byte that numpy looks at as bool may be any.
+    T at(py::ssize_t row, py::ssize_t column = 0) const {
+      const char* const from = data + row * stride + column * across;
+      if constexpr (std::is_same_v<T, bool>) {
+        return *from != 0;
+      } else {
+        T value;
+        std::memcpy(&value, from, sizeof value);
+        return value;
+      }
     }
   };
   template <class T>
   Column<T> column(const py::object& from, const char* name, int width) const;
+  /// Tags and counts: a cast alone would make a station of -1 or of NaN.
+  Column<std::uint32_t> whole_numbers(const py::object& from, const char* name) const;
 
   py::ssize_t rows_ = 0;
   int sensors_ = 0;

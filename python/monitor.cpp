@@ -1,6 +1,7 @@
 // The monitor: a log in, one row of figures per sample out, as a structured numpy array.
 #include <pybind11/stl.h>
 
+#include <atomic>
 #include <cstring>
 
 #include "module.hpp"
@@ -64,31 +65,43 @@ Row row_of(const plumb::Verdict& v, const plumb::Mat3& frame) {
   return row;
 }
 
+/// Of that array: else its axes and coefficients are those of other sensors, which may even be as many.
+const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Calibration& calibration) {
+  if (calibration.array->fingerprint != array.fingerprint)
+    refuse("the calibration was made for another array (\"" + calibration.array->name + "\", this one is \"" +
+               array.name + "\")",
+           "give the array that was calibrated, or calibrate this one");
+  return &*calibration.fit;
+}
+
 class Monitor {
  public:
   Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot)
       : array_(std::move(array)),
-        monitor_(taken(snapshot ? plumb::cli::restore_monitor(*array_, &*calibration.fit, *snapshot, "snapshot")
-                                : plumb::cli::make_monitor(*array_, &*calibration.fit))) {}
+        monitor_(taken(snapshot
+                           ? plumb::cli::restore_monitor(*array_, made_for(*array_, calibration), *snapshot, "snapshot")
+                           : plumb::cli::make_monitor(*array_, made_for(*array_, calibration)))) {}
 
   py::array_t<Row> run(const Log& log) {
     const Log::View view(log, *array_);
     py::array_t<Row> out(view.rows());
     Row* to = out.mutable_data();
+    plumb::HealthMonitor& monitor = idle();
+    const Running running(running_);
     const py::gil_scoped_release others_may_run;
-    for (py::ssize_t r = 0; r < view.rows(); ++r) *to++ = row_of(monitor_->step(view.at(r)), array_->output_frame);
+    for (py::ssize_t r = 0; r < view.rows(); ++r) *to++ = row_of(monitor.step(view.at(r)), array_->output_frame);
     return out;
   }
 
   py::bytes snapshot() const {
-    std::string bytes(monitor_->snapshot_size(), '\0');
+    std::string bytes(idle().snapshot_size(), '\0');
     const auto size = monitor_->snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
     if (!size) throw Refused(plumb::io::from_error(size.error()).text());
     return py::bytes(bytes);
   }
 
   std::string verdict_json() const {
-    return plumb::io::verdict_json(monitor_->verdict(), monitor_->array(), array_->output_frame);
+    return plumb::io::verdict_json(idle().verdict(), monitor_->array(), array_->output_frame);
   }
 
   void done(const plumb::Expected<void>& result) const {
@@ -96,9 +109,23 @@ class Monitor {
   }
 
   const Array& array() const { return array_; }
-  plumb::HealthMonitor& monitor() { return *monitor_; }
+  /// The monitor, while no other thread is in `run`, which lets them all go on. Asked with the interpreter's lock held.
+  plumb::HealthMonitor& idle() const {
+    if (running_)
+      refuse("the monitor runs in another thread", "wait until run returns, or give each thread a monitor of its own");
+    return *monitor_;
+  }
 
  private:
+  struct Running {
+    explicit Running(std::atomic<bool>& flag) : on(flag) { on = true; }
+    ~Running() { on = false; }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    std::atomic<bool>& on;
+  };
+
+  std::atomic<bool> running_{false};
   Array array_;
   std::unique_ptr<plumb::HealthMonitor> monitor_;
 };
@@ -139,8 +166,8 @@ void bind_monitor(py::module_& module) {
   py::class_<Monitor>(
       module, "Monitor",
       "Watches an array. Feed it logs, whole or in parts; it goes on where it was. Starts as suspect: trust is\n"
-      "earned. snapshot: bytes of Monitor.snapshot, under the same array and calibration.")
-      .def(py::init<Array, const Calibration&, const std::optional<py::bytes>&>(), py::arg("array"),
+      "earned. snapshot: bytes of Monitor.snapshot, under the same array and calibration. For one thread at a time.")
+      .def(py::init<Array, const Calibration&, const std::optional<py::bytes>&>(), array_argument(),
            py::arg("calibration"), py::arg("snapshot") = py::none())
       .def("run", &Monitor::run, py::arg("log"),
            "Step all samples; returns a structured array (verdict_dtype), one row per sample. state, validity and "
@@ -154,22 +181,22 @@ void bind_monitor(py::module_& module) {
       .def(
           "reset",
           [](Monitor& m, std::uint64_t key, const std::vector<std::string>& sensors) {
-            m.done(m.monitor().reset(key, set_of(m.array(), sensors)));
+            m.done(m.idle().reset(key, set_of(m.array(), sensors)));
           },
           py::arg("key"), py::arg("sensors"), "Leave `failed` at the next sample, with these sensors.")
       .def(
-          "request_recalibration", [](Monitor& m) { m.done(m.monitor().request_recalibration()); },
+          "request_recalibration", [](Monitor& m) { m.done(m.idle().request_recalibration()); },
           "Ask for new biases and scales of the sensors in service.")
       .def(
           "set_gravity",
           [](Monitor& m, double g_mps2, double sigma_mps2) {
             const auto gravity = plumb::given_gravity(g_mps2, sigma_mps2);
             if (!gravity) throw Refused(plumb::io::from_error(gravity.error()).text());
-            m.done(m.monitor().set_gravity(*gravity));
+            m.done(m.idle().set_gravity(*gravity));
           },
           py::arg("g_mps2"), py::arg("sigma_mps2"), "Another length of gravity: the depth has changed.")
       .def(
-          "inhibit", [](Monitor& m, bool frozen) { m.monitor().inhibit(frozen); }, py::arg("frozen"),
+          "inhibit", [](Monitor& m, bool frozen) { m.idle().inhibit(frozen); }, py::arg("frozen"),
           "Freeze exclusion and recalibration, or let them go.");
 }
 

@@ -28,7 +28,8 @@ template <class SensorsStatusImu>
 void fill(SensorsStatusImu& out, const plumb::Verdict& v, const std::array<Instance, 4>& instances) {
   constexpr float kNoVector = std::numeric_limits<float>::infinity();
   const bool good = v.validity == plumb::Validity::valid || v.validity == plumb::Validity::degraded;
-  out.timestamp = v.time_s > 0.0 ? static_cast<std::uint64_t>(v.time_s * 1e6) : 0;
+  const bool has_time = v.time_s > 0.0 && v.time_s < 1e13;  // microseconds in 64 bits; a broken clock has none
+  out.timestamp = has_time ? static_cast<std::uint64_t>(v.time_s * 1e6) : 0;
   out.accel_device_id_primary = 0;
   std::uint8_t best = 0;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -27,16 +27,16 @@ inline bool believed(const plumb::Verdict& v, bool accept_degraded) {
   return good && finite && v.covariance[0] > 0.0;
 }
 
-/// Stamped with the block that gave the vector: publish where `verdict.tick` is set. Rates and their covariance are the
-/// gyro's: yours to fill in afterwards.
+/// Stamped with the block that gave the vector: publish where `verdict.tick` is set. Rates are yours to fill in.
 template <class Imu>
 void fill(Imu& out, const plumb::Verdict& v, const std::string& frame_id, bool accept_degraded = false) {
   const bool good = believed(v, accept_degraded);
-  const double stamp_s = std::isfinite(v.age_s) ? v.time_s - v.age_s : v.time_s;
+  double stamp_s = std::isfinite(v.age_s) ? v.time_s - v.age_s : v.time_s;
+  if (!(std::fabs(stamp_s) < 2147483647.0)) stamp_s = 0.0;  // of a broken clock; no cast says what becomes of it
   const double whole_s = std::floor(stamp_s);
   out.header.frame_id = frame_id;
   out.header.stamp.sec = static_cast<std::int32_t>(whole_s);
-  out.header.stamp.nanosec = static_cast<std::uint32_t>((stamp_s - whole_s) * 1e9);
+  out.header.stamp.nanosec = static_cast<std::uint32_t>(std::fmin((stamp_s - whole_s) * 1e9, 999999999.0));
   out.orientation_covariance[0] = -1.0;       // yaw does not show in gravity
   out.angular_velocity_covariance[0] = -1.0;  // no gyro here
   out.linear_acceleration.x = good ? -v.gravity_mps2[0] : 0.0;

@@ -134,7 +134,8 @@ bool RowUncertainty::is_covariance() const noexcept {
       if (!(square <= (1.0 + kRounding) * entry(a, a) * entry(b, b) + largest * floor)) return false;
     }
   }
-  return std::all_of(misfit_mps2.begin(), misfit_mps2.end(), [](double sigma) { return sigma >= 0.0; });
+  return std::all_of(misfit_mps2.begin(), misfit_mps2.end(),
+                     [](double sigma) { return sigma >= 0.0 && sigma * sigma <= kMostVariance; });
 }
 
 Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {

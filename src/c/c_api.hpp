@@ -46,6 +46,9 @@ plumb_error check_struct(const T* given, int argument) noexcept {
 /// header; the pointer counts as `argument`.
 plumb_error prepare(const plumb_config* given, Workspace& work, int argument) noexcept;
 
+/// What a monitor says before its first sample that knows of no sensors: suspect, invalid, alert.
+void no_verdict(plumb_verdict& out) noexcept;
+
 /// Copies a verdict out. Errors: null pointer, wrong struct, with `argument`.
 plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept;
 

@@ -138,6 +138,9 @@ plumb_error prepare(const plumb_config* given, Workspace& work, int argument) no
   if (config.sensors > kCapacity)
     return answer({Errc::too_many_sensors, -1, static_cast<double>(config.sensors), static_cast<double>(kCapacity)});
   if (config.sensor == nullptr) return missing(argument);
+  // Taken for one of the two, a third number could turn every vector round.
+  if (config.reads != 1 && config.reads != -1)
+    return answer({Errc::out_of_range, -1, static_cast<double>(config.reads), 1.0});
   e = take_sensors(config, work);
   if (e.code == PLUMB_OK) e = config.calibrated != 0 ? take_calibration(config, work) : take_datasheet(config, work);
   if (e.code != PLUMB_OK) return e;
@@ -219,8 +222,7 @@ plumb_error plumb_sample_defaults(plumb_sample* sample) noexcept {
 
 plumb_error plumb_verdict_defaults(plumb_verdict* verdict) noexcept {
   if (verdict == nullptr) return plumb::c_api::missing(0);
-  *verdict = plumb_verdict{};
-  verdict->struct_size = sizeof(plumb_verdict);
+  plumb::c_api::no_verdict(*verdict);
   return plumb::c_api::answer(PLUMB_OK);
 }
 

@@ -70,6 +70,15 @@ void write_figures(const Verdict& v, plumb_verdict& out) noexcept {
 
 }  // namespace
 
+void no_verdict(plumb_verdict& out) noexcept {
+  out = plumb_verdict{};
+  out.struct_size = sizeof(plumb_verdict);
+  out.state = out.transition.from = out.transition.to = PLUMB_SUSPECT;
+  out.transition.event = number(HealthEvent::none);
+  out.validity = PLUMB_INVALID;
+  out.alert = 1;
+}
+
 plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept {
   const plumb_error e = check_struct(to, argument);
   if (e.code != PLUMB_OK) return e;

@@ -14,13 +14,24 @@ using namespace plumb::c_api;
 /// Marks storage that holds a monitor: memory that was never initialised, or was cleared, is answered with an error.
 constexpr std::uint64_t kAlive = 0x706c756d622d6331ULL;
 
+std::uintptr_t address_of(const void* storage) noexcept { return reinterpret_cast<std::uintptr_t>(storage); }
+
 template <class T>
 plumb_error room_for(const void* storage, size_t size, int argument) noexcept {
   if (storage == nullptr) return missing(argument);
   if (size < sizeof(T)) return answer(PLUMB_STORAGE_TOO_SMALL, argument, static_cast<double>(size), sizeof(T));
-  if (reinterpret_cast<std::uintptr_t>(storage) % alignof(T) != 0)
-    return answer(PLUMB_STORAGE_MISALIGNED, argument, 0.0, alignof(T));
+  if (address_of(storage) % alignof(T) != 0) return answer(PLUMB_STORAGE_MISALIGNED, argument, 0.0, alignof(T));
   return answer(PLUMB_OK);
+}
+
+/// A workspace as `argument`, beside the monitor in `storage`: where both share a byte, setting up the one would write
+/// over the other unseen.
+plumb_error desk_for(const void* workspace, size_t size, int argument, const void* storage) noexcept {
+  const plumb_error e = room_for<Workspace>(workspace, size, argument);
+  if (e.code != PLUMB_OK) return e;
+  const std::uintptr_t desk = address_of(workspace), home = address_of(storage);
+  const bool apart = desk < home ? home - desk >= sizeof(Workspace) : desk - home >= sizeof(plumb_monitor);
+  return apart ? e : answer(PLUMB_STORAGE_OVERLAPS, argument);
 }
 
 static_assert(static_cast<int>(kLastErrc) < PLUMB_NULL_POINTER, "codes of the C header begin above those of plumb");
@@ -30,6 +41,17 @@ static_assert(std::is_trivially_destructible<plumb_monitor>::value, "storage may
 plumb_error check(const plumb_monitor* m) noexcept {
   if (m == nullptr) return missing(0);
   return m->alive == kAlive ? answer(PLUMB_OK) : answer(PLUMB_NOT_INITIALISED);
+}
+
+/// What stood in the verdict before is not the answer to this call, and must not be taken for it.
+plumb_error without_verdict(const plumb_error& e, plumb_verdict* verdict) noexcept {
+  if (verdict != nullptr && check_struct(verdict, 0).code == PLUMB_OK) no_verdict(*verdict);
+  return e;
+}
+
+/// As a number that an enumeration can hold: one that has no name where it is none.
+std::uint8_t number_of(std::int32_t given) noexcept {
+  return given >= 0 && given < 255 ? static_cast<std::uint8_t>(given) : std::uint8_t{255};
 }
 
 }  // namespace
@@ -43,6 +65,7 @@ const char* plumb_error_text(std::int32_t code) noexcept {
     case PLUMB_STORAGE_TOO_SMALL: return "the storage is too small";
     case PLUMB_STORAGE_MISALIGNED: return "the storage is not aligned";
     case PLUMB_NOT_INITIALISED: return "there is no monitor in this storage";
+    case PLUMB_STORAGE_OVERLAPS: return "the workspace and the storage of the monitor share memory";
     default: break;
   }
   const bool known = code >= 0 && code <= static_cast<std::int32_t>(kLastErrc);
@@ -58,17 +81,20 @@ const char* plumb_error_remedy(std::int32_t code) noexcept {
     case PLUMB_STORAGE_MISALIGNED: return "align argument `index` as plumb_monitor_align() or _workspace_align() says";
     case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init first";
     case static_cast<std::int32_t>(Errc::buffer_too_small): return "give at least plumb_snapshot_size_max() bytes";
+    case PLUMB_STORAGE_OVERLAPS: return "give each memory of its own; the workspace is free again after the call";
     default: break;
   }
   const bool known = code >= 0 && code <= static_cast<std::int32_t>(kLastErrc);
   return known ? remedy(static_cast<Errc>(code)) : "see plumb/c/plumb.h";
 }
 
-const char* plumb_state_text(std::int32_t state) noexcept { return to_string(static_cast<HealthState>(state & 0xff)); }
-const char* plumb_validity_text(std::int32_t validity) noexcept {
-  return to_string(static_cast<Validity>(validity & 0xff));
+const char* plumb_state_text(std::int32_t state) noexcept {
+  return to_string(static_cast<HealthState>(number_of(state)));
 }
-const char* plumb_cause_text(std::int32_t cause) noexcept { return to_string(static_cast<Cause>(cause & 0xff)); }
+const char* plumb_validity_text(std::int32_t validity) noexcept {
+  return to_string(static_cast<Validity>(number_of(validity)));
+}
+const char* plumb_cause_text(std::int32_t cause) noexcept { return to_string(static_cast<Cause>(number_of(cause))); }
 
 std::uint32_t plumb_c_version(void) noexcept { return PLUMB_C_VERSION; }
 std::uint32_t plumb_library_version(void) noexcept { return kLibraryVersion; }
@@ -84,7 +110,7 @@ plumb_error plumb_monitor_init(void* storage, size_t storage_size, void* workspa
   if (monitor == nullptr) return missing(5);
   *monitor = nullptr;
   plumb_error e = room_for<plumb_monitor>(storage, storage_size, 0);
-  if (e.code == PLUMB_OK) e = room_for<Workspace>(workspace, workspace_size, 2);
+  if (e.code == PLUMB_OK) e = desk_for(workspace, workspace_size, 2, storage);
   if (e.code != PLUMB_OK) return e;
   auto* work = new (workspace) Workspace;
   e = prepare(config, *work, 4);
@@ -122,9 +148,8 @@ plumb_error plumb_monitor_snapshot(const plumb_monitor* monitor, std::uint8_t* t
 
 plumb_error plumb_monitor_step(plumb_monitor* monitor, const plumb_sample* sample, plumb_verdict* verdict) noexcept {
   plumb_error e = check(monitor);
-  if (e.code != PLUMB_OK) return e;
-  e = check_struct(sample, 1);
-  if (e.code != PLUMB_OK) return e;
+  if (e.code == PLUMB_OK) e = check_struct(sample, 1);
+  if (e.code != PLUMB_OK) return without_verdict(e, verdict);
   Sample s;
   s.time_s = sample->time_s;
   std::copy(sample->raw, sample->raw + kCapacity, s.raw.begin());
@@ -138,7 +163,7 @@ plumb_error plumb_monitor_step(plumb_monitor* monitor, const plumb_sample* sampl
 
 plumb_error plumb_monitor_verdict(const plumb_monitor* monitor, plumb_verdict* verdict) noexcept {
   const plumb_error e = check(monitor);
-  return e.code != PLUMB_OK ? e : c_api::write(monitor->monitor.verdict(), verdict, 1);
+  return e.code != PLUMB_OK ? without_verdict(e, verdict) : c_api::write(monitor->monitor.verdict(), verdict, 1);
 }
 
 plumb_error plumb_monitor_reset(plumb_monitor* monitor, std::uint64_t key, std::uint32_t sensors) noexcept {
@@ -170,7 +195,7 @@ plumb_error plumb_monitor_request_recalibration(plumb_monitor* monitor) noexcept
 plumb_error plumb_monitor_offer(plumb_monitor* monitor, void* workspace, size_t workspace_size,
                                 const plumb_config* config) noexcept {
   plumb_error e = check(monitor);
-  if (e.code == PLUMB_OK) e = room_for<Workspace>(workspace, workspace_size, 1);
+  if (e.code == PLUMB_OK) e = desk_for(workspace, workspace_size, 1, monitor);
   if (e.code != PLUMB_OK) return e;
   auto* work = new (workspace) Workspace;
   e = prepare(config, *work, 3);

@@ -1,6 +1,7 @@
 #include "plumb/detection/mae_test.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -43,12 +44,15 @@ MaeLimit least_mae_limit(const SensorArray& array, const Triple& triple, const B
   const std::array<Vec3, 3> column = {cross(b, c), cross(c, a), cross(a, b)};
   Vec3 x{};
   for (std::size_t k = 0; k < 3; ++k) x = plus(x, scaled(column[k], block.mean_mps2[s[k]]));
+  const double length2 = dot(x, x);
+  // Three that all read zero point nowhere, and nothing is clean by them: the least limit that can be divided by.
+  if (!(length2 > 0.0)) return given_mae_limit(std::numeric_limits<double>::min());
   double square = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double share = dot(column[k], x) * array.sigma_mps2(s[k]);
     square += share * share;
   }
-  const double sigma = std::sqrt(square / dot(x, x)) / std::fabs(triple.det);
+  const double sigma = std::sqrt(square / length2) / std::fabs(triple.det);
   return noise_limit(sigma, block, window, quantile);
 }
 

@@ -145,6 +145,7 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
     return;
   }
   if (view.kind == Kind::soft || !raw.complete().contains(in_service_)) return;
+  if (!(norm(view.used.x_mps2) > 0.0)) return;  // all read zero: no attitude
   recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 

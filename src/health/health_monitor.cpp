@@ -199,12 +199,13 @@ EventMask HealthMonitor::allowed(EventMask raised) const noexcept {
   return inhibited_ ? raised & ~kFrozen : raised;
 }
 
-/// y = h.g is what the sensors feel of gravity; turning adds -h.(w x (w x r)).
-void HealthMonitor::take_rotation_off(Readings& y, SensorSet usable) const noexcept {
+/// y = h.g is what the sensors feel of gravity; turning adds -h.(w x (w x r)). A rate or an arm that the host got wrong
+/// may make of a reading what is no reading.
+void HealthMonitor::take_rotation_off(Readings& y, GateResult& gate) const noexcept {
   const Vec3& w = rotation_.rate_radps;
   for (int i = 0; i < array_.size(); ++i) {
     const auto a = static_cast<size_t>(i);
-    if (usable.has(i)) y[a] += dot(array_.axis(i), cross(w, cross(w, lever_arm_m_[a])));
+    if (gate.usable.has(i)) keep_reading(i, y[a] + dot(array_.axis(i), cross(w, cross(w, lever_arm_m_[a]))), y, gate);
   }
 }
 
@@ -262,7 +263,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   Readings y = readings_of(model_, coefficients_, sample, last_temperature_degc_, gate);
   if (rotation_.turning) {
     const bool modelled = rotation_.rate_known && lever_arms_known_;
-    if (modelled) take_rotation_off(y, gate.usable);
+    if (modelled) take_rotation_off(y, gate);
     const bool still = rotation_.rate_known && norm(rotation_.rate_radps) <= kStillRate_radps;
     rotation_locked_ = rotation_locked_ || (!modelled && !still);
   }

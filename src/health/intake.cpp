@@ -52,6 +52,20 @@ bool CoefficientsAt::hold(const SensorModel& model) const noexcept {
   return true;
 }
 
+void keep_reading(int i, double v, Readings& y, GateResult& gate) noexcept {
+  const auto a = static_cast<size_t>(i);
+  const double size = std::fabs(v);
+  if (size <= kReadingClamp_mps2) {  // a NaN is not
+    y[a] = v;
+  } else if (size <= std::numeric_limits<double>::max()) {
+    y[a] = std::copysign(kReadingClamp_mps2, v);
+  } else {
+    y[a] = 0.0;
+    gate.usable = gate.usable.without(i);
+    gate.not_finite = gate.not_finite.with(i);
+  }
+}
+
 Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sample& sample, double temperature_degc,
                      GateResult& gate) noexcept {
   kept.take(model, std::isfinite(sample.temperature_degc) ? sample.temperature_degc : temperature_degc);
@@ -67,15 +81,7 @@ Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sampl
       const double specific_force = kSingle ? sample.raw[a] * scale : sample.raw[a] / scale;
       v = sign * (specific_force - kept.bias_mps2(a));
     }
-    const double size = std::fabs(v);
-    if (size <= kReadingClamp_mps2) {  // a NaN is not
-      y[a] = v;
-    } else if (size <= std::numeric_limits<double>::max()) {
-      y[a] = std::copysign(kReadingClamp_mps2, v);
-    } else {
-      gate.usable = gate.usable.without(i);
-      gate.not_finite = gate.not_finite.with(i);
-    }
+    keep_reading(i, v, y, gate);
   }
   return y;
 }

@@ -20,7 +20,9 @@ constexpr int kLastVoteBlock = 16;
 }  // namespace
 
 void HealthMonitor::follow_station(const Sample& sample, const Vec3& direction) noexcept {
-  const bool turned = angle_between_rad(station_.direction, direction) > config_.station_angle_rad;
+  // A station of sensors that all read zero points nowhere: no angle to it would ever end it.
+  const bool nowhere = !(norm(station_.direction) > 0.0);
+  const bool turned = nowhere || angle_between_rad(station_.direction, direction) > config_.station_angle_rad;
   if (!station_.open || sample.station != station_.tag || turned) {
     station_.clear();
     station_.open = true;

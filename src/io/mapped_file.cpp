@@ -22,6 +22,9 @@ std::uint64_t size_of(const boost::interprocess::file_mapping& file) noexcept {
 }  // namespace
 
 bool MappedFile::open(const std::string& path) {
+  // Asked before it is opened: to open a pipe a second time would wait for another writer, and take its bytes.
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
   try {
     file_ = boost::interprocess::file_mapping(path.c_str(), boost::interprocess::read_only);
   } catch (const boost::interprocess::interprocess_exception&) {

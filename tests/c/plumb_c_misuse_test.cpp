@@ -2,7 +2,9 @@
 // argument.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -148,6 +150,96 @@ TEST(CMisuse, ReadsAndAlarmFormReachTheMonitor) {
   form.config.alarm_for_average_tool = 0;
   form.config.reads = -form.config.reads;
   EXPECT_NE(restored(), PLUMB_OK);
+}
+
+TEST(CMisuse, AMisfitThatLeavesNothingKnownIsRefused) {
+  Life life(4, 12);
+  CForm form(life.tool.rig.setup);
+  Memory m;
+  form.sensor[2].misfit_mps2 = 1e160;  // its square is no number
+  EXPECT_EQ(m.init(&form.config).code, static_cast<int>(Errc::implausible));
+  form.config.covariance = nullptr;
+  EXPECT_EQ(m.init(&form.config).code, static_cast<int>(Errc::implausible));
+}
+
+/// Neither a verdict that was never written nor one that a refused call left alone may pass for a valid one.
+TEST(CMisuse, WithoutAVerdictThereIsNoneThatLooksValid) {
+  Life life(4, 13);
+  const CForm form(life.tool.rig.setup);
+  Memory m;
+  plumb_verdict verdict;
+  plumb_verdict_defaults(&verdict);
+  EXPECT_EQ(verdict.struct_size, sizeof verdict);
+  EXPECT_EQ(c_test::difference(verdict, Verdict{}), "");
+  const plumb_verdict none = verdict;
+  const auto is_none = [&none](const plumb_verdict& v) { return std::memcmp(&v, &none, sizeof v) == 0; };
+  ASSERT_EQ(m.init(&form.config).code, PLUMB_OK);
+  plumb_sample sample = c_form(life.next({}));
+  ASSERT_EQ(plumb_monitor_step(m.monitor, &sample, &verdict).code, PLUMB_OK);
+  ASSERT_FALSE(is_none(verdict));
+  sample.struct_size = 0;
+  EXPECT_EQ(plumb_monitor_step(m.monitor, &sample, &verdict).code, PLUMB_WRONG_STRUCT);
+  EXPECT_TRUE(is_none(verdict));
+  ASSERT_EQ(plumb_monitor_verdict(m.monitor, &verdict).code, PLUMB_OK);
+  ASSERT_FALSE(is_none(verdict));
+  EXPECT_EQ(plumb_monitor_step(m.monitor, nullptr, &verdict).code, PLUMB_NULL_POINTER);
+  EXPECT_TRUE(is_none(verdict));
+  ASSERT_EQ(plumb_monitor_verdict(m.monitor, &verdict).code, PLUMB_OK);
+  std::fill(m.storage.begin(), m.storage.end(), 0U);  // a reset of the processor that cleared its memory
+  EXPECT_EQ(plumb_monitor_verdict(m.monitor, &verdict).code, PLUMB_NOT_INITIALISED);
+  EXPECT_TRUE(is_none(verdict));
+  verdict.struct_size = 8;  // then nobody knows how much room there is
+  EXPECT_EQ(plumb_monitor_verdict(m.monitor, &verdict).code, PLUMB_NOT_INITIALISED);
+  EXPECT_EQ(verdict.struct_size, 8U);
+}
+
+TEST(CMisuse, ReadsIsOneOfTwo) {
+  Life life(4, 14);
+  CForm form(life.tool.rig.setup);
+  Memory m;
+  for (const int reads : {0, 2, -2, 1 << 30}) {
+    form.config.reads = reads;
+    const plumb_error e = m.init(&form.config);
+    EXPECT_EQ(e.code, static_cast<int>(Errc::out_of_range));
+    EXPECT_EQ(e.value, reads);
+    EXPECT_EQ(m.monitor, nullptr);
+  }
+  for (const int reads : {1, -1}) {
+    form.config.reads = reads;
+    EXPECT_EQ(m.init(&form.config).code, PLUMB_OK);
+  }
+}
+
+TEST(CMisuse, AWorkspaceInTheStorageIsRefused) {
+  Life life(4, 15);
+  const CForm form(life.tool.rig.setup);
+  const std::size_t home = plumb_monitor_size(), desk = plumb_workspace_size();
+  std::vector<std::uint64_t> both((2 * home + 2 * desk) / 8 + 2);
+  auto* const bytes = reinterpret_cast<unsigned char*>(both.data());
+  plumb_monitor* monitor = nullptr;
+  const auto init = [&](std::size_t storage, std::size_t workspace) {
+    return plumb_monitor_init(bytes + storage, home, bytes + workspace, desk, &form.config, &monitor);
+  };
+  for (const plumb_error& e : {init(0, 0), init(0, home - 8), init(desk - 8, 0), init(8, 0), init(0, 8)}) {
+    EXPECT_EQ(e.code, PLUMB_STORAGE_OVERLAPS);
+    EXPECT_EQ(e.index, 2);
+  }
+  EXPECT_EQ(init(desk, 0).code, PLUMB_OK);
+  ASSERT_EQ(init(0, home).code, PLUMB_OK);
+  EXPECT_EQ(plumb_monitor_offer(monitor, bytes + 8, desk, &form.config).code, PLUMB_STORAGE_OVERLAPS);
+  plumb_verdict verdict;
+  plumb_verdict_defaults(&verdict);
+  EXPECT_EQ(plumb_monitor_verdict(monitor, &verdict).code, PLUMB_OK);
+  EXPECT_EQ(verdict.configured, 15U) << "untouched";
+}
+
+TEST(CMisuse, NumbersWithoutANameHaveNone) {
+  for (const int none : {-1, -256, 255, 256, 1 << 30}) {
+    EXPECT_STREQ(plumb_state_text(none), "?") << none;
+    EXPECT_STREQ(plumb_validity_text(none), "?") << none;
+    EXPECT_STREQ(plumb_cause_text(none), "?") << none;
+  }
+  EXPECT_STREQ(plumb_state_text(PLUMB_FAILED), "failed");
 }
 
 }  // namespace

@@ -87,5 +87,19 @@ RC_GTEST_PROP(BlockTestsLaw, TheLeastLimitOfATripleIsItsNoise, ()) {
   }
 }
 
+/// A dead bus reads zero on all lines: a limit is still a number, and nothing is within it.
+TEST(BlockTests, TheLeastLimitOfThreeThatReadZeroIsBelowEveryError) {
+  const SensorArray array = plumb::test::tetrahedron();
+  BlockEvidence block;
+  block.samples = 32.0;
+  block.usable = array.all();
+  for (int k = 0; k < array.triple_count(); ++k) {
+    const MaeLimit least = least_mae_limit(array, array.triple(k), block, 32, 2.0);
+    EXPECT_GT(least.limit_mps2(), 0.0);
+    EXPECT_LT(least.clear_mps2(1.0), 1e-300);
+    EXPECT_GT(least.ratio(kG0_mps2), 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace block_tests_test

@@ -1,6 +1,7 @@
 // The adapters to MAVLink, PX4 and F Prime: masks, signs, and what becomes of a vector that may not be used.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "navigation/fprime.hpp"
@@ -151,6 +152,19 @@ TEST(Px4SensorsStatusImu, withoutAVectorTheDistanceFailsEveryLimit) {
   sensors_status_imu_s out{};
   plumb_px4::fill(out, v, two_chips());
   EXPECT_GT(out.accel_inconsistency_m_s_s[1], 1e30F);  // NaN would pass as "not beyond the limit"
+}
+
+TEST(Px4SensorsStatusImu, aBrokenClockMakesNoTimestamp) {
+  plumb::Verdict v = of_two_chips();
+  sensors_status_imu_s out{};
+  for (const double time_s : {std::nan(""), std::numeric_limits<double>::infinity(), -1.0, 0.0, 1e14, 1e300}) {
+    v.time_s = time_s;
+    plumb_px4::fill(out, v, two_chips());
+    EXPECT_EQ(out.timestamp, 0U) << time_s;
+  }
+  v.time_s = 1.5;
+  plumb_px4::fill(out, v, two_chips());
+  EXPECT_EQ(out.timestamp, 1500000U);
 }
 
 TEST(Px4SensorsStatusImu, invalidMeansNoPrimaryAtAll) {

@@ -72,6 +72,24 @@ TEST(Ros2Imu, onlyAVectorThatMayBeUsedIsToldAndTheOthersAreZeroWithMinusOne) {
   }
 }
 
+TEST(Ros2Imu, aBrokenClockMakesNoStamp) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  for (const double time_s : {kNan, kInf, -kInf, 1e300, -1e300, 1.8e18, 2147483648.0}) {
+    plumb::Verdict v = good();
+    v.time_s = time_s;
+    Imu imu;
+    plumb_ros2::fill(imu, v, "");
+    EXPECT_EQ(imu.header.stamp.sec, 0) << time_s;
+    EXPECT_EQ(imu.header.stamp.nanosec, 0U) << time_s;
+  }
+  plumb::Verdict v = good();
+  v.time_s = -1e-20;
+  Imu imu;
+  plumb_ros2::fill(imu, v, "");
+  EXPECT_EQ(imu.header.stamp.sec, -1);
+  EXPECT_EQ(imu.header.stamp.nanosec, 999999999U) << "a whole second would belong to sec";
+}
+
 TEST(Ros2Imu, whatIsNotFiniteIsNeverTold) {
   for (std::size_t i = 0; i < 3; ++i) {
     plumb::Verdict v = good();

@@ -70,9 +70,13 @@ TEST(DirectionRecord, TakesWhatThePlainRuleTakesFarFromTheAngleAndAtIt) {
 
 TEST(DirectionRecord, ADirectionThatIsNoneIsNoNews) {
   DirectionRecord record;
-  EXPECT_TRUE(record.add({0.0, 0.0, 9.8}, 0.1));
+  EXPECT_FALSE(record.add({0.0, 0.0, 0.0}, 0.1)) << "sensors that all read zero";
   EXPECT_FALSE(record.add({std::nan(""), 0.0, 9.8}, 0.1));
-  EXPECT_EQ(record.size(), 1);
+  EXPECT_TRUE(record.add({0.0, 0.0, 9.8}, 0.1));
+  EXPECT_FALSE(record.add({0.0, 0.0, 0.0}, 0.1));
+  EXPECT_FALSE(record.add({std::nan(""), 0.0, 9.8}, 0.1));
+  EXPECT_TRUE(record.add({9.8, 0.0, 0.0}, 0.1)) << "what was refused keeps nothing else out";
+  EXPECT_EQ(record.size(), 2);
 }
 
 }  // namespace

@@ -48,6 +48,31 @@ TEST(FirstCalibrationSnapshot, GoesOnWhereItWasBeforeInAndAfter) {
   }
 }
 
+/// A converter that is not running yet reads zero on every channel: no attitude to calibrate from, and nothing that a
+/// snapshot could not hold.
+// Negative: REQ-163
+TEST(FirstCalibrationSnapshot, ZerosAtPowerOnLeaveNothingBehind) {
+  for (int n : {3, 4, 6}) {
+    UncalibratedTool tool(n, static_cast<std::uint64_t>(70 + n));
+    tool.start();
+    tool.distort = [](int, double, int) { return 0.0; };
+    HealthMonitor twin;
+    for (int k = 0; k < 12; ++k) {
+      tool.stay({0, 0, 1});
+      const Bytes bytes = snapshot_of(tool.monitor);
+      ASSERT_TRUE(twin.restore(tool.setup, bytes.data(), bytes.size()).has_value()) << n << " " << k;
+    }
+    EXPECT_EQ(tool.monitor.verdict().validity, Validity::invalid);
+    tool.distort = [](int, double reading, int) { return reading; };
+    for (int k = 0; k < 60 && !tool.calibrated(); ++k) {
+      tool.stay(random_direction(tool.noise));
+      const Bytes bytes = snapshot_of(tool.monitor);
+      ASSERT_TRUE(twin.restore(tool.setup, bytes.data(), bytes.size()).has_value()) << n << " " << k;
+    }
+    EXPECT_TRUE(tool.calibrated()) << n;
+  }
+}
+
 /// Accepted and held back by the host: the calibration that waits is that of the monitor that wrote it.
 // Verifies: REQ-163
 TEST(FirstCalibrationSnapshot, ACalibrationThatWaitsIsNotForgotten) {

@@ -158,6 +158,34 @@ TEST(Rotation, NotToldItLooksLikeAFault) {
   EXPECT_EQ(rig.monitor.set_rotation(bad).error().code, Errc::not_finite);
 }
 
+/// A rate or an arm that the host got wrong by any amount makes readings wrong, never numbers that are none: the
+/// sensors are believed again when it is put right.
+// Negative: REQ-065
+TEST(Rotation, AnAbsurdRateOrArmLeavesNoTraceBehind) {
+  for (const bool absurd_arm : {false, true}) {
+    Rig rig(plumb_test::tetrahedron());
+    rig.setup.lever_arms_known = true;
+    for (std::size_t i = 0; i < 4; ++i) rig.setup.lever_arm_m[i] = {0.1, 0.2 * static_cast<double>(i), 0.0};
+    if (absurd_arm) rig.setup.lever_arm_m[1] = {1e308, -1e308, 1e308};
+    rig.restart();
+    rig.prove();
+    const double rate_radps = absurd_arm ? 10.0 : 1e150;
+    ASSERT_TRUE(rig.monitor.set_rotation({true, true, {rate_radps, -rate_radps, 0.0}}).has_value());
+    const Verdict& v = rig.stay(direction_at(40, 10));
+    for (const double x : v.latest_mps2) EXPECT_TRUE(std::isfinite(x));
+    for (const double x : v.gravity_mps2) EXPECT_TRUE(std::isfinite(x));
+    EXPECT_NE(v.validity, Validity::valid);
+    std::vector<std::uint8_t> bytes(HealthMonitor::snapshot_size_max());
+    const Expected<std::size_t> size = rig.monitor.snapshot(bytes.data(), bytes.size());
+    ASSERT_TRUE(size.has_value());
+    HealthMonitor again;
+    EXPECT_TRUE(again.restore(rig.setup, bytes.data(), *size).has_value()) << absurd_arm;
+    ASSERT_TRUE(rig.monitor.set_rotation({}).has_value());
+    for (int k = 0; k < 12; ++k) rig.stay(direction_at(20.0 + 12.0 * k, 75.0 * k));
+    for (const double x : rig.monitor.verdict().gravity_mps2) EXPECT_TRUE(std::isfinite(x));
+  }
+}
+
 /// T9: once gravity has changed by what was asked for, one explanation is left.
 // Verifies: REQ-108
 TEST(RotationRequest, TheTurnThatIsAskedForResolvesTheMirror) {

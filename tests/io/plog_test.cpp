@@ -1,14 +1,19 @@
 // Binary logs: what a CSV holds they hold, and what was done to their bytes is found and said.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <future>
 #include <string>
 #include <vector>
 
+#include "../../src/io/mapped_file.hpp"
 #include "../../src/io/plog_format.hpp"
 #include "io_test_support.hpp"
 #include "plumb/io/log_reader.hpp"
@@ -172,6 +177,20 @@ TEST(BinaryLog, IsReadTheSameFromAPipeAndAsAFile) {
   EXPECT_EQ(file->statistics.bytes, bytes_of(path).size());
   EXPECT_EQ(piped->statistics.bytes, file->statistics.bytes);
   EXPECT_EQ(piped->statistics.hash, file->statistics.hash);
+}
+
+/// A named pipe that is opened twice waits for a second writer, who never comes.
+TEST(BinaryLog, APipeIsNotMapped) {
+  const std::string path = written("pipe.plog", "");
+  ASSERT_EQ(::unlink(path.c_str()), 0);
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::future<bool> mapped = std::async(std::launch::async, [&path] { return MappedFile().open(path); });
+  const bool answered = mapped.wait_for(std::chrono::seconds(5)) == std::future_status::ready;
+  const int release = answered ? -1 : ::open(path.c_str(), O_RDWR);  // NOLINT(*-vararg)
+  EXPECT_FALSE(mapped.get());
+  EXPECT_TRUE(answered) << "it waited for a writer";
+  if (release >= 0) ::close(release);
+  ASSERT_EQ(::unlink(path.c_str()), 0);
 }
 
 TEST(BinaryLog, BytesAreAsTheContractSays) {

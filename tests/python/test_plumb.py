@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -139,6 +140,27 @@ class Arrays(unittest.TestCase):
         self.assertTrue(np.isnan(applied[:, 2]).all())
         self.assertFalse(np.isnan(applied[:, :2]).any())
 
+    def test_tags_are_whole_numbers_that_fit(self):
+        for tag in (-1, 2**32, 0.5, np.nan, np.inf):
+            station = np.full(len(self.log), 3.0)
+            station[7] = tag
+            for column in ("station", "count", "roll_group"):
+                with self.assertRaisesRegex(plumb.Error, f"{column}: row 7 is .*whole number from 0 to 4294967295"):
+                    self.verdicts(**{column: station})
+        self.verdicts(station=np.full(len(self.log), 2.0**32 - 1))
+
+    def test_fields_of_a_packed_record_and_bytes_as_bool(self):
+        packed = np.zeros(
+            len(self.log), np.dtype([("a", "u1"), ("time_s", "f8"), ("raw", "f8", (len(self.array),)), ("station", "u4")])
+        )
+        for column in ("time_s", "raw", "station"):
+            packed[column] = getattr(self.log, column)
+        self.assertFalse(packed["raw"].flags.aligned)
+        plain = self.verdicts()
+        self.assertEqual(self.verdicts(**{c: packed[c] for c in ("time_s", "raw", "station")}), plain)
+        anything = np.full(self.log.raw.shape, 254, np.uint8).view(bool)
+        self.assertEqual(self.verdicts(delivered=anything), plain)
+
     def test_any_value_is_taken(self):
         for value in (np.nan, np.inf, -np.inf, 1e308):
             raw = np.array(self.log.raw)
@@ -218,6 +240,48 @@ class Errors(unittest.TestCase):
         self.assertIn('"a9" is no sensor', self.said(monitor.reset, 1, ["a9"]))
         self.said(monitor.set_gravity, 1.6, 0.01)
         self.said(monitor.request_recalibration)
+
+
+    def test_none_is_no_array(self):
+        calibration = plumb.calibrate(self.array, self.log)
+        for function, arguments in (
+            (plumb.Monitor, (None, calibration)),
+            (plumb.calibrate, (None, self.log)),
+            (plumb.read_log, (None, "log.csv")),
+            (plumb.Calibration.read, (None, "cal.json")),
+        ):
+            with self.assertRaises(TypeError):
+                function(*arguments)
+
+    def test_a_calibration_of_another_array_is_refused(self):
+        calibration = plumb.calibrate(self.array, self.log)
+        text = (EXAMPLES / "paper_tool.toml").read_text()
+        same = plumb.Array.parse(text)
+        plumb.Monitor(same, calibration).run(self.log)
+        other = plumb.Array.parse(text.replace('id = "a1"', 'id = "b1"'))
+        self.assertEqual(other.sensors[0], "b1")
+        said = self.said(plumb.Monitor, other, calibration)
+        self.assertIn("the calibration was made for another array", said)
+        snapshot = plumb.Monitor(same, calibration).snapshot()
+        self.assertEqual(self.said(plumb.Monitor, other, calibration, snapshot=snapshot), said)
+
+    def test_a_monitor_is_for_one_thread_at_a_time(self):
+        calibration = plumb.calibrate(self.array, self.log)
+        monitor = plumb.Monitor(self.array, calibration)
+        long = plumb.Log(0.01 * np.arange(400000), np.tile(self.log.raw[:1], (400000, 1)))
+        runner = threading.Thread(target=monitor.run, args=(long,))
+        runner.start()
+        refusals = set()
+        while runner.is_alive():
+            for ask in (monitor.snapshot, lambda: monitor.verdict, lambda: monitor.run(self.log), lambda: monitor.inhibit(True)):
+                try:
+                    ask()
+                except plumb.Error as error:
+                    refusals.add(str(error))
+        runner.join()
+        self.assertEqual(len(refusals), 1, refusals)
+        self.assertIn("the monitor runs in another thread", refusals.pop())
+        monitor.snapshot()
 
 
 if __name__ == "__main__":

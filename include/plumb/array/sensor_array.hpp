@@ -53,8 +53,8 @@ struct RowUncertainty {
   static constexpr int packed_size(int sensors) noexcept { return 4 * sensors * (4 * sensors + 1) / 2; }
   /// True where all that concerns the first `sensors` rows is zero.
   bool is_zero(int sensors) const noexcept;
-  /// No variance below zero or so large that nothing is known (1e12), no covariance beyond what its two variances
-  /// allow, but for rounding.
+  /// No variance, that of a misfit included, below zero or so large that nothing is known (1e12), no covariance beyond
+  /// what its two variances allow, but for rounding.
   bool is_covariance() const noexcept;
   static constexpr auto fields() noexcept {
     return field_list(leading(&RowUncertainty::covariance, &packed_size), per_sensor(&RowUncertainty::misfit_mps2));

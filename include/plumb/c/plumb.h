@@ -33,6 +33,7 @@ extern "C" {
 #define PLUMB_STORAGE_TOO_SMALL 1002  /* index = argument; value = bytes given, limit = bytes needed */
 #define PLUMB_STORAGE_MISALIGNED 1003 /* index = argument; limit = alignment needed */
 #define PLUMB_NOT_INITIALISED 1004    /* no monitor in this storage */
+#define PLUMB_STORAGE_OVERLAPS 1005   /* index = argument: a workspace that lies in the monitor's storage */
 
 typedef struct plumb_error {
   int32_t code;
@@ -73,7 +74,7 @@ typedef struct plumb_config {
   uint32_t covariance_size; /* 2 n (4 n + 1) */
   /* 0: axes, scales and biases are the datasheet's; the monitor makes its own calibration, and `covariance` is null. */
   int32_t calibrated;
-  int32_t reads; /* +1 gravity, -1 specific force */
+  int32_t reads; /* +1 gravity, -1 specific force; anything else is out_of_range */
   double gravity_mps2, gravity_sigma_mps2;
   double output_frame[9];   /* row-major */
   int32_t lever_arms_known; /* 0: evidence rests while the tool turns */
@@ -167,6 +168,7 @@ typedef struct plumb_verdict {
   double drift_mps2_per_h[PLUMB_C_SENSORS];
 } plumb_verdict;
 
+/* A verdict that is none: suspect, invalid, alert. Error: null_pointer. */
 plumb_error plumb_verdict_defaults(plumb_verdict* verdict) PLUMB_NOEXCEPT;
 
 /* Names of the numbers above, for a log. Never null. */
@@ -201,10 +203,11 @@ plumb_error plumb_monitor_restore(void* storage, size_t storage_size, void* work
 plumb_error plumb_monitor_snapshot(const plumb_monitor* monitor, uint8_t* to, size_t room,
                                    size_t* written) PLUMB_NOEXCEPT;
 
-/* One sample in, one verdict out (`verdict` may be null). Any bit pattern is taken; bounded work. */
+/* One sample in, one verdict out (`verdict` may be null). Any bit pattern is taken; bounded work. On an error of the
+ * monitor or of the sample the verdict becomes that of plumb_verdict_defaults: none is left standing from before. */
 plumb_error plumb_monitor_step(plumb_monitor* monitor, const plumb_sample* sample,
                                plumb_verdict* verdict) PLUMB_NOEXCEPT;
-/* The last verdict once more. */
+/* The last verdict once more; on an error as above. */
 plumb_error plumb_monitor_verdict(const plumb_monitor* monitor, plumb_verdict* verdict) PLUMB_NOEXCEPT;
 
 /* Leaves `failed` at the next step. Error: wrong_key. */

@@ -2,6 +2,8 @@
 /// what is systematic (isolation note 5, safety note 10).
 #pragma once
 
+#include <limits>
+
 #include "plumb/array/sensor_array.hpp"
 #include "plumb/core/config.hpp"
 #include "plumb/detection/set_test.hpp"
@@ -24,8 +26,13 @@ struct MaeLimit {
   double systematic_mps2 = 0.0;  ///< calibration, gravity, motion inside the block
 
   double limit_mps2() const noexcept { return noise_mps2 + systematic_mps2; }
-  /// 1 at the limit, 0 at the healthy mean: else "0.7 of the limit" would be noise itself.
-  double ratio(double mae_mps2) const noexcept { return (mae_mps2 - mean_mps2) / (limit_mps2() - mean_mps2); }
+  /// 1 at the limit, 0 at the healthy mean: else "0.7 of the limit" would be noise itself. Where there is no room
+  /// between them, as by three sensors that read zero, anything is beyond.
+  double ratio(double mae_mps2) const noexcept {
+    const double room_mps2 = limit_mps2() - mean_mps2;
+    if (room_mps2 == 0.0) return std::numeric_limits<double>::infinity();
+    return (mae_mps2 - mean_mps2) / room_mps2;
+  }
   /// Below this a MAE is clean: a part of the noise limit with the systematic part whole.
   double clear_mps2(double fraction) const noexcept {
     return mean_mps2 + fraction * (noise_mps2 - mean_mps2) + systematic_mps2;

@@ -20,9 +20,10 @@ class DirectionRecord {
   static constexpr int kMax = 24;
   void clear() noexcept { size_ = 0; }
   int size() const noexcept { return size_; }
-  /// Counts the direction if it differs from all on record; true where it did. A full record counts no more.
+  /// Counts the direction if it differs from all on record; true where it did. A full record counts no more, and what
+  /// has no length, as of sensors that all read zero, is no direction: on record it would differ from none.
   bool add(const Vec3& direction, double angle_rad) noexcept {
-    if (size_ == kMax) return false;
+    if (size_ == kMax || !(norm(direction) > 0.0)) return false;
     // The cosine of an angle is at least 1 - angle^2 / 2: one below that belongs to a larger angle.
     const double surely = (1.0 - 0.5 * angle_rad * angle_rad - kRounding) * norm(direction);
     for (int k = 0; k < size_; ++k) {

@@ -135,7 +135,7 @@ class HealthMonitor {
   bool is_eventful(Arrival arrival, const GateResult& gate) const noexcept;
   void serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept;
   EventMask allowed(EventMask raised) const noexcept;
-  void take_rotation_off(Readings& y, SensorSet usable) const noexcept;
+  void take_rotation_off(Readings& y, GateResult& gate) const noexcept;
 
   // memory.cpp: storage that changed though nobody wrote to it
   bool core_holds() const noexcept;

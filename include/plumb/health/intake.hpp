@@ -72,6 +72,9 @@ class CoefficientsAt {
   }
 };
 
+/// Reading `v` of channel i: clamped; taken out of `gate.usable` where it is not finite.
+void keep_reading(int i, double v, Readings& y, GateResult& gate) noexcept;
+
 /// Readings of the usable channels [m/s^2] by a model in the common-frame form, clamped; a channel whose reading is not
 /// finite is taken out of `gate.usable`. `temperature_degc` stands in where the sample has none. `kept` is that of this
 /// model from the sample before.
