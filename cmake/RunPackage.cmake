@@ -66,6 +66,15 @@ foreach(compiler IN ITEMS "g++;gcc" "clang++;clang")
   endforeach()
 endforeach()
 
+# A component that is not there: the reason, and how to mend it.
+file(WRITE "${WORK}/asks/CMakeLists.txt"
+  "cmake_minimum_required(VERSION 3.22)\nproject(asks CXX)\nfind_package(plumb 1 CONFIG REQUIRED COMPONENTS hosts)\n")
+execute_process(COMMAND "${CMAKE_COMMAND}" -S "${WORK}/asks" -B "${WORK}/asks/build" "-DCMAKE_PREFIX_PATH=${prefix}"
+  RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE output)
+if(status EQUAL 0 OR NOT output MATCHES "\"hosts\" is no component of plumb: it has host and testing")
+  message(FATAL_ERROR "asked for a component that is none, find_package answered (${status}):\n${output}")
+endif()
+
 find_program(pkg_config pkg-config)
 if(pkg_config)
   file(GLOB_RECURSE pc "${prefix}/*/plumb.pc")
