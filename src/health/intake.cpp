@@ -10,6 +10,25 @@ inline namespace PLUMB_ABI {
 using archive_detail::bits_of;
 using std::size_t;
 
+namespace {
+
+/// In place: a call for every reading would be felt in a step.
+[[gnu::always_inline]] inline void keep(int i, double v, Readings& y, GateResult& gate) noexcept {
+  const auto a = static_cast<size_t>(i);
+  const double size = std::fabs(v);
+  if (size <= kReadingClamp_mps2) {  // a NaN is not
+    y[a] = v;
+  } else if (size <= std::numeric_limits<double>::max()) {
+    y[a] = std::copysign(kReadingClamp_mps2, v);
+  } else {
+    y[a] = 0.0;
+    gate.usable = gate.usable.without(i);
+    gate.not_finite = gate.not_finite.with(i);
+  }
+}
+
+}  // namespace
+
 Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
   if (!std::isfinite(time_s)) return Arrival::refused;
   Arrival arrival = Arrival::in_order;
@@ -52,19 +71,7 @@ bool CoefficientsAt::hold(const SensorModel& model) const noexcept {
   return true;
 }
 
-void keep_reading(int i, double v, Readings& y, GateResult& gate) noexcept {
-  const auto a = static_cast<size_t>(i);
-  const double size = std::fabs(v);
-  if (size <= kReadingClamp_mps2) {  // a NaN is not
-    y[a] = v;
-  } else if (size <= std::numeric_limits<double>::max()) {
-    y[a] = std::copysign(kReadingClamp_mps2, v);
-  } else {
-    y[a] = 0.0;
-    gate.usable = gate.usable.without(i);
-    gate.not_finite = gate.not_finite.with(i);
-  }
-}
+void keep_reading(int i, double v, Readings& y, GateResult& gate) noexcept { keep(i, v, y, gate); }
 
 Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sample& sample, double temperature_degc,
                      GateResult& gate) noexcept {
@@ -81,7 +88,7 @@ Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sampl
       const double specific_force = kSingle ? sample.raw[a] * scale : sample.raw[a] / scale;
       v = sign * (specific_force - kept.bias_mps2(a));
     }
-    keep_reading(i, v, y, gate);
+    keep(i, v, y, gate);
   }
   return y;
 }
