@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
@@ -15,7 +17,7 @@ bool is_live(const LogSpec& log) {
 }
 
 RowPump::RowPump(io::LogReader& reader, const io::ArrayFile& array, bool live) : reader_(reader), array_(array) {
-  for (stepping::Rows& rows : batches_) rows.sensors = array.array.size();
+  for (Batch& batch : batches_) batch.rows.sensors = array.array.size();
   if (!live) thread_ = std::thread([this] { read_ahead(); });
 }
 
@@ -29,21 +31,25 @@ RowPump::~RowPump() {
   thread_.join();
 }
 
-/// At most so many rows, fewer where the log ends.
+/// At most so many rows, fewer where the log ends. The vectors keep their length from
+/// batch to batch, so that a row is written where it stands; only the last batch is cut.
 void RowPump::fill(stepping::Rows& rows, std::size_t most) {
-  rows.clear();
+  const auto sensors = static_cast<std::size_t>(rows.sensors);
   const bool turns = !array_.input.rotation_columns.empty(), has_depth = !array_.input.depth_column.empty();
-  while (rows.row.size() < most) {
+  rows.resize(most, turns, has_depth);
+  std::size_t k = 0;
+  for (; k < most; ++k) {
     status_ = reader_.next(sample_);
-    if (status_ != io::LogReader::Next::row) return;
-    rows.row.push_back({sample_.time_s, sample_.temperature_degc, sample_.delivered.bits, sample_.station,
-                        sample_.count, sample_.roll_group});
-    rows.raw.insert(rows.raw.end(), sample_.raw.begin(), sample_.raw.begin() + rows.sensors);
-    if (has_depth) rows.depth_m.push_back(reader_.depth_m());
+    if (status_ != io::LogReader::Next::row) break;
+    rows.row[k] = {sample_.time_s, sample_.temperature_degc, sample_.delivered.bits, sample_.station,
+                   sample_.count,  sample_.roll_group};
+    std::copy_n(sample_.raw.data(), sensors, rows.raw.data() + k * sensors);
+    if (has_depth) rows.depth_m[k] = reader_.depth_m();
     if (!turns) continue;
     const Rotation& rotation = reader_.rotation();
-    rows.turn.push_back({rotation.turning, rotation.rate_known, rotation.rate_radps});
+    rows.turn[k] = {rotation.turning, rotation.rate_known, rotation.rate_radps};
   }
+  if (k < most) rows.resize(k, turns, has_depth);
 }
 
 void RowPump::read_ahead() noexcept {
@@ -73,8 +79,8 @@ void RowPump::read_ahead() noexcept {
 
 const stepping::Rows* RowPump::next() {
   if (!thread_.joinable()) {
-    if (status_ == io::LogReader::Next::row) fill(batches_.front(), 1);
-    return status_ == io::LogReader::Next::row ? &batches_.front() : nullptr;
+    if (status_ == io::LogReader::Next::row) fill(batch(0), 1);
+    return status_ == io::LogReader::Next::row ? &batch(0) : nullptr;
   }
   std::unique_lock<std::mutex> lock(mutex_);
   if (handed_out_) {
