@@ -17,7 +17,10 @@ bool is_live(const LogSpec& log) {
 }
 
 RowPump::RowPump(io::LogReader& reader, const io::ArrayFile& array, bool live) : reader_(reader), array_(array) {
-  for (Batch& batch : batches_) batch.rows.sensors = array.array.size();
+  for (stepping::Rows& rows : batches_) {
+    rows.sensors = array.array.size();
+    free_[free_count_++] = &rows;
+  }
   if (!live) thread_ = std::thread([this] { read_ahead(); });
 }
 
@@ -54,14 +57,16 @@ void RowPump::fill(stepping::Rows& rows, std::size_t most) {
 
 void RowPump::read_ahead() noexcept {
   for (;;) {
+    stepping::Rows* rows = nullptr;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      moved_.wait(lock, [this] { return unwanted_ || filled_ - taken_ < kBatches; });
+      moved_.wait(lock, [this] { return unwanted_ || free_count_ > 0; });
       if (unwanted_) return;
+      rows = free_[--free_count_];
     }
     std::exception_ptr failure;
     try {
-      fill(batch(filled_), kBatchRows);
+      fill(*rows, kBatchRows);
     } catch (...) {  // out of memory: told by the thread that asks for the rows
       failure = std::current_exception();
     }
@@ -69,7 +74,7 @@ void RowPump::read_ahead() noexcept {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       failure_ = failure;
-      if (!failure && !batch(filled_).row.empty()) ++filled_;
+      if (!failure && !rows->row.empty()) filled_[filled_count_++ % kBatches] = rows;
       at_end_ = last;
     }
     moved_.notify_all();
@@ -79,20 +84,17 @@ void RowPump::read_ahead() noexcept {
 
 const stepping::Rows* RowPump::next() {
   if (!thread_.joinable()) {
-    if (status_ == io::LogReader::Next::row) fill(batch(0), 1);
-    return status_ == io::LogReader::Next::row ? &batch(0) : nullptr;
+    if (status_ == io::LogReader::Next::row) fill(batches_.front(), 1);
+    return status_ == io::LogReader::Next::row ? &batches_.front() : nullptr;
   }
   std::unique_lock<std::mutex> lock(mutex_);
-  if (handed_out_) {
-    ++taken_;
-    handed_out_ = false;
+  if (handed_out_ != nullptr) {
+    free_[free_count_++] = handed_out_;
+    handed_out_ = nullptr;
     moved_.notify_all();
   }
-  moved_.wait(lock, [this] { return at_end_ || filled_ > taken_; });
-  if (filled_ > taken_) {
-    handed_out_ = true;
-    return &batch(taken_);
-  }
+  moved_.wait(lock, [this] { return at_end_ || filled_count_ > taken_; });
+  if (filled_count_ > taken_) return handed_out_ = filled_[taken_++ % kBatches];
   if (failure_) std::rethrow_exception(failure_);
   return nullptr;
 }
