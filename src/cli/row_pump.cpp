@@ -94,7 +94,10 @@ const stepping::Rows* RowPump::next() {
     moved_.notify_all();
   }
   moved_.wait(lock, [this] { return at_end_ || filled_count_ > taken_; });
-  if (filled_count_ > taken_) return handed_out_ = filled_[taken_++ % kBatches];
+  if (filled_count_ > taken_) {
+    handed_out_ = filled_[taken_++ % kBatches];
+    return handed_out_;
+  }
   if (failure_) std::rethrow_exception(failure_);
   return nullptr;
 }
