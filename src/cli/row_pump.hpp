@@ -36,21 +36,25 @@ class RowPump {
  private:
   static constexpr std::size_t kBatchRows = 1024;  ///< some 64 kB of four sensors: they stay in the cache
   static constexpr std::uint64_t kBatches = 16;
+  static constexpr std::size_t kApart = 128;  ///< two lines of a cache, for a neighbour may be fetched along
 
   void fill(stepping::Rows& rows, std::size_t most);
   void read_ahead() noexcept;
-  stepping::Rows& batch(std::uint64_t number) noexcept { return batches_[number % kBatches]; }
 
   io::LogReader& reader_;
   const io::ArrayFile& array_;
-  Sample sample_;
-  io::LogReader::Next status_ = io::LogReader::Next::row;  ///< of the last row that was asked for
   std::array<stepping::Rows, kBatches> batches_;
+  alignas(kApart) Sample sample_;  ///< written for every row: no line with what the other thread reads
+  io::LogReader::Next status_ = io::LogReader::Next::row;  ///< of the last row that was asked for
 
-  std::mutex mutex_;  ///< over what follows, and over handing on a batch
+  alignas(kApart) std::mutex mutex_;  ///< over what follows, and over handing on a batch
   std::condition_variable moved_;
-  std::uint64_t filled_ = 0, taken_ = 0;  ///< batches
-  bool at_end_ = false, handed_out_ = false, unwanted_ = false;
+  std::array<stepping::Rows*, kBatches> free_{};    ///< the one that came back last is filled next: it is in a cache
+  std::array<stepping::Rows*, kBatches> filled_{};  ///< one after the other, round and round
+  std::size_t free_count_ = 0;
+  std::uint64_t filled_count_ = 0, taken_ = 0;  ///< batches
+  stepping::Rows* handed_out_ = nullptr;
+  bool at_end_ = false, unwanted_ = false;
   std::exception_ptr failure_;
   std::thread thread_;  ///< none of a live stream
 };

@@ -74,8 +74,18 @@ bool LogReader::State::matches_binary(const ColumnFilter& filter, std::size_t co
   return binary->has(number_place[column]) && binary->value(number_place[column]) == filter.number;
 }
 
-LogReader::State::Got LogReader::State::next_binary() {
-  const PlogRows::Status status = binary->next();
+/// A row that has a number of every sensor, which is the usual one, is not asked for each.
+void LogReader::State::plan_sensors() {
+  for (const std::size_t column : sensors) {
+    const std::size_t place = number_place[column];
+    if (place == kNoColumn) return sensor_place.clear();
+    sensor_place.push_back(place);
+    sensor_marks |= std::uint64_t{1} << place;
+  }
+}
+
+LogReader::State::Got LogReader::State::next_block() {
+  const PlogRows::Status status = binary->next_block();
   statistics.bytes = binary->bytes();
   statistics.hash = binary->hash();
   switch (status) {
@@ -87,7 +97,10 @@ LogReader::State::Got LogReader::State::next_binary() {
     case PlogRows::Status::lost: return note_bad(1, FileError{path, 0, "", binary->what(), kCopyAgain});
     case PlogRows::Status::row: break;
   }
-  if (binary->marks_sound()) return Got::row;
+  return binary->marks_sound() ? Got::row : refuse_marks();
+}
+
+LogReader::State::Got LogReader::State::refuse_marks() {
   ++index;
   refuse(kNoColumn, "marks values in more columns than the header names");
   return note_bad(1, bad_row());

@@ -179,7 +179,10 @@ FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile
   const bool binary = first != nullptr && *first == static_cast<unsigned char>(kPlogMagic[0]);
   FileExpected<void> done = binary ? state->read_binary_header(path) : state->read_header();
   if (done) done = state->map_columns();
-  if (done && binary) done = state->check_binary();
+  if (done && binary) {
+    state->plan_sensors();
+    done = state->check_binary();
+  }
   if (!done) return tl::unexpected<FileError>(done.error());
   return LogReader(std::move(state));
 }
@@ -222,7 +225,7 @@ LogReader::Next LogReader::next(Sample& sample) {
       s.error = s.nothing_usable();
       return Next::error;
     }
-    if (got == State::Got::row && !s.selected()) {
+    if (got == State::Got::row && !s.filters.empty() && !s.selected()) {
       ++s.statistics.rows_filtered;
       continue;
     }

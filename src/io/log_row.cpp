@@ -18,6 +18,22 @@ CellKind LogReader::State::text_in(std::size_t column, double& value) const noex
   return parse_cell(binary->header().columns[column].text, value);
 }
 
+bool LogReader::State::refuse(std::size_t column, std::string_view what) {
+  bad_column = column;
+  bad_what = what;
+  return false;
+}
+bool LogReader::State::refuse_cell(std::size_t column, const char* what) {
+  return refuse(column, shown(column) + what);
+}
+bool LogReader::State::refuse_tag(std::size_t column, const char* what) {
+  return refuse(column, shown(column) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
+}
+bool LogReader::State::refuse_time(double time_s) {
+  return refuse(time, "time " + shortest(time_s) + " s does not increase (the row before has " +
+                          shortest(statistics.last_time_s) + " s)");
+}
+
 /// What stands in a cell of the row at hand.
 template <bool kBinary>
 inline CellKind LogReader::State::number_in(std::size_t column, double& value) const noexcept {
@@ -53,13 +69,10 @@ inline bool LogReader::State::fill_time(Sample& sample) {
     return true;
   }
   double value = 0.0;
-  if (number_in<kBinary>(time, value) != CellKind::number) return refuse(time, shown(time) + " is not a time");
+  if (number_in<kBinary>(time, value) != CellKind::number) return refuse_cell(time, " is not a time");
   if (!std::isfinite(value)) return refuse(time, "the time is not finite");
   sample.time_s = value * input.time_unit_s;
-  if (statistics.rows > 0 && !(sample.time_s > statistics.last_time_s)) {
-    return refuse(time, "time " + shortest(sample.time_s) + " s does not increase (the row before has " +
-                            shortest(statistics.last_time_s) + " s)");
-  }
+  if (statistics.rows > 0 && !(sample.time_s > statistics.last_time_s)) return refuse_time(sample.time_s);
   return true;
 }
 
@@ -69,8 +82,7 @@ inline bool LogReader::State::fill_tag(std::size_t column, const char* what, std
   std::int64_t value = 0;
   const CellKind kind = whole_in<kBinary>(column, value);
   const bool fits = kind == CellKind::empty || (kind == CellKind::number && value >= -1 && value < kLargestCount);
-  if (!fits)
-    return refuse(column, shown(column) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
+  if (!fits) return refuse_tag(column, what);
   tag = kind == CellKind::empty ? 0U : tag_of_label(value);
   return true;
 }
@@ -82,7 +94,7 @@ inline bool LogReader::State::fill_tags(Sample& sample) {
   if (count != kNoColumn) {
     std::int64_t value = 0;
     const bool fits = whole_in<kBinary>(count, value) == CellKind::number && value >= 1 && value <= kLargestCount;
-    if (!fits) return refuse(count, shown(count) + " is not a number of samples (a whole number from 1 up)");
+    if (!fits) return refuse_cell(count, " is not a number of samples (a whole number from 1 up)");
     sample.count = static_cast<std::uint32_t>(value);
   }
   return true;
@@ -94,7 +106,7 @@ inline bool LogReader::State::fill_temperature(Sample& sample) {
   if (temperature == kNoColumn) return true;
   double value = 0.0;
   const CellKind kind = number_in<kBinary>(temperature, value);
-  if (kind == CellKind::text) return refuse(temperature, shown(temperature) + " is not a temperature");
+  if (kind == CellKind::text) return refuse_cell(temperature, " is not a temperature");
   if (kind == CellKind::number && std::isfinite(value)) {
     last_temperature_degc = value;
     has_temperature = true;
@@ -115,7 +127,7 @@ inline bool LogReader::State::fill_rotation() {
   for (std::size_t k = 0; k < rates.size(); ++k) {
     double value = 0.0;
     const CellKind kind = number_in<kBinary>(rates[k], value);
-    if (kind == CellKind::text) return refuse(rates[k], shown(rates[k]) + " is not a rate of turn");
+    if (kind == CellKind::text) return refuse_cell(rates[k], " is not a rate of turn");
     if (kind != CellKind::number || !std::isfinite(value)) {
       rotation = Rotation{true, false, {}};
       return true;
@@ -132,25 +144,13 @@ inline bool LogReader::State::fill_depth() {
   if (depth == kNoColumn) return true;
   double value = 0.0;
   const CellKind kind = number_in<kBinary>(depth, value);
-  if (kind == CellKind::text) return refuse(depth, shown(depth) + " is not a depth");
+  if (kind == CellKind::text) return refuse_cell(depth, " is not a depth");
   if (kind == CellKind::number && std::isfinite(value)) depth_m = value * input.depth_unit_m;
   return true;
 }
 
-template <bool kBinary>
-inline bool LogReader::State::fill_sensors(Sample& sample) {
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    double value = 0.0;
-    switch (number_in<kBinary>(sensors[i], value)) {
-      case CellKind::number:
-        sample.raw[i] = value;
-        sample.delivered.bits |= 1U << static_cast<unsigned>(i);
-        break;
-      case CellKind::empty: break;
-      case CellKind::text: return refuse(sensors[i], shown(sensors[i]) + " is not a number");
-    }
-  }
-  // Counted only now that the row is known to be good.
+/// What becomes of the values of a good row for the statistics.
+void LogReader::State::count_each(const Sample& sample) noexcept {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     const std::uint32_t bit = 1U << static_cast<unsigned>(i);
     const double value = sample.raw[i];
@@ -165,6 +165,37 @@ inline bool LogReader::State::fill_sensors(Sample& sample) {
       statistics.varied.bits |= bit;
     }
   }
+}
+
+/// Once every sensor has shown two values, a row of finite ones has nothing to add.
+inline void LogReader::State::count_values(const Sample& sample) noexcept {
+  const SensorSet all = SensorSet::first(static_cast<int>(sensors.size()));
+  double nothing = 0.0;  // 0 of what is finite, else NaN
+  for (std::size_t i = 0; i < sensors.size(); ++i) nothing += 0.0 * sample.raw[i];
+  if (nothing == 0.0 && sample.delivered == all && statistics.varied == all) return;
+  count_each(sample);
+}
+
+template <bool kBinary>
+inline bool LogReader::State::fill_sensors(Sample& sample) {
+  if (kBinary && !sensor_place.empty() && binary->has_all(sensor_marks)) {
+    for (std::size_t i = 0; i < sensor_place.size(); ++i) sample.raw[i] = binary->value(sensor_place[i]);
+    sample.delivered = SensorSet::first(static_cast<int>(sensor_place.size()));
+    count_values(sample);
+    return true;
+  }
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    double value = 0.0;
+    switch (number_in<kBinary>(sensors[i], value)) {
+      case CellKind::number:
+        sample.raw[i] = value;
+        sample.delivered.bits |= 1U << static_cast<unsigned>(i);
+        break;
+      case CellKind::empty: break;
+      case CellKind::text: return refuse_cell(sensors[i], " is not a number");
+    }
+  }
+  count_values(sample);  // only now that the row is known to be good
   return true;
 }
 

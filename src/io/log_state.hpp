@@ -29,6 +29,8 @@ struct LogReader::State {
   LineSource source;
   std::optional<PlogRows> binary;         ///< a binary log: its rows
   std::vector<std::size_t> number_place;  ///< ... where in a row the number of a column stands; kNoColumn: a constant
+  std::vector<std::size_t> sensor_place;  ///< ... the same of the sensors, where none of them is a constant
+  std::uint64_t sensor_marks = 0;         ///< ... and their bits in a row
   std::vector<std::string> header;
   std::vector<std::string_view> cells;
   std::size_t time = kNoColumn;
@@ -54,11 +56,11 @@ struct LogReader::State {
   std::size_t bad_column = kNoColumn;
   std::string bad_what;
 
-  bool refuse(std::size_t column, std::string what) {
-    bad_column = column;
-    bad_what = std::move(what);
-    return false;
-  }
+  // Apart from the way of a good row, which is one piece of code without them.
+  [[gnu::cold, gnu::noinline]] bool refuse(std::size_t column, std::string_view what);
+  [[gnu::cold, gnu::noinline]] bool refuse_cell(std::size_t column, const char* what);
+  [[gnu::cold, gnu::noinline]] bool refuse_tag(std::size_t column, const char* what);
+  [[gnu::cold, gnu::noinline]] bool refuse_time(double time_s);
   FileError io_failure(int error_number) const;
   FileExpected<void> read_header();
   FileExpected<void> map_columns();
@@ -66,9 +68,15 @@ struct LogReader::State {
   FileExpected<void> read_binary_header(const std::string& file);
   FileExpected<void> check_unit(std::size_t column, const std::string& wanted, const char* key) const;
   FileExpected<void> check_binary() const;
+  void plan_sensors();
   enum class Got : std::uint8_t { row, skipped, end, error };
   Got next_cells();
-  Got next_binary();
+  Got next_binary() {
+    if (!binary->advance()) return next_block();
+    return binary->marks_sound() ? Got::row : refuse_marks();
+  }
+  Got next_block();
+  [[gnu::cold]] Got refuse_marks();
   CellKind text_in(std::size_t column, double& value) const noexcept;
   std::string shown(std::size_t column) const;
   bool matches_binary(const ColumnFilter& filter, std::size_t column) const noexcept;
@@ -96,6 +104,8 @@ struct LogReader::State {
   bool fill_depth();
   template <bool kBinary>
   bool fill_sensors(Sample& sample);
+  void count_values(const Sample& sample) noexcept;
+  void count_each(const Sample& sample) noexcept;
   bool selected() const noexcept;
   FileError nothing_usable() const;
 };

@@ -33,22 +33,26 @@ class PlogRows {
   ~PlogRows() = default;
 
   const PlogHeader& header() const noexcept { return header_; }
-  /// From here on out of the mapped file, where it is a file. Before the first `next`.
+  /// From here on out of the mapped file, where it is a file. Before the first row.
   void map(const std::string& path);
   /// Back to reading: for a file that grows.
   void unmap() noexcept { mapped_ = false; }
   void hash_bytes();
 
-  Status next() {
-    if (left_ == 0) return next_block();
+  /// To the next row of the block at hand; false where it has no more.
+  bool advance() noexcept {
+    if (left_ == 0) return false;
     --left_;
     ++row_number_;
     row_ += row_bytes_;
     present_ = u64_at(row_);
-    return Status::row;
+    return true;
   }
+  /// To the first row of the next block.
+  Status next_block();
   /// Of the row at hand; `number` counts the columns that have a number in every row.
   bool has(std::size_t number) const noexcept { return (present_ >> number & 1U) != 0; }
+  bool has_all(std::uint64_t marks) const noexcept { return (present_ & marks) == marks; }
   double value(std::size_t number) const noexcept { return double_at(row_ + 8 + 8 * number); }
   bool marks_sound() const noexcept { return numbers_ == kPlogColumns || present_ >> numbers_ == 0; }
   std::uint64_t row() const noexcept { return row_number_; }  ///< counted from 1
@@ -62,7 +66,6 @@ class PlogRows {
   PlogRows(LineSource& source, PlogHeader header, std::string header_bytes);
   const unsigned char* peek(std::size_t count);
   void consume(const unsigned char* bytes, std::size_t count);
-  Status next_block();
   Status cut_short(std::size_t wanted);
   Status end_mark(const unsigned char* at);
   Status lose(std::string what);

@@ -36,11 +36,11 @@ struct Rows {
   std::vector<double> depth_m;  ///< likewise
 
   const double* raw_of(std::size_t k) const noexcept { return raw.data() + k * static_cast<std::size_t>(sensors); }
-  void clear() noexcept {
-    row.clear();
-    raw.clear();
-    turn.clear();
-    depth_m.clear();
+  void resize(std::size_t count, bool turns, bool has_depth) {
+    row.resize(count);
+    raw.resize(count * static_cast<std::size_t>(sensors));
+    turn.resize(turns ? count : 0);
+    depth_m.resize(has_depth ? count : 0);
   }
 };
 
