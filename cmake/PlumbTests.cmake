@@ -57,6 +57,10 @@ else()
 endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8)
+# The sides that a build for eight sensors leaves to larger ones; for scripts/coverage, which builds it by name.
+if(PLUMB_COVERAGE AND TARGET plumb_24)
+  plumb_test_executable(plumb_core_24_tests LABEL core PREFIX "24." ROOMS array detection LIBRARIES plumb_24)
+endif()
 # Every bit of a monitor for four sensors flipped: one source of the core tests, at the capacity of an instrument.
 if(TARGET plumb_4)
   add_executable(plumb_memory_tests "${PROJECT_SOURCE_DIR}/tests/health/bit_flip_test.cpp")

@@ -63,10 +63,16 @@ def room_of(path, rooms):
     return parts[1] if len(parts) > 2 and parts[1] in rooms else None
 
 
-def gather(export, rooms):
+def gather(exports, rooms):
     """Per file: branch -> [taken, not taken], and condition -> whether it was seen to decide alone. A function that exists
-    several times (a template, a header) has reached what any of them has."""
+    several times (a template, a header, one of several builds) has reached what any of them has."""
     branches, conditions = defaultdict(lambda: defaultdict(lambda: [0, 0])), defaultdict(dict)
+    for path in exports:
+        gather_build(json.loads(path.read_text()), rooms, branches, conditions)
+    return branches, conditions
+
+
+def gather_build(export, rooms, branches, conditions):
     whole = conditions_by_file(export)
     for function in export["data"][0]["functions"]:
         names = function["filenames"]
@@ -85,7 +91,6 @@ def gather(export, rooms):
                 continue
             note_conditions(conditions[names[file]], (first, column, last, end), record[-1], whole[names[file]],
                             set(here[names[file]]))
-    return branches, conditions
 
 
 def conditions_by_file(export):
@@ -116,11 +121,11 @@ def entry(item):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--open", action="store_true", help="write what is open to tests/coverage/open.txt")
-    parser.add_argument("export", type=pathlib.Path)
     parser.add_argument("summary", type=pathlib.Path)
-    parser.add_argument("rooms", nargs="+")
+    parser.add_argument("--rooms", nargs="+", required=True)
+    parser.add_argument("--exports", nargs="+", type=pathlib.Path, required=True, help="of llvm-cov, one a build")
     options = parser.parse_args()
-    branches, conditions = gather(json.loads(options.export.read_text()), options.rooms)
+    branches, conditions = gather(options.exports, options.rooms)
     sources, tally, open_items = Sources(), {room: Counter() for room in options.rooms}, {}
     for path in sorted(branches):
         file, room = str(pathlib.Path(path).relative_to(ROOT)), room_of(path, options.rooms)
