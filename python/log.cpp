@@ -14,6 +14,26 @@
 namespace plumb_python {
 namespace {
 
+/// The values of a masked array without its mask would count as measured.
+void refuse_mask(const py::handle& from, const char* name) {
+  if (py::isinstance<py::array>(from) && py::hasattr(from, "mask"))
+    refuse(std::string(name) + ": is a masked array, and plumb knows no masks",
+           "give numpy.ma.filled(column, numpy.nan), and where a channel said nothing say so in `delivered`");
+}
+
+[[noreturn]] void refuse_type(const char* name) {
+  PyErr_Clear();
+  refuse(std::string(name) + ": is no array of numbers", "give a numpy array");
+}
+
+Doubles doubles(const py::object& from, const char* name) {
+  refuse_mask(from, name);
+  if (from.is_none()) refuse_type(name);
+  Doubles out = Doubles::ensure(from);
+  if (!out) refuse_type(name);
+  return out;
+}
+
 std::string shape_of(const py::array& array) {
   std::string out = "(";
   for (py::ssize_t k = 0; k < array.ndim(); ++k) out += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
@@ -122,11 +142,9 @@ template <class T>
 Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width) const {
   if (from.is_none()) return {};
   Column<T> out;
+  refuse_mask(from, name);
   auto array = py::array_t<T, py::array::forcecast>::ensure(from);
-  if (!array) {
-    PyErr_Clear();
-    refuse(std::string(name) + ": is no array of numbers", "give a numpy array");
-  }
+  if (!array) refuse_type(name);
   const bool fits = width == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == width;
   if (!fits || array.shape(0) != rows_) {
     const std::string wanted = width == 0 ? "(" + std::to_string(rows_) + ")"
@@ -194,16 +212,22 @@ void bind_log(py::module_& module) {
       "where it lies, without a copy, whatever its strides. NaN is a value that is not finite; `delivered`\n"
       "(rows, sensors) is False where a channel said nothing. `station` is a tag, 0 = none (a label in a\n"
       "CSV file is its tag less 1). `temperature_degc` is a column or one number.")
-      .def(py::init([](Doubles time_s, Doubles raw, py::object temperature_degc, py::object delivered,
-                       py::object station, py::object count, py::object roll_group) {
-             return Log{std::move(time_s),  std::move(raw),   std::move(temperature_degc), std::move(delivered),
-                        std::move(station), std::move(count), std::move(roll_group),       py::none()};
+      .def(py::init([](const py::object& time_s, const py::object& raw, py::object temperature_degc,
+                       py::object delivered, py::object station, py::object count, py::object roll_group) {
+             return Log{doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
+                        std::move(delivered),      std::move(station),  std::move(count),
+                        std::move(roll_group),     py::none()};
            }),
            py::arg("time_s"), py::arg("raw"), py::arg("temperature_degc") = py::none(),
            py::arg("delivered") = py::none(), py::arg("station") = py::none(), py::arg("count") = py::none(),
            py::arg("roll_group") = py::none())
-      .def_readwrite("time_s", &Log::time_s, "(rows), s, strictly increasing")
-      .def_readwrite("raw", &Log::raw, "(rows, sensors)")
+      .def_property(
+          "time_s", [](const Log& log) { return log.time_s; },
+          [](Log& log, const py::object& from) { log.time_s = doubles(from, "time_s"); },
+          "(rows), s, strictly increasing")
+      .def_property(
+          "raw", [](const Log& log) { return log.raw; },
+          [](Log& log, const py::object& from) { log.raw = doubles(from, "raw"); }, "(rows, sensors)")
       .def_readwrite("temperature_degc", &Log::temperature_degc)
       .def_readwrite("delivered", &Log::delivered)
       .def_readwrite("station", &Log::station)

@@ -241,6 +241,16 @@ class Errors(unittest.TestCase):
         self.said(monitor.set_gravity, 1.6, 0.01)
         self.said(monitor.request_recalibration)
 
+    def test_a_mask_is_refused(self):
+        """Its values would count as measured."""
+        masked = np.ma.masked_array(self.log.raw, mask=np.zeros(self.log.raw.shape, bool))
+        self.assertIn("raw: is a masked array", self.said(plumb.Log, self.log.time_s, masked))
+        log = plumb.Log(self.log.time_s, self.log.raw)
+        self.assertIn("raw: is a masked array", self.said(setattr, log, "raw", masked))
+        log.temperature_degc = masked[:, 0]
+        self.assertIn("temperature_degc: is a masked array", self.said(plumb.calibrate, self.array, log))
+        log.temperature_degc = np.ma.filled(masked[:, 0] * 0 + 20, np.nan)
+        plumb.calibrate(self.array, log)
 
     def test_none_is_no_array(self):
         calibration = plumb.calibrate(self.array, self.log)
