@@ -61,6 +61,12 @@ TEST(MaeLimit, AGivenOneIsTakenAsItIs) {
   EXPECT_EQ(limit.clear_mps2(0.7), 0.35);
 }
 
+// Negative: REQ-054
+TEST(MaeLimit, WithoutRoomNothingIsWithinIt) {
+  EXPECT_GT(MaeLimit{}.ratio(0.0), 1.0);
+  EXPECT_GT(MaeLimit{}.ratio(1.0), 1.0);
+}
+
 // Verifies: REQ-054
 TEST(MaeLimit, TheRateIsSharedByTheTriplesThatVote) {
   EXPECT_EQ(voting_triples(plumb_test::tetrahedron()), 4);
