@@ -1,4 +1,4 @@
-# The laws of isolation over a hundred thousand cases each (tests/laws), those that users get (tests/laws/shipped), and
+# The laws of isolation over ten thousand cases each (tests/laws), those that users get (tests/laws/shipped), and
 # the planted defects that they must catch (tests/laws/defects, label defect).
 
 # Compiled once, linked once with the library as it is and once with every planted defect.
@@ -21,23 +21,13 @@ function(plumb_law_runner name objects)
 endfunction()
 
 plumb_law_runner(plumb_law_tests plumb_law_objects)
-gtest_discover_tests(plumb_law_tests
-  DISCOVERY_TIMEOUT 60
-  PROPERTIES
-    LABELS law
-    TIMEOUT ${PLUMB_TEST_TIMEOUT_s}
-    ENVIRONMENT "RC_PARAMS=${PLUMB_RC_PARAMS}")
+plumb_discover(plumb_law_tests LABEL law LONGER *)
 
 if(TARGET plumb_testing)
   file(GLOB shipped_law_tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/laws/shipped/*_test.cpp")
   plumb_law_objects(plumb_shipped_law_objects plumb_testing ${shipped_law_tests})
   plumb_law_runner(plumb_shipped_law_tests plumb_shipped_law_objects)
-  gtest_discover_tests(plumb_shipped_law_tests
-    DISCOVERY_TIMEOUT 60
-    PROPERTIES
-      LABELS law
-      TIMEOUT ${PLUMB_TEST_TIMEOUT_s}
-      ENVIRONMENT "RC_PARAMS=${PLUMB_RC_PARAMS}")
+  plumb_discover(plumb_shipped_law_tests LABEL law LONGER *)
 endif()
 
 # --- Planted defects. ------------------------------------------------------------------------------------------

@@ -169,9 +169,6 @@ if(report_sources)
   target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   include(PlumbVerification)
-  if(PLUMB_BATCHED)
-    set_target_properties(plumb_report PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-  endif()
   # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
   target_link_libraries(plumb_report PUBLIC plumb_campaign_24)
   foreach(capacity IN LISTS PLUMB_KERNELS)

@@ -8,9 +8,10 @@ set_property(CACHE PLUMB_SCALAR PROPERTY STRINGS double float)
 option(PLUMB_FAST_STEP "Compile what runs at every sample with -O2, for builds at -Os" OFF)
 option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
-option(PLUMB_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(PLUMB_BUILD_TESTS "Build the tests (needs their libraries; the preset tests turns them on)" OFF)
+option(PLUMB_BUILD_MPI "Build plumb-campaign-mpi where MPI is found" ON)
 option(PLUMB_BUILD_BENCH "Build the benchmarks (Google Benchmark)" OFF)
-option(PLUMB_BATCHED "Compile several sources of the tests, the tool and the reports at a time; scripts/test does, other builds notice a missing include" OFF)
+option(PLUMB_BATCHED "Compile several test files at a time: scripts/test does, other builds notice a missing include" OFF)
 option(PLUMB_BUILD_FUZZ "Build the fuzzers (Clang)" OFF)
 option(PLUMB_COVERAGE "Count which branches and conditions run (Clang 19, scripts/coverage)" OFF)
 option(PLUMB_INSTALL "Provide the install rules" ${PROJECT_IS_TOP_LEVEL})
@@ -51,6 +52,19 @@ endif()
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang)$")
   message(FATAL_ERROR "plumb is built with GCC or Clang; found ${CMAKE_CXX_COMPILER_ID}")
 endif()
+
+# plumb_leaves_out(WHAT WHY): remembered, and told at the end of the configuration. A build without a part is no error.
+function(plumb_leaves_out what why)
+  set_property(GLOBAL APPEND PROPERTY PLUMB_LEFT_OUT "${what}: ${why}")
+endfunction()
+
+# plumb_tell_what_is_left_out(): one line per part.
+function(plumb_tell_what_is_left_out)
+  get_property(parts GLOBAL PROPERTY PLUMB_LEFT_OUT)
+  foreach(part IN LISTS parts)
+    message(STATUS "plumb leaves out ${part}")
+  endforeach()
+endfunction()
 
 # Fast-math lets the compiler assume that no NaN exists: every channel gate would be optimised away. The
 # header plumb/core/config.hpp refuses it too; here it is refused before a line is compiled.

@@ -5,7 +5,11 @@
 # below belong to it.
 set(PLUMB_BUILD_PYTHON AUTO CACHE STRING "Build the Python module: AUTO (where its packages are found), ON or OFF")
 set_property(CACHE PLUMB_BUILD_PYTHON PROPERTY STRINGS AUTO ON OFF)
-if(NOT PLUMB_BUILD_PYTHON OR NOT TARGET plumb_cli OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # a sanitizer has to be there first
+if(NOT TARGET plumb_cli OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # a sanitizer has to be there first
+  return()
+endif()
+if(NOT PLUMB_BUILD_PYTHON)
+  plumb_leaves_out("the Python module" "PLUMB_BUILD_PYTHON is OFF")
   return()
 endif()
 
@@ -14,7 +18,7 @@ macro(plumb_without_python what package)
   if(NOT PLUMB_BUILD_PYTHON STREQUAL "AUTO")
     plumb_missing("${what} (PLUMB_BUILD_PYTHON=${PLUMB_BUILD_PYTHON})" "${package}")
   endif()
-  message(STATUS "no Python module: ${what} not found (Debian: apt-get install ${package})")
+  plumb_leaves_out("the Python module" "${what} not found (Debian: apt-get install ${package})")
   return()
 endmacro()
 

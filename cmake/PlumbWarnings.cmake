@@ -30,7 +30,7 @@ function(plumb_compile_settings target)
     target_compile_options(${target} PUBLIC -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc)
     target_link_options(${target} PUBLIC -fprofile-instr-generate)
   endif()
-  if(PLUMB_BATCHED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # GCC tidies its memory less often: a tenth of its time
+  if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # GCC tidies its memory less often: a tenth of its time
     target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-expand=400" "SHELL:--param ggc-min-heapsize=400000")
   endif()
   target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -fno-math-errno -fno-trapping-math ${PLUMB_WARNINGS})

@@ -1,4 +1,4 @@
-# cmake -DBUILD=<plumb's build> -DSOURCE=<project> -DWORK=<directory> -P RunConsumer.cmake: installs plumb aside, then
+# cmake -DBUILD=<plumb's build> -DSOURCE=<project> -DWORK=<directory> -DGENERATOR=<of CMake> -P RunConsumer.cmake: installs plumb aside, then
 # configures, builds and runs a project that finds it there.
 function(must)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status)
@@ -8,7 +8,7 @@ function(must)
 endfunction()
 file(REMOVE_RECURSE "${WORK}")
 must("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/stage")
-must("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${WORK}/stage" "-DCMAKE_CXX_COMPILER=${CXX}"
+must("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${SOURCE}" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${WORK}/stage" "-DCMAKE_CXX_COMPILER=${CXX}"
      -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${FLAGS}")
 must("${CMAKE_COMMAND}" --build "${WORK}/build")
 must("${WORK}/build/cone_test")

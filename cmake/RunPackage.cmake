@@ -1,4 +1,4 @@
-# cmake -DBUILD=<plumb's build> -DSOURCE=<plumb> -DWORK=<directory> -DFLAGS=<flags> -P RunPackage.cmake
+# cmake -DBUILD=<plumb's build> -DSOURCE=<plumb> -DWORK=<directory> -DFLAGS=<flags> -DGENERATOR=<of CMake> -P RunPackage.cmake
 # Packs plumb, unpacks the package aside, and builds and runs programs in C++ and C that find it there: by CMake with GCC
 # and Clang as C++17 and C++20 without exceptions and run-time types, and by pkg-config; then one that has plumb as a
 # subdirectory. A compiler that is not here is said and left out.
@@ -56,7 +56,7 @@ foreach(compiler IN ITEMS "g++;gcc" "clang++;clang")
   endif()
   foreach(standard IN ITEMS 17 20)
     set(dir "${WORK}/${cxx}-${standard}")
-    must("${CMAKE_COMMAND}" -S "${SOURCE}/examples/embed" -B "${dir}" "-DCMAKE_PREFIX_PATH=${prefix}"
+    must("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${SOURCE}/examples/embed" -B "${dir}" "-DCMAKE_PREFIX_PATH=${prefix}"
          "-DCMAKE_CXX_COMPILER=${cxx}" "-DCMAKE_C_COMPILER=${cc}" "-DCMAKE_CXX_STANDARD=${standard}"
          "-DCMAKE_CXX_FLAGS=-fno-exceptions -fno-rtti -Wall -Wextra -Werror ${FLAGS}" "-DCMAKE_C_FLAGS=${FLAGS}")
     must("${CMAKE_COMMAND}" --build "${dir}")
@@ -74,7 +74,7 @@ foreach(case IN ITEMS "host;-" "nonsense;there is no component nonsense: there a
 project(component LANGUAGES CXX)
 find_package(plumb 1 CONFIG REQUIRED COMPONENTS ${component})
 ")
-  execute_process(COMMAND "${CMAKE_COMMAND}" -S "${WORK}/${component}" -B "${WORK}/${component}/build" "-DCMAKE_PREFIX_PATH=${prefix}"
+  execute_process(COMMAND "${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${WORK}/${component}" -B "${WORK}/${component}/build" "-DCMAKE_PREFIX_PATH=${prefix}"
     RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   string(REGEX REPLACE "[ \n]+" " " output "${output}")
   if("${found}" MATCHES "plumbHostTargets" AND component STREQUAL "host")
@@ -117,7 +117,7 @@ set(launcher)
 if(ccache)
   set(launcher "-DCMAKE_CXX_COMPILER_LAUNCHER=${ccache}")
 endif()
-must("${CMAKE_COMMAND}" -S "${WORK}/parent" -B "${WORK}/parent/build" -DCMAKE_BUILD_TYPE=Release
+must("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${WORK}/parent" -B "${WORK}/parent/build" -DCMAKE_BUILD_TYPE=Release
      "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS=${FLAGS}" ${launcher})
 must("${CMAKE_COMMAND}" --build "${WORK}/parent/build" --parallel 2 --target plumb_monitor_loop plumb_monitor_loop_c)
 must_watch("${WORK}/parent/build/embed/plumb_monitor_loop")

@@ -96,6 +96,18 @@ configure() {
   (cd "$PLUMB_ROOT" && cmake --preset "$preset" "${fresh[@]}" "$@" --log-level=NOTICE)
 }
 
+# What a build has beyond one capacity for the core and one for the host.
+# shellcheck disable=SC2034  # used by the scripts that source this
+PLUMB_MORE_BUILDS=(-DPLUMB_ALL_CAPACITIES=ON -DPLUMB_BUILD_PYTHON=AUTO -DPLUMB_BUILD_MPI=ON)
+
+# usual_builds: sets PLUMB_USUAL_BUILDS for build/release: none of these; a folder that has them already keeps them.
+usual_builds() {
+  PLUMB_USUAL_BUILDS=()
+  if ! grep -qxF PLUMB_ALL_CAPACITIES:BOOL=ON "$PLUMB_ROOT/build/release/CMakeCache.txt" 2>/dev/null; then
+    PLUMB_USUAL_BUILDS=(-DPLUMB_ALL_CAPACITIES=OFF -DPLUMB_BUILD_PYTHON=OFF -DPLUMB_BUILD_MPI=OFF)
+  fi
+}
+
 # build_targets BUILDDIR TARGET...
 build_targets() {
   local dir="$1" jobs

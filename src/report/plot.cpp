@@ -40,11 +40,19 @@ io::FileExpected<void> run_program(const std::string& directory, const std::stri
     line += (line.empty() ? "" : " ") + word;
   }
   argv.push_back(nullptr);
+  // The scripts are UTF-8 and their numbers have points, whatever the user's locale is: without one, gnuplot complains of
+  // the degree sign.
+  std::string locale = "LC_ALL=C.UTF-8";
+  std::vector<char*> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    if (std::strncmp(*entry, "LC_ALL=", 7) != 0) environment.push_back(*entry);
+  environment.push_back(locale.data());
+  environment.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   if (error == ENOENT)
     return failed("is not installed, so there is no " + what,

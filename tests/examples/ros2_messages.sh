@@ -12,6 +12,7 @@ command -v rosidl >/dev/null || skip "no rosidl" rosidl-tools
 [[ -f /usr/share/rosidl_generator_cpp/package.xml ]] || skip "no C++ generator of rosidl" rosidl-generator-c-cpp
 [[ -d /usr/include/rosidl_runtime_cpp ]] || skip "no runtime headers of rosidl" librosidl-runtime-c-cpp-dev
 /usr/bin/python3 -c "import ament_index_python" 2>/dev/null || skip "no ament index" python3-ament-index
+/usr/bin/python3 -c "import yaml" 2>/dev/null || skip "no yaml, which rosidl needs" python3-yaml
 [[ -f "$share/sensor_msgs/msg/Imu.msg" ]] || skip "no sensor_msgs" ros-sensor-msgs
 [[ -f "$share/diagnostic_msgs/msg/DiagnosticStatus.msg" ]] || skip "no diagnostic_msgs" ros-diagnostic-msgs
 

@@ -1,4 +1,4 @@
-// Whom the monitor never blames: laws 1, 4, 7 and 8 of docs/property-testing.md, each over a hundred thousand cases.
+// Whom the monitor never blames: laws 1, 4, 7 and 8 of docs/property-testing.md, each over kLawCases cases.
 #include "laws/law_run.hpp"
 
 namespace innocent_laws_test {
@@ -7,7 +7,6 @@ namespace {
 using namespace plumb;
 using namespace plumb_test;
 
-constexpr std::uint64_t kCases = 100000;
 /// Behind a block, where noise is to be small beside what calibration leaves.
 constexpr double kManySamples = 1024.0;
 
@@ -34,7 +33,7 @@ LawOutcome never_latches_the_healthy(const LawTool& tool, LawCase& c, Watch& wat
 }
 
 TEST(Law, OneNobodyHealthyIsExcludedWithinTheGradeAndTheBounds) {
-  const LawCount count = run_law(1, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(1, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -57,7 +56,7 @@ TEST(Law, OneNobodyHealthyIsExcludedWithinTheGradeAndTheBounds) {
 /// Gravity off by ten sigma is beyond what the reference claims. What is promised then: one fault among five or more
 /// sensors of which every four check each other.
 TEST(Law, OneHoldsForOneFaultThoughGravityIsOffByTenSigma) {
-  const LawCount count = run_law(10, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(10, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -73,7 +72,7 @@ TEST(Law, OneHoldsForOneFaultThoughGravityIsOffByTenSigma) {
 }
 
 TEST(Law, FourFaultsInLeagueExcludeNobodyHealthyThoughTheyAreMoreThanCanBeTold) {
-  const LawCount count = run_law(4, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(4, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -101,7 +100,7 @@ struct LinearEnd {
 TEST(Law, EightLinearFaultsEndExcludedOrOpenAndNeverInAWrongExclusion) {
   static LinearEnd end;
   end = {};
-  const LawCount count = run_law(8, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(8, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -234,7 +233,7 @@ class TroubledRun {
 TEST(Law, SevenTroubleThatIsNoSensorsFaultExcludesNobody) {
   static std::uint64_t common = 0, misread = 0;
   common = misread = 0;
-  const LawCount count = run_law(7, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(7, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];

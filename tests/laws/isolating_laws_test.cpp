@@ -1,4 +1,4 @@
-// Whom the monitor names: laws 2, 3, 5, 6 and 9 of docs/property-testing.md, each over a hundred thousand cases.
+// Whom the monitor names: laws 2, 3, 5, 6 and 9 of docs/property-testing.md, each over kLawCases cases.
 #include <algorithm>
 
 #include "laws/law_run.hpp"
@@ -8,8 +8,6 @@ namespace {
 
 using namespace plumb;
 using namespace plumb_test;
-
-constexpr std::uint64_t kCases = 100000;
 
 const LawTool& tool_of(Strata& strata) {
   const auto& tools = every_tool();
@@ -74,7 +72,7 @@ MonitorConfig patient() {
 }
 
 TEST(Law, TwoFaultsThatCanBeToldAreExcludedAndNobodyElse) {
-  const LawCount count = run_law(2, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(2, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
     const Lie lie = strata.of(std::array<Lie, 3>{Lie::constant, Lie::stuck, Lie::random});
@@ -91,7 +89,7 @@ TEST(Law, TwoFaultsThatCanBeToldAreExcludedAndNobodyElse) {
 }
 
 TEST(Law, ThreeWithTheirNumberAssertedFaultsInLeagueAreExcludedAndNobodyElse) {
-  const LawCount count = run_law(3, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(3, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
     const Lie lie =
@@ -117,7 +115,7 @@ TEST(Law, ThreeWithTheirNumberAssertedFaultsInLeagueAreExcludedAndNobodyElse) {
 TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
   static std::uint64_t hasty = 0, contradicted = 0, not_failed = 0, wrong = 0;
   hasty = contradicted = not_failed = wrong = 0;
-  const LawCount count = run_law(5, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(5, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
     const Lie lie = strata.of(std::array<Lie, 3>{Lie::constant, Lie::stuck, Lie::random});
@@ -166,7 +164,7 @@ TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
 TEST(Law, SixSmallFaultsExcludeNobodyHealthyAndTheBoundHolds) {
   static std::uint64_t bounded = 0;
   bounded = 0;
-  const LawCount count = run_law(6, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(6, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
     // The frame of fitted axes is known but for a turn that gravity does not show; the bound is in that frame.
@@ -204,7 +202,7 @@ TEST(Law, SixSmallFaultsExcludeNobodyHealthyAndTheBoundHolds) {
 }
 
 TEST(Law, NineWhatTheParityGradeBearsIsSetAsideAtTheFirstStation) {
-  const LawCount count = run_law(9, kCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(9, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
     if (tool.parity() < 1) return not_of_this_law();
