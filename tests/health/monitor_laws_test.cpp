@@ -150,7 +150,7 @@ RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
     const Verdict& v = rig.monitor.verdict();
     RC_ASSERT(v.validity != Validity::valid || (kind == 2 && v.set_aside == SensorSet::of(faulty)));
   }
-  if (!excluded) return;
+  RC_PRE(excluded);
   auto twin = std::make_unique<HealthMonitor>(rig.monitor);
   const Verdict before = rig.monitor.verdict();
   for (int k = 0; k < 200; ++k) {
