@@ -75,6 +75,8 @@ RC_GTEST_PROP(FirstCalibrationLaw, AttitudesInOnePlaneAreNeverEnough, ()) {
   }
   RC_ASSERT(!tool.calibrated());
   RC_ASSERT(!tool.usable_too_early);
+  tool.roam(60);
+  RC_ASSERT(tool.calibrated());  // it was that alone
 }
 
 /// Drift and jumps far above the noise of a station, of one sensor.
@@ -95,6 +97,9 @@ RC_GTEST_PROP(FirstCalibrationLaw, ASensorThatVariesIsNeverAccepted, ()) {
   tool.roam(60);
   RC_ASSERT(!tool.calibrated());
   RC_ASSERT(!tool.usable_too_early);
+  tool.distort = [](int, double r, int) { return r; };
+  tool.roam(60);
+  RC_ASSERT(tool.calibrated());  // it was that alone
 }
 
 /// While the tool shakes no station counts.
@@ -112,6 +117,8 @@ RC_GTEST_PROP(FirstCalibrationLaw, NothingIsAcceptedWhileTheToolMoves, ()) {
     }
   }
   RC_ASSERT(!tool.calibrated());
+  tool.roam(60);
+  RC_ASSERT(tool.calibrated());  // it was that alone
 }
 
 }  // namespace
