@@ -163,6 +163,15 @@ if(TARGET plumb_tool)
   set_tests_properties(report.browser PROPERTIES LABELS "host;slow")
 endif()
 
+# Every test can fail; and the check of that sees a test which asserts nothing.
+if(PLUMB_PYTHON3)
+  add_test(NAME tests.assert_something
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/depth/assertions.py")
+  add_test(NAME tests.without_assertions_are_found
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/depth/assertions.py" --self-test)
+  set_tests_properties(tests.assert_something tests.without_assertions_are_found PROPERTIES LABELS trace TIMEOUT 120)
+endif()
+
 # The manual page as man reads it, the completion as the shells do, and the guided tour as it is printed.
 if(TARGET plumb_tool)
   add_test(NAME cli.manual COMMAND bash "${PROJECT_SOURCE_DIR}/tests/cli/manual.sh" "$<TARGET_FILE:plumb_tool>"

@@ -37,24 +37,6 @@ constexpr const char* kModelNotes =
     "Events are in rank order: where several apply at once, the first is taken. \"by size\" = failed, degraded,\n"
     "nominal or isolated, by what is left in service. PL = protection level, AL = alert limit.\n\n";
 
-struct NamedAction {
-  Action::Bits bit;
-  const char* name;
-};
-constexpr NamedAction kActions[] = {{Action::exclude, "exclude"},
-                                    {Action::set_aside, "set aside"},
-                                    {Action::mark_absent, "mark absent"},
-                                    {Action::mark_back, "mark as back"},
-                                    {Action::discard_fit, "discard fit"},
-                                    {Action::restart_fit, "restart collection"},
-                                    {Action::adopt_fit, "adopt fit"},
-                                    {Action::start_fit, "start fit"},
-                                    {Action::reinstate, "reinstate"},
-                                    {Action::rearm, "return named sensors"},
-                                    {Action::exhausted, "exhausted"},
-                                    {Action::unproven, "unproven"},
-                                    {Action::count, "count"}};
-
 const char* kind_name(CellKind kind) {
   switch (kind) {
     case CellKind::taken: return "taken";
@@ -67,8 +49,9 @@ const char* kind_name(CellKind kind) {
 
 std::vector<std::string> actions_of(const Cell& cell) {
   std::vector<std::string> out;
-  for (const NamedAction& action : kActions) {
-    if ((cell.actions & action.bit) != 0) out.emplace_back(action.name);
+  for (int k = 0; k < Action::kinds; ++k) {
+    const auto one = static_cast<Action::Bits>(1U << static_cast<unsigned>(k));
+    if ((cell.actions & one) != 0) out.emplace_back(action_name(one));
   }
   return out;
 }

@@ -146,5 +146,24 @@ const char* to_string(Target target) noexcept {
   return "?";
 }
 
+const char* action_name(Action::Bits one) noexcept {
+  switch (one) {
+    case Action::exclude: return "exclude";
+    case Action::set_aside: return "set aside";
+    case Action::mark_absent: return "mark absent";
+    case Action::mark_back: return "mark as back";
+    case Action::discard_fit: return "discard fit";
+    case Action::restart_fit: return "restart collection";
+    case Action::adopt_fit: return "adopt fit";
+    case Action::start_fit: return "start fit";
+    case Action::reinstate: return "reinstate";
+    case Action::rearm: return "return named sensors";
+    case Action::exhausted: return "exhausted";
+    case Action::unproven: return "unproven";
+    case Action::count: return "count";
+    default: return "?";
+  }
+}
+
 }  // namespace PLUMB_ABI
 }  // namespace plumb

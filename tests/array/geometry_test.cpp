@@ -163,9 +163,6 @@ TEST(Merit, MinimumDeterminantsOfTheNote) {
     EXPECT_NEAR(min_det(plain_cone, 7), 0.227, 5e-4);
     EXPECT_NEAR(min_det(cone_with_axis, 8), 0.219, 5e-4);
   }
-  if constexpr (kCapacity >= 10) {
-    EXPECT_NEAR(min_det(platonic, 10), 0.238, 5e-4);
-  }
 }
 
 TEST(Merit, AConeHidesACommonBiasFromParity) {

@@ -90,25 +90,6 @@ TEST(Platonic, SixAxesAreEquiangular) {
   }
 }
 
-TEST(Platonic, TenAxesAreTheFaceNormalsOfTheIcosahedron) {
-  if constexpr (kCapacity >= 10) {
-    AxisList axes{};
-    ASSERT_EQ(platonic(axes, 10), 10);
-    // Of the nine others, three lie at acos(sqrt5/3) and six at acos(1/3) from any axis.
-    for (std::size_t i = 0; i < 10; ++i) {
-      int near = 0;
-      for (std::size_t j = 0; j < 10; ++j) {
-        if (j == i) continue;
-        const double cosine = std::fabs(dot(axes[i], axes[j]));
-        const bool is_near = std::fabs(cosine - std::sqrt(5.0) / 3.0) < 1e-14;
-        EXPECT_TRUE(is_near || std::fabs(cosine - 1.0 / 3.0) < 1e-14) << cosine;
-        if (is_near) ++near;
-      }
-      EXPECT_EQ(near, 3);
-    }
-  }
-}
-
 RC_GTEST_PROP(NamedLaw, AConeHasItsHalfAngleAndEqualAzimuths, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   const double half_angle = any_in(1e-3, kPi - 1e-3);

@@ -108,6 +108,7 @@ TEST(CalibrateReport, JsonHoldsTheSame) {
   EXPECT_GE(json["fit"]["cost"].size(), 2U);
   EXPECT_TRUE(json["fit"]["p_value_means"].is_string());
   EXPECT_LT(std::abs(json["common_scale"]["mean"].get<double>()), 0.02);
+  ASSERT_EQ(json["sensors"].size(), 4U);
   for (const auto& sensor : json["sensors"]) EXPECT_GT(sensor["scale_data_share"].get<double>(), 0.99);
 }
 

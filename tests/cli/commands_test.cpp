@@ -55,9 +55,13 @@ TEST(Geometry, JsonSaysTheSameAsTheText) {
 
 TEST(Geometry, BuiltInNamesAllWork) {
   const Directory where;
-  for (const char* name :
-       {"paper-tetrahedron", "triad", "cone:3", "cone:24", "cone-axis:8", "platonic:3", "platonic:10"}) {
-    EXPECT_EQ(run(where, {"geometry", "--name", name}).code, 0) << name;
+  const std::pair<const char*, std::size_t> arrays[] = {{"paper-tetrahedron", 4}, {"triad", 3},       {"cone:3", 3},
+                                                        {"cone:24", 24},          {"cone-axis:8", 8}, {"platonic:3", 3},
+                                                        {"platonic:10", 10}};
+  for (const auto& [name, sensors] : arrays) {
+    const Outcome outcome = run(where, {"geometry", "--name", name, "--json"});
+    ASSERT_EQ(outcome.code, 0) << name;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["sensors"].size(), sensors) << name;
   }
 }
 

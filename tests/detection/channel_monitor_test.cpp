@@ -42,10 +42,11 @@ TEST(ChannelGate, SortsChannelsByWhatTheyDelivered) {
 
 // Verifies: REQ-144
 TEST(ChannelGate, UnknownFullScaleNeverClips) {
-  ChannelMonitor gate = monitor_of_four(0.0);
   Sample s = full_sample();
   s.raw[0] = 1e9;
+  ChannelMonitor gate = monitor_of_four(0.0), known = monitor_of_four();
   EXPECT_TRUE(gate.gate(s).clipped.empty());
+  EXPECT_EQ(known.gate(s).clipped, SensorSet::of(0));
 }
 
 // Verifies: REQ-141

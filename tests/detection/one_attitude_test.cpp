@@ -103,7 +103,7 @@ TEST(OneAttitude, ASensorWithoutAVotingTripleIsNeverIsolated) {
 // Verifies: REQ-017
 RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolatedByTheVote, ()) {
   const SensorArray array = drawn_array();
-  if (coplanarity(array, array.all()) != 2 || figures_of_merit(array).near_singular_triples > 0) return;
+  RC_PRE(coplanarity(array, array.all()) == 2 && figures_of_merit(array).near_singular_triples == 0);
   const TestSettings settings;
   const GravityReference truth = kGravity;
   const ErrorBudget budget = error_budget(array, truth, settings);

@@ -26,6 +26,7 @@ TEST(Attack, AnUnconfiguredMonitorAlerts) {
 // Negative: REQ-074
 TEST(Attack, SwayWithinAStationConvictsNobodyHealthy) {
   // Blocks up to 2 deg apart are one station; a mean over them would be shorter than gravity. Colluding faults.
+  int told = 0, lives = 0;
   for (int n = 4; n <= std::min(6, kCapacity); ++n) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       Rig rig(n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n), {}, seed);
@@ -39,8 +40,11 @@ TEST(Attack, SwayWithinAStationConvictsNobodyHealthy) {
         for (int block = 0; block < 6; ++block) rig.stay(direction_at(inclination + 0.35 * block, 47.0 * station));
         EXPECT_TRUE((rig.monitor.verdict().excluded - SensorSet::first(m)).empty()) << n << " " << seed;
       }
+      told += rig.monitor.verdict().excluded.empty() ? 0 : 1;
+      ++lives;
     }
   }
+  EXPECT_GE(told, 36) << "of " << lives << " lives";
 }
 
 // Verifies: REQ-052
@@ -58,6 +62,14 @@ TEST(Attack, UnequalCountsDoNotMakeAHealthyToolAlarm) {
   }
   EXPECT_EQ(alarms, 0);
   EXPECT_TRUE(rig.ever_blamed.empty());
+  // A fault of fifteen sigmas of one sample is seen at once all the same.
+  rig.distort = [](int i, double r, int) { return i == 1 ? r + 3e-3 * kG0_mps2 : r; };
+  for (int k = 0; k < 4; ++k) {
+    Sample s = rig.sample(direction_at(50.0, 7.0), kG0_mps2);
+    s.count = k % 2 == 0 ? 1U : 1000U;
+    rig.step(s);
+  }
+  EXPECT_EQ(rig.monitor.verdict().set_aside, SensorSet::of(1));
 }
 
 // Negative: REQ-092
@@ -190,6 +202,7 @@ TEST(Attack, SensorsThatHangTogetherDoNotPassAShakenBlockForAQuietOne) {
       }
       ASSERT_TRUE(liars.contains(rig.ever_blamed)) << "seed " << seed << ", station " << station;
     }
+    EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named: seed " << seed;
   }
 }
 
@@ -214,6 +227,7 @@ TEST(Attack, SensorsThatHangDoNotPassAPushedOneForANoisyOne) {
         rig.stay(plumb_test::random_direction(noise));
         ASSERT_TRUE(liars.contains(rig.monitor.verdict().excluded)) << n << " " << seed << ", station " << station;
       }
+      EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named: " << n << " " << seed;
     }
   }
 }
@@ -237,6 +251,7 @@ TEST(Attack, AmongFourAPushedOneIsNotConvictedAsNoisy) {
       rig.prove();
       Noise noise(seed);
       Vec3 g{};
+      int noisy = 0;
       double push = 0.0;
       rig.distort = [&](int i, double r, int k) {
         if (i == 0) return mirrored_reading(rig.setup.array, 0, 1, 2, g);
@@ -248,7 +263,9 @@ TEST(Attack, AmongFourAPushedOneIsNotConvictedAsNoisy) {
         push = station % 2 == 0 ? 0.4 * kG0_mps2 * noise.uniform() : 0.0;
         rig.stay(u);
         ASSERT_FALSE(rig.monitor.verdict().excluded.has(3)) << asserted << " " << seed << ", station " << station;
+        noisy += rig.monitor.verdict().noisy.has(3) ? 1 : 0;
       }
+      EXPECT_EQ(noisy, 10) << "it is told that it scatters, wherever it was pushed";
     }
   }
 }

@@ -99,6 +99,8 @@ RC_GTEST_PROP(ChannelFactsLaw, AFrozenSensorNeverGetsAHealthyOneSetAsideForItsNo
     rig.step(rig.sample(scaled(a, 1.0 / norm(a)), norm(a)));
     RC_ASSERT(SensorSet::of(frozen).contains(rig.ever_blamed));
   }
+  for (int k = 0; k < 10; ++k) rig.stay(plumb_test::random_direction(noise));
+  RC_ASSERT(rig.monitor.verdict().excluded == SensorSet::of(frozen));
 }
 
 /// S7 from below: vibration at and around the limit of what is quiet, over many blocks.
@@ -119,6 +121,9 @@ RC_GTEST_PROP(ChannelFactsLaw, VibrationIsNeverOneChannelsNoise, ()) {
     RC_ASSERT(rig.monitor.verdict().noisy.empty());
   }
   RC_ASSERT(rig.ever_blamed.empty());
+  rig.distort = [&noise](int i, double r, int) { return i == 1 ? r + 0.02 * kG0_mps2 * noise.normal() : r; };
+  rig.stay(direction_at(30, 40), 2);
+  RC_ASSERT(rig.monitor.verdict().noisy == SensorSet::of(1));  // noise of its own is told
 }
 
 // Verifies: REQ-145

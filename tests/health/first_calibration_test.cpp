@@ -180,6 +180,8 @@ TEST(FirstCalibration, NothingIsCollectedWhileTheToolMoves) {
   for (int k = 0; k < 40 * 32; ++k) tool.step(tool.sample(random_direction(tool.noise)));
   EXPECT_FALSE(tool.calibrated());
   EXPECT_EQ(tool.monitor.recalibration().store().size(), 0);
+  tool.roam(60);
+  EXPECT_TRUE(tool.calibrated()) << "as soon as it rests";
 }
 
 /// An alarm takes everything back: the stations may have been taken under the fault.

@@ -150,7 +150,7 @@ RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
     const Verdict& v = rig.monitor.verdict();
     RC_ASSERT(v.validity != Validity::valid || (kind == 2 && v.set_aside == SensorSet::of(faulty)));
   }
-  if (!excluded) return;
+  RC_PRE(excluded);
   auto twin = std::make_unique<HealthMonitor>(rig.monitor);
   const Verdict before = rig.monitor.verdict();
   for (int k = 0; k < 200; ++k) {
@@ -186,6 +186,9 @@ RC_GTEST_PROP(MonitorLaw, VibrationNeverExcludesNorFails, ()) {
     RC_ASSERT(rig.ever_blamed.empty());
     RC_ASSERT(rig.monitor.verdict().state != HealthState::failed);
   }
+  rig.distort = [](int i, double r, int) { return i == 2 ? r + 2.0 : r; };
+  for (int k = 0; k < 10; ++k) rig.stay(plumb_test::random_direction(noise));
+  RC_ASSERT(rig.monitor.verdict().excluded == SensorSet::of(2));  // a fault afterwards is told
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ TEST(RequirementParityGrade, FourSensorsHaveNoneAndSetNobodyAside) {
       EXPECT_TRUE(v.set_aside.empty());
       EXPECT_FALSE(v.qualifiers & Qualifier::provisional);
     }
+    EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1)) << "by the strict grade: " << fault;
   }
 }
 

@@ -5,28 +5,15 @@
 
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace transition_table_test {
 namespace {
 
 using namespace plumb;
-
-// Negative: REQ-090
-TEST(TransitionTable, EveryEventOfEveryModeIsWritten) {
-  int cells = 0;
-  for (int m = 0; m < kModeCount; ++m) {
-    for (int e = 0; e < kEventCount; ++e) {
-      const Cell& cell = cell_of(static_cast<Mode>(m), static_cast<HealthEvent>(e));
-      if (cell.kind == CellKind::taken) {
-        EXPECT_FALSE(cell.target == Target::stay && cell.actions == Action::none);
-      }
-      ++cells;
-    }
-  }
-  EXPECT_EQ(cells, 7 * 15);
-}
 
 // Negative: REQ-090
 TEST(TransitionTable, WhereNothingHappenedNothingIsDone) {
@@ -95,48 +82,148 @@ TEST(TransitionTable, UnprovenSuspectExcludesButStays) {
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::failed);
 }
 
-/// The hand-written specification: "mode | event | kind | target" per line.
-std::map<std::string, std::string> specification() {
-  std::map<std::string, std::string> cells;
+/// A cell in words: "ignored", "held", "impossible" or the target, and what is done.
+struct Words {
+  std::string outcome;
+  std::set<std::string> actions;
+  bool operator==(const Words& o) const { return outcome == o.outcome && actions == o.actions; }
+};
+std::ostream& operator<<(std::ostream& out, const Words& w) {
+  out << w.outcome << " |";
+  for (const std::string& action : w.actions) out << " " << action << ",";
+  return out;
+}
+using Table = std::map<std::string, Words>;  // by "mode / event"
+
+std::string trim(const std::string& s) {
+  const auto a = s.find_first_not_of(" \t"), b = s.find_last_not_of(" \t");
+  return a == std::string::npos ? std::string() : s.substr(a, b - a + 1);
+}
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);) parts.push_back(trim(part));
+  return parts;
+}
+
+/// The hand-written specification: "mode | event | outcome | actions" per line.
+Table specification() {
+  Table table;
   std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/model/state_table.txt");
-  std::string line;
-  while (std::getline(file, line)) {
+  for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#') continue;
-    std::istringstream in(line);
-    std::string mode, event, rest;
-    std::getline(in, mode, '|');
-    std::getline(in, event, '|');
-    std::getline(in, rest);
-    const auto trim = [](std::string s) {
-      const auto a = s.find_first_not_of(" \t"), b = s.find_last_not_of(" \t");
-      return a == std::string::npos ? std::string() : s.substr(a, b - a + 1);
-    };
-    cells[trim(mode) + "/" + trim(event)] = trim(rest);
+    const std::vector<std::string> parts = split(line, '|');
+    if (parts.size() != 4) {
+      ADD_FAILURE() << "no cell: " << line;
+      continue;
+    }
+    Words cell{parts[2], {}};
+    if (parts[3] != "-") {
+      for (const std::string& action : split(parts[3], ',')) cell.actions.insert(action);
+    }
+    EXPECT_TRUE(table.emplace(parts[0] + " / " + parts[1], cell).second) << "written twice: " << line;
   }
-  return cells;
+  return table;
+}
+
+Words words_of(const Cell& cell) {
+  Words out;
+  switch (cell.kind) {
+    case CellKind::ignored: out.outcome = "ignored"; break;
+    case CellKind::held: out.outcome = "held"; break;
+    case CellKind::impossible: out.outcome = "impossible"; break;
+    case CellKind::taken: out.outcome = to_string(cell.target); break;
+  }
+  for (unsigned k = 0; k < 16; ++k) {
+    const auto one = static_cast<Action::Bits>(1U << k);
+    if ((cell.actions & one) != 0) out.actions.insert(action_name(one));
+  }
+  return out;
+}
+
+/// The cells that are written in one of the two and not, or not so, in the other.
+std::vector<std::string> differences(const Table& specified, const TransitionTable& code) {
+  std::vector<std::string> out;
+  std::set<std::string> met;
+  for (int m = 0; m < kModeCount; ++m) {
+    for (int e = 0; e + 1 < kEventCount; ++e) {
+      const std::string where =
+          std::string(to_string(static_cast<Mode>(m))) + " / " + to_string(static_cast<HealthEvent>(e));
+      met.insert(where);
+      const Words coded = words_of(code[static_cast<std::size_t>(m)][static_cast<std::size_t>(e)]);
+      const auto found = specified.find(where);
+      if (found != specified.end() && found->second == coded) continue;
+      std::ostringstream text;
+      text << where << ": the code has " << coded;
+      out.push_back(text.str());
+    }
+  }
+  for (const auto& [where, cell] : specified) {
+    if (met.count(where) == 0) out.push_back(where + ": no such cell");
+  }
+  return out;
 }
 
 // Verifies: REQ-090
 TEST(TransitionTable, AgreesWithTheHandWrittenSpecificationCellByCell) {
-  const auto spec = specification();
-  ASSERT_EQ(spec.size(), 7U * 14U) << "model/state_table.txt must hold every cell but those of 'none'";
-  for (int m = 0; m < kModeCount; ++m) {
-    for (int e = 0; e + 1 < kEventCount; ++e) {
-      const auto mode = static_cast<Mode>(m);
-      const auto event = static_cast<HealthEvent>(e);
-      const Cell& cell = cell_of(mode, event);
-      std::string said;
-      switch (cell.kind) {
-        case CellKind::ignored: said = "ignored"; break;
-        case CellKind::held: said = "held"; break;
-        case CellKind::impossible: said = "impossible"; break;
-        case CellKind::taken: said = to_string(cell.target); break;
+  const Table specified = specification();
+  EXPECT_EQ(specified.size(), 7U * 14U) << "model/state_table.txt must hold every cell but those of 'none'";
+  EXPECT_EQ(differences(specified, kTransitionTable), std::vector<std::string>());
+}
+
+/// Each cell with another kind, another target, and each action taken away or added: one difference every time.
+// Negative: REQ-090
+TEST(TransitionTable, ACellThatDiffersInOneThingIsNoticed) {
+  const Table specified = specification();
+  for (std::size_t m = 0; m < kModeCount; ++m) {
+    for (std::size_t e = 0; e + 1 < kEventCount; ++e) {
+      const auto noticed = [&](Cell other) {
+        TransitionTable changed = kTransitionTable;
+        changed[m][e] = other;
+        return differences(specified, changed).size() == 1;
+      };
+      const Cell& cell = kTransitionTable[m][e];
+      Cell other = cell;
+      other.kind = cell.kind == CellKind::held ? CellKind::ignored : CellKind::held;
+      EXPECT_TRUE(noticed(other)) << m << " " << e;
+      other = cell;
+      other.target = cell.target == Target::base ? Target::by_size : Target::base;
+      EXPECT_EQ(noticed(other), cell.kind == CellKind::taken) << m << " " << e << ": no other kind has a target";
+      for (int k = 0; k < Action::kinds; ++k) {
+        other = cell;
+        other.actions = static_cast<Action::Bits>(cell.actions ^ (1U << static_cast<unsigned>(k)));
+        EXPECT_TRUE(noticed(other)) << m << " " << e << ", action " << k;
       }
-      const auto found = spec.find(std::string(to_string(mode)) + "/" + to_string(event));
-      ASSERT_NE(found, spec.end()) << to_string(mode) << " / " << to_string(event);
-      EXPECT_EQ(found->second, said) << to_string(mode) << " / " << to_string(event);
     }
   }
+}
+
+/// A cell that nobody wrote in the specification, and one of a mode that there is not.
+// Negative: REQ-090
+TEST(TransitionTable, ACellThatIsMissingInTheSpecificationIsNoticed) {
+  const Table specified = specification();
+  for (const auto& [where, cell] : specified) {
+    Table fewer = specified;
+    fewer.erase(where);
+    EXPECT_EQ(differences(fewer, kTransitionTable).size(), 1U) << where;
+  }
+  Table more = specified;
+  more["asleep / alarm"] = {"ignored", {}};
+  EXPECT_EQ(differences(more, kTransitionTable).size(), 1U);
+}
+
+// Verifies: REQ-090
+TEST(TransitionTable, EveryActionHasAWordOfItsOwn) {
+  std::set<std::string> words;
+  for (int k = 0; k < Action::kinds; ++k) {
+    const std::string word = action_name(static_cast<Action::Bits>(1U << static_cast<unsigned>(k)));
+    EXPECT_NE(word, "?") << k;
+    EXPECT_TRUE(words.insert(word).second) << word;
+  }
+  EXPECT_STREQ(action_name(static_cast<Action::Bits>(1U << static_cast<unsigned>(Action::kinds))), "?");
+  EXPECT_STREQ(action_name(Action::none), "?");
+  EXPECT_STREQ(action_name(Action::exclude | Action::count), "?") << "two at once";
 }
 
 }  // namespace

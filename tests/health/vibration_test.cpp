@@ -57,6 +57,7 @@ std::vector<Vec3> directions(const SensorArray& array, int random, Noise& noise)
 
 struct Outcome {
   std::int64_t ticks = 0, excluded = 0, failed = 0;
+  int told = 0, asked = 0;                     ///< faults after the vibration
   std::int64_t strong = 0, strong_moving = 0;  ///< at 1 g rms and a shape that swings
 };
 
@@ -90,6 +91,13 @@ void climb(Rig& rig, const Shape& shape, const Vec3& along, int step_db, int blo
   out.excluded += rig.ever_blamed.empty() ? 0 : 1;
 }
 
+/// The monitor is as good as before: a fault after all that is told.
+bool tells_a_fault(Rig& rig, Noise& noise) {
+  rig.distort = [](int i, double r, int) { return i == 1 ? r + 1.0 : r; };
+  for (int k = 0; k < 8; ++k) rig.stay(plumb_test::random_direction(noise));
+  return rig.monitor.verdict().excluded == SensorSet::of(1);
+}
+
 Outcome shake(const SensorArray& array, std::uint64_t seed) {
   const bool full = plumb_test::long_run();
   Noise noise(seed);
@@ -101,6 +109,8 @@ Outcome shake(const SensorArray& array, std::uint64_t seed) {
       climb(rig, shape, along, full ? 1 : 6, full ? 8 : 3, noise.uniform() < 0.5, noise, out);
       EXPECT_TRUE(rig.ever_blamed.empty()) << shape.name << ", " << array.size() << " sensors";
       EXPECT_NE(rig.monitor.verdict().state, HealthState::failed) << shape.name << ", " << array.size() << " sensors";
+      out.told += tells_a_fault(rig, noise) ? 1 : 0;
+      ++out.asked;
     }
   }
   return out;
@@ -112,6 +122,8 @@ void expect_borne(const char* name, const Outcome& o) {
             << " moving (95 %: " << plumb_test::clopper_pearson(o.strong_moving, o.strong, 0.95).low << " ..)\n";
   EXPECT_EQ(o.excluded, 0) << name;
   EXPECT_EQ(o.failed, 0) << name;
+  EXPECT_GE(100 * o.told, 99 * o.asked) << name << ": a fault after the vibration";
+  EXPECT_GT(o.strong, 100) << name;
   EXPECT_GE(1000 * o.strong_moving, 999 * o.strong) << name;
 }
 

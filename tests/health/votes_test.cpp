@@ -293,6 +293,8 @@ TEST(Votes, WhoScattersIsNotTheAnswerWhereTheOthersAreOff) {
     rig.stay(plumb_test::random_direction(directions));
     EXPECT_TRUE(rig.ever_blamed.empty()) << k;
   }
+  EXPECT_EQ(rig.monitor.verdict().noisy, SensorSet::of(1)) << "it scatters for certain";
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named";
 }
 
 /// An episode that clean stations end is forgotten with everything that was decided in it.

@@ -15,10 +15,15 @@ namespace {
 using namespace plumb;
 using namespace plumb_test;
 
-/// Attitudes of an episode, with one fault set and an error of gravity; the sensors out at the end. Broken where a
-/// healthy one is out at any time.
-SensorSet out_after(const TrialTool& tool, LawCase& c, int stations, double samples, TrialNoise& noise,
-                    MonitorConfig config = {}) {
+/// The sensors that are out at the end of an episode: for good, and by the provisional grade too.
+struct Out {
+  SensorSet excluded, with_set_aside;
+};
+
+/// Attitudes of an episode, with one fault set and an error of gravity. Broken where a healthy one is excluded at any
+/// time.
+Out out_after(const TrialTool& tool, LawCase& c, int stations, double samples, TrialNoise& noise,
+              MonitorConfig config = {}) {
   LawTool law;
   law.tool = tool;
   Watch watch(law, config);
@@ -27,31 +32,39 @@ SensorSet out_after(const TrialTool& tool, LawCase& c, int stations, double samp
     const Verdict& v = watch.station(c.with_noise(c.readings(noise.direction(), noise), noise));
     EXPECT_TRUE(c.faulty().contains(v.excluded)) << names_of(v.excluded) << " at station " << k;
   }
-  return watch.verdict().excluded;
+  const Verdict& v = watch.verdict();
+  return {v.excluded, v.excluded | v.set_aside};
+}
+
+LawCase bias_of_a_tenth(const TrialTool& tool, double gravity_sigmas, TrialNoise& noise) {
+  LawCase c(tool, LawCase::some(tool.array.size(), 1, noise), Lie::constant, gravity_sigmas);
+  c.least_mps2 = 0.0999 * kG0_mps2;
+  c.most_mps2 = 0.1 * kG0_mps2;
+  c.draw(noise);
+  return c;
 }
 
 /// Gravity wrong by two and three of its sigmas, and by seven; one bias of 0.1 g0. Without a systematic term 30 to 83 %
-/// of these ended in a wrong exclusion for five and more sensors.
+/// of these ended in a wrong exclusion for five and more sensors. By seven sigmas the length of gravity is no evidence
+/// any more: what is left is parity, which takes the faulty one out provisionally.
 TEST(CounterExample, OneFaultAndASlightlyWrongGravityExcludeNobodyHealthy) {
   struct Row {
     double sigma_g0, gravity_mg0;
-    int least, right;  ///< fewest sensors; how many of 60 at least end with the faulty one out
+    int fewest_sensors;
+    bool provisional;
   };
-  for (const Row& row : {Row{2e-4, 0.30, 4, 54}, Row{2e-4, 0.45, 4, 54}, Row{5e-4, 1.0, 5, 0}}) {
+  for (const Row& row : {Row{2e-4, 0.30, 4, false}, Row{2e-4, 0.45, 4, false}, Row{5e-4, 1.0, 5, true}}) {
     for (const int n : {4, 5, 6, 8}) {
-      if (n < row.least) continue;
+      if (n < row.fewest_sensors) continue;
       const TrialTool tool = exact_tool(n, 0, row.sigma_g0 * kG0_mps2);
       TrialNoise noise(static_cast<std::uint64_t>(n));
       int right = 0;
       for (int t = 0; t < 60; ++t) {
-        const double sign = noise.sign();
-        LawCase c(tool, LawCase::some(n, 1, noise), Lie::constant, sign * row.gravity_mg0 / 0.15);
-        c.least_mps2 = 0.0999 * kG0_mps2;
-        c.most_mps2 = 0.1 * kG0_mps2;
-        c.draw(noise);
-        right += out_after(tool, c, 8, 32.0, noise) == c.faulty() ? 1 : 0;
+        LawCase c = bias_of_a_tenth(tool, noise.sign() * row.gravity_mg0 / 0.15, noise);
+        const Out out = out_after(tool, c, 8, 32.0, noise);
+        right += (row.provisional ? out.with_set_aside : out.excluded) == c.faulty() ? 1 : 0;
       }
-      EXPECT_GE(right, row.right) << n << " sensors, gravity wrong by " << row.gravity_mg0 << " mg0";
+      EXPECT_GE(right, 54) << n << " sensors, gravity wrong by " << row.gravity_mg0 << " mg0";
     }
   }
 }
@@ -60,15 +73,14 @@ TEST(CounterExample, OneFaultAndASlightlyWrongGravityExcludeNobodyHealthy) {
 TEST(CounterExample, WhatCalibrationLeavesExcludesNobodyHealthyHoweverManySamplesABlockHas) {
   for (int n = 5; n <= kCapacity; ++n) {
     TrialNoise noise(static_cast<std::uint64_t>(n));
+    int right = 0;
     for (int t = 0; t < 40; ++t) {
       AxisList axes = trial_axes(n, 0);
       const TrialTool tool = drawn_tool(axes, n, noise);
-      LawCase c(tool, LawCase::some(n, 1, noise), Lie::constant, 0.0);
-      c.least_mps2 = 0.0999 * kG0_mps2;
-      c.most_mps2 = 0.1 * kG0_mps2;
-      c.draw(noise);
-      out_after(tool, c, 8, 1024.0, noise);
+      LawCase c = bias_of_a_tenth(tool, 0.0, noise);
+      right += out_after(tool, c, 8, 1024.0, noise).excluded == c.faulty() ? 1 : 0;
     }
+    EXPECT_GE(right, 38) << n << " sensors";
   }
 }
 
@@ -83,7 +95,7 @@ TEST(CounterExample, AsManyFaultsAsTheStrictGradeBearsAreTold) {
       c.draw(noise);
       MonitorConfig config;
       config.patience = 24;
-      right += out_after(tool, c, 12, 32.0, noise, config) == c.faulty() ? 1 : 0;
+      right += out_after(tool, c, 12, 32.0, noise, config).excluded == c.faulty() ? 1 : 0;
     }
     EXPECT_GE(right, 57) << n << " sensors";
   }
@@ -101,12 +113,14 @@ TEST(CounterExample, CoplanarTriplesBlameNobodyHealthy) {
   for (int t = 0; t < 200; ++t) {
     LawCase c(tool, LawCase::some(5, 1, noise), Lie::random, 0.0);
     c.draw(noise);
-    right += out_after(tool, c, 8, 32.0, noise) == c.faulty() ? 1 : 0;
+    right += out_after(tool, c, 8, 32.0, noise).excluded == c.faulty() ? 1 : 0;
   }
   EXPECT_GE(right, 180);
 }
 
-/// Two triads, one axis reversed: n - 2m = 4, and yet the largest set that agrees is not the healthy one.
+/// Two triads, one axis reversed: n - 2m = 4, and yet the largest set that agrees is not the healthy one. A reversed
+/// axis and its twin explain each other at every attitude, so nobody is excluded; any other fault of the same axis is
+/// told.
 TEST(CounterExample, AReversedAxisOfTwoTriadsIsNotBlamedOnItsTwin) {
   AxisList axes{};
   for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = 1.0;
@@ -116,7 +130,10 @@ TEST(CounterExample, AReversedAxisOfTwoTriadsIsNotBlamedOnItsTwin) {
   for (int i = 0; i < 6; ++i) {
     LawCase c(tool, SensorSet::of(i), Lie::sign, 0.0);
     c.draw(noise);
-    out_after(tool, c, 12, 32.0, noise);
+    EXPECT_EQ(out_after(tool, c, 12, 32.0, noise).with_set_aside, SensorSet()) << "sensor " << i + 1;
+    LawCase other(tool, SensorSet::of(i), Lie::random, 0.0);
+    other.draw(noise);
+    EXPECT_EQ(out_after(tool, other, 12, 32.0, noise).excluded, SensorSet::of(i));
   }
 }
 
@@ -151,20 +168,29 @@ TEST(CounterExample, OneSpikeIsOneBlocksAlarm) {
   Rig rig(tetrahedron());
   ASSERT_EQ(rig.prove().state, HealthState::nominal);
   const std::size_t before = rig.records.size();
-  Sample s = rig.sample(direction_at(60, 10), kG0_mps2);
+  const Vec3 still = direction_at(100, 340);  // where `prove` ends: a tool that turns is moving, and no block is judged
+  Sample s = rig.sample(still, kG0_mps2);
   s.raw[2] += 5.0 * kG0_mps2;
   rig.step(s);
+  int alarmed = 0;
+  for (int k = 1; k < 4 * rig.setup.config.window; ++k) {
+    const Verdict& v = rig.step(rig.sample(still, kG0_mps2));
+    alarmed += v.statistic > v.limit ? 1 : 0;
+  }
+  EXPECT_EQ(alarmed, rig.setup.config.window) << "the verdict of one block, until the next one's";
   for (int round = 0; round < 6; ++round) rig.prove();
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal);
   EXPECT_TRUE(rig.ever_blamed.empty());
-  EXPECT_LE(rig.records.size(), before + 2) << "into doubt and out of it";
+  EXPECT_EQ(rig.records.size(), before + 2) << "into doubt and out of it";
 }
 
-/// At one attitude, or rolling near the vertical, one fault may never be told: then nobody else is.
+/// At one attitude, or rolling near the vertical, one fault may never be told: then nobody else is, and the tool does
+/// not fail. It is noticed there, and told as soon as the tool is turned.
 TEST(CounterExample, AtAttitudesThatTellNothingNobodyHealthyIsOut) {
   for (int n = 4; n <= kCapacity; ++n) {
     const TrialTool tool = exact_tool(n, 0, 5e-4 * kG0_mps2);
     TrialNoise noise(static_cast<std::uint64_t>(n));
+    int noticed = 0, told = 0;
     for (int t = 0; t < 60; ++t) {
       const bool rolls = t % 2 == 0, stuck = t % 3 == 0;
       LawCase c(tool, LawCase::some(n, 1, noise), stuck ? Lie::stuck : Lie::constant, noise.sign() * 3.0);
@@ -175,38 +201,54 @@ TEST(CounterExample, AtAttitudesThatTellNothingNobodyHealthyIsOut) {
       law.tool = tool;
       Watch watch(law, MonitorConfig());
       const Vec3 still = noise.direction();
+      bool alarmed = false;
       for (int k = 0; k < 20; ++k) {
         const Vec3 u = rolls ? direction_at(2.0, 37.0 * k) : still;
         const Verdict& v = watch.station(c.with_noise(c.readings(u, noise), noise));
-        EXPECT_TRUE((c.faulty()).contains(v.excluded)) << n << " sensors, trial " << t << ", station " << k;
+        EXPECT_TRUE(c.faulty().contains(v.excluded | v.set_aside)) << n << " sensors, trial " << t << ", station " << k;
+        EXPECT_NE(v.state, HealthState::failed) << n << " sensors, trial " << t << ", station " << k;
+        alarmed = alarmed || v.statistic > v.limit;
       }
+      noticed += alarmed || watch.verdict().set_aside == c.faulty() ? 1 : 0;
+      for (int k = 0; k < 8; ++k) watch.station(c.with_noise(c.readings(noise.direction(), noise), noise));
+      told += watch.verdict().excluded == c.faulty() ? 1 : 0;
     }
+    EXPECT_GE(noticed, 57) << n << " sensors";
+    EXPECT_GE(told, 57) << n << " sensors, at eight attitudes more";
   }
 }
 
+/// Of 60 tools with one fault, how many the strict grade tells after 25 stations. Broken where it names anybody
+/// healthy.
+int told_strictly(const TrialTool& tool, Lie lie, TrialNoise& noise) {
+  int right = 0;
+  for (int t = 0; t < 60; ++t) {
+    LawCase c(tool, LawCase::some(tool.array.size(), 1, noise), lie, 0.0);
+    c.draw(noise);
+    Isolation isolation = tool.posed;
+    IsolationAnswer answer;
+    for (int k = 0; k < 25; ++k) {
+      BlockEvidence block;
+      block.usable = tool.array.all();
+      block.samples = kTrialSamples;
+      block.mean_mps2 = c.with_noise(c.readings(noise.direction(), noise), noise);
+      answer = isolation.vote({tool.array, tool.gravity, tool.limits, block});
+      EXPECT_TRUE(c.faulty().contains(answer.strict));
+    }
+    right += answer.strict == c.faulty() ? 1 : 0;
+  }
+  return right;
+}
+
 /// A sensor that sits on its mirror axis reads as gravity mirrored in the plane of two others would, and the three
-/// agree with gravity at every attitude. (Where the three lie in one plane they do not vote, and others tell.)
+/// agree with gravity at every attitude. (Where the three lie in one plane they do not vote, and others tell.) One that
+/// reads anything is told by the same stations.
 TEST(CounterExample, ASensorOnItsMirrorAxisIsNeverToldAndNobodyElseIsBlamed) {
   for (int n = 4; n <= 6; ++n) {
     const TrialTool tool = exact_tool(n);
     TrialNoise noise(static_cast<std::uint64_t>(n));
-    int strictly = 0;
-    for (int t = 0; t < 60; ++t) {
-      LawCase c(tool, LawCase::some(n, 1, noise), Lie::remount, 0.0);
-      c.draw(noise);
-      Isolation isolation = tool.posed;
-      IsolationAnswer answer;
-      for (int k = 0; k < 25; ++k) {
-        BlockEvidence block;
-        block.usable = tool.array.all();
-        block.samples = kTrialSamples;
-        block.mean_mps2 = c.with_noise(c.readings(noise.direction(), noise), noise);
-        answer = isolation.vote({tool.array, tool.gravity, tool.limits, block});
-        EXPECT_TRUE(c.faulty().contains(answer.strict));
-      }
-      strictly += answer.strict.empty() ? 0 : 1;
-    }
-    EXPECT_EQ(strictly, 0) << n << " sensors";
+    EXPECT_EQ(told_strictly(tool, Lie::remount, noise), 0) << n << " sensors";
+    EXPECT_GE(told_strictly(tool, Lie::random, noise), 57) << n << " sensors";
   }
 }
 

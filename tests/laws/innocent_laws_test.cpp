@@ -32,8 +32,17 @@ LawOutcome never_latches_the_healthy(const LawTool& tool, LawCase& c, Watch& wat
   return {};
 }
 
+/// How many of the cases ended with somebody excluded: a monitor that excludes nobody would keep these laws as well.
+void expect_some_told(std::uint64_t told, const LawCount& count, double share) {
+  std::printf("somebody was excluded in %llu of %llu cases\n", static_cast<unsigned long long>(told),
+              static_cast<unsigned long long>(count.cases));
+  if (count.cases < 100) return;  // PLUMB_LAW_CASE asks for one
+  EXPECT_GE(static_cast<double>(told), share * static_cast<double>(count.cases));
+}
+
 TEST(Law, OneNobodyHealthyIsExcludedWithinTheGradeAndTheBounds) {
-  const LawCount count = run_law(1, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
+  std::uint64_t told = 0;
+  const LawCount count = run_law(1, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -48,15 +57,19 @@ TEST(Law, OneNobodyHealthyIsExcludedWithinTheGradeAndTheBounds) {
     Watch watch =
         noise.below(2) == 0 ? fresh_watch(tool, config_of(key), key) : proven_watch(tool, config_of(key), key, gravity);
     watch.samples = samples;
-    return never_latches_the_healthy(tool, c, watch, 8, noise);
+    const LawOutcome outcome = never_latches_the_healthy(tool, c, watch, 8, noise);
+    told += watch.verdict().excluded.empty() ? 0U : 1U;
+    return outcome;
   });
   EXPECT_EQ(count.broken, 0U);
+  expect_some_told(told, count, 0.5);
 }
 
 /// Gravity off by ten sigma is beyond what the reference claims. What is promised then: one fault among five or more
 /// sensors of which every four check each other.
 TEST(Law, OneHoldsForOneFaultThoughGravityIsOffByTenSigma) {
-  const LawCount count = run_law(10, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
+  std::uint64_t told = 0;
+  const LawCount count = run_law(10, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -66,13 +79,17 @@ TEST(Law, OneHoldsForOneFaultThoughGravityIsOffByTenSigma) {
     c.draw(noise);
     const int key = noise.below(2);
     Watch watch = fresh_watch(tool, config_of(key), key);
-    return never_latches_the_healthy(tool, c, watch, 8, noise);
+    const LawOutcome outcome = never_latches_the_healthy(tool, c, watch, 8, noise);
+    told += watch.verdict().excluded.empty() ? 0U : 1U;
+    return outcome;
   });
   EXPECT_EQ(count.broken, 0U);
+  expect_some_told(told, count, 0.3);
 }
 
 TEST(Law, FourFaultsInLeagueExcludeNobodyHealthyThoughTheyAreMoreThanCanBeTold) {
-  const LawCount count = run_law(4, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
+  std::uint64_t told = 0;
+  const LawCount count = run_law(4, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -86,9 +103,12 @@ TEST(Law, FourFaultsInLeagueExcludeNobodyHealthyThoughTheyAreMoreThanCanBeTold) 
     const int key = noise.below(2);
     Watch watch =
         noise.below(2) == 0 ? fresh_watch(tool, config_of(key), key) : proven_watch(tool, config_of(key), key, gravity);
-    return never_latches_the_healthy(tool, c, watch, 8, noise);
+    const LawOutcome outcome = never_latches_the_healthy(tool, c, watch, 8, noise);
+    told += watch.verdict().excluded.empty() ? 0U : 1U;
+    return outcome;
   });
   EXPECT_EQ(count.broken, 0U);
+  expect_some_told(told, count, 0.25);
 }
 
 /// The named limits: tools and faults that look healthy at every attitude. For the paper's tetrahedron the readings of

@@ -86,6 +86,10 @@ TEST(MonitorLimits, SayWhatAGivenDeltaFHides) {
 TEST(MonitorLimits, SayNothingOfWhatIsNotThere) {
   const std::string text = report::limits_text(monitor_limits(plumb_test::cone_array(3, kSigma), kExact, {}));
   for (const char* word : {"parity", "buy nothing", "delta_f"}) EXPECT_EQ(text.find(word), std::string::npos) << word;
+  MonitorConfig given;
+  given.delta_f_mps2 = 0.05 * kG0_mps2;
+  const std::string four = report::limits_text(monitor_limits(plumb_test::tetrahedron(kSigma), kExact, given));
+  for (const char* word : {"parity", "delta_f"}) EXPECT_NE(four.find(word), std::string::npos) << word;
 }
 
 TEST(MonitorLimits, TheAverageFormIsTheNarrower) {

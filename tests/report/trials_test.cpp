@@ -168,6 +168,7 @@ TEST(VerificationTrials, EveryTableAddsUpToTheSameScenarios) {
     EXPECT_LE(rate["low"].get<double>(), share) << name;
     EXPECT_GE(rate["high"].get<double>(), share) << name;
   }
+  EXPECT_FALSE(json["worst"].empty());
   for (const Json& worst : json["worst"])
     EXPECT_EQ(worst["replay"], "plumb campaign faults.toml --replay " + worst["scenario"].dump());
 }

@@ -52,10 +52,13 @@ TEST(VerificationExports, NeedsHoldEveryNodeAndNoLinkIsLoose) {
   const Json& all = needs["versions"][needs["current_version"].get<std::string>()]["needs"];
   const Json& trace = report["traceability"];
   EXPECT_EQ(all.size(), trace["hazards"].size() + trace["requirements"].size() + trace["tests"].size());
+  std::size_t links = 0;
   for (const auto& [id, need] : all.items()) {
     EXPECT_EQ(need["id"], id);
     for (const Json& link : need["links"]) EXPECT_TRUE(all.contains(link.get<std::string>())) << id << " -> " << link;
+    links += need["links"].size();
   }
+  EXPECT_GE(links, trace["requirements"].size()) << "each answers a hazard";
 }
 
 TEST(VerificationExports, TheRequirementsReadBackAsADocument) {

@@ -1,6 +1,9 @@
 // The counterpart of Fig 11 of the paper, in numbers.
 #include "plumb/study/gravity_error_study.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "study_test_support.hpp"
 
 namespace gravity_error_study_test {
@@ -21,7 +24,6 @@ TEST(GravityErrorStudy, CalibrationLeavesTheNoiseAtAttitudesItHasNotSeen) {
       // One sample: noise of 2e-4 g0 a sensor, times the norm of the row of the map (at most 1.7 for a triple).
       EXPECT_LT(rms_of(e.paper_mps2), 4e-4 * plumb::kG0_mps2) << name_of(e.used);
       EXPECT_LT(rms_of(e.own_mps2), 4e-4 * plumb::kG0_mps2) << name_of(e.used);
-      EXPECT_LE(rms_of(e.own_mps2), largest_of(e.own_mps2));
     }
   }
 }
@@ -31,9 +33,17 @@ TEST(GravityErrorStudy, ValidatesOnFreshAttitudes) {
   const auto fitted = record(plumb::scenario::calibration_run(tool, 5));
   const auto fresh = record(survey_run(tool, 5, Part::validation, kValidationAttitudes, 1));
   ASSERT_TRUE(fitted && fresh);
+  ASSERT_EQ(fresh->attitude.size(), static_cast<std::size_t>(kValidationAttitudes));
+  ASSERT_FALSE(fitted->attitude.empty());
+  // Other attitudes, and not other noise: some channel differs by ten sigmas at least.
+  const double sigma_raw = 2e-4 * plumb::kG0_mps2 * std::fabs(tool.datasheet.sensor[0].coefficients.scale[0]);
   for (const auto& a : fresh->attitude) {
     ASSERT_EQ(a.size(), 1U);
-    for (const auto& b : fitted->attitude) EXPECT_NE(a.front().raw, b.front().raw);
+    for (const auto& b : fitted->attitude) {
+      double most = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) most = std::max(most, std::fabs(a.front().raw[i] - b.front().raw[i]));
+      EXPECT_GT(most, 10.0 * sigma_raw);
+    }
   }
 }
 

@@ -66,7 +66,10 @@ struct Action {
   static constexpr Bits exhausted = 1024;  ///< set the qualifier
   static constexpr Bits unproven = 2048;   ///< trust must be earned again
   static constexpr Bits count = 4096;      ///< recorded, nothing else
+  static constexpr int kinds = 13;         ///< how many there are, one bit each
 };
+/// The word for one action; "?" where `one` is not exactly one of them.
+const char* action_name(Action::Bits one) noexcept;
 
 enum class CellKind : std::uint8_t { taken, ignored, held, impossible };
 
