@@ -37,6 +37,9 @@ function(plumb_library target export_name)
   endif()
 endfunction()
 
+set(PLUMB_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <cstring> <limits> <type_traits> <utility> <tl/expected.hpp>)
+set(PLUMB_HOST_HEADERS ${PLUMB_COMMON_HEADERS} <functional> <map> <memory> <optional> <string> <string_view> <vector>)
+
 # --- Floors 1 to 4: one static library per capacity; a mixture of two does not link. ---------------------
 plumb_sources(core_sources ${PLUMB_CORE_ROOMS})
 if(NOT core_sources)
@@ -49,6 +52,7 @@ function(plumb_core_library target capacity)
   target_compile_definitions(${target} PUBLIC PLUMB_CAPACITY=${capacity} ${ARGN})
   target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen tl::expected)
+  plumb_precompile(${target} ${PLUMB_COMMON_HEADERS})
   if(PLUMB_FAST_STEP)
     set(often calibration/sensor_model core/storage_map detection/block detection/channel_monitor detection/combination_mae
       detection/lanes detection/near_lengths health/health_monitor health/intake health/memory)
@@ -100,6 +104,7 @@ if(scenario_sources)
   add_library(plumb_scenario STATIC ${scenario_sources})
   plumb_library(plumb_scenario scenario)
   target_link_libraries(plumb_scenario PUBLIC plumb_24 PRIVATE "$<BUILD_INTERFACE:plumb_random123>")
+  plumb_precompile(plumb_scenario ${PLUMB_HOST_HEADERS})
 endif()
 
 plumb_sources(study_sources study)
@@ -124,6 +129,7 @@ if(io_sources)
   if(TARGET plumb_scenario)
     target_link_libraries(plumb_io PUBLIC plumb_scenario)
   endif()
+  plumb_precompile(plumb_io ${PLUMB_HOST_HEADERS})
 endif()
 
 # What users test their own arrays with. The library itself needs neither RapidCheck nor GoogleTest: its headers do.
@@ -155,6 +161,9 @@ if(TARGET plumb_scenario)
         PRIVATE "$<BUILD_INTERFACE:plumb_random123>")
     endif()
     plumb_library(plumb_campaign_${capacity} campaign_${capacity})
+    if(NOT capacity EQUAL 24)
+      plumb_precompile(plumb_campaign_${capacity} ${PLUMB_COMMON_HEADERS} <string> <vector>)
+    endif()
   endforeach()
 endif()
 
@@ -168,6 +177,7 @@ if(report_sources)
   plumb_library(plumb_report report)
   target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_precompile(plumb_report ${PLUMB_HOST_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
   include(PlumbVerification)
   # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
   target_link_libraries(plumb_report PUBLIC plumb_campaign_24)

@@ -70,14 +70,9 @@ function(plumb_test_executable name)
     endif()
   endforeach()
   target_link_libraries(${name} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest GTest::gtest_main)
-  if(PLUMB_BATCHED)
+  if(PLUMB_FAST_BUILD)
     # What a test costs to compile is its libraries' templates: the files of a batch share them.
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    list(LENGTH sources count)
-    if(count GREATER 24)  # a few batches do not pay for it
-      target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h> <Eigen/Dense>)
-      target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
-    endif()
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
   plumb_discover(${name} LABEL ${arg_LABEL} PREFIX "${arg_PREFIX}" SLOW ${arg_SLOW} LONGER ${arg_LONGER})
 endfunction()

@@ -4,6 +4,7 @@
 # --- Requirements, hazards, tests, formal items: read by the readers of tests/trace. -----------------------------------
 add_executable(plumb_trace_export "${PROJECT_SOURCE_DIR}/src/trace/export.cpp")
 plumb_compile_settings(plumb_trace_export)
+target_compile_options(plumb_trace_export PRIVATE -O0)  # it runs once for a moment, and is compiled in half the time
 target_include_directories(plumb_trace_export PRIVATE "${PROJECT_SOURCE_DIR}/tests")
 target_link_libraries(plumb_trace_export PRIVATE nlohmann_json::nlohmann_json)
 

@@ -35,3 +35,12 @@ function(plumb_compile_settings target)
   endif()
   target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -fno-math-errno -fno-trapping-math ${PLUMB_WARNINGS})
 endfunction()
+
+# plumb_precompile(TARGET HEADER...): the headers that most sources of a target include, read once. Measured with GCC 12: half of
+# the time of the core's libraries. Only in a fast build: any other build notices a source that includes too little.
+function(plumb_precompile target)
+  if(PLUMB_FAST_BUILD AND PROJECT_IS_TOP_LEVEL)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
+  endif()
+endfunction()

@@ -79,7 +79,7 @@ ensure_packages() {
   step "apt-get update"
   "${runner[@]}" apt-get update -qq || die "apt-get update failed; still missing: ${missing[*]}"
   step "apt-get install ${missing[*]}"
-  "${runner[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" \
+  "${runner[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}" \
     || die "apt-get could not install: $(missing_of "${missing[@]}" | tr '\n' ' ')"
   mapfile -t missing < <(missing_of "${missing[@]}")
   [[ ${#missing[@]} -eq 0 ]] || die "still missing after apt-get: ${missing[*]}"
