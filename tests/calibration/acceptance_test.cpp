@@ -262,7 +262,7 @@ TEST(CrossCheck, TakesNothingForAnAnswer) {
   EXPECT_STREQ(plumb::to_string(static_cast<Concern>(99)), "unknown");
 }
 
-TEST(Acceptance, AnIndexBeyondTheDatasheetAccusesNobody) {
+TEST(Acceptance, AnIndexBeyondTheDatasheetSuspectsNobody) {
   Bench b;
   const auto fit = plumb::calibrate(b.sheet, b.gravity, b.stations.data(), 48);
   ASSERT_TRUE(fit.has_value());

@@ -106,7 +106,7 @@ TEST(BlockTests, TheLeastLimitOfThreeThatReadZeroIsBelowEveryError) {
 
 /// Two pairs: without one of the single axes the others are a plane, so nobody vouches for it.
 // Negative: REQ-060
-TEST(BlockTests, ALengthThatNobodyChecksIsNotVouchedFor) {
+TEST(BlockTests, ALengthThatNobodyChecksIsNotCorroborated) {
   AxisList axes{};
   axes[0] = {1.0, 0.0, 0.0};
   axes[1] = {0.0, 1.0, 0.0};

@@ -27,7 +27,7 @@ BlockEvidence block_at(const SensorArray& array, const Vec3& direction) {
 /// Every byte of what it remembers set to zero in turn: it answers, convicts nobody of a sound block, and counts no
 /// more sets than there are.
 // Negative: REQ-166
-TEST(IsolationDamage, WithAnyByteLostNobodyIsConvictedOfASoundBlock) {
+TEST(IsolationDamage, WithAnyByteLostASoundBlockIsolatesNobody) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
@@ -49,9 +49,9 @@ TEST(IsolationDamage, WithAnyByteLostNobodyIsConvictedOfASoundBlock) {
 }
 
 /// Two sensors of six are wrong. Whichever byte memory has lowered to one: no answer convicts more sensors than the
-/// grade that is stated with it, though more were convicted before.
+/// grade that is stated with it, though more were isolated before.
 // Negative: REQ-166
-TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreConvictedThanTheGradeSays) {
+TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreIsolatedThanTheGradeSays) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
@@ -61,7 +61,7 @@ TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreConvictedThanTheGradeSays) {
     blocks.back().mean_mps2[1] += 0.5;
     blocks.back().mean_mps2[4] -= 0.7;
   }
-  const auto most_convicted = [&](Isolation& isolation) {
+  const auto most_isolated = [&](Isolation& isolation) {
     int most = 0;
     for (const BlockEvidence& block : blocks) {
       const BlockTests tests(array, gravity, limits, block);
@@ -72,7 +72,7 @@ TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreConvictedThanTheGradeSays) {
   Isolation sound;
   sound.pose(array, array.all());
   Isolation unhurt = sound;
-  ASSERT_EQ(most_convicted(unhurt), 2);
+  ASSERT_EQ(most_isolated(unhurt), 2);
   int lowered = 0;
   for (std::size_t byte = 0; byte < sizeof(Isolation); ++byte) {
     Isolation damaged = sound;
@@ -81,7 +81,7 @@ TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreConvictedThanTheGradeSays) {
     *at = 1;
     lowered += damaged.strict_grade() < sound.strict_grade() ? 1 : 0;
     const int grade = damaged.strict_grade();
-    EXPECT_LE(most_convicted(damaged), grade) << byte;
+    EXPECT_LE(most_isolated(damaged), grade) << byte;
   }
   EXPECT_GT(lowered, 0);
 }

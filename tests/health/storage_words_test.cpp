@@ -42,6 +42,7 @@ bool is_reported(const Verdict& v) {
 /// In the middle of a block: what would be an index too large is told by the very next sample, and no request is taken.
 // Negative: REQ-166
 TEST(StorageWords, AnotherNumberOfSensorsIsReportedBeforeTheNextReadingIsTaken) {
+  if (kCapacity > 8) GTEST_SKIP() << "every word takes a copy of the monitor, which is too large here";
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   for (int k = 0; k < 11; ++k) rig.step(rig.sample(direction_at(20, 20), kG0_mps2));
@@ -61,6 +62,7 @@ TEST(StorageWords, AnotherNumberOfSensorsIsReportedBeforeTheNextReadingIsTaken) 
 /// would be reported takes no request either.
 // Verifies: REQ-166
 TEST(StorageWords, AtTheEndOfABlockAnyIsReportedOrDoesNoHarm) {
+  if (kCapacity > 8) GTEST_SKIP() << "every word takes a copy of the monitor, which is too large here";
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   for (int k = 1; k < rig.setup.config.window; ++k) rig.step(rig.sample(direction_at(20, 20), kG0_mps2));

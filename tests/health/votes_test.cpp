@@ -341,7 +341,7 @@ TEST(Votes, AForgottenContradictionIsNotToldAgain) {
 
 /// More blocks at one station than are counted: it stays the station that it was.
 // Negative: REQ-106
-TEST(Votes, AThousandBlocksAtOneStationConvictNobody) {
+TEST(Votes, AThousandBlocksAtOneStationExcludeNobody) {
   MonitorConfig config;
   config.window = 8;
   Rig rig(plumb_test::tetrahedron(), config);
