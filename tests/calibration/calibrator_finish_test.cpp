@@ -62,29 +62,25 @@ TEST(CalibratorFinish, ChiSquareIsToldAgainstTheDeclaredNoise) {
   EXPECT_NEAR(one.chi2, other.chi2, 0.2 * other.chi2);
 }
 
-/// Noise declared so small that the misfit alone weighs: a residual whose square is a number, and against the declared
-/// noise may be none. Where it is one there is a rank to tell, else not even that.
+/// Noise declared so small that the misfit alone weighs: residuals whose squares are numbers, and whose sum against the
+/// declared noise is none. Of one station alone there is a rank to tell, of eight not even that.
 // Negative: REQ-034
 TEST(CalibratorFinish, AChiSquareThatIsNoNumberIsRefused) {
-  for (const double stray : {1e140, 2.5e148}) {
+  for (const std::size_t strays : {1U, 8U}) {
     Bench b;
     for (int i = 0; i < b.sheet.size; ++i) b.sheet.sensor[at(i)].row.sigma_mps2 = 1e-6;
     b.options.reject_outliers = false;
     Calibrator c = converged(b);
-    b.stations[0].mean[0] = stray;
+    for (std::size_t k = 0; k < strays; ++k) b.stations[k].mean[0] = 3e147;
     FitReport report;
     const auto made = c.finish(b.stations.data(), b.count(), &report);
     ASSERT_FALSE(made.has_value());
     HeldFit held;
     EXPECT_NE(c.finish_held(list_of(b), held).code, Errc::ok);
-    if (stray > 1e148) {
+    EXPECT_EQ(report.rank > 0, strays == 1U);
+    EXPECT_EQ(held.rank > 0, strays == 1U);
+    if (strays == 8U) {
       EXPECT_EQ(made.error().code, Errc::diverged);
-      EXPECT_EQ(report.rank, 0);
-      EXPECT_EQ(held.rank, 0);
-    } else {
-      EXPECT_GT(report.misfit_mps2, 0.0);
-      EXPECT_GT(report.rank, 0);
-      EXPECT_GT(held.rank, 0);
     }
   }
 }
