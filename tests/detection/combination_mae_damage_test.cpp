@@ -40,10 +40,10 @@ void damage_everywhere(Value value, const Ask& ask) {
 /// More triples or samples than there is room for fit no window, whatever stands in its storage.
 // Negative: REQ-166
 TEST(CombinationMaeDamage, AWindowBeyondItsRoomNeverFits) {
-  const std::uint16_t beyond = 60000;
-  damage_everywhere(beyond, [beyond](const CombinationMae& damaged, std::size_t place) {
-    ASSERT_FALSE(damaged.fits(beyond, kWindow)) << place;
-    ASSERT_FALSE(damaged.fits(kTriples, beyond)) << place;
+  constexpr std::uint16_t kBeyond = 60000;
+  damage_everywhere(kBeyond, [](const CombinationMae& damaged, std::size_t place) {
+    ASSERT_FALSE(damaged.fits(kBeyond, kWindow)) << place;
+    ASSERT_FALSE(damaged.fits(kTriples, kBeyond)) << place;
   });
 }
 
