@@ -356,5 +356,20 @@ TEST(Recalibration, OfTheStationsThatAreDueEnoughAreHeldOut) {
   }
 }
 
+TEST(Recalibration, IsUnderWayFromItsStartUntilItsEndIsHeard) {
+  Shadow s(5, 31);
+  EXPECT_FALSE(s.fit->under_way());
+  s.start();
+  EXPECT_TRUE(s.fit->under_way());
+  ASSERT_EQ(s.roam(24), Outcome::accepted);
+  EXPECT_TRUE(s.fit->under_way());
+  s.fit->apply(s.model, s.array, s.gravity, 0.0, false);
+  EXPECT_FALSE(s.fit->under_way());
+  s.start();
+  s.drifted_bias[1] = 1.0;
+  ASSERT_EQ(s.roam(24), Outcome::rejected);
+  EXPECT_TRUE(s.fit->under_way()) << "nobody has heard the refusal";
+}
+
 }  // namespace
 }  // namespace recalibration_test
