@@ -103,8 +103,7 @@ inline void CombinationMae::replace(std::int32_t& slot, std::int32_t value, std:
 PLUMB_APART void CombinationMae::add_from(int first, Lanes lanes, const SensorArray& array, const Readings& y_mps2,
                                           SensorSet usable, double g_mps2) noexcept {
   constexpr int kMostAtOnce = 8;
-  const bool side_by_side = kPortableLanes != Lanes::one && lanes != Lanes::one && array.size() >= 0 &&
-                            array.size() <= kCapacity && usable.contains(array.all());
+  const bool side_by_side = kPortableLanes != Lanes::one && lanes != Lanes::one && usable.contains(array.all());
   Readings moved{};
   const int fewer = kCapacity - array.size();
   if (side_by_side) {

@@ -8,11 +8,11 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 bool HealthMonitor::core_holds() const noexcept {
-  // No index may lead out of the object before the sum over all of it has been compared.
-  const int n = array_.size();
-  const bool fits = n >= 3 && n <= kCapacity && model_.size == n && gate_.size() == n &&
-                    mae_.fits(triple_count_of(n), config_.window) && block_.size() >= 0 &&
-                    block_.size() < config_.window;
+  // No index may lead out of the object before the sum over all of it has been compared: of the number of sensors there
+  // are three, and one of them is in the sum that follows.
+  const int n = gate_.size();
+  const bool fits = array_.size() == n && model_.size == n && mae_.fits(triple_count_of(n), config_.window) &&
+                    block_.size() >= 0 && block_.size() < config_.window;
   return fits && folded(storage_sum<StoragePart::core>(*this)) == core_sum_;
 }
 

@@ -145,10 +145,9 @@ void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityR
   if (!kRecalibrates || phase_ != RecalibrationPhase::accepted) return;
   if (first()) return apply_first(model, array, time_s);
   RowUncertainty uncertainty;
-  const bool known = uncertainty_after(array, gravity, uncertainty);
-  if (!known) uncertainty = array.uncertainty();
+  if (!uncertainty_after(array, gravity, uncertainty)) uncertainty = array.uncertainty();
   if (doubted || offered()) doubt_change(array, doubted, uncertainty);
-  if (known || doubted) array.set_uncertainty(uncertainty);
+  array.set_uncertainty(uncertainty);
   write_coefficients(model);
   adopted_ = true;
   adopted_s_ = time_s;

@@ -147,7 +147,7 @@ Recalibration::Outcome Recalibration::judge_first(const InForce& in_force) noexc
   refusal_ = error;
   phase_ = RecalibrationPhase::collecting;
   untried_ = false;
-  const bool more_would_help = error.code == Errc::unobservable || error.code == Errc::too_few_stations;
+  const bool more_would_help = error.code == Errc::unobservable;
   if (more_would_help && lacking_.empty()) lacking_ = sensors_;
   if (!more_would_help) forget();  // one of its stations, or all, may hold what is wrong
   return Outcome::rejected;

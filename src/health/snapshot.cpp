@@ -244,9 +244,7 @@ bool HealthMonitor::mode_is_plausible() const noexcept {
     case Mode::isolated:
     case Mode::degraded: return mode_ == mode_by_size(size_class_) && !unproven_;
     case Mode::suspect: return !rank_lost;
-    case Mode::recalibrating:
-      return kRecalibrates && !rank_lost && base_ != Mode::recalibrating && base_ != Mode::initial &&
-             base_ != Mode::failed;
+    case Mode::recalibrating: return kRecalibrates && !rank_lost && recalibration_.under_way();
     case Mode::initial: return !rank_lost && owes_calibration() && unproven_ && recalibration_.collects(in_service_);
     case Mode::failed: return true;
   }
@@ -270,7 +268,6 @@ bool HealthMonitor::verdict_is_plausible() const noexcept {
   const SetTest t = test_set(array_, gravity_, limits_, evidence_, in_service_ & evidence_.usable);
   if (!t.tested) return true;
   const Vec3 x_mps2 = times(frame_, t.x_mps2);
-  if (!(norm(x_mps2) <= kReadingClamp_mps2 * kReadingClamp_mps2)) return false;  // or the tolerance below is endless
   for (size_t k = 0; k < 3; ++k) {
     if (!(std::fabs(v.gravity_mps2[k] - x_mps2[k]) <= kRounding_mps2 * (1.0 + norm(x_mps2)))) return false;
   }

@@ -282,6 +282,18 @@ RC_GTEST_PROP(SensorArrayLaw, DeterminantAndConditionBoundEachOther, ()) {
   }
 }
 
+TEST(SensorArrayRefuses, RowsThatAreNoneAndStaysAsItWas) {
+  SensorArray array = *make(tetrahedron_rows());
+  std::array<SensorRow, 4> rows{};
+  for (int i = 0; i < 4; ++i) rows[static_cast<std::size_t>(i)] = array.row(i);
+  rows[2].sigma_mps2 = 0.0;
+  const Expected<void> answer = array.set_rows(rows.data());
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().code, Errc::sigma_not_positive);
+  EXPECT_EQ(answer.error().index, 2);
+  EXPECT_GT(array.sigma_mps2(2), 0.0);
+}
+
 }  // namespace
 }  // namespace sensor_array_test
 }  // namespace test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "calibration_support.hpp"
+#include "calibration/bench.hpp"
 
 namespace acceptance_test {
 namespace {
@@ -260,6 +260,35 @@ TEST(CrossCheck, TakesNothingForAnAnswer) {
                           Concern::hold_out, Concern::hold_out_claim})
     EXPECT_STRNE(plumb::to_string(c), "unknown");
   EXPECT_STREQ(plumb::to_string(static_cast<Concern>(99)), "unknown");
+}
+
+TEST(Acceptance, AnIndexBeyondTheDatasheetSuspectsNobody) {
+  Bench b;
+  const auto fit = plumb::calibrate(b.sheet, b.gravity, b.stations.data(), 48);
+  ASSERT_TRUE(fit.has_value());
+  OddSensor odd;
+  odd.sensor = 4;
+  odd.with_mps2 = 1.0;
+  EXPECT_EQ(judge_odd_sensor(b.sheet, odd).error.code, Errc::ok);
+  odd.sensor = 3;
+  EXPECT_EQ(judge_odd_sensor(b.sheet, odd).error.index, 3);
+  const Judgement whole = judge(b.sheet, b.gravity, *fit, HoldOut{}, odd);
+  EXPECT_EQ(whole.concern, Concern::odd_sensor);
+  Calibration bent = *fit;
+  bent.report.level_misfit.sensor = 4;
+  bent.report.level_misfit.mean_mps2 = 1.0;
+  EXPECT_EQ(judge(b.sheet, b.gravity, bent, HoldOut{}, OddSensor{}).error.code, Errc::ok);
+  bent.report.level_misfit.sensor = 1;
+  EXPECT_EQ(judge(b.sheet, b.gravity, bent, HoldOut{}, OddSensor{}).concern, Concern::level_of_a_sensor);
+  bent.report.level_misfit.mean_mps2 = 1e-9;
+  EXPECT_EQ(judge(b.sheet, b.gravity, bent, HoldOut{}, OddSensor{}).error.code, Errc::ok);
+  EXPECT_STREQ(to_string(Concern::roll_axis), "roll_axis");
+  EXPECT_STREQ(to_string(Concern::level_of_a_sensor), "level_of_a_sensor");
+}
+
+TEST(CommonScale, OfFrozenScalesIsNone) {
+  EXPECT_EQ((CommonScale{0.1, 0.0, 0.0}.sigmas()), 0.0);
+  EXPECT_EQ((CommonScale{0.1, 0.0, 0.05}.sigmas()), 2.0);
 }
 
 }  // namespace

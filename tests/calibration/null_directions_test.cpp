@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "calibration_support.hpp"
+#include "calibration/bench.hpp"
 
 namespace null_directions_test {
 namespace {
@@ -224,6 +224,48 @@ TEST(NullCombinations, OfAReportOfAnythingAreBounded) {
   EXPECT_LE(plumb::null_combinations(d, report, *out), plumb::kMaxNullDirections);
   plumb::Datasheet none;
   EXPECT_EQ(plumb::null_combinations(none, report, *out), 0);
+}
+
+/// What a report by hand says is open: with and without the rotations that nobody sees, frozen axes among them.
+TEST(NullCombinations, AReportByHandIsReadAsItStands) {
+  Datasheet sheet = paper_tool(kSigma);
+  auto found = std::make_unique<NullCombinations>();
+  auto report = std::make_unique<FitReport>();
+  report->null_directions = 2;
+  report->null_direction[0].component[3] = 1.0;  // the bias of the first sensor
+  report->null_direction[1].component[7] = std::sqrt(0.5);
+  report->null_direction[1].component[11] = std::sqrt(0.5);
+  for (const int gauge : {0, 1, 3}) {
+    report->gauge = gauge;
+    ASSERT_EQ(null_combinations(sheet, *report, *found), 2) << gauge;
+    EXPECT_EQ((*found)[0].terms, 1) << gauge;
+    EXPECT_EQ((*found)[0].term[0].kind, ParameterKind::bias);
+    EXPECT_EQ((*found)[0].term[0].sensor, 0);
+    EXPECT_FALSE((*found)[1].rotates_all);
+  }
+  sheet.sensor[2].prior.axis_rad = 0.0;
+  EXPECT_EQ(null_combinations(sheet, *report, *found), 2);
+  sheet.size = kCapacity + 1;
+  EXPECT_EQ(null_combinations(sheet, *report, *found), 0);
+}
+
+/// All axes turned alike, and no rotation of which it is said that nobody sees it: told as one rotation.
+TEST(NullCombinations, ACommonRotationIsToldAsOne) {
+  const Datasheet sheet = paper_tool(kSigma);
+  auto found = std::make_unique<NullCombinations>();
+  auto report = std::make_unique<FitReport>();
+  report->null_directions = 1;
+  double square = 0.0;
+  auto& component = report->null_direction[0].component;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 d = cross(sheet.sensor[at(i)].row.axis, {0.0, 0.0, 1.0});
+    for (int p = 0; p < 3; ++p) component[at(4 * i + p)] = d[at(p)] / sheet.sensor[at(i)].prior.axis_rad;
+    square += dot(d, d) / (sheet.sensor[at(i)].prior.axis_rad * sheet.sensor[at(i)].prior.axis_rad);
+  }
+  for (double& c : component) c /= std::sqrt(square);
+  ASSERT_EQ(null_combinations(sheet, *report, *found), 1);
+  EXPECT_TRUE((*found)[0].rotates_all);
+  EXPECT_NEAR(std::fabs((*found)[0].rotation[2]), 1.0, 1e-6);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <memory>
 
-#include "calibration_support.hpp"
+#include "calibration/bench.hpp"
 
 namespace observability_test {
 namespace {
@@ -177,6 +177,44 @@ RC_GTEST_PROP(StationPlannerLaw, FollowingThePlanMakesAnySetSufficient, ()) {
   const auto fit = plumb::calibrate(d, standard_gravity(), stations.data(), static_cast<int>(stations.size()));
   RC_ASSERT(fit.has_value());
   RC_ASSERT(fit->report.rank == 4 * n - 3);
+}
+
+TEST(Coverage, NeighbouringBinsAreOneInclinationWhateverTheOrder) {
+  const Datasheet d = paper_tool(kSigma);
+  std::vector<SeenAttitude> seen;
+  for (const double inclination : {60.0, 50.0, 45.0, 10.0, 90.0}) {
+    const Vec3 g = rolled(inclination, 0.0);
+    seen.push_back({scaled(g, 1.0 / norm(g)), SensorSet::first(4), 10.0});
+  }
+  const Coverage c = coverage_of(d, seen.data(), 5);
+  EXPECT_EQ(c.inclinations, 4);
+  EXPECT_NEAR(c.inclination_min_rad, rad_from_deg(10.0), 1e-9);
+  EXPECT_NEAR(c.inclination_max_rad, rad_from_deg(90.0), 1e-9);
+}
+
+TEST(StationPlanner, WithoutAUsableDatasheetItProposesNothing) {
+  const auto idle = [](const Datasheet& sheet, double g_mps2) {
+    auto planner = std::make_unique<StationPlanner>(sheet, g_mps2);
+    const bool taken = planner->add({{0, 0, 1}, SensorSet::first(4), 100.0});
+    return !taken && planner->best(100.0).gain == 0.0;
+  };
+  Datasheet sheet = paper_tool(kSigma);
+  EXPECT_FALSE(idle(sheet, kG0_mps2));
+  EXPECT_TRUE(idle(sheet, 0.0));
+  EXPECT_TRUE(idle(sheet, HUGE_VAL));
+  sheet.size = 2;
+  EXPECT_TRUE(idle(sheet, kG0_mps2));
+  sheet.size = kCapacity + 1;
+  EXPECT_TRUE(idle(sheet, kG0_mps2));
+}
+
+TEST(StationPlanner, AnAttitudeThatASensorMissedIsTaken) {
+  AxisList axes{};
+  const Datasheet sheet = datasheet_of(axes, cone(axes, 5), kSigma);
+  auto planner = std::make_unique<StationPlanner>(sheet, kG0_mps2);
+  EXPECT_TRUE(planner->add({{0, 0, 1}, SensorSet::first(5).without(1), 100.0}));
+  EXPECT_FALSE(planner->add({{0, 0, 1}, SensorSet::first(5), HUGE_VAL}));
+  EXPECT_EQ(planner->best(0.0).gain, 0.0);
 }
 
 }  // namespace

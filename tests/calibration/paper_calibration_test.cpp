@@ -8,6 +8,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "calibration/bench.hpp"
 #include "paper_support.hpp"
 
 namespace paper_calibration_test {
@@ -15,6 +16,8 @@ namespace {
 
 using namespace calibration_test;
 using plumb::PaperStep;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
 static_assert(std::is_trivially_copyable_v<PaperFit>);
 static_assert(std::is_trivially_copyable_v<PaperTrace>);
@@ -248,6 +251,37 @@ TEST(PaperCalibration, RefusesWhatItCannotUse) {
   PaperFit fit;
   EXPECT_TRUE(plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(), 48, kAll.without(3), {}, fit));
   EXPECT_FALSE(plumb::paper_calibrate(s.sheet, standard_gravity(), nullptr, 48, kAll, {}, fit));
+}
+
+TEST(PaperCalibration, RefusesWhatIsNoNumber) {
+  Bench b;
+  PaperFit fit;
+  PaperOptions endless;
+  endless.stop = kInf;
+  const auto refused =
+      paper_calibrate(b.sheet, b.gravity, b.stations.data(), b.count(), SensorSet::first(4), endless, fit);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, Errc::out_of_range);
+  EXPECT_EQ(refused.error().index, 1);
+  GravityReference far = b.gravity;
+  far.g_mps2 = kInf;
+  EXPECT_EQ(PaperError::make(b.sheet, far, SensorSet::first(4)).error().index, 4);
+  auto all = std::make_unique<PaperCalibration>();
+  Datasheet large = b.sheet;
+  large.size = kPaperCapacity + 1;
+  EXPECT_EQ(paper_calibrate_all(large, b.gravity, b.stations.data(), b.count(), {}, *all).error().code,
+            Errc::too_many_sensors);
+}
+
+/// A trace that is full takes no more, and the fit goes on.
+TEST(PaperCalibration, AFullTraceTakesNoMoreAndTheFitGoesOn) {
+  Bench b;
+  auto trace = std::make_unique<PaperTrace>();
+  trace->size = kMaxPaperIterations + 1;
+  PaperFit fit;
+  EXPECT_TRUE(
+      paper_calibrate(b.sheet, b.gravity, b.stations.data(), b.count(), SensorSet::first(4), {}, fit, trace.get())
+          .has_value());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration_support.hpp"
+#include "calibration/bench.hpp"
 #include "plumb/calibration/paper_calibration.hpp"
 
 namespace paper_error_test {
@@ -210,6 +210,45 @@ TEST(PaperError, VanishingScaleFactorIsNoReading) {
   EXPECT_TRUE(std::isnan(error.cost(p, stations.data(), 3)));
   EXPECT_TRUE(std::isnan(error.cost(error.start(), stations.data(), 0)));
   EXPECT_TRUE(std::isnan(error.cost(error.start(), nullptr, 3)));
+}
+
+/// Stations that do not count, parameters at which nothing can be said: the sums are those of the rest, or none.
+TEST(PaperError, StationsThatDoNotCountAreLeftOut) {
+  Bench b;
+  const auto error = PaperError::make(b.sheet, b.gravity, SensorSet::first(4));
+  ASSERT_TRUE(error.has_value());
+  const PaperParameters start = error->start();
+  const double cost = error->cost(start, b.stations.data(), b.count());
+  b.stations.push_back(b.stations[0]);
+  b.stations.back().count = 0;
+  EXPECT_EQ(error->cost(start, b.stations.data(), b.count()), cost);
+  std::vector<double> matrix(400);
+  PaperParameters gradient{};
+  EXPECT_NEAR(error->gauss_newton(start, b.stations.data(), b.count(), matrix.data(), 20, gradient), cost, 1e-9 * cost);
+  PaperParameters flat = start;
+  flat[4] = 0.0;  // the scale factor of the first sensor
+  std::vector<double> curvature(400, 7.0);
+  error->add_curvature(flat, b.stations[0], 1.0, curvature.data());
+  EXPECT_EQ(curvature, std::vector<double>(400, 7.0));
+  PaperFit fit;
+  PaperOptions plain;
+  plain.step = PaperStep::plain_inverse;
+  plain.max_iterations = 2;
+  const auto done = paper_calibrate(b.sheet, b.gravity, b.stations.data(), b.count(), SensorSet::first(4), plain, fit);
+  EXPECT_TRUE(done.has_value());
+  PaperFit none;
+  EXPECT_FALSE(
+      paper_calibrate(b.sheet, b.gravity, b.stations.data() + 48, 1, SensorSet::first(4), {}, none).has_value() &&
+      none.stop == StopReason::converged);
+}
+
+TEST(PaperError, OfAxesBeyondAllNumbersThereIsNone) {
+  plumb::AxisList axes{};
+  plumb::Datasheet sheet = datasheet_of(axes, plumb::orthogonal_triad(axes), kSigma);
+  for (double& h : sheet.sensor[1].row.axis) h = 1e200;
+  const auto made = PaperError::make(sheet, standard_gravity(), SensorSet::first(3));
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().code, plumb::Errc::axes_rank_deficient);
 }
 
 }  // namespace

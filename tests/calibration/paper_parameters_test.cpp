@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration_support.hpp"
+#include "calibration/bench.hpp"
 #include "plumb/array/geometry.hpp"
 
 namespace paper_parameters_test {
@@ -252,6 +252,50 @@ TEST(PaperParameters, SingularMisalignmentsHaveNoCommonFrameForm) {
   model.misalignment[0] = 0.0;
   model.size = 2;
   EXPECT_FALSE(plumb::common_frame_form(unit, model).has_value());
+}
+
+TEST(PaperParameters, OfArraysThatDoNotMatchAreRefused) {
+  AxisList axes{};
+  const auto array_of = [](const AxisList& a, int n) {
+    const Datasheet d = datasheet_of(a, n, kBenchSigma);
+    const auto made = d.array();
+    EXPECT_TRUE(made.has_value());
+    return *made;
+  };
+  const SensorArray three = array_of(axes, orthogonal_triad(axes));
+  const SensorArray four = array_of(axes, paper_tetrahedron(axes));
+  SensorModel model;
+  model.size = 4;
+  EXPECT_EQ(paper_form(four, three, model).error().code, Errc::out_of_range);
+  AxisList flat{};
+  flat[0] = {1.0, 0.0, 0.0};
+  flat[1] = {0.0, 1.0, 0.0};
+  flat[2] = {std::sqrt(0.5 - 1e-7), std::sqrt(0.5), std::sqrt(1e-7)};
+  const SensorArray nearly = array_of(flat, 3);
+  model.size = 3;
+  EXPECT_EQ(paper_form(three, nearly, model).error().code, Errc::axes_rank_deficient);
+}
+
+/// Misalignments so large, or so nearly one another's inverse, that the rows of the common frame have no length.
+TEST(PaperParameters, MisalignmentsThatLeaveNoLengthHaveNoCommonFrame) {
+  AxisList axes{};
+  const Datasheet sheet = datasheet_of(axes, orthogonal_triad(axes), kBenchSigma);
+  const Expected<SensorArray> array = sheet.array();
+  ASSERT_TRUE(array.has_value());
+  SensorModel model = sheet.model();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) model.misalignment[at(i * kCapacity + j)] = i == j ? 0.0 : 1e4;
+  }
+  const auto small = common_frame_form(*array, model);
+  ASSERT_FALSE(small.has_value());
+  EXPECT_EQ(small.error().code, Errc::not_invertible);
+  EXPECT_LT(small.error().value, small.error().limit);
+
+  model.misalignment = {};
+  model.misalignment[at(1)] = 1e160;
+  const auto endless = common_frame_form(*array, model);
+  ASSERT_FALSE(endless.has_value());
+  EXPECT_EQ(endless.error().code, Errc::not_invertible);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "../../src/calibration/paper_three.hpp"
+#include "calibration/paper_scene.hpp"
 #include "paper_support.hpp"
 
 namespace paper_three_test {
@@ -68,6 +70,31 @@ TEST(PaperThree, ATripleOverTemperatureIsThatOfTheGeneralForm) {
       EXPECT_NEAR(taken / error->prior()[at(p)], step[at(p)], 1e-9) << bias_drifts << ' ' << p;
     }
   }
+}
+
+TEST(ThreeSensorStep, WithoutAScaleOrAStationThereIsNoCost) {
+  PaperScene s;
+  for (int i = 0; i < 3; ++i) s.sheet.sensor[at(i)].coefficients.bias = {0.02, 0.0, 0.0, 0.0};
+  s.error = *PaperError::make(s.sheet, s.gravity, SensorSet::first(3));
+  paper::ThreeSensorStep three;
+  ASSERT_TRUE(three.begin(s.problem(24)));
+  EXPECT_TRUE(std::isfinite(three.look(s.problem(24), s.error.start())));
+  EXPECT_TRUE(three.shows_all(s.problem(24), 1e-6));
+  EXPECT_TRUE(std::isnan(three.look(s.problem(0), s.error.start())));
+  PaperParameters theta = s.error.start();
+  theta[4] = 0.0;
+  EXPECT_TRUE(std::isnan(three.look(s.problem(24), theta)));
+
+  // Below the least double next to the datasheet's own.
+  s.sheet.sensor[1].coefficients.scale[0] = 1e100;
+  const PaperError large = *PaperError::make(s.sheet, s.gravity, SensorSet::first(3));
+  theta = large.start();
+  theta[4] = 1e-300;
+  EXPECT_TRUE(std::isnan(three.look({large, s.stations.data(), 24}, theta)));
+
+  ASSERT_TRUE(three.begin(s.problem(4)));
+  EXPECT_TRUE(std::isfinite(three.look(s.problem(4), s.error.start())));
+  EXPECT_FALSE(three.shows_all(s.problem(4), 1e-6)) << "four stations";
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "calibration_support.hpp"
+#include "calibration/bench.hpp"
 
 namespace sensor_model_test {
 namespace {
 
-using calibration_test::at;
+using namespace calibration_test;
 
 /// Three sensors, numbers chosen so that every term of the cubics counts.
 plumb::SensorModel worked_example() {
@@ -148,6 +148,25 @@ TEST(Datasheet, YieldsItsModelAndItsArray) {
   EXPECT_EQ(bad.array().error().code, plumb::Errc::too_many_sensors);
   bad.size = -1;
   EXPECT_FALSE(bad.array().has_value());
+}
+
+TEST(Datasheet, OfMoreSensorsThanFitTellsTheFirstAndIsNoArray) {
+  Datasheet sheet = paper_tool(kBenchSigma);
+  const RowUncertainty four = sheet.uncertainty();
+  sheet.size = kCapacity + 5;
+  const RowUncertainty all = sheet.uncertainty();
+  for (int k = 0; k < RowUncertainty::packed_size(4); ++k) EXPECT_EQ(all.covariance[at(k)], four.covariance[at(k)]);
+  EXPECT_EQ(sheet.array().error().code, Errc::too_many_sensors);
+}
+
+/// A cubic that passes through zero has no reading there.
+TEST(SensorModel, WhereTheScaleVanishesThereIsNoReading) {
+  SensorModel model;
+  model.size = 1;
+  model.sensor[0].scale = {1.0, -0.125, 0.0, 0.0};
+  model.sensor[0].reference_degc = 20.0;
+  EXPECT_TRUE(std::isnan(model.apply({1.0}, 28.0, SensorSet::first(1))[0]));
+  EXPECT_EQ(model.apply({1.0}, 20.0, SensorSet::first(1))[0], 1.0);
 }
 
 }  // namespace

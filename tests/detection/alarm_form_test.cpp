@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/simulated_tool.hpp"
 
@@ -97,6 +98,46 @@ TEST(AlarmForm, AnUntestedSetStaysUntested) {
   const SetTest q = in_quadrature(array, gravity, BlockEvidence{}, array.all(), none);
   EXPECT_FALSE(q.tested);
   EXPECT_EQ(q.parity, 0.0);
+}
+
+/// Three of five: those that are not asked about do not enter.
+// Verifies: REQ-057
+TEST(AlarmForm, AReadingOutsideTheSetChangesNothing) {
+  SensorArray array = plumb_test::cone_array(6, kSigma);
+  RowUncertainty u;
+  for (int a = 0; a < 24; ++a) u.covariance[static_cast<std::size_t>(a * (a + 1) / 2 + a)] = 1e-8;
+  array.set_uncertainty(u);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
+  BlockEvidence block;
+  block.usable = array.all();
+  block.samples = 32.0;
+  Noise noise(4);
+  for (int i = 0; i < 6; ++i) {
+    block.mean_mps2[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2 + 1e-3 * noise.normal();
+  }
+  const SensorSet five = array.all().without(2);
+  const SetTest before = test_set(array, gravity, limits, block, five);
+  const SetTest q = in_quadrature(array, gravity, block, five, before);
+  block.mean_mps2[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(in_quadrature(array, gravity, block, five, before).parity, q.parity);
+  EXPECT_GT(before.parity, q.parity);
+}
+
+/// A covariance below zero is none: noise alone decides.
+// Negative: REQ-057
+TEST(AlarmForm, AVarianceBelowZeroCountsAsNone) {
+  SensorArray array = plumb_test::tetrahedron(kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  BlockEvidence block = block_at(array, plumb_test::direction_at(40, 70), 32.0);
+  block.mean_mps2[1] += 0.01;
+  const SetTest noise = test_set(array, gravity, limits, block, array.all());
+  RowUncertainty below_zero;
+  below_zero.covariance[3 * 4 / 2 + 3] = -1.0;
+  array.set_uncertainty(below_zero);
+  const SetTest test = test_set(array, gravity, limits, block, array.all());
+  EXPECT_NEAR(in_quadrature(array, gravity, block, array.all(), test).parity, noise.parity, 1e-9);
 }
 
 }  // namespace

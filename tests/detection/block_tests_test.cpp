@@ -7,6 +7,7 @@
 
 #include "array/array_test_support.hpp"
 #include "plumb/detection/mae_test.hpp"
+#include "support/simulated_tool.hpp"
 
 // Serves: REQ-162
 
@@ -14,6 +15,8 @@ namespace block_tests_test {
 namespace {
 
 using namespace plumb;
+
+constexpr double kSigma = 2e-4 * kG0_mps2;
 
 /// An array with uncertainty, and a block with a fault and a channel that may be silent.
 struct Asked {
@@ -99,6 +102,36 @@ TEST(BlockTests, TheLeastLimitOfThreeThatReadZeroIsBelowEveryError) {
     EXPECT_LT(least.clear_mps2(1.0), 1e-300);
     EXPECT_GT(least.ratio(kG0_mps2), 1.0);
   }
+}
+
+/// Two pairs: without one of the single axes the others are a plane, so nobody vouches for it.
+// Negative: REQ-060
+TEST(BlockTests, ALengthThatNobodyChecksIsNotCorroborated) {
+  AxisList axes{};
+  axes[0] = {1.0, 0.0, 0.0};
+  axes[1] = {0.0, 1.0, 0.0};
+  axes[2] = axes[3] = {0.0, 0.0, 1.0};
+  const SensorArray array = plumb_test::make_array(axes, 4, kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  BlockEvidence block;
+  block.usable = array.all();
+  block.samples = 32.0;
+  block.mean_mps2[2] = block.mean_mps2[3] = kG0_mps2;
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  const BlockTests tests(array, gravity, limits, block);
+  EXPECT_FALSE(tests.vouches_for_norm(array.all(), SetTest{}));
+  EXPECT_FALSE(tests.vouches_for_norm(array.all(), tests.of(array.all())));
+  const SensorArray cone = plumb_test::cone_array(6, kSigma);
+  for (int i = 0; i < 6; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = cone.axis(i)[2] * kG0_mps2;
+  block.usable = cone.all();
+  const TestLimits limits_of_six = TestLimits::from_rates(6, 1e-5, 1e-6);
+  const BlockTests six(cone, gravity, limits_of_six, block);
+  SetTest badly_checked = six.of(cone.all());
+  badly_checked.least_leverage = 0.0;
+  for (double& c : badly_checked.covariance) c *= 10.0;
+  EXPECT_TRUE(six.vouches_for_norm(cone.all(), badly_checked)) << "the others say the same";
+  badly_checked.norm_error_mps2 += 1.0;
+  EXPECT_FALSE(six.vouches_for_norm(cone.all(), badly_checked)) << "the others deny it";
 }
 
 }  // namespace

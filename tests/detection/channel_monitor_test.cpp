@@ -91,5 +91,20 @@ TEST(ChannelGate, ASilentBusIsAGapAndLosesNobody) {
   EXPECT_TRUE(gate.lost().empty());
 }
 
+/// Hours without the end of a block: the count stands still before it could run over.
+// Serves: REQ-144
+TEST(ChannelGate, AMillionSamplesWithoutABlockLoseNobody) {
+  ChannelMonitor channels;
+  std::array<double, kCapacity> full_scale{};
+  channels.configure(3, full_scale, 8);
+  Sample sample;
+  sample.delivered = SensorSet::first(3);
+  for (int k = 0; k < 1000003; ++k) {
+    sample.raw[0] = k % 7;
+    ASSERT_EQ(channels.gate(sample).usable, sample.delivered);
+  }
+  EXPECT_TRUE(channels.lost().empty());
+}
+
 }  // namespace
 }  // namespace channel_monitor_test

@@ -205,5 +205,14 @@ TEST(CombinationMae, ATripleWithAMissingMemberUsesItsOwnCount) {
   EXPECT_NEAR(mae->triple_mps2(array.triple_index(0, 1, 3)), kG0_mps2 - 9.0, 1e-6);
 }
 
+// Serves: REQ-051
+TEST(CombinationMae, TheWindowIsNeverEmptyAndNeverBeyondItsRoom) {
+  const auto mae = std::make_unique<CombinationMae>();
+  mae->configure(4, 0);
+  EXPECT_EQ(mae->window(), 1);
+  mae->configure(4, kWindowCapacity + 1);
+  EXPECT_EQ(mae->window(), kWindowCapacity);
+}
+
 }  // namespace
 }  // namespace combination_mae_test

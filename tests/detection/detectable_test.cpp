@@ -84,5 +84,12 @@ RC_GTEST_PROP(DetectableShiftLaw, IsMissedAsOftenAsAskedFor, ()) {
   RC_ASSERT(shift <= limit + normal_tail_quantile(p));
 }
 
+TEST(DetectableShift, BeyondWhatIsComputedItIsTheUpperBound) {
+  const double small = detectable_shift(10.0, 3, 1e-3);
+  EXPECT_GT(small, 10.0);
+  EXPECT_GT(detectable_shift(1e12, 3, 1e-3), 1e12);
+  EXPECT_EQ(detectable_shift(25.0, 1, 1e-300), 25.0 + normal_tail_quantile(1e-300));
+}
+
 }  // namespace
 }  // namespace detectable_test

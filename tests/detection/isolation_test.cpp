@@ -302,5 +302,24 @@ TEST(Isolation, ScanNamesTheFewestFaults) {
   EXPECT_GE(scan.protection_rad, angle_between_rad(used.x_mps2, plumb_test::direction_at(70, 10)));
 }
 
+/// Another array is another question: what died under the first is not held against it.
+// Negative: REQ-075
+TEST(Isolation, OnAnotherArrayItStartsAnew) {
+  const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
+  const SensorArray four = plumb_test::tetrahedron(kSigma), five = plumb_test::cone_array(5, kSigma);
+  Isolation isolation;
+  isolation.pose(four, four.all());
+  BlockEvidence block;
+  block.usable = four.all();
+  block.samples = 32.0;
+  for (int i = 0; i < 4; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = four.axis(i)[2] * kG0_mps2;
+  block.mean_mps2[1] += 1.0;
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  isolation.vote({four, gravity, limits, block}, four.all());
+  EXPECT_LT(isolation.live(), isolation.voting());
+  isolation.pose(five, four.all());
+  EXPECT_EQ(isolation.live(), isolation.voting());
+}
+
 }  // namespace
 }  // namespace isolation_test

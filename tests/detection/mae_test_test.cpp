@@ -82,5 +82,18 @@ TEST(MaeLimit, TheRateIsSharedByTheTriplesThatVote) {
   EXPECT_DOUBLE_EQ(triple_share(nearly_flat, 3e-3), 1e-3);
 }
 
+/// An array of which no three axes are apart enough to vote.
+// Serves: REQ-005
+TEST(MaeLimit, WithoutATripleThatVotesTheRateIsNotShared) {
+  AxisList axes{};
+  axes[0] = {1.0, 0.0, 0.0};
+  axes[1] = {0.0, 1.0, 0.0};
+  axes[2] = {std::sqrt(0.5), std::sqrt(0.5 - 1e-4), 1e-2};
+  const SensorArray flat = plumb_test::make_array(axes, 3, kSigma);
+  EXPECT_EQ(voting_triples(flat), 0);
+  EXPECT_EQ(triple_share(flat, 1e-5), 1e-5);
+  EXPECT_EQ(triple_share(plumb_test::tetrahedron(kSigma), 1e-5), 1e-5 / 4);
+}
+
 }  // namespace
 }  // namespace mae_test_test

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "plumb/detection/alarm_form.hpp"
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 using namespace plumb;
 using plumb_test::Noise;
 
+constexpr double kSigma = 2e-4 * kG0_mps2;
 const GravityReference kGravity{kG0_mps2, 0.0, GravityModel::value};
 
 BlockEvidence exact_block(const SensorArray& array, const Vec3& direction, double g_mps2 = kG0_mps2,
@@ -177,6 +179,65 @@ TEST(SetTest, HealthyFullSetExceedsItsAlarmLimitAtTheRequestedRate) {
   }
   EXPECT_NEAR(parity, 200, 64);
   EXPECT_NEAR(norm_count, 200, 64);
+}
+
+// Negative: REQ-052
+TEST(SetTest, ASetThatTheArrayDoesNotHaveIsNotTested) {
+  const SensorArray array = plumb_test::tetrahedron(kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  BlockEvidence block;
+  block.usable = SensorSet::first(5);
+  block.samples = 32.0;
+  for (int i = 0; i < 4; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2;
+  EXPECT_TRUE(test_set(array, gravity, limits, block, SensorSet::first(4)).tested);
+  EXPECT_FALSE(test_set(array, gravity, limits, block, SensorSet::first(5)).tested);
+  EXPECT_FALSE(test_set(array, gravity, limits, block, SensorSet::first(2)).tested);
+  block.samples = 0.0;
+  EXPECT_FALSE(test_set(array, gravity, limits, block, SensorSet::first(4)).tested);
+}
+
+/// Free fall: no reading, no direction, and no tilt that could be told.
+// Negative: REQ-052
+TEST(SetTest, InFreeFallTheTiltIsOpen) {
+  SensorArray array = plumb_test::tetrahedron(kSigma);
+  RowUncertainty u;
+  for (int a = 0; a < 16; ++a) u.covariance[static_cast<std::size_t>(a * (a + 1) / 2 + a)] = 1e-8;
+  array.set_uncertainty(u);
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  BlockEvidence block;
+  block.usable = array.all();
+  block.samples = 32.0;
+  const SetTest t = test_set(array, gravity, limits, block, array.all());
+  ASSERT_TRUE(t.tested);
+  EXPECT_EQ(calibration_tilt_sigma_rad(array, t, array.all()), kPi);
+  const SetTest q = in_quadrature(array, gravity, block, array.all(), t);
+  EXPECT_EQ(q.parity, 0.0);
+  EXPECT_TRUE(std::isfinite(q.norm));
+  // Nothing is open about a vector whose sensors err along it alone.
+  block.mean_mps2 = {};
+  for (int i = 0; i < 4; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2;
+  const SetTest seen = test_set(array, gravity, limits, block, array.all());
+  EXPECT_EQ(tilt_sigma_rad(seen.x_mps2, {}), 0.0);
+}
+
+/// What is left open of a sensor outside the set turns nothing of its vector.
+// Serves: REQ-052
+TEST(SetTest, AnUncertainSensorOutsideTheSetTiltsNothing) {
+  SensorArray array = plumb_test::tetrahedron(kSigma);
+  RowUncertainty u;
+  u.covariance[15 * 16 / 2 + 15] = 1e-6;  // the bias of the last one
+  array.set_uncertainty(u);
+  const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
+  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
+  const BlockEvidence block = exact_block(array, plumb_test::direction_at(40, 70));
+  const SensorSet rest = array.all().without(3);
+  const SetTest test = test_set(array, gravity, limits, block, rest);
+  ASSERT_TRUE(test.tested);
+  EXPECT_EQ(calibration_tilt_sigma_rad(array, test, rest), 0.0);
+  const SetTest all = test_set(array, gravity, limits, block, array.all());
+  EXPECT_GT(calibration_tilt_sigma_rad(array, all, array.all()), 0.0);
 }
 
 }  // namespace

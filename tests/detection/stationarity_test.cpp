@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "plumb/array/geometry.hpp"
 #include "support/simulated_tool.hpp"
 
 namespace stationarity_test {
@@ -164,84 +165,35 @@ TEST(Stationarity, AnExcludedChannelCannotStopTheEvidence) {
   EXPECT_TRUE(j.restless.empty());
 }
 
-// Verifies: REQ-039
-TEST(StationFinder, FindsQuietStretchesBetweenMotionAndKeepsTheirMeans) {
+// Negative: REQ-058
+TEST(Stationarity, ABlockWithoutSamplesIsNotJudged) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
-  StationFinder finder(array, kG0_mps2, {});
-  Noise noise(9);
-  std::vector<Station> found;
-  std::vector<Vec3> truth;
-  double t = 0.0;
-  const auto feed = [&](const Vec3& u, double rms, int samples) {
-    for (int k = 0; k < samples; ++k) {
-      Sample s;
-      s.time_s = t += 0.01;
-      s.delivered = array.all();
-      Readings y{};
-      for (int i = 0; i < 4; ++i) {
-        const auto a = static_cast<std::size_t>(i);
-        s.raw[a] = dot(array.axis(i), u) * kG0_mps2 + (kSigma + rms) * noise.normal();
-        y[a] = s.raw[a];
-      }
-      Station st;
-      if (finder.add(s, y, array.all(), st)) found.push_back(st);
-    }
-  };
-  for (int k = 0; k < 6; ++k) {
-    const Vec3 u = plumb_test::random_direction(noise);
-    truth.push_back(u);
-    feed(u, 0.0, 400);
-    feed(u, 1.0, 100);
-  }
-  Station st;
-  if (finder.finish(st)) found.push_back(st);
-  ASSERT_EQ(found.size(), truth.size());
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    EXPECT_GE(found[k].count, 256U);
-    for (int i = 0; i < 4; ++i) {
-      const auto a = static_cast<std::size_t>(i);
-      EXPECT_NEAR(found[k].mean[a], dot(array.axis(i), truth[k]) * kG0_mps2, 5 * kSigma / 16.0);
-      EXPECT_NEAR(found[k].scatter[a], kSigma, 0.3 * kSigma);
-    }
-  }
+  const BlockAccumulator empty;
+  EXPECT_EQ(empty.samples(array.all()), 0.0);
+  const BlockJudgement j = judge_block(array, empty, array.all(), 2.0, kG0_mps2);
+  EXPECT_FALSE(j.quiet);
+  EXPECT_EQ(j.evidence.samples, 0.0);
+  EXPECT_TRUE(j.evidence.usable.empty());
+  EXPECT_EQ(restless_factor(0, 32, 1e-6), 0.0);
+  EXPECT_EQ(restless_factor(4, 1, 1e-6), 0.0);
 }
 
-// Negative: REQ-039
-TEST(StationFinder, TagsSeparateStationsWithoutMotion) {
-  const SensorArray array = plumb_test::tetrahedron(kSigma);
-  StationFinder finder(array, kG0_mps2, {});
-  Noise noise(10);
-  int found = 0;
-  Station st;
-  for (int k = 0; k < 3 * 128; ++k) {
-    Sample s;
-    s.time_s = 0.01 * k;
-    s.station = static_cast<std::uint32_t>(1 + k / 128);
-    Readings y{};
-    for (int i = 0; i < 4; ++i) y[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2 + kSigma * noise.normal();
-    found += finder.add(s, y, array.all(), st) ? 1 : 0;
-  }
-  found += finder.finish(st) ? 1 : 0;
-  EXPECT_EQ(found, 3);
-}
-
-// Negative: REQ-039
-TEST(StationFinder, AnotherRollGroupEndsAStationLikeAnotherTag) {
-  const SensorArray array = plumb_test::tetrahedron(kSigma);
-  StationFinder finder(array, kG0_mps2, {});
-  Noise noise(11);
-  std::vector<std::uint32_t> groups;
-  Station st;
-  for (int k = 0; k < 3 * 192; ++k) {
-    Sample s;
-    s.time_s = 0.01 * k;
-    s.roll_group = static_cast<std::uint32_t>(5 + k / 192);
-    Readings y{};
-    for (int i = 0; i < 4; ++i) y[static_cast<std::size_t>(i)] = array.axis(i)[2] * kG0_mps2 + kSigma * noise.normal();
-    if (finder.add(s, y, array.all(), st)) groups.push_back(st.roll_group);
-  }
-  if (finder.finish(st)) groups.push_back(st.roll_group);
-  EXPECT_EQ(groups, (std::vector<std::uint32_t>{5, 6, 7}));
+/// Sets that name sensors which no build has: those that there are count, and nothing is read beyond them.
+// Negative: REQ-140
+TEST(Stationarity, SensorsBeyondTheCapacityAreNotRead) {
+  const SensorSet all(~std::uint32_t{0});
+  BlockAccumulator block;
+  Readings y{};
+  y.fill(1.0);
+  block.add(y, all, 1);
+  block.add(y, all, 1);
+  EXPECT_EQ(block.usable(), SensorSet::first(kCapacity));
+  EXPECT_EQ(block.mean()[kCapacity - 1], 1.0);
+  EXPECT_TRUE(block.holds());
+  LeastSquares map = least_squares(plumb_test::tetrahedron(kSigma), SensorSet::first(4));
+  const Vec3 x = map.estimate(y);
+  map.used = all;
+  EXPECT_EQ(map.estimate(y), x) << "columns of no sensor are zero";
 }
 
 }  // namespace

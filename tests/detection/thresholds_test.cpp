@@ -19,6 +19,7 @@ using namespace plumb;
 using namespace plumb_test;
 
 constexpr double kMilli = 1e-3 * kG0_mps2;
+constexpr double kSigma = 2e-4 * kG0_mps2;
 
 TestSettings one_sample() {
   TestSettings s;
@@ -229,6 +230,35 @@ RC_GTEST_PROP(SureFaultLaw, IsToldFromEveryOtherWhereTwiceTheFaultsAreAllowedFor
   isolation.pose(array, array.all());
   const FaultSetScan scan = isolation.scan({array, kExact, budget.limits, block}, array.all(), m, m, {1, 5.0, 0.0});
   RC_ASSERT(scan.asserted == faulty);
+}
+
+// Negative: REQ-016
+TEST(ProtectionLevel, OfAnArrayWithoutSensorsEveryTiltIsPossible) {
+  const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
+  EXPECT_EQ(protection_level_rad(SensorArray{}, gravity, {}), kPi);
+  const ErrorBudget none = error_budget(SensorArray{}, gravity, {});
+  EXPECT_EQ(none.noise_factor, 0.0);
+  const SensorArray array = plumb_test::tetrahedron(kSigma);
+  const double level = protection_level_rad(array, gravity, {});
+  EXPECT_EQ(level, thresholds_of(array, gravity, {}).protection_rad);
+  EXPECT_LT(level, 0.1);
+  TestSettings settings;
+  settings.false_alarm_rate = 1e-9;
+  settings.rejection_rate = 1e-2;
+  EXPECT_GT(protection_level_rad(array, gravity, settings), level) << "an alarm that is seldom hides more";
+}
+
+/// Where an alarm is rarer than a rejection its limit is the wider one, and a fault that all together must show is
+/// harder to see than one that fewer must.
+TEST(ThresholdsOf, AnAlarmRarerThanARejectionSetsTheDetectableFault) {
+  const SensorArray array = plumb_test::cone_array(6, kSigma);
+  const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
+  TestSettings usual, rare;
+  rare.false_alarm_rate = 1e-12;
+  rare.rejection_rate = usual.rejection_rate = 1e-2;
+  usual.false_alarm_rate = 1e-2;
+  const Thresholds a = thresholds_of(array, gravity, usual), b = thresholds_of(array, gravity, rare);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_GT(b.sensor[i].detectable_mps2, a.sensor[i].detectable_mps2);
 }
 
 }  // namespace

@@ -258,5 +258,19 @@ TEST(ChannelFacts, AHealthyRunCountsNothing) {
   EXPECT_GT(c.samples, 100U);
 }
 
+/// It jumps from one end of its range to the other: full scale says more than noise.
+// Verifies: REQ-148
+TEST(ChannelFacts, NoisyAndAtFullScaleIsNamedByFullScale) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.setup.full_scale_raw.fill(1.05 * kG0_mps2);
+  rig.restart();
+  rig.prove();
+  rig.distort = [](int i, double r, int k) { return i == 2 ? 1.05 * kG0_mps2 - (k % 2) * 0.02 : r; };
+  for (int k = 0; k < 8; ++k) rig.stay(direction_at(30 + 15 * k, 50 * k));
+  const Verdict& v = rig.monitor.verdict();
+  ASSERT_TRUE((v.excluded | v.set_aside).has(2));
+  EXPECT_EQ(v.sensor_cause[2], Cause::clipped) << to_string(v.sensor_cause[2]);
+}
+
 }  // namespace
 }  // namespace channel_facts_test

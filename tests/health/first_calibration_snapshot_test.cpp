@@ -134,5 +134,32 @@ TEST(FirstCalibrationSnapshot, AForgedOneIsRefusedOrHarmless) {
   EXPECT_GT(refused, 100);
 }
 
+/// Nobody serves whom the monitor has not calibrated, whichever set of sensors the snapshot says otherwise.
+// Negative: REQ-163
+TEST(FirstCalibrationSnapshot, WithASmallerSetInItNobodyServesUncalibrated) {
+  UncalibratedTool tool(4, 3);
+  tool.start();
+  tool.follow(40);
+  ASSERT_TRUE(tool.calibrated());
+  const Bytes good = snapshot_of(tool.monitor);
+  const auto victim = std::make_unique<HealthMonitor>();
+  ASSERT_TRUE(plumb_test::is_taken_up(*victim, tool.setup, good));
+  const std::uint32_t all = SensorSet::first(4).bits;
+  int sets = 0, taken = 0;
+  for (const plumb_test::Places::Place& p : plumb_test::Places(tool.monitor).list) {
+    if (p.width != sizeof all || std::memcmp(good.data() + p.at, &all, sizeof all) != 0) continue;
+    for (const std::uint32_t fewer : {SensorSet::first(2).bits, SensorSet::first(3).bits}) {
+      ++sets;
+      Bytes bytes = good;
+      std::memcpy(bytes.data() + p.at, &fewer, sizeof fewer);
+      if (!plumb_test::is_taken_up(*victim, tool.setup, bytes)) continue;
+      ++taken;
+      const Verdict& v = victim->verdict();
+      EXPECT_TRUE(victim->calibrated().contains(v.in_service | v.set_aside)) << p.at;
+    }
+  }
+  EXPECT_GT(sets, taken);
+}
+
 }  // namespace
 }  // namespace first_calibration_snapshot_test

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "first_calibration_support.hpp"
@@ -19,44 +18,17 @@ namespace {
 using namespace plumb;
 using plumb_test::Bytes;
 using plumb_test::direction_at;
+using plumb_test::Places;
 using plumb_test::random_direction;
 using plumb_test::Rig;
 using plumb_test::snapshot_of;
 using plumb_test::Tool;
 using plumb_test::UncalibratedTool;
 
-/// Where every scalar of a snapshot lies: an archive that neither writes nor reads.
-class Places {
- public:
-  struct Place {
-    std::size_t at, width;
-    bool real;
-  };
-  explicit Places(int sensors) : sensors_(sensors) {}
-  int sensors() const noexcept { return sensors_; }
-  void fail() noexcept { ADD_FAILURE() << "the monitor itself is none"; }
-  template <class T>
-  void done(T&) noexcept {}
-  template <class T, class Check>
-  void scalar(T&, const Check&) noexcept {
-    list.push_back({kSnapshotHeaderSize + end_, sizeof(T), std::is_same_v<T, double>});
-    end_ += sizeof(T);
-  }
-  std::size_t end() const { return end_; }
-
-  std::vector<Place> list;
-
- private:
-  int sensors_;
-  std::size_t end_ = 0;
-};
-
 /// All of them, but of a long row of figures (covariances, stations) every eighth.
 std::vector<Places::Place> places_of(HealthMonitor& monitor) {
   constexpr std::size_t kLongRow = 40, kOfLongRow = 8;
-  Places places(monitor.array().size());
-  transfer(places, monitor, AnyBits{});
-  EXPECT_EQ(kSnapshotFrameSize + places.end(), monitor.snapshot_size());
+  const Places places(monitor);
   std::vector<Places::Place> out;
   for (std::size_t k = 0; k < places.list.size();) {
     std::size_t end = k;
@@ -321,6 +293,35 @@ TEST(ForgedFields, OfAFirstCalibrationAndWhatCameOfIt) {
   tool.follow(30);
   ASSERT_TRUE(tool.calibrated());
   forge(tool, "calibrated by itself");
+}
+
+/// The vector that was published last must be that of the evidence, which the host still reads: another one is refused,
+/// whichever figure is made endless so that everything seems near to it.
+// Negative: REQ-163
+TEST(ForgedFields, AVectorThatTheEvidenceDoesNotGiveIsRefused) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  HealthMonitor& monitor = rig.monitor;
+  const Bytes good = snapshot_of(monitor);
+  auto victim = std::make_unique<HealthMonitor>();
+  ASSERT_TRUE(plumb_test::is_taken_up(*victim, rig.setup, good));
+  const Places places(monitor);
+  const auto published = std::find_if(places.list.begin(), places.list.end(), [&monitor](const Places::Place& p) {
+    return p.figure == &monitor.verdict().gravity_mps2[0];
+  });
+  ASSERT_NE(published, places.list.end());
+  Bytes turned = good;
+  const double lie = monitor.verdict().gravity_mps2[0] + 1.0;
+  std::memcpy(turned.data() + published->at, &lie, sizeof lie);
+  EXPECT_FALSE(plumb_test::is_taken_up(*victim, rig.setup, turned));
+  for (const Places::Place& p : places.list) {
+    if (!p.real || p.at == published->at) continue;
+    for (const double endless : {1e30, 1e200, 1e308}) {
+      Bytes bytes = turned;
+      std::memcpy(bytes.data() + p.at, &endless, sizeof endless);
+      EXPECT_FALSE(plumb_test::is_taken_up(*victim, rig.setup, bytes)) << p.at << " " << endless;
+    }
+  }
 }
 
 // Negative: REQ-163

@@ -15,6 +15,11 @@ using namespace plumb;
 using plumb_test::direction_at;
 using plumb_test::Rig;
 
+SensorArray triad() {
+  AxisList axes{};
+  return plumb_test::make_array(axes, orthogonal_triad(axes), 2e-4 * kG0_mps2);
+}
+
 // Verifies: REQ-093
 TEST(HealthMonitor, PowersOnUnprovenAndEarnsTrustOnlyByChangingAttitude) {
   Rig rig(plumb_test::tetrahedron());
@@ -294,6 +299,68 @@ TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
   }
   EXPECT_EQ(rig.monitor.verdict().validity, Validity::unconfirmed);
   EXPECT_TRUE(rig.ever_blamed.empty());
+}
+
+/// A sensor that reads specific force has the other sign, and the same monitor comes of it.
+// Verifies: REQ-010
+TEST(HealthMonitor, SpecificForceIsGravityTheOtherWayRound) {
+  Rig gravity(plumb_test::tetrahedron()), force(plumb_test::tetrahedron());
+  force.setup.model.reads = Reads::specific_force;
+  force.restart();
+  for (int k = 0; k < 300; ++k) {
+    const Sample s = gravity.sample(direction_at(20.0 + 30.0 * (k / 64), 100.0 * (k / 64)), kG0_mps2);
+    Sample other = s;
+    for (double& r : other.raw) r = -r;
+    const Verdict& v = gravity.step(s);
+    const Verdict& w = force.step(other);
+    ASSERT_EQ(v.gravity_mps2, w.gravity_mps2);
+    ASSERT_EQ(v.state, w.state);
+  }
+}
+
+/// Turning so slowly that nothing shows of it, and faster; known, and with a channel that is silent.
+// Verifies: REQ-065
+TEST(HealthMonitor, ARateThatIsKnownAndSmallLocksNothing) {
+  const auto locked_at = [](double rate_radps, bool arms) {
+    Rig rig(plumb_test::cone_array(5));
+    rig.setup.lever_arms_known = arms;
+    rig.setup.lever_arm_m[2] = {0.01, 0.0, 0.02};
+    rig.restart();
+    rig.prove();
+    EXPECT_TRUE(rig.monitor.set_rotation({true, true, {0.0, 0.0, rate_radps}}).has_value());
+    bool turning = false;
+    for (int k = 0; k < 2 * 32; ++k) {
+      Sample s = rig.sample(direction_at(20, 30), kG0_mps2);
+      if (k % 8 == 3) s.delivered = s.delivered.without(4);
+      turning = turning || rig.step(s).cause == Cause::rotating;
+    }
+    return turning;
+  };
+  EXPECT_FALSE(locked_at(1e-6, false));
+  EXPECT_TRUE(locked_at(1.0, false));
+  EXPECT_FALSE(locked_at(1e-3, true));
+}
+
+/// Three sensors that read gravity to the last bit, a channel of which missed a sample: nothing is off, nobody checks a
+/// triple, and there is no limit of which something would be left.
+// Serves: REQ-054
+TEST(HealthMonitor, WithoutNoiseAndWithoutATestedTripleThereIsNoMargin) {
+  Rig rig(triad());
+  const Vec3 up = {0.0, 0.0, 1.0};
+  rig.distort = [&rig, &up](int i, double, int) { return dot(rig.setup.array.axis(i), up) * kG0_mps2; };
+  for (int k = 0; k < rig.setup.config.window; ++k) {
+    Sample s = rig.sample(up, kG0_mps2);
+    if (k == 3) s.delivered = s.delivered.without(1);
+    rig.step(s);
+  }
+  const Verdict& v = rig.monitor.verdict();
+  EXPECT_TRUE(v.tick);
+  EXPECT_EQ(v.statistic, 0.0);
+  EXPECT_EQ(v.limit, 0.0);
+  EXPECT_EQ(v.margin, 0.0);
+  rig.stay(up);
+  EXPECT_GT(rig.monitor.verdict().limit, 0.0);
+  EXPECT_EQ(rig.monitor.verdict().margin, 1.0);
 }
 
 }  // namespace

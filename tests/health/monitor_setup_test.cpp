@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
+#include <vector>
 
-#include "support/simulated_tool.hpp"
+#include "plumb/calibration/datasheet.hpp"
+#include "snapshot_support.hpp"
 
 namespace monitor_setup_test {
 namespace {
@@ -144,6 +147,44 @@ TEST(MonitorSetup, WhatIsUsableHasVariances) {
   }
   EXPECT_GT(below_zero, 10);
   EXPECT_GT(usable, 100);
+}
+
+// Negative: REQ-170
+TEST(MonitorSetup, WithoutOneNoRequestIsTakenAndNothingIsSaid) {
+  HealthMonitor none;
+  none.inhibit(true);
+  EXPECT_FALSE(none.request_recalibration().has_value());
+  EXPECT_EQ(none.step(Sample{}).validity, Validity::invalid);
+  EXPECT_EQ(none.verdict().cause, HealthMonitor().verdict().cause);
+}
+
+/// A monitor that cannot be is refused by its first use, and a snapshot does not make it one.
+// Negative: REQ-170
+TEST(MonitorSetup, OneThatIsRefusedIsRefusedWithASnapshotToo) {
+  Rig rig(plumb_test::tetrahedron());
+  const plumb_test::Bytes bytes = plumb_test::snapshot_of(rig.monitor);
+  const std::vector<std::function<void(MonitorSetup&)>> wrong = {
+      [](MonitorSetup& s) { s.array = SensorArray{}; },
+      [](MonitorSetup& s) { s.model.size = 3; },
+      [](MonitorSetup& s) { s.config.window = kWindowCapacity + 1; },
+      [](MonitorSetup& s) { s.config.window = 0; },
+      [](MonitorSetup& s) { s.config.alert_limit_rad = kNaN; },
+      [](MonitorSetup& s) {
+        s.config.temperature_min_degc = 80.0;
+        s.config.temperature_max_degc = 20.0;
+      }};
+  for (std::size_t k = 0; k < wrong.size(); ++k) {
+    MonitorSetup setup = rig.setup;
+    wrong[k](setup);
+    HealthMonitor monitor;
+    const Expected<void> configured = monitor.configure(setup);
+    ASSERT_FALSE(configured.has_value()) << k;
+    const Expected<void> restored = monitor.restore(setup, bytes.data(), bytes.size());
+    ASSERT_FALSE(restored.has_value()) << k;
+    EXPECT_EQ(restored.error().code, configured.error().code) << k;
+  }
+  MonitorSetup setup;
+  EXPECT_FALSE(set_datasheet(Datasheet{}, setup).has_value());
 }
 
 }  // namespace

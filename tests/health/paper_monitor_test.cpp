@@ -313,5 +313,45 @@ TEST(PaperMonitor, ASensorThatShakesDoesNotFeignAttitudes) {
   EXPECT_EQ(rig.monitor->finding().triples, 0) << "sixty blocks at one attitude";
 }
 
+/// A cubic that passes through zero has no reading there: no vector is shown, and the block is no evidence.
+// Negative: REQ-190
+TEST(PaperMonitor, AScaleThatVanishesShowsNoVector) {
+  Datasheet sheet = paper_test::sheet_of(4);
+  for (int i = 0; i < 4; ++i) {
+    SensorCoefficients& c = sheet.sensor[static_cast<std::size_t>(i)].coefficients;
+    c.scale = {0.25, -0.25 / 64.0, 0.0, 0.0};
+    c.bias = {};
+    c.reference_degc = 25.0;
+  }
+  PaperRig rig(sheet, 4, 1);
+  rig.setup->base.config.temperature_max_degc = 200.0;
+  rig.restart();
+  rig.prove();
+  const Vec3 before = rig.monitor->verdict().latest_mps2;
+  ASSERT_GT(norm(before), 9.0);
+  for (int k = 0; k < rig.setup->base.config.window; ++k) {
+    Sample s = rig.sample(direction_at(50, 50));
+    s.temperature_degc = 25.0 + 64.0;
+    rig.step(s);
+  }
+  const Verdict& v = rig.monitor->verdict();
+  EXPECT_TRUE(std::isfinite(norm(v.latest_mps2)));
+  EXPECT_EQ(v.latest_mps2, before) << "the last that there was";
+}
+
+/// The same attitude again is no further station.
+TEST(PaperMonitor, Step10AnAttitudeThatRepeatsDoesNotBringTheFitNearer) {
+  PaperRig rig(6);
+  rig.prove();
+  rig.stick(5, 0.3 * kG0_mps2);
+  rig.tour(5);
+  ASSERT_EQ(rig.monitor->verdict().state, HealthState::recalibrating);
+  for (int k = 0; k < 40; ++k) rig.stay(direction_at(50, 50));
+  EXPECT_EQ(rig.monitor->verdict().state, HealthState::recalibrating);
+  EXPECT_FALSE(rig.monitor->rest().sound());
+  rig.tour(12);
+  EXPECT_TRUE(rig.monitor->rest().sound());
+}
+
 }  // namespace
 }  // namespace paper_monitor_test

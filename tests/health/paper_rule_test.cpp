@@ -302,5 +302,21 @@ TEST(PaperRuleLimit, AtOneAttitudeTwoFaultsThatAgreeGetAHealthySensorBlamed) {
   EXPECT_EQ(f.isolated, SensorSet::of(3)) << "sensor 3 is healthy";
 }
 
+/// A fit that is not sound reads nobody, nor do triples that were not fitted.
+// Negative: REQ-190
+TEST(PaperRule, WithoutASoundFitNobodyIsReadByHisOwn) {
+  Bench bench(tool_of(4));
+  PaperCalibration& made = *bench.calibration;
+  EXPECT_EQ(bench.fits().own(SensorSet::first(4)), &made.all);
+  EXPECT_EQ(bench.fits().own(SensorSet::first(3)), &made.triple[0]);
+  made.all.converged = false;
+  made.triples = 0;
+  EXPECT_EQ(bench.fits().own(SensorSet::first(4)), nullptr);
+  EXPECT_EQ(bench.fits().own(SensorSet::first(3)), nullptr);
+  bench.rest = made.all;
+  bench.rest.converged = true;
+  EXPECT_EQ(bench.fits().own(SensorSet::first(4)), &bench.rest);
+}
+
 }  // namespace
 }  // namespace paper_rule_test

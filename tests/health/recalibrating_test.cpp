@@ -264,5 +264,22 @@ TEST(Recalibrating, ARefusedFitLeavesEverythingAndSaysWhy) {
   EXPECT_LT(tool.rig.monitor.recalibration().store().size(), 3) << "no station is tried twice";
 }
 
+/// A calibration may leave open more than gravity: then sensors that all read zero are within every limit, and still
+/// say no attitude that a fit could be made from.
+// Negative: REQ-163
+TEST(Recalibrating, ZerosAreNoStationHoweverLooseTheCalibration) {
+  plumb_test::Tool tool(4);
+  plumb_test::leave_uncertainty(tool.rig.setup.array, 20.0, 1e-4);
+  tool.rig.restart();
+  tool.begin();
+  tool.visit(3);
+  const int before = tool.rig.monitor.verdict().recalibration.stations;
+  EXPECT_GT(before, 0);
+  tool.fault = [](int, double, int) { return 0.0; };
+  tool.rig.stay(direction_at(10, 10), 4);
+  EXPECT_EQ(tool.state(), HealthState::recalibrating) << "the zeros are within the limits";
+  EXPECT_EQ(tool.rig.monitor.verdict().recalibration.stations, before);
+}
+
 }  // namespace
 }  // namespace recalibrating_test

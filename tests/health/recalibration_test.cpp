@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <limits>
 #include <memory>
 
 #include "recalibration_support.hpp"
@@ -256,6 +257,118 @@ RC_GTEST_PROP(RecalibrationLaw, AcceptedFitsAreWithinTheirStatedUncertainty, ())
       RC_ASSERT(std::fabs(error) <= 6.0 * std::sqrt(s.array.uncertainty().at(i, i, g)));
     }
   }
+}
+
+SensorArray with_misfit(SensorArray array, double misfit_mps2) {
+  RowUncertainty u = array.uncertainty();
+  u.misfit_mps2[0] = misfit_mps2;
+  array.set_uncertainty(u);
+  return array;
+}
+
+/// A calibration of which nothing is known in numbers: no fit is begun over it, none is accepted, and what had been
+/// accepted is adopted without a word about it.
+// Negative: REQ-131
+TEST(Recalibration, OverAnUncertaintyThatIsNoNumberNoFitIsBegunOrAccepted) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  Shadow s(5, 26);
+  s.start();
+  for (int k = 0; k < 16; ++k) s.offer(plumb_test::random_direction(s.noise));
+  const SensorArray known = s.array;
+  s.array = with_misfit(known, kNan);
+  EXPECT_EQ(s.step(0.0), Outcome::none);
+  EXPECT_EQ(s.fit->progress(s.array).phase, RecalibrationPhase::collecting);
+  s.array = known;
+  s.offer(plumb_test::random_direction(s.noise));
+  EXPECT_EQ(s.step(0.0), Outcome::none);
+  EXPECT_EQ(s.fit->progress(s.array).phase, RecalibrationPhase::fitting);
+  s.array = with_misfit(known, kNan);
+  Outcome outcome = Outcome::none;
+  for (int k = 0; k < 60 && outcome == Outcome::none; ++k) outcome = s.step(0.0);
+  EXPECT_EQ(outcome, Outcome::rejected);
+}
+
+TEST(Recalibration, AStationInADirectionBeyondAllNumbersBeginsNoFit) {
+  Shadow s(5, 26);
+  s.start();
+  s.offer({1e153, 1e153, 1e153});
+  for (int k = 0; k < 16; ++k) s.offer(plumb_test::random_direction(s.noise));
+  EXPECT_EQ(s.step(0.0), Outcome::none);
+  EXPECT_EQ(s.fit->progress(s.array).phase, RecalibrationPhase::collecting);
+}
+
+/// Where the covariance of a fit cannot be had, by a gravity whose square is no number, the fit is not accepted; one
+/// that had been accepted is adopted with the old uncertainty, and the whole change on top of it where it is in doubt.
+// Negative: REQ-131
+TEST(Recalibration, WithoutACovarianceNoFitIsAcceptedAndNoneIsSurer) {
+  const GravityReference endless{3e152, 1e-3, GravityModel::value};
+  Shadow s(5, 27);
+  s.start();
+  for (int k = 0; k < 16; ++k) s.offer(plumb_test::random_direction(s.noise));
+  ASSERT_EQ(s.step(0.0), Outcome::none);
+  Outcome outcome = Outcome::none;
+  s.gravity = endless;
+  s.array.set_uncertainty({});
+  for (int k = 0; k < 60 && outcome == Outcome::none; ++k) outcome = s.step(0.0);
+  EXPECT_EQ(outcome, Outcome::rejected);
+  EXPECT_EQ(s.fit->progress(s.array).last_refusal.code, Errc::diverged);
+
+  Shadow done(5, 28);
+  done.start();
+  ASSERT_EQ(done.roam(24), Outcome::accepted);
+  const Recalibration accepted = *done.fit;
+  for (const bool doubted : {false, true}) {
+    Recalibration r = accepted;
+    SensorModel model = done.model;
+    SensorArray array = done.array;
+    plumb_test::leave_uncertainty(array, 1e-3, 0.0);
+    const double before = array.uncertainty().covariance[9];
+    r.apply(model, array, endless, 0.0, doubted);
+    EXPECT_TRUE(r.adopted());
+    EXPECT_NE(model.sensor[1].bias[0], done.model.sensor[1].bias[0]);
+    const double after = array.uncertainty().covariance[9];
+    EXPECT_EQ(after > before, doubted);
+    EXPECT_GE(after, before);
+    EXPECT_TRUE(array.uncertainty().is_covariance());
+  }
+}
+
+/// A scale of which next to nothing is said to be known: beside what the stations tell of it they tell no bias.
+// Negative: REQ-131
+TEST(Recalibration, AParameterThatTheStationsDoNotTellRefusesTheFit) {
+  Shadow s(5, 25);
+  s.drift_sigmas.scale = 10.0;
+  s.fit->configure(s.model, s.drift_sigmas, rad_from_deg(2.0));
+  s.start();
+  EXPECT_EQ(s.roam(24), Outcome::rejected);
+  EXPECT_EQ(s.fit->progress(s.array).last_refusal.code, Errc::unobservable);
+}
+
+/// Every fit over as many stations as are asked for leaves enough of them out of it to be tried by.
+TEST(Recalibration, OfTheStationsThatAreDueEnoughAreHeldOut) {
+  for (int n = 3; n <= kCapacity; ++n) {
+    for (const int due : {Recalibration::stations_needed(n), Recalibration::first_stations_needed(n)}) {
+      int held_out = 0;
+      for (int k = 0; k < due; ++k) held_out += StationStore::held_out(k) ? 1 : 0;
+      EXPECT_GE(held_out, Recalibration::kHeldOutNeeded) << n;
+      EXPECT_LE(due, StationStore::kMax) << n;
+    }
+  }
+}
+
+TEST(Recalibration, IsUnderWayFromItsStartUntilItsEndIsHeard) {
+  Shadow s(5, 31);
+  EXPECT_FALSE(s.fit->under_way());
+  s.start();
+  EXPECT_TRUE(s.fit->under_way());
+  ASSERT_EQ(s.roam(24), Outcome::accepted);
+  EXPECT_TRUE(s.fit->under_way());
+  s.fit->apply(s.model, s.array, s.gravity, 0.0, false);
+  EXPECT_FALSE(s.fit->under_way());
+  s.start();
+  s.drifted_bias[1] = 1.0;
+  ASSERT_EQ(s.roam(24), Outcome::rejected);
+  EXPECT_TRUE(s.fit->under_way()) << "nobody has heard the refusal";
 }
 
 }  // namespace

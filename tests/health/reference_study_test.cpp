@@ -133,5 +133,30 @@ TEST(ReferenceStudy, ConfidentAnswersAreGivenWhereTheyAreRight) {
   EXPECT_EQ(told(Truth::bias, ReferenceKind::common_scale), 0);
 }
 
+// Negative: REQ-062
+TEST(ReferenceStudy, WhatIsNoAttitudeIsNotTaken) {
+  ReferenceStudy study;
+  study.add({0.0, 0.0, 0.0}, 0.01, 0.001, 0.1);
+  study.add({0.0, 0.0, 1.0}, 0.01, 0.0, 0.1);
+  study.add({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}, 0.01, 0.001, 0.1);
+  EXPECT_TRUE(study.empty());
+  study.add({0.0, 0.0, 1.0}, 0.01, 0.001, 0.1);
+  EXPECT_FALSE(study.empty());
+}
+
+/// Lengths that are too short as well as too long, and such as are neither.
+// Verifies: REQ-062
+TEST(ReferenceStudy, AShortLengthIsACommonScaleToo) {
+  plumb_test::Noise noise(7);
+  const auto found = [&noise](double off_mps2) {
+    ReferenceStudy study;
+    for (int k = 0; k < 100; ++k) study.add(plumb_test::random_direction(noise), off_mps2, 1e-3, 0.2);
+    return study.find(kG0_mps2, 1e-3, rad_from_deg(2.0)).kind;
+  };
+  EXPECT_EQ(found(0.05), ReferenceKind::common_scale);
+  EXPECT_EQ(found(-0.05), ReferenceKind::common_scale);
+  EXPECT_EQ(found(0.0), ReferenceKind::undecided);
+}
+
 }  // namespace
 }  // namespace reference_study_test

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "plumb/core/archive.hpp"
@@ -38,6 +39,41 @@ inline void seal(Bytes& bytes) {
   plumb::Crc64 crc;
   crc.add(bytes.data(), bytes.size() - 8);
   for (std::size_t k = 0; k < 8; ++k) bytes[bytes.size() - 8 + k] = static_cast<std::uint8_t>(crc.value() >> (8 * k));
+}
+
+/// Where every scalar of a snapshot lies: an archive that neither writes nor reads.
+class Places {
+ public:
+  struct Place {
+    std::size_t at, width;
+    bool real;
+    const void* figure;  ///< in the monitor
+  };
+  explicit Places(plumb::HealthMonitor& monitor) : sensors_(monitor.array().size()) {
+    plumb::transfer(*this, monitor, plumb::AnyBits{});
+    EXPECT_EQ(plumb::kSnapshotFrameSize + end_, monitor.snapshot_size());
+  }
+  int sensors() const noexcept { return sensors_; }
+  void fail() noexcept { ADD_FAILURE() << "the monitor itself is none"; }
+  template <class T>
+  void done(T&) noexcept {}
+  template <class T, class Check>
+  void scalar(T& figure, const Check&) noexcept {
+    list.push_back({plumb::kSnapshotHeaderSize + end_, sizeof(T), std::is_same_v<T, double>, &figure});
+    end_ += sizeof(T);
+  }
+
+  std::vector<Place> list;
+
+ private:
+  int sensors_;
+  std::size_t end_ = 0;
+};
+
+/// Whether a monitor takes these bytes up, with sums that are true.
+inline bool is_taken_up(plumb::HealthMonitor& victim, const plumb::MonitorSetup& setup, Bytes bytes) {
+  seal(bytes);
+  return victim.restore(setup, bytes.data(), bytes.size()).has_value();
 }
 
 /// A tool in trouble: faults that come and go, lost channels, motion, gaps, heat, requests of the host.

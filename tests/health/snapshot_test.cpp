@@ -359,5 +359,13 @@ TEST(Snapshot, NeedsAConfiguredMonitorAndRoom) {
   EXPECT_FALSE(rig.monitor.snapshot(nullptr, 1U << 20U).has_value());
 }
 
+// Negative: REQ-163
+TEST(Snapshot, ASizeWithoutRoomForItsOwnHeaderIsDamage) {
+  Rig rig(plumb_test::tetrahedron());
+  plumb_test::Bytes bytes = snapshot_of(rig.monitor);
+  for (std::size_t k = 24; k < 28; ++k) bytes[k] = 0;
+  EXPECT_EQ(snapshot_header(bytes.data(), bytes.size()).error().code, Errc::snapshot_damaged);
+}
+
 }  // namespace
 }  // namespace health_snapshot_test

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "plumb/health/reference_study.hpp"
 #include "plumb/health/transition_table.hpp"
 #include "plumb/health/verdict.hpp"
 
@@ -35,6 +36,8 @@ TEST(StateWords, EveryValueHasAWordOfItsOwn) {
   expect_words(Grade::asserted);
   expect_words(Mode::failed);
   expect_words(Target::failed);
+  expect_words(RecalibrationPhase::accepted);
+  expect_words(ReferenceKind::common_bias);
 }
 
 // Verifies: REQ-101

@@ -146,5 +146,18 @@ RC_GTEST_PROP(StationStoreLaw, HoldsDifferentAttitudesOnly, ()) {
   }
 }
 
+TEST(RawBlock, OfNoSamplesThereIsNoMeanAndNothingIsReadBeyondTheSensors) {
+  const RawBlock none;
+  const StationMean mean = none.mean(SensorSet::first(4), {0.0, 0.0, 1.0}, 32.0);
+  EXPECT_EQ(mean.raw[0], 0.0);
+  EXPECT_TRUE(none.holds());
+  RawBlock block;
+  std::array<double, kCapacity> raw{};
+  raw.fill(2.0);
+  block.add(raw, SensorSet(~std::uint32_t{0}), 20.0);
+  EXPECT_TRUE(block.holds());
+  EXPECT_EQ(block.mean(SensorSet::first(4), {0.0, 0.0, 1.0}, 32.0).raw[3], 2.0);
+}
+
 }  // namespace
 }  // namespace station_store_test

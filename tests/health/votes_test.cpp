@@ -341,5 +341,31 @@ TEST(Votes, AForgottenContradictionIsNotToldAgain) {
   EXPECT_EQ(rig.records.back().event, HealthEvent::alarm);
 }
 
+/// More blocks at one station than are counted: it stays the station that it was.
+// Negative: REQ-106
+TEST(Votes, AThousandBlocksAtOneStationExcludeNobody) {
+  MonitorConfig config;
+  config.window = 8;
+  Rig rig(plumb_test::tetrahedron(), config);
+  rig.prove();
+  const HealthState before = rig.monitor.verdict().state;
+  rig.stay(direction_at(40, 40), 1003);
+  EXPECT_EQ(rig.monitor.verdict().state, before);
+  EXPECT_TRUE(rig.ever_blamed.empty());
+}
+
+/// Two faults are asserted, which of four sensors nobody could tell apart: the votes of the stations convict one alone.
+// Verifies: REQ-070
+TEST(Votes, WhatTheAssertionCannotNameTheyMay) {
+  MonitorConfig config;
+  config.asserted_faults = 2;
+  Rig rig(plumb_test::tetrahedron(), config);
+  rig.prove();
+  rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  for (int k = 0; k < 12; ++k) rig.stay(direction_at(25 + 37 * (k % 4), 67 * k), 2);
+  EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(2));
+  EXPECT_EQ(rig.ever_blamed, SensorSet::of(2));
+}
+
 }  // namespace
 }  // namespace votes_test

@@ -198,6 +198,9 @@ struct HeldFit {
   int degrees_of_freedom = 0;
   double chi2 = 0.0;
   double p_value = 1.0;
+
+  /// 0 where no freedom is left.
+  double chi2_per_freedom() const noexcept { return degrees_of_freedom > 0 ? chi2 / degrees_of_freedom : 0.0; }
 };
 
 namespace fit {

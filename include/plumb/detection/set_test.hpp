@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/config.hpp"
@@ -12,6 +13,10 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+/// Readings beyond this are held at it: large enough that nothing believes them, small enough that no square or sum of
+/// them overflows.
+inline constexpr double kReadingClamp_mps2 = 1e5;
+
 /// The evidence of a block: means of the readings and what their noise may be.
 struct BlockEvidence {
   Readings mean_mps2{};
@@ -19,7 +24,12 @@ struct BlockEvidence {
   double samples = 0.0;         ///< N behind the mean
   double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
 
-  bool plausible() const noexcept { return samples >= 0.0 && spread_mps2_sq >= 0.0; }
+  bool plausible() const noexcept {
+    for (const double mean : mean_mps2) {
+      if (!(std::fabs(mean) <= 2.0 * kReadingClamp_mps2)) return false;  // twice: for the rounding of a mean
+    }
+    return samples >= 0.0 && spread_mps2_sq >= 0.0;
+  }
   static constexpr auto fields() noexcept {
     using E = BlockEvidence;
     return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq);

@@ -12,10 +12,6 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Readings beyond this are held at it: large enough that nothing believes them, small enough that no square or sum of
-/// them overflows.
-inline constexpr double kReadingClamp_mps2 = 1e5;
-
 /// Collects one block: means and covariances of the channels, accumulated about the first sample so
 /// that nothing drifts; emptied at every block.
 class BlockAccumulator {

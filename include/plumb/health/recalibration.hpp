@@ -108,6 +108,8 @@ class Recalibration {
   /// A model with the coefficients of the commissioning calibration, temperature terms left alone.
   SensorModel commissioned(const SensorModel& like) const noexcept;
   bool commissioned_as(const SensorModel& model) const noexcept;
+  /// Started, and its end has not been heard: a step will tell it.
+  bool under_way() const noexcept { return phase_ != RecalibrationPhase::idle || refusal_.code != Errc::ok; }
   RecalibrationProgress progress(const SensorArray& array) const noexcept;
   std::uint32_t iterations() const noexcept { return iterations_; }  ///< of all fits since `configure`
   /// Stations to be entered before a fit over n sensors is tried, those held out among them.

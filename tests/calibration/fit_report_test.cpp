@@ -1,5 +1,6 @@
-// Edges of the parts of a fit, each asked by itself: sums without stations, information that is none, spreads that no
-// station has. The fits as a whole are asked in edges_test.cpp.
+// What the report of a fit says beside the fit itself, each figure asked by itself: ranks, bounds, turns, twins.
+#include "../../src/calibration/fit_report.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,56 +9,16 @@
 #include <memory>
 #include <vector>
 
-#include "../../src/calibration/fit_report.hpp"
-#include "calibration/edges_support.hpp"
+#include "calibration/fit_scene.hpp"
 #include "plumb/calibration/null_directions.hpp"
 #include "plumb/calibration/observability.hpp"
 
-namespace inner_edges_test {
+namespace fit_report_test {
 namespace {
 
 using namespace calibration_test;
-using fit::Parameters;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// Three orthogonal axes of one unit, so that numbers stay what they are.
-Datasheet triad() {
-  AxisList axes{};
-  Datasheet d = datasheet_of(axes, orthogonal_triad(axes), 1.0);
-  for (int i = 0; i < 3; ++i) {
-    DatasheetSensor& s = d.sensor[at(i)];
-    s.row.axis = Vec3{};
-    s.row.axis[at(i)] = 1.0;
-    s.coefficients = {};
-    s.coefficients.scale[0] = 1.0;
-    s.prior = {1.0, 1.0, 1.0, {}, {}};
-  }
-  return d;
-}
-
-/// Gravity of 10 m/s^2 along every axis and against it: what a perfect triad reads.
-std::vector<Station> six_faces() {
-  std::vector<Station> out(6);
-  for (int k = 0; k < 6; ++k) {
-    out[at(k)].mean[at(k % 3)] = k < 3 ? 10.0 : -10.0;
-    out[at(k)].delivered = SensorSet::first(3);
-    out[at(k)].temperature_degc = 25.0;
-    out[at(k)].count = 1;
-  }
-  return out;
-}
-
-struct Scene {
-  Datasheet sheet = triad();
-  std::vector<Station> stations = six_faces();
-  FitOptions options;
-  Parameters theta = fit::datasheet_parameters(sheet);
-
-  fit::Problem problem() const {
-    return fit::problem_of(sheet, 10.0, options, {stations.data(), static_cast<int>(stations.size())});
-  }
-};
 
 constexpr int kSize = 12;  // four parameters for each of three
 using Information = std::array<double, std::size_t{kSize} * kSize>;
@@ -100,7 +61,7 @@ bool analysed(Information m, double floor, FitReport& report) {
   return fit::analyse(sheet, {}, fit::prior_roots(sheet), theta, floor, m.data(), scratch.data(), report);
 }
 
-TEST(InnerEdge, TheGaugeIsCountedByWhatIsThere) {
+TEST(FitReport, TheGaugeIsCountedByWhatIsThere) {
   FitReport plain, none, full, shared;
   ASSERT_TRUE(analysed(information_of(1e6, 0.0, 0.0), 1e-4, plain));
   EXPECT_EQ(plain.rank, 9);
@@ -120,14 +81,14 @@ TEST(InnerEdge, TheGaugeIsCountedByWhatIsThere) {
   EXPECT_EQ(shared.null_directions, 0);
 }
 
-TEST(InnerEdge, InformationBelowZeroHasNoInverse) {
+TEST(FitReport, InformationBelowZeroHasNoInverse) {
   FitReport report;
   EXPECT_FALSE(analysed(information_of(1e6, -5.0, 0.0), 1e-4, report));
 }
 
 /// Neither that of a fit, nor that of bias and scale alone.
 // Negative: REQ-034
-TEST(InnerEdge, InformationThatIsNoNumberHasNoRank) {
+TEST(FitReport, InformationThatIsNoNumberHasNoRank) {
   FitReport report;
   Information m = information_of(1e6, 0.0, 0.0);
   m[at(5 * kSize + 2)] = kNan;
@@ -140,7 +101,7 @@ TEST(InnerEdge, InformationThatIsNoNumberHasNoRank) {
 
 /// A bias that is no number is named, and not the one that is merely far off.
 // Negative: REQ-034
-TEST(InnerEdge, AValueThatIsNoNumberIsWorseThanAnyOther) {
+TEST(FitReport, AValueThatIsNoNumberIsWorseThanAnyOther) {
   Scene s;
   s.theta[at(4 * 1 + 3)] = kNan;
   s.theta[at(4 * 2 + 3)] = 1e3 * s.options.max_bias_sigmas;
@@ -151,82 +112,7 @@ TEST(InnerEdge, AValueThatIsNoNumberIsWorseThanAnyOther) {
   EXPECT_TRUE(std::isnan(worst.value));
 }
 
-/// A length that is a number, and in units of its noise none.
-// Negative: REQ-034
-TEST(InnerEdge, AResidualBeyondAllNumbersIsNotUsed) {
-  Scene s;
-  for (int i = 0; i < 3; ++i) s.sheet.sensor[at(i)].row.sigma_mps2 = 1e-3;
-  const fit::Problem problem = s.problem();
-  fit::StationSolver solver(problem, s.theta, 0.0);
-  EXPECT_EQ(solver.solve(s.stations[0]), fit::Loaded::used);
-  Station far = s.stations[0];
-  far.mean[0] = 1e153;
-  EXPECT_EQ(solver.read(far), fit::Loaded::used);
-  EXPECT_EQ(solver.solve(far), fit::Loaded::not_finite);
-}
-
-TEST(InnerEdge, SumsWithoutAStationAreNothing) {
-  fit::Harmonics harmonics;
-  const fit::FitTally empty;
-  EXPECT_EQ(empty.excitation(), 0.0);
-  EXPECT_EQ(empty.direction_variance(), 0.0);
-  EXPECT_EQ(fit::FitTally(&harmonics).excitation(), 0.0);
-  EXPECT_EQ(excitation_of(nullptr, 0), 0.0);
-  const Vec3 no_direction = {kNan, 0.0, 1.0};
-  EXPECT_EQ(excitation_of(&no_direction, 1), 0.0);
-}
-
-/// Residuals of nothing at all, and a median over no degree of freedom.
-TEST(InnerEdge, ThePerfectToolHasNoMisfit) {
-  Scene s;
-  EXPECT_EQ(fit::median_misfit<int>(s.problem(), s.theta, 0.25, 0, 1.0), 0.25);
-  EXPECT_EQ(fit::median_misfit<int>(s.problem(), s.theta, 0.0, 4, 1.0), 0.0);
-  s.stations[1].mean[0] = 4.0;
-  EXPECT_GE(fit::median_misfit<int>(s.problem(), s.theta, 0.0, 4, 1.0), 0.0);
-}
-
-TEST(InnerEdge, AStationWithoutSamplesIsNeverOut) {
-  Scene s;
-  fit::Screen screen;
-  screen.theta = s.theta;
-  fit::Problem problem = s.problem();
-  problem.screen = &screen;
-  fit::Screening screening(problem);
-  Station far = s.stations[0];
-  far.mean[1] = 500.0;
-  EXPECT_TRUE(screening.out(far));
-  far.count = 0;
-  EXPECT_FALSE(screening.out(far));
-}
-
-/// A group whose only stations are so far off that they have no say has no inclination.
-TEST(InnerEdge, ARollGroupWithoutWeightSaysNothing) {
-  Scene s;
-  for (std::size_t k = 0; k < 6; ++k) s.stations[k].mean[(k + 1) % 3] += 3.0;
-  s.stations[0].roll_group = s.stations[1].roll_group = 7;
-  for (const std::size_t k : {0U, 1U}) s.stations[k].mean[k] = 500.0;
-  s.stations[5].roll_group = 9;
-  s.stations[5].count = 0;
-  fit::Problem problem = s.problem();
-  EXPECT_TRUE(problem.roll.used);
-  EXPECT_EQ(problem.roll.groups, 1) << "a station without samples is in none";
-  const auto blocks = std::make_unique<fit::Blocks>();
-  const auto roll = std::make_unique<fit::RollSums>();
-  Parameters rhs{};
-  const fit::Room room = {roll.get(), nullptr, nullptr};
-  const fit::Sums sums = fit::accumulate(problem, s.theta, 0.0, fit::Loss::tukey, blocks->data(), rhs, room);
-  EXPECT_TRUE(sums.finite);
-  ASSERT_EQ(roll->groups, 1);
-  EXPECT_EQ(roll->group[0].weight, 0.0);
-  EXPECT_EQ(sums.rows, 15) << "five stations of three rows, and none of the group";
-  Information with{}, without{};
-  const fit::PriorRoots roots = fit::prior_roots(s.sheet);
-  fit::expand(blocks->data(), roll.get(), roots, 3, fit::Square{with.data(), kSize});
-  fit::expand(blocks->data(), nullptr, roots, 3, fit::Square{without.data(), kSize});
-  EXPECT_EQ(with, without);
-}
-
-TEST(InnerEdge, AxesAlongTheRollAxisDoNotTurnAboutIt) {
+TEST(FitReport, AxesAlongTheRollAxisDoNotTurnAboutIt) {
   Scene s;
   fit::Roll roll;
   roll.used = true;
@@ -238,7 +124,7 @@ TEST(InnerEdge, AxesAlongTheRollAxisDoNotTurnAboutIt) {
 }
 
 /// One line of axes knows no turn across it; axes that have not turned at all are one with the nominal ones.
-TEST(InnerEdge, TheCommonTurnOfAxesOnOneLineIsUnknown) {
+TEST(FitReport, TheCommonTurnOfAxesOnOneLineIsUnknown) {
   Scene s;
   const CommonTurn none = fit::common_turn(s.sheet, {0.0, 0.0, 1.0}, s.theta);
   EXPECT_EQ(none.rad, 0.0);
@@ -257,7 +143,7 @@ TEST(InnerEdge, TheCommonTurnOfAxesOnOneLineIsUnknown) {
   EXPECT_TRUE(std::isfinite(lone.rad));
 }
 
-TEST(InnerEdge, ATurnThatIsNotAllOfItIsToldBySensor) {
+TEST(FitReport, ATurnThatIsNotAllOfItIsToldBySensor) {
   Scene s;
   fit::Roll roll;
   roll.used = true;
@@ -277,7 +163,7 @@ TEST(InnerEdge, ATurnThatIsNotAllOfItIsToldBySensor) {
   EXPECT_GE(own.index, 0) << "a bias that no turn takes away";
 }
 
-TEST(InnerEdge, AFewStationsSetAsideOfThreeSensorsAreDoubtful) {
+TEST(FitReport, AFewStationsSetAsideOfThreeSensorsAreDoubtful) {
   const Scene s;
   FitFigures figures;
   figures.outliers = 1;
@@ -288,7 +174,7 @@ TEST(InnerEdge, AFewStationsSetAsideOfThreeSensorsAreDoubtful) {
   EXPECT_EQ(fit::doubtful_screening(s.sheet, figures).code, Errc::ok);
 }
 
-TEST(InnerEdge, StationsWithoutSamplesTellNothingOfTwins) {
+TEST(FitReport, StationsWithoutSamplesTellNothingOfTwins) {
   Scene s;
   for (Station& station : s.stations) station.mean = {4.0, 4.0, 4.0};
   EXPECT_EQ(fit::twin_channels(s.problem()).code, Errc::implausible);
@@ -296,7 +182,7 @@ TEST(InnerEdge, StationsWithoutSamplesTellNothingOfTwins) {
   EXPECT_EQ(fit::twin_channels(s.problem()).code, Errc::ok);
 }
 
-TEST(InnerEdge, AnInclinationThatNoStationShowsHasNoSigma) {
+TEST(FitReport, AnInclinationThatNoStationShowsHasNoSigma) {
   Scene s;
   s.stations[0].roll_group = s.stations[1].roll_group = 3;
   Expected<SensorArray> array = s.sheet.array();
@@ -314,7 +200,7 @@ TEST(InnerEdge, AnInclinationThatNoStationShowsHasNoSigma) {
   EXPECT_EQ(fit::inclination_sigma(problem, s.theta, *array), 0.0);
 }
 
-TEST(InnerEdge, StationsWithoutSamplesAreOfNoLevel) {
+TEST(FitReport, StationsWithoutSamplesAreOfNoLevel) {
   Scene s;
   std::vector<Station> all;
   for (int k = 0; k < 12; ++k) {
@@ -335,7 +221,7 @@ TEST(InnerEdge, StationsWithoutSamplesAreOfNoLevel) {
 
 /// A rotation in which the axes of two sensors alone move is named by these, not as one of all; and three axes that
 /// move without a common turn are none.
-TEST(InnerEdge, WhatIsNoRotationOfAllIsNotCalledOne) {
+TEST(NullCombinations, WhatIsNoRotationOfAllIsNotCalledOne) {
   const Datasheet sheet = triad();
   FitReport report;
   report.parameters = kSize;
@@ -359,17 +245,5 @@ TEST(InnerEdge, WhatIsNoRotationOfAllIsNotCalledOne) {
   EXPECT_FALSE(combination(bent).rotates_all);
 }
 
-/// A perfect tool whose noise is far above what is open of it: residuals of nothing, with freedom to spare.
-TEST(InnerEdge, ResidualsOfNothingAreNoMisfit) {
-  Scene s;
-  for (int i = 0; i < 3; ++i) s.sheet.sensor[at(i)].row.sigma_mps2 = 1000.0;
-  s.options.require_full_rank = false;
-  FitReport report;
-  calibrate(s.sheet, {10.0, 0.0, GravityModel::value}, s.stations.data(), 6, s.options, &report);
-  EXPECT_EQ(report.chi2, 0.0);
-  EXPECT_EQ(report.misfit_mps2, 0.0);
-  EXPECT_EQ(report.stop, StopReason::converged);
-}
-
 }  // namespace
-}  // namespace inner_edges_test
+}  // namespace fit_report_test

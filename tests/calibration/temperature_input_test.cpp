@@ -1,13 +1,15 @@
-// Edges of the fit over temperature: levels, options and stations that are none, and fits that do not end well.
+// What the fit over temperature takes: options, priors and stations that are none, and too few of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "calibration/temperature_support.hpp"
 
-namespace temperature_edges_test {
+namespace temperature_input_test {
 namespace {
 
 using namespace temperature_test;
@@ -17,65 +19,23 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 struct Bench {
+  explicit Bench(std::uint64_t seed = 81) : noise(seed) {}
   plumb::Datasheet sheet = paper_sheet();
-  Noise noise{81};
+  Noise noise;
   Truth truth = temperature_test::draw_truth(sheet, noise);
   std::vector<plumb::Station> on(int levels) { return on_levels(truth, levels_of(levels), noise); }
 };
 
-std::vector<plumb::Station> at_degc(const std::vector<double>& degc) {
-  std::vector<plumb::Station> out;
-  for (const double t : degc) {
-    plumb::Station s;
-    s.count = 1;
-    s.temperature_degc = t;
-    out.push_back(s);
-  }
-  return out;
-}
+/// On three levels.
+struct Scene : Bench {
+  Scene() : Bench(91) {}
+  std::vector<plumb::Station> stations = on(3);
+  std::vector<plumb::Station> scratch = stations;
+  std::unique_ptr<plumb::TemperatureWork> work = std::make_unique<plumb::TemperatureWork>();
+  int count() const { return static_cast<int>(stations.size()); }
+};
 
-plumb::TemperatureLevels levels_at(const std::vector<plumb::Station>& stations) {
-  return plumb::temperature_levels(stations.data(), static_cast<int>(stations.size()));
-}
-
-TEST(TemperatureLevels, OfMoreThanAreKeptTheLowestAreKept) {
-  std::vector<double> degc;
-  for (int k = 0; k < plumb::kMaxTemperatureLevels + 4; ++k) degc.push_back(-100.0 + 20.0 * k);
-  const plumb::TemperatureLevels levels = levels_at(at_degc(degc));
-  EXPECT_EQ(levels.count, plumb::kMaxTemperatureLevels);
-  EXPECT_EQ(levels.degc[0], -100.0);
-  EXPECT_EQ(levels.highest_degc, degc.back());
-}
-
-TEST(TemperatureLevels, WhereEveryStationIsAloneTheLevelsAreTheSpan) {
-  auto stations = at_degc({20.0, 60.0, 100.0, kNan});
-  const plumb::TemperatureLevels levels = levels_at(stations);
-  const plumb::ChebyshevSpan span = plumb::confirmed_span(stations.data(), 4, levels);
-  EXPECT_EQ(span.lowest, 20.0);
-  EXPECT_EQ(span.highest, 100.0);
-  stations[1].count = 0;
-  EXPECT_EQ(plumb::confirmed_span(stations.data(), 4, levels).highest, 100.0);
-}
-
-TEST(TemperatureLevels, TheFullestMayBeAnyOfThem) {
-  const auto stations = at_degc({20.0, 60.0, 61.0, 100.0});
-  const plumb::ChebyshevSpan span = plumb::fullest_level(stations.data(), 4, levels_at(stations));
-  EXPECT_EQ(span.lowest, 60.0);
-  EXPECT_EQ(span.highest, 61.0);
-}
-
-TEST(TemperatureLevels, NoMoreAreAskedForThanThereIsRoomToSay) {
-  std::array<double, plumb::kMaxTemperatureOrder + 1> degc{};
-  const plumb::TemperatureLevels none;
-  EXPECT_EQ(plumb::missing_levels(none, {20.0, 150.0}, 20, degc), plumb::kMaxTemperatureOrder + 1);
-  for (std::size_t k = 1; k < degc.size(); ++k) EXPECT_GT(degc[k], degc[k - 1]);
-  const auto stations = at_degc({20.0, 20.0});
-  EXPECT_EQ(plumb::missing_levels(levels_at(stations), {20.0, 150.0}, 4, degc), 3);
-  EXPECT_LT(degc[0], degc[1]);
-  EXPECT_LT(degc[1], degc[2]);
-}
-
-TEST(TemperatureEdge, OptionsAndPriorsThatAreNoneAreRefused) {
+TEST(TemperatureInput, OptionsAndPriorsThatAreNoneAreRefused) {
   Bench b;
   const auto stations = b.on(4);
   plumb::TemperatureOptions options = options_of(plumb::kAutomaticOrder);
@@ -98,7 +58,7 @@ TEST(TemperatureEdge, OptionsAndPriorsThatAreNoneAreRefused) {
   }
 }
 
-TEST(TemperatureEdge, AnAutomaticOrderOfAtMostZeroIsTheFitWithoutTemperature) {
+TEST(TemperatureInput, AnAutomaticOrderOfAtMostZeroIsTheFitWithoutTemperature) {
   Bench b;
   plumb::TemperatureOptions options = options_of(plumb::kAutomaticOrder);
   options.max_order = 0;
@@ -110,7 +70,7 @@ TEST(TemperatureEdge, AnAutomaticOrderOfAtMostZeroIsTheFitWithoutTemperature) {
 }
 
 // Negative: REQ-034
-TEST(TemperatureEdge, WithoutStationsOrAnEndThereIsNoFit) {
+TEST(TemperatureInput, WithoutStationsOrAnEndThereIsNoFit) {
   Bench b;
   Fit f;
   plumb::Station scratch;
@@ -128,7 +88,7 @@ TEST(TemperatureEdge, WithoutStationsOrAnEndThereIsNoFit) {
 }
 
 // Negative: REQ-034
-TEST(TemperatureEdge, NumbersThatAreNoneAreRefused) {
+TEST(TemperatureInput, NumbersThatAreNoneAreRefused) {
   for (const double poison : {kNan, kInf, 1e308, -1e308, 1e155}) {
     Bench b;
     auto stations = b.on(3);
@@ -141,7 +101,7 @@ TEST(TemperatureEdge, NumbersThatAreNoneAreRefused) {
   }
 }
 
-TEST(TemperatureEdge, WithoutFreedomNothingIsJudgedByTheResiduals) {
+TEST(TemperatureInput, WithoutFreedomNothingIsJudgedByTheResiduals) {
   Bench b;
   const auto all = b.on(2);
   const std::vector<plumb::Station> stations = {all.at(0), all.at(1), all.at(12), all.at(13)};
@@ -154,7 +114,7 @@ TEST(TemperatureEdge, WithoutFreedomNothingIsJudgedByTheResiduals) {
 }
 
 /// More stray stations than a report lists: all are counted, the first are named.
-TEST(TemperatureEdge, OutliersBeyondTheListAreCounted) {
+TEST(TemperatureInput, OutliersBeyondTheListAreCounted) {
   Bench b;
   std::vector<plumb::Station> stations;
   for (int round = 0; round < 3; ++round) {
@@ -169,7 +129,7 @@ TEST(TemperatureEdge, OutliersBeyondTheListAreCounted) {
 }
 
 /// Of a calibration of fewer sensors those that it has.
-TEST(TemperatureEdge, ADatasheetTakesTheTermsThatThereAre) {
+TEST(TemperatureInput, ADatasheetTakesTheTermsThatThereAre) {
   Bench b;
   const Fit f = fit_of(b.sheet, b.on(3), options_of(1));
   ASSERT_TRUE(f.made.has_value());
@@ -180,5 +140,86 @@ TEST(TemperatureEdge, ADatasheetTakesTheTermsThatThereAre) {
   EXPECT_EQ(out.sensor[3].coefficients.scale[1], b.sheet.sensor[3].coefficients.scale[1]);
 }
 
+/// A scale that is right in the middle of the span and bends beyond its bound at the ends.
+// Negative: REQ-034
+TEST(TemperatureInput, AScaleThatBendsBeyondItsBoundIsRefused) {
+  Scene s;
+  for (plumb::SensorCoefficients& c : s.truth.model.sensor) c.scale[1] = c.scale[2] = c.scale[3] = 0.0;
+  s.truth.model.sensor[1].reference_degc = 85.0;
+  s.truth.model.sensor[1].scale[1] = s.truth.model.sensor[1].scale[0] * 4e-4;
+  const auto stations = on_levels(s.truth, levels_of(3), s.noise);
+  plumb::TemperatureOptions options = options_of(1);
+  options.fit.max_scale_change = 0.0235;
+  const Fit f = fit_of(s.sheet, stations, options);
+  ASSERT_FALSE(f.made.has_value());
+  EXPECT_EQ(f.made.error().code, Errc::implausible) << plumb::describe(f.made.error().code);
+  EXPECT_EQ(f.made.error().index, 1);
+}
+
+// Negative: REQ-034
+TEST(TemperatureInput, GravityThatIsNoNumberHasNoFit) {
+  Scene s;
+  const auto made =
+      plumb::calibrate_over_temperature(s.sheet, {std::nan(""), 0.0, plumb::GravityModel::value}, s.stations.data(),
+                                        s.count(), options_of(1), s.scratch.data(), *s.work);
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().code, Errc::diverged);
+}
+
+/// Two channels that hold one sensor's readings, a constant apart.
+// Negative: REQ-034
+TEST(TemperatureInput, TwinsAreNamedOverTemperatureToo) {
+  Scene s;
+  for (plumb::Station& station : s.stations) station.mean[2] = station.mean[0] + 1e-4;
+  plumb::TemperatureOptions options = options_of(1);
+  options.fit.reject_outliers = false;
+  options.fit.max_iterations = 1000;
+  const Fit f = fit_of(s.sheet, s.stations, options);
+  ASSERT_FALSE(f.made.has_value());
+  EXPECT_EQ(f.made.error().code, Errc::implausible) << plumb::describe(f.made.error().code);
+  EXPECT_EQ(f.made.error().index, 2);
+}
+
+/// Stations without samples among strays, and too few of all to look for strays.
+TEST(TemperatureInput, StationsWithoutSamplesAreNoOutliers) {
+  Scene s;
+  s.stations = s.on(4);
+  for (const int k : {5, 17, 30}) s.stations[at(k)].mean[at(k % 4)] += 0.05;
+  s.stations[8].count = s.stations[21].count = 0;
+  const Fit f = fit_of(s.sheet, s.stations, options_of(1));
+  EXPECT_EQ(f.figures.outliers, 3);
+  EXPECT_EQ(f.figures.stations, s.count() - 5);
+}
+
+TEST(TemperatureInput, OfAFewStationsNoneIsSetAsideAndNoMisfitIsEstimated) {
+  for (const int few : {3, 4, 8, 9, 10}) {
+    Scene s;
+    std::vector<plumb::Station> stations;
+    for (int k = 0; k < few; ++k) stations.push_back(s.stations[at((k % 2 == 0 ? 0 : 24) + k)]);
+    stations[1].mean[1] += 0.05;
+    plumb::TemperatureOptions options = options_of(1);
+    options.fit.require_full_rank = false;
+    const Fit f = fit_of(s.sheet, stations, options);
+    EXPECT_EQ(f.figures.outliers, 0) << few;
+    EXPECT_EQ(f.figures.stations, few);
+    for (const bool estimate : {false, true}) {
+      options.fit.estimate_misfit = estimate;
+      const Fit g = fit_of(s.sheet, stations, options);
+      if (g.figures.degrees_of_freedom < 1) {
+        EXPECT_EQ(g.figures.p_value, 1.0);
+      }
+    }
+  }
+}
+
+TEST(TemperatureInput, WhereNoOrderIsAskedForNoLevelIsMissing) {
+  Scene s;
+  plumb::TemperatureOptions options = options_of(plumb::kAutomaticOrder);
+  const auto one = on_levels(s.truth, levels_of(1), s.noise);
+  EXPECT_GT(fit_of(s.sheet, one, options).report.missing, 0);
+  options.max_order = 0;
+  EXPECT_EQ(fit_of(s.sheet, one, options).report.missing, 0);
+}
+
 }  // namespace
-}  // namespace temperature_edges_test
+}  // namespace temperature_input_test

@@ -9,14 +9,14 @@ namespace calibration_test {
 
 using namespace plumb;
 
-inline constexpr double kEdgeSigma = 2e-4 * kG0_mps2;
+inline constexpr double kBenchSigma = 2e-4 * kG0_mps2;
 
 struct Bench {
   explicit Bench(std::uint64_t seed = 1, int count = 48) : noise(seed) {
-    stations = random_stations(sheet, truth, count, noise, kEdgeSigma);
+    stations = random_stations(sheet, truth, count, noise, kBenchSigma);
   }
   Noise noise;
-  Datasheet sheet = paper_tool(kEdgeSigma);
+  Datasheet sheet = paper_tool(kBenchSigma);
   Truth truth = draw_truth(sheet, noise);
   std::vector<Station> stations;
   GravityReference gravity = standard_gravity();

@@ -10,7 +10,7 @@
 #include "plumb/detection/isolation.hpp"
 #include "support/simulated_tool.hpp"
 
-namespace isolation_edges_test {
+namespace isolation_grades_test {
 namespace {
 
 using namespace plumb;
@@ -119,7 +119,7 @@ void run(const SensorArray& array, std::uint64_t seed, int rounds) {
 }
 
 // Negative: REQ-070
-TEST(IsolationEdge, AnyEvidenceIsAnsweredWithinTheGrades) {
+TEST(IsolationGrades, AnyEvidenceIsAnsweredWithinThem) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const int n : {3, 4, 5, 8}) {
       AxisList axes{};
@@ -134,24 +134,5 @@ TEST(IsolationEdge, AnyEvidenceIsAnsweredWithinTheGrades) {
   }
 }
 
-/// Another array is another question: what died under the first is not held against it.
-// Negative: REQ-075
-TEST(IsolationEdge, AnotherArrayStartsAnew) {
-  const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
-  const SensorArray four = plumb_test::tetrahedron(kSigma), five = plumb_test::cone_array(5, kSigma);
-  Isolation isolation;
-  isolation.pose(four, four.all());
-  BlockEvidence block;
-  block.usable = four.all();
-  block.samples = 32.0;
-  for (int i = 0; i < 4; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = four.axis(i)[2] * kG0_mps2;
-  block.mean_mps2[1] += 1.0;
-  const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
-  isolation.vote({four, gravity, limits, block}, four.all());
-  EXPECT_LT(isolation.live(), isolation.voting());
-  isolation.pose(five, four.all());
-  EXPECT_EQ(isolation.live(), isolation.voting());
-}
-
 }  // namespace
-}  // namespace isolation_edges_test
+}  // namespace isolation_grades_test
