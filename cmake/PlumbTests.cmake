@@ -73,6 +73,9 @@ function(plumb_test_executable name)
   if(PLUMB_FAST_BUILD)
     # What a test costs to compile is its libraries' templates: the files of a batch share them.
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    if(CMAKE_BUILD_TYPE STREQUAL "Release")  # the tests alone: the libraries under test are built as they ship
+      target_compile_options(${name} PRIVATE -O1)
+    endif()
   endif()
   plumb_discover(${name} LABEL ${arg_LABEL} PREFIX "${arg_PREFIX}" SLOW ${arg_SLOW} LONGER ${arg_LONGER})
 endfunction()
