@@ -1,5 +1,4 @@
 // plumb calibrate: a log of quiet attitudes in, a calibration file out.
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -135,76 +134,72 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
 
 }  // namespace
 
-Command add_calibrate(CLI::App& tool) {
+Command add_calibrate(const Options& tool) {
   auto options = std::make_shared<CalibrateOptions>();
-  CLI::App* app =
-      tool.add_subcommand("calibrate", "find bias, scale and direction of every sensor from a log of quiet attitudes");
-  app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
-      ->required()
-      ->type_name("ARRAY.toml");
-  app->add_option("--log", options->log.path, "the log, CSV with a header row; `-` reads standard input")
-      ->required()
-      ->type_name("LOG.csv");
-  app->add_option("--out", options->out, "the calibration file to write")->required()->type_name("CAL.json");
-  add_bad_row_option(*app, options->log.on_bad_row);
-  app->add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
-  app->add_option_function<std::string>(
-         "--hold-out",
-         [options](const std::string& text) {
-           const std::string wrong = read_hold_out(text, options->choice.hold_out);
-           if (!wrong.empty()) throw CLI::ValidationError("--hold-out", wrong);
-         },
-         "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
-         "default 4 folds, below 16 stations one at a time")
-      ->type_name("K|FRACTION|one|none");
-  app->add_option_function<std::string>(
-         "--temperature-order",
-         [options](const std::string& text) {
-           const std::string wrong = read_temperature_order(text, options->choice.temperature.order);
-           if (!wrong.empty()) throw CLI::ValidationError("--temperature-order", wrong);
-         },
-         "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
-         "support (the default); 0 takes the coefficients of the array file")
-      ->type_name("auto|0|1|2|3");
-  app->add_option_function<std::string>(
-         "--use-range-degc",
-         [options](const std::string& text) {
-           const std::string wrong = read_use_range(text, options->choice.temperature.use_degc);
-           if (!wrong.empty()) throw CLI::ValidationError("--use-range-degc", wrong);
-         },
-         "temperatures at which the calibration will be used, for the errors to expect there; by default those of the "
-         "stations. A negative one needs the form --use-range-degc=-20,60")
-      ->type_name("LO,HI");
-  app->add_flag_callback(
+  const Options command =
+      tool.add_command("calibrate", "find bias, scale and direction of every sensor from a log of quiet attitudes");
+  command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
+      .required()
+      .type_name("ARRAY.toml");
+  command.add_option("--log", options->log.path, "the log, CSV with a header row; `-` reads standard input")
+      .required()
+      .type_name("LOG.csv");
+  command.add_option("--out", options->out, "the calibration file to write").required().type_name("CAL.json");
+  add_bad_row_option(command, options->log.on_bad_row);
+  command.add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
+  command
+      .add_option(
+          "--hold-out", [options](const std::string& text) { return read_hold_out(text, options->choice.hold_out); },
+          "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
+          "default 4 folds, below 16 stations one at a time")
+      .type_name("K|FRACTION|one|none");
+  command
+      .add_option(
+          "--temperature-order",
+          [options](const std::string& text) {
+            return read_temperature_order(text, options->choice.temperature.order);
+          },
+          "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
+          "support (the default); 0 takes the coefficients of the array file")
+      .type_name("auto|0|1|2|3");
+  command
+      .add_option(
+          "--use-range-degc",
+          [options](const std::string& text) { return read_use_range(text, options->choice.temperature.use_degc); },
+          "temperatures at which the calibration will be used, for the errors to expect there; by default those of the "
+          "stations. A negative one needs the form --use-range-degc=-20,60")
+      .type_name("LO,HI");
+  command.add_flag(
       "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
       "plain least squares: do not set stations aside whose residuals are not noise");
-  app->add_option_function<std::string>(
-         "--roll-axis",
-         [options](const std::string& text) {
-           options->rolls = true;
-           const std::string wrong = read_roll_axis(text, options->choice.roll_axis);
-           if (!wrong.empty()) throw CLI::ValidationError("--roll-axis", wrong);
-         },
-         "the axis about which stations of one roll group ([input] roll_group) were rolled, in the tool frame; by "
-         "default the one from which inclination is counted")
-      ->type_name("X,Y,Z");
-  app->add_option_function<std::string>(
-         "--roll-wobble-deg",
-         [options](const std::string& text) {
-           options->rolls = true;
-           const std::string wrong = read_wobble(text, options->choice.fit.roll_wobble_rad);
-           if (!wrong.empty()) throw CLI::ValidationError("--roll-wobble-deg", wrong);
-         },
-         "by how much the inclination differed from roll to roll within a group, 1 sigma, deg; 0 by default")
-      ->type_name("D");
-  app->add_option("--plots", options->plots,
+  command
+      .add_option(
+          "--roll-axis",
+          [options](const std::string& text) {
+            options->rolls = true;
+            return read_roll_axis(text, options->choice.roll_axis);
+          },
+          "the axis about which stations of one roll group ([input] roll_group) were rolled, in the tool frame; by "
+          "default the one from which inclination is counted")
+      .type_name("X,Y,Z");
+  command
+      .add_option(
+          "--roll-wobble-deg",
+          [options](const std::string& text) {
+            options->rolls = true;
+            return read_wobble(text, options->choice.fit.roll_wobble_rad);
+          },
+          "by how much the inclination differed from roll to roll within a group, 1 sigma, deg; 0 by default")
+      .type_name("D");
+  command
+      .add_option("--plots", options->plots,
                   "draw residuals, parameters, convergence and attitudes into this directory (needs gnuplot)")
-      ->type_name("DIR");
-  app->add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
-  app->add_flag("--json", options->json, "the report as JSON, for machines");
-  app->add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");
-  app->footer(kCalibrateNotes + exit_codes_help());
-  return {app, kCalibrateAbout, [options] { return run_calibrate(*options); }};
+      .type_name("DIR");
+  command.add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
+  command.add_flag("--json", options->json, "the report as JSON, for machines");
+  command.add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");
+  command.footer(kCalibrateNotes + exit_codes_help());
+  return {command, kCalibrateAbout, [options] { return run_calibrate(*options); }};
 }
 
 }  // namespace cli

@@ -1,5 +1,4 @@
 // plumb campaign: many scenarios, counted.
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "campaign_run.hpp"
@@ -17,11 +16,12 @@ constexpr const char* kCampaignAbout =
     "misleading, with the interval that each count leaves for its rate.";
 }  // namespace
 
-Command add_campaign(CLI::App& tool) {
+Command add_campaign(const Options& tool) {
   auto options = std::make_shared<CampaignOptions>();
-  CLI::App* app = tool.add_subcommand("campaign", "many scenarios through the monitor, counted, with their intervals");
-  add_campaign_options(*app, *options);
-  return {app, kCampaignAbout, [options] {
+  const Options command =
+      tool.add_command("campaign", "many scenarios through the monitor, counted, with their intervals");
+  add_campaign_options(command, *options);
+  return {command, kCampaignAbout, [options] {
             campaign::Ranks alone;
             return run_campaign(*options, alone);
           }};

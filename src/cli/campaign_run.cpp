@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -243,26 +242,26 @@ io::ExitCode finish(const CampaignOptions& options, const CampaignFile& file, co
 
 }  // namespace
 
-void add_campaign_options(CLI::App& app, CampaignOptions& options) {
-  app.add_option("campaign", options.file, "the campaign file: which tools, which faults, how many scenarios")
-      ->required()
-      ->type_name("CAMPAIGN.toml");
-  app.add_option("--out", options.out, "the result (JSON), also while it is not complete")->type_name("RESULT.json");
-  app.add_flag("--resume", options.resume, "go on from the result that --out names; start where there is none");
-  app.add_option("--threads", options.threads, "how many; the result is the same")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  app.add_option("--seed", options.seed, "in the place of the file's")->check(seed_refusal)->type_name("N");
-  app.add_option("--scenarios", options.scenarios, "how many, in the place of the file's")
-      ->check(seed_refusal)
-      ->type_name("N");
-  app.add_option("--every", options.every_s, "seconds between two writes of the result; 30 by default")
-      ->check(CLI::Range(0.0, 1e6).description(""))
-      ->type_name("S");
-  app.add_option("--replay", options.replay, "play one scenario again, by its number or from a saved case, and show it")
-      ->type_name("NUMBER|CASE.toml");
-  app.add_flag("--json", options.json, "print the result as JSON instead of a table");
-  app.footer(kNotes + exit_codes_help());
+void add_campaign_options(const Options& command, CampaignOptions& options) {
+  command.add_option("campaign", options.file, "the campaign file: which tools, which faults, how many scenarios")
+      .required()
+      .type_name("CAMPAIGN.toml");
+  command.add_option("--out", options.out, "the result (JSON), also while it is not complete").type_name("RESULT.json");
+  command.add_flag("--resume", options.resume, "go on from the result that --out names; start where there is none");
+  command.add_option("--threads", options.threads, "how many; the result is the same").range(1, 1024).type_name("N");
+  command.add_option("--seed", options.seed, "in the place of the file's").check(seed_refusal).type_name("N");
+  command.add_option("--scenarios", options.scenarios, "how many, in the place of the file's")
+      .check(seed_refusal)
+      .type_name("N");
+  command.add_option("--every", options.every_s, "seconds between two writes of the result; 30 by default")
+      .range(0.0, 1e6)
+      .type_name("S");
+  command
+      .add_option("--replay", options.replay,
+                  "play one scenario again, by its number or from a saved case, and show it")
+      .type_name("NUMBER|CASE.toml");
+  command.add_flag("--json", options.json, "print the result as JSON instead of a table");
+  command.footer(kNotes + exit_codes_help());
 }
 
 io::ExitCode run_campaign(const CampaignOptions& options, campaign::Ranks& ranks) {

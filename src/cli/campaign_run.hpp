@@ -25,9 +25,9 @@ struct CampaignOptions {
 };
 
 /// The options on the command line, and what `--help` says at its end.
-void add_campaign_options(CLI::App& app, CampaignOptions& options);
+void add_campaign_options(const Options& command, CampaignOptions& options);
 
-Command add_campaign(CLI::App& tool);
+Command add_campaign(const Options& tool);
 
 io::ExitCode run_campaign(const CampaignOptions& options, campaign::Ranks& ranks);
 

@@ -1,7 +1,6 @@
 // plumb convert: a log from CSV to binary, or back.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -80,18 +79,19 @@ io::ExitCode run_convert(const ConvertOptions& options) {
 
 }  // namespace
 
-Command add_convert(CLI::App& tool) {
+Command add_convert(const Options& tool) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* app = tool.add_subcommand("convert", "write a log again: from CSV to binary, or back");
-  app->add_option("--array", options->array, "the array file: how the log looks")->required()->type_name("ARRAY.toml");
-  app->add_option("--log", options->log, "the log to read; `-` = standard input")->required()->type_name("LOG|-");
-  app->add_option("--out", options->out,
+  const Options command = tool.add_command("convert", "write a log again: from CSV to binary, or back");
+  command.add_option("--array", options->array, "the array file: how the log looks").required().type_name("ARRAY.toml");
+  command.add_option("--log", options->log, "the log to read; `-` = standard input").required().type_name("LOG|-");
+  command
+      .add_option("--out", options->out,
                   "the log to write: OUT.plog binary, any other name CSV; `-` = CSV to standard output")
-      ->required()
-      ->type_name("OUT|-");
-  add_bad_row_option(*app, options->on_bad_row);
-  app->footer(kConvertNotes + exit_codes_help());
-  return {app, kConvertAbout, [options] { return run_convert(*options); }};
+      .required()
+      .type_name("OUT|-");
+  add_bad_row_option(command, options->on_bad_row);
+  command.footer(kConvertNotes + exit_codes_help());
+  return {command, kConvertAbout, [options] { return run_convert(*options); }};
 }
 
 }  // namespace cli

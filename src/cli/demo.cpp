@@ -1,7 +1,6 @@
 // plumb demo: what plumb does, in six sections, on simulated tools. No file needed.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -93,15 +92,15 @@ io::ExitCode run_demo(const DemoOptions& options) {
 
 }  // namespace
 
-Command add_demo(CLI::App& tool) {
+Command add_demo(const Options& tool) {
   auto options = std::make_shared<DemoOptions>();
-  CLI::App* app = tool.add_subcommand("demo", "what plumb does, on simulated tools; needs no file");
-  app->add_option("--out", options->out, "the directory to write to, plumb-demo by default")->type_name("DIR");
-  app->add_option("--seed", options->seed, "which tools, noise and attitudes are drawn, 1 by default")
-      ->check(seed_refusal)
-      ->type_name("N");
-  app->footer(kDemoNotes + exit_codes_help());
-  return {app, kDemoAbout, [options] { return run_demo(*options); }};
+  const Options command = tool.add_command("demo", "what plumb does, on simulated tools; needs no file");
+  command.add_option("--out", options->out, "the directory to write to, plumb-demo by default").type_name("DIR");
+  command.add_option("--seed", options->seed, "which tools, noise and attitudes are drawn, 1 by default")
+      .check(seed_refusal)
+      .type_name("N");
+  command.footer(kDemoNotes + exit_codes_help());
+  return {command, kDemoAbout, [options] { return run_demo(*options); }};
 }
 
 }  // namespace cli

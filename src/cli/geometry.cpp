@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <memory>
@@ -186,29 +185,31 @@ io::ExitCode run_geometry(const GeometryOptions& options) {
 
 }  // namespace
 
-Command add_geometry(CLI::App& tool) {
+Command add_geometry(const Options& tool) {
   auto options = std::make_shared<GeometryOptions>();
-  CLI::App* app =
-      tool.add_subcommand("geometry", "judge a set of axes: what it determines, and how many faults it can isolate");
-  app->add_option("array", options->array, "the array file to judge")->type_name("ARRAY.toml");
-  app->add_option("--name", options->name, "a built-in geometry instead of a file, see below")->type_name("NAME");
-  app->add_option("--calibration", options->calibration,
+  const Options command =
+      tool.add_command("geometry", "judge a set of axes: what it determines, and how many faults it can isolate");
+  command.add_option("array", options->array, "the array file to judge").type_name("ARRAY.toml");
+  command.add_option("--name", options->name, "a built-in geometry instead of a file, see below").type_name("NAME");
+  command
+      .add_option("--calibration", options->calibration,
                   "what `plumb calibrate` wrote for this array: its axes, and the errors that it leaves")
-      ->type_name("CAL.json");
-  app->add_option("--samples", options->samples, "samples of a block; by default `window` of the file, else 32")
-      ->check(CLI::Range(1, 1000000))
-      ->type_name("N");
-  app->add_option("--noise", options->noise, "with --name: noise of one sample, 1 sigma (default \"200 ug0\")")
-      ->type_name("NOISE");
-  app->add_option(
-         "--plots", options->plots,
-         "draw what one attitude isolates, over all attitudes, and the protection level against the noise into "
-         "this directory (needs gnuplot)")
-      ->type_name("DIR");
-  app->add_flag("--check", options->check, "refuse a geometry with a warning: exit code 6");
-  app->add_flag("--json", options->json, "JSON instead of text, for machines");
-  app->footer(kGeometryNotes + exit_codes_help());
-  return {app, kGeometryAbout, [options] { return run_geometry(*options); }};
+      .type_name("CAL.json");
+  command.add_option("--samples", options->samples, "samples of a block; by default `window` of the file, else 32")
+      .told_range(1, 1000000)
+      .type_name("N");
+  command.add_option("--noise", options->noise, "with --name: noise of one sample, 1 sigma (default \"200 ug0\")")
+      .type_name("NOISE");
+  command
+      .add_option(
+          "--plots", options->plots,
+          "draw what one attitude isolates, over all attitudes, and the protection level against the noise into "
+          "this directory (needs gnuplot)")
+      .type_name("DIR");
+  command.add_flag("--check", options->check, "refuse a geometry with a warning: exit code 6");
+  command.add_flag("--json", options->json, "JSON instead of text, for machines");
+  command.footer(kGeometryNotes + exit_codes_help());
+  return {command, kGeometryAbout, [options] { return run_geometry(*options); }};
 }
 
 }  // namespace cli

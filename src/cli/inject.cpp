@@ -1,7 +1,6 @@
 // plumb inject: faults into a recorded log, to see what the monitor makes of them.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "plumb/io/array_file.hpp"
@@ -135,26 +134,26 @@ io::ExitCode run_inject(const InjectOptions& options) {
 
 }  // namespace
 
-Command add_inject(CLI::App& tool) {
+Command add_inject(const Options& tool) {
   auto options = std::make_shared<InjectOptions>();
-  CLI::App* app =
-      tool.add_subcommand("inject", "put faults into a recorded log, to see what the monitor makes of them");
-  app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
-      ->required()
-      ->type_name("ARRAY.toml");
-  app->add_option("--log", options->log, "the log to read; `-` = standard input")->required()->type_name("LOG.csv|-");
-  app->add_option("--fault", options->faults, "a fault, as below; may be given several times")
-      ->required()
-      ->type_name("FAULT")
-      ->expected(1)
-      ->take_all();
-  app->add_option("--seed", options->seed, "of the random kinds of fault, 1 by default")
-      ->check(seed_refusal)
-      ->type_name("N");
-  app->add_option("--out", options->out, "the log to write; `-` = standard output")->required()->type_name("OUT.csv|-");
-  add_bad_row_option(*app, options->on_bad_row);
-  app->footer(kInjectNotes + exit_codes_help());
-  return {app, kInjectAbout, [options] { return run_inject(*options); }};
+  const Options command =
+      tool.add_command("inject", "put faults into a recorded log, to see what the monitor makes of them");
+  command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
+      .required()
+      .type_name("ARRAY.toml");
+  command.add_option("--log", options->log, "the log to read; `-` = standard input").required().type_name("LOG.csv|-");
+  command.add_option("--fault", options->faults, "a fault, as below; may be given several times")
+      .required()
+      .type_name("FAULT");
+  command.add_option("--seed", options->seed, "of the random kinds of fault, 1 by default")
+      .check(seed_refusal)
+      .type_name("N");
+  command.add_option("--out", options->out, "the log to write; `-` = standard output")
+      .required()
+      .type_name("OUT.csv|-");
+  add_bad_row_option(command, options->on_bad_row);
+  command.footer(kInjectNotes + exit_codes_help());
+  return {command, kInjectAbout, [options] { return run_inject(*options); }};
 }
 
 }  // namespace cli

@@ -1,5 +1,4 @@
 // plumb: the command-line tool. Finds the command, and turns every misunderstanding into a hint.
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <vector>
 
@@ -34,7 +33,7 @@ int usage(const std::string& what, const std::string& help_of) {
 /// The first argument names the command: an unknown one is answered with the nearest known.
 bool unknown_command(const std::string& word, const std::vector<Command>& commands, std::string& answer) {
   std::vector<std::string> names;
-  for (const Command& command : commands) names.push_back(command.app->get_name());
+  for (const Command& command : commands) names.push_back(command.options.name());
   for (const std::string& name : names) {
     if (name == word) return false;
   }
@@ -45,46 +44,39 @@ bool unknown_command(const std::string& word, const std::vector<Command>& comman
 }
 
 /// What the command line holds beyond what the command knows.
-std::string leftover(const CLI::App& app) {
-  const std::vector<std::string> rest = app.remaining();
+std::string leftover(const Options& options) {
+  const std::vector<std::string> rest = options.left_over();
   if (rest.empty()) return "";
   if (rest.front().empty() || rest.front()[0] != '-')
-    return app.get_name() + ": " + io::in_quotes(rest.front()) + " is not expected here.";
+    return options.name() + ": " + io::in_quotes(rest.front()) + " is not expected here.";
   std::vector<std::string> known;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) known.push_back(name);
+  for (const Option& option : options.list()) {
+    for (const std::string& name : option.long_names()) known.push_back(name);
   }
   const std::string nearest = io::nearest_name(without_dashes(rest.front()), known);
-  return app.get_name() + ": there is no option " + io::in_quotes(rest.front()) + "." +
+  return options.name() + ": there is no option " + io::in_quotes(rest.front()) + "." +
          (nearest.empty() ? "" : " Did you mean \"--" + nearest + "\"?");
 }
 
-int parse_failure(CLI::App& tool, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) {  // --help and --version
-    tool.exit(error);
-    return output_is_sound() ? 0 : io::to_int(io::ExitCode::other);
-  }
-  for (const CLI::App* app : tool.get_subcommands()) {
-    const std::string unknown = leftover(*app);
-    if (!unknown.empty()) return usage(unknown, "plumb " + app->get_name());
-    return usage(app->get_name() + ": " + error.what() + ".", "plumb " + app->get_name());
+int misunderstood(const Options& tool, const std::string& what) {
+  for (const Options& command : tool.given_commands()) {
+    const std::string unknown = leftover(command);
+    if (!unknown.empty()) return usage(unknown, "plumb " + command.name());
+    return usage(command.name() + ": " + what + ".", "plumb " + command.name());
   }
   const std::string unknown = leftover(tool);
-  return usage(unknown.empty() ? error.what() + std::string(".") : unknown, "plumb");
+  return usage(unknown.empty() ? what + "." : unknown, "plumb");
 }
 
 int run(int argc, char** argv) {
-  CLI::App tool(kAbout, "plumb");
-  tool.set_version_flag("--version", std::string("plumb ") + kVersion);
-  tool.get_formatter()->column_width(34);
-  tool.footer(kNotes + exit_codes_help());
+  const CommandLine line(kAbout, "plumb", std::string("plumb ") + kVersion);
+  line.column_width(34);
+  const Options tool = line.options();
   // In the order in which a newcomer meets them.
   std::vector<Command> commands;
   for (const auto add : {add_demo, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_convert,
-                         add_campaign, add_verify, add_model}) {
-    tool.footer("");  // a command inherits what stands here, and has notes of its own
+                         add_campaign, add_verify, add_model})
     commands.push_back(add(tool));
-  }
   tool.footer(kNotes + exit_codes_help());
   if (argc < 2) {
     print_error(tool.help());
@@ -102,15 +94,16 @@ int run(int argc, char** argv) {
   std::string answer;
   if (argv[1][0] != '-' && unknown_command(argv[1], commands, answer)) return usage(answer, "plumb");
   for (const Command& command : commands) {
-    if (command.app->get_name() == argv[1]) command.app->description(command.about);
+    if (command.options.name() == argv[1]) command.options.describe(command.about);
   }
-  try {
-    tool.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return parse_failure(tool, error);
+  const Reading reading = line.read(argc, argv);
+  if (reading.end == Reading::End::refused) return misunderstood(tool, reading.text);
+  if (reading.end == Reading::End::answered) {
+    print(reading.text);
+    return output_is_sound() ? 0 : io::to_int(io::ExitCode::other);
   }
   for (const Command& command : commands) {
-    if (!command.app->parsed()) continue;
+    if (!command.options.given()) continue;
     const io::ExitCode code = command.run();
     if (output_is_sound()) return io::to_int(code);
     print_error("plumb: standard output cannot be written. Remedy: free space, or write to another place.\n");

@@ -1,6 +1,5 @@
 #include "manual.hpp"
 
-#include <CLI/CLI.hpp>
 #include <sstream>
 
 namespace plumb {
@@ -37,36 +36,36 @@ std::string verbatim(std::string text) {
 }
 
 /// What stands below the options, without the exit codes, which have a section of their own.
-std::string notes_of(const CLI::App& app) {
-  std::string text = app.get_footer();
+std::string notes_of(const Options& command) {
+  std::string text = command.footer();
   const std::string codes = exit_codes_help();
   const std::size_t at = text.find(codes);
   return at == std::string::npos ? text : text.erase(at, codes.size());
 }
 
 /// "--log LOG.csv|-", or the name of what stands without an option.
-std::string form_of(const CLI::Option& option) {
+std::string form_of(const Option& option) {
   std::string names;
-  for (const std::string& name : option.get_snames()) names += (names.empty() ? "" : ", ") + ("-" + name);
-  for (const std::string& name : option.get_lnames()) names += (names.empty() ? "" : ", ") + ("--" + name);
-  if (names.empty()) return option.get_type_name().empty() ? option.get_name() : option.get_type_name();
-  return option.get_expected_max() == 0 ? names : names + " " + option.get_type_name();
+  for (const std::string& name : option.short_names()) names += (names.empty() ? "" : ", ") + ("-" + name);
+  for (const std::string& name : option.long_names()) names += (names.empty() ? "" : ", ") + ("--" + name);
+  if (names.empty()) return option.type_name().empty() ? option.name() : option.type_name();
+  return option.most_values() == 0 ? names : names + " " + option.type_name();
 }
 
-std::string options_in_roff(const CLI::App& app) {
+std::string options_in_roff(const Options& command) {
   std::string out;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;
-    out += ".TP\n.B \"" + in_roff(form_of(*option)) + "\"\n" + in_roff(option->get_description());
-    out += option->get_required() ? " (required)\n" : "\n";
+  for (const Option& option : command.list()) {
+    if (!option.is_listed()) continue;
+    out += ".TP\n.B \"" + in_roff(form_of(option)) + "\"\n" + in_roff(option.description());
+    out += option.is_required() ? " (required)\n" : "\n";
   }
   return out;
 }
 
 /// "skip|stop": the words that an option takes; empty where it takes anything.
-std::vector<std::string> choices_of(const CLI::Option& option) {
+std::vector<std::string> choices_of(const Option& option) {
   std::vector<std::string> out;
-  const std::string type = option.get_type_name();
+  const std::string type = option.type_name();
   if (type.find('|') == std::string::npos ||
       type.find_first_not_of("abcdefghijklmnopqrstuvwxyz-|") != std::string::npos)
     return out;
@@ -76,8 +75,8 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
 }
 
 /// A number, a text with rules of its own: nothing that completion could know.
-bool takes_file(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+bool takes_file(const Option& option) {
+  const std::string type = option.type_name();
   return type.find('.') != std::string::npos || type.find("DIR") != std::string::npos ||
          type.find("FILE") != std::string::npos;
 }
@@ -94,22 +93,22 @@ struct Completion {
   bool positional = false;
 };
 
-Completion completion_of(const CLI::App& app) {
+Completion completion_of(const Options& command) {
   Completion out;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;
+  for (const Option& option : command.list()) {
+    if (!option.is_listed()) continue;
     std::vector<std::string> names;
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option.long_names()) names.push_back("--" + name);
+    for (const std::string& name : option.short_names()) names.push_back("-" + name);
     out.positional = out.positional || names.empty();
     out.flags.insert(out.flags.end(), names.begin(), names.end());
-    if (names.empty() || option->get_expected_max() == 0) continue;
-    const std::vector<std::string> choices = choices_of(*option);
+    if (names.empty() || option.most_values() == 0) continue;
+    const std::vector<std::string> choices = choices_of(option);
     if (!choices.empty()) {
       out.word_cases.push_back(joined_words(names, "|") + ") COMPREPLY=($(compgen -W \"" + joined_words(choices, " ") +
                                "\" -- \"$cur\")); return ;;");
     } else {
-      std::vector<std::string>& list = takes_file(*option) ? out.files : out.others;
+      std::vector<std::string>& list = takes_file(option) ? out.files : out.others;
       list.insert(list.end(), names.begin(), names.end());
     }
   }
@@ -117,8 +116,8 @@ Completion completion_of(const CLI::App& app) {
 }
 
 std::string bash_case(const Command& command) {
-  const Completion c = completion_of(*command.app);
-  std::string out = "    " + command.app->get_name() + ")\n      case \"$prev\" in\n";
+  const Completion c = completion_of(command.options);
+  std::string out = "    " + command.options.name() + ")\n      case \"$prev\" in\n";
   for (const std::string& line : c.word_cases) out += "        " + line + "\n";
   if (!c.files.empty()) out += "        " + joined_words(c.files, "|") + ") _plumb_files; return ;;\n";
   if (!c.others.empty()) out += "        " + joined_words(c.others, "|") + ") return ;;\n";
@@ -139,10 +138,10 @@ std::string quoted(const std::string& text, const std::string& marks) {
 }
 
 /// As _arguments of zsh wants it: --out[what it is]:value:_files.
-void zsh_option(const CLI::Option& option, std::string& out) {
+void zsh_option(const Option& option, std::string& out) {
   const std::vector<std::string> choices = choices_of(option);
   std::string value;
-  if (option.get_expected_max() != 0) {
+  if (option.most_values() != 0) {
     value = ":value:";
     if (!choices.empty()) {
       value += "(" + joined_words(choices, " ") + ")";
@@ -150,28 +149,28 @@ void zsh_option(const CLI::Option& option, std::string& out) {
       value += "_files";
     }
   }
-  const std::string about = quoted(option.get_description(), "[]:\\");
-  const std::string many = option.get_expected_max() > 1 ? "*" : "";
+  const std::string about = quoted(option.description(), "[]:\\");
+  const std::string many = option.most_values() > 1 ? "*" : "";
   const auto add = [&](const std::string& name) {
     out += " \\\n        '" + many + name + "['" + about + "']" + value + "'";
   };
-  for (const std::string& name : option.get_lnames()) add("--" + name);
-  for (const std::string& name : option.get_snames()) add("-" + name);
-  if (option.get_lnames().empty() && option.get_snames().empty()) out += " \\\n        '*:file:_files'";
+  for (const std::string& name : option.long_names()) add("--" + name);
+  for (const std::string& name : option.short_names()) add("-" + name);
+  if (option.long_names().empty() && option.short_names().empty()) out += " \\\n        '*:file:_files'";
 }
 
-void fish_option(const std::string& begin, const CLI::Option& option, std::string& out) {
+void fish_option(const std::string& begin, const Option& option, std::string& out) {
   std::string line = begin;
-  for (const std::string& name : option.get_lnames()) line += " -l " + name;
-  for (const std::string& name : option.get_snames()) line += " -s " + name;
+  for (const std::string& name : option.long_names()) line += " -l " + name;
+  for (const std::string& name : option.short_names()) line += " -s " + name;
   const std::vector<std::string> choices = choices_of(option);
-  if (option.get_lnames().empty() && option.get_snames().empty()) {
+  if (option.long_names().empty() && option.short_names().empty()) {
     line += " -F";  // what stands without an option is a file
-  } else if (option.get_expected_max() != 0) {
+  } else if (option.most_values() != 0) {
     line += takes_file(option) && choices.empty() ? " -r -F" : " -x";
     if (!choices.empty()) line += " -a '" + joined_words(choices, " ") + "'";
   }
-  out += line + " -d " + quoted(option.get_description(), "") + "\n";
+  out += line + " -d " + quoted(option.description(), "") + "\n";
 }
 
 }  // namespace
@@ -184,13 +183,13 @@ std::string man_page(const Manual& manual) {
       "\n.SH COMMANDS\n";
   for (const Command& command : manual.commands) {
     out +=
-        ".TP\n.B \"plumb " + in_roff(command.app->get_name()) + "\"\n" + in_roff(command.app->get_description()) + "\n";
+        ".TP\n.B \"plumb " + in_roff(command.options.name()) + "\"\n" + in_roff(command.options.description()) + "\n";
   }
   for (const Command& command : manual.commands) {
-    std::string name = command.app->get_name();
+    std::string name = command.options.name();
     for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    out += ".SH \"PLUMB " + in_roff(name) + "\"\n" + in_roff(command.about) + "\n" + options_in_roff(*command.app) +
-           verbatim(notes_of(*command.app));
+    out += ".SH \"PLUMB " + in_roff(name) + "\"\n" + in_roff(command.about) + "\n" + options_in_roff(command.options) +
+           verbatim(notes_of(command.options));
   }
   out += ".SH \"EXIT STATUS\"\n" + verbatim(exit_codes_help());
   return out + ".SH \"SEE ALSO\"\nThe pages below docs/ of the source.\n";
@@ -198,7 +197,7 @@ std::string man_page(const Manual& manual) {
 
 std::string bash_completion(const Manual& manual) {
   std::vector<std::string> names;
-  for (const Command& command : manual.commands) names.push_back(command.app->get_name());
+  for (const Command& command : manual.commands) names.push_back(command.options.name());
   std::string out =
       "# bash completion for plumb. Printed by plumb --completion from the definitions of the command line.\n"
       "_plumb_files() {\n  compopt -o filenames 2>/dev/null\n  mapfile -t COMPREPLY < <(compgen -f -- \"$cur\")\n}\n"
@@ -214,14 +213,14 @@ std::string zsh_completion(const Manual& manual) {
       "#compdef plumb\n# zsh completion for plumb. Printed by plumb --completion-zsh from the definitions of the "
       "command line.\n_plumb() {\n  local -a commands\n  commands=(\n";
   for (const Command& command : manual.commands)
-    out += "    " + quoted(command.app->get_name() + ":" + command.app->get_description(), "\\") + "\n";
+    out += "    " + quoted(command.options.name() + ":" + command.options.description(), "\\") + "\n";
   out +=
       "  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n"
       "  local command=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $command in\n";
   for (const Command& command : manual.commands) {
-    out += "    " + command.app->get_name() + ")\n      _arguments";
-    for (const CLI::Option* option : command.app->get_options()) {
-      if (!option->get_group().empty()) zsh_option(*option, out);
+    out += "    " + command.options.name() + ")\n      _arguments";
+    for (const Option& option : command.options.list()) {
+      if (option.is_listed()) zsh_option(option, out);
     }
     out += " ;;\n";
   }
@@ -233,12 +232,12 @@ std::string fish_completion(const Manual& manual) {
       "# fish completion for plumb. Printed by plumb --completion-fish from the definitions of the command line.\n"
       "complete -c plumb -f\n";
   for (const Command& command : manual.commands) {
-    const std::string name = command.app->get_name();
+    const std::string name = command.options.name();
     out += "complete -c plumb -n __fish_use_subcommand -a " + name + " -d " +
-           quoted(command.app->get_description(), "") + "\n";
-    for (const CLI::Option* option : command.app->get_options()) {
-      if (!option->get_group().empty())
-        fish_option("complete -c plumb -n '__fish_seen_subcommand_from " + name + "'", *option, out);
+           quoted(command.options.description(), "") + "\n";
+    for (const Option& option : command.options.list()) {
+      if (option.is_listed())
+        fish_option("complete -c plumb -n '__fish_seen_subcommand_from " + name + "'", option, out);
     }
   }
   return out;

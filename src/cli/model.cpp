@@ -1,7 +1,6 @@
 // plumb model: the state machine as it runs, printed from the one table in the code.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <map>
 #include <memory>
@@ -246,16 +245,15 @@ std::string model_json() {
   return out.dump(2) + "\n";
 }
 
-Command add_model(CLI::App& tool) {
+Command add_model(const Options& tool) {
   auto options = std::make_shared<ModelOptions>();
-  CLI::App* app = tool.add_subcommand("model", "print the state machine of the monitor: table, drawing or JSON");
+  const Options command = tool.add_command("model", "print the state machine of the monitor: table, drawing or JSON");
   const std::map<std::string, Format> names{
       {"markdown", Format::markdown}, {"dot", Format::dot}, {"json", Format::json}};
-  app->add_option("--format", options->format, "`markdown` (default), `dot` (Graphviz) or `json`")
-      ->transform(CLI::CheckedTransformer(names).description(""))
-      ->type_name("markdown|dot|json");
-  app->footer(kModelNotes + exit_codes_help());
-  return {app, kModelAbout, [options] { return run_model(*options); }};
+  command.add_option("--format", options->format, names, "`markdown` (default), `dot` (Graphviz) or `json`")
+      .type_name("markdown|dot|json");
+  command.footer(kModelNotes + exit_codes_help());
+  return {command, kModelAbout, [options] { return run_model(*options); }};
 }
 
 }  // namespace cli

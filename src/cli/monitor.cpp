@@ -1,7 +1,6 @@
 // plumb monitor: a log or a live stream through the health monitor.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -337,42 +336,42 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
 
 }  // namespace
 
-Command add_monitor(CLI::App& tool) {
+Command add_monitor(const Options& tool) {
   auto options = std::make_shared<MonitorOptions>();
-  CLI::App* app =
-      tool.add_subcommand("monitor", "watch a log or a live stream: which sensors may be believed, which way is down");
-  app->add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
-      ->required()
-      ->type_name("ARRAY.toml");
-  app->add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
-      ->type_name("CAL.json");
-  app->add_flag("--calibrate-first", options->calibrate_first,
-                "there is no calibration: the monitor makes its own from the log's first stations");
-  app->add_option("--log", options->log.path, "the log, CSV with a header row; `-` (default) reads standard input")
-      ->type_name("LOG.csv|-");
-  app->add_flag("--follow", options->log.follow, "at the end of the log wait for the rows that are appended to it");
-  app->add_option("--events", options->events,
+  const Options command =
+      tool.add_command("monitor", "watch a log or a live stream: which sensors may be believed, which way is down");
+  command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
+      .required()
+      .type_name("ARRAY.toml");
+  command.add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
+      .type_name("CAL.json");
+  command.add_flag("--calibrate-first", options->calibrate_first,
+                   "there is no calibration: the monitor makes its own from the log's first stations");
+  command.add_option("--log", options->log.path, "the log, CSV with a header row; `-` (default) reads standard input")
+      .type_name("LOG.csv|-");
+  command.add_flag("--follow", options->log.follow, "at the end of the log wait for the rows that are appended to it");
+  command
+      .add_option("--events", options->events,
                   "write one JSON line per change; `-` = standard output, instead of the table")
-      ->type_name("E.jsonl");
-  app->add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
-      ->type_name("V.jsonl");
-  app->add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
-  app->add_option("--report", options->report,
+      .type_name("E.jsonl");
+  command.add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
+      .type_name("V.jsonl");
+  command.add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
+  command
+      .add_option("--report", options->report,
                   "write the tool health report: a page, and its data as JSON beside it; docs/health-report.md")
-      ->type_name("R.html");
-  app->add_option("--snapshot-in", options->snapshot_in, "go on from this snapshot instead of from power-on")
-      ->type_name("S.bin");
-  app->add_option("--snapshot-out", options->snapshot_out, "at the end of the run, write what the monitor remembers")
-      ->type_name("S.bin");
-  app->add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
-      ->type_name("REQUEST")
-      ->expected(1)
-      ->take_all();
-  add_bad_row_option(*app, options->log.on_bad_row);
-  app->add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
-  app->add_flag("--json", options->json, "JSON lines instead of the table, for machines");
-  app->footer(kMonitorNotes + exit_codes_help());
-  return {app, kMonitorAbout, [options] { return run_monitor(*options); }};
+      .type_name("R.html");
+  command.add_option("--snapshot-in", options->snapshot_in, "go on from this snapshot instead of from power-on")
+      .type_name("S.bin");
+  command.add_option("--snapshot-out", options->snapshot_out, "at the end of the run, write what the monitor remembers")
+      .type_name("S.bin");
+  command.add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
+      .type_name("REQUEST");
+  add_bad_row_option(command, options->log.on_bad_row);
+  command.add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
+  command.add_flag("--json", options->json, "JSON lines instead of the table, for machines");
+  command.footer(kMonitorNotes + exit_codes_help());
+  return {command, kMonitorAbout, [options] { return run_monitor(*options); }};
 }
 
 }  // namespace cli

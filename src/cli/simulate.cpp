@@ -1,7 +1,6 @@
 // plumb simulate: plays a scenario file into a log, the truth beside it.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -238,23 +237,24 @@ io::ExitCode run_simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-Command add_simulate(CLI::App& tool) {
+Command add_simulate(const Options& tool) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* app = tool.add_subcommand("simulate", "play a scenario into a log: sensors, attitudes, noise and faults");
-  app->add_option("scenario", options->scenario, "the scenario file: what happens to which tool")
-      ->required()
-      ->type_name("SCENARIO.toml");
-  app->add_option("--seed", options->seed, "of noise, attitudes and faults, in the place of the scenario's own")
-      ->check(seed_refusal)
-      ->type_name("N");
-  app->add_option("--out", options->out, "the log to write; `-` = standard output, the default")
-      ->type_name("LOG.csv|-");
-  app->add_option("--truth", options->truth, "what was really the case at every row: gravity, tilt, faulty sensors")
-      ->type_name("TRUTH.csv");
-  app->add_option("--array-out", options->array_out, "the array file of a scenario with tool = \"paper\"")
-      ->type_name("ARRAY.toml");
-  app->footer(kSimulateNotes + exit_codes_help());
-  return {app, kSimulateAbout, [options] { return run_simulate(*options); }};
+  const Options command =
+      tool.add_command("simulate", "play a scenario into a log: sensors, attitudes, noise and faults");
+  command.add_option("scenario", options->scenario, "the scenario file: what happens to which tool")
+      .required()
+      .type_name("SCENARIO.toml");
+  command.add_option("--seed", options->seed, "of noise, attitudes and faults, in the place of the scenario's own")
+      .check(seed_refusal)
+      .type_name("N");
+  command.add_option("--out", options->out, "the log to write; `-` = standard output, the default")
+      .type_name("LOG.csv|-");
+  command.add_option("--truth", options->truth, "what was really the case at every row: gravity, tilt, faulty sensors")
+      .type_name("TRUTH.csv");
+  command.add_option("--array-out", options->array_out, "the array file of a scenario with tool = \"paper\"")
+      .type_name("ARRAY.toml");
+  command.footer(kSimulateNotes + exit_codes_help());
+  return {command, kSimulateAbout, [options] { return run_simulate(*options); }};
 }
 
 }  // namespace cli

@@ -4,7 +4,6 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
 #include <ctime>
@@ -44,13 +43,13 @@ std::string seed_refusal(const std::string& text) {
   return whole ? "" : "must be a whole number from 0 to 2^64 - 1";
 }
 
-void add_bad_row_option(CLI::App& app, io::BadRowPolicy& policy) {
+void add_bad_row_option(const Options& command, io::BadRowPolicy& policy) {
   const std::map<std::string, io::BadRowPolicy> names{{"skip", io::BadRowPolicy::skip},
                                                       {"stop", io::BadRowPolicy::stop}};
-  app.add_option("--on-bad-row", policy,
-                 "what to do at a row that cannot be read: `stop` (default) or `skip` and count it")
-      ->transform(CLI::CheckedTransformer(names).description(""))
-      ->type_name("skip|stop");
+  command
+      .add_option("--on-bad-row", policy, names,
+                  "what to do at a row that cannot be read: `stop` (default) or `skip` and count it")
+      .type_name("skip|stop");
 }
 
 void print(std::string_view text) {

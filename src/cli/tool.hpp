@@ -9,13 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "options.hpp"
 #include "plumb/core/config.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/log_reader.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -26,28 +23,28 @@ inline constexpr const char* kVersion = PLUMB_VERSION;
 
 /// A command: its part of the command line, and what it does once that has been read.
 struct Command {
-  CLI::App* app = nullptr;
+  Options options;
   const char* about = "";  ///< what it does, at length; `plumb --help` shows one line only
   std::function<io::ExitCode()> run;
 };
 
-Command add_geometry(CLI::App& tool);
-Command add_calibrate(CLI::App& tool);
-Command add_monitor(CLI::App& tool);
-Command add_simulate(CLI::App& tool);
-Command add_inject(CLI::App& tool);
-Command add_convert(CLI::App& tool);
-Command add_model(CLI::App& tool);
-Command add_verify(CLI::App& tool);
-Command add_demo(CLI::App& tool);
+Command add_geometry(const Options& tool);
+Command add_calibrate(const Options& tool);
+Command add_monitor(const Options& tool);
+Command add_simulate(const Options& tool);
+Command add_inject(const Options& tool);
+Command add_convert(const Options& tool);
+Command add_model(const Options& tool);
+Command add_verify(const Options& tool);
+Command add_demo(const Options& tool);
 
 /// The exit codes for the end of every --help.
 std::string exit_codes_help();
-/// For `check` of a --seed: empty where the text is a whole number that fits. CLI11 alone takes -1, and 2^64, for 2^64
-/// - 1.
+/// For `check` of a --seed: empty where the text is a whole number that fits. The library alone takes -1, and 2^64, for
+/// 2^64 - 1.
 std::string seed_refusal(const std::string& text);
 /// --on-bad-row skip|stop
-void add_bad_row_option(CLI::App& app, io::BadRowPolicy& policy);
+void add_bad_row_option(const Options& command, io::BadRowPolicy& policy);
 
 /// Standard output and standard error. A failure to write is remembered and ends the tool with code 1.
 void print(std::string_view text);

@@ -1,7 +1,6 @@
 // plumb verify: everything about one array, in a report that can be signed.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -168,52 +167,54 @@ io::ExitCode run_verify(const VerifyOptions& options) {
 
 }  // namespace
 
-Command add_verify(CLI::App& tool) {
+Command add_verify(const Options& tool) {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App* app = tool.add_subcommand("verify", "a report on one array: what it can guarantee, and how that is known");
-  app->add_option("--array", options->array, "the array file to verify")->required()->type_name("ARRAY.toml");
-  app->add_option("--limits", options->limits, "what you need it for; see below")->type_name("LIMITS.toml");
-  app->add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
-      ->type_name("CAL.json");
-  app->add_option("--positions", options->positions, "a log of quiet attitudes, to calibrate from")
-      ->type_name("LOG.csv");
-  app->add_option("--scenarios", options->scenarios,
+  const Options command =
+      tool.add_command("verify", "a report on one array: what it can guarantee, and how that is known");
+  command.add_option("--array", options->array, "the array file to verify").required().type_name("ARRAY.toml");
+  command.add_option("--limits", options->limits, "what you need it for; see below").type_name("LIMITS.toml");
+  command.add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
+      .type_name("CAL.json");
+  command.add_option("--positions", options->positions, "a log of quiet attitudes, to calibrate from")
+      .type_name("LOG.csv");
+  command
+      .add_option("--scenarios", options->scenarios,
                   "of each campaign; by default 20000 up to 6 sensors, 10000 up to 8, 2000 up to 12, 500 above")
-      ->check(seed_refusal)
-      ->type_name("N");
-  app->add_flag_callback(
+      .check(seed_refusal)
+      .type_name("N");
+  command.add_flag(
       "--thorough", [options] { options->scenarios = kThoroughScenarios; }, "a million scenarios of each campaign");
-  app->add_option("--seed", options->seed, "of the campaigns and of the predicted calibration; 1 by default")
-      ->check(seed_refusal)
-      ->type_name("S");
-  app->add_option("--out", options->out, "the directory to write; `verification` by default")->type_name("DIR");
-  app->add_option("--compare", options->compare, "an earlier report.json: what has changed since")
-      ->type_name("REPORT.json");
-  app->add_option("--test-results", options->test_results, "results of plumb's own tests, from ctest --output-junit")
-      ->type_name("JUNIT.xml");
-  app->add_option("--assurance", options->assurance, "results of scripts/assure: build/assure/results.json")
-      ->type_name("RESULTS.json");
-  app->add_option("--traceability", options->traceability,
+  command.add_option("--seed", options->seed, "of the campaigns and of the predicted calibration; 1 by default")
+      .check(seed_refusal)
+      .type_name("S");
+  command.add_option("--out", options->out, "the directory to write; `verification` by default").type_name("DIR");
+  command.add_option("--compare", options->compare, "an earlier report.json: what has changed since")
+      .type_name("REPORT.json");
+  command.add_option("--test-results", options->test_results, "results of plumb's own tests, from ctest --output-junit")
+      .type_name("JUNIT.xml");
+  command.add_option("--assurance", options->assurance, "results of scripts/assure: build/assure/results.json")
+      .type_name("RESULTS.json");
+  command
+      .add_option("--traceability", options->traceability,
                   "requirements, hazards and tests of your own in the place of plumb's; a report's traceability.json "
                   "is the pattern")
-      ->type_name("TRACE.json");
-  app->add_option("--reuse", options->reuse,
+      .type_name("TRACE.json");
+  command
+      .add_option("--reuse", options->reuse,
                   "the finished result of faults.toml or healthy.toml with more scenarios, from plumb campaign or\n"
                   "plumb-campaign-mpi: its rates are judged; may be given twice")
-      ->type_name("RESULT.json")
-      ->expected(1)
-      ->take_all();
-  app->add_option("--analysis", options->analysis, "what clang-tidy printed; written as SARIF and judged")
-      ->type_name("LOG");
-  app->add_option("--resources", options->resources, "what scripts/baremetal measured: build/metal/results.json")
-      ->type_name("RESULTS.json");
-  app->add_option("--threads", options->threads, "how many; the result is the same; one per processor by default")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  app->add_flag("--pdf", options->pdf, "print the page to report.pdf too (needs weasyprint; takes half a minute)");
-  app->add_flag("--json", options->json, "print the report as JSON instead of a summary");
-  app->footer(kVerifyNotes + exit_codes_help());
-  return {app, kVerifyAbout, [options] { return run_verify(*options); }};
+      .type_name("RESULT.json");
+  command.add_option("--analysis", options->analysis, "what clang-tidy printed; written as SARIF and judged")
+      .type_name("LOG");
+  command.add_option("--resources", options->resources, "what scripts/baremetal measured: build/metal/results.json")
+      .type_name("RESULTS.json");
+  command.add_option("--threads", options->threads, "how many; the result is the same; one per processor by default")
+      .range(1, 1024)
+      .type_name("N");
+  command.add_flag("--pdf", options->pdf, "print the page to report.pdf too (needs weasyprint; takes half a minute)");
+  command.add_flag("--json", options->json, "print the report as JSON instead of a summary");
+  command.footer(kVerifyNotes + exit_codes_help());
+  return {command, kVerifyAbout, [options] { return run_verify(*options); }};
 }
 
 }  // namespace cli

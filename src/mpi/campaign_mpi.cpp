@@ -2,7 +2,6 @@
 // are united behind it, so that the result is that of one process, byte for byte, and a lost rank costs one batch.
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
 #include <string>
@@ -65,19 +64,17 @@ class MpiRanks final : public plumb::campaign::Ranks {
 
 int run(int argc, char** argv) {
   MpiRanks ranks;
-  CLI::App app(kAbout, "plumb-campaign-mpi");
-  app.set_version_flag("--version", std::string("plumb ") + plumb::cli::kVersion);
+  const plumb::cli::CommandLine line(kAbout, "plumb-campaign-mpi", std::string("plumb ") + plumb::cli::kVersion);
   plumb::cli::CampaignOptions options;
-  plumb::cli::add_campaign_options(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      if (ranks.rank() == 0) app.exit(error);
-      return 0;
-    }
+  plumb::cli::add_campaign_options(line.options(), options);
+  const plumb::cli::Reading reading = line.read(argc, argv);
+  if (reading.end == plumb::cli::Reading::End::answered) {
+    if (ranks.rank() == 0) plumb::cli::print(reading.text);
+    return 0;
+  }
+  if (reading.end == plumb::cli::Reading::End::refused) {
     if (ranks.rank() == 0) {
-      plumb::cli::print_error(std::string("plumb: ") + error.what() + ".\nTry: plumb-campaign-mpi --help\n");
+      plumb::cli::print_error("plumb: " + reading.text + ".\nTry: plumb-campaign-mpi --help\n");
     }
     return plumb::io::to_int(plumb::io::ExitCode::usage);
   }
