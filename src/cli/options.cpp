@@ -8,8 +8,12 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-/// The number behind a word. An enumeration because the library names the numbers of plain integers in its messages.
-enum class WordNumber : int {};
+template <class Number>
+CLI::Option& words_option(CLI::App& app, const std::string& name, const std::map<std::string, Number>& words,
+                          const std::function<void(Number)>& take, const std::string& description) {
+  return *app.add_option_function<Number>(name, take, description)
+              ->transform(CLI::CheckedTransformer(words).description(""));
+}
 
 }  // namespace
 
@@ -64,11 +68,11 @@ Option Options::add_option(const std::string& name, const TextReader& read, cons
 
 Option Options::add_words(const std::string& name, const std::map<std::string, int>& words,
                           const std::function<void(int)>& take, const std::string& description) const {
-  std::map<std::string, WordNumber> numbers;
-  for (const auto& [word, number] : words) numbers[word] = WordNumber{number};
-  const auto chosen = [take](const WordNumber& number) { take(static_cast<int>(number)); };
-  return Option(*app_->add_option_function<WordNumber>(name, chosen, description)
-                     ->transform(CLI::CheckedTransformer(numbers).description("")));
+  return Option(words_option(*app_, name, words, take, description));
+}
+Option Options::add_words(const std::string& name, const std::map<std::string, std::uint8_t>& words,
+                          const std::function<void(std::uint8_t)>& take, const std::string& description) const {
+  return Option(words_option(*app_, name, words, take, description));
 }
 
 Option Options::add_flag(const std::string& name, bool& value, const std::string& description) const {

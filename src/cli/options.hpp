@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "plumb/core/config.hpp"
@@ -77,10 +78,11 @@ class Options {
   template <class Enum>
   Option add_option(const std::string& name, Enum& value, const std::map<std::string, Enum>& words,
                     const std::string& description) const {
-    std::map<std::string, int> numbers;
-    for (const auto& word : words) numbers[word.first] = static_cast<int>(word.second);
+    using Number = std::underlying_type_t<Enum>;
+    std::map<std::string, Number> numbers;
+    for (const auto& word : words) numbers[word.first] = static_cast<Number>(word.second);
     return add_words(
-        name, numbers, [&value](int number) { value = static_cast<Enum>(number); }, description);
+        name, numbers, [&value](Number number) { value = static_cast<Enum>(number); }, description);
   }
   Option add_flag(const std::string& name, bool& value, const std::string& description) const;
   Option add_flag(const std::string& name, const std::function<void()>& given, const std::string& description) const;
@@ -105,8 +107,11 @@ class Options {
   std::vector<std::string> left_over() const;
 
  private:
+  // One for each type that an enumeration is kept in.
   Option add_words(const std::string& name, const std::map<std::string, int>& words,
                    const std::function<void(int)>& take, const std::string& description) const;
+  Option add_words(const std::string& name, const std::map<std::string, std::uint8_t>& words,
+                   const std::function<void(std::uint8_t)>& take, const std::string& description) const;
 
   CLI::App* app_;
 };
