@@ -1,8 +1,7 @@
 #include "plumb/campaign/result_file.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 
 #include "plumb/core/units.hpp"
 #include "plumb/io/hash.hpp"
@@ -26,7 +25,7 @@ std::uint64_t trials_of(const Progress& progress) { return progress.tally.total(
 
 Json rate_of(std::uint64_t count, std::uint64_t trials) {
   const study::Proportion p = study::proportion(count, trials);
-  return {{"count", count}, {"of", trials}, {"rate", p.share()}, {"low", p.low}, {"high", p.high}};
+  return io::object({{"count", count}, {"of", trials}, {"rate", p.share()}, {"low", p.low}, {"high", p.high}});
 }
 
 Json rates_of(const Progress& progress) {
@@ -50,7 +49,7 @@ Json times_of(const std::array<std::uint64_t, kMostBlocks>& histogram, const Pla
   for (const double share : {0.5, 0.9, 0.95, 0.99, 1.0}) {
     quantiles[fmt::format("{}", share)] = quantile_blocks(histogram, share);
   }
-  return {{"block_s", block_s}, {"blocks", counts}, {"quantiles_blocks", quantiles}};
+  return io::object({{"block_s", block_s}, {"blocks", counts}, {"quantiles_blocks", quantiles}});
 }
 
 Json stanford_of(const Tally& tally) {
@@ -62,22 +61,22 @@ Json stanford_of(const Tally& tally) {
     for (int error = 0; error < kOctaves; ++error) row.push_back(tally.stanford(error, level));
     rows.push_back(row);
   }
-  return {{"blocks", regions},
-          {"first_octave_ends_at_deg", 0.001},
-          {"rows", "protection level by octave, the last row: none"},
-          {"columns", "error by octave"},
-          {"counts", rows}};
+  return io::object({{"blocks", regions},
+                     {"first_octave_ends_at_deg", 0.001},
+                     {"rows", "protection level by octave, the last row: none"},
+                     {"columns", "error by octave"},
+                     {"counts", rows}});
 }
 
 Json cells_of(const Plan& plan, const Tally& tally) {
   Json out = Json::array();
   for (int k = 0; k < tally.cells(); ++k) {
     const Cell& cell = plan.cells[static_cast<size_t>(k)];
-    Json row = {{"tool", plan.tools[static_cast<size_t>(cell.tool)].name},
-                {"attitude", plan.attitudes[static_cast<size_t>(cell.attitude)].name},
-                {"fault", plan.faults[static_cast<size_t>(cell.fault)].name},
-                {"faulty", cell.faulty},
-                {"gravity_sigmas", cell.gravity_sigmas}};
+    Json row = io::object({{"tool", plan.tools[static_cast<size_t>(cell.tool)].name},
+                           {"attitude", plan.attitudes[static_cast<size_t>(cell.attitude)].name},
+                           {"fault", plan.faults[static_cast<size_t>(cell.fault)].name},
+                           {"faulty", cell.faulty},
+                           {"gravity_sigmas", cell.gravity_sigmas}});
     for (int c = 0; c < kCounts; ++c) {
       const std::uint64_t count = tally.count(k, static_cast<Count>(c));
       if (c == 0 || count != 0) row[to_string(static_cast<Count>(c))] = count;
@@ -123,7 +122,7 @@ std::string result_text(const CampaignFile& file, const Progress& progress) {
   out["first_wrong_exclusions"] = firsts_of(tally.first_wrong());
   out["first_misleading"] = firsts_of(tally.first_misleading());
   out["cells"] = cells_of(plan, tally);
-  out["state"] = {{"sums", numbers.sums}, {"maxima", numbers.maxima}, {"firsts", numbers.firsts}};
+  out["state"] = io::object({{"sums", numbers.sums}, {"maxima", numbers.maxima}, {"firsts", numbers.firsts}});
   // Lists of numbers on one line each: a result of a thousand cells stays a file that one can look into.
   std::string text = "{\n";
   for (auto item = out.begin(); item != out.end(); ++item) {
@@ -154,7 +153,7 @@ io::FileExpected<Progress> read_result(const std::string& path, const CampaignFi
   const io::FileExpected<std::string> text = io::read_file(path);
   if (!text) return tl::unexpected<io::FileError>(text.error());
   const std::string again = "start anew without --resume, or name the result of this campaign";
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = io::parsed(*text);
   if (json.is_discarded() || !json.is_object()) return refuse("is no result file: not JSON", again);
   const size_t last = text->rfind("  \"hash\"");
   const std::string hash = json.value("hash", "");

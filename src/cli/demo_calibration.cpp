@@ -7,6 +7,7 @@
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
 #include "figures.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/study/calibration_study.hpp"
 
 namespace plumb {
@@ -248,15 +249,15 @@ nlohmann::ordered_json facts_of(const std::vector<FitHistory>& histories, const 
   for (const FitHistory& h : histories) {
     const auto method = [&](const std::vector<IterationPoint>& points) {
       const study::ParameterError error = study::error_of(h, points.back());
-      return nlohmann::ordered_json{{"iterations", points.size() - 1},
-                                    {"cost_start_g0_4", rounded(points.front().cost_g4)},
-                                    {"cost_end_g0_4", rounded(points.back().cost_g4)},
-                                    {"bias_error_mg0", rounded(error.bias_mps2 / kMilliG0_mps2)},
-                                    {"scale_error", rounded(error.scale)},
-                                    {"misalignment_error", rounded(error.misalignment)}};
+      return io::object({{"iterations", points.size() - 1},
+                         {"cost_start_g0_4", rounded(points.front().cost_g4)},
+                         {"cost_end_g0_4", rounded(points.back().cost_g4)},
+                         {"bias_error_mg0", rounded(error.bias_mps2 / kMilliG0_mps2)},
+                         {"scale_error", rounded(error.scale)},
+                         {"misalignment_error", rounded(error.misalignment)}});
     };
-    nlohmann::ordered_json one = {
-        {"sensors", study::name_of(h.used)}, {"paper", method(h.paper)}, {"plumb", method(h.own)}};
+    nlohmann::ordered_json one =
+        io::object({{"sensors", study::name_of(h.used)}, {"paper", method(h.paper)}, {"plumb", method(h.own)}});
     one["paper"]["converged"] = h.paper_converged;
     one["paper"]["rank"] = h.paper_rank;
     out["fits"].push_back(std::move(one));

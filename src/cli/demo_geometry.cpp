@@ -5,6 +5,7 @@
 #include "demo_section.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/study/fits.hpp"
 
 namespace plumb {
@@ -103,23 +104,23 @@ report::Table triple_table(const SensorArray& array) {
 }
 
 nlohmann::ordered_json facts_of(const SensorArray& array, const FiguresOfMerit& f) {
-  nlohmann::ordered_json out = {{"gdop", f.gdop},
-                                {"condition", f.condition},
-                                {"nearest_angle_deg", deg_from_rad(f.nearest_angle_rad)},
-                                {"min_triple_det", f.min_triple_det},
-                                {"max_triple_condition", f.max_triple_condition},
-                                {"common_bias_visibility", f.common_bias_visibility},
-                                {"strict_grade", f.strict_grade},
-                                {"parity_grade", f.parity_grade}};
+  nlohmann::ordered_json out = io::object({{"gdop", f.gdop},
+                                           {"condition", f.condition},
+                                           {"nearest_angle_deg", deg_from_rad(f.nearest_angle_rad)},
+                                           {"min_triple_det", f.min_triple_det},
+                                           {"max_triple_condition", f.max_triple_condition},
+                                           {"common_bias_visibility", f.common_bias_visibility},
+                                           {"strict_grade", f.strict_grade},
+                                           {"parity_grade", f.parity_grade}});
   for (auto& value : out) {
     if (value.is_number_float()) value = std::stod(fmt::format("{:.9g}", value.get<double>()));
   }
   nlohmann::ordered_json triples = nlohmann::ordered_json::array();
   for (int k = 0; k < array.triple_count(); ++k) {
     const Triple& t = array.triple(k);
-    triples.push_back({{"sensors", study::name_of(t.set())},
-                       {"det", std::stod(fmt::format("{:.9g}", t.det))},
-                       {"condition", std::stod(fmt::format("{:.9g}", t.condition))}});
+    triples.push_back(io::object({{"sensors", study::name_of(t.set())},
+                                  {"det", std::stod(fmt::format("{:.9g}", t.det))},
+                                  {"condition", std::stod(fmt::format("{:.9g}", t.condition))}}));
   }
   out["triples"] = triples;
   return out;

@@ -4,6 +4,7 @@
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
 #include "figures.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/study/gravity_error_study.hpp"
 
 namespace plumb {
@@ -97,7 +98,8 @@ report::Table table_of(const GravityErrorStudy& study) {
 nlohmann::ordered_json facts_of(const GravityErrorStudy& study) {
   nlohmann::ordered_json out;
   for (const GravityErrors& errors : study.combination) {
-    nlohmann::ordered_json one = {{"sensors", study::name_of(errors.used)}, {"attitudes", errors.own_mps2.size()}};
+    nlohmann::ordered_json one =
+        io::object({{"sensors", study::name_of(errors.used)}, {"attitudes", errors.own_mps2.size()}});
     for (const Method& m : kMethods) {
       one["rms_mg0"][m.key] = std::stod(fmt::format("{:.4f}", study::rms_of(errors.*m.errors) / kMilliG0_mps2));
       one["largest_mg0"][m.key] = std::stod(fmt::format("{:.4f}", study::largest_of(errors.*m.errors) / kMilliG0_mps2));

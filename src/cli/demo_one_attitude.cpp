@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "demo_picture.hpp"
+#include "plumb/io/json_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -177,14 +178,14 @@ nlohmann::ordered_json facts_of(const Studies& studies) {
       for (int g = 0; g < study::kFaultGroups; ++g) {
         const AnswerCount& count = record.group[static_cast<std::size_t>(g)];
         if (count.trials() == 0) continue;
-        one["groups"].push_back({{"faults", study::to_string(static_cast<FaultGroup>(g))},
-                                 {"trials", count.trials()},
-                                 {"right", count[Answer::right]},
-                                 {"alarm_only", count[Answer::alarm_only]},
-                                 {"silent_small", count[Answer::silent_small]},
-                                 {"silent_large", count[Answer::silent_large]},
-                                 {"names_healthy", count[Answer::names_healthy]},
-                                 {"keeps_faulty", count[Answer::keeps_faulty]}});
+        one["groups"].push_back(io::object({{"faults", study::to_string(static_cast<FaultGroup>(g))},
+                                            {"trials", count.trials()},
+                                            {"right", count[Answer::right]},
+                                            {"alarm_only", count[Answer::alarm_only]},
+                                            {"silent_small", count[Answer::silent_small]},
+                                            {"silent_large", count[Answer::silent_large]},
+                                            {"names_healthy", count[Answer::names_healthy]},
+                                            {"keeps_faulty", count[Answer::keeps_faulty]}}));
       }
       const study::Proportion errors = study::proportion(record.faulty().errors(), record.faulty().trials());
       one["errors"] = {{"count", errors.count},
@@ -196,10 +197,10 @@ nlohmann::ordered_json facts_of(const Studies& studies) {
       one["largest_silent_tilt_deg"] = std::stod(fmt::format("{:.4f}", deg_from_rad(record.largest_silent_tilt_rad)));
       return one;
     };
-    out.push_back({{"random_level", s.law == RandomLaw::held ? "held" : "anew"},
-                   {"attitudes", s.attitudes},
-                   {"paper", rule(s.paper)},
-                   {"plumb", rule(s.own)}});
+    out.push_back(io::object({{"random_level", s.law == RandomLaw::held ? "held" : "anew"},
+                              {"attitudes", s.attitudes},
+                              {"paper", rule(s.paper)},
+                              {"plumb", rule(s.own)}}));
   }
   return out;
 }

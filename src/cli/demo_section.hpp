@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "plumb/core/config.hpp"
 #include "plumb/io/file_error.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/chapter.hpp"
 #include "plumb/scenario/truth.hpp"
 

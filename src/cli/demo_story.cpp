@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/report/words.hpp"
 #include "plumb/scenario/fault_text.hpp"
@@ -323,16 +324,16 @@ nlohmann::ordered_json facts_of(const DrillRecord& record) {
   const scenario::FaultContext context = io::fault_context(record.array);
   out["faults"] = nlohmann::ordered_json::array();
   for (const FaultRecord& fault : record.faults) {
-    out["faults"].push_back({{"fault", scenario::to_text(fault.fault, context)},
-                             {"begin_s", fault.begin_s},
-                             {"end_s", number(fault.end_s)}});
+    out["faults"].push_back(io::object({{"fault", scenario::to_text(fault.fault, context)},
+                                        {"begin_s", fault.begin_s},
+                                        {"end_s", number(fault.end_s)}}));
   }
   out["host"] = nlohmann::ordered_json::array();
   for (const scenario::Host::Answer& answer : record.answers) {
     const bool granted = answer.refusal == Errc::ok;
-    out["host"].push_back({{"time_s", answer.time_s},
-                           {"request", scenario::to_text(answer.request, record.array.array)},
-                           {"refused", granted ? nlohmann::ordered_json() : describe(answer.refusal)}});
+    out["host"].push_back(io::object({{"time_s", answer.time_s},
+                                      {"request", scenario::to_text(answer.request, record.array.array)},
+                                      {"refused", granted ? nlohmann::ordered_json() : describe(answer.refusal)}}));
   }
   out["changes"] = nlohmann::ordered_json::array();
   for (const TimelineRow& row : record.timeline.rows) out["changes"].push_back(change_json(row));

@@ -1,7 +1,7 @@
 /// What a drill has to say for itself: everything is told from its records alone, so that it holds for every seed.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -6,6 +6,7 @@
 #include "demo_one_attitude.hpp"
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/study/table2_study.hpp"
 
 namespace plumb {
@@ -105,21 +106,21 @@ nlohmann::ordered_json facts_of(const Table2Study& study, const study::Proportio
   out["experiments"] = study::kExperiments;
   out["verdicts_as_printed"] = study.same_verdicts();
   out["attitudes"] = study::kTable2Attitudes;
-  out["other_tools"] = {{"tools", others.trials},
-                        {"all_verdicts_as_printed", others.count},
-                        {"low_95", std::stod(fmt::format("{:.4f}", others.low))}};
+  out["other_tools"] = io::object({{"tools", others.trials},
+                                   {"all_verdicts_as_printed", others.count},
+                                   {"low_95", std::stod(fmt::format("{:.4f}", others.low))}});
   for (std::size_t e = 0; e < kTable2.size(); ++e) {
     const Table2Result& r = study.result[e];
-    nlohmann::ordered_json one = {
-        {"number", kTable2[e].number},
-        {"mae_all_g0", std::stod(fmt::format("{:.6f}", g0_from_mps2(r.finding.mae_all_mps2)))},
-        {"mae_all_printed_g", kTable2[e].mae_all_g},
-        {"detected", r.finding.detected},
-        {"isolated", sensors(r.finding.isolated, "")},
-        {"as_printed", r.same_verdict},
-        {"plumb_state", to_string(r.state)},
-        {"plumb_excluded", sensors(r.excluded, "")},
-        {"plumb_after_attitudes", r.named_after}};
+    nlohmann::ordered_json one =
+        io::object({{"number", kTable2[e].number},
+                    {"mae_all_g0", std::stod(fmt::format("{:.6f}", g0_from_mps2(r.finding.mae_all_mps2)))},
+                    {"mae_all_printed_g", kTable2[e].mae_all_g},
+                    {"detected", r.finding.detected},
+                    {"isolated", sensors(r.finding.isolated, "")},
+                    {"as_printed", r.same_verdict},
+                    {"plumb_state", to_string(r.state)},
+                    {"plumb_excluded", sensors(r.excluded, "")},
+                    {"plumb_after_attitudes", r.named_after}});
     out["rows"].push_back(std::move(one));
   }
   return out;

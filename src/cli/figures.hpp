@@ -1,9 +1,8 @@
 // Small things of figures that several commands need.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "plumb/core/units.hpp"
 
@@ -20,7 +19,7 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 inline double in_mg0(double mps2) noexcept { return 1e3 * g0_from_mps2(mps2); }
 
 /// Null where there is no figure: JSON has no infinity.
-inline Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json finite_or_null(double value);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -1,13 +1,13 @@
 // The report of a fit as JSON for machines. A figure that is not known is null, never 0.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "column_facts.hpp"
 #include "figures.hpp"
 #include "fit_summary.hpp"
 #include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "temperature_json.hpp"
 
 namespace plumb {
@@ -18,11 +18,11 @@ namespace {
 Json columns_json(const CalibrationRun& run, const io::ArrayFile& array) {
   Json out = Json::array();
   for (const ColumnFact& fact : column_facts(run, array)) {
-    out.push_back({{"column", fact.column},
-                   {"of", fact.of},
-                   {"rows_without", fact.rows_without},
-                   {"dead", fact.dead},
-                   {"words", fact.words}});
+    out.push_back(io::object({{"column", fact.column},
+                              {"of", fact.of},
+                              {"rows_without", fact.rows_without},
+                              {"dead", fact.dead},
+                              {"words", fact.words}}));
   }
   return out;
 }
@@ -37,19 +37,19 @@ Json second_look_json(const CalibrationRun& run, const io::ArrayFile& array) {
     if (i == j) reversed.push_back(id_of(array, i));
     if (i != j) exchanged.push_back(Json::array({id_of(array, i), id_of(array, j)}));
   }
-  return {{"columns_exchanged", std::move(exchanged)},
-          {"sign_reversed", std::move(reversed)},
-          {"without_roll_group", look.groups},
-          {"roll_axis", look.roll_axis ? Json(*look.roll_axis) : Json()},
-          {"without_roll_groups", look.without_groups}};
+  return io::object({{"columns_exchanged", std::move(exchanged)},
+                     {"sign_reversed", std::move(reversed)},
+                     {"without_roll_group", look.groups},
+                     {"roll_axis", look.roll_axis ? Json(*look.roll_axis) : Json()},
+                     {"without_roll_groups", look.without_groups}});
 }
 
 Json stations_json(const CalibrationRun& run) {
   Json out = Json::array();
   for (std::size_t k = 0; k < run.stations.size(); ++k) {
     const Station& s = run.stations[k];
-    Json one = {
-        {"begin_s", s.begin_s}, {"end_s", s.end_s}, {"samples", s.count}, {"temperature_degc", s.temperature_degc}};
+    Json one = io::object(
+        {{"begin_s", s.begin_s}, {"end_s", s.end_s}, {"samples", s.count}, {"temperature_degc", s.temperature_degc}});
     const Vec3& u = run.study.attitudes[k].direction;
     one["down"] = norm(u) > 0.0 ? Json(u) : Json();
     const bool fitted = k < run.study.residuals.size();
@@ -57,10 +57,10 @@ Json stations_json(const CalibrationRun& run) {
     one["held_out"] = Json();
     if (k < run.study.predicted.size() && run.study.predicted[k].judged) {
       const StationPrediction& p = run.study.predicted[k];
-      one["held_out"] = {{"norm_error_mps2", p.norm_error_mps2},
-                         {"parity_rms_mps2", p.parity_rms_mps2},
-                         {"sigmas", p.sigmas},
-                         {"stands_out", p.sigmas > kOddStation_sigmas}};
+      one["held_out"] = io::object({{"norm_error_mps2", p.norm_error_mps2},
+                                    {"parity_rms_mps2", p.parity_rms_mps2},
+                                    {"sigmas", p.sigmas},
+                                    {"stands_out", p.sigmas > kOddStation_sigmas}});
     }
     out.push_back(std::move(one));
   }
@@ -72,44 +72,44 @@ Json fit_object(const CalibrationRun& run) {
   const auto known = [&run](Json value) { return run.study.shown ? value : Json(); };
   Json cost = Json::array();
   for (const double c : run.study.cost) cost.push_back(c);
-  return {{"start", to_string(run.report.start)},
-          {"stop", to_string(run.report.stop)},
-          {"iterations", run.report.iterations},
-          {"cost", std::move(cost)},
-          {"parameters", r.parameters},
-          {"rank", known(r.rank)},
-          {"gauge", known(r.gauge)},
-          {"roll_groups", r.roll_groups},
-          {"roll_groups_of_one", r.lone_rolls},
-          {"roll_axis", r.roll_axis == Vec3{} ? Json() : Json(r.roll_axis)},
-          {"roll_wobble_rad", r.roll_axis == Vec3{} ? Json() : Json(r.roll_wobble_rad)},
-          {"inclination_sigma_rad", r.null_directions == 0 ? known(r.inclination_sigma_rad) : Json()},
-          {"common_turn_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.rad) : Json()},
-          {"common_turn_sigma_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.sigma_rad) : Json()},
-          {"norm_rms_mps2", known(r.norm_rms_mps2)},
-          {"parity_rms_mps2", known(r.parity_rms_mps2)},
-          {"misfit_mps2", known(r.misfit_mps2)},
-          {"chi2", known(r.chi2)},
-          {"degrees_of_freedom", known(r.degrees_of_freedom)},
-          {"p_value", known(r.p_value)},
-          {"p_value_means", known(p_value_words(r))},
-          {"condition", known(r.condition)},
-          {"excitation", known(r.excitation)}};
+  return io::object({{"start", to_string(run.report.start)},
+                     {"stop", to_string(run.report.stop)},
+                     {"iterations", run.report.iterations},
+                     {"cost", std::move(cost)},
+                     {"parameters", r.parameters},
+                     {"rank", known(r.rank)},
+                     {"gauge", known(r.gauge)},
+                     {"roll_groups", r.roll_groups},
+                     {"roll_groups_of_one", r.lone_rolls},
+                     {"roll_axis", r.roll_axis == Vec3{} ? Json() : Json(r.roll_axis)},
+                     {"roll_wobble_rad", r.roll_axis == Vec3{} ? Json() : Json(r.roll_wobble_rad)},
+                     {"inclination_sigma_rad", r.null_directions == 0 ? known(r.inclination_sigma_rad) : Json()},
+                     {"common_turn_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.rad) : Json()},
+                     {"common_turn_sigma_rad", r.common_turn.sigma_rad > 0.0 ? Json(r.common_turn.sigma_rad) : Json()},
+                     {"norm_rms_mps2", known(r.norm_rms_mps2)},
+                     {"parity_rms_mps2", known(r.parity_rms_mps2)},
+                     {"misfit_mps2", known(r.misfit_mps2)},
+                     {"chi2", known(r.chi2)},
+                     {"degrees_of_freedom", known(r.degrees_of_freedom)},
+                     {"p_value", known(r.p_value)},
+                     {"p_value_means", known(p_value_words(r))},
+                     {"condition", known(r.condition)},
+                     {"excitation", known(r.excitation)}});
 }
 
 Json hold_out_json(const CalibrationRun& run) {
   const HoldOut& h = run.study.held_out;
   if (h.judged == 0) return {};
-  return {{"folds", run.study.plan.folds},
-          {"rounds", run.study.plan.rounds},
-          {"judged", h.judged},
-          {"not_judged", h.not_judged},
-          {"norm_rms_mps2", h.norm_rms_mps2},
-          {"norm_max_mps2", h.norm_max_mps2},
-          {"parity_rms_mps2", h.parity_rms_mps2},
-          {"parity_max_mps2", h.parity_max_mps2},
-          {"sigmas", h.sigmas},
-          {"worst_station", h.worst + 1}};
+  return io::object({{"folds", run.study.plan.folds},
+                     {"rounds", run.study.plan.rounds},
+                     {"judged", h.judged},
+                     {"not_judged", h.not_judged},
+                     {"norm_rms_mps2", h.norm_rms_mps2},
+                     {"norm_max_mps2", h.norm_max_mps2},
+                     {"parity_rms_mps2", h.parity_rms_mps2},
+                     {"parity_max_mps2", h.parity_max_mps2},
+                     {"sigmas", h.sigmas},
+                     {"worst_station", h.worst + 1}});
 }
 
 /// Stations that the fit set aside, those of an accepted fit all by number; details of the first kMaxOutliers.
@@ -118,14 +118,14 @@ Json outliers_json(const CalibrationRun& run, const io::ArrayFile& array) {
   Json listed = Json::array();
   for (int k = 0; k < std::min(r.outliers, kMaxOutliers); ++k) {
     const Outlier& o = r.outlier[static_cast<std::size_t>(k)];
-    listed.push_back({{"station", o.station + 1},
-                      {"sigmas", finite_or_null(o.standardised)},
-                      {"sensor", o.sensor >= 0 ? Json(id_of(array, o.sensor)) : Json()},
-                      {"share", o.sensor >= 0 ? finite_or_null(o.share) : Json()}});
+    listed.push_back(io::object({{"station", o.station + 1},
+                                 {"sigmas", finite_or_null(o.standardised)},
+                                 {"sensor", o.sensor >= 0 ? Json(id_of(array, o.sensor)) : Json()},
+                                 {"share", o.sensor >= 0 ? finite_or_null(o.share) : Json()}}));
   }
   Json stations = Json::array();
   for (const int k : run.study.set_aside) stations.push_back(k + 1);
-  return {{"count", r.outliers}, {"stations", std::move(stations)}, {"listed", std::move(listed)}};
+  return io::object({{"count", r.outliers}, {"stations", std::move(stations)}, {"listed", std::move(listed)}});
 }
 
 Json clipped_json(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -134,7 +134,7 @@ Json clipped_json(const CalibrationRun& run, const io::ArrayFile& array) {
   for (int i = 0; i < array.array.size(); ++i) {
     if (r.clipped_sensors.has(i)) sensors.push_back(id_of(array, i));
   }
-  return {{"readings", r.clipped}, {"sensors", std::move(sensors)}};
+  return io::object({{"readings", r.clipped}, {"sensors", std::move(sensors)}});
 }
 
 Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
@@ -143,53 +143,54 @@ Json sensors_json(const CalibrationRun& run, const io::ArrayFile& array) {
   const std::string loud = loudest >= 0 ? id_of(array, loudest) : "";
   for (const SensorFigures& f : sensor_figures(run, array)) {
     const auto known = [&f](double value) { return f.known ? finite_or_null(value) : Json(); };
-    out.push_back({{"id", f.id},
-                   {"bias_mps2", known(f.bias_mg * kMilliG0_mps2)},
-                   {"bias_sigma_mps2", known(f.bias_sigma_mg * kMilliG0_mps2)},
-                   {"bias_data_share", known(f.bias_share)},
-                   {"scale_per_g0", known(f.scale)},
-                   {"scale_change", known(f.scale_change)},
-                   {"scale_sigma", known(f.scale_sigma)},
-                   {"scale_data_share", known(f.scale_share)},
-                   {"axis_shift_deg", known(f.axis_shift_deg)},
-                   {"axis_sigma_deg", known(f.axis_sigma_deg)},
-                   {"axis_data_share", known(f.axis_share)},
-                   {"e_cal_mps2", known(f.e_cal_mg * kMilliG0_mps2)},
-                   {"residual_rms_mps2", known(f.residual_rms_mg * kMilliG0_mps2)},
-                   {"sample_noise_mps2", f.sample_noise_mg > 0.0 ? Json(f.sample_noise_mg * kMilliG0_mps2) : Json()},
-                   {"loud", f.known && f.id == loud},
-                   {"data_share", known(f.data_share)}});
+    out.push_back(
+        io::object({{"id", f.id},
+                    {"bias_mps2", known(f.bias_mg * kMilliG0_mps2)},
+                    {"bias_sigma_mps2", known(f.bias_sigma_mg * kMilliG0_mps2)},
+                    {"bias_data_share", known(f.bias_share)},
+                    {"scale_per_g0", known(f.scale)},
+                    {"scale_change", known(f.scale_change)},
+                    {"scale_sigma", known(f.scale_sigma)},
+                    {"scale_data_share", known(f.scale_share)},
+                    {"axis_shift_deg", known(f.axis_shift_deg)},
+                    {"axis_sigma_deg", known(f.axis_sigma_deg)},
+                    {"axis_data_share", known(f.axis_share)},
+                    {"e_cal_mps2", known(f.e_cal_mg * kMilliG0_mps2)},
+                    {"residual_rms_mps2", known(f.residual_rms_mg * kMilliG0_mps2)},
+                    {"sample_noise_mps2", f.sample_noise_mg > 0.0 ? Json(f.sample_noise_mg * kMilliG0_mps2) : Json()},
+                    {"loud", f.known && f.id == loud},
+                    {"data_share", known(f.data_share)}}));
   }
   return out;
 }
 
 Json paper_parameters_json(const CalibrationRun& run, const io::ArrayFile& array) {
-  if (!run.study.paper) return {{"why_not", paper_words(run.study.paper.error(), array)}};
+  if (!run.study.paper) return io::object({{"why_not", paper_words(run.study.paper.error(), array)}});
   const SensorModel& model = *run.study.paper;
   Json out = Json::array();
   for (int i = 0; i < model.size; ++i) {
     const auto a = static_cast<std::size_t>(i);
     Json row = Json::array();
     for (int k = 0; k < model.size; ++k) row.push_back(model.misalignment[static_cast<std::size_t>(i * kCapacity + k)]);
-    out.push_back({{"id", id_of(array, i)},
-                   {"B_mps2", model.sensor[a].bias[0]},
-                   {"SF_per_mps2", model.sensor[a].scale[0]},
-                   {"m", std::move(row)}});
+    out.push_back(io::object({{"id", id_of(array, i)},
+                              {"B_mps2", model.sensor[a].bias[0]},
+                              {"SF_per_mps2", model.sensor[a].scale[0]},
+                              {"m", std::move(row)}}));
   }
-  return {{"sensors", std::move(out)}};
+  return io::object({{"sensors", std::move(out)}});
 }
 
 Json paper_fits_json(const PaperCalibration& paper, const io::ArrayFile& array) {
   Json out = Json::array();
   for (const PaperFigures& f : paper_figures(paper, array)) {
-    out.push_back({{"sensors", f.sensors},
-                   {"sound", f.sound},
-                   {"stop", f.outcome},
-                   {"iterations", f.iterations},
-                   {"rank", f.rank},
-                   {"start_cost_m4ps8", f.start_cost},
-                   {"cost_m4ps8", f.cost},
-                   {"length_error_rms_mps2", f.length_error_mg * kMilliG0_mps2}});
+    out.push_back(io::object({{"sensors", f.sensors},
+                              {"sound", f.sound},
+                              {"stop", f.outcome},
+                              {"iterations", f.iterations},
+                              {"rank", f.rank},
+                              {"start_cost_m4ps8", f.start_cost},
+                              {"cost_m4ps8", f.cost},
+                              {"length_error_rms_mps2", f.length_error_mg * kMilliG0_mps2}}));
   }
   return out;
 }
@@ -199,22 +200,22 @@ Json attitudes_json(const CalibrationRun& run, const io::ArrayFile& array) {
   Json ranges = Json::array(), next = Json::array();
   for (int i = 0; i < array.array.size() && c.attitudes > 0; ++i) {
     const auto a = static_cast<std::size_t>(i);
-    ranges.push_back({{"id", id_of(array, i)}, {"lowest_g", c.lowest[a]}, {"highest_g", c.highest[a]}});
+    ranges.push_back(io::object({{"id", id_of(array, i)}, {"lowest_g", c.lowest[a]}, {"highest_g", c.highest[a]}}));
   }
   for (const PlannedAttitude& p : run.study.next) {
-    next.push_back({{"inclination_deg", deg_from_rad(p.inclination_rad)},
-                    {"toolface_deg", deg_from_rad(p.toolface_rad)},
-                    {"down", p.direction},
-                    {"gain", p.gain},
-                    {"words", attitude_words(p)}});
+    next.push_back(io::object({{"inclination_deg", deg_from_rad(p.inclination_rad)},
+                               {"toolface_deg", deg_from_rad(p.toolface_rad)},
+                               {"down", p.direction},
+                               {"gain", p.gain},
+                               {"words", attitude_words(p)}}));
   }
-  return {{"recorded", c.attitudes},
-          {"inclinations", c.inclinations},
-          {"inclination_min_deg", deg_from_rad(c.inclination_min_rad)},
-          {"inclination_max_deg", deg_from_rad(c.inclination_max_rad)},
-          {"ranges", std::move(ranges)},
-          {"lacking", coverage_words(run, array)},
-          {"record_next", std::move(next)}};
+  return io::object({{"recorded", c.attitudes},
+                     {"inclinations", c.inclinations},
+                     {"inclination_min_deg", deg_from_rad(c.inclination_min_rad)},
+                     {"inclination_max_deg", deg_from_rad(c.inclination_max_rad)},
+                     {"ranges", std::move(ranges)},
+                     {"lacking", coverage_words(run, array)},
+                     {"record_next", std::move(next)}});
 }
 
 }  // namespace
@@ -226,10 +227,10 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["accepted"] = run.accepted != nullptr;
   if (!run.accepted) {
     const Refusal refusal = refusal_of(run, array);
-    out["refusal"] = {{"reason", refusal.reason},
-                      {"concern", to_string(run.concern)},
-                      {"next", refusal.next},
-                      {"would_settle", second_look_json(run, array)}};
+    out["refusal"] = io::object({{"reason", refusal.reason},
+                                 {"concern", to_string(run.concern)},
+                                 {"next", refusal.next},
+                                 {"would_settle", second_look_json(run, array)}});
   }
   out["interrupted"] = run.interrupted;
   out["rows"] = run.log.rows;
@@ -247,18 +248,18 @@ std::string fit_json(const CalibrationRun& run, const io::ArrayFile& array) {
   out["unobservable"] = unobservable(run, array);
   out["temperature"] = temperature_json(run, array);
   out["hold_out"] = hold_out_json(run);
-  out["common_scale"] = run.study.shown ? Json{{"mean", run.told().common_scale.mean},
-                                               {"scatter", run.told().common_scale.scatter},
-                                               {"sigma", run.told().common_scale.sigma},
-                                               {"sigmas", run.told().common_scale.sigmas()}}
+  out["common_scale"] = run.study.shown ? io::object({{"mean", run.told().common_scale.mean},
+                                                      {"scatter", run.told().common_scale.scatter},
+                                                      {"sigma", run.told().common_scale.sigma},
+                                                      {"sigmas", run.told().common_scale.sigmas()}})
                                         : Json();
   out["odd_sensor"] = Json();
   if (run.study.odd_sought) {
     const OddSensor& odd = run.study.odd;
-    out["odd_sensor"] = {{"id", odd.sensor >= 0 ? Json(id_of(array, odd.sensor)) : Json()},
-                         {"misfit_with_mps2", odd.with_mps2},
-                         {"misfit_without_mps2", odd.without_mps2},
-                         {"ratio", odd.ratio}};
+    out["odd_sensor"] = io::object({{"id", odd.sensor >= 0 ? Json(id_of(array, odd.sensor)) : Json()},
+                                    {"misfit_with_mps2", odd.with_mps2},
+                                    {"misfit_without_mps2", odd.without_mps2},
+                                    {"ratio", odd.ratio}});
   }
   out["sensors"] = sensors_json(run, array);
   out["paper_parameters"] = paper_parameters_json(run, array);

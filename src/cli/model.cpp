@@ -4,12 +4,12 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "figures.hpp"
 #include "model.hpp"
 #include "plumb/health/transition_table.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/plot.hpp"
 #include "plumb/report/words.hpp"
 #include "tool.hpp"
@@ -161,7 +161,7 @@ Json resolution(Target target) {
     for (std::size_t k = 0; k < kYesNoFacts.size(); ++k) {
       if ((relevant & (4U << k)) != 0) when[kYesNoFacts[k]] = (s & (4U << k)) != 0;
     }
-    rows.push_back({{"target", to_string(target)}, {"when", std::move(when)}, {"to", outcome(target, s)}});
+    rows.push_back(io::object({{"target", to_string(target)}, {"when", std::move(when)}, {"to", outcome(target, s)}}));
   }
   return rows;
 }
@@ -212,9 +212,9 @@ std::string model_json() {
   Json states = Json::array();
   for (int m = 0; m < kModeCount; ++m) {
     const auto mode = static_cast<Mode>(m);
-    states.push_back({{"mode", to_string(mode)},
-                      {"state", to_string(state_of(mode))},
-                      {"meaning", report::meaning(state_of(mode))}});
+    states.push_back(io::object({{"mode", to_string(mode)},
+                                 {"state", to_string(state_of(mode))},
+                                 {"meaning", report::meaning(state_of(mode))}}));
   }
   out["modes"] = std::move(states);
   Json events = Json::array();
@@ -228,12 +228,12 @@ std::string model_json() {
       const Cell& cell = cell_of(from, event);
       Json to = Json::array();
       for (const Mode mode : destinations(from, cell)) to.push_back(to_string(mode));
-      cells.push_back({{"mode", to_string(from)},
-                       {"event", to_string(event)},
-                       {"kind", kind_name(cell.kind)},
-                       {"actions", actions_of(cell)},
-                       {"target", to_string(cell.target)},
-                       {"leads_to", std::move(to)}});
+      cells.push_back(io::object({{"mode", to_string(from)},
+                                  {"event", to_string(event)},
+                                  {"kind", kind_name(cell.kind)},
+                                  {"actions", actions_of(cell)},
+                                  {"target", to_string(cell.target)},
+                                  {"leads_to", std::move(to)}}));
     }
   }
   out["cells"] = std::move(cells);

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "monitor_options.hpp"
 #include "monitor_pipeline.hpp"
 #include "monitor_report.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
 #include "plumb/report/monitor_limits.hpp"
@@ -192,8 +192,8 @@ std::string summary_json(const MonitorRun& run, const SensorArray& sensors, cons
   s["rows_bad"] = run.log.rows_bad;
   s["last_time_s"] = run.last_time_s;
   s["interrupted"] = run.interrupted;
-  s["last_verdict"] = nlohmann::ordered_json::parse(io::verdict_json(run.last, sensors, frame));
-  return nlohmann::ordered_json{{"summary", std::move(s)}}.dump() + "\n";
+  s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, frame));
+  return io::object({{"summary", std::move(s)}}).dump() + "\n";
 }
 
 /// What became of --host, where it did not become what was asked for.

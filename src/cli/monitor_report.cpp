@@ -5,11 +5,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "plot_files.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/health_page.hpp"
 #include "plumb/report/identity.hpp"
 
@@ -53,10 +53,10 @@ io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayF
     out.push_back(report::input_json(role, path, *bytes));
   }
   const std::string& log = options.log.path;
-  out.push_back({{"role", "log"},
-                 {"name", log == "-" ? "standard input" : fs::path(log).filename().string()},
-                 {"bytes", run.log.bytes},
-                 {"fnv1a", fmt::format("{:016x}", run.log.hash)}});
+  out.push_back(io::object({{"role", "log"},
+                            {"name", log == "-" ? "standard input" : fs::path(log).filename().string()},
+                            {"bytes", run.log.bytes},
+                            {"fnv1a", fmt::format("{:016x}", run.log.hash)}}));
   return out;
 }
 
@@ -65,39 +65,38 @@ Json coefficients_of(const Calibration& calibration) {
   for (int i = 0; i < calibration.array.size(); ++i) {
     const auto a = static_cast<std::size_t>(i);
     const SensorCoefficients& c = calibration.model.sensor[a];
-    out.push_back({{"id", calibration.array.row(i).id.data()},
-                   {"bias_mps2", c.bias},
-                   {"scale_raw_per_mps2", c.scale},
-                   {"reference_degc", c.reference_degc},
-                   {"axis", calibration.array.axis(i)},
-                   {"sigma_mps2", calibration.array.sigma_mps2(i)},
-                   {"e_cal_mps2", calibration.report.e_cal_mps2[a]},
-                   {"residual_rms_mps2", calibration.report.residual_rms_mps2[a]}});
+    out.push_back(io::object({{"id", calibration.array.row(i).id.data()},
+                              {"bias_mps2", c.bias},
+                              {"scale_raw_per_mps2", c.scale},
+                              {"reference_degc", c.reference_degc},
+                              {"axis", calibration.array.axis(i)},
+                              {"sigma_mps2", calibration.array.sigma_mps2(i)},
+                              {"e_cal_mps2", calibration.report.e_cal_mps2[a]},
+                              {"residual_rms_mps2", calibration.report.residual_rms_mps2[a]}}));
   }
   return out;
 }
 
 /// What every verdict of the run rests on: the length of gravity, and the calibration as it was read.
 io::FileExpected<Json> basis_of(const MonitorOptions& options, const io::ArrayFile& array) {
-  Json out = {{"gravity",
-               {{"model", to_string(array.gravity.model)},
-                {"g_mps2", array.gravity.g_mps2},
-                {"sigma_mps2", array.gravity.sigma_mps2}}},
-              {"calibration", Json()}};
+  Json out = io::object({{"gravity", io::object({{"model", to_string(array.gravity.model)},
+                                                 {"g_mps2", array.gravity.g_mps2},
+                                                 {"sigma_mps2", array.gravity.sigma_mps2}})},
+                         {"calibration", Json()}});
   if (options.calibration.empty()) return out;  // made in flight: events and snapshot tell of it
   const io::FileExpected<io::CalibrationFile> file = io::read_calibration(options.calibration, array);
   if (!file) return tl::unexpected<io::FileError>(file.error());
   const FitReport& fit = file->calibration.report;
-  out["calibration"] = {{"log", file->context.log_file},
-                        {"made_by", file->context.plumb_version},
-                        {"g_mps2", file->context.gravity.g_mps2},
-                        {"stations", fit.stations},
-                        {"norm_rms_mps2", fit.norm_rms_mps2},
-                        {"parity_rms_mps2", fit.parity_rms_mps2},
-                        {"p_value", fit.p_value},
-                        {"temperature_min_degc", fit.temperature_min_degc},
-                        {"temperature_max_degc", fit.temperature_max_degc},
-                        {"sensors", coefficients_of(file->calibration)}};
+  out["calibration"] = io::object({{"log", file->context.log_file},
+                                   {"made_by", file->context.plumb_version},
+                                   {"g_mps2", file->context.gravity.g_mps2},
+                                   {"stations", fit.stations},
+                                   {"norm_rms_mps2", fit.norm_rms_mps2},
+                                   {"parity_rms_mps2", fit.parity_rms_mps2},
+                                   {"p_value", fit.p_value},
+                                   {"temperature_min_degc", fit.temperature_min_degc},
+                                   {"temperature_max_degc", fit.temperature_max_degc},
+                                   {"sensors", coefficients_of(file->calibration)}});
   return out;
 }
 
@@ -196,18 +195,19 @@ io::FileExpected<void> HealthReport::write(const MonitorRun& run) {
   if (!basis) return tl::unexpected<io::FileError>(basis.error());
   report["basis"] = *std::move(basis);
   const char* const ended = run.stopped ? "in an error" : (run.interrupted ? "by an interruption" : "where it ends");
-  report["identity"] = {{"name", array_.name},
-                        {"build", report::build_json()},
-                        {"config_hash", fmt::format("{:016x}", run.last.config_hash)},
-                        {"inputs", *std::move(inputs)},
-                        {"log", {{"rows", run.log.rows}, {"rows_bad", run.log.rows_bad}, {"ended", ended}}},
-                        {"command", command_of(options_)}};
+  report["identity"] =
+      io::object({{"name", array_.name},
+                  {"build", report::build_json()},
+                  {"config_hash", fmt::format("{:016x}", run.last.config_hash)},
+                  {"inputs", *std::move(inputs)},
+                  {"log", io::object({{"rows", run.log.rows}, {"rows_bad", run.log.rows_bad}, {"ended", ended}})},
+                  {"command", command_of(options_)}});
   Json& sensors = report["extremes"]["sensors"];
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     sensors[i]["cells_empty"] = run.log.missing[i];
     sensors[i]["cells_not_finite"] = run.log.not_finite[i];
   }
-  report["run"] = {{"time", now_utc()}, {"host", host_name()}};
+  report["run"] = io::object({{"time", now_utc()}, {"host", host_name()}});
   io::FileExpected<void> done = data_.write(report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   if (done) done = data_.commit();
   const std::string data_name = fs::path(health_data_path(options_.report)).filename().string();

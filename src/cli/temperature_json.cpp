@@ -5,6 +5,7 @@
 
 #include "figures.hpp"
 #include "fit_words.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "temperature_words.hpp"
 
 namespace plumb {
@@ -16,7 +17,7 @@ Json levels_json(const TemperatureLevels& levels) {
   Json out = Json::array();
   for (int k = 0; k < levels.count; ++k) {
     const auto a = static_cast<std::size_t>(k);
-    out.push_back({{"degc", levels.degc[a]}, {"stations", levels.stations[a]}});
+    out.push_back(io::object({{"degc", levels.degc[a]}, {"stations", levels.stations[a]}}));
   }
   return out;
 }
@@ -26,10 +27,10 @@ Json null_json(const TemperatureNull& null, const io::ArrayFile& array) {
   const char* const kinds[] = {"bias", "scale", "axis"};
   for (int k = 0; k < null.terms; ++k) {
     const TemperatureTerm& term = null.term[static_cast<std::size_t>(k)];
-    out.push_back({{"kind", kinds[static_cast<int>(term.kind)]},
-                   {"order", term.order},
-                   {"sensor", id_of(array, term.sensor)},
-                   {"prior_sigmas", term.amount}});
+    out.push_back(io::object({{"kind", kinds[static_cast<int>(term.kind)]},
+                              {"order", term.order},
+                              {"sensor", id_of(array, term.sensor)},
+                              {"prior_sigmas", term.amount}}));
   }
   return out;
 }
@@ -42,14 +43,14 @@ Json coefficients_json(const std::array<TemperatureCoefficient, kMaxTemperatureO
     sigmas.push_back(finite_or_null(one.sigma));
     shares.push_back(finite_or_null(one.data_share));
   }
-  return {{"value", std::move(values)}, {"sigma", std::move(sigmas)}, {"data_share", std::move(shares)}};
+  return io::object({{"value", std::move(values)}, {"sigma", std::move(sigmas)}, {"data_share", std::move(shares)}});
 }
 
 }  // namespace
 
 Json temperature_json(const CalibrationRun& run, const io::ArrayFile& array) {
   const TemperatureReport& t = run.temperature;
-  Json out = {{"order", t.order}, {"levels", levels_json(t.levels)}};
+  Json out = io::object({{"order", t.order}, {"levels", levels_json(t.levels)}});
   Json missing = Json::array();
   for (int k = 0; k < t.missing; ++k) missing.push_back(t.missing_degc[static_cast<std::size_t>(k)]);
   out["missing_degc"] = std::move(missing);
@@ -71,17 +72,17 @@ Json temperature_json(const CalibrationRun& run, const io::ArrayFile& array) {
   if (!run.accepted) return out;
   out["inflation"] = finite_or_null(t.inflation);
   for (const TemperatureForecast& f : t.forecast) {
-    out["expected_error"].push_back({{"degc", f.degc},
-                                     {"reading_mps2", finite_or_null(f.reading_mps2)},
-                                     {"sensor", id_of(array, f.sensor)},
-                                     {"direction_rad", finite_or_null(f.tilt_rad)}});
+    out["expected_error"].push_back(io::object({{"degc", f.degc},
+                                                {"reading_mps2", finite_or_null(f.reading_mps2)},
+                                                {"sensor", id_of(array, f.sensor)},
+                                                {"direction_rad", finite_or_null(f.tilt_rad)}}));
   }
   for (int i = 0; i < array.array.size(); ++i) {
     const auto a = static_cast<std::size_t>(i);
-    out["sensors"].push_back({{"id", id_of(array, i)},
-                              {"reference_degc", run.accepted->model.sensor[a].reference_degc},
-                              {"SF_per_mps2", coefficients_json(t.sensor[a].scale, t.order)},
-                              {"B_mps2", coefficients_json(t.sensor[a].bias, t.order)}});
+    out["sensors"].push_back(io::object({{"id", id_of(array, i)},
+                                         {"reference_degc", run.accepted->model.sensor[a].reference_degc},
+                                         {"SF_per_mps2", coefficients_json(t.sensor[a].scale, t.order)},
+                                         {"B_mps2", coefficients_json(t.sensor[a].bias, t.order)}}));
   }
   return out;
 }

@@ -1,7 +1,7 @@
 /// The part of the JSON report that tells of temperature.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "pipeline.hpp"
 

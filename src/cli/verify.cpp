@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "plot_files.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/report/evidence.hpp"
 #include "plumb/report/plot.hpp"

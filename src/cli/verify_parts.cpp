@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "figures.hpp"
@@ -10,6 +9,7 @@
 #include "fit_words.hpp"
 #include "model.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/scenario/library.hpp"
 #include "plumb/scenario/scenario.hpp"
 #include "plumb/study/paper_form.hpp"
@@ -31,9 +31,9 @@ double worst_of(const Calibration& calibration) {
 Json sensors_of(const Calibration& calibration) {
   Json out = Json::array();
   for (int i = 0; i < calibration.array.size(); ++i)
-    out.push_back({{"id", calibration.array.row(i).id.data()},
-                   {"e_cal_mps2", calibration.report.e_cal_mps2[at(i)]},
-                   {"residual_rms_mps2", calibration.report.residual_rms_mps2[at(i)]}});
+    out.push_back(io::object({{"id", calibration.array.row(i).id.data()},
+                              {"e_cal_mps2", calibration.report.e_cal_mps2[at(i)]},
+                              {"residual_rms_mps2", calibration.report.residual_rms_mps2[at(i)]}}));
   return out;
 }
 
@@ -47,12 +47,12 @@ Json trace_of(const CalibrationRun& run, const io::ArrayFile& array) {
     for (int i = 0; i < array.array.size(); ++i) {
       const SensorCoefficients& nominal = array.datasheet.sensor[at(i)].coefficients;
       const double along = dot(frame.axis[at(i)], array.array.axis(i));
-      sensors.push_back({{"id", array.array.row(i).id.data()},
-                         {"bias_mps2", frame.bias_mps2[at(i)]},
-                         {"scale_change", frame.scale[at(i)] / nominal.scale[0] - 1.0},
-                         {"axis_shift_deg", deg_from_rad(std::acos(std::clamp(along, -1.0, 1.0)))}});
+      sensors.push_back(io::object({{"id", array.array.row(i).id.data()},
+                                    {"bias_mps2", frame.bias_mps2[at(i)]},
+                                    {"scale_change", frame.scale[at(i)] / nominal.scale[0] - 1.0},
+                                    {"axis_shift_deg", deg_from_rad(std::acos(std::clamp(along, -1.0, 1.0)))}}));
     }
-    out.push_back({{"iteration", out.size()}, {"cost", cost}, {"sensors", std::move(sensors)}});
+    out.push_back(io::object({{"iteration", out.size()}, {"cost", cost}, {"sensors", std::move(sensors)}}));
   };
   auto calibrator = std::make_unique<Calibrator>(array.datasheet, array.gravity, run.options);
   add(study::frame_of(array.datasheet, calibrator->parameters()), Json());
@@ -78,13 +78,13 @@ std::uint32_t fewest_samples(const std::vector<Station>& stations) {
 /// Of a fit that was made here.
 CalibrationPart part_of(CalibrationRun run, const io::ArrayFile& array, const char* mode) {
   CalibrationPart out;
-  out.section = {{"mode", mode}, {"accepted", run.accepted != nullptr}};
+  out.section = io::object({{"mode", mode}, {"accepted", run.accepted != nullptr}});
   if (!run.accepted) {
     const Refusal refusal = refusal_of(run, array);
     out.section["reason"] = refusal.reason;
     out.section["remedy"] = refusal.next;
   }
-  out.section["fit"] = Json::parse(fit_json(run, array));
+  out.section["fit"] = io::parsed(fit_json(run, array));
   out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
     out.section["sensors"] = sensors_of(*run.accepted);
@@ -101,8 +101,8 @@ Json planned_attitudes(const Json& stations) {
     if (!station["down"].is_array()) continue;
     const double x = station["down"][0], y = station["down"][1], z = station["down"][2];
     const double turn = std::atan2(-x, -y);
-    out.push_back({{"inclination_deg", deg_from_rad(std::acos(std::clamp(z, -1.0, 1.0)))},
-                   {"toolface_deg", deg_from_rad(turn < 0.0 ? turn + 2.0 * kPi : turn)}});
+    out.push_back(io::object({{"inclination_deg", deg_from_rad(std::acos(std::clamp(z, -1.0, 1.0)))},
+                              {"toolface_deg", deg_from_rad(turn < 0.0 ? turn + 2.0 * kPi : turn)}}));
   }
   return out;
 }
@@ -139,21 +139,21 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
   if (!file) return tl::unexpected<io::FileError>(file.error());
   CalibrationPart out;
   const FitReport& report = file->calibration.report;
-  out.section = {{"mode", "calibration file"}, {"accepted", true}};
-  out.section["file"] = {{"stations", report.stations},
-                         {"parameters", report.parameters},
-                         {"rank", report.rank},
-                         {"gauge", report.gauge},
-                         {"condition", report.condition},
-                         {"excitation", report.excitation},
-                         {"norm_rms_mps2", report.norm_rms_mps2},
-                         {"parity_rms_mps2", report.parity_rms_mps2},
-                         {"p_value", report.p_value},
-                         {"outliers", report.outliers},
-                         {"temperature_min_degc", report.temperature_min_degc},
-                         {"temperature_max_degc", report.temperature_max_degc},
-                         {"log", file->context.log_file},
-                         {"made_by", file->context.plumb_version}};
+  out.section = io::object({{"mode", "calibration file"}, {"accepted", true}});
+  out.section["file"] = io::object({{"stations", report.stations},
+                                    {"parameters", report.parameters},
+                                    {"rank", report.rank},
+                                    {"gauge", report.gauge},
+                                    {"condition", report.condition},
+                                    {"excitation", report.excitation},
+                                    {"norm_rms_mps2", report.norm_rms_mps2},
+                                    {"parity_rms_mps2", report.parity_rms_mps2},
+                                    {"p_value", report.p_value},
+                                    {"outliers", report.outliers},
+                                    {"temperature_min_degc", report.temperature_min_degc},
+                                    {"temperature_max_degc", report.temperature_max_degc},
+                                    {"log", file->context.log_file},
+                                    {"made_by", file->context.plumb_version}});
   out.section["sensors"] = sensors_of(file->calibration);
   out.e_cal_mps2 = worst_of(file->calibration);
   out.calibration = std::make_unique<const Calibration>(file->calibration);
@@ -178,30 +178,31 @@ CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t 
   auto simulator = scenario::Simulator::make(stand);
   if (!simulator) {
     CalibrationPart out;
-    out.section = {
-        {"mode", "predicted"}, {"accepted", false}, {"reason", "the stand cannot be simulated: " + simulator.error()}};
+    out.section = io::object({{"mode", "predicted"},
+                              {"accepted", false},
+                              {"reason", "the stand cannot be simulated: " + simulator.error()}});
     return out;
   }
   std::vector<Sample> samples;
   Sample sample;
   while (simulator->next(sample)) samples.push_back(sample);
   CalibrationPart out = part_of(run_calibration(array, samples), array, "predicted");
-  out.section["planned"] = {{"stations", kPlannedStations},
-                            {"samples_each", samples.size() / kPlannedStations},
-                            {"seconds_each", dwell_s},
-                            {"attitudes", planned_attitudes(out.section["fit"]["stations"])}};
+  out.section["planned"] = io::object({{"stations", kPlannedStations},
+                                       {"samples_each", samples.size() / kPlannedStations},
+                                       {"seconds_each", dwell_s},
+                                       {"attitudes", planned_attitudes(out.section["fit"]["stations"])}});
   return out;
 }
 
 Json array_section(const GeometrySubject& subject, const GeometryStudy& study) {
-  Json out = Json::parse(geometry_json(subject, study));
+  Json out = io::parsed(geometry_json(subject, study));
   Json map = Json::array();
   for (const report::GeometryPictures::Point& p : study.map)
     map.push_back({p.inclination_deg, p.toolface_deg, std::isfinite(p.clear_from_g0) ? Json(p.clear_from_g0) : Json(),
                    std::isfinite(p.nearest_mirror_g0) ? Json(p.nearest_mirror_g0) : Json(), p.blind_sensors});
-  out["attitude_map"] = {
-      {"columns", {"inclination_deg", "toolface_deg", "clear_from_g0", "nearest_mirror_g0", "blind_sensors"}},
-      {"rows", std::move(map)}};
+  out["attitude_map"] = io::object({{"columns", io::texts({"inclination_deg", "toolface_deg", "clear_from_g0",
+                                                           "nearest_mirror_g0", "blind_sensors"})},
+                                    {"rows", std::move(map)}});
   return out;
 }
 
@@ -222,7 +223,7 @@ std::set<std::pair<std::string, std::string>> possible_moves(const Json& machine
 }  // namespace
 
 Json machine_section(const Json& replayed) {
-  Json out = Json::parse(model_json());
+  Json out = io::parsed(model_json());
   if (replayed.is_null()) {
     out["coverage"] = Json();
     return out;

@@ -1,12 +1,12 @@
 /// The sections of the verification report that the other commands of the tool know how to make.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "geometry_study.hpp"
 #include "pipeline.hpp"
 #include "plumb/io/array_file.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/scenario/truth.hpp"
 
 namespace plumb {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "plumb/campaign/result_file.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
 
 namespace plumb {
@@ -44,7 +45,7 @@ io::FileExpected<void> take_reused(const std::vector<std::string>& paths, const 
         "play faults.toml or healthy.toml of this report: plumb campaign faults.toml --scenarios N --out faults.json";
     const io::FileExpected<std::string> text = io::read_file(path);
     if (!text) return tl::unexpected<io::FileError>(text.error());
-    const Json json = Json::parse(*text, nullptr, false);
+    const Json json = io::parsed(*text);
     if (json.is_discarded() || !json.is_object() || !json.value("scenarios", Json()).is_number_unsigned() ||
         !json.value("campaign", Json()).is_string())
       return refuse(path, "is no result of a campaign", remedy);
@@ -69,10 +70,11 @@ io::FileExpected<void> take_reused(const std::vector<std::string>& paths, const 
       rates["false_alarm_per_block"] = report::rate_json(alarms, at_risk);
       rates["false_alarm_per_block"]["words"] = "false alarms, blocks up to the first";
     }
-    section[healthy ? "healthy" : "faults"]["reused"] = {{"file", std::filesystem::path(path).filename().string()},
-                                                         {"plan_hash", json["plan_hash"]},
-                                                         {"scenarios", scenarios},
-                                                         {"rates", std::move(rates)}};
+    section[healthy ? "healthy" : "faults"]["reused"] =
+        io::object({{"file", std::filesystem::path(path).filename().string()},
+                    {"plan_hash", json["plan_hash"]},
+                    {"scenarios", scenarios},
+                    {"rates", std::move(rates)}});
   }
   return {};
 }

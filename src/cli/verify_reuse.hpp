@@ -1,7 +1,6 @@
 /// Results of longer campaigns, played elsewhere (plumb campaign, plumb-campaign-mpi), in a verification report.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 

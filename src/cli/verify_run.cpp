@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "plumb/health/health_monitor.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/report/change.hpp"
 #include "plumb/report/evidence.hpp"
@@ -62,7 +62,8 @@ struct Inputs {
   std::optional<report::AssuranceResults> assurance;
   std::optional<Json> before;
   Json analysis = report::no_analysis();
-  Json resources = {{"given", false}, {"how", "--resources build/metal/results.json, from scripts/baremetal"}};
+  Json resources =
+      io::object({{"given", false}, {"how", "--resources build/metal/results.json, from scripts/baremetal"}});
   Json files = Json::array();  ///< what the report rests on, hashed
 };
 
@@ -146,7 +147,7 @@ GeometrySubject subject_of(const io::ArrayFile& array, const CalibrationPart& pa
   return out;
 }
 
-Json not_played(const std::string& reason) { return {{"played", false}, {"reason", reason}}; }
+Json not_played(const std::string& reason) { return io::object({{"played", false}, {"reason", reason}}); }
 
 /// One campaign; `section` says why it was not played where it could not be.
 io::FileExpected<std::optional<report::Trials>> play(const std::string& text, const char* what, int threads,
@@ -170,7 +171,7 @@ io::FileExpected<std::optional<report::Trials>> play(const std::string& text, co
 
 io::FileExpected<void> play_campaigns(const VerifyOptions& options, const report::TrialSettings& settings, int threads,
                                       Verification& out, Json& section, std::vector<std::int64_t>& step_ns) {
-  section = {{"healthy", Json()}, {"faults", Json()}};
+  section = io::object({{"healthy", Json()}, {"faults", Json()}});
   if (out.array.monitor.mode == MonitorMode::paper) {
     section["healthy"] = section["faults"] =
         not_played("the array file asks for the paper's mode; campaigns play plumb's monitor only");
@@ -229,10 +230,10 @@ std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
 }
 
 Json resources_section(const io::ArrayFile& array, const Json& target) {
-  return {{"sensors", array.array.size()},
-          {"tool_capacity", kCapacity},
-          {"tool_monitor_bytes", sizeof(HealthMonitor)},
-          {"target", target}};
+  return io::object({{"sensors", array.array.size()},
+                     {"tool_capacity", kCapacity},
+                     {"tool_monitor_bytes", sizeof(HealthMonitor)},
+                     {"target", target}});
 }
 
 }  // namespace
@@ -265,10 +266,10 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["schema"] = report::kReportSchema;
   report["version"] = report::kReportVersion;
   report["run"] = Json::object();
-  report["subject"] = {{"name", out.array.name},
-                       {"sensors", out.array.array.size()},
-                       {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"},
-                       {"samples_per_row", part->samples_per_row}};
+  report["subject"] = io::object({{"name", out.array.name},
+                                  {"sensors", out.array.array.size()},
+                                  {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"},
+                                  {"samples_per_row", part->samples_per_row}});
   report["verdict"] = Json();
   report["array"] = array_section(subject, study_geometry(subject));
   report["calibration"] = part->section;
@@ -278,17 +279,18 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   report["traceability"]["source"] = options.traceability.empty() ? "built in" : "file";
   report["analysis"] = inputs->analysis;
   report["resources"] = resources_section(out.array, inputs->resources);
-  report["identity"] = {{"build", report::build_json()},
-                        {"inputs", inputs->files},
-                        {"seed", options.seed},
-                        {"scenarios", scenarios},
-                        {"command", command_of(options, scenarios)}};
+  report["identity"] = io::object({{"build", report::build_json()},
+                                   {"inputs", inputs->files},
+                                   {"seed", options.seed},
+                                   {"scenarios", scenarios},
+                                   {"command", command_of(options, scenarios)}});
   report["verdict"] = report::verdict_section(inputs->limits, report);
-  report["change"] = inputs->before ? report::change_section(*inputs->before, report)
-                                    : Json{{"given", false}, {"how", "--compare report.json of an earlier run"}};
-  report["run"] = {{"threads", threads},
-                   {"seconds", seconds_since(start)},
-                   {"monitor_step", report::step_times_json(std::move(step_ns))}};
+  report["change"] = inputs->before
+                         ? report::change_section(*inputs->before, report)
+                         : io::object({{"given", false}, {"how", "--compare report.json of an earlier run"}});
+  report["run"] = io::object({{"threads", threads},
+                              {"seconds", seconds_since(start)},
+                              {"monitor_step", report::step_times_json(std::move(step_ns))}});
   return out;
 }
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "plumb/io/array_file.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/trials.hpp"
 
 namespace plumb {

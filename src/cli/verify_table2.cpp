@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plumb/array/named.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/scenario/library.hpp"
 #include "plumb/study/table2_study.hpp"
 #include "verify_parts.hpp"
@@ -15,7 +16,7 @@ namespace {
 /// Within so much the axes and the scales of an array file are the paper's.
 constexpr double kSameAxis = 1e-3, kSameScale = 0.01;
 
-Json not_given(const std::string& reason) { return {{"given", false}, {"reason", reason}}; }
+Json not_given(const std::string& reason) { return io::object({{"given", false}, {"reason", reason}}); }
 
 /// Why the experiments cannot be played with this array; empty where they can.
 std::string difference(const io::ArrayFile& array) {
@@ -42,21 +43,21 @@ Json rows_of(const study::Table2Study& study) {
     Json triples = Json::array();
     for (std::size_t k = 0; k < printed.mae_triple_g.size(); ++k)
       triples.push_back(g0_from_mps2(r.finding.mae_triple_mps2[k]));
-    out.push_back({{"number", printed.number},
-                   {"faulty", sensors_json(printed.faulty)},
-                   {"voltage", study::to_string(printed.level)},
-                   {"mae_all_g0", g0_from_mps2(r.finding.mae_all_mps2)},
-                   {"printed_mae_all_g", printed.mae_all_g},
-                   {"mae_triple_g0", std::move(triples)},
-                   {"printed_mae_triple_g", printed.mae_triple_g},
-                   {"detected", r.finding.detected},
-                   {"isolated", sensors_json(r.finding.isolated)},
-                   {"as_printed", r.same_verdict},
-                   {"monitor_state", to_string(r.state)},
-                   {"monitor_excluded", sensors_json(r.excluded)},
-                   {"monitor_after_attitudes", r.named_after},
-                   {"monitor_named_a_healthy_one", (r.ever_named.bits & ~printed.faulty.bits) != 0},
-                   {"monitor_silent_attitudes", r.silent}});
+    out.push_back(io::object({{"number", printed.number},
+                              {"faulty", sensors_json(printed.faulty)},
+                              {"voltage", study::to_string(printed.level)},
+                              {"mae_all_g0", g0_from_mps2(r.finding.mae_all_mps2)},
+                              {"printed_mae_all_g", printed.mae_all_g},
+                              {"mae_triple_g0", std::move(triples)},
+                              {"printed_mae_triple_g", printed.mae_triple_g},
+                              {"detected", r.finding.detected},
+                              {"isolated", sensors_json(r.finding.isolated)},
+                              {"as_printed", r.same_verdict},
+                              {"monitor_state", to_string(r.state)},
+                              {"monitor_excluded", sensors_json(r.excluded)},
+                              {"monitor_after_attitudes", r.named_after},
+                              {"monitor_named_a_healthy_one", (r.ever_named.bits & ~printed.faulty.bits) != 0},
+                              {"monitor_silent_attitudes", r.silent}}));
   }
   return out;
 }
@@ -73,11 +74,11 @@ Json table2_section(const io::ArrayFile& array, std::uint64_t seed) {
   if (!fits) return not_given(fits.error());
   const auto study = study::table2_study(*fits, tool, seed);
   if (!study) return not_given(study.error());
-  return {{"given", true},
-          {"experiments", study::kExperiments},
-          {"as_printed", study->same_verdicts()},
-          {"attitudes", study::kTable2Attitudes},
-          {"rows", rows_of(*study)}};
+  return io::object({{"given", true},
+                     {"experiments", study::kExperiments},
+                     {"as_printed", study->same_verdicts()},
+                     {"attitudes", study::kTable2Attitudes},
+                     {"rows", rows_of(*study)}});
 }
 
 }  // namespace cli

@@ -1,7 +1,7 @@
 /// Table 2 of the paper, played with the user's own tool where that is the paper's tetrahedron.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "plumb/io/array_file.hpp"
 

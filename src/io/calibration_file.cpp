@@ -16,25 +16,25 @@ namespace io {
 namespace {
 
 Json from_coefficients(const SensorCoefficients& c) {
-  return {{"scale", from_array(c.scale, 4)},
-          {"bias_mps2", from_array(c.bias, 4)},
-          {"reference_degc", from_double(c.reference_degc)}};
+  return object({{"scale", from_array(c.scale, 4)},
+                 {"bias_mps2", from_array(c.bias, 4)},
+                 {"reference_degc", from_double(c.reference_degc)}});
 }
 
 Json from_nominal(const ArrayFile& array) {
   Json sensors = Json::array();
   for (int i = 0; i < array.datasheet.size; ++i) {
     const DatasheetSensor& sensor = array.datasheet.sensor[static_cast<std::size_t>(i)];
-    Json one = {{"id", sensor.row.id.data()}, {"axis", from_array(sensor.row.axis, 3)}};
+    Json one = object({{"id", sensor.row.id.data()}, {"axis", from_array(sensor.row.axis, 3)}});
     one.update(from_coefficients(sensor.coefficients));
     sensors.push_back(std::move(one));
   }
-  return {{"name", array.name},
-          {"file", last_part(array.path)},
-          {"fingerprint", hex(array.fingerprint)},
-          {"reads", reads_word(array.datasheet.reads)},
-          {"raw_unit", array.input.unit.name},
-          {"nominal", std::move(sensors)}};
+  return object({{"name", array.name},
+                 {"file", last_part(array.path)},
+                 {"fingerprint", hex(array.fingerprint)},
+                 {"reads", reads_word(array.datasheet.reads)},
+                 {"raw_unit", array.input.unit.name},
+                 {"nominal", std::move(sensors)}});
 }
 
 Json from_sensors(const Calibration& calibration) {
@@ -42,7 +42,7 @@ Json from_sensors(const Calibration& calibration) {
   for (int i = 0; i < calibration.array.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const SensorRow& row = calibration.array.row(i);
-    Json one = {{"id", row.id.data()}, {"axis", from_array(row.axis, 3)}};
+    Json one = object({{"id", row.id.data()}, {"axis", from_array(row.axis, 3)}});
     one.update(from_coefficients(calibration.model.sensor[k]));
     one["sigma_mps2"] = from_double(row.sigma_mps2);
     one["misfit_mps2"] = from_double(calibration.array.uncertainty().misfit_mps2[k]);
@@ -57,13 +57,13 @@ Json from_sensors(const Calibration& calibration) {
 
 /// Only where stations had roll groups: a file without is as it was before there were any.
 Json from_roll(const FitReport& report) {
-  return {{"groups", report.roll_groups},
-          {"lone", report.lone_rolls},
-          {"axis", from_array(report.roll_axis, 3)},
-          {"wobble_rad", from_double(report.roll_wobble_rad)},
-          {"inclination_sigma_rad", from_double(report.inclination_sigma_rad)},
-          {"common_turn_rad", from_double(report.common_turn.rad)},
-          {"common_turn_sigma_rad", from_double(report.common_turn.sigma_rad)}};
+  return object({{"groups", report.roll_groups},
+                 {"lone", report.lone_rolls},
+                 {"axis", from_array(report.roll_axis, 3)},
+                 {"wobble_rad", from_double(report.roll_wobble_rad)},
+                 {"inclination_sigma_rad", from_double(report.inclination_sigma_rad)},
+                 {"common_turn_rad", from_double(report.common_turn.rad)},
+                 {"common_turn_sigma_rad", from_double(report.common_turn.sigma_rad)}});
 }
 
 Json from_report(const FitReport& report, std::size_t n) {
@@ -71,24 +71,24 @@ Json from_report(const FitReport& report, std::size_t n) {
   const int kept = std::clamp(report.null_directions, 0, kMaxNullDirections);
   for (int d = 0; d < kept; ++d)
     unseen.push_back(from_array(report.null_direction[static_cast<std::size_t>(d)].component, 4 * n));
-  Json out = {{"stations", report.stations},
-              {"parameters", report.parameters},
-              {"rank", report.rank},
-              {"gauge", report.gauge},
-              {"null_directions", report.null_directions},
-              {"null_direction", std::move(unseen)},
-              {"condition", from_double(report.condition)},
-              {"norm_rms_mps2", from_double(report.norm_rms_mps2)},
-              {"parity_rms_mps2", from_double(report.parity_rms_mps2)},
-              {"misfit_mps2", from_double(report.misfit_mps2)},
-              {"chi2", from_double(report.chi2)},
-              {"degrees_of_freedom", report.degrees_of_freedom},
-              {"p_value", from_double(report.p_value)},
-              {"excitation", from_double(report.excitation)},
-              {"temperature_min_degc", from_double(report.temperature_min_degc)},
-              {"temperature_max_degc", from_double(report.temperature_max_degc)},
-              {"iterations", report.iterations},
-              {"stop", to_string(report.stop)}};
+  Json out = object({{"stations", report.stations},
+                     {"parameters", report.parameters},
+                     {"rank", report.rank},
+                     {"gauge", report.gauge},
+                     {"null_directions", report.null_directions},
+                     {"null_direction", std::move(unseen)},
+                     {"condition", from_double(report.condition)},
+                     {"norm_rms_mps2", from_double(report.norm_rms_mps2)},
+                     {"parity_rms_mps2", from_double(report.parity_rms_mps2)},
+                     {"misfit_mps2", from_double(report.misfit_mps2)},
+                     {"chi2", from_double(report.chi2)},
+                     {"degrees_of_freedom", report.degrees_of_freedom},
+                     {"p_value", from_double(report.p_value)},
+                     {"excitation", from_double(report.excitation)},
+                     {"temperature_min_degc", from_double(report.temperature_min_degc)},
+                     {"temperature_max_degc", from_double(report.temperature_max_degc)},
+                     {"iterations", report.iterations},
+                     {"stop", to_string(report.stop)}});
   if (report.roll_groups > 0) out["roll"] = from_roll(report);
   return out;
 }
@@ -157,14 +157,14 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
   root["version"] = kCalibrationVersion;
   root["checksum"] = "";
   root["array"] = from_nominal(array);
-  root["gravity"] = {{"model", to_string(context.gravity.model)},
-                     {"g_mps2", from_double(context.gravity.g_mps2)},
-                     {"sigma_mps2", from_double(context.gravity.sigma_mps2)}};
-  root["provenance"] = {{"log_file", last_part(context.log_file)},
-                        {"log_bytes", context.log_bytes},
-                        {"log_hash", hex(context.log_hash)},
-                        {"stations", context.stations},
-                        {"plumb_version", context.plumb_version}};
+  root["gravity"] = object({{"model", to_string(context.gravity.model)},
+                            {"g_mps2", from_double(context.gravity.g_mps2)},
+                            {"sigma_mps2", from_double(context.gravity.sigma_mps2)}});
+  root["provenance"] = object({{"log_file", last_part(context.log_file)},
+                               {"log_bytes", context.log_bytes},
+                               {"log_hash", hex(context.log_hash)},
+                               {"stations", context.stations},
+                               {"plumb_version", context.plumb_version}});
   root["report"] = from_report(calibration.report, n);
   root["sensors"] = from_sensors(calibration);
   root["paper_parameters"] = from_paper_parameters(array.array, calibration);

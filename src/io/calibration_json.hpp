@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/core/config.hpp"
+#include "plumb/io/json_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

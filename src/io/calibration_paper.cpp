@@ -38,16 +38,16 @@ Json from_fit(const PaperFit& fit, const SensorArray& array) {
       row.push_back(from_double(fit.model.misalignment[a * kCapacity + static_cast<std::size_t>(j)]));
     misalignment.push_back(std::move(row));
   }
-  return {{"used", ids_of(fit.used, array)},
-          {"converged", fit.converged},
-          {"stop", to_string(fit.stop)},
-          {"iterations", fit.iterations},
-          {"rank", fit.rank},
-          {"start_cost_m4ps8", from_double(fit.start_cost)},
-          {"cost_m4ps8", from_double(fit.cost)},
-          {"scale", std::move(scale)},
-          {"bias_mps2", std::move(bias)},
-          {"misalignment", std::move(misalignment)}};
+  return object({{"used", ids_of(fit.used, array)},
+                 {"converged", fit.converged},
+                 {"stop", to_string(fit.stop)},
+                 {"iterations", fit.iterations},
+                 {"rank", fit.rank},
+                 {"start_cost_m4ps8", from_double(fit.start_cost)},
+                 {"cost_m4ps8", from_double(fit.cost)},
+                 {"scale", std::move(scale)},
+                 {"bias_mps2", std::move(bias)},
+                 {"misalignment", std::move(misalignment)}});
 }
 
 PaperFit fit_from(const Source& source, const Json& object, const std::string& name, SensorSet expected,
@@ -159,7 +159,8 @@ void check_paper(const Source& source, const PaperCalibration& paper, const Cali
 Json from_paper(const PaperCalibration& paper, const SensorArray& array) {
   Json triples = Json::array();
   for (int k = 0; k < paper.triples; ++k) triples.push_back(from_fit(paper.triple[static_cast<std::size_t>(k)], array));
-  return {{"version", kPaperSectionVersion}, {"all", from_fit(paper.all, array)}, {"triples", std::move(triples)}};
+  return object(
+      {{"version", kPaperSectionVersion}, {"all", from_fit(paper.all, array)}, {"triples", std::move(triples)}});
 }
 
 std::shared_ptr<const PaperCalibration> read_paper(const Source& source, const Json& section, const ArrayFile& array) {

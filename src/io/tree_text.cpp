@@ -1,7 +1,7 @@
 // The tree in and out of text other than what toml11 reads: JSON both ways, and TOML written.
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/io/units.hpp"
 #include "toml_tree.hpp"

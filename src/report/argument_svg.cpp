@@ -2,9 +2,8 @@
 // round.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "markup.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/verification_exports.hpp"
 
 namespace plumb {

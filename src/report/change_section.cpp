@@ -1,6 +1,6 @@
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/report/change.hpp"
 
@@ -103,7 +103,7 @@ class Differences {
     if (out_.size() == kMostListed) {
       ++left_out_;
     } else {
-      out_.push_back({{"where", path}, {"before", std::move(before)}, {"now", std::move(now)}});
+      out_.push_back(io::object({{"where", path}, {"before", std::move(before)}, {"now", std::move(now)}}));
     }
   }
 
@@ -116,7 +116,7 @@ class Differences {
 io::FileExpected<Json> read_report(const std::string& path) {
   const io::FileExpected<std::string> text = io::read_file(path);
   if (!text) return tl::unexpected<io::FileError>(text.error());
-  Json json = Json::parse(*text, nullptr, false);
+  Json json = io::parsed(*text);
   const auto refuse = [&path](const std::string& what) {
     return tl::unexpected<io::FileError>(
         io::FileError{path, 0, "", what, "name the report.json of an earlier plumb verify"});
@@ -138,12 +138,12 @@ Json change_section(const Json& before, const Json& now) {
     return part.is_object() ? part.value(key, Json()) : Json();
   };
   const std::size_t count = list.size() + left_out;
-  return {{"given", true},
-          {"verdict_before", at(before, "verdict", "verdict")},
-          {"verdict_now", at(now, "verdict", "verdict")},
-          {"count", count},
-          {"left_out", left_out},
-          {"differences", std::move(list)}};
+  return io::object({{"given", true},
+                     {"verdict_before", at(before, "verdict", "verdict")},
+                     {"verdict_now", at(now, "verdict", "verdict")},
+                     {"count", count},
+                     {"left_out", left_out},
+                     {"differences", std::move(list)}});
 }
 
 }  // namespace report

@@ -1,11 +1,11 @@
 #include "plumb/report/evidence.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <fmt/format.h>
 
 #include <cctype>
 #include <charconv>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -76,7 +76,7 @@ bool is_talk(const std::string& line) {
 }
 
 Json place_of(const Line& line) {
-  return {{"file", line.file}, {"line", line.line}, {"column", line.column}, {"text", line.text}};
+  return io::object({{"file", line.file}, {"line", line.line}, {"column", line.column}, {"text", line.text}});
 }
 
 /// A path as a URI reference (RFC 3986): what is not unreserved is spelled by its bytes; an absolute one names its
@@ -93,9 +93,10 @@ std::string uri_of(const std::string& path) {
 }
 
 Json location_of(const Json& place) {
-  return {{"physicalLocation",
-           {{"artifactLocation", {{"uri", uri_of(place["file"].get<std::string>())}}},
-            {"region", {{"startLine", place["line"]}, {"startColumn", place["column"]}}}}}};
+  return io::object(
+      {{"physicalLocation",
+        io::object({{"artifactLocation", io::object({{"uri", uri_of(place["file"].get<std::string>())}})},
+                    {"region", io::object({{"startLine", place["line"]}, {"startColumn", place["column"]}})}})}});
 }
 
 }  // namespace
@@ -130,12 +131,12 @@ io::FileExpected<Json> parse_analysis(const std::string& text, const std::string
     return refuse(path, "holds no line of clang-tidy",
                   "give what it printed: clang-tidy --quiet -p build/release FILE... > clang-tidy.log");
   Json checks = Json::array();
-  for (const auto& [check, count] : by_check) checks.push_back({{"check", check}, {"count", count}});
-  return Json{{"given", true},
-              {"tool", "clang-tidy"},
-              {"findings", results.size()},
-              {"by_check", std::move(checks)},
-              {"results", std::move(results)}};
+  for (const auto& [check, count] : by_check) checks.push_back(io::object({{"check", check}, {"count", count}}));
+  return io::object({{"given", true},
+                     {"tool", "clang-tidy"},
+                     {"findings", results.size()},
+                     {"by_check", std::move(checks)},
+                     {"results", std::move(results)}});
 }
 
 io::FileExpected<Json> read_analysis(const std::string& path) {
@@ -144,7 +145,9 @@ io::FileExpected<Json> read_analysis(const std::string& path) {
   return parse_analysis(*text, path);
 }
 
-Json no_analysis() { return {{"given", false}, {"how", "--analysis clang-tidy.log, what clang-tidy printed"}}; }
+Json no_analysis() {
+  return io::object({{"given", false}, {"how", "--analysis clang-tidy.log, what clang-tidy printed"}});
+}
 
 std::string sarif_json(const Json& analysis, const std::string& version) {
   Json rules = Json::array(), results = Json::array();
@@ -152,42 +155,42 @@ std::string sarif_json(const Json& analysis, const std::string& version) {
   for (const Json& row : analysis["by_check"]) {
     const std::string check = row["check"];
     index.emplace(check, rules.size());
-    rules.push_back({{"id", check}});
+    rules.push_back(io::object({{"id", check}}));
   }
   for (const Json& found : analysis["results"]) {
-    Json one = {{"ruleId", found["check"]},
-                {"ruleIndex", index.at(found["check"].get<std::string>())},
-                {"level", found["level"]},
-                {"message", {{"text", found["text"]}}},
-                {"locations", Json::array({location_of(found)})}};
+    Json one = io::object({{"ruleId", found["check"]},
+                           {"ruleIndex", index.at(found["check"].get<std::string>())},
+                           {"level", found["level"]},
+                           {"message", io::object({{"text", found["text"]}})},
+                           {"locations", Json::array({location_of(found)})}});
     Json related = Json::array();
     for (const Json& note : found["notes"]) {
       Json place = location_of(note);
       place["id"] = related.size();
-      place["message"] = {{"text", note["text"]}};
+      place["message"] = io::object({{"text", note["text"]}});
       related.push_back(std::move(place));
     }
     if (!related.empty()) one["relatedLocations"] = std::move(related);
     results.push_back(std::move(one));
   }
-  Json run = {{"tool",
-               {{"driver",
-                 {{"name", "clang-tidy"},
-                  {"informationUri", "https://clang.llvm.org/extra/clang-tidy/"},
-                  {"rules", std::move(rules)},
-                  {"properties", {{"convertedBy", "plumb " + version}}}}}}},
-              {"columnKind", "utf16CodeUnits"},
-              {"results", std::move(results)}};
-  const Json out = {
-      {"$schema", "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"},
-      {"version", "2.1.0"},
-      {"runs", Json::array({std::move(run)})}};
+  Json run = io::object(
+      {{"tool",
+        io::object({{"driver", io::object({{"name", "clang-tidy"},
+                                           {"informationUri", "https://clang.llvm.org/extra/clang-tidy/"},
+                                           {"rules", std::move(rules)},
+                                           {"properties", io::object({{"convertedBy", "plumb " + version}})}})}})},
+       {"columnKind", "utf16CodeUnits"},
+       {"results", std::move(results)}});
+  const Json out = io::object(
+      {{"$schema", "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"},
+       {"version", "2.1.0"},
+       {"runs", Json::array({std::move(run)})}});
   return out.dump(1) + "\n";
 }
 
 io::FileExpected<Json> parse_resources(const std::string& text, const std::string& path) {
   const std::string remedy = "write it by scripts/baremetal: build/metal/results.json";
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = io::parsed(text);
   if (json.is_discarded() || !json.is_object()) return refuse(path, "is not a JSON object", remedy);
   if (json.value("schema", Json()) != Json("plumb-resources") || json.value("version", Json()) != Json(1))
     return refuse(path, "is not of the schema plumb-resources, version 1", remedy);
@@ -201,13 +204,13 @@ io::FileExpected<Json> parse_resources(const std::string& text, const std::strin
       return refuse(path, "has an item without name, unit, target or value", remedy);
     const Json limit = item.value("limit", Json());
     if (!limit.is_null() && !limit.is_number()) return refuse(path, "has a limit that is no number", remedy);
-    items.push_back({{"target", item["target"]},
-                     {"name", item["name"]},
-                     {"value", item["value"]},
-                     {"limit", limit},
-                     {"unit", item["unit"]}});
+    items.push_back(io::object({{"target", item["target"]},
+                                {"name", item["name"]},
+                                {"value", item["value"]},
+                                {"limit", limit},
+                                {"unit", item["unit"]}}));
   }
-  return Json{{"given", true}, {"commit", json["commit"]}, {"items", std::move(items)}};
+  return io::object({{"given", true}, {"commit", json["commit"]}, {"items", std::move(items)}});
 }
 
 io::FileExpected<Json> read_resources(const std::string& path) {

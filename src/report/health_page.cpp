@@ -1,4 +1,5 @@
 #include "plumb/report/health_page.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <fmt/format.h>
 

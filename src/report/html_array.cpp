@@ -4,6 +4,7 @@
 #include "figures.hpp"
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/plot.hpp"
 #include "plumb/report/verification_exports.hpp"
 

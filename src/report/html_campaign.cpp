@@ -5,6 +5,7 @@
 
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

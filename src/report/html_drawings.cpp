@@ -8,6 +8,7 @@
 #include "html_view.hpp"
 #include "markup.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/plot.hpp"
 
 namespace plumb {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "html_view.hpp"
+#include "plumb/io/json_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "markup.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "verification_template.hpp"
 
 namespace plumb {

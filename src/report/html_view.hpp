@@ -3,7 +3,7 @@
 
 #include <array>
 #include <kainjow/mustache.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>

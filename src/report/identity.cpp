@@ -1,4 +1,5 @@
 #include "plumb/report/identity.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +7,6 @@
 #include <array>
 #include <boost/version.hpp>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "build_identity.hpp"
 #include "plumb/core/units.hpp"
@@ -71,7 +71,7 @@ std::string sha256(std::string_view bytes) {
 Json build_json() {
   Json libraries = Json::array();
   const auto add = [&libraries](const char* name, const std::string& version, const char* licence) {
-    libraries.push_back({{"name", name}, {"version", version}, {"licence", licence}});
+    libraries.push_back(io::object({{"name", name}, {"version", version}, {"licence", licence}}));
   };
   add("Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION), "MPL-2.0");
   add("fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100), "MIT");
@@ -83,17 +83,21 @@ Json build_json() {
 #ifdef __GLIBCXX__
   add("libstdc++", std::to_string(__GLIBCXX__), "GPL-3.0-or-later WITH GCC-exception-3.1");
 #endif
-  return {{"version", PLUMB_VERSION},         {"commit", PLUMB_COMMIT},         {"compiler", PLUMB_BUILD_COMPILER},
-          {"flags", PLUMB_BUILD_FLAGS},       {"build_type", PLUMB_BUILD_TYPE}, {"target", PLUMB_BUILD_TARGET},
-          {"libraries", std::move(libraries)}};
+  return io::object({{"version", PLUMB_VERSION},
+                     {"commit", PLUMB_COMMIT},
+                     {"compiler", PLUMB_BUILD_COMPILER},
+                     {"flags", PLUMB_BUILD_FLAGS},
+                     {"build_type", PLUMB_BUILD_TYPE},
+                     {"target", PLUMB_BUILD_TARGET},
+                     {"libraries", std::move(libraries)}});
 }
 
 Json input_json(const char* role, const std::string& path, std::string_view bytes) {
   const std::size_t slash = path.find_last_of('/');
-  return {{"role", role},
-          {"name", slash == std::string::npos ? path : path.substr(slash + 1)},
-          {"bytes", bytes.size()},
-          {"sha256", sha256(bytes)}};
+  return io::object({{"role", role},
+                     {"name", slash == std::string::npos ? path : path.substr(slash + 1)},
+                     {"bytes", bytes.size()},
+                     {"sha256", sha256(bytes)}});
 }
 
 }  // namespace report

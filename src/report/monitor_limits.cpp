@@ -1,10 +1,10 @@
 #include "plumb/report/monitor_limits.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "plumb/detection/mae_test.hpp"
@@ -162,7 +162,7 @@ std::string row(const char* name, const TestLimit& t, bool with_bias) {
 }
 
 nlohmann::ordered_json json_of(const TestLimit& t) {
-  return {{"noise_mps2", t.noise_mps2}, {"systematic_mps2", t.systematic_mps2}, {"bias_mps2", t.bias_mps2}};
+  return io::object({{"noise_mps2", t.noise_mps2}, {"systematic_mps2", t.systematic_mps2}, {"bias_mps2", t.bias_mps2}});
 }
 
 }  // namespace
@@ -235,7 +235,7 @@ std::string limits_json(const MonitorLimits& l) {
   out["window"] = l.window;
   if (l.sensors > 3) out["parity"] = json_of(l.parity);
   out["length"] = json_of(l.length);
-  out["triple"] = {{"noise_mps2", l.triple.noise_mps2}, {"systematic_mps2", l.triple.systematic_mps2}};
+  out["triple"] = io::object({{"noise_mps2", l.triple.noise_mps2}, {"systematic_mps2", l.triple.systematic_mps2}});
   out["noise_mps2"] = l.noise_mps2;
   out["left_by_calibration_mps2"] = l.left_mps2;
   out["useful_samples"] = l.useful_samples > 0.0 ? nlohmann::ordered_json(l.useful_samples) : nullptr;
@@ -245,7 +245,7 @@ std::string limits_json(const MonitorLimits& l) {
     out["blind_worst_mps2"] = l.blind_worst_mps2;
     out["blind_tilt_deg"] = deg_from_rad(l.blind_tilt_rad);
   }
-  return nlohmann::ordered_json{{"limits", std::move(out)}}.dump() + "\n";
+  return io::object({{"limits", std::move(out)}}).dump() + "\n";
 }
 
 }  // namespace report

@@ -1,8 +1,8 @@
 #include "plumb/report/traceability.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "plumb/io/output_file.hpp"

@@ -1,8 +1,8 @@
 // Which requirement is checked by what, which test checks what, and what hangs in the air.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/traceability.hpp"
 
 namespace plumb {
@@ -29,12 +29,12 @@ class Requirement {
   Requirement(const Json& node, const Json& trace, const std::optional<TestResults>& tests,
               const std::optional<AssuranceResults>& assurance)
       : id_(node.value("id", "")), tests_(tests), assurance_(assurance) {
-    out_ = {{"id", id_},
-            {"title", node["title"]},
-            {"status", node["status"]},
-            {"methods", node["methods"]},
-            {"statement", node["statement"]},
-            {"hazards", node.value("hazards", Json::array())}};
+    out_ = io::object({{"id", id_},
+                       {"title", node["title"]},
+                       {"status", node["status"]},
+                       {"methods", node["methods"]},
+                       {"statement", node["statement"]},
+                       {"hazards", node.value("hazards", Json::array())}});
     Json verifying = Json::array(), negative = Json::array();
     for (const Json& test : trace["tests"]) {
       if (holds_text(test["verifies"], id_)) add_test(test, verifying);
@@ -64,11 +64,11 @@ class Requirement {
       failed_ += is == TestResult::failed ? 1 : 0;
       open_ += is == TestResult::not_run ? 1 : 0;
     }
-    list.push_back({{"name", name},
-                    {"kind", test["kind"]},
-                    {"file", test["file"]},
-                    {"line", test.value("line", 0)},
-                    {"result", result}});
+    list.push_back(io::object({{"name", name},
+                               {"kind", test["kind"]},
+                               {"file", test["file"]},
+                               {"line", test.value("line", 0)},
+                               {"result", result}}));
     for (const Json& source : test["sources"]) {
       if (!holds_text(design_, source)) design_.push_back(source);
     }
@@ -79,7 +79,7 @@ class Requirement {
     for (const Json& item : row.value("items", Json::array())) {
       const std::string name = item.value("name", "");
       if (!seen_.insert(name).second) continue;
-      Json one = {{"name", name}, {"tool", item.value("tool", "")}, {"result", Json()}};
+      Json one = io::object({{"name", name}, {"tool", item.value("tool", "")}, {"result", Json()}});
       const auto found =
           assurance_ ? assurance_->item.find(name) : std::map<std::string, AssuranceResults::Item>::const_iterator{};
       if (assurance_ && found != assurance_->item.end()) {
@@ -160,10 +160,10 @@ Json hazards_of(const Json& trace, const Json& requirements) {
     for (const Json& r : requirements) {
       if (holds_text(r["hazards"], hazard.value("id", ""))) answered.push_back(r["id"]);
     }
-    out.push_back({{"id", hazard["id"]},
-                   {"title", hazard["title"]},
-                   {"statement", hazard.value("statement", "")},
-                   {"requirements", std::move(answered)}});
+    out.push_back(io::object({{"id", hazard["id"]},
+                              {"title", hazard["title"]},
+                              {"statement", hazard.value("statement", "")},
+                              {"requirements", std::move(answered)}}));
   }
   return out;
 }
@@ -176,11 +176,11 @@ Json tests_of(const Json& trace, const std::optional<TestResults>& results) {
       const auto found = results->find(test["name"]);
       result = word(found == results->end() ? TestResult::not_run : found->second);
     }
-    out.push_back({{"name", test["name"]},
-                   {"file", test["file"]},
-                   {"verifies", test["verifies"]},
-                   {"negative", test["negative"]},
-                   {"result", result}});
+    out.push_back(io::object({{"name", test["name"]},
+                              {"file", test["file"]},
+                              {"verifies", test["verifies"]},
+                              {"negative", test["negative"]},
+                              {"result", result}}));
   }
   return out;
 }
@@ -190,7 +190,8 @@ Json tests_of(const Json& trace, const std::optional<TestResults>& results) {
 Json traceability_section(const Json& trace, const std::optional<TestResults>& tests,
                           const std::optional<AssuranceResults>& assurance) {
   Json requirements = Json::array();
-  Json counts = {{"requirements", 0}, {"active", 0}, {"verified", 0}, {"failed", 0}, {"open", 0}, {"traced", 0}};
+  Json counts =
+      io::object({{"requirements", 0}, {"active", 0}, {"verified", 0}, {"failed", 0}, {"open", 0}, {"traced", 0}});
   for (const Json& node : trace["requirements"]) {
     Json one = Requirement(node, trace, tests, assurance).json();
     counts["requirements"] = counts["requirements"].get<int>() + 1;
@@ -205,23 +206,25 @@ Json traceability_section(const Json& trace, const std::optional<TestResults>& t
   if (assurance) {
     for (const auto& [name, item] : assurance->item) {
       if (!item.listed) continue;
-      formal.push_back({{"item", name},
-                        {"title", item.title},
-                        {"kind", item.kind},
-                        {"tool", item.tool + " " + item.version},
-                        {"figure", item.figure},
-                        {"seconds", item.seconds},
-                        {"result", item.holds ? "holds" : "fails"}});
+      formal.push_back(io::object({{"item", name},
+                                   {"title", item.title},
+                                   {"kind", item.kind},
+                                   {"tool", item.tool + " " + item.version},
+                                   {"figure", item.figure},
+                                   {"seconds", item.seconds},
+                                   {"result", item.holds ? "holds" : "fails"}}));
     }
   }
-  Json out = {{"counts", std::move(counts)}};
-  out["test_results"] = tests
-                            ? Json{{"given", true}, {"tests", tests->size()}}
-                            : Json{{"given", false}, {"how", "--test-results results.xml, from ctest --output-junit"}};
+  Json out = io::object({{"counts", std::move(counts)}});
+  out["test_results"] =
+      tests ? io::object({{"given", true}, {"tests", tests->size()}})
+            : io::object({{"given", false}, {"how", "--test-results results.xml, from ctest --output-junit"}});
   out["assurance_results"] =
-      assurance
-          ? Json{{"given", true}, {"version", assurance->version}, {"complete", assurance->complete}, {"items", formal}}
-          : Json{{"given", false}, {"how", "--assurance build/assure/results.json, from scripts/assure"}};
+      assurance ? io::object({{"given", true},
+                              {"version", assurance->version},
+                              {"complete", assurance->complete},
+                              {"items", formal}})
+                : io::object({{"given", false}, {"how", "--assurance build/assure/results.json, from scripts/assure"}});
   out["orphans"] = orphans_of(trace, requirements);
   out["hazards"] = hazards_of(trace, requirements);
   out["requirements"] = std::move(requirements);

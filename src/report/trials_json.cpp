@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "plumb/campaign/replay.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/trials.hpp"
 #include "plumb/study/proportion.hpp"
 
@@ -76,8 +76,13 @@ Json times_json(const std::vector<const Trial*>& trials, double block_s, Block&&
   std::sort(blocks.begin(), blocks.end());
   const auto seconds = [block_s](const Json& n) { return n.is_null() ? n : Json(n.get<int>() * block_s); };
   const Json half = percentile(blocks, 50), most = percentile(blocks, 95), last = percentile(blocks, 100);
-  return {{"cases", blocks.size()},    {"median_blocks", half},  {"p95_blocks", most},     {"last_blocks", last},
-          {"median_s", seconds(half)}, {"p95_s", seconds(most)}, {"last_s", seconds(last)}};
+  return io::object({{"cases", blocks.size()},
+                     {"median_blocks", half},
+                     {"p95_blocks", most},
+                     {"last_blocks", last},
+                     {"median_s", seconds(half)},
+                     {"p95_s", seconds(most)},
+                     {"last_s", seconds(last)}});
 }
 
 double largest_deg(const std::vector<const Trial*>& trials, double Trial::*angle_rad) {
@@ -92,20 +97,20 @@ bool wrong(const Trial& t) { return (t.ever_excluded & ~t.faulty) != 0; }
 Json group_json(const Group& group, double block_s) {
   const std::uint64_t n = group.trial.size();
   const auto rate = [&](auto test) { return rate_json(count_if(group.trial, test), n); };
-  return {{"fault", group.fault},
-          {"faulty", group.faulty},
-          {"scenarios", n},
-          {"detected", rate([](const Trial& t) { return t.detected(); })},
-          {"isolated", rate(isolated)},
-          {"wrong_exclusion", rate(wrong)},
-          {"wrong_set_aside", rate([](const Trial& t) { return (t.ever_set_aside & ~t.faulty) != 0; })},
-          {"misleading", rate([](const Trial& t) { return t.misleading; })},
-          {"beyond_protection", rate([](const Trial& t) { return t.beyond_protection; })},
-          {"failed", rate([](const Trial& t) { return t.failed; })},
-          {"to_detect", times_json(group.trial, block_s, [](const Trial& t) { return t.alarm_block; })},
-          {"to_isolate", times_json(group.trial, block_s, [](const Trial& t) { return t.isolated_block; })},
-          {"tilt_before_alarm_deg", largest_deg(group.trial, &Trial::tilt_before_alarm_rad)},
-          {"tilt_usable_deg", largest_deg(group.trial, &Trial::tilt_usable_rad)}};
+  return io::object({{"fault", group.fault},
+                     {"faulty", group.faulty},
+                     {"scenarios", n},
+                     {"detected", rate([](const Trial& t) { return t.detected(); })},
+                     {"isolated", rate(isolated)},
+                     {"wrong_exclusion", rate(wrong)},
+                     {"wrong_set_aside", rate([](const Trial& t) { return (t.ever_set_aside & ~t.faulty) != 0; })},
+                     {"misleading", rate([](const Trial& t) { return t.misleading; })},
+                     {"beyond_protection", rate([](const Trial& t) { return t.beyond_protection; })},
+                     {"failed", rate([](const Trial& t) { return t.failed; })},
+                     {"to_detect", times_json(group.trial, block_s, [](const Trial& t) { return t.alarm_block; })},
+                     {"to_isolate", times_json(group.trial, block_s, [](const Trial& t) { return t.isolated_block; })},
+                     {"tilt_before_alarm_deg", largest_deg(group.trial, &Trial::tilt_before_alarm_rad)},
+                     {"tilt_usable_deg", largest_deg(group.trial, &Trial::tilt_usable_rad)}});
 }
 
 /// What is the case against what the monitor says at the end; every scenario in one column.
@@ -130,8 +135,8 @@ Json confusion_json(const Trials& trials) {
     }
     ++row[column];
   }
-  Json out = {{"columns", columns}, {"rows", Json::array()}};
-  for (const auto& [faulty, counts] : rows) out["rows"].push_back({{"faulty", faulty}, {"counts", counts}});
+  Json out = io::object({{"columns", columns}, {"rows", Json::array()}});
+  for (const auto& [faulty, counts] : rows) out["rows"].push_back(io::object({{"faulty", faulty}, {"counts", counts}}));
   return out;
 }
 
@@ -150,10 +155,11 @@ Json by_size_json(const Trials& trials) {
   for (int k = 0; k < kBins; ++k) {
     const auto& cases = bin[static_cast<size_t>(k)];
     if (cases.empty()) continue;
-    out.push_back({{"from_mdb", kFirst * std::exp2(0.5 * k)},
-                   {"to_mdb", kFirst * std::exp2(0.5 * (k + 1))},
-                   {"detected", rate_json(count_if(cases, [](const Trial& t) { return t.detected(); }), cases.size())},
-                   {"isolated", rate_json(count_if(cases, isolated), cases.size())}});
+    out.push_back(
+        io::object({{"from_mdb", kFirst * std::exp2(0.5 * k)},
+                    {"to_mdb", kFirst * std::exp2(0.5 * (k + 1))},
+                    {"detected", rate_json(count_if(cases, [](const Trial& t) { return t.detected(); }), cases.size())},
+                    {"isolated", rate_json(count_if(cases, isolated), cases.size())}}));
   }
   return out;
 }
@@ -165,7 +171,7 @@ Json histogram_json(const std::array<std::uint64_t, campaign::kMostBlocks>& coun
 }
 
 Json stanford_json(const campaign::Tally& tally) {
-  Json out = {{"regions", Json::object()}, {"first_octave_ends_at_deg", 0.001}, {"counts", Json::array()}};
+  Json out = io::object({{"regions", Json::object()}, {"first_octave_ends_at_deg", 0.001}, {"counts", Json::array()}});
   std::uint64_t blocks = 0;
   for (int k = 0; k < campaign::kRegions; ++k) blocks += tally.region(static_cast<campaign::Region>(k));
   for (int k = 0; k < campaign::kRegions; ++k) {
@@ -199,12 +205,12 @@ class Worst {
                       });
     for (size_t k = 0; k < shown; ++k) {
       const campaign::Spec spec = campaign::spec_of(trials_.file.plan, found[k].second->number);
-      out_.push_back({{"what", what},
-                      {"value", found[k].first},
-                      {"unit", unit},
-                      {"scenario", spec.number},
-                      {"story", campaign::sentence_of(trials_.file.plan, spec)},
-                      {"replay", command_ + " --replay " + std::to_string(spec.number)}});
+      out_.push_back(io::object({{"what", what},
+                                 {"value", found[k].first},
+                                 {"unit", unit},
+                                 {"scenario", spec.number},
+                                 {"story", campaign::sentence_of(trials_.file.plan, spec)},
+                                 {"replay", command_ + " --replay " + std::to_string(spec.number)}}));
     }
   }
   Json take() { return std::move(out_); }
@@ -219,17 +225,17 @@ Json plan_json(const Trials& trials) {
   const Plan& plan = trials.file.plan;
   Json attitudes = Json::array();
   for (const campaign::AttitudePlan& a : plan.attitudes) attitudes.push_back(a.name);
-  return {{"plan_hash", fmt::format("{:016x}", campaign::hash_of(plan))},
-          {"seed", plan.seed},
-          {"scenarios", plan.scenarios},
-          {"cells", plan.cells.size()},
-          {"stations", plan.stations},
-          {"block_samples", plan.window},
-          {"block_s", plan.window / plan.rate_hz},
-          {"attitudes", std::move(attitudes)},
-          {"gravity_sigma_mps2", plan.gravity_sigma_mps2},
-          {"calibration_bias_sigma_mps2", plan.calibration_mps2},
-          {"alert_limit_deg", deg_from_rad(plan.alert_limit_rad)}};
+  return io::object({{"plan_hash", fmt::format("{:016x}", campaign::hash_of(plan))},
+                     {"seed", plan.seed},
+                     {"scenarios", plan.scenarios},
+                     {"cells", plan.cells.size()},
+                     {"stations", plan.stations},
+                     {"block_samples", plan.window},
+                     {"block_s", plan.window / plan.rate_hz},
+                     {"attitudes", std::move(attitudes)},
+                     {"gravity_sigma_mps2", plan.gravity_sigma_mps2},
+                     {"calibration_bias_sigma_mps2", plan.calibration_mps2},
+                     {"alert_limit_deg", deg_from_rad(plan.alert_limit_rad)}});
 }
 
 Json rates_json(const campaign::Tally& tally) {
@@ -246,14 +252,14 @@ Json rates_json(const campaign::Tally& tally) {
 
 Json rate_json(std::uint64_t count, std::uint64_t of) {
   const study::Proportion p = study::proportion(count, of);
-  return {{"count", count}, {"of", of}, {"low", p.low}, {"high", p.high}};
+  return io::object({{"count", count}, {"of", of}, {"low", p.low}, {"high", p.high}});
 }
 
 Json fault_trials_json(const Trials& trials, const std::string& command) {
   const Plan& plan = trials.file.plan;
   const campaign::Tally& tally = trials.counted.tally;
   const double block_s = plan.window / plan.rate_hz;
-  Json out = {{"played", true}, {"plan", plan_json(trials)}, {"rates", rates_json(tally)}};
+  Json out = io::object({{"played", true}, {"plan", plan_json(trials)}, {"rates", rates_json(tally)}});
   out["mdb_mps2"] = Json::array();
   for (int i = 0; i < plan.tools.front().sensors; ++i)
     out["mdb_mps2"].push_back(plan.tools.front().detectable_mps2[static_cast<size_t>(i)]);
@@ -284,7 +290,7 @@ Json fault_trials_json(const Trials& trials, const std::string& command) {
 
 Json healthy_trials_json(const Trials& trials, const std::string& command) {
   const campaign::Tally& tally = trials.counted.tally;
-  Json out = {{"played", true}, {"plan", plan_json(trials)}};
+  Json out = io::object({{"played", true}, {"plan", plan_json(trials)}});
   const std::uint64_t scenarios = tally.total(Count::scenarios);
   // A scenario is at risk of a first false alarm up to the block that has it.
   std::uint64_t at_risk = 0;

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "plumb/campaign/kernel.hpp"
 #include "plumb/campaign/replay.hpp"
 #include "plumb/health/transition_table.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/trials.hpp"
 
 namespace plumb {
@@ -66,24 +66,29 @@ Json coverage_json(const Seen& seen) {
     const auto mode = static_cast<Mode>(m);
     const std::uint64_t samples = seen.samples[static_cast<size_t>(m)];
     visited += samples > 0 ? 1 : 0;
-    states.push_back({{"mode", to_string(mode)}, {"samples", samples}});
+    states.push_back(io::object({{"mode", to_string(mode)}, {"samples", samples}}));
     for (int e = 0; e < kEventCount; ++e) {
       const auto event = static_cast<HealthEvent>(e);
       const std::uint64_t count = seen.records[static_cast<size_t>(m)][static_cast<size_t>(e)];
       if (cell_of(mode, event).kind != CellKind::taken) continue;
       ++taken;
       reached += count > 0 ? 1 : 0;
-      cells.push_back({{"mode", to_string(mode)}, {"event", to_string(event)}, {"records", count}});
+      cells.push_back(io::object({{"mode", to_string(mode)}, {"event", to_string(event)}, {"records", count}}));
     }
     for (int to = 0; to < kModeCount; ++to) {
       const std::uint64_t count = seen.moves[static_cast<size_t>(m)][static_cast<size_t>(to)];
       if (count > 0)
-        moves.push_back({{"from", to_string(mode)}, {"to", to_string(static_cast<Mode>(to))}, {"count", count}});
+        moves.push_back(
+            io::object({{"from", to_string(mode)}, {"to", to_string(static_cast<Mode>(to))}, {"count", count}}));
     }
   }
-  return {{"modes", kModeCount},       {"modes_visited", visited},    {"cells_taken", taken},
-          {"cells_recorded", reached}, {"states", std::move(states)}, {"cells", std::move(cells)},
-          {"moves", std::move(moves)}};
+  return io::object({{"modes", kModeCount},
+                     {"modes_visited", visited},
+                     {"cells_taken", taken},
+                     {"cells_recorded", reached},
+                     {"states", std::move(states)},
+                     {"cells", std::move(cells)},
+                     {"moves", std::move(moves)}});
 }
 
 }  // namespace
@@ -108,11 +113,11 @@ tl::expected<Json, std::string> replayed_json(const std::vector<const Trials*>& 
       if (same(*played, *again)) {
         ++agreed;
       } else {
-        differing.push_back({{"campaign", plan.name}, {"scenario", number}});
+        differing.push_back(io::object({{"campaign", plan.name}, {"scenario", number}}));
       }
     }
   }
-  Json out = {{"scenarios", replayed}, {"agree", agreed}, {"differing", std::move(differing)}};
+  Json out = io::object({{"scenarios", replayed}, {"agree", agreed}, {"differing", std::move(differing)}});
   out["coverage"] = coverage_json(seen);
   return out;
 }
@@ -122,11 +127,11 @@ Json step_times_json(std::vector<std::int64_t> step_ns) {
   std::sort(step_ns.begin(), step_ns.end());
   // The smallest time that so many of a thousand calls did not exceed.
   const auto at = [&step_ns](size_t of_1000) { return step_ns[(step_ns.size() * of_1000 + 999) / 1000 - 1]; };
-  return {{"calls", step_ns.size()},
-          {"median_ns", at(500)},
-          {"p999_ns", at(999)},
-          {"high_water_ns", step_ns.back()},
-          {"clock", "std::chrono::steady_clock"}};
+  return io::object({{"calls", step_ns.size()},
+                     {"median_ns", at(500)},
+                     {"p999_ns", at(999)},
+                     {"high_water_ns", step_ns.back()},
+                     {"clock", "std::chrono::steady_clock"}});
 }
 
 }  // namespace report

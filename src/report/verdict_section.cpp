@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/limits.hpp"
 
 namespace plumb {
@@ -27,12 +27,12 @@ class Criteria {
  public:
   void add(const std::string& name, const std::string& limit, const std::string& limit_from, const std::string& found,
            const char* result, const std::string& reason) {
-    list_.push_back({{"name", name},
-                     {"limit", limit},
-                     {"limit_from", limit_from},
-                     {"found", found},
-                     {"result", result},
-                     {"reason", reason}});
+    list_.push_back(io::object({{"name", name},
+                                {"limit", limit},
+                                {"limit_from", limit_from},
+                                {"found", found},
+                                {"result", result},
+                                {"reason", reason}}));
   }
 
   void judge(bool met, const std::string& name, const std::string& limit, const std::string& limit_from,
@@ -272,14 +272,16 @@ Json known_limits_of(const Json& array) {
   Json out = Json::array();
   for (const Json& finding : array["warnings"]) out.push_back(finding);
   for (const Json& finding : array["known_limits"]) out.push_back(finding);
-  out.push_back({{"name", "colluding_rotation"},
-                 {"text",
-                  "sensors at fault that all show one turned gravity are told from the healthy ones only where these "
-                  "are enough (n >= 2m + c + 1 for m of them)"}});
-  out.push_back({{"name", "three_sensors"},
-                 {"text",
-                  "with three sensors in use only the length of gravity checks them: no protection level, no "
-                  "isolation, and an error across gravity is not seen"}});
+  out.push_back(
+      io::object({{"name", "colluding_rotation"},
+                  {"text",
+                   "sensors at fault that all show one turned gravity are told from the healthy ones only where these "
+                   "are enough (n >= 2m + c + 1 for m of them)"}}));
+  out.push_back(
+      io::object({{"name", "three_sensors"},
+                  {"text",
+                   "with three sensors in use only the length of gravity checks them: no protection level, no "
+                   "isolation, and an error across gravity is not seen"}}));
   return out;
 }
 
@@ -302,7 +304,7 @@ std::string distrust_of(const Json& report) {
 Json answers_of(const Json& report) {
   Json out = Json::array();
   const auto add = [&out](const char* question, std::string value, std::string label) {
-    out.push_back({{"question", question}, {"value", std::move(value)}, {"label", std::move(label)}});
+    out.push_back(io::object({{"question", question}, {"value", std::move(value)}, {"label", std::move(label)}}));
   };
   const Json& merit = report["array"]["figures_of_merit"];
   add("How many faults?", fmt::format("{}", merit["strict_grade"].get<int>()),
@@ -369,15 +371,15 @@ Json verdict_section(const UserLimits& limits, const Json& report) {
                          (limits.file.empty() ? "; no limits file was given, so defaults stand in for your own." : ".");
   if (!against.empty()) sentence = name + " is not fit for purpose: " + against + ".";
   if (against.empty() && !open.empty()) sentence = "Whether " + name + " is fit for purpose is open: " + open + ".";
-  return {{"verdict", verdict},
-          {"sentence", sentence},
-          {"limits_file", limits.file.empty() ? Json() : Json(limits.file)},
-          {"answers", answers_of(report)},
-          {"criteria", std::move(list)},
-          {"requirements", report["traceability"]["counts"]},
-          {"orphans", report["traceability"]["orphans"]},
-          {"assumptions", assumptions_of(limits, report)},
-          {"known_limits", known_limits_of(report["array"])}};
+  return io::object({{"verdict", verdict},
+                     {"sentence", sentence},
+                     {"limits_file", limits.file.empty() ? Json() : Json(limits.file)},
+                     {"answers", answers_of(report)},
+                     {"criteria", std::move(list)},
+                     {"requirements", report["traceability"]["counts"]},
+                     {"orphans", report["traceability"]["orphans"]},
+                     {"assumptions", assumptions_of(limits, report)},
+                     {"known_limits", known_limits_of(report["array"])}});
 }
 
 }  // namespace report

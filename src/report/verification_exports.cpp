@@ -1,8 +1,7 @@
 #include "plumb/report/verification_exports.hpp"
+#include "plumb/io/json_fields.hpp"
 
 #include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 
 #include "markup.hpp"
 
@@ -73,8 +72,13 @@ std::string needs_json(const Json& report) {
                             Json links, const std::string& status) {
     Json ids = Json::array();
     for (const Json& link : links) ids.push_back(need_id(link));
-    needs[need_id(id)] = {{"id", need_id(id)}, {"type", type}, {"title", title},       {"description", text},
-                          {"status", status},  {"links", ids}, {"tags", Json::array()}};
+    needs[need_id(id)] = io::object({{"id", need_id(id)},
+                                     {"type", type},
+                                     {"title", title},
+                                     {"description", text},
+                                     {"status", status},
+                                     {"links", ids},
+                                     {"tags", Json::array()}});
   };
   const Json& trace = report["traceability"];
   for (const Json& h : trace["hazards"]) add(h["id"], "hazard", h["title"], h["statement"], Json::array(), "");
@@ -87,9 +91,10 @@ std::string needs_json(const Json& report) {
         t["result"].is_string() ? t["result"].get<std::string>() : "not given");
   }
   const std::size_t amount = needs.size();
-  Json out = {{"project", "plumb: " + report["subject"]["name"].get<std::string>()}, {"current_version", version}};
-  out["versions"][version] = {
-      {"needs_amount", amount}, {"needs", std::move(needs)}, {"filters", Json::object()}, {"filters_amount", 0}};
+  Json out =
+      io::object({{"project", "plumb: " + report["subject"]["name"].get<std::string>()}, {"current_version", version}});
+  out["versions"][version] = io::object(
+      {{"needs_amount", amount}, {"needs", std::move(needs)}, {"filters", Json::object()}, {"filters_amount", 0}});
   return out.dump(1) + "\n";
 }
 
@@ -124,39 +129,40 @@ std::string spdx_json(const Json& report) {
   Json packages = Json::array(), relations = Json::array();
   const auto add = [&packages](const std::string& id, const std::string& name, const std::string& version,
                                const std::string& licence) {
-    packages.push_back({{"SPDXID", id},
-                        {"name", name},
-                        {"versionInfo", version},
-                        {"downloadLocation", "NOASSERTION"},
-                        {"filesAnalyzed", false},
-                        {"licenseConcluded", "NOASSERTION"},
-                        {"licenseDeclared", licence},
-                        {"copyrightText", "NOASSERTION"}});
+    packages.push_back(io::object({{"SPDXID", id},
+                                   {"name", name},
+                                   {"versionInfo", version},
+                                   {"downloadLocation", "NOASSERTION"},
+                                   {"filesAnalyzed", false},
+                                   {"licenseConcluded", "NOASSERTION"},
+                                   {"licenseDeclared", licence},
+                                   {"copyrightText", "NOASSERTION"}}));
   };
   add("SPDXRef-plumb", "plumb", build["version"].get<std::string>() + " (" + build["commit"].get<std::string>() + ")",
       "NOASSERTION");
-  relations.push_back({{"spdxElementId", "SPDXRef-DOCUMENT"},
-                       {"relationshipType", "DESCRIBES"},
-                       {"relatedSpdxElement", "SPDXRef-plumb"}});
+  relations.push_back(io::object({{"spdxElementId", "SPDXRef-DOCUMENT"},
+                                  {"relationshipType", "DESCRIBES"},
+                                  {"relatedSpdxElement", "SPDXRef-plumb"}}));
   for (const Json& library : build["libraries"]) {
     std::string id = "SPDXRef-";
     for (const char c : library["name"].get<std::string>()) id += c == '+' ? std::string("x") : std::string(1, c);
     add(id, library["name"], library["version"], library["licence"]);
-    relations.push_back(
-        {{"spdxElementId", "SPDXRef-plumb"}, {"relationshipType", "DEPENDS_ON"}, {"relatedSpdxElement", id}});
+    relations.push_back(io::object(
+        {{"spdxElementId", "SPDXRef-plumb"}, {"relationshipType", "DEPENDS_ON"}, {"relatedSpdxElement", id}}));
   }
   const std::string name = "plumb-" + build["version"].get<std::string>() + "-" + build["commit"].get<std::string>();
-  const Json out = {
-      {"spdxVersion", "SPDX-2.3"},
-      {"dataLicense", "CC0-1.0"},
-      {"SPDXID", "SPDXRef-DOCUMENT"},
-      {"name", name},
-      {"documentNamespace", "https://spdx.org/spdxdocs/" + name},
-      // The time of the build is not known to the tool, and the same build has to give the same bytes.
-      {"creationInfo",
-       {{"created", "1970-01-01T00:00:00Z"}, {"creators", {"Tool: plumb-" + build["version"].get<std::string>()}}}},
-      {"packages", packages},
-      {"relationships", relations}};
+  const Json out =
+      io::object({{"spdxVersion", "SPDX-2.3"},
+                  {"dataLicense", "CC0-1.0"},
+                  {"SPDXID", "SPDXRef-DOCUMENT"},
+                  {"name", name},
+                  {"documentNamespace", "https://spdx.org/spdxdocs/" + name},
+                  // The time of the build is not known to the tool, and the same build has to give the same bytes.
+                  {"creationInfo",
+                   io::object({{"created", "1970-01-01T00:00:00Z"},
+                               {"creators", Json::array({"Tool: plumb-" + build["version"].get<std::string>()})}})},
+                  {"packages", packages},
+                  {"relationships", relations}});
   return out.dump(1) + "\n";
 }
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "chart.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/json_fields.hpp"
 #include "plumb/report/geometry_plot.hpp"
 #include "plumb/report/verification_page.hpp"
 
