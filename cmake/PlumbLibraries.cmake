@@ -38,7 +38,6 @@ function(plumb_library target export_name)
 endfunction()
 
 set(PLUMB_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <cstring> <limits> <type_traits> <utility> <tl/expected.hpp>)
-set(PLUMB_HOST_HEADERS ${PLUMB_COMMON_HEADERS} <functional> <map> <memory> <optional> <string> <string_view> <vector>)
 
 # --- Floors 1 to 4: one static library per capacity; a mixture of two does not link. ---------------------
 plumb_sources(core_sources ${PLUMB_CORE_ROOMS})
@@ -104,7 +103,7 @@ if(scenario_sources)
   add_library(plumb_scenario STATIC ${scenario_sources})
   plumb_library(plumb_scenario scenario)
   target_link_libraries(plumb_scenario PUBLIC plumb_24 PRIVATE "$<BUILD_INTERFACE:plumb_random123>")
-  plumb_precompile(plumb_scenario ${PLUMB_HOST_HEADERS})
+  plumb_batch(plumb_scenario)
 endif()
 
 plumb_sources(study_sources study)
@@ -113,6 +112,7 @@ if(study_sources)
   add_library(plumb_study STATIC ${study_sources})
   plumb_library(plumb_study study)
   target_link_libraries(plumb_study PUBLIC plumb_scenario plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_batch(plumb_study)
 endif()
 
 plumb_sources(io_sources io)
@@ -129,7 +129,7 @@ if(io_sources)
   if(TARGET plumb_scenario)
     target_link_libraries(plumb_io PUBLIC plumb_scenario)
   endif()
-  plumb_precompile(plumb_io ${PLUMB_HOST_HEADERS})
+  plumb_batch(plumb_io)
 endif()
 
 # What users test their own arrays with. The library itself needs neither RapidCheck nor GoogleTest: its headers do.
@@ -177,7 +177,7 @@ if(report_sources)
   plumb_library(plumb_report report)
   target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
-  plumb_precompile(plumb_report ${PLUMB_HOST_HEADERS} <fmt/format.h> <nlohmann/json.hpp>)
+  plumb_batch(plumb_report)
   include(PlumbVerification)
   # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
   target_link_libraries(plumb_report PUBLIC plumb_campaign_24)

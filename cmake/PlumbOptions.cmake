@@ -11,7 +11,7 @@ option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HO
 option(PLUMB_BUILD_TESTS "Build the tests (needs their libraries; the preset tests turns them on)" OFF)
 option(PLUMB_BUILD_MPI "Build plumb-campaign-mpi where MPI is found" ON)
 option(PLUMB_BUILD_BENCH "Build the benchmarks (Google Benchmark)" OFF)
-option(PLUMB_FAST_BUILD "Precompile headers and compile several test files at a time: scripts/demo and scripts/test do, other builds notice a missing include" OFF)
+option(PLUMB_FAST_BUILD "Precompile the core's headers, compile several sources of host and tests at a time: scripts/demo and scripts/test do, other builds notice a missing include" OFF)
 option(PLUMB_BUILD_FUZZ "Build the fuzzers (Clang)" OFF)
 option(PLUMB_COVERAGE "Count which branches and conditions run (Clang 19, scripts/coverage)" OFF)
 option(PLUMB_INSTALL "Provide the install rules" ${PROJECT_IS_TOP_LEVEL})

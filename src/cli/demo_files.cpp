@@ -1,8 +1,6 @@
 #include "demo_files.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
+#include "best_turn.hpp"
 #include "plumb/io/log_writer.hpp"
 
 namespace plumb {
@@ -31,21 +29,13 @@ io::FileExpected<std::vector<scenario::Truth>> write_log(const std::string& path
 }
 
 void into_frame_of_nominal_axes(const scenario::Tool& tool, std::vector<scenario::Truth>& truth) {
-  Eigen::Matrix3d attitude_profile = Eigen::Matrix3d::Zero();  // of Wahba's problem
+  BestTurn best;
   for (int i = 0; i < tool.datasheet.size; ++i) {
     const auto a = static_cast<std::size_t>(i);
-    attitude_profile +=
-        Eigen::Vector3d(tool.datasheet.sensor[a].row.axis.data()) * Eigen::Vector3d(tool.axes[a].data()).transpose();
+    best.add(tool.datasheet.sensor[a].row.axis, tool.axes[a]);
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(attitude_profile, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d u = svd.matrixU();
-  const Eigen::Matrix3d v = svd.matrixV();
-  const double hand = (u * v.transpose()).determinant();
-  const Eigen::Matrix3d turn = u * Eigen::Vector3d(1.0, 1.0, hand).asDiagonal() * v.transpose();
-  for (scenario::Truth& t : truth) {
-    const Eigen::Vector3d turned = turn * Eigen::Vector3d(t.gravity_mps2.data());
-    t.gravity_mps2 = {turned[0], turned[1], turned[2]};
-  }
+  const Turn turn = best.find(Hand::kept);
+  for (scenario::Truth& t : truth) t.gravity_mps2 = turned(turn, t.gravity_mps2);
 }
 
 }  // namespace cli

@@ -1,10 +1,10 @@
 // Why a fit was refused, by name and figure, and what to do about it.
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "best_turn.hpp"
 #include "column_facts.hpp"
 #include "figures.hpp"
 #include "fit_words.hpp"
@@ -57,18 +57,15 @@ struct AxisShift {
 };
 
 AxisShift axis_shift(const SensorArray& fitted, const SensorArray& nominal, int i) {
-  Eigen::Matrix3d profile = Eigen::Matrix3d::Zero();  // of Wahba's problem
+  BestTurn best;
   for (int k = 0; k < nominal.size(); ++k) {
-    if (k == i) continue;
-    profile += Eigen::Vector3d(nominal.axis(k).data()) * Eigen::Vector3d(fitted.axis(k).data()).transpose();
+    if (k != i) best.add(nominal.axis(k), fitted.axis(k));
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(profile, Eigen::ComputeFullU | Eigen::ComputeFullV);
   // Mirrors too: to gravity a tool and its mirror image are the same, and a sensor of the wrong sign may lead to it.
-  const Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+  const Turn turn = best.find(Hand::free);
   AxisShift out;
   for (int k = 0; k < nominal.size(); ++k) {
-    const Eigen::Vector3d turned = turn * Eigen::Vector3d(fitted.axis(k).data());
-    const double angle = angle_between_rad({turned[0], turned[1], turned[2]}, nominal.axis(k));
+    const double angle = angle_between_rad(turned(turn, fitted.axis(k)), nominal.axis(k));
     if (k == i) out.own_rad = angle;
     if (k != i) out.others_rad = std::fmax(out.others_rad, angle);
   }
@@ -352,12 +349,6 @@ namespace {
 /// The paper writes each misalignment as a mixture of the other readings: axes near one plane make that a quotient of
 /// small numbers, and no attitude mends it.
 constexpr double kFlat = 0.1;
-
-double least_singular_value(const SensorArray& array) {
-  Eigen::MatrixX3d axes(array.size(), 3);
-  for (int i = 0; i < array.size(); ++i) axes.row(i) = Eigen::Vector3d(array.axis(i).data()).transpose();
-  return Eigen::JacobiSVD<Eigen::MatrixX3d>(axes).singularValues()[2];
-}
 
 }  // namespace
 
