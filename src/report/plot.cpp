@@ -40,8 +40,8 @@ io::FileExpected<void> run_program(const std::string& directory, const std::stri
     line += (line.empty() ? "" : " ") + word;
   }
   argv.push_back(nullptr);
-  // The scripts are UTF-8 and their numbers have points, whatever the user's locale is: without one, gnuplot complains of
-  // the degree sign.
+  // The scripts are UTF-8 and their numbers have points, whatever the user's locale is: without one, gnuplot complains
+  // of the degree sign.
   std::string locale = "LC_ALL=C.UTF-8";
   std::vector<char*> environment;
   for (char** entry = environ; *entry != nullptr; ++entry)
