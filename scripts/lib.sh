@@ -6,10 +6,10 @@ PLUMB_STEP=""
 PLUMB_CORE_ROOMS=(core numeric array gravity calibration detection navigation health c)  # floors 1 to 4
 export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # without it ccache passes precompiled headers by
 
-# step TEXT...: says what comes next; named again if it fails.
+# step TEXT...: says what comes next, and how long the script has run; named again if it fails.
 step() {
   PLUMB_STEP="$*"
-  printf '\n== %s\n' "$*"
+  printf '\n== %s  (at %d s)\n' "$*" "$SECONDS"
 }
 
 # die TEXT...: the reason on standard error, exit 1.
@@ -19,8 +19,9 @@ die() {
   exit 1
 }
 
+# on_exit [STATUS]: names the step that failed.
 on_exit() {
-  local status=$?
+  local status="${1:-$?}"
   if [[ $status -ne 0 && -n "$PLUMB_STEP" ]]; then
     printf 'plumb: failed (exit %s) at: %s\n' "$status" "$PLUMB_STEP" >&2
   fi
