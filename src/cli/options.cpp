@@ -6,17 +6,6 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
-namespace {
-
-template <class Number>
-CLI::Option& words_option(CLI::App& app, const std::string& name, const std::map<std::string, Number>& words,
-                          const std::function<void(Number)>& take, const std::string& description) {
-  return *app.add_option_function<Number>(name, take, description)
-              ->transform(CLI::CheckedTransformer(words).description(""));
-}
-
-}  // namespace
-
 Option Option::required() const { return Option(*option_->required()); }
 Option Option::type_name(const std::string& name) const { return Option(*option_->type_name(name)); }
 Option Option::check(const TextReader& wrong) const { return Option(*option_->check(wrong)); }
@@ -66,13 +55,17 @@ Option Options::add_option(const std::string& name, const TextReader& read, cons
   return Option(*app_->add_option_function<std::string>(name, refuse, description));
 }
 
-Option Options::add_words(const std::string& name, const std::map<std::string, int>& words,
-                          const std::function<void(int)>& take, const std::string& description) const {
-  return Option(words_option(*app_, name, words, take, description));
-}
-Option Options::add_words(const std::string& name, const std::map<std::string, std::uint8_t>& words,
-                          const std::function<void(std::uint8_t)>& take, const std::string& description) const {
-  return Option(words_option(*app_, name, words, take, description));
+Option Options::add_words(const std::string& name, const std::vector<std::string>& words,
+                          const std::function<void(std::size_t)>& take, const std::string& description) const {
+  const auto read = [name, words, take](const std::string& text) {
+    std::string known;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      if (words[k] == text) return take(k);
+      known += (k == 0 ? "" : " or ") + words[k];
+    }
+    throw CLI::ValidationError(name, "\"" + text + "\" is not " + known);
+  };
+  return Option(*app_->add_option_function<std::string>(name, read, description));
 }
 
 Option Options::add_flag(const std::string& name, bool& value, const std::string& description) const {

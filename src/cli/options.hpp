@@ -78,11 +78,14 @@ class Options {
   template <class Enum>
   Option add_option(const std::string& name, Enum& value, const std::map<std::string, Enum>& words,
                     const std::string& description) const {
-    using Number = std::underlying_type_t<Enum>;
-    std::map<std::string, Number> numbers;
-    for (const auto& word : words) numbers[word.first] = static_cast<Number>(word.second);
+    std::vector<std::string> texts;
+    std::vector<Enum> values;
+    for (const auto& [text, meant] : words) {
+      texts.push_back(text);
+      values.push_back(meant);
+    }
     return add_words(
-        name, numbers, [&value](Number number) { value = static_cast<Enum>(number); }, description);
+        name, texts, [&value, values](std::size_t k) { value = values[k]; }, description);
   }
   Option add_flag(const std::string& name, bool& value, const std::string& description) const;
   Option add_flag(const std::string& name, const std::function<void()>& given, const std::string& description) const;
@@ -107,11 +110,8 @@ class Options {
   std::vector<std::string> left_over() const;
 
  private:
-  // One for each type that an enumeration is kept in.
-  Option add_words(const std::string& name, const std::map<std::string, int>& words,
-                   const std::function<void(int)>& take, const std::string& description) const;
-  Option add_words(const std::string& name, const std::map<std::string, std::uint8_t>& words,
-                   const std::function<void(std::uint8_t)>& take, const std::string& description) const;
+  Option add_words(const std::string& name, const std::vector<std::string>& words,
+                   const std::function<void(std::size_t)>& take, const std::string& description) const;
 
   CLI::App* app_;
 };

@@ -149,6 +149,14 @@ TEST(BadLog, TimeThatDoesNotIncrease) {
   refused(calibrate(where), 3, {"calibration.csv:42", "t_s", "does not increase"});
 }
 
+/// The library's own message showed the enumeration's numbers as control characters.
+TEST(BadLog, AWordThatIsNoPolicyIsAnsweredWithThoseThatAre) {
+  const Workshop where;
+  const Outcome outcome = calibrate(where, {"--on-bad-row", "maybe"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(says(outcome.err, {"--on-bad-row: \"maybe\" is not skip or stop"})) << outcome.err;
+}
+
 TEST(BadLog, BadRowsAreSkippedWhereAskedFor) {
   const Workshop where;
   change_line(where, 41, [](const std::string& line) { return line.substr(0, line.rfind(',')); });
