@@ -8,11 +8,12 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 bool HealthMonitor::core_holds() const noexcept {
-  // No index may lead out of the object before the sum over all of it has been compared: of the number of sensors there
-  // are three, and one of them is in the sum that follows.
+  // No index may lead out of the object before the sum over all of it has been compared. The number of sensors stands
+  // in three places; one write over all of them may leave them equal and beyond every index, so their range counts too.
   const int n = gate_.size();
-  const bool fits = array_.size() == n && model_.size == n && mae_.fits(triple_count_of(n), config_.window) &&
-                    block_.size() >= 0 && block_.size() < config_.window;
+  const bool fits = n >= 3 && n <= kCapacity && array_.size() == n && model_.size == n &&
+                    mae_.fits(triple_count_of(n), config_.window) && block_.size() >= 0 &&
+                    block_.size() < config_.window;
   return fits && folded(storage_sum<StoragePart::core>(*this)) == core_sum_;
 }
 

@@ -248,6 +248,7 @@ bool Recalibration::coefficients_are_plausible(const SensorModel& model) const n
 /// Every station against the new calibration, by the tests and limits of the monitor: those of the fit, and those
 /// that were held out of it (property S20).
 Error Recalibration::check_stations(const InForce& candidate, const RowUncertainty& uncertainty) const noexcept {
+  int proofs = 0;
   for (int k = 0; k < store_.size(); ++k) {
     const StationMean& station = store_.station(k);
     BlockEvidence evidence;
@@ -263,7 +264,10 @@ Error Recalibration::check_stations(const InForce& candidate, const RowUncertain
     if (!(test.parity <= parity_limit)) return Error{code, k, test.parity, parity_limit};
     const double norm_limit = test.norm_alarm_limit(candidate.limits);
     if (!(std::fabs(test.norm) <= norm_limit)) return Error{code, k, std::fabs(test.norm), norm_limit};
+    if (held_out) ++proofs;
   }
+  // Whatever is collected elsewhere: no fit is accepted on its own stations alone.
+  if (proofs < kHeldOutNeeded) return Error{Errc::too_few_stations, -1, 1.0 * proofs, 1.0 * kHeldOutNeeded};
   return Error{};
 }
 

@@ -107,5 +107,26 @@ TEST(StorageWords, AtTheEndOfABlockAnyIsReportedOrDoesNoHarm) {
   EXPECT_GT(reported, 5000);
 }
 
+/// One write over all of it, as from a stray memset: the three places that hold the number of sensors then agree, on
+/// a number that may lie beyond every index.
+// Negative: REQ-166
+TEST(StorageWords, OneByteWrittenOverAllOfItIsNeverValid) {
+#if defined(__SANITIZE_ADDRESS__) || defined(PLUMB_CLANG_SANITIZES)
+  constexpr int kBytes = 2;
+#else
+  constexpr int kBytes = 256;
+#endif
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const Sample next = rig.sample(direction_at(20, 20), kG0_mps2);
+  const auto hurt = std::make_unique<HealthMonitor>();
+  for (int byte = 0; byte < kBytes; ++byte) {
+    *hurt = rig.monitor;
+    std::memset(reinterpret_cast<unsigned char*>(hurt.get()), byte, sizeof(HealthMonitor));
+    EXPECT_FALSE(hurt->request_recalibration().has_value()) << byte;
+    for (int k = 0; k < 40; ++k) EXPECT_EQ(hurt->step(next).validity, Validity::invalid) << byte;
+  }
+}
+
 }  // namespace
 }  // namespace storage_words_test
