@@ -37,7 +37,7 @@ int faults_to_cover(int n, double prior, double risk) noexcept {
 
 Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   configured_ = false;
-  core_sum_ = 0;
+  core_sum_ = kNeverConfigured;
   verdict_ = Verdict{};
   const Expected<MonitorConfig> config = checked(setup.config);
   if (!config) return tl::unexpected<Error>(config.error());
@@ -284,7 +284,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   verdict_.transition = TransitionRecord{};
   verdict_.tick = false;
   verdict_.accepted = false;
-  if (!configured_ && core_sum_ == 0) return verdict_;
+  if (!configured_ && core_sum_ == kNeverConfigured) return verdict_;
   if (!core_holds()) return lose_memory(sample);
   verdict_.time_s = sample.time_s;
   count_up(counters_.samples);

@@ -28,10 +28,10 @@ bool HealthMonitor::steady_holds() const noexcept {
          coefficients_.hold(model_);
 }
 
-/// A monitor that was never configured has no sum. Without that, one flipped bit would pass for it, and what was
-/// published last would stand for ever.
+/// A monitor that was never configured has a mark in place of the sum. Without that, one flipped bit would pass for it,
+/// and what was published last would stand for ever; and the mark is not zero, as cleared storage would be.
 bool HealthMonitor::whole() const noexcept {
-  return (!configured_ && core_sum_ == 0) || (core_holds() && steady_holds());
+  return (!configured_ && core_sum_ == kNeverConfigured) || (core_holds() && steady_holds());
 }
 
 void HealthMonitor::seal() noexcept {
@@ -50,7 +50,7 @@ const Verdict& HealthMonitor::lose_memory(const Sample& sample) noexcept {
   record.to = HealthState::failed;
   record.cause = Cause::memory;
   configured_ = false;
-  core_sum_ = 0;
+  core_sum_ = kNeverConfigured;
   verdict_ = Verdict{};
   verdict_.time_s = sample.time_s;
   verdict_.sample = counters_.samples;

@@ -258,7 +258,10 @@ class HealthMonitor {
   int unbounded_run_ = 0;   ///< blocks in a row whose protection level was beyond the alert limit
   std::uint32_t sequence_ = 0;
   int clean_run_ = 0;
-  std::uint32_t core_sum_ = 0;  ///< not remembered: over `core()`, made whenever that was written to (memory.cpp)
+  /// Stands for the sum in a monitor that was never configured, or whose memory was lost. It is not zero: storage that
+  /// somebody cleared holds no verdict, and must not pass for a monitor that waits to be configured.
+  static constexpr std::uint32_t kNeverConfigured = 0x706c756d;
+  std::uint32_t core_sum_ = kNeverConfigured;  ///< not remembered: over `core()`, made whenever that was written to
   std::array<double, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
   bool have_predictions_ = false;
   DirectionRecord probation_;
