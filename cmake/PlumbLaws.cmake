@@ -4,10 +4,8 @@
 # Compiled once, linked once with the library as it is and once with every planted defect.
 function(plumb_law_objects name library)
   add_library(${name} OBJECT ${ARGN})
-  plumb_compile_settings(${name})
-  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
-  target_compile_definitions(${name} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${name} PUBLIC ${library} rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest GTest::gtest_main)
+  plumb_test_settings(${name} ${library})
+  target_link_libraries(${name} PRIVATE GTest::gtest_main)
 endfunction()
 
 file(GLOB law_tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/laws/*_test.cpp")
@@ -76,11 +74,11 @@ function(plumb_planted_defect file)
   add_test(NAME defect.${name}
     COMMAND "${CMAKE_COMMAND}" "-DEXPECT=${said_expect}" -P "${PROJECT_SOURCE_DIR}/cmake/RunDefect.cmake" --
             "$<TARGET_FILE:${target}>" "--gtest_filter=${said_law}")
-  set_tests_properties(defect.${name} PROPERTIES LABELS defect TIMEOUT 300 ENVIRONMENT "${environment}")
+  set_tests_properties(defect.${name} PROPERTIES LABELS "defect;slow" TIMEOUT 300 ENVIRONMENT "${environment}")
 endfunction()
 
 # Only in builds as they ship: under sanitizers nothing new would be learnt from them.
-if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+if(PLUMB_PLANT_DEFECTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   file(GLOB defects CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/laws/defects/*.defect")
   foreach(defect IN LISTS defects)
     plumb_planted_defect("${defect}")
@@ -95,11 +93,11 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
               "-DROOT=${PROJECT_SOURCE_DIR}" "-DOUTPUT=${PROJECT_BINARY_DIR}/defects/${name}.cpp"
               -P "${PROJECT_SOURCE_DIR}/cmake/PlantDefect.cmake")
     set_tests_properties(defect.${name}_is_refused PROPERTIES
-      LABELS defect TIMEOUT 60 PASS_REGULAR_EXPRESSION "${message}")
+      LABELS "defect;slow" TIMEOUT 60 PASS_REGULAR_EXPRESSION "${message}")
   endforeach()
   add_test(NAME defect.a_law_that_holds_is_no_catch
     COMMAND "${CMAKE_COMMAND}" "-DEXPECT=law 9" -P "${PROJECT_SOURCE_DIR}/cmake/RunDefect.cmake" --
             "$<TARGET_FILE:plumb_law_tests>" "--gtest_filter=Law.Nine*")
   set_tests_properties(defect.a_law_that_holds_is_no_catch PROPERTIES
-    LABELS defect TIMEOUT 60 ENVIRONMENT "PLUMB_LAW_CASES=20" PASS_REGULAR_EXPRESSION "the run ended[ \n]*with: 0")
+    LABELS "defect;slow" TIMEOUT 60 ENVIRONMENT "PLUMB_LAW_CASES=20" PASS_REGULAR_EXPRESSION "the run ended[ \n]*with: 0")
 endif()

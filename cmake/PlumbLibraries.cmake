@@ -178,6 +178,7 @@ if(report_sources)
   target_link_libraries(plumb_report PUBLIC plumb_study plumb_io fmt::fmt Threads::Threads
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_report)
+  plumb_optimise_less(plumb_report)
   include(PlumbVerification)
   # The kernels of the other capacities by path: a target would hand its capacity on to the sources of the host.
   target_link_libraries(plumb_report PUBLIC plumb_campaign_24)

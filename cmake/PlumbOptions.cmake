@@ -9,6 +9,7 @@ option(PLUMB_FAST_STEP "Compile what runs at every sample with -O2, for builds a
 option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TESTS "Build the tests (needs their libraries; the preset tests turns them on)" OFF)
+option(PLUMB_PLANT_DEFECTS "With the tests: link the laws with every planted defect that they must catch" ON)
 option(PLUMB_BUILD_MPI "Build plumb-campaign-mpi where MPI is found" ON)
 option(PLUMB_BUILD_BENCH "Build the benchmarks (Google Benchmark)" OFF)
 option(PLUMB_FAST_BUILD "Precompile the core's headers, compile several sources of host and tests at a time: scripts/demo and scripts/test do, other builds notice a missing include" OFF)

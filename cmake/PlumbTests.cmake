@@ -45,10 +45,33 @@ function(plumb_discover name)
   endforeach()
 endfunction()
 
-# plumb_test_executable(NAME LABEL <label> ROOMS <room>... LIBRARIES <target>... [PREFIX ...] [SLOW ...] [LONGER ...])
-# All *_test.cpp of the rooms below tests/, with the helpers of tests/support; the rest as in plumb_discover.
+# plumb_test_settings(TARGET LIBRARY...): what all sources with tests are compiled with.
+function(plumb_test_settings target)
+  plumb_compile_settings(${target})
+  if(PLUMB_COVERAGE)
+    target_compile_options(${target} PRIVATE -Wno-error)  # what a newer compiler says of tests is not what is counted
+  endif()
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_compile_definitions(${target} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  foreach(library IN LISTS ARGN)
+    if(TARGET ${library})
+      target_link_libraries(${target} PRIVATE ${library})
+    endif()
+  endforeach()
+  target_link_libraries(${target} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest)
+  if(PLUMB_FAST_BUILD)
+    # What a test costs to compile is its libraries' templates: the files of a batch share them.
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 42)
+  endif()
+endfunction()
+
+# plumb_test_executable(NAME LABEL <label> ROOMS <room>... LIBRARIES <target>... [COMPUTING <suite>...]
+#                       [PREFIX ...] [SLOW ...] [LONGER ...])
+# All *_test.cpp of the rooms below tests/, with the helpers of tests/support; the rest as in plumb_discover. A fast build
+# compiles the tests without optimisation, but for the files of COMPUTING, which compute much themselves. The libraries under
+# test are built as they ship.
 function(plumb_test_executable name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;PREFIX" "ROOMS;LIBRARIES;SLOW;LONGER")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;PREFIX" "ROOMS;LIBRARIES;COMPUTING;SLOW;LONGER")
   set(patterns ${arg_ROOMS})
   list(TRANSFORM patterns REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1/*_test.cpp")
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
@@ -57,25 +80,23 @@ function(plumb_test_executable name)
     message(STATUS "no tests yet for ${name}")
     return()
   endif()
-  add_executable(${name} ${sources} ${helpers})
-  plumb_compile_settings(${name})
-  if(PLUMB_COVERAGE)
-    target_compile_options(${name} PRIVATE -Wno-error)  # what a newer compiler says of tests is not what is counted
+  set(optimised)
+  if(PLUMB_FAST_BUILD AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(optimised ${arg_COMPUTING})
+    list(TRANSFORM optimised REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1_test.cpp")
+    list(REMOVE_ITEM sources ${optimised} "")
   endif()
-  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
-  target_compile_definitions(${name} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  foreach(library IN LISTS arg_LIBRARIES)
-    if(TARGET ${library})
-      target_link_libraries(${name} PRIVATE ${library})
-    endif()
-  endforeach()
-  target_link_libraries(${name} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest GTest::gtest_main)
-  if(PLUMB_FAST_BUILD)
-    # What a test costs to compile is its libraries' templates: the files of a batch share them.
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")  # the tests alone: the libraries under test are built as they ship
-      target_compile_options(${name} PRIVATE -O1)
-    endif()
+  add_executable(${name} ${sources} ${helpers})
+  plumb_test_settings(${name} ${arg_LIBRARIES})
+  target_link_libraries(${name} PRIVATE GTest::gtest_main)
+  if(PLUMB_FAST_BUILD AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${name} PRIVATE -O0)
+  endif()
+  if(optimised)
+    add_library(${name}_computing OBJECT ${optimised})
+    plumb_test_settings(${name}_computing ${arg_LIBRARIES})
+    target_compile_options(${name}_computing PRIVATE -O1)
+    target_sources(${name} PRIVATE "$<TARGET_OBJECTS:${name}_computing>")
   endif()
   plumb_discover(${name} LABEL ${arg_LABEL} PREFIX "${arg_PREFIX}" SLOW ${arg_SLOW} LONGER ${arg_LONGER})
 endfunction()
@@ -88,6 +109,8 @@ else()
 endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8
+  COMPUTING calibration/closed_form calibration/outlier detection/exact_sum detection/false_alarm
+    detection/fitted_false_alarm health/forged_fields health/induction numeric/symmetric_eigen
   LONGER Acceptance.* BitFlips.* CFunctions.* ExactSum.* ExtremeNumbers.* FalseAlarm.* FirstCalibration*.* Fit*.*
     ForgedFields.* HalfNormalMeanQuantile.* Induction.* IsolationOracle.* IsolationRates.* LevelMisfit.* *Law.* *Laws.*
     Outliers.* PaperConvergence.* RequirementIsolation.* Snapshot.* TemperatureUse.* Vibration.*)
@@ -134,7 +157,7 @@ if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
     ROOMS scenario study io testing report cli recordings docs
-    SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed*
+    SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* OneAttitudeStudy.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
@@ -201,7 +224,8 @@ endif()
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
 if(TARGET plumb_cli)
   plumb_test_executable(plumb_stepper_tests LABEL host ROOMS stepper LIBRARIES plumb_cli
-    LONGER Stepper*.*)
+    SLOW StepperLaw.*
+    LONGER Stepper.*)
   add_dependencies(plumb_stepper_tests plumb_tool)
   target_compile_definitions(plumb_stepper_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
 endif()
@@ -245,6 +269,7 @@ add_test(NAME example.guide_quotes_it
 add_subdirectory("${PROJECT_SOURCE_DIR}/examples/navigation" examples/navigation)
 foreach(name IN ITEMS nav_loop attitude_filter survey_station)
   plumb_compile_settings(plumb_${name})
+  plumb_optimise_less(plumb_${name})
   add_test(NAME example.${name} COMMAND plumb_${name})
   set_tests_properties(example.${name} PROPERTIES LABELS core TIMEOUT 60)
 endforeach()

@@ -18,11 +18,12 @@ if(cli_sources)
       target_link_libraries(plumb_cli PUBLIC ${library})
     endif()
   endforeach()
-  target_link_libraries(plumb_cli PUBLIC CLI11::CLI11 fmt::fmt Boost::headers Threads::Threads)
+  target_link_libraries(plumb_cli PUBLIC fmt::fmt Boost::headers Threads::Threads PRIVATE CLI11::CLI11)
 
   set_source_files_properties("${PROJECT_SOURCE_DIR}/src/cli/options.cpp" "${PROJECT_SOURCE_DIR}/src/cli/steppers.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # a large header; macros of their own
   plumb_batch(plumb_cli)
+  plumb_optimise_less(plumb_cli)
 
   # What steps the rows of a log, with the monitors for 4, 8 and 24 sensors. By path: a target would hand its capacity on.
   plumb_sources(stepper_sources cli/kernel)

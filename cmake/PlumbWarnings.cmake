@@ -45,6 +45,14 @@ function(plumb_precompile target)
   endif()
 endfunction()
 
+# plumb_optimise_less(TARGET): a fast build compiles what reads files and writes text once per run with -O1: a quarter of the
+# time of GCC. What goes over samples stays as it ships.
+function(plumb_optimise_less target)
+  if(PLUMB_FAST_BUILD AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
 # plumb_batch(TARGET): a fast build compiles several sources of the target at a time, for they share the templates that they
 # cost. Names stay free: sources that have a name of namespace scope in common come into different batches.
 function(plumb_batch target)

@@ -99,13 +99,13 @@ configure() {
 
 # What a build has beyond one capacity for the core and one for the host.
 # shellcheck disable=SC2034  # used by the scripts that source this
-PLUMB_MORE_BUILDS=(-DPLUMB_ALL_CAPACITIES=ON -DPLUMB_BUILD_PYTHON=AUTO -DPLUMB_BUILD_MPI=ON)
+PLUMB_MORE_BUILDS=(-DPLUMB_ALL_CAPACITIES=ON -DPLUMB_BUILD_PYTHON=AUTO -DPLUMB_BUILD_MPI=ON -DPLUMB_PLANT_DEFECTS=ON)
 
 # usual_builds: sets PLUMB_USUAL_BUILDS for build/release: none of these; a folder that has them already keeps them.
 usual_builds() {
   PLUMB_USUAL_BUILDS=()
   if ! grep -qxF PLUMB_ALL_CAPACITIES:BOOL=ON "$PLUMB_ROOT/build/release/CMakeCache.txt" 2>/dev/null; then
-    PLUMB_USUAL_BUILDS=(-DPLUMB_ALL_CAPACITIES=OFF -DPLUMB_BUILD_PYTHON=OFF -DPLUMB_BUILD_MPI=OFF)
+    PLUMB_USUAL_BUILDS=(-DPLUMB_ALL_CAPACITIES=OFF -DPLUMB_BUILD_PYTHON=OFF -DPLUMB_BUILD_MPI=OFF -DPLUMB_PLANT_DEFECTS=OFF)
   fi
 }
 

@@ -26,7 +26,7 @@ static_assert(std::is_trivially_copyable_v<plumb::PaperError>);
 TEST(PaperCalibration, StepIsThePseudoInverseOfRankNine) {
   const auto trace = std::make_unique<PaperTrace>();
   for (const int n : {3, 4, 5}) {
-    const Scene s = n < 5 ? scene_of(4711) : scene_of_many(5, 4712, kSigma);
+    const FittedScene s = n < 5 ? scene_of(4711) : scene_of_many(5, 4712, kSigma);
     const SensorSet used = SensorSet::first(n);
     const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), used);
     ASSERT_TRUE(error.has_value());
@@ -51,7 +51,7 @@ TEST(PaperCalibration, StepIsThePseudoInverseOfRankNine) {
 }
 
 TEST(PaperCalibration, TraceHasTheStartAndEveryIteration) {
-  const Scene s = scene_of(42);
+  const FittedScene s = scene_of(42);
   const auto trace = std::make_unique<PaperTrace>();
   for (const PaperStep step : {PaperStep::minimum_norm, PaperStep::plain_inverse}) {
     PaperOptions options;
@@ -85,7 +85,7 @@ TEST(PaperCalibration, TraceHasTheStartAndEveryIteration) {
 
 TEST(PaperCalibration, WithoutNoiseTheVectorHasTheLengthOfGravity) {
   for (const std::uint32_t bits : {0b1111U, 0b0111U, 0b1011U, 0b1101U, 0b1110U}) {
-    const Scene s = scene_of(99, 0.0);
+    const FittedScene s = scene_of(99, 0.0);
     const PaperFit fit = fitted_by_paper(s, SensorSet(bits));
     EXPECT_TRUE(fit.converged);
     const auto nominal = s.sheet.array();
@@ -110,7 +110,7 @@ TEST(PaperCalibration, TemperatureTermsGoAlong) {
 }
 
 TEST(PaperCalibration, OneCircleOfRollsShowsFiveDirections) {
-  Scene s = scene_of(21);
+  FittedScene s = scene_of(21);
   s.stations.clear();
   Noise noise(22);
   for (int k = 0; k < 24; ++k) {
@@ -121,7 +121,7 @@ TEST(PaperCalibration, OneCircleOfRollsShowsFiveDirections) {
 }
 
 TEST(PaperCalibration, DampingSlowsAndFrozenParametersStay) {
-  Scene s = scene_of(31);
+  FittedScene s = scene_of(31);
   PaperOptions options;
   options.damping = 0.5;
   const PaperFit slow = fitted_by_paper(s, kAll, options);
@@ -147,7 +147,7 @@ TEST(PaperCalibration, DampingSlowsAndFrozenParametersStay) {
 }
 
 TEST(PaperCalibration, OtherSensorsAreLeftAloneAndIncompleteStationsSkipped) {
-  Scene s = scene_of(51);
+  FittedScene s = scene_of(51);
   const SensorSet used(0b1101U);
   const PaperFit whole = fitted_by_paper(s, used);
   EXPECT_EQ(whole.used, used);
@@ -172,7 +172,7 @@ TEST(PaperCalibration, OtherSensorsAreLeftAloneAndIncompleteStationsSkipped) {
 }
 
 TEST(PaperCalibration, AllSensorsAndEveryTripleOfTheArray) {
-  const Scene s = scene_of(5);
+  const FittedScene s = scene_of(5);
   const auto all = std::make_unique<plumb::PaperCalibration>();
   ASSERT_TRUE(plumb::paper_calibrate_all(s.sheet, standard_gravity(), s.stations.data(),
                                          static_cast<int>(s.stations.size()), {}, *all)
@@ -195,7 +195,7 @@ TEST(PaperCalibration, AllSensorsAndEveryTripleOfTheArray) {
 
 TEST(PaperCalibration, ATripleInOnePlaneIsLeftUnsound) {
   Noise noise(11);
-  Scene s;
+  FittedScene s;
   plumb::AxisList axes{};
   axes[0] = {1.0, 0.0, 0.0};
   axes[1] = {0.0, 1.0, 0.0};
@@ -219,7 +219,7 @@ TEST(PaperCalibration, ATripleInOnePlaneIsLeftUnsound) {
 
 TEST(PaperCalibration, RefusesWhatItCannotUse) {
   using plumb::Errc;
-  Scene s = scene_of(61);
+  FittedScene s = scene_of(61);
   const auto refused = [&s](const PaperOptions& options, int count, SensorSet used, Errc code, int index) {
     PaperFit fit;
     const auto done = plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(), count, used, options, fit);

@@ -21,7 +21,7 @@ struct Over {
   double parity = 0.0;  ///< of y - H x, all sensors together
 };
 
-Over over_sphere(const Scene& s, const PaperFit& fit) {
+Over over_sphere(const FittedScene& s, const PaperFit& fit) {
   constexpr int kPoints = 100;
   const auto nominal = s.sheet.array();
   EXPECT_TRUE(nominal.has_value());
@@ -58,7 +58,7 @@ struct Tally {
 Tally tally(int runs, std::uint64_t seed, SensorSet used, const PaperOptions& options) {
   Tally t;
   for (int run = 0; run < runs; ++run) {
-    const Scene s = scene_of(seed + static_cast<std::uint64_t>(run));
+    const FittedScene s = scene_of(seed + static_cast<std::uint64_t>(run));
     const PaperFit fit = fitted_by_paper(s, used, options);
     const double norm = over_sphere(s, fit).norm;
     t.norm += norm * norm / runs;
@@ -135,7 +135,8 @@ TEST(PaperConvergence, LargerArraysHaveTheSameNineDirections) {
   for (const int n : {5, 6, 8}) {
     double square = 0.0;
     for (int run = 0; run < kRuns; ++run) {
-      const Scene s = scene_of_many(n, 1000U * static_cast<std::uint64_t>(n) + static_cast<std::uint64_t>(run), kSigma);
+      const FittedScene s =
+          scene_of_many(n, 1000U * static_cast<std::uint64_t>(n) + static_cast<std::uint64_t>(run), kSigma);
       const PaperFit fit = fitted_by_paper(s, SensorSet::first(n));
       EXPECT_TRUE(fit.converged);
       EXPECT_EQ(fit.rank, plumb::kPaperRank);
@@ -152,7 +153,7 @@ TEST(PaperConvergence, ItsNormIsPerfectAndItsParityIsNot) {
   constexpr int kRuns = 50;
   double paper_parity = 0.0, paper_norm = 0.0, forward_parity = 0.0;
   for (int run = 0; run < kRuns; ++run) {
-    const Scene s = scene_of(9000U + static_cast<std::uint64_t>(run));
+    const FittedScene s = scene_of(9000U + static_cast<std::uint64_t>(run));
     const PaperFit fit = fitted_by_paper(s, kAll);
     const Over over = over_sphere(s, fit);
     paper_parity += over.parity * over.parity / kRuns;

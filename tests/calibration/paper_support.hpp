@@ -27,22 +27,22 @@ inline void tell(const std::string& name, double value) {
   std::cout << "[ measured ] " << name << " = " << value << '\n';
 }
 
-struct Scene {
+struct FittedScene {
   plumb::Datasheet sheet;
   Truth truth;
   std::vector<plumb::Station> stations;
 };
 
-inline Scene scene_of(std::uint64_t seed, double sigma_mps2 = kSigma) {
+inline FittedScene scene_of(std::uint64_t seed, double sigma_mps2 = kSigma) {
   Noise noise(seed);
-  Scene s;
+  FittedScene s;
   s.sheet = paper_tool(kSigma);
   s.truth = draw_truth(s.sheet, noise);
   s.stations = random_stations(s.sheet, s.truth, 48, noise, sigma_mps2);
   return s;
 }
 
-inline PaperFit fitted_by_paper(const Scene& s, SensorSet used, const PaperOptions& options = {},
+inline PaperFit fitted_by_paper(const FittedScene& s, SensorSet used, const PaperOptions& options = {},
                                 PaperTrace* trace = nullptr) {
   PaperFit fit;
   const auto done = plumb::paper_calibrate(s.sheet, standard_gravity(), s.stations.data(),
@@ -53,7 +53,7 @@ inline PaperFit fitted_by_paper(const Scene& s, SensorSet used, const PaperOptio
 
 /// J'J in prior units, by the gradient alone.
 inline std::vector<double> information(const plumb::PaperError& error, const plumb::PaperParameters& at_parameters,
-                                       const Scene& s, std::vector<double>& slope) {
+                                       const FittedScene& s, std::vector<double>& slope) {
   const int n = error.parameters();
   std::vector<double> out(at(n * n));
   slope.assign(at(n), 0.0);
@@ -73,7 +73,7 @@ inline std::vector<double> information(const plumb::PaperError& error, const plu
 
 /// The eigenvalues of the whole matrix, and the step of rank nine that they give [prior units].
 inline std::vector<double> reference_step(const plumb::PaperError& error, const plumb::PaperParameters& from,
-                                          const Scene& s, std::vector<double>& values) {
+                                          const FittedScene& s, std::vector<double>& values) {
   const int n = error.parameters();
   std::vector<double> slope, vectors(at(n * n)), step(at(n));
   std::vector<double> matrix = information(error, from, s, slope);
@@ -88,9 +88,9 @@ inline std::vector<double> reference_step(const plumb::PaperError& error, const 
 }
 
 /// n sensors of a cone and its axis, at four temperatures.
-inline Scene scene_of_many(int n, std::uint64_t seed, double sigma_mps2) {
+inline FittedScene scene_of_many(int n, std::uint64_t seed, double sigma_mps2) {
   Noise noise(seed);
-  Scene s;
+  FittedScene s;
   plumb::AxisList axes{};
   EXPECT_EQ(plumb::cone_with_axis(axes, n), n);
   s.sheet = datasheet_of(axes, n, kSigma);
@@ -103,8 +103,8 @@ inline Scene scene_of_many(int n, std::uint64_t seed, double sigma_mps2) {
 }
 
 /// Stations from 20 to 150 degC of a tool that the paper's parameters describe exactly.
-inline Scene scene_over_temperature(bool bias_drifts) {
-  Scene s = scene_of(7);
+inline FittedScene scene_over_temperature(bool bias_drifts) {
+  FittedScene s = scene_of(7);
   for (int i = 0; i < 4 && !bias_drifts; ++i) s.sheet.sensor[at(i)].coefficients.bias = {0.02, 0.0, 0.0, 0.0};
   const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), kAll);
   EXPECT_TRUE(error.has_value());

@@ -29,7 +29,7 @@ TEST(PaperThree, StepOfATripleIsThatOfTheGeneralForm) {
   const auto own = std::make_unique<PaperTrace>(), general = std::make_unique<PaperTrace>();
   double apart = 0.0;
   for (int run = 0; run < 20; ++run) {
-    Scene s = scene_of(800U + static_cast<std::uint64_t>(run));
+    FittedScene s = scene_of(800U + static_cast<std::uint64_t>(run));
     s.stations.resize(run < 10 ? 48 : 12);
     for (int i = 0; i < 4; ++i) s.sheet.sensor[at(i)].coefficients.bias = {0.02, 0.0, 0.0, 0.0};
     const SensorSet used = kAll.without(run % 4);
@@ -57,7 +57,7 @@ TEST(PaperThree, StepOfATripleIsThatOfTheGeneralForm) {
 
 TEST(PaperThree, ATripleOverTemperatureIsThatOfTheGeneralForm) {
   for (const bool bias_drifts : {false, true}) {
-    const Scene s = scene_over_temperature(bias_drifts);
+    const FittedScene s = scene_over_temperature(bias_drifts);
     const auto error = plumb::PaperError::make(s.sheet, standard_gravity(), SensorSet::first(3));
     ASSERT_TRUE(error.has_value());
     const auto trace = std::make_unique<PaperTrace>();

@@ -5,24 +5,16 @@
 #include <cstring>
 #include <vector>
 
-#include "plumb/detection/isolation.hpp"
+#include "detection/still_block.hpp"
 #include "support/simulated_tool.hpp"
 
 namespace isolation_damage_test {
 namespace {
 
 using namespace plumb;
+using plumb_test::block_at;
 
 constexpr double kSigma = 2e-4 * kG0_mps2;
-
-BlockEvidence block_at(const SensorArray& array, const Vec3& direction) {
-  BlockEvidence block;
-  block.usable = array.all();
-  block.samples = 32.0;
-  for (int i = 0; i < array.size(); ++i)
-    block.mean_mps2[static_cast<std::size_t>(i)] = dot(array.axis(i), direction) * kG0_mps2;
-  return block;
-}
 
 /// Every byte of what it remembers set to zero in turn: it answers, convicts nobody of a sound block, and counts no
 /// more sets than there are.

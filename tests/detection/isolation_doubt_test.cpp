@@ -1,24 +1,16 @@
 // Readings that leave open who is wrong: they accuse nobody, least of all somebody healthy.
 #include <gtest/gtest.h>
 
-#include "plumb/detection/isolation.hpp"
+#include "detection/still_block.hpp"
 #include "support/simulated_tool.hpp"
 
 namespace isolation_doubt_test {
 namespace {
 
 using namespace plumb;
+using plumb_test::block_at;
 
 constexpr double kSigma = 2e-4 * kG0_mps2;
-
-BlockEvidence block_at(const SensorArray& array, const Vec3& direction) {
-  BlockEvidence block;
-  block.usable = array.all();
-  block.samples = 32.0;
-  for (int i = 0; i < array.size(); ++i)
-    block.mean_mps2[static_cast<std::size_t>(i)] = dot(array.axis(i), direction) * kG0_mps2;
-  return block;
-}
 
 /// One sensor is far off, another by a little more and more: those that agree in fours need not agree in fives, and
 /// where they do not, nobody is set aside.
