@@ -1,7 +1,8 @@
 # Shared by scripts/* and .ci/run: source it, do not run it. It needs bash and set -euo pipefail.
 # shellcheck shell=bash
 
-PLUMB_ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# The same folder by whatever link it was reached, or a build folder would be taken for another checkout's.
+PLUMB_ROOT="$(CDPATH="" cd -P -- "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd -P)"
 PLUMB_STEP=""
 PLUMB_CORE_ROOMS=(core numeric array gravity calibration detection navigation health c)  # floors 1 to 4
 export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # without it ccache passes precompiled headers by

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <string>
 #include <tuple>
@@ -46,6 +48,13 @@ inline std::string names_of(plumb::SensorSet set) {
 /// Cases of each law where nobody asks for more; .ci/run asks for 1e5 of the same numbered cases.
 inline constexpr std::uint64_t kLawCases = 10000;
 
+/// Whether a word is a whole number, in digits alone; then it is left in `number`.
+inline bool is_count(const char* word, std::uint64_t& number) {
+  const char* const end = word + std::strlen(word);
+  const auto [last, error] = std::from_chars(word, end, number);
+  return word != end && last == end && error == std::errc{};
+}
+
 struct LawCount {
   std::uint64_t cases = 0, broken = 0;
 };
@@ -56,8 +65,15 @@ LawCount run_law(int law, std::uint64_t wanted, Check&& check) {
   const char* some = std::getenv("PLUMB_LAW_CASES");
   const char* one = std::getenv("PLUMB_LAW_CASE");
   if (long_run()) wanted *= 1000;
-  if (some != nullptr) wanted = std::strtoull(some, nullptr, 10);
-  std::uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
+  std::uint64_t first = 0;
+  if (some != nullptr && (!is_count(some, wanted) || wanted == 0)) {
+    ADD_FAILURE() << "PLUMB_LAW_CASES is \"" << some << "\": give a whole number from 1 up, in digits";
+    return {};
+  }
+  if (one != nullptr && !is_count(one, first)) {
+    ADD_FAILURE() << "PLUMB_LAW_CASE is \"" << one << "\": give the number of a case, in digits";
+    return {};
+  }
   const std::uint64_t end = one != nullptr ? first + 1 : 20 * wanted;
   LawCount count;
   LawOutcome smallest;
