@@ -36,6 +36,7 @@ MonitorConfig settings_of(const plumb_config& c) noexcept {
   out.triple_false_alarm_rate = c.triple_false_alarm_rate;
   out.max_gap_s = c.max_gap_s;
   out.max_age_s = c.max_age_s;
+  out.max_age_samples = c.max_age_samples;
   out.station_angle_rad = c.station_angle_rad;
   out.excitation_angle_rad = c.excitation_angle_rad;
   out.clear_fraction = c.clear_fraction;
@@ -184,6 +185,7 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   config->triple_false_alarm_rate = d.triple_false_alarm_rate;
   config->max_gap_s = d.max_gap_s;
   config->max_age_s = d.max_age_s;
+  config->max_age_samples = d.max_age_samples;
   config->station_angle_rad = d.station_angle_rad;
   config->excitation_angle_rad = d.excitation_angle_rad;
   config->clear_fraction = d.clear_fraction;

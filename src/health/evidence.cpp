@@ -175,6 +175,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
       judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
   note_block();
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
+  freshness_.measure(array_, block_, departure_quantile_, resolution_mps2_);
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();
@@ -201,6 +202,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   if (temperature_out_) {  // all sensors leave their model together: nothing dies, nothing latches
     rescan(tests);
     publish_vector(tests);
+    freshness_.anchor(sample.time_s, 0.0);
     return 0;
   }
   if (view.kind == Kind::alarm && !episode_.open && !owes_calibration()) {  // nobody is accused by a datasheet
@@ -222,6 +224,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);
+  freshness_.anchor(sample.time_s, motion_in_bound_rad() * gravity_.g_mps2);
   return raised;
 }
 

@@ -63,6 +63,7 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
   derive_limits();
   k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);
+  departure_quantile_ = normal_tail_quantile(Freshness::kDepartureRate / (2.0 * n * config_.window));
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
 
@@ -92,6 +93,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   unproven_ = true;
   partial_ = false;
   silence_.clear();
+  freshness_ = Freshness{};
   clock_.clear();
   block_usable_ = SensorSet{};
   pending_ = 0;
@@ -222,8 +224,7 @@ void HealthMonitor::refuse(const Sample& sample) noexcept {
   count_up(counters_.time_refused);
   verdict_.sample = counters_.samples;
   verdict_.cause = Cause::time_fault;
-  if (verdict_.validity != Validity::invalid) verdict_.validity = Validity::held;
-  verdict_.alert = true;
+  publish_claims(verdict_.validity == Validity::invalid ? Validity::invalid : Validity::held);
   if (reset_pending_) {  // the host's key is served whatever the clock does
     decide(bit(HealthEvent::reset), clock_.last_s());
     publish(sample, false);
@@ -275,6 +276,8 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   if (outside) count_up(counters_.temperature_out);
   temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
   if (std::isfinite(t)) last_temperature_degc_ = t;
+  if (block_.size() == 0) freshness_.begin_block(sample.time_s);
+  freshness_.note(in_service_, gate.usable, y, evidence_);
   add_readings(y, gate.usable, sample.count > 0 ? sample.count : 1);
   raw_.add(sample.raw, gate.usable, last_temperature_degc_);
   verdict_.accepted = true;
@@ -291,9 +294,11 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   const Arrival arrival = clock_.admit(sample.time_s, config_.max_gap_s);
   GateResult gate;
   const SensorSet lost = gate_.lost(), back = gate_.back();
-  if (arrival != Arrival::refused) {
-    gate = gate_.gate(sample);
-    if (!gate.gap && arrival == Arrival::in_order) collect_sample(sample, gate);
+  if (arrival != Arrival::refused) gate = gate_.gate(sample);
+  if (arrival == Arrival::refused || gate.gap) {
+    freshness_.note_nothing();
+  } else if (arrival == Arrival::in_order) {
+    collect_sample(sample, gate);
   }
   // Nothing is decided, and nothing written to that the sum is over, before that has been found as it was left.
   if (lost == gate_.lost() && back == gate_.back() && !is_eventful(arrival, gate)) {
@@ -330,6 +335,7 @@ void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gat
     count_up(counters_.gaps);
     verdict_.cause = Cause::gap;
     empty_windows();
+    if (arrival != Arrival::in_order) freshness_.lapse();
     if (!gate.gap) collect_sample(sample, gate);
   }
   bool ticked = false;

@@ -29,7 +29,7 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {static_cast<double>(c.probation_stations), 1, 24},
       {static_cast<double>(c.missing_confirm), 1, kMostConfirm},
       {c.max_gap_s, 1e-6, 1e9},
-      {c.max_age_s, 1e-6, 1e9},
+      {c.max_age_s, 0, 1e9},
       {c.station_angle_rad, 1e-4, 1.5},
       {c.excitation_angle_rad, 1e-4, 1.5},
       {c.clear_fraction, 0.1, 1.0},
@@ -46,6 +46,7 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {c.common_drift_mps2, 0, 10},
       {static_cast<double>(c.alarm_form), 0, 1},
       {c.triple_false_alarm_rate, 0, 1e-2},
+      {static_cast<double>(c.max_age_samples), 0, kMostAgeSamples},
   };
   int index = 0;
   for (const Range& f : fields) {

@@ -193,7 +193,9 @@ const Verdict& PaperMonitor::step(const Sample& sample) noexcept {
 
 Validity PaperMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || !have_evidence_) return Validity::invalid;
-  if (moving_ || clock_.last_s() - evidence_time_s_ > config_.max_age_s) return Validity::held;
+  constexpr double kMostAge_s = 60.0;  // the paper sets none
+  const double most_s = config_.max_age_s > 0.0 ? config_.max_age_s : kMostAge_s;
+  if (moving_ || clock_.last_s() - evidence_time_s_ > most_s) return Validity::held;
   if (mode_ == Mode::suspect || mode_ == Mode::recalibrating || temperature_out_) return Validity::unconfirmed;
   return mode_ == Mode::degraded ? Validity::degraded : Validity::valid;
 }

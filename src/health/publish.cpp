@@ -81,24 +81,30 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
       when(verdict_.protection_available, Usable::protection_level) |
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(!moving_ && have_evidence_, Usable::stationary) |
+      when(is_fresh() && verdict_.validity != Validity::held, Usable::stationary) |
       when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
       when(!owes_calibration() && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
+}
+
+/// Whether the vector of the last block is that of this sample too.
+bool HealthMonitor::is_fresh() const noexcept {
+  return !moving_ && have_evidence_ && freshness_.holds(config_, clock_.last_s() - evidence_time_s_);
 }
 
 Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || owes_calibration() || !have_evidence_) return Validity::invalid;
   if (!has_variances(verdict_.covariance)) return Validity::invalid;
-  if (moving_ || !(clock_.last_s() - evidence_time_s_ <= config_.max_age_s)) return Validity::held;
+  if (!is_fresh()) return Validity::held;
   const Mode mode = published_mode();
   if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
   if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
   return mode == Mode::degraded ? Validity::degraded : Validity::valid;
 }
 
-bool HealthMonitor::protected_now() const noexcept {
-  return scan_.protection_available && have_evidence_ && !temperature_out_ && !owes_calibration() &&
-         mode_ != Mode::failed && published_mode() != Mode::degraded;
+/// Of an older vector the bound says nothing now.
+bool HealthMonitor::protected_now(Validity validity) const noexcept {
+  return scan_.protection_available && have_evidence_ && validity != Validity::held && !temperature_out_ &&
+         !owes_calibration() && mode_ != Mode::failed && published_mode() != Mode::degraded;
 }
 
 void HealthMonitor::publish_vector(const BlockTests& tests) noexcept {
@@ -131,12 +137,15 @@ void HealthMonitor::publish_sample(const Sample& sample) noexcept {
 bool HealthMonitor::news() const noexcept {
   const bool temperature_fine = (verdict_.usable & Usable::temperature) != 0;
   const bool fine_now = !temperature_out_ && temperature_rate_.slow();
+  const bool stationary = (verdict_.usable & Usable::stationary) != 0;
   const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
   // An offer that an inhibit keeps waiting raises no event, and is told all the same.
+  const Validity now = validity();
   const bool offered = verdict_.recalibration.offered != recalibration_.offered();
-  return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now() ||
-         mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != validity() ||
-         temperature_fine != fine_now || inhibited != inhibited_ || verdict_.reference_mps2 != gravity_.g_mps2 ||
+  return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now(now) ||
+         mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != now ||
+         temperature_fine != fine_now || stationary != (now != Validity::held && is_fresh()) ||
+         inhibited != inhibited_ || verdict_.reference_mps2 != gravity_.g_mps2 ||
          verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
 }
 
@@ -176,8 +185,14 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
       v.rotation.wanted || (state_of(mode_) == HealthState::recalibrating && v.recalibration.stations_wanted > 0);
   v.reference_mps2 = gravity_.g_mps2;
   v.reference_sigma_mps2 = gravity_.sigma_mps2;
-  v.validity = validity();
-  v.protection_available = protected_now();
+  publish_claims(validity());
+}
+
+/// What the verdict claims of this sample.
+void HealthMonitor::publish_claims(Validity validity) noexcept {
+  Verdict& v = verdict_;
+  v.validity = validity;
+  v.protection_available = protected_now(validity);
   v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
   const double sine = across_tool(v.gravity_mps2) / std::fmax(norm(v.gravity_mps2), 1e-9);
   const bool told =

@@ -177,6 +177,11 @@ SensorSet HealthMonitor::witnesses() const noexcept {
   return out;
 }
 
+/// The vector is that of a block: what the tool turned since the one before, and inside it, comes on top of its bound.
+double HealthMonitor::motion_in_bound_rad() const noexcept {
+  return drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
+}
+
 void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   live_ = isolation_.live();
   if (!have_evidence_) return;
@@ -185,8 +190,7 @@ void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
   scan_ = isolation_.scan(tests, in_service_, depth, asserted_left_,
                           {protection_faults_, k_integrity_, config_.common_drift_mps2}, witnesses());
-  // The vector is that of a block: what the tool turned since the one before, and inside it, comes on top.
-  scan_.protection_rad += drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
+  scan_.protection_rad += motion_in_bound_rad();
 }
 
 }  // namespace PLUMB_ABI

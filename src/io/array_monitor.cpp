@@ -26,6 +26,7 @@ const std::vector<std::string>& known_keys() {
                                                  "missing_confirm",
                                                  "max_gap",
                                                  "max_age",
+                                                 "max_age_samples",
                                                  "station_angle",
                                                  "excitation_angle",
                                                  "clear_fraction",
@@ -71,6 +72,7 @@ MonitorConfig filled(const TomlTable& table) {
   config.missing_confirm = whole(table, "missing_confirm", config.missing_confirm);
   config.max_gap_s = table.quantity(Quantity::time, "max_gap", config.max_gap_s);
   config.max_age_s = table.quantity(Quantity::time, "max_age", config.max_age_s);
+  config.max_age_samples = whole(table, "max_age_samples", config.max_age_samples);
   config.station_angle_rad = table.quantity(Quantity::angle, "station_angle", config.station_angle_rad);
   config.excitation_angle_rad = table.quantity(Quantity::angle, "excitation_angle", config.excitation_angle_rad);
   config.clear_fraction = table.quantity(Quantity::ratio, "clear_fraction", config.clear_fraction);

@@ -66,6 +66,7 @@ std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad) {
   number("missing_confirm", config.missing_confirm, usual.missing_confirm);
   quantity("max_gap", config.max_gap_s, usual.max_gap_s, "s");
   quantity("max_age", config.max_age_s, usual.max_age_s, "s");
+  number("max_age_samples", config.max_age_samples, usual.max_age_samples);
   quantity("station_angle", config.station_angle_rad, usual.station_angle_rad, "rad");
   quantity("excitation_angle", config.excitation_angle_rad, usual.excitation_angle_rad, "rad");
   ratio("clear_fraction", config.clear_fraction, usual.clear_fraction);

@@ -239,9 +239,18 @@ LawResult replay_is_exact(const Case& c) {
   });
 }
 
+/// Whether every sensor in service delivered a number with this sample.
+bool delivers_all(const Sample& sample, SensorSet in_service) {
+  for (int i = 0; i < kCapacity; ++i) {
+    if (in_service.has(i) && !(sample.delivered.has(i) && std::isfinite(sample.raw[static_cast<std::size_t>(i)])))
+      return false;
+  }
+  return true;
+}
+
 LawResult verdict_agrees_with_itself(const Case& c) {
   std::uint32_t sequence = 0;
-  return play(c, [&](const HealthMonitor&, const Verdict& v, const Sample&, const scenario::Truth&) {
+  return play(c, [&](const HealthMonitor&, const Verdict& v, const Sample& sample, const scenario::Truth&) {
     const bool usable = v.validity == Validity::valid || v.validity == Validity::degraded;
     if (!all_finite(v)) return std::string("a number is not finite");
     if (v.state == HealthState::suspect && usable) return std::string("suspect, but published as usable");
@@ -253,6 +262,11 @@ LawResult verdict_agrees_with_itself(const Case& c) {
     if (v.protection_available != ((v.usable & Usable::protection_level) != 0) && usable) {
       return std::string("protection level and its bit differ");
     }
+    // Where the sets change, the newest vector is still that of the sets from before.
+    constexpr double kAnotherAttitude_rad = rad_from_deg(5.0);
+    const bool newest = v.accepted && v.transition.sequence == 0 && delivers_all(sample, v.in_service);
+    if (usable && newest && angle_between_rad(v.gravity_mps2, v.latest_mps2) > kAnotherAttitude_rad)
+      return std::string("usable, but the newest sample has another attitude");
     if (v.transition.sequence != 0 && v.transition.sequence != sequence + 1) return std::string("a record is missing");
     if (v.transition.sequence != 0) sequence = v.transition.sequence;
     return std::string();

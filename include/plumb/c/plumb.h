@@ -85,6 +85,7 @@ typedef struct plumb_config {
   int32_t asserted_faults;
   int32_t isolation_stations, patience, clean_blocks, forget_blocks, probation_stations, missing_confirm;
   int32_t patience_blocks;
+  int32_t max_age_samples;
   int32_t recalibrate_after_exclusion;
   int32_t alarm_for_average_tool; /* 0: the false-alarm rate holds for every tool */
   uint64_t reset_key;

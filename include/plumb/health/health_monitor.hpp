@@ -15,6 +15,7 @@
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/health/decision.hpp"
 #include "plumb/health/episode.hpp"
+#include "plumb/health/freshness.hpp"
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/monitor_setup.hpp"
@@ -149,9 +150,11 @@ class HealthMonitor {
   void give_notice(double time_s) noexcept;
   std::uint16_t usable_bits() const noexcept;
   Validity validity() const noexcept;
+  void publish_claims(Validity validity) noexcept;
+  bool is_fresh() const noexcept;
   void publish_decision(const BlockView& view) noexcept;
   void publish_vector(const BlockTests& tests) noexcept;
-  bool protected_now() const noexcept;
+  bool protected_now(Validity validity) const noexcept;
   void publish_sample(const Sample& sample) noexcept;
   bool news() const noexcept;
   void publish(const Sample& sample, bool tick) noexcept;
@@ -190,6 +193,7 @@ class HealthMonitor {
   void count_clean(const BlockTests& tests, const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
+  double motion_in_bound_rad() const noexcept;
   void rescan(const BlockTests& tests) noexcept;
 
   // recalibrating.cpp: the shadow fit
@@ -234,6 +238,7 @@ class HealthMonitor {
   double restless_factor_ = 0.0;
   double mae_quantile_ = 0.0;
   double k_integrity_ = 0.0;
+  double departure_quantile_ = 0.0;
   int protection_faults_ = 1;
   int asserted_left_ = -1;
   std::uint64_t identity_ = 0;  ///< of the setup, gravity left out
@@ -250,6 +255,7 @@ class HealthMonitor {
   bool have_evidence_ = false;
   bool configured_ = false;  ///< not remembered, but here is room for it
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
+  Freshness freshness_;  ///< of the evidence
   SampleClock clock_;
   SilenceCounter silence_;
   EventMask pending_ = 0;  ///< block events that a channel event pushed back
@@ -342,7 +348,7 @@ class HealthMonitor {
                       &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_, &M::exhausted_, &M::moving_,
                       &M::partial_, &M::have_evidence_, &M::configured_, &M::reset_pending_, &M::recalibration_asked_,
                       &M::recalibration_due_, &M::three_sensor_fit_, &M::lever_arms_known_, &M::inhibited_,
-                      &M::inhibit_notice_, &M::rotation_, &M::gate_, &M::verdict_);
+                      &M::inhibit_notice_, &M::rotation_, &M::gate_, &M::freshness_, &M::verdict_);
   }
   static constexpr auto fields() noexcept {
     using M = HealthMonitor;
@@ -351,22 +357,23 @@ class HealthMonitor {
         not_stored(&M::config_), &M::model_, not_stored(&M::coefficients_), &M::array_, &M::gravity_,
         not_stored(&M::frame_), not_stored(&M::resolution_mps2_), not_stored(&M::limits_),
         not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
-        not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::identity_),
+        not_stored(&M::departure_quantile_), not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3),
+        not_stored(&M::identity_),
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
         &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,
         &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_,
-        not_stored(&M::configured_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::clock_, &M::silence_,
-        &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
-        within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_), per_sensor(&M::least_prediction_),
-        per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_, &M::on_probation_, &M::reset_sensors_,
-        &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
-        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
-        &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
-        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
-        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
-        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_, not_stored(&M::lever_arms_known_),
-        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        not_stored(&M::configured_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::freshness_, &M::clock_,
+        &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks),
+        &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_),
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_,
+        &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
+        up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
+        &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_, &M::temperature_min_degc_,
+        &M::temperature_max_degc_, within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)),
+        per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
+        &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
         up_to(&M::told_reference_, ReferenceKind::common_bias),
         up_to(&M::reference_notice_, ReferenceKind::common_bias),
         // evidence

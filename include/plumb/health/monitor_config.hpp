@@ -19,6 +19,7 @@ enum class MonitorMode : std::uint8_t { plumb, paper };
 inline constexpr int kMostConfirm = 60000;
 inline constexpr int kMostCleanBlocks = 1000;
 inline constexpr int kMostPatienceBlocks = 1000000;
+inline constexpr int kMostAgeSamples = 1000000;
 
 struct MonitorConfig {
   MonitorMode mode = MonitorMode::plumb;
@@ -34,7 +35,9 @@ struct MonitorConfig {
   int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
   int missing_confirm = 3;         ///< samples in a row without a usable value: the channel is lost
   double max_gap_s = 5.0;          ///< a longer gap between samples empties windows and ends the station
-  double max_age_s = 60.0;         ///< T_age: without a quiet block for this long nothing is published as valid
+  /// T_age: without a quiet block for this long nothing is published as valid; 0 = 1 s, or two blocks where they take
+  /// longer.
+  double max_age_s = 0.0;
   double station_angle_rad = rad_from_deg(2.0);     ///< change of direction that begins a new station
   double excitation_angle_rad = rad_from_deg(5.0);  ///< directions at least this far apart count as excited
   double clear_fraction = 0.7;                      ///< clean means below this fraction of the limit while in suspect
@@ -56,6 +59,7 @@ struct MonitorConfig {
   double common_drift_mps2 = 1e-4 * kG0_mps2;
   AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
   double triple_false_alarm_rate = 0.0;          ///< per block, of each triple's MAE alone; 0 = its share of the above
+  int max_age_samples = 0;  ///< T_age in samples, those refused and those that brought nothing included; 0 = two blocks
 
   /// What a snapshot is bound to: all of it, but never stored.
   static constexpr auto fields() noexcept {
@@ -69,7 +73,8 @@ struct MonitorConfig {
                       &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
                       &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
                       within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2,
-                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate);
+                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate,
+                      within(&C::max_age_samples, 0, kMostAgeSamples));
   }
 };
 

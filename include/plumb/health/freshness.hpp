@@ -1,0 +1,65 @@
+/// Whether the vector of the last quiet block still speaks of the sample at hand: samples keep arriving, every sensor
+/// in service delivers, and what they read now is what they read then.
+#pragma once
+
+#include <array>
+
+#include "plumb/detection/set_test.hpp"
+#include "plumb/detection/stationarity.hpp"
+#include "plumb/health/monitor_config.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+class Freshness {
+ public:
+  /// How seldom, per block of a tool at rest, noise alone may look like a reading that has left the block.
+  static constexpr double kDepartureRate = 1e-5;
+  /// Without an age limit of the host's, the vector may be this old, or two blocks where these take longer [s].
+  static constexpr double kLeastAge_s = 1.0;
+
+  /// From here on nothing is known of now, until a block is quiet: at power-on, behind a gap, on a new time base.
+  void lapse() noexcept { anchored_ = false; }
+  /// The first sample of a block.
+  void begin_block(double time_s) noexcept { block_begin_s_ = time_s; }
+  /// How far a reading of each sensor may be from the mean of this block by noise: by the array's or, where the block
+  /// scattered more than that, by the block's own, and by one step of the converter.
+  /// `quantile` stands for kDepartureRate.
+  void measure(const SensorArray& array, const BlockAccumulator& block, double quantile,
+               const std::array<double, kCapacity>& resolution_mps2) noexcept;
+  /// The block that ends at `time_s` was quiet, and its vector is published; its bound holds `motion_mps2` of motion.
+  void anchor(double time_s, double motion_mps2) noexcept;
+  /// One sample: the readings of `usable` beside the block's.
+  void note(SensorSet in_service, SensorSet usable, const Readings& y_mps2, const BlockEvidence& block) noexcept;
+  /// One sample that brought nothing: refused, or no channel delivered.
+  void note_nothing() noexcept;
+
+  /// Whether the vector may be called valid now, `age_s` after its block.
+  bool holds(const MonitorConfig& config, double age_s) const noexcept;
+
+ private:
+  std::array<double, kCapacity> tolerance_mps2_{};
+  double motion_mps2_ = 0.0, block_begin_s_ = 0.0;
+  double span_s_ = 0.0;  ///< of the block behind the vector, first sample to last
+  int samples_ = 0;      ///< offered since that block
+  int missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
+  bool anchored_ = false;
+  bool departed_ = false;  ///< the last reading of some sensor is not what the block has
+
+  friend struct FieldsOf;
+  /// What a sample alone changes.
+  static constexpr auto changing() noexcept {
+    using F = Freshness;
+    return field_list(&F::block_begin_s_, &F::samples_, &F::missing_run_, &F::departed_);
+  }
+  static constexpr auto core() noexcept { return field_list(&Freshness::anchored_); }
+  static constexpr auto fields() noexcept {
+    using F = Freshness;
+    return field_list(per_sensor(&F::tolerance_mps2_), &F::motion_mps2_, &F::block_begin_s_, &F::span_s_,
+                      within(&F::samples_, 0, kMostAgeSamples + 1), within(&F::missing_run_, 0, kMostConfirm),
+                      &F::anchored_, &F::departed_);
+  }
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,56 @@
+#include "plumb/health/freshness.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+using std::size_t;
+
+void Freshness::measure(const SensorArray& array, const BlockAccumulator& block, double quantile,
+                        const std::array<double, kCapacity>& resolution_mps2) noexcept {
+  for (int i = 0; i < array.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double sigma = array.sigma_mps2(i);
+    const double variance = std::fmax(sigma * sigma, block.covariance(i, i));
+    tolerance_mps2_[a] = quantile * std::sqrt(variance * (1.0 + 1.0 / block.size())) + resolution_mps2[a];
+  }
+}
+
+void Freshness::anchor(double time_s, double motion_mps2) noexcept {
+  motion_mps2_ = motion_mps2;
+  span_s_ = time_s - block_begin_s_;
+  samples_ = 0;
+  missing_run_ = 0;
+  anchored_ = true;
+  departed_ = false;
+}
+
+void Freshness::note(SensorSet in_service, SensorSet usable, const Readings& y_mps2,
+                     const BlockEvidence& block) noexcept {
+  samples_ += samples_ < kMostAgeSamples + 1 ? 1 : 0;
+  missing_run_ = usable.contains(in_service) ? 0 : missing_run_ + (missing_run_ < kMostConfirm ? 1 : 0);
+  departed_ = false;
+  std::uint32_t left = (in_service & usable & block.usable).bits;
+  for (size_t a = 0; left != 0 && a < y_mps2.size(); ++a, left >>= 1U) {
+    // Written so that what is not a number has departed.
+    if ((left & 1U) != 0 && !(std::fabs(y_mps2[a] - block.mean_mps2[a]) <= tolerance_mps2_[a] + motion_mps2_)) {
+      departed_ = true;
+    }
+  }
+}
+
+void Freshness::note_nothing() noexcept {
+  samples_ += samples_ < kMostAgeSamples + 1 ? 1 : 0;
+  missing_run_ += missing_run_ < kMostConfirm ? 1 : 0;
+}
+
+bool Freshness::holds(const MonitorConfig& config, double age_s) const noexcept {
+  const int most_samples = config.max_age_samples > 0 ? config.max_age_samples : 2 * config.window;
+  const double most_s = config.max_age_s == 0.0 ? std::fmax(kLeastAge_s, 2.0 * span_s_) : config.max_age_s;
+  return anchored_ && !departed_ && missing_run_ < config.missing_confirm && samples_ <= most_samples &&
+         age_s <= most_s;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

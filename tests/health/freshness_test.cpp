@@ -1,0 +1,201 @@
+// What is called valid is a claim about the sample at hand: data keep arriving, all in service deliver, and the newest
+// readings are those of the block behind the vector.
+#include "plumb/health/freshness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "snapshot_support.hpp"
+
+namespace freshness_test {
+namespace {
+
+using namespace plumb;
+using plumb_test::direction_at;
+using plumb_test::Rig;
+
+constexpr std::uint16_t kClaims =
+    Usable::vector | Usable::inclination | Usable::toolface | Usable::stationary | Usable::protection_level;
+
+/// Nothing that a host could steer by.
+bool claims_nothing(const Verdict& v) {
+  return v.validity != Validity::valid && v.validity != Validity::degraded && v.alert && !v.protection_available &&
+         (v.usable & kClaims) == 0;
+}
+
+/// The same tool, sampled every `period_s`, trusted, at `direction_at(60, 40)`, a block just ended.
+class Slow {
+ public:
+  explicit Slow(double period_s, MonitorConfig config = {})
+      : rig(plumb_test::tetrahedron(), config), period_(period_s) {
+    for (int round = 0; round < 5 && rig.monitor.verdict().state != HealthState::nominal; ++round) {
+      for (const Vec3& u : {direction_at(20, 10), direction_at(80, 130), direction_at(60, 250), direction_at(60, 40)})
+        stay(u, rig.setup.config.window);
+    }
+    EXPECT_EQ(rig.monitor.verdict().validity, Validity::valid);
+    EXPECT_TRUE(rig.monitor.verdict().tick);
+  }
+  Sample sample(const Vec3& u) {
+    Sample s = rig.sample(u, kG0_mps2);
+    s.time_s = time_s += period_;
+    return s;
+  }
+  const Verdict& stay(const Vec3& u, int samples) {
+    for (int k = 0; k < samples; ++k) rig.step(sample(u));
+    return rig.monitor.verdict();
+  }
+
+  Rig rig;
+  double time_s = 0.0;
+
+ private:
+  double period_;
+};
+
+const Vec3 kHere = direction_at(60, 40);
+
+/// 59 s of a bus that delivers nothing, or nothing but what is no number, while the tool turns.
+// Verifies: REQ-192
+// Negative: REQ-192
+TEST(Freshness, WithoutDataNothingIsClaimed) {
+  for (const bool silent : {true, false}) {
+    Slow tool(0.01);
+    for (int k = 0; k < 5900; ++k) {
+      Sample s = tool.sample(direction_at(60 + k, 40));
+      if (silent) s.delivered = SensorSet{};
+      for (double& raw : s.raw) raw = std::numeric_limits<double>::quiet_NaN();
+      const Verdict& v = tool.rig.step(s);
+      if (k + 1 >= tool.rig.setup.config.missing_confirm) {
+        ASSERT_TRUE(claims_nothing(v)) << k;
+      }
+    }
+    EXPECT_EQ(tool.rig.monitor.verdict().state, HealthState::nominal) << "a silent bus is nobody's fault";
+    tool.stay(kHere, tool.rig.setup.config.window);
+    EXPECT_EQ(tool.rig.monitor.verdict().validity, Validity::valid) << "as soon as a block is complete again";
+  }
+}
+
+// Negative: REQ-192
+TEST(Freshness, BehindAGapNothingIsClaimedBeforeABlockIsComplete) {
+  Slow tool(0.01);
+  tool.time_s += 55.0;
+  for (int k = 0; k < 31; ++k) EXPECT_TRUE(claims_nothing(tool.rig.step(tool.sample(direction_at(150, 40))))) << k;
+  EXPECT_FALSE(claims_nothing(tool.rig.step(tool.sample(direction_at(150, 40)))));
+  for (int k = 0; k < 100; ++k) {
+    tool.time_s += 5.1;
+    EXPECT_TRUE(claims_nothing(tool.rig.step(tool.sample(direction_at(60 + k, 40))))) << k;
+  }
+}
+
+/// Whatever the rate, the first sample of another attitude ends it: the block would take 32 of them.
+// Verifies: REQ-192
+TEST(Freshness, ATurnIsSeenAtItsFirstSample) {
+  for (const double period_s : {0.01, 0.1, 1.0}) {
+    for (const double turn_deg : {90.0, 5.0, 0.5}) {
+      Slow tool(period_s);
+      EXPECT_EQ(tool.stay(kHere, 1).validity, Validity::valid);
+      const Verdict& v = tool.rig.step(tool.sample(direction_at(60 + turn_deg, 40)));
+      EXPECT_TRUE(claims_nothing(v)) << period_s << ": " << turn_deg;
+      EXPECT_EQ(v.validity, Validity::held);
+      EXPECT_EQ(tool.stay(kHere, 1).validity, Validity::valid) << "it was a knock";
+    }
+  }
+}
+
+/// At any rate a tool at rest stays valid from block to block.
+// Verifies: REQ-192
+TEST(Freshness, AtRestASlowLogStaysValid) {
+  for (const double period_s : {0.001, 0.01, 0.1, 1.0, 4.0}) {
+    Slow tool(period_s);
+    for (int k = 0; k < 320; ++k) EXPECT_EQ(tool.stay(kHere, 1).validity, Validity::valid) << period_s << ": " << k;
+  }
+}
+
+// Verifies: REQ-192
+TEST(Freshness, OneRowWithoutOneChannelIsBorneAndSeveralAreNot) {
+  for (int run = 1; run <= 5; ++run) {
+    Slow tool(0.01);
+    for (int k = 1; k <= run; ++k) {
+      Sample s = tool.sample(kHere);
+      s.delivered = s.delivered.without(1);
+      // Lost in the third row, and then out of service.
+      EXPECT_EQ(tool.rig.step(s).validity == Validity::valid, k < 3) << run << ": " << k;
+    }
+    EXPECT_EQ(tool.stay(kHere, 1).validity == Validity::valid, run < 3) << run;
+  }
+  Slow alternating(0.01);
+  for (int k = 0; k < 20; ++k) {
+    Sample s = alternating.sample(kHere);
+    s.delivered = s.delivered.without(k % 4);
+    EXPECT_EQ(alternating.rig.step(s).validity == Validity::valid, k < 2) << "no row has all of them: " << k;
+  }
+}
+
+// Verifies: REQ-192
+TEST(Freshness, AgeLimitsAreTheHosts) {
+  MonitorConfig config;
+  config.max_age_s = 0.105;
+  Slow in_seconds(0.01, config);
+  for (int k = 1; k < 31; ++k) EXPECT_EQ(in_seconds.stay(kHere, 1).validity == Validity::valid, k <= 10) << k;
+  config = MonitorConfig{};
+  config.max_age_samples = 5;
+  Slow in_samples(0.01, config);
+  for (int k = 1; k < 31; ++k) EXPECT_EQ(in_samples.stay(kHere, 1).validity == Validity::valid, k <= 5) << k;
+}
+
+/// Two in three rows bring nothing, never three in a row: the block does not fill, and its age in samples ends it.
+// Negative: REQ-192
+TEST(Freshness, AStutteringBusDoesNotKeepAnOldVectorAlive) {
+  MonitorConfig config;
+  config.max_age_s = 1e9;
+  Slow tool(0.01, config);
+  for (int k = 0; k < 300; ++k) {
+    Sample s = tool.sample(kHere);
+    if (k % 3 != 0) s.delivered = SensorSet{};
+    const Verdict& v = tool.rig.step(s);
+    if (k >= 2 * config.window) {
+      EXPECT_TRUE(claims_nothing(v)) << k;
+    }
+  }
+}
+
+/// A sample that is refused takes back what was claimed, and the monitor's own snapshot of then is its own.
+// Verifies: REQ-192
+TEST(Freshness, ARefusedSampleTakesBackWhatWasClaimed) {
+  Slow tool(0.01);
+  const Sample twice = tool.sample(kHere);
+  EXPECT_EQ(tool.rig.step(twice).validity, Validity::valid);
+  EXPECT_TRUE(claims_nothing(tool.rig.step(twice)));
+  Sample silent = twice;
+  silent.delivered = SensorSet{};
+  silent.time_s += 70.0;
+  tool.rig.step(silent);
+  const plumb_test::Bytes bytes = plumb_test::snapshot_of(tool.rig.monitor);
+  const auto next = std::make_unique<HealthMonitor>();
+  EXPECT_TRUE(next->restore(tool.rig.setup, bytes.data(), bytes.size()).has_value());
+  EXPECT_TRUE(claims_nothing(next->verdict()));
+}
+
+/// kDepartureRate per block: 1e-5, and so 0.1 such blocks in 1e4 on average.
+// Verifies: REQ-192
+TEST(Freshness, NoiseAloneHardlyEverEndsIt) {
+  for (const int n : {4, 8}) {
+    Rig rig(plumb_test::cone_array(n));
+    rig.prove();
+    rig.stay(kHere);
+    int held = 0;
+    for (int block = 0; block < 5000; ++block) {
+      int samples = 0;
+      for (int k = 0; k < rig.setup.config.window; ++k)
+        samples += rig.step(rig.sample(kHere, kG0_mps2)).validity == Validity::held ? 1 : 0;
+      held += samples > 0 ? 1 : 0;
+    }
+    EXPECT_LE(held, 2) << n;
+  }
+}
+
+}  // namespace
+}  // namespace freshness_test
