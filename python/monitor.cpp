@@ -159,7 +159,7 @@ void bind_monitor(py::module_& module) {
                        mae_all_mps2, mae_worst_mps2, parity, parity_limit, norm_error_mps2, gravity_mps2, covariance,
                        age_s, latest_mps2, protection_level_rad, transition);
   module.attr("STATES") = names(plumb::HealthState::failed);
-  module.attr("VALIDITIES") = names(plumb::Validity::invalid);
+  module.attr("VALIDITIES") = names(plumb::Validity::valid);
   module.attr("CAUSES") = names(plumb::kLastCause);
   module.attr("verdict_dtype") = py::dtype::of<Row>();
 

@@ -13,7 +13,7 @@
 typedef struct NAV_PlumbHk {
   uint8 Header[16]; /* CFE_MSG_TelemetryHeader_t */
   uint8 State;      /* plumb_state */
-  uint8 Validity;   /* plumb_validity: the smaller, the better */
+  uint8 Validity;   /* plumb_validity: the larger, the better */
   uint8 InService;  /* how many sensors */
   uint8 Alert;      /* the tilt is not bounded within the alert limit */
   uint32 Excluded;  /* bit i: sensor i */

@@ -175,7 +175,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
       judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
   note_block();
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
-  freshness_.measure(array_, block_, departure_quantile_, resolution_mps2_);
+  freshness_.measure(array_, block_, resolution_mps2_);
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();

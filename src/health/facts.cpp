@@ -49,7 +49,7 @@ void HealthMonitor::note_stuck(const BlockEvidence& evidence) noexcept {
       stuck_since_[a] = now;
       stuck_watch_ = stuck_watch_.with(i);
     } else if (std::fabs(now - stuck_since_[a]) >
-               std::fmax(kStuckShare * gravity_.g_mps2, kStuckCodes * resolution_mps2_[a])) {
+               std::fmax(kStuckShare * gravity_.g_mps2, kStuckCodes * static_cast<double>(resolution_mps2_[a]))) {
       stuck_ = stuck_.with(i);
     }
   }

@@ -7,19 +7,28 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
-void Freshness::measure(const SensorArray& array, const BlockAccumulator& block, double quantile,
-                        const std::array<double, kCapacity>& resolution_mps2) noexcept {
+namespace {
+
+constexpr std::uint16_t one_more(std::uint16_t run) noexcept {
+  return run < kMostConfirm ? static_cast<std::uint16_t>(run + 1) : run;
+}
+
+}  // namespace
+
+void Freshness::measure(const SensorArray& array, const BlockAccumulator& block,
+                        const std::array<float, kCapacity>& resolution_mps2) noexcept {
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
     const double sigma = array.sigma_mps2(i);
     const double variance = std::fmax(sigma * sigma, block.covariance(i, i));
-    tolerance_mps2_[a] = quantile * std::sqrt(variance * (1.0 + 1.0 / block.size())) + resolution_mps2[a];
+    const double noise = kDepartureSigmas * std::sqrt(variance * (1.0 + 1.0 / block.size()));
+    tolerance_mps2_[a] = static_cast<float>(noise + static_cast<double>(resolution_mps2[a]));
   }
 }
 
 void Freshness::anchor(double time_s, double motion_mps2) noexcept {
-  motion_mps2_ = motion_mps2;
-  span_s_ = time_s - block_begin_s_;
+  motion_mps2_ = static_cast<float>(motion_mps2);
+  span_s_ = static_cast<float>(time_s - block_begin_s_);
   samples_ = 0;
   missing_run_ = 0;
   anchored_ = true;
@@ -28,26 +37,29 @@ void Freshness::anchor(double time_s, double motion_mps2) noexcept {
 
 void Freshness::note(SensorSet in_service, SensorSet usable, const Readings& y_mps2,
                      const BlockEvidence& block) noexcept {
-  samples_ += samples_ < kMostAgeSamples + 1 ? 1 : 0;
-  missing_run_ = usable.contains(in_service) ? 0 : missing_run_ + (missing_run_ < kMostConfirm ? 1 : 0);
+  count_up(samples_);
+  missing_run_ = usable.contains(in_service) ? std::uint16_t{0} : one_more(missing_run_);
   departed_ = false;
   std::uint32_t left = (in_service & usable & block.usable).bits;
   for (size_t a = 0; left != 0 && a < y_mps2.size(); ++a, left >>= 1U) {
     // Written so that what is not a number has departed.
-    if ((left & 1U) != 0 && !(std::fabs(y_mps2[a] - block.mean_mps2[a]) <= tolerance_mps2_[a] + motion_mps2_)) {
+    if ((left & 1U) != 0 && !(std::fabs(y_mps2[a] - block.mean_mps2[a]) <=
+                              static_cast<double>(tolerance_mps2_[a]) + static_cast<double>(motion_mps2_))) {
       departed_ = true;
     }
   }
 }
 
 void Freshness::note_nothing() noexcept {
-  samples_ += samples_ < kMostAgeSamples + 1 ? 1 : 0;
-  missing_run_ += missing_run_ < kMostConfirm ? 1 : 0;
+  count_up(samples_);
+  missing_run_ = one_more(missing_run_);
 }
 
 bool Freshness::holds(const MonitorConfig& config, double age_s) const noexcept {
-  const int most_samples = config.max_age_samples > 0 ? config.max_age_samples : 2 * config.window;
-  const double most_s = config.max_age_s == 0.0 ? std::fmax(kLeastAge_s, 2.0 * span_s_) : config.max_age_s;
+  const auto most_samples =
+      static_cast<std::uint32_t>(config.max_age_samples > 0 ? config.max_age_samples : 2 * config.window);
+  const double most_s =
+      config.max_age_s == 0.0 ? std::fmax(kLeastAge_s, 2.0 * static_cast<double>(span_s_)) : config.max_age_s;
   return anchored_ && !departed_ && missing_run_ < config.missing_confirm && samples_ <= most_samples &&
          age_s <= most_s;
 }

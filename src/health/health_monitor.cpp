@@ -54,7 +54,8 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   frame_ = setup.output_frame;
   for (int i = 0; i < array_.size(); ++i) {
     const double scale = model_.scale_at(i, model_.sensor[static_cast<size_t>(i)].reference_degc);
-    resolution_mps2_[static_cast<size_t>(i)] = std::fabs(setup.resolution_raw[static_cast<size_t>(i)] / scale);
+    const double step_mps2 = std::fabs(setup.resolution_raw[static_cast<size_t>(i)] / scale);
+    resolution_mps2_[static_cast<size_t>(i)] = static_cast<float>(step_mps2);
   }
   lever_arm_m_ = setup.lever_arm_m;
   lever_arms_known_ = setup.lever_arms_known;
@@ -63,7 +64,6 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
   derive_limits();
   k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);
-  departure_quantile_ = normal_tail_quantile(Freshness::kDepartureRate / (2.0 * n * config_.window));
   protection_faults_ = faults_to_cover(n, config_.fault_prior, config_.integrity_risk);
   asserted_left_ = config_.asserted_faults;
 

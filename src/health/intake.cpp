@@ -102,8 +102,8 @@ Readings readings_of(const SensorModel& model, const Sample& sample, double temp
 SensorSet SilenceCounter::note(SensorSet usable, int n, int confirm) noexcept {
   SensorSet silent;
   for (int i = 0; i < n; ++i) {
-    int& run = run_[static_cast<size_t>(i)];
-    run = usable.has(i) ? 0 : run + (run < confirm ? 1 : 0);
+    std::uint16_t& run = run_[static_cast<size_t>(i)];
+    run = static_cast<std::uint16_t>(usable.has(i) ? 0 : run + (run < confirm ? 1 : 0));
     if (run >= confirm) silent = silent.with(i);
   }
   return silent == SensorSet::first(n) ? SensorSet{} : silent;

@@ -28,6 +28,7 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {static_cast<double>(c.forget_blocks), 1, 24},
       {static_cast<double>(c.probation_stations), 1, 24},
       {static_cast<double>(c.missing_confirm), 1, kMostConfirm},
+      {static_cast<double>(c.max_age_samples), 0, kMostAgeSamples},
       {c.max_gap_s, 1e-6, 1e9},
       {c.max_age_s, 0, 1e9},
       {c.station_angle_rad, 1e-4, 1.5},
@@ -46,7 +47,6 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {c.common_drift_mps2, 0, 10},
       {static_cast<double>(c.alarm_form), 0, 1},
       {c.triple_false_alarm_rate, 0, 1e-2},
-      {static_cast<double>(c.max_age_samples), 0, kMostAgeSamples},
   };
   int index = 0;
   for (const Range& f : fields) {
@@ -56,7 +56,7 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
     ++index;
   }
   if (c.temperature_min_degc > c.temperature_max_degc) {
-    return fail(Errc::out_of_range, 21, c.temperature_min_degc, c.temperature_max_degc);
+    return fail(Errc::out_of_range, 22, c.temperature_min_degc, c.temperature_max_degc);
   }
   return c;
 }

@@ -59,7 +59,7 @@ void fill(StationHealth& station, const Verdict& v, const Mat3& frame) {
   station.set_aside = v.set_aside;
   station.excluded = v.excluded;
   station.absent = v.absent;
-  station.worst_validity = std::max(station.worst_validity, v.validity);
+  station.worst_validity = std::min(station.worst_validity, v.validity);
   station.worst_ratio = std::fmax(station.worst_ratio, ratio_of(v));
   station.worst_off_mps2 = std::fmax(station.worst_off_mps2, std::fabs(station.off_mps2()));
 }
@@ -97,7 +97,7 @@ std::vector<StationReason> reasons_against(const StationHealth& s) {
   when(s.validity == Validity::valid && s.protected_by_bound && s.alert, StationReason::wide_bound);
   when(lacks(Usable::temperature), StationReason::temperature);
   when(lacks(Usable::calibration), StationReason::calibration);
-  when(s.worst_validity > s.validity, StationReason::changed);
+  when(s.worst_validity < s.validity, StationReason::changed);
   return out;
 }
 

@@ -97,7 +97,9 @@ tl::expected<CourseResult, std::string> run(const Course& course) {
     if (truth.station < static_cast<std::uint32_t>(kCourseOnset)) {
       result.trusted = verdict.validity == Validity::valid || verdict.validity == Validity::degraded;
     } else {
-      const bool plain = verdict.validity == Validity::valid && verdict.in_service == verdict.configured;
+      // The vector of a station that the tool has left is held until the first block of the new one: that is no doubt.
+      const bool between = verdict.validity == Validity::held && (verdict.qualifiers & Qualifier::moving) == 0;
+      const bool plain = (verdict.validity == Validity::valid || between) && verdict.in_service == verdict.configured;
       if (!plain && result.first_doubt_block < 0) {
         result.first_doubt_block =
             static_cast<int>(since_onset / static_cast<std::uint64_t>(course.setup.config.window));

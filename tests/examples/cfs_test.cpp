@@ -94,12 +94,12 @@ TEST(CfsLimitChecker, onlyFailedLosesTheAttitude) {
 }
 
 TEST(CfsLimitChecker, coastingFiresOnAnOldVectorThatIsNotUsableAndOnNoVectorAtAll) {
-  for (int validity = PLUMB_VALID; validity <= PLUMB_INVALID; ++validity) {
+  for (int validity = PLUMB_INVALID; validity <= PLUMB_VALID; ++validity) {
     for (const double age_s : {0.0, 59.9, 60.1, 1e9}) {
       plumb_verdict v = usable_verdict();
       v.validity = static_cast<std::uint8_t>(validity);
       v.age_s = age_s;
-      const bool expected = validity == PLUMB_INVALID || (validity > PLUMB_DEGRADED && age_s > 60.0);
+      const bool expected = validity == PLUMB_INVALID || (validity < PLUMB_DEGRADED && age_s > 60.0);
       EXPECT_EQ(fires(NAV_AP_COASTING, packet_of(v)), expected) << validity << " " << age_s;
     }
   }

@@ -19,7 +19,7 @@ bool says_usable(const Verdict& v) { return v.validity == Validity::valid || v.v
 
 /// For every input: with no accepted sample within T_age nothing is valid, and alert is on; and what is not valid is
 /// not usable.
-// Negative: REQ-192
+// Negative: REQ-128
 RC_GTEST_PROP(FreshnessLaw, WithoutAnAcceptedSampleNothingIsValid, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   Life life(n, *rc::gen::arbitrary<std::uint64_t>());
@@ -54,7 +54,7 @@ RC_GTEST_PROP(FreshnessLaw, WithoutAnAcceptedSampleNothingIsValid, ()) {
 
 /// A tool without a fault that rests and turns as it likes: while a sample is called valid, the vector is within its
 /// bound of the truth at that sample, and within what one reading shows.
-// Verifies: REQ-192
+// Verifies: REQ-128
 RC_GTEST_PROP(FreshnessLaw, ValidIsTrueOfThisSample, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();

@@ -32,7 +32,7 @@ TEST(StateWords, EveryValueHasAWordOfItsOwn) {
   expect_words(HealthState::failed);
   expect_words(HealthEvent::none);
   expect_words(kLastCause);
-  expect_words(Validity::invalid);
+  expect_words(Validity::valid);
   expect_words(Grade::asserted);
   expect_words(Mode::failed);
   expect_words(Target::failed);

@@ -84,8 +84,7 @@ typedef struct plumb_config {
   int32_t window;
   int32_t asserted_faults;
   int32_t isolation_stations, patience, clean_blocks, forget_blocks, probation_stations, missing_confirm;
-  int32_t patience_blocks;
-  int32_t max_age_samples;
+  int32_t max_age_samples, patience_blocks;
   int32_t recalibrate_after_exclusion;
   int32_t alarm_for_average_tool; /* 0: the false-alarm rate holds for every tool */
   uint64_t reset_key;
@@ -122,7 +121,8 @@ enum plumb_state {
   PLUMB_RECALIBRATING,
   PLUMB_FAILED
 };
-enum plumb_validity { PLUMB_VALID, PLUMB_DEGRADED, PLUMB_UNCONFIRMED, PLUMB_HELD, PLUMB_INVALID };
+/* From nothing up: a verdict of zeros, which nobody wrote, is invalid. */
+enum plumb_validity { PLUMB_INVALID, PLUMB_HELD, PLUMB_UNCONFIRMED, PLUMB_DEGRADED, PLUMB_VALID };
 /* Bits of `usable`. */
 #define PLUMB_USABLE_VECTOR 1u
 #define PLUMB_USABLE_INCLINATION 2u

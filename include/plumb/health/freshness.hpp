@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/set_test.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/health/monitor_config.hpp"
@@ -13,8 +14,9 @@ inline namespace PLUMB_ABI {
 
 class Freshness {
  public:
-  /// How seldom, per block of a tool at rest, noise alone may look like a reading that has left the block.
-  static constexpr double kDepartureRate = 1e-5;
+  /// So many sigmas from the block a reading of a tool at rest never is: 1e-5 per block at most, at up to 24 sensors
+  /// and the longest window.
+  static constexpr double kDepartureSigmas = 6.0;
   /// Without an age limit of the host's, the vector may be this old, or two blocks where these take longer [s].
   static constexpr double kLeastAge_s = 1.0;
 
@@ -24,9 +26,8 @@ class Freshness {
   void begin_block(double time_s) noexcept { block_begin_s_ = time_s; }
   /// How far a reading of each sensor may be from the mean of this block by noise: by the array's or, where the block
   /// scattered more than that, by the block's own, and by one step of the converter.
-  /// `quantile` stands for kDepartureRate.
-  void measure(const SensorArray& array, const BlockAccumulator& block, double quantile,
-               const std::array<double, kCapacity>& resolution_mps2) noexcept;
+  void measure(const SensorArray& array, const BlockAccumulator& block,
+               const std::array<float, kCapacity>& resolution_mps2) noexcept;
   /// The block that ends at `time_s` was quiet, and its vector is published; its bound holds `motion_mps2` of motion.
   void anchor(double time_s, double motion_mps2) noexcept;
   /// One sample: the readings of `usable` beside the block's.
@@ -38,11 +39,12 @@ class Freshness {
   bool holds(const MonitorConfig& config, double age_s) const noexcept;
 
  private:
-  std::array<double, kCapacity> tolerance_mps2_{};
-  double motion_mps2_ = 0.0, block_begin_s_ = 0.0;
-  double span_s_ = 0.0;  ///< of the block behind the vector, first sample to last
-  int samples_ = 0;      ///< offered since that block
-  int missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
+  double block_begin_s_ = 0.0;
+  std::array<float, kCapacity> tolerance_mps2_{};
+  float motion_mps2_ = 0.0F;
+  float span_s_ = 0.0F;            ///< of the block behind the vector, first sample to last
+  std::uint32_t samples_ = 0;      ///< offered since that block
+  std::uint16_t missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
   bool anchored_ = false;
   bool departed_ = false;  ///< the last reading of some sensor is not what the block has
 
@@ -55,9 +57,8 @@ class Freshness {
   static constexpr auto core() noexcept { return field_list(&Freshness::anchored_); }
   static constexpr auto fields() noexcept {
     using F = Freshness;
-    return field_list(per_sensor(&F::tolerance_mps2_), &F::motion_mps2_, &F::block_begin_s_, &F::span_s_,
-                      within(&F::samples_, 0, kMostAgeSamples + 1), within(&F::missing_run_, 0, kMostConfirm),
-                      &F::anchored_, &F::departed_);
+    return field_list(&F::block_begin_s_, per_sensor(&F::tolerance_mps2_), &F::motion_mps2_, &F::span_s_, &F::samples_,
+                      &F::missing_run_, &F::anchored_, &F::departed_);
   }
 };
 

@@ -233,12 +233,11 @@ class HealthMonitor {
   SensorArray array_;
   GravityReference gravity_;
   Mat3 frame_{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  std::array<double, kCapacity> resolution_mps2_{};
+  std::array<float, kCapacity> resolution_mps2_{};
   TestLimits limits_;
   double restless_factor_ = 0.0;
   double mae_quantile_ = 0.0;
   double k_integrity_ = 0.0;
-  double departure_quantile_ = 0.0;
   int protection_faults_ = 1;
   int asserted_left_ = -1;
   std::uint64_t identity_ = 0;  ///< of the setup, gravity left out
@@ -253,6 +252,7 @@ class HealthMonitor {
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
+  bool have_predictions_ = false;
   bool configured_ = false;  ///< not remembered, but here is room for it
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   Freshness freshness_;  ///< of the evidence
@@ -269,7 +269,6 @@ class HealthMonitor {
   static constexpr std::uint32_t kNeverConfigured = 0x706c756d;
   std::uint32_t core_sum_ = kNeverConfigured;  ///< not remembered: over `core()`, made whenever that was written to
   std::array<double, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
-  bool have_predictions_ = false;
   DirectionRecord probation_;
   SensorSet on_probation_;
   SensorSet reset_sensors_;
@@ -357,23 +356,22 @@ class HealthMonitor {
         not_stored(&M::config_), &M::model_, not_stored(&M::coefficients_), &M::array_, &M::gravity_,
         not_stored(&M::frame_), not_stored(&M::resolution_mps2_), not_stored(&M::limits_),
         not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
-        not_stored(&M::departure_quantile_), not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3),
-        not_stored(&M::identity_),
+        not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::identity_),
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
         &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,
-        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_,
+        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::have_predictions_,
         not_stored(&M::configured_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::freshness_, &M::clock_,
         &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks),
         &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_),
-        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::have_predictions_, &M::probation_,
-        &M::on_probation_, &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted),
-        up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_,
-        &M::recalibration_due_, &M::three_sensor_fit_, &M::store_g_mps2_, &M::temperature_min_degc_,
-        &M::temperature_max_degc_, within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)),
-        per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
-        &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
-        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_,
+        &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
+        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
+        &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
+        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
+        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_, not_stored(&M::lever_arms_known_),
+        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
         up_to(&M::told_reference_, ReferenceKind::common_bias),
         up_to(&M::reference_notice_, ReferenceKind::common_bias),
         // evidence

@@ -93,12 +93,10 @@ class SilenceCounter {
   SensorSet note(SensorSet usable, int n, int confirm) noexcept;
 
  private:
-  std::array<int, kCapacity> run_{};
+  std::array<std::uint16_t, kCapacity> run_{};
 
   friend struct FieldsOf;
-  static constexpr auto fields() noexcept {
-    return field_list(per_sensor(within(&SilenceCounter::run_, 0, kMostConfirm)));
-  }
+  static constexpr auto fields() noexcept { return field_list(per_sensor(&SilenceCounter::run_)); }
 };
 
 }  // namespace PLUMB_ABI

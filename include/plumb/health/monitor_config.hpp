@@ -34,7 +34,8 @@ struct MonitorConfig {
   int forget_blocks = 3;           ///< M: clean excited blocks that end an episode
   int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
   int missing_confirm = 3;         ///< samples in a row without a usable value: the channel is lost
-  double max_gap_s = 5.0;          ///< a longer gap between samples empties windows and ends the station
+  int max_age_samples = 0;  ///< T_age in samples, those refused and those that brought nothing included; 0 = two blocks
+  double max_gap_s = 5.0;   ///< a longer gap between samples empties windows and ends the station
   /// T_age: without a quiet block for this long nothing is published as valid; 0 = 1 s, or two blocks where they take
   /// longer.
   double max_age_s = 0.0;
@@ -59,7 +60,6 @@ struct MonitorConfig {
   double common_drift_mps2 = 1e-4 * kG0_mps2;
   AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
   double triple_false_alarm_rate = 0.0;          ///< per block, of each triple's MAE alone; 0 = its share of the above
-  int max_age_samples = 0;  ///< T_age in samples, those refused and those that brought nothing included; 0 = two blocks
 
   /// What a snapshot is bound to: all of it, but never stored.
   static constexpr auto fields() noexcept {
@@ -69,12 +69,13 @@ struct MonitorConfig {
                       within(&C::isolation_stations, 1, 20), within(&C::patience, 1, 24),
                       within(&C::clean_blocks, 1, kMostCleanBlocks), within(&C::forget_blocks, 1, 24),
                       within(&C::probation_stations, 1, 24), within(&C::missing_confirm, 1, kMostConfirm),
-                      &C::max_gap_s, &C::max_age_s, &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction,
-                      &C::alert_limit_rad, &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
+                      within(&C::max_age_samples, 0, kMostAgeSamples), &C::max_gap_s, &C::max_age_s,
+                      &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction, &C::alert_limit_rad,
+                      &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
                       &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
+
                       within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2,
-                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate,
-                      within(&C::max_age_samples, 0, kMostAgeSamples));
+                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate);
   }
 };
 

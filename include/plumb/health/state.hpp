@@ -71,8 +71,9 @@ const char* to_string(Cause cause) noexcept;
 /// The cause that an event stands for; `of_block` is what the last block said, for an alarm.
 Cause cause_of(HealthEvent event, Cause of_block) noexcept;
 
-/// What the output may be used for.
-enum class Validity : std::uint8_t { valid, degraded, unconfirmed, held, invalid };
+/// What the output may be used for, from nothing up: storage that somebody cleared, and a verdict that nobody wrote,
+/// are invalid.
+enum class Validity : std::uint8_t { invalid, held, unconfirmed, degraded, valid };
 const char* to_string(Validity validity) noexcept;
 
 /// Qualifier bits beside the state.

@@ -143,7 +143,7 @@ struct Verdict {
     using V = Verdict;
     return field_list(
         any(&V::time_s), &V::sample, up_to(&V::state, HealthState::failed), &V::qualifiers,
-        up_to(&V::validity, Validity::invalid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted, &V::transition,
+        up_to(&V::validity, Validity::valid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted, &V::transition,
         up_to(&V::decided_by, kLastCause), &V::statistic, &V::limit, &V::margin, &V::configured, &V::in_service,
         &V::set_aside, &V::excluded, &V::absent, &V::suspects, &V::clipped, &V::restless, &V::not_finite, &V::noisy,
         &V::stuck, &V::contradicted_clip, within(&V::sensor_cause, 0, static_cast<int>(kLastCause)), &V::fewest_faults,
