@@ -44,8 +44,8 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {c.drift_bias_mps2, 1e-6, 10},
       {c.drift_scale, 1e-7, 0.1},
       {static_cast<double>(c.patience_blocks), 0, kMostPatienceBlocks},
-      {c.common_drift_mps2, 0, 10},
       {static_cast<double>(c.alarm_form), 0, 1},
+      {c.common_drift_mps2, 0, 10},
       {c.triple_false_alarm_rate, 0, 1e-2},
   };
   int index = 0;

@@ -40,8 +40,8 @@ const std::vector<std::string>& known_keys() {
                                                  "drift_bias",
                                                  "drift_scale",
                                                  "patience_blocks",
-                                                 "common_drift",
                                                  "alarm_form",
+                                                 "common_drift",
                                                  "triple_false_alarm_rate"};
   return names;
 }

@@ -55,11 +55,11 @@ struct MonitorConfig {
   double drift_bias_mps2 = 2e-3 * kG0_mps2;
   double drift_scale = 5e-4;
   int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
+  AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
   /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
   /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
   double common_drift_mps2 = 1e-4 * kG0_mps2;
-  AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
-  double triple_false_alarm_rate = 0.0;          ///< per block, of each triple's MAE alone; 0 = its share of the above
+  double triple_false_alarm_rate = 0.0;  ///< per block, of each triple's MAE alone; 0 = its share of the above
 
   /// What a snapshot is bound to: all of it, but never stored.
   static constexpr auto fields() noexcept {
@@ -74,8 +74,9 @@ struct MonitorConfig {
                       &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
                       &C::temperature_max_degc, &C::recalibrate_after_exclusion, &C::drift_bias_mps2, &C::drift_scale,
 
-                      within(&C::patience_blocks, 0, kMostPatienceBlocks), &C::common_drift_mps2,
-                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::triple_false_alarm_rate);
+                      within(&C::patience_blocks, 0, kMostPatienceBlocks),
+                      up_to(&C::alarm_form, AlarmForm::average_tool), &C::common_drift_mps2,
+                      &C::triple_false_alarm_rate);
   }
 };
 
