@@ -174,11 +174,19 @@ SensorSet BlockAccumulator::usable() const noexcept {
   return out;
 }
 
+SensorSet BlockAccumulator::complete() const noexcept {
+  SensorSet out;
+  for (int i = 0; i < kCapacity; ++i) {
+    if (size_ > 0 && present_[static_cast<size_t>(i)] == size_) out = out.with(i);
+  }
+  return out;
+}
+
 double BlockAccumulator::samples(SensorSet of) const noexcept {
   if (size_ == 0) return 0.0;
   int least = size_;
   for (int i = 0; i < kCapacity; ++i) {
-    if (of.has(i)) least = std::min(least, present_[static_cast<size_t>(i)]);
+    if (of.has(i)) least = std::min<int>(least, present_[static_cast<size_t>(i)]);
   }
   // Variance of an unweighted mean of means: sigma^2 sum(1/count) / size^2; the scarcest channel decides.
   return static_cast<double>(size_) * least / inverse_count_;

@@ -121,8 +121,7 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const DecisionState
   if (posed_changed) {
     // The question is another one now: what was answered, and over how many stations, does not carry over.
     answer_ = IsolationAnswer{};
-    episode_.candidate = SensorSet{};
-    episode_.agreeing.clear();
+    episode_.take_back();
   }
   if (before != in_service_ || posed_changed) sets_changed();
   return named;

@@ -149,11 +149,25 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
   recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 
+/// A block is made of rows in which the same sensors in service deliver: where one was silent the tool may have moved,
+/// and means over other rows cannot be held against one another. A row that lacks a sensor is left out; one that brings
+/// a sensor which the block lacks begins it anew.
+bool HealthMonitor::joins_block(SensorSet usable) noexcept {
+  const SensorSet now = usable & in_service_, before = block_.seen() & in_service_;
+  if (block_.size() == 0 || now == before) return true;
+  if (!now.contains(before)) return false;
+  gate_.begin_block();
+  block_.clear();
+  raw_.clear();
+  return true;
+}
+
 /// What is kept of the samples of a block: who delivered, who was calm.
 void HealthMonitor::note_block() noexcept {
-  block_usable_ = block_.usable();
+  block_usable_ = block_.complete();
   calm_ = SensorSet{};
   for (int i = 0; i < array_.size(); ++i) {
+    if (!block_usable_.has(i)) continue;  // silent when the tool moved, it is no witness that it rested
     const double sigma = array_.sigma_mps2(i);
     if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * sigma * sigma) calm_ = calm_.with(i);
   }
@@ -171,9 +185,10 @@ void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
 EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
-  const BlockJudgement judged =
-      judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
   note_block();
+  BlockJudgement judged =
+      judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
+  judged.evidence.usable = judged.evidence.usable & block_usable_;
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
   freshness_.measure(array_, block_, resolution_mps2_);
   block_.clear();
@@ -191,7 +206,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     verdict_.cause = turning ? Cause::rotating : Cause::moving;
     count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
     mae_.clear();
-    station_.clear();
+    leave_station();
     return 0;
   }
   evidence_ = judged.evidence;
@@ -211,9 +226,9 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   }
   const SensorSet voters = episode_.candidate.empty() ? in_service_ : posed - episode_.candidate;
   const SetTest& pose = tests.of(voters & evidence_.usable);
-  follow_station(sample, pose.tested ? pose.x_mps2 : view.used.x_mps2);
-  const bool voting = episode_.open && view.kind != Kind::reference;
-  count_doubt(view, voting ? vote(tests, view) : view.used.x_mps2);
+  follow_station(sample, pose.tested ? pose : view.used);
+  if (episode_.open && view.kind != Kind::reference) vote(tests);
+  count_doubt(view);
   count_clean(tests, view);
   rescan(tests);
   count_unbounded(view);

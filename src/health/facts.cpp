@@ -19,7 +19,8 @@ constexpr double kStuckShare = 0.02;
 constexpr double kStuckCodes = 2.0;
 /// A prediction below this part of the reading is inside the range by a margin: gravity alone reaches 1 / 1.05 of it.
 constexpr double kInsideShare = 0.96;
-/// A noisy channel is set aside after so many quiet blocks in a row.
+/// A noisy channel is set aside after so many quiet blocks in a row, or after so many stations at each of which it
+/// alone scattered in one block at least.
 constexpr int kNoiseConfirm = 3;
 
 }  // namespace
@@ -35,7 +36,8 @@ SensorSet HealthMonitor::noise_confirmed() const noexcept {
   for (int i = 0; i < array_.size(); ++i) {
     if (noisy_run_[static_cast<size_t>(i)] >= kNoiseConfirm) out = out.with(i);
   }
-  return out;
+  const bool at_stations = episode_.by_scatter && episode_.agreeing.size() >= kNoiseConfirm;
+  return at_stations && isolation_.parity_grade() >= 1 ? out | episode_.candidate : out;
 }
 
 void HealthMonitor::note_stuck(const BlockEvidence& evidence) noexcept {

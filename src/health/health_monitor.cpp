@@ -102,8 +102,8 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
   evidence_time_s_ = 0.0;
   last_temperature_degc_ = 25.0;
-  least_prediction_.fill(0.0);
-  most_prediction_.fill(0.0);
+  least_prediction_.fill(0.0F);
+  most_prediction_.fill(0.0F);
   sequence_ = 0;
   clean_run_ = 0;
   probation_.clear();
@@ -168,8 +168,7 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   isolation_.clear();
   answer_ = IsolationAnswer{};
   reference_study_.clear();
-  episode_.candidate = SensorSet{};
-  episode_.agreeing.clear();
+  episode_.take_back();
   seal();
   return {};
 }
@@ -216,7 +215,7 @@ void HealthMonitor::empty_windows() noexcept {
   block_.clear();
   raw_.clear();
   mae_.clear();
-  station_.clear();
+  leave_station();
 }
 
 /// The sample is refused and the windows stay as they are; what was valid is now only held.
@@ -278,9 +277,11 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   if (std::isfinite(t)) last_temperature_degc_ = t;
   if (block_.size() == 0) freshness_.begin_block(sample.time_s);
   freshness_.note(in_service_, gate.usable, y, evidence_);
+  silence_.add(gate.usable, array_.size());
+  verdict_.accepted = true;
+  if (!joins_block(gate.usable)) return;
   add_readings(y, gate.usable, sample.count > 0 ? sample.count : 1);
   raw_.add(sample.raw, gate.usable, last_temperature_degc_);
-  verdict_.accepted = true;
 }
 
 const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
@@ -319,9 +320,10 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
 bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const noexcept {
   const bool fits =
       mode_ == Mode::recalibrating || mode_ == Mode::initial || recalibration_asked_ || recalibration_due_;
-  return arrival != Arrival::in_order || gate.gap || block_.size() >= config_.window || fits || reset_pending_ ||
-         pending_ != 0 || !((gate_.lost() & array_.all()) - absent_).empty() || !(gate_.back() & absent_).empty() ||
-         inhibit_notice_ || reference_notice_ != ReferenceKind::none || news();
+  return arrival != Arrival::in_order || gate.gap || block_.size() >= config_.window ||
+         silence_.is_due(config_.window) || fits || reset_pending_ || pending_ != 0 ||
+         !((gate_.lost() & array_.all()) - absent_).empty() || !(gate_.back() & absent_).empty() || inhibit_notice_ ||
+         reference_notice_ != ReferenceKind::none || news();
 }
 
 /// What a sample leads to that is not merely collected.
@@ -342,9 +344,9 @@ void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gat
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
   if (!gate.gap) {
     ticked = block_.size() >= config_.window;
-    if (ticked) {
-      raised |= tick(sample);
-      const SensorSet silent = silence_.note(block_usable_, array_.size(), config_.missing_confirm);
+    if (ticked) raised |= tick(sample);
+    if (silence_.is_due(config_.window)) {
+      const SensorSet silent = silence_.close(array_.size(), config_.missing_confirm);
       if (!silent.empty()) gate_.condemn(silent - absent_);
     }
     if (!((gate_.lost() & array_.all()) - absent_).empty()) raised |= bit(HealthEvent::channel_lost);

@@ -109,5 +109,15 @@ SensorSet SilenceCounter::note(SensorSet usable, int n, int confirm) noexcept {
   return silent == SensorSet::first(n) ? SensorSet{} : silent;
 }
 
+SensorSet SilenceCounter::close(int n, int confirm) noexcept {
+  SensorSet usable;
+  for (int i = 0; i < n; ++i) {
+    if (2 * missed_[static_cast<size_t>(i)] <= rows_) usable = usable.with(i);
+  }
+  missed_.fill(0);
+  rows_ = 0;
+  return note(usable, n, confirm);
+}
+
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -14,76 +14,112 @@ namespace {
 constexpr double kProvingShare = 0.02;
 /// ... and by this many standard deviations of its block mean.
 constexpr double kProvingSigmas = 10.0;
+/// A reading that differs by less than so many standard deviations from an earlier one is the same: that of a tool at
+/// rest always is.
+constexpr double kSameSigmas = 5.0;
+/// A direction may stand on record where half of the angle that tells attitudes apart is so many times its own standard
+/// deviation.
+constexpr double kDirectionSigmas = 3.0;
 /// Votes at one station are taken at 1, 2, 4, 8 and 16 blocks: refined, never repeated at will.
 constexpr int kLastVoteBlock = 16;
 
 }  // namespace
 
-void HealthMonitor::follow_station(const Sample& sample, const Vec3& direction) noexcept {
+/// The direction of a tested set, zero where noise leaves it too open to tell one attitude from another.
+Vec3 HealthMonitor::known_direction(const SetTest& test) const noexcept {
+  const double sigma_rad = tilt_sigma_rad(test.x_mps2, test.covariance);
+  return kDirectionSigmas * sigma_rad <= 0.5 * config_.excitation_angle_rad ? test.x_mps2 : Vec3{};
+}
+
+/// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
+/// turned, whatever the others make of the direction: a liar that steps is no new attitude.
+bool HealthMonitor::is_still_there() const noexcept {
+  SensorSet same;
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double before = static_cast<double>(station_.reading_mps2[a]);
+    const double scatter = std::sqrt(1.0 / evidence_.samples + 1.0 / static_cast<double>(station_.samples));
+    const bool stays = std::fabs(evidence_.mean_mps2[a] - before) <= kSameSigmas * array_.sigma_mps2(i) * scatter;
+    if (stays) same = same.with(i);
+  }
+  return rank_of(array_, same & evidence_.usable & station_.delivered) == 3;
+}
+
+/// A station at which the question was asked, and no block gave the candidate for an answer, takes it back.
+void HealthMonitor::leave_station() noexcept {
+  if (station_.asked && !station_.answered) episode_.take_back();
+  station_.clear();
+}
+
+void HealthMonitor::follow_station(const Sample& sample, const SetTest& pose) noexcept {
+  const Vec3& direction = pose.x_mps2;
   // A station of sensors that all read zero points nowhere: no angle to it would ever end it.
   const bool nowhere = !(norm(station_.direction) > 0.0);
   const bool turned = nowhere || angle_between_rad(station_.direction, direction) > config_.station_angle_rad;
-  if (!station_.open || sample.station != station_.tag || turned) {
-    station_.clear();
+  if (!station_.open || sample.station != station_.tag || (turned && !is_still_there())) {
+    leave_station();
     station_.open = true;
     station_.tag = sample.station;
-    station_.direction = direction;
+    station_.direction = known_direction(pose);
     station_.last = direction;
+    station_.samples = static_cast<float>(evidence_.samples);
+    station_.delivered = evidence_.usable;
+    for (size_t a = 0; a < kCapacity; ++a) station_.reading_mps2[a] = static_cast<float>(evidence_.mean_mps2[a]);
   }
   drift_rad_ = angle_between_rad(station_.last, direction);
   station_.last = direction;
   if (station_.blocks < StationTrack::kMostBlocks) ++station_.blocks;
 }
 
-/// Where the tool points, by the sensors that the answer leaves.
-Vec3 HealthMonitor::vote(const BlockTests& tests, const BlockView& view) noexcept {
+/// What scatters may be all that shows of a movement: the strict grade bears so many faulty ones that hang that the
+/// calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing. But a
+/// sensor that alone scatters, whichever others are doubted, while these agree, is the answer of this station by that.
+bool HealthMonitor::answers_by_scatter(const BlockTests& tests) const noexcept {
+  if (noisy_.size() != 1 || isolation_.strict_grade() < 1) return false;
+  const bool checked = isolation_.parity_grade() >= 1;
+  if (checked && noisy_run_[static_cast<size_t>(noisy_.lowest())] == 0) return false;
+  const SensorSet others = isolation_.posed() - noisy_;
+  const SetTest& rest = tests.of(others & tests.block().usable);
+  return calm_.contains(others) && rest.tested && rest.alive(limits_) && rest.parity_alive(limits_);
+}
+
+/// Asks who is at fault, and keeps the answer.
+void HealthMonitor::vote(const BlockTests& tests) noexcept {
   const BlockEvidence& evidence = tests.block();
   const int blocks = station_.blocks;
   // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
   const bool testable = evidence.usable.contains(isolation_.posed());
   const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
-  Vec3 direction = view.used.x_mps2;
-  if (due) {
-    // What scatters may be all that shows of a movement: the strict grade bears so many faulty ones that hang that the
-    // calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing.
-    answer_ = isolation_.vote(tests, calm_);
-    const SensorSet posed = isolation_.posed();
-    if (answer_.strict.empty() && isolation_.strict_grade() > 0 && isolation_.parity_grade() < 1 &&
-        noisy_.size() == 1) {
-      // Nor can it be set aside where parity has no grade. It is the answer of this station by its scatter alone: one
-      // station at which it is calm, or not the only one, takes the answer back.
-      const SensorSet others = posed - noisy_;
-      const SetTest& rest = tests.of(others & evidence.usable);
-      if (calm_.contains(others) && rest.tested && rest.alive(limits_) && rest.parity_alive(limits_))
-        answer_.strict = noisy_;
-    }
-    const SetTest& full = tests.of(posed & evidence.usable);
-    const bool visible = !full.alive(limits_) || !full.parity_alive(limits_);
-    if (answer_.strict != episode_.candidate) {
-      episode_.candidate = answer_.strict;
-      episode_.agreeing.clear();
-    }
-    if (!answer_.strict.empty()) {
-      const SetTest& survivors = tests.of((posed - answer_.strict) & evidence.usable);
-      if (survivors.tested) direction = survivors.x_mps2;
-      // A station at which the fault cannot be seen confirms nothing.
-      if (visible) episode_.agreeing.add(direction, config_.excitation_angle_rad);
-    }
-  } else if (!episode_.candidate.empty()) {
-    const SensorSet rest = (isolation_.posed() - episode_.candidate) & evidence.usable;
-    const SetTest& survivors = tests.of(rest);
-    if (survivors.tested) direction = survivors.x_mps2;
+  if (!due) return;
+  answer_ = isolation_.vote(tests, calm_);
+  station_.asked = true;
+  const SensorSet posed = isolation_.posed();
+  const bool by_scatter = answer_.strict.empty() && answers_by_scatter(tests);
+  if (by_scatter) answer_.strict = noisy_;
+  const SetTest& full = tests.of(posed & evidence.usable);
+  const bool visible = !full.alive(limits_) || !full.parity_alive(limits_);
+  // A fault may come and go within a station: a block without it neither confirms nor takes back.
+  if (answer_.strict.empty() && !visible) return;
+  if (answer_.strict != episode_.candidate) {
+    episode_.take_back();
+    episode_.candidate = answer_.strict;
+    episode_.by_scatter = by_scatter;
   }
-  return direction;
+  station_.answered = !answer_.strict.empty();
+  // A station at which the fault cannot be seen confirms nothing.
+  if (answer_.strict.empty() || !visible) return;
+  episode_.by_scatter = episode_.by_scatter && by_scatter;
+  const SetTest& survivors = tests.of((posed - answer_.strict) & evidence.usable);
+  if (survivors.tested) episode_.agreeing.add(known_direction(survivors), config_.excitation_angle_rad);
 }
 
 /// Patience counts doubt, not alarms alone: a block between the limit to leave suspect and the one to enter it would
 /// else hold the monitor there for ever. It rests at a reference error, of which nobody in service is accused.
-void HealthMonitor::count_doubt(const BlockView& view, const Vec3& direction) noexcept {
+void HealthMonitor::count_doubt(const BlockView& view) noexcept {
   // The contradiction for which the host had a fit made is no news, and the fit needs more stations than patience has.
   const bool known = answer_.contradiction && expected(HealthEvent::contradiction);
   if (!view.doubtful(mode_) || known || owes_calibration()) return;
-  episode_.stations.add(direction, config_.excitation_angle_rad);
+  episode_.stations.add(station_.direction, config_.excitation_angle_rad);
   if (episode_.doubtful_blocks < config_.patience_blocks) ++episode_.doubtful_blocks;
 }
 
@@ -118,10 +154,10 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
     for (int i = 0; i < array_.size(); ++i) {
       if (!in_service_.has(i)) continue;
       const auto a = static_cast<size_t>(i);
-      const double prediction = dot(array_.axis(i), view.used.x_mps2);
+      const auto prediction = static_cast<float>(dot(array_.axis(i), view.used.x_mps2));
       if (!have_predictions_ || prediction < least_prediction_[a]) least_prediction_[a] = prediction;
       if (!have_predictions_ || prediction > most_prediction_[a]) most_prediction_[a] = prediction;
-      if (!(most_prediction_[a] - least_prediction_[a] >= proving_change_mps2(i))) moved = false;
+      if (!(static_cast<double>(most_prediction_[a] - least_prediction_[a]) >= proving_change_mps2(i))) moved = false;
     }
     have_predictions_ = true;
     if (moved && clean_run_ >= config_.clean_blocks) unproven_ = false;
@@ -130,7 +166,7 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
   const SensorSet posed = isolation_.posed() & evidence_.usable;
   const SetTest& all = tests.of(posed);
   if (!(all.alive(limits_) && all.parity_alive(limits_))) return;
-  episode_.clean.add(view.used.x_mps2, config_.excitation_angle_rad);
+  episode_.clean.add(known_direction(view.used), config_.excitation_angle_rad);
   const bool on_record = episode_.open || episode_.stations.size() > 0;
   if (on_record && episode_.clean.size() >= config_.forget_blocks) forget_episode();
 }
@@ -143,7 +179,8 @@ SensorSet HealthMonitor::culprits() const noexcept {
   const int survivors = (posed - episode_.candidate).size();
   int needed = config_.isolation_stations;
   if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
-  if (noisy_.contains(episode_.candidate) && needed < 2) needed = 2;  // at one station its scatter may be a push
+  if (episode_.by_scatter && isolation_.parity_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
+  if (episode_.by_scatter && needed < 2) needed = 2;                     // at one station its scatter may be a push
   return episode_.agreeing.size() >= needed ? episode_.candidate : SensorSet{};
 }
 
@@ -163,7 +200,7 @@ void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& 
   const SensorSet still = on_probation_ & fine;
   if (still.empty()) probation_.clear();
   on_probation_ = still.empty() ? fine : still;
-  if (!on_probation_.empty()) probation_.add(view.used.x_mps2, config_.excitation_angle_rad);
+  if (!on_probation_.empty()) probation_.add(known_direction(view.used), config_.excitation_angle_rad);
 }
 
 /// Who may speak against a fault set of the asserted size: the calm, and those that scatter by themselves whichever so

@@ -51,7 +51,7 @@ RotationRequest HealthMonitor::proving_turn() const noexcept {
   for (int i = 0; i < array_.size(); ++i) {
     if (!in_service_.has(i)) continue;
     const auto a = static_cast<size_t>(i);
-    const double moved = have_predictions_ ? most_prediction_[a] - least_prediction_[a] : 0.0;
+    const double moved = have_predictions_ ? static_cast<double>(most_prediction_[a] - least_prediction_[a]) : 0.0;
     const double missing = proving_change_mps2(i) - moved;
     if (missing <= worst) continue;
     worst = missing;

@@ -30,6 +30,8 @@ class BlockAccumulator {
   int size() const noexcept { return size_; }
   /// Channels that were usable in at least half of the samples: a few dropouts do not silence a channel.
   SensorSet usable() const noexcept;
+  /// Channels that were usable in every sample.
+  SensorSet complete() const noexcept;
   /// N behind the mean of the scarcest channel of `of`, in raw samples.
   double samples(SensorSet of) const noexcept;
   Readings mean() const noexcept;
@@ -46,9 +48,9 @@ class BlockAccumulator {
   std::array<double, kCapacity> origin_{};
   std::array<Scalar, kCapacity> sum_{};
   std::array<Scalar, kCapacity*(kCapacity + 1) / 2> product_{};
-  std::array<int, kCapacity> present_{};  ///< samples of each channel
-  SensorSet usable_;                      ///< seen at all
-  double inverse_count_ = 0.0;            ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples
+  std::array<std::uint16_t, kCapacity> present_{};  ///< samples of each channel
+  SensorSet usable_;                                ///< seen at all
+  double inverse_count_ = 0.0;  ///< sum of 1/count: an unweighted mean is as noisy as its scarcest samples
   int size_ = 0;
   std::uint64_t check_ = 0;  ///< sum of the bits of origins, sums and counts
 

@@ -53,6 +53,7 @@ class DirectionRecord {
 
 struct Episode {
   bool open = false;         ///< an alarm is on record
+  bool by_scatter = false;   ///< the candidate's own scatter is all that names it
   DirectionRecord stations;  ///< excited stations in doubt (patience); kept without an alarm too
   int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where patience counts them
   SensorSet candidate;       ///< the unique strict answer so far
@@ -60,17 +61,23 @@ struct Episode {
   DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
 
   void clear() noexcept {
-    open = false;
+    open = by_scatter = false;
     stations.clear();
     doubtful_blocks = 0;
     candidate = SensorSet{};
     agreeing.clear();
     clean.clear();
   }
+  /// The answer is taken back; how long the doubt has lasted is not.
+  void take_back() noexcept {
+    by_scatter = false;
+    candidate = SensorSet{};
+    agreeing.clear();
+  }
   static constexpr auto fields() noexcept {
     using E = Episode;
-    return field_list(&E::open, &E::stations, within(&E::doubtful_blocks, 0, kMostPatienceBlocks), &E::candidate,
-                      &E::agreeing, &E::clean);
+    return field_list(&E::open, &E::by_scatter, &E::stations, within(&E::doubtful_blocks, 0, kMostPatienceBlocks),
+                      &E::candidate, &E::agreeing, &E::clean);
   }
 };
 
@@ -78,16 +85,22 @@ struct Episode {
 /// turned by up to the station angle, and a mean over that is no gravity vector (it killed the truth in a test).
 struct StationTrack {
   bool open = false;
+  bool asked = false;     ///< a vote was taken here
+  bool answered = false;  ///< and the candidate was the answer of one block at least
   std::uint32_t tag = 0;
-  Vec3 direction{};  ///< of its first block
-  Vec3 last{};       ///< of its last block
-  int blocks = 0;    ///< counted up to kMostBlocks
+  Vec3 direction{};      ///< of its first block; zero where that is not known well enough to tell attitudes apart
+  Vec3 last{};           ///< of its last block
+  int blocks = 0;        ///< counted up to kMostBlocks
+  float samples = 0.0F;  ///< behind each of the readings that follow
+  std::array<float, kCapacity> reading_mps2{};  ///< in its first block
+  SensorSet delivered;
 
   static constexpr int kMostBlocks = 1000;
   void clear() noexcept { *this = StationTrack{}; }
   static constexpr auto fields() noexcept {
     using S = StationTrack;
-    return field_list(&S::open, &S::tag, &S::direction, &S::last, within(&S::blocks, 0, kMostBlocks));
+    return field_list(&S::open, &S::asked, &S::answered, &S::tag, &S::direction, &S::last,
+                      within(&S::blocks, 0, kMostBlocks), &S::samples, per_sensor(&S::reading_mps2), &S::delivered);
   }
 };
 

@@ -132,6 +132,7 @@ class HealthMonitor {
   void empty_windows() noexcept;
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
+  bool joins_block(SensorSet usable) noexcept;
   void add_readings(const Readings& y, SensorSet usable, double count) noexcept;
   bool is_eventful(Arrival arrival, const GateResult& gate) const noexcept;
   void serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept;
@@ -186,9 +187,13 @@ class HealthMonitor {
   RotationRequest resolving_turn() const noexcept;
 
   // record.cpp: what is kept from block to block
-  void follow_station(const Sample& sample, const Vec3& direction) noexcept;
-  Vec3 vote(const BlockTests& tests, const BlockView& view) noexcept;
-  void count_doubt(const BlockView& view, const Vec3& direction) noexcept;
+  Vec3 known_direction(const SetTest& test) const noexcept;
+  bool is_still_there() const noexcept;
+  void leave_station() noexcept;
+  void follow_station(const Sample& sample, const SetTest& pose) noexcept;
+  bool answers_by_scatter(const BlockTests& tests) const noexcept;
+  void vote(const BlockTests& tests) noexcept;
+  void count_doubt(const BlockView& view) noexcept;
   bool patience_is_over() const noexcept;
   void count_clean(const BlockTests& tests, const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
@@ -268,7 +273,7 @@ class HealthMonitor {
   /// somebody cleared holds no verdict, and must not pass for a monitor that waits to be configured.
   static constexpr std::uint32_t kNeverConfigured = 0x706c756d;
   std::uint32_t core_sum_ = kNeverConfigured;  ///< not remembered: over `core()`, made whenever that was written to
-  std::array<double, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
+  std::array<float, kCapacity> least_prediction_{}, most_prediction_{};  ///< over clean blocks while unproven
   DirectionRecord probation_;
   SensorSet on_probation_;
   SensorSet reset_sensors_;

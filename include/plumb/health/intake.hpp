@@ -84,19 +84,36 @@ Readings readings_of(const SensorModel& model, CoefficientsAt& kept, const Sampl
 Readings readings_of(const SensorModel& model, const Sample& sample, double temperature_degc,
                      GateResult& gate) noexcept;
 
-/// Channels that are silent in block after block without ever being lost for long enough in a row.
+/// Channels that are silent in window after window of rows without ever being lost for long enough in a row.
 class SilenceCounter {
  public:
-  void clear() noexcept { run_.fill(0); }
+  void clear() noexcept { *this = SilenceCounter{}; }
+  /// Takes note of one row of n channels, whether it enters a block or not.
+  void add(SensorSet usable, int n) noexcept {
+    if (rows_ < kWindowCapacity) ++rows_;
+    if (usable.contains(SensorSet::first(n))) return;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(n); ++a) {
+      if (!usable.has(static_cast<int>(a)) && missed_[a] < kWindowCapacity) ++missed_[a];
+    }
+  }
+  bool is_due(int window) const noexcept { return rows_ >= window; }
+  /// Ends a window: `note` of the channels that were usable in at least half of its rows.
+  SensorSet close(int n, int confirm) noexcept;
   /// Takes note of one block; returns those of the first n channels that were not usable in `confirm` blocks in a row,
   /// and none where that is all of them (a gap of the bus).
   SensorSet note(SensorSet usable, int n, int confirm) noexcept;
 
  private:
   std::array<std::uint16_t, kCapacity> run_{};
+  std::array<std::uint16_t, kCapacity> missed_{};
+  std::uint16_t rows_ = 0;
 
   friend struct FieldsOf;
-  static constexpr auto fields() noexcept { return field_list(per_sensor(&SilenceCounter::run_)); }
+  static constexpr auto changing() noexcept { return field_list(&SilenceCounter::missed_, &SilenceCounter::rows_); }
+  static constexpr auto fields() noexcept {
+    using S = SilenceCounter;
+    return field_list(per_sensor(&S::run_), per_sensor(&S::missed_), &S::rows_);
+  }
 };
 
 }  // namespace PLUMB_ABI
