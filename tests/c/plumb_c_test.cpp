@@ -176,13 +176,13 @@ TEST(CFunctions, DefaultsAreThoseOfTheMonitor) {
   plumb_sample nothing;
   plumb_sample_defaults(&nothing);
   plumb_monitor_step(m.monitor, &nothing, &verdict);
-  EXPECT_NE(verdict.qualifiers & Qualifier::standstill_assumed, 0) << "beyond the eight bits of old";
+  EXPECT_NE(verdict.qualifiers & PLUMB_STANDSTILL_ASSUMED, 0) << "beyond the eight bits of old";
   setup.config.acceleration_bound_mps2 = 0.05;
   CForm told(setup);
   ASSERT_EQ(m.init(&told.config).code, PLUMB_OK);
   EXPECT_EQ(m.monitor->monitor.config().acceleration_bound_mps2, 0.05);
   plumb_monitor_step(m.monitor, &nothing, &verdict);
-  EXPECT_EQ(verdict.qualifiers & Qualifier::standstill_assumed, 0);
+  EXPECT_EQ(verdict.qualifiers & PLUMB_STANDSTILL_ASSUMED, 0);
 }
 
 }  // namespace

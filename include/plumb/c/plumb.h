@@ -134,6 +134,8 @@ enum plumb_validity { PLUMB_INVALID, PLUMB_HELD, PLUMB_UNCONFIRMED, PLUMB_DEGRAD
 #define PLUMB_USABLE_TEMPERATURE 64u
 #define PLUMB_USABLE_CALIBRATION 128u
 #define PLUMB_USABLE_REFERENCE 256u
+/* A bit of `qualifiers`, the others are in plumb/health/state.hpp: no acceleration bound was stated. */
+#define PLUMB_STANDSTILL_ASSUMED 256u
 
 /* One change of state or of a set of sensors; sequence 0: nothing changed at this sample. */
 typedef struct plumb_transition {

@@ -84,8 +84,8 @@ class HealthMonitor {
   /// Asks for new biases and scales of the sensors in service (design, section 5): taken at the next step. Error:
   /// wrong_state (value = HealthState) unless the monitor is nominal, isolated or degraded with no alarm on record, or
   /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare; always in
-  /// a build without `kRecalibrates`. unobservable (value = the bound [m/s^2]) where an acceleration is allowed for: a
-  /// fit would take it for biases.
+  /// a build without `kRecalibrates`. may_accelerate (value = the bound [m/s^2]) where an acceleration is allowed for:
+  /// a fit would take it for biases.
   Expected<void> request_recalibration() noexcept;
 
   /// Offers a calibration made elsewhere, both parts of it, over all configured sensors. Biases and scales of the
