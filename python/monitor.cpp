@@ -16,7 +16,7 @@ struct Row {
   std::uint8_t state, validity, cause, decided_by;
   bool tick, accepted, alert, wants_rotation;
   std::uint16_t usable;
-  std::uint8_t qualifiers;
+  std::uint16_t qualifiers;
   std::uint32_t in_service, set_aside, excluded, absent, suspects;
   double statistic, limit, margin;
   double mae_all_mps2, mae_worst_mps2, parity, parity_limit, norm_error_mps2;

@@ -9,7 +9,7 @@
 namespace {
 constexpr double kDegrees = 57.29577951308232;
 plumb::HealthMonitor monitor;
-Body body(30.0);
+Body body(30.0, 0.0);  // pumps off, it lies on rock: no acceleration is allowed for
 }  // namespace
 
 int main() {

@@ -48,6 +48,7 @@ MonitorConfig settings_of(const plumb_config& c) noexcept {
   out.drift_bias_mps2 = c.drift_bias_mps2;
   out.drift_scale = c.drift_scale;
   out.common_drift_mps2 = c.common_drift_mps2;
+  out.acceleration_bound_mps2 = c.acceleration_bound_mps2;
   return out;
 }
 
@@ -197,6 +198,7 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   config->drift_bias_mps2 = d.drift_bias_mps2;
   config->drift_scale = d.drift_scale;
   config->common_drift_mps2 = d.common_drift_mps2;
+  config->acceleration_bound_mps2 = d.acceleration_bound_mps2;
   return plumb::c_api::answer(PLUMB_OK);
 }
 

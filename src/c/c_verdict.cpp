@@ -112,6 +112,7 @@ static_assert(PLUMB_C_SENSORS >= kCapacity, "room for every sensor");
 static_assert(static_cast<int>(HealthState::failed) == PLUMB_FAILED, "the states are numbered alike");
 static_assert(static_cast<int>(Validity::invalid) == PLUMB_INVALID && static_cast<int>(Validity::valid) == PLUMB_VALID,
               "the validities are numbered alike");
+static_assert(Qualifier::standstill_assumed == PLUMB_STANDSTILL_ASSUMED, "bits alike");
 static_assert(Usable::reference == PLUMB_USABLE_REFERENCE && Usable::monitored == PLUMB_USABLE_MONITORED, "bits alike");
 
 }  // namespace c_api

@@ -203,6 +203,7 @@ TestSettings settings_of(const io::ArrayFile& array) {
   out.false_alarm_rate = array.monitor.false_alarm_rate;
   out.rejection_rate = array.monitor.rejection_rate;
   out.integrity_risk = array.monitor.integrity_risk;
+  out.acceleration_mps2 = array.monitor.acceleration_bound_mps2;
   return out;
 }
 

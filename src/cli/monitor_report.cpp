@@ -168,7 +168,7 @@ HealthReport::HealthReport(const MonitorOptions& options, const io::ArrayFile& a
       sensors_(sensors),
       page_(std::move(page)),
       data_(std::move(data)),
-      health_(array.output_frame, array.input.rows == io::RowKind::stations),
+      health_(array.output_frame, array.input.rows == io::RowKind::stations, array.monitor.acceleration_bound_mps2),
       depth_m_(std::nan("")) {}
 
 io::FileExpected<std::unique_ptr<HealthReport>> HealthReport::create(const MonitorOptions& options,

@@ -41,6 +41,7 @@ const char* describe(Errc code) noexcept {
     case Errc::snapshot_foreign: return "the snapshot belongs to another configuration, array or calibration";
     case Errc::snapshot_implausible: return "the snapshot holds what no monitor can have remembered";
     case Errc::frame_not_orthogonal: return "the output frame is no rotation, with or without a mirror";
+    case Errc::may_accelerate: return "the tool may accelerate, and a fit takes the length that it feels for gravity's";
   }
   return "unknown error code";
 }
@@ -84,6 +85,8 @@ const char* remedy(Errc code) noexcept {
     case Errc::snapshot_implausible: return "start without history, and look for what rewrote the snapshot";
     case Errc::frame_not_orthogonal:
       return "give rows of unit length at right angles; the identity leaves the tool frame";
+    case Errc::may_accelerate:
+      return "stand still and configure without an acceleration bound, or bring a calibration made at rest";
   }
   return "report this code as a defect of plumb";
 }

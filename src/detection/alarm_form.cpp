@@ -48,7 +48,7 @@ double parity_square(const SensorArray& array, const BlockEvidence& block, Senso
 }  // namespace
 
 SetTest in_quadrature(const SensorArray& array, const GravityReference& gravity, const BlockEvidence& block,
-                      SensorSet set, const SetTest& test) noexcept {
+                      SensorSet set, const SetTest& test, double acceleration_mps2) noexcept {
   SetTest out = test;
   if (!test.tested) return out;
   if (test.parity_rows > 0) {
@@ -63,7 +63,7 @@ SetTest in_quadrature(const SensorArray& array, const GravityReference& gravity,
   const double sigma = std::sqrt(variance);
   out.norm = test.norm_error_mps2 / sigma;
   out.parity_systematic = 0.0;
-  out.norm_systematic = block.spread_mps2_sq / (2.0 * gravity.g_mps2) / sigma;
+  out.norm_systematic = (block.spread_mps2_sq / (2.0 * gravity.g_mps2) + acceleration_mps2) / sigma;
   out.systematic = out.norm_systematic;
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/core/angles.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -170,7 +171,8 @@ Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows
 
 }  // namespace
 
-TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejection_rate) noexcept {
+TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejection_rate,
+                                  double acceleration_mps2) noexcept {
   TestLimits limits;
   for (int nu = 1; nu <= kCapacity; ++nu) {
     limits.reject[static_cast<size_t>(nu)] = std::sqrt(chi2_tail_quantile(rejection_rate, nu));
@@ -178,6 +180,7 @@ TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejecti
   }
   limits.norm_alarm = limits.parity_alarm[1];
   limits.calibration = std::sqrt(chi2_tail_quantile(0.01, 4 * n - 3));
+  limits.acceleration_mps2 = acceleration_mps2;
   return limits;
 }
 
@@ -249,10 +252,11 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
     }
   }
 
-  // Systematic terms: calibration at this attitude, gravity, and motion inside the block.
+  // Systematic terms: calibration at this attitude, gravity, motion inside the block, and the acceleration that the
+  // host allows for. All sets of a block feel the same one, so it widens the norm and leaves parity alone.
   const Systematic cal = uncertainty != nullptr ? calibration_bound(*uncertainty, rows, p, x) : Systematic{};
-  const double reference =
-      (TestLimits::gravity * gravity.sigma_mps2 + block.spread_mps2_sq / (2.0 * gravity.g_mps2)) / sigma_norm;
+  const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + limits.acceleration_mps2;
+  const double reference = (TestLimits::gravity * gravity.sigma_mps2 + moved) / sigma_norm;
   out.parity_systematic = root_n * limits.calibration * cal.parity;
   out.norm_systematic = root_n * (limits.calibration * cal.norm + reference);
   out.systematic = root_n * (limits.calibration * cal.both + reference);
@@ -312,6 +316,12 @@ double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test,
     variance += array.uncertainty().at(i, i, attitude) * dot(own, own);
   }
   return variance > 0.0 ? std::sqrt(variance) / length : 0.0;
+}
+
+double acceleration_turn_rad(const GravityReference& gravity, double bound_mps2) noexcept {
+  if (!(bound_mps2 > 0.0)) return 0.0;
+  const double least = gravity.g_mps2 - TestLimits::gravity * gravity.sigma_mps2;
+  return bound_mps2 < least ? angle_with_sine(bound_mps2 / least) : kPi;
 }
 
 double tilt_sigma_rad(const Vec3& x_mps2, const Mat3& covariance) noexcept {

@@ -137,7 +137,9 @@ double protection_level(const SensorArray& array, const GravityReference& gravit
   const double largest = largest_eigenvalue(least_squares(array, array.all()).covariance);
   const double noise = normal_tail_quantile(0.5 * settings.integrity_risk) * std::sqrt(largest / settings.samples);
   const double error = (bias + noise + left) / gravity.g_mps2;
-  return error < 1.0 ? std::asin(error) : kPi;
+  const double level =
+      (error < 1.0 ? std::asin(error) : kPi) + acceleration_turn_rad(gravity, settings.acceleration_mps2);
+  return level < kPi ? level : kPi;
 }
 
 }  // namespace
@@ -147,9 +149,10 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
   ErrorBudget out;
   const int n = array.size();
   if (n < 3) return out;
-  out.limits = TestLimits::from_rates(n, settings.false_alarm_rate, settings.rejection_rate);
+  out.limits =
+      TestLimits::from_rates(n, settings.false_alarm_rate, settings.rejection_rate, settings.acceleration_mps2);
   out.noise_factor = normal_tail_quantile(settings.rejection_rate / (2.0 * n));
-  out.gravity_mps2 = TestLimits::gravity * gravity.sigma_mps2;
+  out.gravity_mps2 = TestLimits::gravity * gravity.sigma_mps2 + settings.acceleration_mps2;
   double trace = 0.0;
   for (int i = 0; i < n; ++i) {
     const double sigma = array.sigma_mps2(i) / std::sqrt(settings.samples);

@@ -56,7 +56,8 @@ HealthMonitor::BlockView HealthMonitor::judge(const BlockTests& tests) const noe
   view.used = tests.of(in_service_ & evidence.usable);
   if (!view.used.tested) return view;
   if (config_.alarm_form == AlarmForm::average_tool && !owes_calibration())
-    view.used = in_quadrature(array_, gravity_, evidence, in_service_ & evidence.usable, view.used);
+    view.used =
+        in_quadrature(array_, gravity_, evidence, in_service_ & evidence.usable, view.used, limits_.acceleration_mps2);
   const SetTest& t = view.used;
   const bool has_parity = t.parity_rows > 0;
   if (has_parity) view.parity_ratio = t.parity / t.parity_alarm_limit(limits_);

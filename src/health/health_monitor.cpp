@@ -60,7 +60,8 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   lever_arm_m_ = setup.lever_arm_m;
   lever_arms_known_ = setup.lever_arms_known;
   const int n = array_.size();
-  limits_ = TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate);
+  limits_ =
+      TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate, config_.acceleration_bound_mps2);
   restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
   derive_limits();
   k_integrity_ = normal_tail_quantile(config_.integrity_risk / 2.0);

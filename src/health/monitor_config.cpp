@@ -11,6 +11,9 @@ struct Range {
   double value, low, high;
 };
 
+/// A little more than gravity: beyond that the vector points anywhere, and no larger bound says more.
+constexpr double kMostAcceleration_mps2 = 10.0;
+
 }  // namespace
 
 Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
@@ -40,12 +43,13 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {0, 0, 0},  // reset_key: any
       {c.temperature_min_degc, -1e9, 1e9},
       {c.temperature_max_degc, -1e9, 1e9},
-      {0, 0, 0},  // recalibrate_after_exclusion: either
       {c.drift_bias_mps2, 1e-6, 10},
       {c.drift_scale, 1e-7, 0.1},
       {static_cast<double>(c.patience_blocks), 0, kMostPatienceBlocks},
       {static_cast<double>(c.alarm_form), 0, 1},
+      {0, 0, 0},  // recalibrate_after_exclusion: either
       {c.common_drift_mps2, 0, 10},
+      {c.acceleration_bound_mps2, 0, c.recalibrate_after_exclusion ? 0.0 : kMostAcceleration_mps2},
       {c.triple_false_alarm_rate, 0, 1e-2},
   };
   int index = 0;

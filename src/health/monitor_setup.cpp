@@ -88,6 +88,9 @@ Expected<void> checked(const MonitorSetup& setup) noexcept {
   if (sound) sound = sound_frame(setup.output_frame);
   if (!sound) return sound;
   if (!kCalibratesItself && !setup.calibrated) return fail(Errc::not_calibrated, -1, 0.0, 1.0);
+  // The first calibration takes the length at every station for gravity's.
+  const double push_mps2 = setup.config.acceleration_bound_mps2;
+  if (sound && !setup.calibrated && push_mps2 > 0.0) return fail(Errc::may_accelerate, -1, push_mps2, 0.0);
   for (int i = 0; i < n && sound && !setup.calibrated; ++i) sound = sound_prior(setup.array, i);
   if (sound && !setup.array.uncertainty().is_covariance()) return fail(Errc::implausible);
   return sound;

@@ -154,12 +154,13 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
   Verdict& v = verdict_;
   v.tick = ticked && !moving_;
   v.state = state_of(mode_);
-  v.qualifiers = static_cast<std::uint8_t>(
+  v.qualifiers = static_cast<std::uint16_t>(
       (unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
       (mode_ == Mode::initial ? Qualifier::initial_calibration : 0) |
       (!set_aside_.empty() ? Qualifier::provisional : 0) | (exhausted_ ? Qualifier::exhausted : 0) |
       (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
-      (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0));
+      (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0) |
+      (config_.acceleration_bound_mps2 > 0.0 ? 0 : Qualifier::standstill_assumed));
   v.config_hash = identity_;
   v.configured = array_.all();
   v.in_service = in_service_;

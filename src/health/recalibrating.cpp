@@ -27,6 +27,10 @@ bool HealthMonitor::may_recalibrate() const noexcept {
 Expected<void> HealthMonitor::request_recalibration() noexcept {
   if (!whole()) return fail(Errc::not_calibrated);
   if (!may_recalibrate()) return fail(Errc::wrong_state, -1, static_cast<double>(state_of(mode_)));
+  // A fit takes the length at every station for gravity's: a steady push would end in the biases, and nothing would
+  // show it. An offer is not fitted to the length, only tried by it, within limits that carry the bound.
+  if (config_.acceleration_bound_mps2 > 0.0)
+    return fail(Errc::may_accelerate, -1, config_.acceleration_bound_mps2, 0.0);
   recalibration_.withdraw_offer();
   recalibration_asked_ = true;
   seal();

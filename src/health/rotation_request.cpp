@@ -26,14 +26,20 @@ void HealthMonitor::study_reference(const BlockView& view) noexcept {
     // Reject, not alarm: as wide as what latches, for the finding is believed for long. Without the gravity term, which
     // is alike at every attitude and part of what is looked for.
     const double sigma = view.used.norm_sigma_mps2 / std::sqrt(evidence_.samples);
-    const double bound = view.used.norm_reject_limit(limits_) * sigma - TestLimits::gravity * gravity_.sigma_mps2;
+    double bound = view.used.norm_reject_limit(limits_) * sigma - TestLimits::gravity * gravity_.sigma_mps2;
+    // There the limit counts in sigmas of noise and calibration together, and not all of the acceleration is left in
+    // it.
+    if (config_.alarm_form == AlarmForm::average_tool) bound += limits_.acceleration_mps2;
     if (used == in_service_) {
       reference_study_.add(view.used.x_mps2, view.used.norm_error_mps2, bound,
                            kStudyAngles * config_.excitation_angle_rad);
     }
   }
-  verdict_.reference =
-      reference_study_.find(gravity_.g_mps2, TestLimits::gravity * gravity_.sigma_mps2, config_.alert_limit_rad);
+  // An acceleration that was allowed for turns the direction whatever the length says.
+  const double turn_rad = acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
+  verdict_.reference = reference_study_.find(gravity_.g_mps2, TestLimits::gravity * gravity_.sigma_mps2,
+                                             config_.alert_limit_rad - turn_rad);
+  if (verdict_.reference.turn_rad > 0.0) verdict_.reference.turn_rad += turn_rad;
   const ReferenceKind kind = verdict_.reference.kind;
   const bool told = kind == ReferenceKind::common_scale || kind == ReferenceKind::common_bias;
   if (told && kind != told_reference_) reference_notice_ = kind;

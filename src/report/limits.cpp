@@ -5,6 +5,7 @@
 #include "../io/refusal.hpp"
 #include "../io/toml_table.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/detection/set_test.hpp"
 #include "plumb/io/output_file.hpp"
 
 namespace plumb {
@@ -71,6 +72,8 @@ UserLimits limits_of(const io::ArrayFile& array) {
   out.alert_limit_from =
       array.monitor.alert_limit_rad == MonitorConfig{}.alert_limit_rad ? "default of the monitor" : "array file";
   out.faults_from = "default";
+  out.acceleration_bound_mps2 = array.monitor.acceleration_bound_mps2;
+  out.acceleration_turn_rad = plumb::acceleration_turn_rad(array.gravity, out.acceleration_bound_mps2);
   return out;
 }
 

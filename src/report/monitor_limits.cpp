@@ -79,8 +79,8 @@ AttitudeLimits limits_of(const SetTest& t, const TestLimits& limits, const Gravi
   AttitudeLimits out;
   const double root_n = std::sqrt(window), s = t.norm_sigma_mps2;
   const double parity_left = t.parity_systematic / root_n / limits.calibration;
-  const double gravity_bound = TestLimits::gravity * gravity.sigma_mps2 / s;
-  const double length_left = std::fmax(t.norm_systematic / root_n - gravity_bound, 0.0) / limits.calibration;
+  const double gravity_bound = TestLimits::gravity * gravity.sigma_mps2 / s, pushed = limits.acceleration_mps2 / s;
+  const double length_left = std::fmax(t.norm_systematic / root_n - gravity_bound - pushed, 0.0) / limits.calibration;
   const double alarm = limits.parity_alarm[static_cast<size_t>(t.parity_rows)];
   out.left = t.parity_rows > 0 ? parity_left : length_left;
   out.parity_noise = t.parity_rows > 0 ? alarm / root_n : 0.0;
@@ -88,7 +88,9 @@ AttitudeLimits limits_of(const SetTest& t, const TestLimits& limits, const Gravi
   if (form == AlarmForm::average_tool) {
     out.parity = out.parity_noise * std::sqrt(1.0 + window * parity_left * parity_left);
     const double sigma_g = gravity.sigma_mps2 / s;
-    out.length_mps2 = out.length_noise_mps2 * std::sqrt(1.0 + window * (length_left * length_left + sigma_g * sigma_g));
+    out.length_mps2 =
+        out.length_noise_mps2 * std::sqrt(1.0 + window * (length_left * length_left + sigma_g * sigma_g)) +
+        limits.acceleration_mps2;
   } else {
     out.parity = out.parity_noise + t.parity_systematic / root_n;
     out.length_mps2 = out.length_noise_mps2 + t.norm_systematic / root_n * s;
@@ -173,7 +175,8 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
   out.sensors = n;
   out.window = config.window;
   out.delta_f_mps2 = config.delta_f_mps2;
-  const TestLimits limits = TestLimits::from_rates(n, config.false_alarm_rate, config.rejection_rate);
+  const TestLimits limits =
+      TestLimits::from_rates(n, config.false_alarm_rate, config.rejection_rate, config.acceleration_bound_mps2);
   const double rate = config.triple_false_alarm_rate > 0.0 ? config.triple_false_alarm_rate
                                                            : triple_share(array, config.false_alarm_rate);
   const double quantile = half_normal_mean_quantile(config.window, rate);

@@ -34,7 +34,7 @@ void count_sensors(SensorSet which, std::array<std::uint64_t, kCapacity>& counts
   }
 }
 
-void fill(StationHealth& station, const Verdict& v, const Mat3& frame) {
+void fill(StationHealth& station, const Verdict& v, const Mat3& frame, double acceleration_mps2) {
   station.end_s = v.time_s;
   station.temperature_degc = v.temperature_degc;
   ++station.blocks;
@@ -46,8 +46,9 @@ void fill(StationHealth& station, const Verdict& v, const Mat3& frame) {
   station.limit = v.limit;
   station.length_mps2 = norm(v.gravity_mps2);
   station.reference_mps2 = v.reference_mps2;
-  station.length_limit_mps2 = kLengthSigmas * std::sqrt(v.reference_sigma_mps2 * v.reference_sigma_mps2 +
-                                                        length_variance(v.gravity_mps2, v.covariance));
+  station.length_limit_mps2 =
+      acceleration_mps2 + kLengthSigmas * std::sqrt(v.reference_sigma_mps2 * v.reference_sigma_mps2 +
+                                                    length_variance(v.gravity_mps2, v.covariance));
   station.tilt = tilt_of(io::in_frame(frame, v.gravity_mps2), io::covariance_in_frame(frame, v.covariance));
   station.protected_by_bound = v.protection_available;
   station.alert = v.alert;
@@ -142,7 +143,7 @@ void ToolHealth::take_block(const Sample& sample, const Verdict& verdict) {
     tag_ = sample.station;
   }
   StationHealth& station = stations_.back();
-  fill(station, verdict, frame_);
+  fill(station, verdict, frame_, acceleration_mps2_);
   station.depth_m = depth_m_;
   station.changes += changes_;
   changes_ = 0;

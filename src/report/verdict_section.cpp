@@ -236,8 +236,29 @@ std::string row_words(const Json& subject) {
          "name the column that says of how many samples, and give the log (--positions).";
 }
 
+/// First of all: it is the one that no test of plumb can find broken.
+std::string standstill_words(const UserLimits& limits) {
+  if (!(limits.acceleration_bound_mps2 > 0.0))
+    return "A standstill is assumed: no acceleration_bound is stated, and every figure here holds for a tool that does "
+           "not accelerate while its readings are quiet. A steady acceleration across gravity is seen by no test; 30 "
+           "mg "
+           "turn the direction by 1.7 deg.";
+  const std::string size =
+      fmt::format("A steady acceleration of at most {:.4g} mg0 is allowed for", mg0(limits.acceleration_bound_mps2));
+  if (limits.acceleration_turn_rad > limits.alert_limit_rad)
+    return size + fmt::format(
+                      ", which alone turns the direction by more than the alert limit ({:.4g} deg): the alert "
+                      "never ends. A tool that accelerates by more is not covered.",
+                      deg_from_rad(limits.alert_limit_rad));
+  return size + fmt::format(
+                    ": {:.4g} deg of every protection level, and of what the length may be off. A tool that "
+                    "accelerates by more is not covered.",
+                    deg_from_rad(limits.acceleration_turn_rad));
+}
+
 Json assumptions_of(const UserLimits& limits, const Json& report) {
   Json out = Json::array();
+  out.push_back(standstill_words(limits));
   const Json& array = report["array"];
   const int grade = array["figures_of_merit"]["strict_grade"];
   out.push_back(fmt::format(

@@ -32,7 +32,8 @@ double miss(const Case& c, int i, int j, int k, const std::array<double, kCapaci
   const Vec3 wd = scaled(cross(a, b), 1.0 / det);
   const auto value = [&raw](int s) { return raw[static_cast<std::size_t>(s)]; };
   const Vec3 x = plus(plus(scaled(wa, value(i)), scaled(wb, value(j))), scaled(wd, value(k)));
-  const double far = kFarShift * block_sigma(c) * (norm(wa) + norm(wb) + norm(wd)) + kFarGravity_mps2;
+  const double far = kFarShift * block_sigma(c) * (norm(wa) + norm(wb) + norm(wd)) + kFarGravity_mps2 +
+                     2.0 * c.config.acceleration_bound_mps2;
   return std::abs(norm(x) - kG0_mps2) / far;
 }
 

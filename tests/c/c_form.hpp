@@ -43,6 +43,7 @@ struct CForm {
     std::memcpy(config.output_frame, setup.output_frame.data(), sizeof config.output_frame);
     config.recalibrate_after_exclusion = setup.config.recalibrate_after_exclusion ? 1 : 0;
     config.isolation_stations = setup.config.isolation_stations;
+    config.acceleration_bound_mps2 = setup.config.acceleration_bound_mps2;
   }
   std::vector<plumb_sensor> sensor;
   plumb_config config{};

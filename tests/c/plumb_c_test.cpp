@@ -171,6 +171,18 @@ TEST(CFunctions, DefaultsAreThoseOfTheMonitor) {
   std::size_t written = 0;
   ASSERT_EQ(plumb_monitor_snapshot(m.monitor, bytes.data(), bytes.size(), &written).code, PLUMB_OK);
   EXPECT_TRUE(twin.restore(setup, bytes.data(), written).has_value());
+  plumb_verdict verdict;
+  plumb_verdict_defaults(&verdict);
+  plumb_sample nothing;
+  plumb_sample_defaults(&nothing);
+  plumb_monitor_step(m.monitor, &nothing, &verdict);
+  EXPECT_NE(verdict.qualifiers & PLUMB_STANDSTILL_ASSUMED, 0) << "beyond the eight bits of old";
+  setup.config.acceleration_bound_mps2 = 0.05;
+  CForm told(setup);
+  ASSERT_EQ(m.init(&told.config).code, PLUMB_OK);
+  EXPECT_EQ(m.monitor->monitor.config().acceleration_bound_mps2, 0.05);
+  plumb_monitor_step(m.monitor, &nothing, &verdict);
+  EXPECT_EQ(verdict.qualifiers & PLUMB_STANDSTILL_ASSUMED, 0);
 }
 
 }  // namespace

@@ -54,6 +54,9 @@ TEST(AlarmForm, QuadratureOfTheTetrahedronByHand) {
   const double sigma = std::sqrt(0.75 * (kSigma * kSigma / 32.0 + left * left) + 1e-6);
   EXPECT_NEAR(q.norm, t.norm_error_mps2 / sigma, 1e-9);
   EXPECT_NEAR(q.norm_systematic, 1e-4 / (2.0 * kG0_mps2) / sigma, 1e-12) << "motion has one sign and stays a bound";
+  const SetTest pushed = in_quadrature(array, gravity, block, array.all(), t, 0.05);
+  EXPECT_NEAR(pushed.norm_systematic, (1e-4 / (2.0 * kG0_mps2) + 0.05) / sigma, 1e-9) << "and so does what is steady";
+  EXPECT_EQ(pushed.norm, q.norm);
 }
 
 // Verifies: REQ-057

@@ -65,6 +65,10 @@ TEST(RequirementLimits, NoiseFallsWithTheBlockAndTheBoundDoesNot) {
   const SetTest one = test_set(array, gravity, limits, block, array.all());
   // By hand, in m/s^2: three sigmas of gravity and v/(2G).
   EXPECT_NEAR(one.norm_systematic * one.norm_sigma_mps2, 3.0 * 1e-3 + 0.01 / (2.0 * kG0_mps2), 1e-12);
+  const TestLimits allowing = TestLimits::from_rates(5, 1e-5, 1e-6, 0.05);
+  const SetTest pushed = test_set(array, gravity, allowing, block, array.all());
+  EXPECT_NEAR((pushed.norm_systematic - one.norm_systematic) * one.norm_sigma_mps2, 0.05, 1e-12);
+  EXPECT_EQ(pushed.parity_systematic, one.parity_systematic) << "all sensors feel the same acceleration";
   block.samples = 400.0;
   const SetTest many = test_set(array, gravity, limits, block, array.all());
   EXPECT_NEAR(many.norm_systematic / 20.0, one.norm_systematic, 1e-9) << "in sigmas of the block mean it grows";

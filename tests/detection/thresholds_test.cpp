@@ -87,6 +87,20 @@ TEST(ThresholdsOf, CalibrationErrorsWidenEveryOne) {
   EXPECT_GT(t.protection_rad, 1.5 * ideal.protection_rad);
 }
 
+TEST(ThresholdsOf, AnAccelerationThatIsAllowedForTurnsTheDirectionAndLeavesParityAlone) {
+  const SensorArray array = cone_array(6, kMilli);
+  TestSettings settings;
+  const Thresholds still = thresholds_of(array, kExact, settings);
+  settings.acceleration_mps2 = 0.03 * kG0_mps2;
+  const Thresholds pushed = thresholds_of(array, kExact, settings);
+  EXPECT_NEAR(pushed.protection_rad, still.protection_rad + std::asin(0.03), 1e-12);
+  EXPECT_EQ(protection_level_rad(array, kExact, settings), pushed.protection_rad);
+  EXPECT_EQ(pushed.sensor[0].detectable_mps2, still.sensor[0].detectable_mps2);
+  EXPECT_EQ(error_budget(array, kExact, settings).gravity_mps2, settings.acceleration_mps2);
+  settings.acceleration_mps2 = 10.0;
+  EXPECT_EQ(thresholds_of(array, kExact, settings).protection_rad, kPi);
+}
+
 /// At the detectable bias the parity test misses 1e-3, at any attitude; noise as the budget has it.
 // Verifies: REQ-055
 TEST(DetectableBias, IsMissedOnceInAThousandOnEveryGeometry) {

@@ -73,7 +73,7 @@ TEST(SurveyStation, onlyValidIsAGo) {
 }
 
 TEST(SurveyStation, throughAFailureEveryGoIsTrueToItsBound) {
-  Body body(30.0);
+  Body body(30.0, 0.0);
   int gos = 0, late_gos = 0;
   for (const plumb::Verdict& v : example_test::run()) {
     body.next();

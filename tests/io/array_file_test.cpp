@@ -318,6 +318,18 @@ TEST(ArrayFile, RecalibrationIsAskedForInTheMonitorTable) {
   expect_refused(changed("window = 16", "drift_scale = \"20 %\""), 7, "monitor.drift_scale", {"at most 0.1"});
 }
 
+TEST(ArrayFile, AnAccelerationIsAllowedForInTheMonitorTable) {
+  EXPECT_EQ(array_of().monitor.acceleration_bound_mps2, 0.0);
+  const MonitorConfig given = array_of(changed("window = 16", "acceleration_bound = \"5 mg\"")).monitor;
+  EXPECT_NEAR(given.acceleration_bound_mps2, 5e-3 * kG0_mps2, 1e-12);
+  const char* const key = "monitor.acceleration_bound";
+  expect_refused(changed("window = 16", "acceleration_bound = \"11 m/s^2\""), 7, key, {"at most 10 m/s^2"});
+  expect_refused(changed("window = 16", "acceleration_bound = \"-1 mg\""), 7, key, {"at least 0 m/s^2"});
+  expect_refused(changed("window = 16", "acceleration_bound = 0.05"), 7, key, {"unit"});
+  expect_refused(changed("window = 16", "acceleration_bound = \"5 mg\"\nrecalibrate = \"after-exclusion\""), 7, key,
+                 {"at most 0 m/s^2"});
+}
+
 TEST(ArrayFile, TheMeaningOfTheRateIsChosenInTheMonitorTable) {
   EXPECT_EQ(array_of().monitor.alarm_form, AlarmForm::every_tool);
   EXPECT_EQ(array_of().monitor.triple_false_alarm_rate, 0.0);

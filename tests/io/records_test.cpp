@@ -146,10 +146,10 @@ TEST(Records, RecalibrationIsAnObjectWhileItGoesOnOrWasRefused) {
 
 TEST(Records, EveryQualifierHasItsName) {
   Verdict v;
-  v.qualifiers = 255;
+  v.qualifiers = 511;
   const Json object = Json::parse(verdict_json(v, array_of().array));
   EXPECT_EQ(object["qualifiers"], Json({"unproven", "moving", "initial_calibration", "provisional", "no_redundancy",
-                                        "exhausted", "three_sensor_fit", "inhibited"}));
+                                        "exhausted", "three_sensor_fit", "inhibited", "standstill_assumed"}));
 }
 
 TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {

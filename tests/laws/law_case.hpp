@@ -125,7 +125,10 @@ class LawCase {
 
   /// What the sensors read at a station without noise; gravity points to `direction`.
   plumb::Readings readings(const plumb::Vec3& direction, TrialNoise& noise) {
-    const plumb::Vec3 g = plumb::scaled(direction, length_mps2_);
+    return felt(plumb::scaled(direction, length_mps2_), noise);
+  }
+  /// The same under gravity and acceleration together.
+  plumb::Readings felt(const plumb::Vec3& g, TrialNoise& noise) {
     if (noise.uniform() < 0.4) holder_ = some_faulty(noise);
     const bool away = lie_ == Lie::intermittent && noise.uniform() < 0.5;
     plumb::Readings y{};

@@ -92,6 +92,21 @@ TEST(MonitorLimits, SayNothingOfWhatIsNotThere) {
   for (const char* word : {"parity", "delta_f"}) EXPECT_NE(four.find(word), std::string::npos) << word;
 }
 
+TEST(MonitorLimits, AnAccelerationThatIsAllowedForIsPartOfTheLengthAlone) {
+  const SensorArray array = with_offsets(plumb_test::tetrahedron(kSigma), kSigma / 3.0);
+  for (const AlarmForm form : {AlarmForm::every_tool, AlarmForm::average_tool}) {
+    MonitorConfig config;
+    config.alarm_form = form;
+    const MonitorLimits still = monitor_limits(array, kExact, config);
+    config.acceleration_bound_mps2 = 0.05;
+    const MonitorLimits pushed = monitor_limits(array, kExact, config);
+    EXPECT_NEAR(pushed.length.systematic_mps2, still.length.systematic_mps2 + 0.05, 1e-9);
+    EXPECT_NEAR(pushed.triple.systematic_mps2, still.triple.systematic_mps2 + 0.05, 1e-9);
+    EXPECT_EQ(pushed.parity.bias_mps2, still.parity.bias_mps2);
+    EXPECT_NEAR(pushed.useful_samples, still.useful_samples, 1e-6) << "what calibration leaves is the same";
+  }
+}
+
 TEST(MonitorLimits, TheAverageFormIsTheNarrower) {
   const SensorArray array = with_offsets(plumb_test::tetrahedron(kSigma), kSigma / 3.0);
   MonitorConfig config;

@@ -69,6 +69,13 @@ using Reasons = std::vector<StationReason>;
 
 Reasons reasons_of(const Verdict& block) { return report::reasons_against(station_of({block})); }
 
+/// What the monitor was told to allow for is no reason against a station.
+Reasons reasons_beside(const Verdict& block, double acceleration_mps2) {
+  ToolHealth health(io::kIdentity3, false, acceleration_mps2);
+  take(health, block, 1);
+  return report::reasons_against(health.stations().back());
+}
+
 /// With one thing changed.
 template <class Change>
 Verdict but(Change change) {
@@ -131,6 +138,8 @@ TEST(ToolHealthRule, TheLengthIsJudgedByThreeAndBySixSigmas) {
     EXPECT_EQ(reasons_of(off_by(sign * 5.99)), Reasons{StationReason::length});
     EXPECT_EQ(reasons_of(off_by(sign * 6.01)), Reasons{StationReason::length_far});
   }
+  EXPECT_EQ(reasons_beside(off_by(7.99), 5.0 * kSigma_mps2), Reasons{});
+  EXPECT_EQ(reasons_beside(off_by(-8.01), 5.0 * kSigma_mps2), Reasons{StationReason::length});
   // Noise and calibration count along the vector only, and add in squares to the reference.
   Verdict noisy = off_by(4.0);
   const Vec3 down = scaled(noisy.gravity_mps2, 1.0 / norm(noisy.gravity_mps2));

@@ -76,6 +76,10 @@ TEST(VerificationTrials, TheMonitorIsTheOneOfTheArrayFile) {
   writer.put(expected);
   EXPECT_EQ(bytes, wanted);
   EXPECT_EQ(read.window, 16);
+  array.monitor.recalibrate_after_exclusion = false;  // which no array may ask for beside an acceleration bound
+  const std::vector<std::uint8_t> still = monitor_of(array, s);
+  array.monitor.acceleration_bound_mps2 = 0.05;
+  EXPECT_NE(monitor_of(array, s), still) << "it is played as the array says";
   array.monitor.patience = 9;  // and a field more makes another monitor
   EXPECT_NE(monitor_of(array, s), bytes);
 }

@@ -80,6 +80,21 @@ TEST(VerificationVerdict, EveryLimitIsMetMissedOrOpen) {
   EXPECT_EQ(result_of(with("detect_within = \"1 h\""), "Time to detect, 95 % of the detected faults"), "met");
 }
 
+/// What no test can find broken stands first among the assumptions.
+TEST(VerificationVerdict, AStandstillOrTheAccelerationAllowedForIsSaidFirst) {
+  const Json report = calibrated_report();
+  report::UserLimits given = limits("");
+  const auto first = [&] { return report::verdict_section(given, report)["assumptions"][0].get<std::string>(); };
+  EXPECT_TRUE(plumb_test::says(first(), {"A standstill is assumed", "acceleration_bound"}));
+  io::ArrayFile array = paper_array();
+  array.monitor.acceleration_bound_mps2 = 5e-3 * kG0_mps2;
+  given = report::limits_of(array);
+  EXPECT_TRUE(plumb_test::says(first(), {"at most 5 mg0", "0.286", "of every protection level"})) << first();
+  array.monitor.acceleration_bound_mps2 = 0.03 * kG0_mps2;
+  given = report::limits_of(array);
+  EXPECT_TRUE(plumb_test::says(first(), {"at most 30 mg0", "the alert never ends"})) << first();
+}
+
 // Negative: REQ-181
 TEST(VerificationVerdict, ARateIsShownRefutedOrOpenByItsInterval) {
   Json report = calibrated_report();

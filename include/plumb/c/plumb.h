@@ -93,6 +93,7 @@ typedef struct plumb_config {
   double alert_limit_rad, integrity_risk, fault_prior;
   double temperature_min_degc, temperature_max_degc;
   double drift_bias_mps2, drift_scale, common_drift_mps2;
+  double acceleration_bound_mps2; /* 0: a standstill is assumed */
 } plumb_config;
 
 /* Everything but the sensors. Error: null_pointer. */
@@ -133,6 +134,8 @@ enum plumb_validity { PLUMB_INVALID, PLUMB_HELD, PLUMB_UNCONFIRMED, PLUMB_DEGRAD
 #define PLUMB_USABLE_TEMPERATURE 64u
 #define PLUMB_USABLE_CALIBRATION 128u
 #define PLUMB_USABLE_REFERENCE 256u
+/* A bit of `qualifiers`, the others are in plumb/health/state.hpp: no acceleration bound was stated. */
+#define PLUMB_STANDSTILL_ASSUMED 256u
 
 /* One change of state or of a set of sensors; sequence 0: nothing changed at this sample. */
 typedef struct plumb_transition {
@@ -151,10 +154,11 @@ typedef struct plumb_verdict {
   uint32_t struct_size;
   uint32_t sample;
   double time_s;
-  uint8_t state, validity, cause, decided_by, grade, qualifiers;
+  uint8_t state, validity, cause, decided_by, grade;
   uint8_t tick, accepted, alert, protection_available, wants_rotation;
   uint8_t recalibration_phase;
-  uint16_t usable;
+  uint8_t reserved; /* 0 */
+  uint16_t usable, qualifiers;
   plumb_transition transition;
   uint32_t configured, in_service, set_aside, excluded, absent;
   uint32_t suspects, clipped, restless, not_finite, noisy, stuck, contradicted_clip;

@@ -45,9 +45,10 @@ enum class Errc : std::uint8_t {
   snapshot_capacity,     ///< value = its capacity, limit = that of this build
   snapshot_foreign,      ///< of another configuration, array or calibration
   snapshot_implausible,  ///< intact, yet nothing that a monitor can have remembered
-  frame_not_orthogonal   ///< index = row of the output frame, value = what a product of rows is off by, limit = allowed
+  frame_not_orthogonal,  ///< index = row of the output frame, value = what a product of rows is off by, limit = allowed
+  may_accelerate         ///< no fit where an acceleration is allowed for: value = its bound [m/s^2], limit = 0
 };
-inline constexpr Errc kLastErrc = Errc::frame_not_orthogonal;
+inline constexpr Errc kLastErrc = Errc::may_accelerate;
 
 struct Error {
   Errc code = Errc::ok;

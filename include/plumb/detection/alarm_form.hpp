@@ -21,10 +21,11 @@ enum class AlarmForm : std::uint8_t {
 
 /// `test` (of `set`, at `block`) with parity and norm in standard deviations of noise, calibration and gravity
 /// together: r' (I + N V C_cal V')^-1 r over the whitened parity rows V, and (|x| - G) over the root of
-/// s_T^2/N + u'C_x u + sigma_g^2. What is left of the bounds is the motion inside the block, which has one sign. A test
-/// that was not made is returned as it is.
+/// s_T^2/N + u'C_x u + sigma_g^2. What is left of the bounds is the motion inside the block, which has one sign, and
+/// the acceleration that the host allows for, which is no draw from anything. A test that was not made is returned as
+/// it is.
 SetTest in_quadrature(const SensorArray& array, const GravityReference& gravity, const BlockEvidence& block,
-                      SensorSet set, const SetTest& test) noexcept;
+                      SensorSet set, const SetTest& test, double acceleration_mps2 = 0.0) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -55,7 +55,7 @@ struct FaultSetScan {
   SensorSet asserted;  ///< intersection of the live fault sets of at most `asserted_faults` members
   int least = 255;     ///< size of the smallest live fault set
   bool protection_available = false;
-  double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members
+  double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members; of what is felt, g + a
 
   bool plausible() const noexcept { return protection_rad >= 0.0; }
   static constexpr auto fields() noexcept {

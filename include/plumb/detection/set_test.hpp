@@ -43,13 +43,17 @@ struct TestLimits {
   double norm_alarm = 0.0;                           ///< one degree of freedom, false-alarm rate
   double calibration = 0.0;               ///< k_c = sqrt(chi^2_(4n-3) quantile at 0.99): all attitudes at once
   static constexpr double gravity = 3.0;  ///< sigmas of the gravity reference
+  /// A: largest steady acceleration that the host allows for. What the sensors feel is then |g + a|, off G by at most
+  /// A.
+  double acceleration_mps2 = 0.0;
 
   static constexpr auto fields() noexcept {
     using L = TestLimits;
-    return field_list(&L::reject, &L::parity_alarm, &L::norm_alarm, &L::calibration);
+    return field_list(&L::reject, &L::parity_alarm, &L::norm_alarm, &L::calibration, &L::acceleration_mps2);
   }
 
-  static TestLimits from_rates(int n, double false_alarm_rate, double rejection_rate) noexcept;
+  static TestLimits from_rates(int n, double false_alarm_rate, double rejection_rate,
+                               double acceleration_mps2 = 0.0) noexcept;
 };
 
 /// All statistics and limits are in standard deviations of the block mean (whitened, times sqrt(N)).
@@ -102,6 +106,10 @@ double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test,
 
 /// What the reading of sensor i adds to x, for a member of the tested set: a column of the least-squares map.
 Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexcept;
+
+/// How far the direction of what the sensors feel may be from that of gravity under any acceleration of at most
+/// `bound_mps2`: |a| <= A < G leaves g + a within asin(A / G) of g. pi from G on. G is taken 3 sigmas short.
+double acceleration_turn_rad(const GravityReference& gravity, double bound_mps2) noexcept;
 
 /// 1-sigma of the direction of x from a covariance, in rad: root of the part across x over its length.
 /// pi where x has no length.

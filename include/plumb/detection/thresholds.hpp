@@ -17,6 +17,7 @@ struct TestSettings {
   double rejection_rate = 1e-6;    ///< per block and hypothesis
   double missed_detection = 1e-3;  ///< how often a fault of just the detectable size may be missed, per block
   double integrity_risk = 1e-6;    ///< of the noise in the protection level, two-sided
+  double acceleration_mps2 = 0.0;  ///< largest steady acceleration of the tool
 };
 
 /// What limits the sensors of one array: everything as 1 block of `TestSettings::samples`.
@@ -25,7 +26,7 @@ struct ErrorBudget {
   Readings calibration_mps2{};     ///< what calibration leaves: k_c sigmas of the worst attitude, misfit included
   double noise_factor = 0.0;       ///< k_e: all n sensors stay within k_e sigmas but for the rejection rate
   double parity_systematic = 0.0;  ///< bound on b_S of the parity rows, in standard deviations of a block mean
-  double gravity_mps2 = 0.0;       ///< what the reference may be off, in `TestLimits::gravity` sigmas
+  double gravity_mps2 = 0.0;       ///< what the length felt may be off: `TestLimits::gravity` sigmas, and acceleration
   TestLimits limits;
 };
 ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravity,
@@ -49,7 +50,8 @@ struct Thresholds {
   /// others, fault[2m] is accused by every explanation with at most m faults.
   FaultBounds sure{};
   /// Bound on the tilt error at any attitude while nothing alarms: the worst single bias that can go undetected, noise
-  /// and calibration (domain note 3). pi where parity does not check every sensor.
+  /// and calibration (domain note 3), and the turn by the acceleration allowed for. pi where parity does not check
+  /// every sensor.
   double protection_rad = 0.0;
 };
 

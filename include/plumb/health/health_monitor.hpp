@@ -84,7 +84,8 @@ class HealthMonitor {
   /// Asks for new biases and scales of the sensors in service (design, section 5): taken at the next step. Error:
   /// wrong_state (value = HealthState) unless the monitor is nominal, isolated or degraded with no alarm on record, or
   /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare; always in
-  /// a build without `kRecalibrates`.
+  /// a build without `kRecalibrates`. may_accelerate (value = the bound [m/s^2]) where an acceleration is allowed for:
+  /// a fit would take it for biases.
   Expected<void> request_recalibration() noexcept;
 
   /// Offers a calibration made elsewhere, both parts of it, over all configured sensors. Biases and scales of the
@@ -92,7 +93,8 @@ class HealthMonitor {
   /// monitor's own must pass, and adopted or refused; the calibration in force is untouched until then. What is wrong
   /// with it at sight is refused at once: errors those of `request_recalibration`, then those of
   /// `Recalibration::offer`. It takes the place of a request that
-  /// waits, lapses as one does, and after a day without the stations to try it.
+  /// waits, lapses as one does, and after a day without the stations to try it. An acceleration bound widens what it is
+  /// tried by and does not keep it out.
   Expected<void> offer_calibration(const SensorModel& model, const SensorArray& array) noexcept;
 
   /// Another length of gravity (depth has changed). Error: implausible_gravity; then nothing changes.
@@ -250,7 +252,8 @@ class HealthMonitor {
   // What is remembered.
   Mode mode_ = Mode::suspect;
   SizeClass size_class_ = SizeClass::rank_lost;  ///< of the sensors in service
-  int live_ = 0;                                 ///< voting sets alive
+  ReferenceKind told_reference_ = ReferenceKind::none, reference_notice_ = ReferenceKind::none;
+  int live_ = 0;  ///< voting sets alive
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_;
   SensorSet calibrated_;
@@ -284,6 +287,8 @@ class HealthMonitor {
   Cause suspicion_ = Cause::none;  ///< the last block event that keeps the monitor in suspect
   bool recalibration_asked_ = false, recalibration_due_ = false;  ///< by the host; by the policy, after an exclusion
   bool three_sensor_fit_ = false;
+  bool lever_arms_known_ = false, rotation_locked_ = false;  // beside other single bytes: here they cost no room
+  bool inhibited_ = false, inhibit_notice_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
   /// Calibrated span: as configured, else that of the stations of the monitor's own calibration.
   double temperature_min_degc_ = 0.0, temperature_max_degc_ = 0.0;
@@ -299,9 +304,6 @@ class HealthMonitor {
   // What the host said.
   std::array<Vec3, kCapacity> lever_arm_m_{};
   Rotation rotation_;
-  bool lever_arms_known_ = false, rotation_locked_ = false;
-  bool inhibited_ = false, inhibit_notice_ = false;
-  ReferenceKind told_reference_ = ReferenceKind::none, reference_notice_ = ReferenceKind::none;
 
   // Evidence.
   ScatterRecord scatter_;
@@ -363,7 +365,9 @@ class HealthMonitor {
         not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
         not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::identity_),
         // remembered
-        up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_), within(&M::live_, 0, kVotingCapacity),
+        up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_),
+        up_to(&M::told_reference_, ReferenceKind::common_bias),
+        up_to(&M::reference_notice_, ReferenceKind::common_bias), within(&M::live_, 0, kVotingCapacity),
         &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,
         &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::have_predictions_,
         not_stored(&M::configured_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::freshness_, &M::clock_,
@@ -372,13 +376,11 @@ class HealthMonitor {
         per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_,
         &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
         up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
-        &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_,
+        &M::temperature_min_degc_, &M::temperature_max_degc_,
         within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
         per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
-        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_, not_stored(&M::lever_arms_known_),
-        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
-        up_to(&M::told_reference_, ReferenceKind::common_bias),
-        up_to(&M::reference_notice_, ReferenceKind::common_bias),
+        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
         &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
         &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),

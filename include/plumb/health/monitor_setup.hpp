@@ -38,7 +38,8 @@ Expected<void> plausible(const GravityReference& gravity) noexcept;
 /// 0); not_finite (index = sensor of whose coefficients, range, code or lever arm one is no number);
 /// implausible_gravity; frame_not_orthogonal; implausible where the uncertainty of the rows is no covariance, and where
 /// there is no calibration (index = sensor of whose bias, scale or axis the uncertainty is below
-/// `Recalibration::kLeastOpen` or beyond `Recalibration::kMostOpen`: value, limit).
+/// `Recalibration::kLeastOpen` or beyond `Recalibration::kMostOpen`: value, limit); may_accelerate where there is no
+/// calibration and an acceleration is allowed for (value = the bound [m/s^2]).
 Expected<void> checked(const MonitorSetup& setup) noexcept;
 
 }  // namespace PLUMB_ABI

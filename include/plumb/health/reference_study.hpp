@@ -26,7 +26,7 @@ struct ReferenceFinding {
   int attitudes = 0;
   double length_mps2 = 0.0;  ///< kappa G: what is off alike at every attitude
   Vec3 bias_mps2{};          ///< a: what is off along a direction, tool frame
-  double turn_rad = 0.0;     ///< most that `a` within its bounds can turn the direction; 0 = no bound yet
+  double turn_rad = 0.0;  ///< most that `a` and the acceleration allowed for can turn the direction; 0 = no bound yet
 
   static constexpr int kMostAttitudes = 12;
   static constexpr auto fields() noexcept {

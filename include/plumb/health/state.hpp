@@ -78,15 +78,17 @@ const char* to_string(Validity validity) noexcept;
 
 /// Qualifier bits beside the state.
 struct Qualifier {
-  static constexpr std::uint8_t unproven = 1;
-  static constexpr std::uint8_t moving = 2;
-  static constexpr std::uint8_t initial_calibration = 4;
-  static constexpr std::uint8_t provisional = 8;
-  static constexpr std::uint8_t no_redundancy = 16;
-  static constexpr std::uint8_t exhausted = 32;
+  static constexpr std::uint16_t unproven = 1;
+  static constexpr std::uint16_t moving = 2;
+  static constexpr std::uint16_t initial_calibration = 4;
+  static constexpr std::uint16_t provisional = 8;
+  static constexpr std::uint16_t no_redundancy = 16;
+  static constexpr std::uint16_t exhausted = 32;
   /// The coefficients in force come from a fit that none could check.
-  static constexpr std::uint8_t three_sensor_fit = 64;
-  static constexpr std::uint8_t inhibited = 128;  ///< the host froze exclusion and recalibration
+  static constexpr std::uint16_t three_sensor_fit = 64;
+  static constexpr std::uint16_t inhibited = 128;  ///< the host froze exclusion and recalibration
+  /// No acceleration bound was stated: vector, protection level and alert hold for a tool that does not accelerate.
+  static constexpr std::uint16_t standstill_assumed = 256;
 };
 
 /// Grade of an exclusion (design, section 4).

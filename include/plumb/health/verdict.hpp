@@ -60,7 +60,7 @@ struct Verdict {
   double time_s = 0.0;
   std::uint32_t sample = 0;  ///< samples offered since power-on, those refused included
   HealthState state = HealthState::suspect;
-  std::uint8_t qualifiers = 0;  ///< bits of Qualifier
+  std::uint16_t qualifiers = 0;  ///< bits of Qualifier
   Validity validity = Validity::invalid;
   Cause cause = Cause::none;
   bool tick = false;            ///< this sample completed a block: statistic, s_i and vector are new
@@ -109,11 +109,12 @@ struct Verdict {
 
   // Which way is down.
   Vec3 gravity_mps2{};  ///< last quiet block, sensors in service, positive down, output frame
-  Mat3 covariance{};    ///< [(m/s^2)^2], noise and calibration
+  Mat3 covariance{};    ///< [(m/s^2)^2], noise and calibration; no acceleration of the tool
   double age_s = 0.0;   ///< since the block that gave the vector
   Vec3 latest_mps2{};   ///< this one sample, no claim made
-  // Bound on the angle between gravity_mps2 and the truth, both in the frame of the calibrated axes. How that frame
-  // sits in the housing is not observable from gravity (a common rotation of all axes) and is not covered.
+  // Bound on the angle between gravity_mps2 and the truth, both in the frame of the calibrated axes, for every steady
+  // acceleration up to the bound that the host stated. How that frame sits in the housing is not observable from
+  // gravity (a common rotation of all axes) and is not covered.
   double protection_level_rad = 0.0;
   double toolface_protection_rad = 0.0;  ///< what it means for the toolface: asin(sin PL / sin I), pi near vertical
   std::uint16_t usable = 0;              ///< bits of Usable

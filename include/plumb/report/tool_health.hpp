@@ -61,7 +61,7 @@ struct StationHealth {
   double statistic = 0.0, limit = 0.0;
   double length_mps2 = 0.0;  ///< |G|
   double reference_mps2 = 0.0;
-  double length_limit_mps2 = 0.0;  ///< of | |G| - reference |: kLengthSigmas
+  double length_limit_mps2 = 0.0;  ///< of | |G| - reference |: kLengthSigmas, and the acceleration allowed for
   Tilt tilt;
   bool protected_by_bound = false, alert = true;
   double protection_rad = 0.0, toolface_protection_rad = 0.0;
@@ -98,7 +98,9 @@ const char* to_string(SurveyUse use) noexcept;
 class ToolHealth {
  public:
   /// `each_block`: every row of the log is a station. `frame`: from the tool's to the output frame.
-  ToolHealth(const Mat3& frame, bool each_block) : frame_(frame), each_block_(each_block) {}
+  /// `acceleration_mps2`: the bound that the monitor was told.
+  ToolHealth(const Mat3& frame, bool each_block, double acceleration_mps2 = 0.0)
+      : frame_(frame), each_block_(each_block), acceleration_mps2_(acceleration_mps2) {}
 
   /// In order, with what the monitor said to it. `depth_m` NaN = not known.
   void take(const Sample& sample, const Verdict& verdict, double depth_m);
@@ -123,6 +125,7 @@ class ToolHealth {
 
   Mat3 frame_;
   bool each_block_;
+  double acceleration_mps2_;
   bool moved_ = true;  ///< since the last block
   std::uint32_t tag_ = 0;
   int changes_ = 0;  ///< events since the last block
