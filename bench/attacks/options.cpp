@@ -9,8 +9,8 @@ namespace plumb_bench {
 namespace {
 
 /// What --quick plays: under 40 s of one core.
-constexpr std::uint64_t kQuickEpisodes = 3000;
-constexpr double kQuickAdaptiveShare = 0.1;
+constexpr std::uint64_t kQuickEpisodes = 5000;
+constexpr double kQuickAdaptiveShare = 0.05;
 
 template <class T>
 bool number(const char* text, T& out) {

@@ -88,6 +88,23 @@ void play_chunk(const RunPlan& plan, int family, Progress& progress) {
   }
 }
 
+/// What a few episodes come to in this build, as one number: a monitor that decides otherwise has another.
+std::uint64_t behaviour() {
+  static const std::uint64_t value = [] {
+    std::uint64_t hash = plumb::io::kFnvStart;
+    for (int family = 0; family < static_cast<int>(families().size()); ++family) {
+      for (const std::uint64_t episode : {0U, 1U}) {
+        std::vector<Finding> findings;
+        const Tally t = play_episode({family, 0, episode, stream_of_episode(0, family, episode), false}, findings);
+        hash = plumb::io::fnv1a(t.count.data(), sizeof t.count, hash);
+        hash = plumb::io::fnv1a(t.to_nominal.data(), sizeof t.to_nominal, hash);
+      }
+    }
+    return hash;
+  }();
+  return value;
+}
+
 }  // namespace
 
 Progress::Progress(std::uint64_t seed_, std::uint64_t first)
@@ -136,8 +153,8 @@ void play(const RunPlan& plan, Progress& progress, const std::function<bool(cons
 std::string state_text(const Progress& progress) {
   std::string out = fmt::format(
       "{{\n  \"plumb_monitor_attacks\": {},\n  \"harness\": {},\n  \"library\": {},\n"
-      "  \"seed\": {},\n  \"families\": [",
-      kFormat, kHarnessVersion, plumb::kLibraryVersion, progress.seed);
+      "  \"behaviour\": \"{}\",\n  \"seed\": {},\n  \"families\": [",
+      kFormat, kHarnessVersion, plumb::kLibraryVersion, hex(behaviour()), progress.seed);
   for (int family = 0; family < static_cast<int>(families().size()); ++family) {
     Json tallies = Json::array(), findings = Json::array();
     for (const Tally& tally : progress.tally[at(family)]) tallies.push_back(json_of(tally));
@@ -151,8 +168,11 @@ std::string state_text(const Progress& progress) {
                               {"findings", findings}})
                .dump();
   }
-  out += "\n  ],\n";
-  return out + kHashLine + ": \"" + hex(plumb::io::fnv1a(out.data(), out.size())) + "\"\n}\n";
+  return with_hash(out + "\n  ],\n");
+}
+
+std::string with_hash(const std::string& members) {
+  return members + kHashLine + ": \"" + hex(plumb::io::fnv1a(members.data(), members.size())) + "\"\n}\n";
 }
 
 FileExpected<Progress> read_state(const std::string& path, std::uint64_t seed) {
@@ -173,6 +193,9 @@ FileExpected<Progress> read_state(const std::string& path, std::uint64_t seed) {
   if (json.value("plumb_monitor_attacks", 0) != kFormat || json.value("harness", 0) != kHarnessVersion ||
       json.value("library", 0U) != plumb::kLibraryVersion) {
     return refuse("was written by another version of the harness or of plumb: its counts do not add up with these");
+  }
+  if (json.value("behaviour", "") != hex(behaviour())) {
+    return refuse("was written by a build whose monitor decides otherwise: its counts do not add up with these");
   }
   if (json.value("seed", std::uint64_t{0}) != seed) {
     return refuse(

@@ -44,8 +44,10 @@ void play(const RunPlan& plan, Progress& progress, const std::function<bool(cons
 std::uint64_t stream_of_episode(std::uint64_t seed, int family, std::uint64_t episode);
 
 std::string state_text(const Progress& progress);
+/// The last lines of a state, behind what it holds.
+std::string with_hash(const std::string& members);
 /// What `state_text` wrote. Errors: unreadable; not a state; damaged; of another seed, version of the library or of the
-/// harness, or list of families.
+/// harness, list of families, or of a build in which the same few episodes come to something else.
 plumb::io::FileExpected<Progress> read_state(const std::string& path, std::uint64_t seed);
 
 }  // namespace plumb_bench

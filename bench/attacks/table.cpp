@@ -134,6 +134,9 @@ std::string told(std::uint64_t k, std::uint64_t n) {
   return k == 0 ? std::string("0") : fmt::format("{} ({:.3g} %)", k, 100.0 * share(k, n));
 }
 
+/// Both, or one where they are the same.
+std::string arrow(const std::string& was, const std::string& is) { return was == is ? is : was + " -> " + is; }
+
 std::string compared_row(const Json& was, const Row& row) {
   const Tally& t = row.tally;
   const std::uint64_t n = t[Count::episodes];
@@ -141,21 +144,22 @@ std::string compared_row(const Json& was, const Row& row) {
   const auto count_was = [&was](Count c) {
     return was.value(to_string(c), Json::object()).value("count", std::uint64_t{0});
   };
-  std::string out =
-      fmt::format("| {} | {} | {} | {} -> {} |", row.what().name, row.size(), standing(row.what()), n_was, n);
-  for (const Count c : kSafety) out += fmt::format(" {} -> {} |", told(count_was(c), n_was), told(t[c], n));
-  out += fmt::format(" {} -> {} |", told(count_was(Count::unpromised), n_was), told(t[Count::unpromised], n));
-  const double valid_was = share(was.value("valid_blocks", std::uint64_t{0}), was.value("blocks", std::uint64_t{0}));
-  out +=
-      fmt::format(" {:.1f} -> {:.1f} % |", 100.0 * valid_was, 100.0 * share(t[Count::valid_blocks], t[Count::blocks]));
-  out += fmt::format(" {:.1f} -> {:.1f} % |", 100.0 * share(count_was(Count::false_doubt), n_was),
-                     100.0 * share(t[Count::false_doubt], n));
-  const Json median_was = was.value("blocks_to_nominal", Json());
-  out += fmt::format(" {} -> {} |",
-                     median_was.is_number_unsigned() ? std::to_string(median_was.get<std::size_t>()) : "never",
-                     blocks(t.median_to_nominal()));
-  return out + fmt::format(" {:.1f} -> {:.1f} % |\n", 100.0 * share(count_was(Count::failed), n_was),
-                           100.0 * share(t[Count::failed], n));
+  const auto percent = [](std::uint64_t k, std::uint64_t of) { return fmt::format("{:.1f} %", 100.0 * share(k, of)); };
+  std::string out = fmt::format("| {} | {} | {} | {} |", row.what().name, row.size(), standing(row.what()),
+                                arrow(std::to_string(n_was), std::to_string(n)));
+  const auto cell = [&out](const std::string& before, const std::string& now) {
+    out += " " + arrow(before, now) + " |";
+  };
+  for (const Count c : kSafety) cell(told(count_was(c), n_was), told(t[c], n));
+  cell(told(count_was(Count::unpromised), n_was), told(t[Count::unpromised], n));
+  cell(percent(was.value("valid_blocks", std::uint64_t{0}), was.value("blocks", std::uint64_t{0})),
+       percent(t[Count::valid_blocks], t[Count::blocks]));
+  cell(percent(count_was(Count::false_doubt), n_was), percent(t[Count::false_doubt], n));
+  const Json median = was.value("blocks_to_nominal", Json());
+  cell(median.is_number_unsigned() ? std::to_string(median.get<std::size_t>()) : "never",
+       blocks(t.median_to_nominal()));
+  cell(percent(count_was(Count::failed), n_was), percent(t[Count::failed], n));
+  return out + "\n";
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ struct Tally {
   /// Blocks within which half of the episodes became nominal; kNominalBins - 1 where it takes longer.
   std::size_t median_to_nominal() const;
   bool operator==(const Tally& other) const { return count == other.count && to_nominal == other.to_nominal; }
+  bool operator!=(const Tally& other) const { return !(*this == other); }
 };
 
 }  // namespace plumb_bench
