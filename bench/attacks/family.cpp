@@ -8,6 +8,7 @@ constexpr Standing kOutside = Standing::outside;
 
 // Known defects. With the mend of one its line becomes kPromised.
 constexpr Standing kSteadyPush = Standing::outside;   // V2: no bound on steady acceleration is stated
+constexpr Standing kSmallTurns = Standing::open;      // V1: of the motion in its bound every reading may use all
 constexpr Standing kTruncatedFrame = Standing::open;  // V3: absent channels pass for calm ones
 constexpr Standing kOneAttitude = Standing::open;     // V5: noise of a vanishing vector counts as attitudes
 constexpr Standing kMidBlock = Standing::open;        // V5: steps within blocks end in failed
@@ -31,6 +32,7 @@ const std::vector<Family>& all() {
       {"v1b-gap", "a gap of 55 s, or one sample every 5.1 s, while the tool turns", Play::gap, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v1c-turn-1hz", "a turn just after a block, one sample per second", Play::turn, kPromised, kOutside, 4, 8, false, false, 1, 1},
       {"v1c-turn-100hz", "a turn just after a block, 100 samples per second", Play::turn, kPromised, kOutside, 4, 8, false, false, 100, 1},
+      {"v1d-small-turns", "turns of 0.05 to 2 deg between blocks, and then another one somewhat larger", Play::small_turns, kSmallTurns, kOutside, 4, 8, false, false, 0, 1},
       {"v2-horizontal", "steady horizontal acceleration of 3 to 50 mg at every station", Play::steady_push, kSteadyPush, kOutside, 4, 8, false, false, 0, 1},
       {"v2-thrust", "thrust of 300 mg whose vertical part keeps the length of gravity", Play::steady_push, kSteadyPush, kOutside, 4, 8, false, false, 1, 1},
       {"v3-asserted", "one channel alone in the last row of a block as the tool starts to turn; asserted_faults = 1", Play::truncated_frame, kTruncatedFrame, kOutside, 5, 8, false, false, 1, 1},

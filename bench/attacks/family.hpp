@@ -23,6 +23,7 @@ enum class Play : std::uint8_t {
   silence,
   gap,
   turn,
+  small_turns,
   clock,
   steady_push,
   truncated_frame,

@@ -51,13 +51,13 @@ class LiesEpisode {
   int strict_ = 0, parity_ = 0;  ///< grades that the monitor claims; the laws count them anew
   double time_s_ = 0.0;
   int stations_ = 0, onset_ = 0, pause_ = 0, resume_ = 0;  ///< station numbers; pause 0 = none
-  bool mid_block_ = false, mostly_still_ = true, follows_motion_ = true;
+  bool mid_block_ = false, follows_motion_ = true;
   plumb::Vec3 direction_{};
   plumb::Vec3 pushed_mps2_{};   ///< sum over the rows of the block
   bool within_bounds_ = true;   ///< no motion below the noise has made gravity look more than three sigmas off
   double hidden_sigmas_ = 0.0;  ///< how far gravity ever looked off in a block that passed for quiet
   int steady_rows_ = 0;         ///< accepted in this direction
-  int repeat_ = 0, silent_ = -1, silent_rows_ = 0;
+  int silent_ = -1, silent_rows_ = 0;
   LiesCount count_;
   std::vector<std::string>* finds_ = nullptr;
 };

@@ -40,6 +40,8 @@ class Player {
   plumb::HealthMonitor& monitor() { return *monitor_; }
   const plumb::Verdict& verdict() const { return monitor_->verdict(); }
 
+  std::uint64_t offered() const { return offered_; }  ///< samples; a block ends at every multiple of the window
+
   /// The next sample of the world as it is; time goes on by one period.
   plumb::Sample next();
   const plumb::Verdict& offer(const plumb::Sample& sample);

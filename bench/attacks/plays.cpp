@@ -64,6 +64,7 @@ Tally play_family(const Episode& e) {
     case Play::silence: return play_silence(e);
     case Play::gap: return play_gap(e);
     case Play::turn: return play_turn(e);
+    case Play::small_turns: return play_small_turns(e);
     case Play::clock: return play_clock(e);
     case Play::steady_push: return play_steady_push(e);
     case Play::truncated_frame: return play_truncated_frame(e);

@@ -43,6 +43,7 @@ void visit_stations(Player& player, int stations, int most_blocks);
 Tally play_silence(const Episode& e);
 Tally play_gap(const Episode& e);
 Tally play_turn(const Episode& e);
+Tally play_small_turns(const Episode& e);
 Tally play_clock(const Episode& e);
 // plays_motion.cpp: the tool moves
 Tally play_steady_push(const Episode& e);

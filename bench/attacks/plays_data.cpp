@@ -86,6 +86,22 @@ Tally play_turn(const Episode& e) {
   return e.done(player);
 }
 
+/// What the tool turned between two blocks is in the bound of the second; a turn after that must not hide in it.
+Tally play_small_turns(const Episode& e) {
+  Player player = trusted(e);
+  for (int round = 0; round < 12; ++round) {
+    player.direction = player.noise.direction();
+    player.block(2);
+    const double angle = rad_from_deg(player.noise.log_between(0.05, 2.0));
+    player.direction = turned(player.direction, angle, player.noise);
+    player.block();
+    player.direction = turned(player.direction, angle * player.noise.between(0.8, 1.8), player.noise);
+    player.rest(1 + player.noise.below(player.window()));
+    while (player.offered() % static_cast<std::uint64_t>(player.window()) != 0) player.rest(1);
+  }
+  return e.done(player);
+}
+
 namespace {
 
 /// A sample, and then samples of other attitudes with its time stamp or an older one.
