@@ -7,12 +7,12 @@ constexpr Standing kPromised = Standing::promised;
 constexpr Standing kOutside = Standing::outside;
 
 // Known defects. With the mend of one its line becomes kPromised.
-constexpr Standing kSteadyPush = Standing::outside;   // V2: no bound on steady acceleration is stated
-constexpr Standing kSmallTurns = Standing::open;      // V1: of the motion in its bound every reading may use all
-constexpr Standing kTruncatedFrame = Standing::open;  // V3: absent channels pass for calm ones
-constexpr Standing kOneAttitude = Standing::open;     // V5: noise of a vanishing vector counts as attitudes
-constexpr Standing kMidBlock = Standing::open;        // V5: steps within blocks end in failed
-constexpr Standing kSettling = Standing::open;        // V6: a known liar, and yet failed
+constexpr Standing kSteadyPush = Standing::outside;   // no bound on steady acceleration is stated
+constexpr Standing kSmallTurns = Standing::open;      // every reading may use up all the motion in the bound
+constexpr Standing kTruncatedFrame = Standing::open;  // absent channels pass for calm ones
+constexpr Standing kOneAttitude = Standing::open;     // noise of a vanishing vector counts as attitudes
+constexpr Standing kMidBlock = Standing::open;        // steps within blocks end in failed
+constexpr Standing kSettling = Standing::open;        // a known liar, and yet failed
 constexpr Standing kStability = Standing::open;       // drift since calibration is in no limit
 constexpr Standing kResolution = Standing::open;      // a coarse converter is taken for a fault
 
@@ -37,7 +37,7 @@ const std::vector<Family>& all() {
       {"v2-thrust", "thrust of 300 mg whose vertical part keeps the length of gravity", Play::steady_push, kSteadyPush, kOutside, 4, 8, false, false, 1, 1},
       {"v3-asserted", "one channel alone in the last row of a block as the tool starts to turn; asserted_faults = 1", Play::truncated_frame, kTruncatedFrame, kOutside, 5, 8, false, false, 1, 1},
       {"v3-default", "the same in the default configuration", Play::truncated_frame, kTruncatedFrame, kOutside, 5, 8, false, false, -1, 1},
-      {"v4-clock", "repeated time stamps, 70 s of nothing, and a power cycle with its own snapshot", Play::clock, kPromised, kOutside, 4, 8, false, false, 0, 1},
+      {"v4-clock", "time stamps repeated, then up to 70 s of nothing or slow rows, and a power cycle with its own snapshot", Play::clock, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v5a-vertical", "a vertical tetrahedron at rest whose axial sensor reads -G/3", Play::vertical, kPromised, kOneAttitude, 4, 4, false, false, 0, 1},
       {"v5b-steps", "at rest, one sensor steps by 0.3 to 3 g in the middle of every second block", Play::steps, kPromised, kMidBlock, 4, 8, false, false, 0, 1},
       {"v6-settling", "one sensor off by 0.05 to 1 g in the second half of each station's first block", Play::settling, kPromised, kSettling, 4, 8, false, false, 0, 1},
@@ -56,7 +56,7 @@ const std::vector<Family>& all() {
 
       {"b1-roll", "from power-on, rolling at one inclination of five, 20 attitudes each", Play::roll, kPromised, kOutside, 4, 8, true, false, 0, 0.5},
       {"b1-yaw", "from power-on, a rover that yaws: one attitude for good", Play::yaw, kPromised, kOutside, 4, 8, false, false, 0, 0.5},
-      {"b1-tilt", "from power-on, upright triads or a tetrahedron within 5 deg of vertical", Play::tilting_triads, kPromised, kOutside, 4, 6, true, false, 5, 0.5},
+      {"b1-tilt", "from power-on, a tetrahedron, a cone of five or upright triads within 5 deg of vertical", Play::tilting_triads, kPromised, kOutside, 4, 6, true, false, 5, 0.5},
       {"b2-turn-0.3", "turning all the time at 0.3 deg/s", Play::slow_turn, kPromised, kOutside, 4, 8, false, false, 0.3, 0.5},
       {"b2-turn-1", "turning all the time at 1 deg/s", Play::slow_turn, kPromised, kOutside, 4, 8, false, false, 1.0, 0.5},
       {"b2-wobble", "swaying by 0.05 deg rms at 1 Hz", Play::wobble, kPromised, kOutside, 4, 8, false, false, 0.05, 0.5},
