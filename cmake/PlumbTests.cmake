@@ -221,6 +221,19 @@ if(TARGET plumb_report AND TARGET plumb_tool)
   endif()
 endif()
 
+# The attacks on the whole monitor: their judge and their adversary at the capacity they play with, what counts and prints at
+# the host's; and a short run of every family, which fails where a promise does not hold.
+if(TARGET plumb_attack_harness)
+  plumb_test_executable(plumb_attack_tests LABEL host ROOMS attacks LIBRARIES plumb_attack_harness
+    LONGER AttackFamilies.* AttackProgress.Interrupted*)
+  plumb_test_executable(plumb_adversary_tests LABEL host ROOMS adversary LIBRARIES plumb_8)
+  target_include_directories(plumb_adversary_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/attacks")
+  target_sources(plumb_adversary_tests PRIVATE $<TARGET_OBJECTS:plumb_attack_plays>
+    "${PROJECT_SOURCE_DIR}/bench/attacks/family.cpp" "${PROJECT_SOURCE_DIR}/bench/attacks/tally.cpp")
+  add_test(NAME attacks.quick COMMAND plumb_monitor_attacks --quick)
+  set_tests_properties(attacks.quick PROPERTIES LABELS "host;slow" TIMEOUT 900)
+endif()
+
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
 if(TARGET plumb_cli)
   plumb_test_executable(plumb_stepper_tests LABEL host ROOMS stepper LIBRARIES plumb_cli

@@ -124,13 +124,14 @@ inline TrialTool exact_tool(int n, int variant = 0, double sigma_mps2 = kTrialSi
 
 /// Calibrated by a fit over `stations` random attitudes (means of 32 samples), true parameters within 0.02 g0, 2 % and
 /// 2 deg of the datasheet; the fit's own covariance is what the monitor knows. Size 0 where the fit was not accepted.
-inline TrialTool fitted_tool(const plumb::AxisList& axes, int n, int stations, TrialNoise& noise) {
+inline TrialTool fitted_tool(const plumb::AxisList& axes, int n, int stations, TrialNoise& noise,
+                             double sigma_mps2 = kTrialSigma_mps2) {
   plumb::Datasheet sheet;
   sheet.size = n;
   std::array<plumb::Vec3, plumb::kCapacity> w{};
   plumb::Readings b{};
   for (int i = 0; i < n; ++i) {
-    sheet.sensor[slot(i)] = trial_sensor(i, axes[slot(i)], kTrialSigma_mps2);
+    sheet.sensor[slot(i)] = trial_sensor(i, axes[slot(i)], sigma_mps2);
     plumb::Vec3 bent = axes[slot(i)];
     for (double& component : bent) component += noise.between(-0.035, 0.035);
     w[slot(i)] = plumb::scaled(bent, noise.between(0.98, 1.02) / plumb::norm(bent));
@@ -144,7 +145,7 @@ inline TrialTool fitted_tool(const plumb::AxisList& axes, int n, int stations, T
     s.temperature_degc = 25.0;
     s.count = static_cast<int>(kTrialSamples);
     for (int i = 0; i < n; ++i) {
-      const double mean_noise = kTrialSigma_mps2 / std::sqrt(kTrialSamples) * noise.normal();
+      const double mean_noise = sigma_mps2 / std::sqrt(kTrialSamples) * noise.normal();
       s.mean[slot(i)] = plumb::dot(w[slot(i)], g) + b[slot(i)] + mean_noise;
     }
     seen.push_back(s);

@@ -1,10 +1,12 @@
-// Attacks on the whole monitor, counted: plain numbers, so that the program that prints them knows no capacity.
+// Sensors that lie from station to station while something else goes on: plain numbers of one episode.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "plumb/core/config.hpp"
 
 namespace plumb_bench {
 
@@ -25,15 +27,21 @@ const char* name(Situation situation);
 inline constexpr int kAttackLies = 14;  ///< thirteen lies of tests/laws, and nobody lying
 const char* name_of_lie(int lie);
 
-struct AttackJob {
-  std::uint64_t seed = 1, first = 0, episodes = 0;
+struct LiesRequest {
+  Situation situation = Situation::plain;
+  std::uint64_t seed = 1, episode = 0;
   bool tell = false;  ///< every change of state, on standard output
-  int only = -1;      ///< play episodes of this situation alone; the others keep their numbers
 };
 
-/// Episodes in which it happened.
-struct AttackCount {
-  std::uint64_t episodes = 0, ticks = 0, usable_ticks = 0;
+/// The number of that episode among those of all situations: five sizes, eight situations, fourteen lies. It keys the
+/// episode's random numbers, and is the one that docs/isolation.md and the tests name.
+std::uint64_t old_number(Situation situation, std::uint64_t episode);
+
+inline constexpr std::uint64_t kNeverNominal = ~std::uint64_t{0};
+
+/// One episode: whether it happened, but for blocks.
+struct LiesCount {
+  std::uint64_t blocks = 0, valid_blocks = 0;
   // Never, as long as no more sensors lie than the grade bears, and gravity is within three sigmas.
   std::uint64_t excluded_healthy = 0;   ///< latched out
   std::uint64_t set_aside_healthy = 0;  ///< within the parity grade
@@ -45,22 +53,15 @@ struct AttackCount {
   std::uint64_t crowd_beyond_level = 0;  ///< two liars or more in service that no test sees: beyond the level
   std::uint64_t crowd_beyond_alert = 0;  ///< beyond the alert limit and no alert
   std::uint64_t beyond_bounds = 0;       ///< any of the above once motion below the noise made gravity look too far off
+  std::uint64_t false_doubts = 0;        ///< nominal left for suspect though nobody lies
   std::uint64_t failed = 0;
   std::uint64_t all_out = 0;  ///< every liar out of service at the end
-  std::uint64_t liars = 0;    ///< episodes with one at least
-
-  std::uint64_t unsound() const {
-    return excluded_healthy + set_aside_healthy + beyond_level + beyond_alert + failed_healthy + broken;
-  }
-  void add(const AttackCount& other);
+  std::uint64_t liars = 0;    ///< whether anybody lies
+  std::uint64_t blocks_to_nominal = kNeverNominal;
 };
 
-struct AttackSum {
-  /// [n - 4][situation][lie]
-  std::array<std::array<std::array<AttackCount, kAttackLies>, kSituations>, 5> count{};
-  std::vector<std::string> finds;  ///< a line each
-};
-
-AttackSum attack(const AttackJob& job);
+inline namespace PLUMB_ABI {
+LiesCount play_lies(const LiesRequest& request, std::vector<std::string>& finds);
+}  // namespace PLUMB_ABI
 
 }  // namespace plumb_bench

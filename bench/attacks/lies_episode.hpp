@@ -5,29 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "attack_runs.hpp"
-#include "laws/law_case.hpp"
+#include "lies.hpp"
+#include "tools.hpp"
 
 namespace plumb_bench {
-namespace PLUMB_ABI {
+inline namespace PLUMB_ABI {
 
-/// A tool, and how its frame is turned against that of the calibrated axes: no test sees that, and no bound covers it.
-struct AttackTool {
-  plumb_test::LawTool law;
-  plumb::Vec3 turn{};
-  plumb::Vec3 seen(const plumb::Vec3& direction) const { return plumb::plus(direction, plumb::cross(turn, direction)); }
-};
-AttackTool attack_tool(plumb_test::LawTool tool);
-/// What its calibration is wrong by in the length of a triple, over what it is bounded by: the bound holds for 99 % of
-/// fits, and what plumb promises holds within it.
-double worst_error(const plumb_test::LawTool& tool);
-
-class AttackEpisode {
+class LiesEpisode {
  public:
-  AttackEpisode(const AttackTool& tool, Situation situation, int lie, std::uint64_t seed, std::uint64_t number,
-                bool tell);
+  LiesEpisode(const AttackTool& tool, Situation situation, int lie, std::uint64_t seed, std::uint64_t number,
+              bool tell);
   /// Plays it; what went wrong is one line each in `finds`.
-  AttackCount play(std::vector<std::string>& finds);
+  LiesCount play(std::vector<std::string>& finds);
 
  private:
   void plan();
@@ -41,6 +30,7 @@ class AttackEpisode {
   void shake(plumb::Readings& y, const plumb::Vec3& along, double rms_mps2);
   void send(plumb::Sample& sample);
   void disturb_and_send(plumb::Sample& sample);
+  void note_availability();
   void judge();
   void note_bounds();
   void judge_vector();
@@ -61,14 +51,14 @@ class AttackEpisode {
   int strict_ = 0, parity_ = 0;  ///< grades that the monitor claims; the laws count them anew
   double time_s_ = 0.0;
   int stations_ = 0, onset_ = 0, pause_ = 0, resume_ = 0;  ///< station numbers; pause 0 = none
-  bool mid_block_ = false, mostly_still_ = true, follows_motion_ = true;
+  bool mid_block_ = false, follows_motion_ = true;
   plumb::Vec3 direction_{};
   plumb::Vec3 pushed_mps2_{};   ///< sum over the rows of the block
   bool within_bounds_ = true;   ///< no motion below the noise has made gravity look more than three sigmas off
   double hidden_sigmas_ = 0.0;  ///< how far gravity ever looked off in a block that passed for quiet
   int steady_rows_ = 0;         ///< accepted in this direction
-  int repeat_ = 0, silent_ = -1, silent_rows_ = 0;
-  AttackCount count_;
+  int silent_ = -1, silent_rows_ = 0;
+  LiesCount count_;
   std::vector<std::string>* finds_ = nullptr;
 };
 

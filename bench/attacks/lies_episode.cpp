@@ -1,11 +1,11 @@
-#include "attack_episode.hpp"
+#include "lies_episode.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 namespace plumb_bench {
-namespace PLUMB_ABI {
+inline namespace PLUMB_ABI {
 
 using namespace plumb;
 using namespace plumb_test;
@@ -33,52 +33,8 @@ std::string decimal(double x) {
 
 }  // namespace
 
-double worst_error(const LawTool& tool) {
-  const TrialTool& t = tool.tool;
-  double worst = 0.0;
-  TrialNoise noise(1);
-  GravityReference exact = t.gravity;
-  exact.sigma_mps2 = 0.0;
-  BlockEvidence block;
-  block.usable = t.array.all();
-  block.samples = 1e8;
-  for (int k = 0; k < 200; ++k) {
-    const Vec3 g = scaled(noise.direction(), kG0_mps2);
-    for (int i = 0; i < tool.n(); ++i) block.mean_mps2[slot(i)] = dot(t.row[slot(i)], g) + t.offset_mps2[slot(i)];
-    for (int triple = 0; triple < t.array.triple_count(); ++triple) {
-      const SetTest test = test_set(t.array, exact, t.limits, block, t.array.triple(triple).set());
-      if (test.tested && test.norm_systematic > 0.0)
-        worst = std::fmax(worst, std::fabs(test.norm) / test.norm_systematic);
-    }
-  }
-  return worst;
-}
-
-AttackTool attack_tool(LawTool tool) {
-  AttackTool out{std::move(tool), {}};
-  // Least squares: h_i + theta x h_i comes nearest to the true rows.
-  Vec3 rows[3] = {}, right{};
-  for (int i = 0; i < out.law.n(); ++i) {
-    const Vec3& h = out.law.tool.array.axis(i);
-    const Vec3& w = out.law.tool.row[slot(i)];
-    right = plus(right, cross(h, minus(w, h)));
-    for (std::size_t a = 0; a < 3; ++a) {
-      Vec3 unit{};
-      unit[a] = 1.0;
-      rows[a] = plus(rows[a], minus(scaled(unit, dot(h, h)), scaled(h, h[a])));
-    }
-  }
-  const double det = dot(rows[0], cross(rows[1], rows[2]));
-  const Vec3 theta =
-      scaled(plus(plus(scaled(cross(rows[1], rows[2]), right[0]), scaled(cross(rows[2], rows[0]), right[1])),
-                  scaled(cross(rows[0], rows[1]), right[2])),
-             1.0 / det);
-  out.turn = scaled(theta, -1.0);  // from the true frame to that of the calibrated axes
-  return out;
-}
-
-AttackEpisode::AttackEpisode(const AttackTool& tool, Situation situation, int lie, std::uint64_t seed,
-                             std::uint64_t number, bool tell)
+LiesEpisode::LiesEpisode(const AttackTool& tool, Situation situation, int lie, std::uint64_t seed, std::uint64_t number,
+                         bool tell)
     : tool_(tool),
       situation_(situation),
       lie_(lie),
@@ -97,7 +53,7 @@ AttackEpisode::AttackEpisode(const AttackTool& tool, Situation situation, int li
   configure();
 }
 
-void AttackEpisode::plan() {
+void LiesEpisode::plan() {
   stations_ = 16 + noise_.below(14);
   onset_ = noise_.below(4) == 0 ? 0 : 4 + noise_.below(8);
   if (situation_ == Situation::reinstate) {
@@ -109,7 +65,7 @@ void AttackEpisode::plan() {
   follows_motion_ = noise_.below(2) == 0;
 }
 
-void AttackEpisode::configure() {
+void LiesEpisode::configure() {
   const TrialTool& tool = tool_.law.tool;
   setup_.array = tool.array;
   setup_.model.size = tool_.law.n();
@@ -126,13 +82,13 @@ void AttackEpisode::configure() {
   if (!monitor_->configure(setup_).has_value()) ++count_.broken;
 }
 
-bool AttackEpisode::lies_at(int station, bool second_half) const {
+bool LiesEpisode::lies_at(int station, bool second_half) const {
   const int begins = mid_block_ && !second_half ? onset_ + 1 : onset_;
   if (station < begins) return false;
   return pause_ == 0 || station < pause_ || station >= resume_;
 }
 
-void AttackEpisode::offer() {
+void LiesEpisode::offer() {
   SensorModel model = monitor_->model();
   SensorArray array = setup_.array;
   RowUncertainty claimed;
@@ -156,7 +112,7 @@ void AttackEpisode::offer() {
   static_cast<void>(monitor_->offer_calibration(model, array));
 }
 
-void AttackEpisode::power_cycle() {
+void LiesEpisode::power_cycle() {
   std::vector<std::uint8_t> bytes(HealthMonitor::snapshot_size_max());
   const Expected<std::size_t> size = monitor_->snapshot(bytes.data(), bytes.size());
   if (!size) return find(count_.broken, "no snapshot");
@@ -165,7 +121,7 @@ void AttackEpisode::power_cycle() {
   monitor_ = std::move(other);
 }
 
-void AttackEpisode::reset_if_failed() {
+void LiesEpisode::reset_if_failed() {
   if (monitor_->verdict().state != HealthState::failed || noise_.below(2) == 0) return;
   const SensorSet all = monitor_->array().all();
   SensorSet back = all;
@@ -173,7 +129,7 @@ void AttackEpisode::reset_if_failed() {
   static_cast<void>(monitor_->reset(setup_.config.reset_key, back));
 }
 
-void AttackEpisode::host_before(int station) {
+void LiesEpisode::host_before(int station) {
   switch (situation_) {
     case Situation::plain:
     case Situation::motion:
@@ -201,7 +157,7 @@ void AttackEpisode::host_before(int station) {
   if (tell_) std::printf("station %d\n", station);
 }
 
-void AttackEpisode::shake(Readings& y, const Vec3& along, double rms_mps2) {
+void LiesEpisode::shake(Readings& y, const Vec3& along, double rms_mps2) {
   pushed_mps2_ = plus(pushed_mps2_, scaled(along, rms_mps2));
   for (int i = 0; i < tool_.law.n(); ++i) {
     if (liars_.has(i) && !follows_motion_) continue;
@@ -209,7 +165,7 @@ void AttackEpisode::shake(Readings& y, const Vec3& along, double rms_mps2) {
   }
 }
 
-void AttackEpisode::visit(int station) {
+void LiesEpisode::visit(int station) {
   direction_ = attitudes_.next(noise_);
   const Readings still = case_.healthy_readings(direction_);
   const Readings lied = case_.readings(direction_, noise_);
@@ -240,11 +196,23 @@ void AttackEpisode::visit(int station) {
       sample.raw[slot(i)] = y[slot(i)] + setup_.array.sigma_mps2(i) * noise_.normal();
     }
     disturb_and_send(sample);
-    if ((k + 1) % window == 0) pushed_mps2_ = {};  // a block that passed for motion is none the less over
+    if ((k + 1) % window == 0) {
+      pushed_mps2_ = {};  // a block that passed for motion is none the less over
+      note_availability();
+    }
   }
 }
 
-void AttackEpisode::disturb_and_send(Sample& sample) {
+void LiesEpisode::note_availability() {
+  const Verdict& v = monitor_->verdict();
+  ++count_.blocks;
+  if (v.validity == Validity::valid) ++count_.valid_blocks;
+  if (v.state == HealthState::nominal && count_.blocks_to_nominal == kNeverNominal) {
+    count_.blocks_to_nominal = count_.blocks;
+  }
+}
+
+void LiesEpisode::disturb_and_send(Sample& sample) {
   if (situation_ != Situation::timing) return send(sample);
   const int trouble = noise_.below(60);
   const int n = tool_.law.n();
@@ -269,12 +237,12 @@ void AttackEpisode::disturb_and_send(Sample& sample) {
   send(sample);
 }
 
-void AttackEpisode::send(Sample& sample) {
+void LiesEpisode::send(Sample& sample) {
   monitor_->step(sample);
   judge();
 }
 
-void AttackEpisode::find(std::uint64_t& counter, const std::string& what) {
+void LiesEpisode::find(std::uint64_t& counter, const std::string& what) {
   if (!within_bounds_ && &counter != &count_.broken) {
     ++count_.beyond_bounds;
     return;
@@ -295,7 +263,7 @@ void AttackEpisode::find(std::uint64_t& counter, const std::string& what) {
   if (tell_) std::printf("FOUND %s\n", text.c_str());
 }
 
-void AttackEpisode::judge() {
+void LiesEpisode::judge() {
   const Verdict& v = monitor_->verdict();
   if (v.accepted) ++steady_rows_;
   if (v.tick) note_bounds();  // before anything is held against the block
@@ -304,6 +272,9 @@ void AttackEpisode::judge() {
                 to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
                 to_string(v.transition.cause), v.excluded.bits, v.set_aside.bits, v.absent.bits);
   }
+  const TransitionRecord& t = v.transition;
+  const bool doubts = t.sequence != 0 && t.from == HealthState::nominal && t.to == HealthState::suspect;
+  if (doubts && liars_.empty()) count_.false_doubts = 1;
   // A silenced channel is broken as far as anybody can tell.
   const SensorSet broken = silent_ >= 0 ? liars_.with(silent_) : liars_;
   if (broken.size() <= strict_ && !broken.contains(v.excluded))
@@ -321,7 +292,7 @@ void AttackEpisode::judge() {
   if (v.tick) judge_vector();
 }
 
-void AttackEpisode::note_bounds() {
+void LiesEpisode::note_bounds() {
   const Verdict& v = monitor_->verdict();
   // What the block's mean was pushed by makes gravity look longer, as far as anybody at rest can tell.
   const Vec3 push = scaled(pushed_mps2_, 1.0 / setup_.config.window);
@@ -335,15 +306,13 @@ void AttackEpisode::note_bounds() {
   }
 }
 
-void AttackEpisode::judge_vector() {
+void LiesEpisode::judge_vector() {
   const Verdict& v = monitor_->verdict();
-  ++count_.ticks;
   if (!std::isfinite(v.protection_level_rad) || !std::isfinite(norm(v.gravity_mps2))) {
     return find(count_.broken, "a figure is not finite");
   }
   const bool usable = v.validity == Validity::valid || v.validity == Validity::degraded;
   if (!usable) return;
-  ++count_.usable_ticks;
   if (v.validity != Validity::valid || steady_rows_ < setup_.config.window) return;
   const double error_rad = angle_between_rad(v.gravity_mps2, tool_.seen(direction_));
   const bool crowd = (v.in_service & liars_).size() > 1;
@@ -357,7 +326,7 @@ void AttackEpisode::judge_vector() {
   }
 }
 
-AttackCount AttackEpisode::play(std::vector<std::string>& finds) {
+LiesCount LiesEpisode::play(std::vector<std::string>& finds) {
   finds_ = &finds;
   for (int station = 0; station < stations_; ++station) {
     host_before(station);
@@ -369,7 +338,6 @@ AttackCount AttackEpisode::play(std::vector<std::string>& finds) {
                            &count_.crowd_beyond_alert, &count_.beyond_bounds}) {
     if (*c > 1) *c = 1;
   }
-  count_.episodes = 1;
   count_.liars = liars_.empty() ? 0 : 1;
   count_.all_out = !liars_.empty() && (monitor_->verdict().in_service & liars_).empty() ? 1 : 0;
   return count_;
