@@ -240,7 +240,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);
-  freshness_.anchor(sample.time_s, motion_in_bound_rad() * gravity_.g_mps2);
+  freshness_.anchor(sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
   return raised;
 }
 

@@ -39,6 +39,11 @@ void Freshness::note(SensorSet in_service, SensorSet usable, const Readings& y_m
                      const BlockEvidence& block) noexcept {
   count_up(samples_);
   missing_run_ = usable.contains(in_service) ? std::uint16_t{0} : one_more(missing_run_);
+  compare(in_service, usable, y_mps2, block);
+}
+
+void Freshness::compare(SensorSet in_service, SensorSet usable, const Readings& y_mps2,
+                        const BlockEvidence& block) noexcept {
   departed_ = false;
   std::uint32_t left = (in_service & usable & block.usable).bits;
   for (size_t a = 0; left != 0 && a < y_mps2.size(); ++a, left >>= 1U) {

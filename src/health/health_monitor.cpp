@@ -259,14 +259,18 @@ void HealthMonitor::add_readings(const Readings& y, SensorSet usable, double cou
 }
 #endif
 
+Readings HealthMonitor::readings_now(const Sample& sample, GateResult& gate) noexcept {
+  Readings y = readings_of(model_, coefficients_, sample, last_temperature_degc_, gate);
+  if (rotation_.turning && is_rotation_modelled()) take_rotation_off(y, gate);
+  return y;
+}
+
 /// One sample into the block and the windows.
 void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexcept {
-  Readings y = readings_of(model_, coefficients_, sample, last_temperature_degc_, gate);
-  if (rotation_.turning) {
-    const bool modelled = rotation_.rate_known && lever_arms_known_;
-    if (modelled) take_rotation_off(y, gate);
+  const Readings y = readings_now(sample, gate);
+  if (rotation_.turning && !is_rotation_modelled()) {
     const bool still = rotation_.rate_known && norm(rotation_.rate_radps) <= kStillRate_radps;
-    rotation_locked_ = rotation_locked_ || (!modelled && !still);
+    rotation_locked_ = rotation_locked_ || !still;
   }
   clipped_ = block_.size() == 0 ? gate.clipped : clipped_ | gate.clipped;
   not_finite_ = block_.size() == 0 ? gate.not_finite : not_finite_ | gate.not_finite;
@@ -345,7 +349,11 @@ void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gat
   EventMask raised = reset_pending_ ? bit(HealthEvent::reset) : 0;
   if (!gate.gap) {
     ticked = block_.size() >= config_.window;
-    if (ticked) raised |= tick(sample);
+    if (ticked) {
+      raised |= tick(sample);
+      // The row that ends a block may be the first of another attitude: the block's vector is held against it, too.
+      freshness_.compare(in_service_, gate.usable, readings_now(sample, gate), evidence_);
+    }
     if (silence_.is_due(config_.window)) {
       const SensorSet silent = silence_.close(array_.size(), config_.missing_confirm);
       if (!silent.empty()) gate_.condemn(silent - absent_);

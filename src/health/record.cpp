@@ -219,6 +219,28 @@ double HealthMonitor::motion_in_bound_rad() const noexcept {
   return drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
 }
 
+/// Of a change of the specific force, in whatever direction, some sensor in service feels this share at least: the
+/// greatest of n squares is no less than their mean, and their sum no less than the least eigenvalue of sum h h'. That
+/// is the determinant over the product of the other two, which is no more than the square of their mean; each round
+/// takes the eigenvalue found so far from the trace, and so stays below it.
+double HealthMonitor::least_share_felt() const noexcept {
+  const SensorSet used = in_service_ & evidence_.usable;
+  Mat3 m{};
+  for (int i = 0; i < array_.size(); ++i) {
+    if (!used.has(i)) continue;
+    const Vec3& h = array_.axis(i);
+    for (size_t k = 0; k < 9; ++k) m[k] += h[k / 3] * h[k % 3];
+  }
+  const double determinant = dot({m[0], m[1], m[2]}, cross({m[3], m[4], m[5]}, {m[6], m[7], m[8]}));
+  if (!(determinant > 0.0)) return 0.0;
+  double least = 0.0;
+  for (int round = 0; round < 4; ++round) {
+    const double mean = 0.5 * (m[0] + m[4] + m[8] - least);
+    least = determinant / (mean * mean);
+  }
+  return std::sqrt(least / used.size());
+}
+
 void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   live_ = isolation_.live();
   if (!have_evidence_) return;

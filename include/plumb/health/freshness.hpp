@@ -28,10 +28,15 @@ class Freshness {
   /// scattered more than that, by the block's own, and by one step of the converter.
   void measure(const SensorArray& array, const BlockAccumulator& block,
                const std::array<float, kCapacity>& resolution_mps2) noexcept;
-  /// The block that ends at `time_s` was quiet, and its vector is published; its bound holds `motion_mps2` of motion.
+  /// The block that ends at `time_s` was quiet, and its vector is published. The bound holds motion that some sensor
+  /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.
   void anchor(double time_s, double motion_mps2) noexcept;
   /// One sample: the readings of `usable` beside the block's.
   void note(SensorSet in_service, SensorSet usable, const Readings& y_mps2, const BlockEvidence& block) noexcept;
+  /// The newest readings beside the block's, without another sample having come: of the one that ended the block.
+  void compare(SensorSet in_service, SensorSet usable, const Readings& y_mps2, const BlockEvidence& block) noexcept;
+  /// Other sensors are in service: what each of them may feel of the motion in the bound is not known.
+  void allow_no_motion() noexcept { motion_mps2_ = 0.0F; }
   /// One sample that brought nothing: refused, or no channel delivered.
   void note_nothing() noexcept;
 

@@ -135,6 +135,8 @@ class HealthMonitor {
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
   bool joins_block(SensorSet usable) noexcept;
+  Readings readings_now(const Sample& sample, GateResult& gate) noexcept;
+  bool is_rotation_modelled() const noexcept { return rotation_.rate_known && lever_arms_known_; }
   void add_readings(const Readings& y, SensorSet usable, double count) noexcept;
   bool is_eventful(Arrival arrival, const GateResult& gate) const noexcept;
   void serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept;
@@ -201,6 +203,7 @@ class HealthMonitor {
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
   double motion_in_bound_rad() const noexcept;
+  double least_share_felt() const noexcept;
   void rescan(const BlockTests& tests) noexcept;
 
   // recalibrating.cpp: the shadow fit
