@@ -18,16 +18,20 @@ Vec3 across(const Vec3& direction, TrialNoise& noise) { return turned(direction,
 }  // namespace
 
 Tally play_steady_push(const Episode& e) {
-  constexpr double kThrust_mg = 300.0;
+  constexpr double kThrust_mg = 300.0, kMost_mg = 50.0;
+  constexpr double kWithVerticalPart = 1.02;  // at 300 mg across, what keeps the length is 46 mg upwards
+  const bool horizontal = e.family.number == 0.0;
   TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
+  MonitorConfig config;
+  config.acceleration_bound_mps2 = (horizontal ? kMost_mg : kThrust_mg * kWithVerticalPart) * kMilligee_mps2;
+  Player player = e.player(any_tool(e.n, draws), config);
   player.settle();
   player.attack();
   for (int station = 0; station < 12; ++station) {
     player.direction = player.noise.direction();
     const Vec3 side = across(player.direction, player.noise);
-    if (e.family.number == 0.0) {
-      player.push_mps2 = scaled(side, player.noise.log_between(3.0, 50.0) * kMilligee_mps2);
+    if (horizontal) {
+      player.push_mps2 = scaled(side, player.noise.log_between(3.0, kMost_mg) * kMilligee_mps2);
     } else {
       const double a = kThrust_mg * kMilligee_mps2;
       const double along = std::sqrt(player.g_mps2 * player.g_mps2 - a * a) - player.g_mps2;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "plumb/array/geometry.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
@@ -35,17 +37,19 @@ void Freshness::anchor(double time_s, double motion_mps2) noexcept {
   departed_ = false;
 }
 
-void Freshness::note(SensorSet in_service, SensorSet usable, const Readings& y_mps2,
+void Freshness::note(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
                      const BlockEvidence& block) noexcept {
   count_up(samples_);
   missing_run_ = usable.contains(in_service) ? std::uint16_t{0} : one_more(missing_run_);
-  compare(in_service, usable, y_mps2, block);
+  compare(array, in_service, usable, y_mps2, block);
 }
 
-void Freshness::compare(SensorSet in_service, SensorSet usable, const Readings& y_mps2,
+void Freshness::compare(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
                         const BlockEvidence& block) noexcept {
-  departed_ = false;
-  std::uint32_t left = (in_service & usable & block.usable).bits;
+  const SensorSet compared = in_service & usable & block.usable;
+  // Sensors that span no space do not feel every turn: their agreement says nothing.
+  departed_ = !compared.contains(in_service) && rank_of(array, compared) < 3;
+  std::uint32_t left = compared.bits;
   for (size_t a = 0; left != 0 && a < y_mps2.size(); ++a, left >>= 1U) {
     // Written so that what is not a number has departed.
     if ((left & 1U) != 0 && !(std::fabs(y_mps2[a] - block.mean_mps2[a]) <=

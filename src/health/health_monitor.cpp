@@ -281,7 +281,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   temperature_out_ = block_.size() == 0 ? outside : temperature_out_ || outside;  // one hot sample taints its block
   if (std::isfinite(t)) last_temperature_degc_ = t;
   if (block_.size() == 0) freshness_.begin_block(sample.time_s);
-  freshness_.note(in_service_, gate.usable, y, evidence_);
+  freshness_.note(array_, in_service_, gate.usable, y, evidence_);
   silence_.add(gate.usable, array_.size());
   verdict_.accepted = true;
   if (!joins_block(gate.usable)) return;
@@ -301,8 +301,10 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   GateResult gate;
   const SensorSet lost = gate_.lost(), back = gate_.back();
   if (arrival != Arrival::refused) gate = gate_.gate(sample);
-  if (arrival == Arrival::refused || gate.gap) {
+  if (arrival == Arrival::refused) {
     freshness_.note_nothing();
+  } else if (gate.gap) {
+    freshness_.note(array_, in_service_, SensorSet{}, Readings{}, evidence_);
   } else if (arrival == Arrival::in_order) {
     collect_sample(sample, gate);
   }
@@ -352,7 +354,7 @@ void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gat
     if (ticked) {
       raised |= tick(sample);
       // The row that ends a block may be the first of another attitude: the block's vector is held against it, too.
-      freshness_.compare(in_service_, gate.usable, readings_now(sample, gate), evidence_);
+      freshness_.compare(array_, in_service_, gate.usable, readings_now(sample, gate), evidence_);
     }
     if (silence_.is_due(config_.window)) {
       const SensorSet silent = silence_.close(array_.size(), config_.missing_confirm);

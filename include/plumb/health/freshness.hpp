@@ -32,12 +32,14 @@ class Freshness {
   /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.
   void anchor(double time_s, double motion_mps2) noexcept;
   /// One sample: the readings of `usable` beside the block's.
-  void note(SensorSet in_service, SensorSet usable, const Readings& y_mps2, const BlockEvidence& block) noexcept;
+  void note(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
+            const BlockEvidence& block) noexcept;
   /// The newest readings beside the block's, without another sample having come: of the one that ended the block.
-  void compare(SensorSet in_service, SensorSet usable, const Readings& y_mps2, const BlockEvidence& block) noexcept;
+  void compare(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
+               const BlockEvidence& block) noexcept;
   /// Other sensors are in service: what each of them may feel of the motion in the bound is not known.
   void allow_no_motion() noexcept { motion_mps2_ = 0.0F; }
-  /// One sample that brought nothing: refused, or no channel delivered.
+  /// One sample that was refused: of its time nothing is known, and of the time before it nothing new.
   void note_nothing() noexcept;
 
   /// Whether the vector may be called valid now, `age_s` after its block.
@@ -51,7 +53,7 @@ class Freshness {
   std::uint32_t samples_ = 0;      ///< offered since that block
   std::uint16_t missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
   bool anchored_ = false;
-  bool departed_ = false;  ///< the last reading of some sensor is not what the block has
+  bool departed_ = false;  ///< the last row does not show that the tool is where the block had it
 
   friend struct FieldsOf;
   /// What a sample alone changes.
