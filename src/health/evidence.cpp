@@ -218,7 +218,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   if (temperature_out_) {  // all sensors leave their model together: nothing dies, nothing latches
     rescan(tests);
     publish_vector(tests);
-    freshness_.anchor(sample.time_s, 0.0);
+    freshness_.anchor(config_, sample.time_s, 0.0);
     return 0;
   }
   if (view.kind == Kind::alarm && !episode_.open && !owes_calibration()) {  // nobody is accused by a datasheet
@@ -240,7 +240,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);
-  freshness_.anchor(sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
+  freshness_.anchor(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
   return raised;
 }
 

@@ -28,9 +28,11 @@ void Freshness::measure(const SensorArray& array, const BlockAccumulator& block,
   }
 }
 
-void Freshness::anchor(double time_s, double motion_mps2) noexcept {
+void Freshness::anchor(const MonitorConfig& config, double time_s, double motion_mps2) noexcept {
+  const double most_s =
+      config.max_age_s == 0.0 ? std::fmax(kLeastAge_s, 2.0 * (time_s - block_begin_s_)) : config.max_age_s;
   motion_mps2_ = static_cast<float>(motion_mps2);
-  span_s_ = static_cast<float>(time_s - block_begin_s_);
+  most_age_s_ = static_cast<float>(most_s);
   samples_ = 0;
   missing_run_ = 0;
   anchored_ = true;
@@ -52,10 +54,8 @@ void Freshness::compare(const SensorArray& array, SensorSet in_service, SensorSe
   std::uint32_t left = compared.bits;
   for (size_t a = 0; left != 0 && a < y_mps2.size(); ++a, left >>= 1U) {
     // Written so that what is not a number has departed.
-    if ((left & 1U) != 0 && !(std::fabs(y_mps2[a] - block.mean_mps2[a]) <=
-                              static_cast<double>(tolerance_mps2_[a]) + static_cast<double>(motion_mps2_))) {
-      departed_ = true;
-    }
+    const auto away_mps2 = static_cast<float>(y_mps2[a] - block.mean_mps2[a]);
+    if ((left & 1U) != 0 && !(std::fabs(away_mps2) <= tolerance_mps2_[a] + motion_mps2_)) departed_ = true;
   }
 }
 
@@ -64,13 +64,16 @@ void Freshness::note_nothing() noexcept {
   missing_run_ = one_more(missing_run_);
 }
 
+void Freshness::note_gap() noexcept {
+  note_nothing();
+  departed_ = true;
+}
+
 bool Freshness::holds(const MonitorConfig& config, double age_s) const noexcept {
   const auto most_samples =
       static_cast<std::uint32_t>(config.max_age_samples > 0 ? config.max_age_samples : 2 * config.window);
-  const double most_s =
-      config.max_age_s == 0.0 ? std::fmax(kLeastAge_s, 2.0 * static_cast<double>(span_s_)) : config.max_age_s;
   return anchored_ && !departed_ && missing_run_ < config.missing_confirm && samples_ <= most_samples &&
-         age_s <= most_s;
+         age_s <= static_cast<double>(most_age_s_);
 }
 
 }  // namespace PLUMB_ABI

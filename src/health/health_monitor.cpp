@@ -304,7 +304,7 @@ const Verdict& HealthMonitor::step(const Sample& sample) noexcept {
   if (arrival == Arrival::refused) {
     freshness_.note_nothing();
   } else if (gate.gap) {
-    freshness_.note(array_, in_service_, SensorSet{}, Readings{}, evidence_);
+    freshness_.note_gap();
   } else if (arrival == Arrival::in_order) {
     collect_sample(sample, gate);
   }
@@ -333,6 +333,12 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
          reference_notice_ != ReferenceKind::none || news();
 }
 
+/// The row that ends a block may be the first of another attitude: the block's vector is held against it, too. Apart
+/// from `serve`, beneath which the stack is deepest.
+[[gnu::noinline]] void HealthMonitor::compare_with_block(const Sample& sample, GateResult& gate) noexcept {
+  freshness_.compare(array_, in_service_, gate.usable, readings_now(sample, gate), evidence_);
+}
+
 /// What a sample leads to that is not merely collected.
 void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept {
   if (arrival == Arrival::new_time_base) {
@@ -353,8 +359,7 @@ void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gat
     ticked = block_.size() >= config_.window;
     if (ticked) {
       raised |= tick(sample);
-      // The row that ends a block may be the first of another attitude: the block's vector is held against it, too.
-      freshness_.compare(array_, in_service_, gate.usable, readings_now(sample, gate), evidence_);
+      compare_with_block(sample, gate);
     }
     if (silence_.is_due(config_.window)) {
       const SensorSet silent = silence_.close(array_.size(), config_.missing_confirm);

@@ -81,8 +81,7 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
       when(verdict_.protection_available, Usable::protection_level) |
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(is_fresh() && verdict_.validity != Validity::held, Usable::stationary) |
-      when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
+      when(is_fresh() && verdict_.validity != Validity::held, Usable::stationary) | when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
       when(!owes_calibration() && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
 }
 
@@ -141,12 +140,12 @@ bool HealthMonitor::news() const noexcept {
   const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
   // An offer that an inhibit keeps waiting raises no event, and is told all the same.
   const Validity now = validity();
+  const bool stationary_now = now == Validity::invalid ? is_fresh() : now != Validity::held;
   const bool offered = verdict_.recalibration.offered != recalibration_.offered();
   return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now(now) ||
          mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != now ||
-         temperature_fine != fine_now || stationary != (now != Validity::held && is_fresh()) ||
-         inhibited != inhibited_ || verdict_.reference_mps2 != gravity_.g_mps2 ||
-         verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
+         temperature_fine != fine_now || stationary != stationary_now || inhibited != inhibited_ ||
+         verdict_.reference_mps2 != gravity_.g_mps2 || verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
 }
 
 void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {

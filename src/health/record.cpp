@@ -37,7 +37,7 @@ bool HealthMonitor::is_still_there() const noexcept {
   SensorSet same;
   for (int i = 0; i < array_.size(); ++i) {
     const auto a = static_cast<size_t>(i);
-    const double before = static_cast<double>(station_.reading_mps2[a]);
+    const auto before = static_cast<double>(station_.reading_mps2[a]);
     const double scatter = std::sqrt(1.0 / evidence_.samples + 1.0 / static_cast<double>(station_.samples));
     const bool stays = std::fabs(evidence_.mean_mps2[a] - before) <= kSameSigmas * array_.sigma_mps2(i) * scatter;
     if (stays) same = same.with(i);

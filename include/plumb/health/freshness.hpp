@@ -30,7 +30,7 @@ class Freshness {
                const std::array<float, kCapacity>& resolution_mps2) noexcept;
   /// The block that ends at `time_s` was quiet, and its vector is published. The bound holds motion that some sensor
   /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.
-  void anchor(double time_s, double motion_mps2) noexcept;
+  void anchor(const MonitorConfig& config, double time_s, double motion_mps2) noexcept;
   /// One sample: the readings of `usable` beside the block's.
   void note(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
             const BlockEvidence& block) noexcept;
@@ -41,6 +41,8 @@ class Freshness {
   void allow_no_motion() noexcept { motion_mps2_ = 0.0F; }
   /// One sample that was refused: of its time nothing is known, and of the time before it nothing new.
   void note_nothing() noexcept;
+  /// One sample without a reading.
+  void note_gap() noexcept;
 
   /// Whether the vector may be called valid now, `age_s` after its block.
   bool holds(const MonitorConfig& config, double age_s) const noexcept;
@@ -49,7 +51,7 @@ class Freshness {
   double block_begin_s_ = 0.0;
   std::array<float, kCapacity> tolerance_mps2_{};
   float motion_mps2_ = 0.0F;
-  float span_s_ = 0.0F;            ///< of the block behind the vector, first sample to last
+  float most_age_s_ = 0.0F;        ///< of the vector
   std::uint32_t samples_ = 0;      ///< offered since that block
   std::uint16_t missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
   bool anchored_ = false;
@@ -64,8 +66,8 @@ class Freshness {
   static constexpr auto core() noexcept { return field_list(&Freshness::anchored_); }
   static constexpr auto fields() noexcept {
     using F = Freshness;
-    return field_list(&F::block_begin_s_, per_sensor(&F::tolerance_mps2_), &F::motion_mps2_, &F::span_s_, &F::samples_,
-                      &F::missing_run_, &F::anchored_, &F::departed_);
+    return field_list(&F::block_begin_s_, per_sensor(&F::tolerance_mps2_), &F::motion_mps2_, &F::most_age_s_,
+                      &F::samples_, &F::missing_run_, &F::anchored_, &F::departed_);
   }
 };
 

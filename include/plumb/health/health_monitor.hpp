@@ -134,6 +134,7 @@ class HealthMonitor {
   void empty_windows() noexcept;
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
+  void compare_with_block(const Sample& sample, GateResult& gate) noexcept;
   bool joins_block(SensorSet usable) noexcept;
   Readings readings_now(const Sample& sample, GateResult& gate) noexcept;
   bool is_rotation_modelled() const noexcept { return rotation_.rate_known && lever_arms_known_; }

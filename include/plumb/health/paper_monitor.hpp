@@ -162,14 +162,14 @@ class PaperMonitor {
   SizeClass size_class_ = SizeClass::rank_lost;
   SensorSet in_service_, excluded_, absent_;
   bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false, have_evidence_ = false;
+  bool reset_pending_ = false, episode_open_ = false;
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   SampleClock clock_;
-  SilenceCounter silence_;
   ChannelMonitor gate_;
+  SilenceCounter silence_;
   EventMask pending_ = 0;  ///< block events that a channel event pushed back
   std::uint32_t sequence_ = 0;
   SensorSet reset_sensors_;
-  bool reset_pending_ = false;
 
   // Steps 2 to 5.
   BlockAccumulator block_;
@@ -182,7 +182,6 @@ class PaperMonitor {
   SensorSet clipped_, not_finite_;
 
   // Steps 3 to 9.
-  bool episode_open_ = false;
   AttitudeRecord alarmed_;  ///< attitudes with an alarm in this episode (patience)
   AttitudeRecord clean_;    ///< clean attitudes since the last alarm
   int clean_run_ = 0;
