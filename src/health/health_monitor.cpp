@@ -100,7 +100,8 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   pending_ = 0;
   unbounded_run_ = 0;
   drift_rad_ = 0.0;
-  exhausted_ = moving_ = temperature_out_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
+  temperature_out_ = false;
+  exhausted_ = moving_ = have_evidence_ = have_predictions_ = reset_pending_ = false;
   evidence_time_s_ = 0.0;
   last_temperature_degc_ = 25.0;
   least_prediction_.fill(0.0F);

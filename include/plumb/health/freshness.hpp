@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "plumb/core/flag.hpp"
 #include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/set_test.hpp"
 #include "plumb/detection/stationarity.hpp"
@@ -55,7 +56,7 @@ class Freshness {
   std::uint32_t samples_ = 0;      ///< offered since that block
   std::uint16_t missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
   bool anchored_ = false;
-  bool departed_ = false;  ///< the last row does not show that the tool is where the block had it
+  Flag departed_;  ///< the last row does not show that the tool is where the block had it
 
   friend struct FieldsOf;
   /// What a sample alone changes.

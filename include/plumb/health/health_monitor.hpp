@@ -261,7 +261,8 @@ class HealthMonitor {
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_;
   SensorSet calibrated_;
-  bool unproven_ = true, exhausted_ = false, moving_ = false, temperature_out_ = false;
+  bool unproven_ = true, exhausted_ = false, moving_ = false;
+  Flag temperature_out_;
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
   bool have_predictions_ = false;
@@ -291,7 +292,8 @@ class HealthMonitor {
   Cause suspicion_ = Cause::none;  ///< the last block event that keeps the monitor in suspect
   bool recalibration_asked_ = false, recalibration_due_ = false;  ///< by the host; by the policy, after an exclusion
   bool three_sensor_fit_ = false;
-  bool lever_arms_known_ = false, rotation_locked_ = false;  // beside other single bytes: here they cost no room
+  bool lever_arms_known_ = false;  // beside other single bytes: here they cost no room
+  Flag rotation_locked_;
   bool inhibited_ = false, inhibit_notice_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
   /// Calibrated span: as configured, else that of the stations of the monitor's own calibration.

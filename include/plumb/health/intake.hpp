@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "plumb/calibration/sensor_model.hpp"
+#include "plumb/core/flag.hpp"
 #include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/health/monitor_config.hpp"
@@ -38,7 +39,7 @@ class SampleClock {
   double last_s_ = 0.0;
   double last_refused_s_ = 0.0;
   int refused_run_ = 0;
-  bool started_ = false;
+  Flag started_;
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
