@@ -100,8 +100,8 @@ plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept {
   out.recalibration_phase = number(v.recalibration.phase);
   out.usable = v.usable;
   const TransitionRecord& t = v.transition;
-  out.transition = {t.sequence,      number(t.from), number(t.to), number(t.event), number(t.cause),
-                    number(t.grade), t.sensors.bits, t.time_s,     t.statistic,     t.limit};
+  out.transition = {t.sequence, number(t.from), number(t.to), number(t.event), number(t.cause), number(t.grade),
+                    {0, 0, 0},  t.sensors.bits, t.time_s,     t.statistic,     t.limit};
   write_sets(v, out);
   write_figures(v, out);
   *to = out;

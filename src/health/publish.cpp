@@ -81,7 +81,8 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
       when(verdict_.protection_available, Usable::protection_level) |
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(is_fresh() && verdict_.validity != Validity::held, Usable::stationary) | when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
+      when(is_fresh() && verdict_.validity != Validity::held, Usable::stationary) |
+      when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
       when(!owes_calibration() && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
 }
 

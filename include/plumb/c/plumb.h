@@ -142,6 +142,7 @@ typedef struct plumb_transition {
   uint32_t sequence;
   uint8_t from, to;            /* plumb_state */
   uint8_t event, cause, grade; /* plumb/health/state.hpp, in its order */
+  uint8_t reserved[3];         /* 0: a verdict has no byte that nobody wrote */
   uint32_t sensors;            /* that it names */
   double time_s, statistic, limit;
 } plumb_transition;
