@@ -12,6 +12,23 @@ inline namespace PLUMB_ABI {
 using namespace plumb;
 using namespace plumb_test;
 
+Player trusted_at_g0(const Episode& e, const MonitorConfig& config) {
+  TrialNoise draws = e.draws();
+  Player player = e.player(any_tool(e.n, draws), config);
+  player.settle();
+  player.attack();
+  return player;
+}
+
+Player trusted(const Episode& e, const MonitorConfig& config) {
+  TrialNoise draws = e.draws();
+  Player player = e.player(any_tool(e.n, draws), config);
+  player.g_mps2 = gravity_within_bounds(draws);
+  player.settle();
+  player.attack();
+  return player;
+}
+
 double gravity_within_bounds(TrialNoise& noise) {
   const double sigmas = noise.below(3) == 0 ? 3.0 * noise.sign() : noise.between(-3.0, 3.0);
   return kG0_mps2 + sigmas * kTrialGravitySigma_mps2;

@@ -32,6 +32,10 @@ struct Episode {
   }
 };
 
+/// Some tool under its reference gravity, nominal by the time that the attack begins.
+Player trusted_at_g0(const Episode& e, const plumb::MonitorConfig& config = {});
+/// The same under `gravity_within_bounds`.
+Player trusted(const Episode& e, const plumb::MonitorConfig& config = {});
 /// Gravity within the three sigmas of its reference that plumb bears.
 double gravity_within_bounds(plumb_test::TrialNoise& noise);
 /// Another direction, so far from this one.

@@ -11,15 +11,6 @@ using namespace plumb_test;
 
 namespace {
 
-Player trusted(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.g_mps2 = gravity_within_bounds(draws);
-  player.settle();
-  player.attack();
-  return player;
-}
-
 constexpr double kNone[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                             -std::numeric_limits<double>::infinity()};
 

@@ -15,6 +15,19 @@ double any_step(TrialNoise& noise, double least_g, double most_g) {
   return noise.sign() * noise.log_between(least_g, most_g) * kG0_mps2;
 }
 
+/// Two honest blocks at one attitude, before one sensor lies there.
+Player at_rest_with_one_faulty(const Episode& e) {
+  TrialNoise draws = e.draws();
+  Player player = e.player(any_tool(e.n, draws));
+  player.g_mps2 = gravity_within_bounds(draws);
+  player.settle();
+  player.direction = player.noise.direction();
+  player.block(2);
+  player.attack();
+  player.faulty = SensorSet::of(player.noise.below(e.n));
+  return player;
+}
+
 }  // namespace
 
 Tally play_vertical(const Episode& e) {
@@ -33,14 +46,7 @@ Tally play_vertical(const Episode& e) {
 }
 
 Tally play_steps(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.g_mps2 = gravity_within_bounds(draws);
-  player.settle();
-  player.direction = player.noise.direction();
-  player.block(2);
-  player.attack();
-  player.faulty = SensorSet::of(player.noise.below(e.n));
+  Player player = at_rest_with_one_faulty(e);
   for (int pair = 0; pair < 30; ++pair) {
     player.block();
     player.rest(player.window() / 2);
@@ -53,11 +59,7 @@ Tally play_steps(const Episode& e) {
 }
 
 Tally play_settling(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.g_mps2 = gravity_within_bounds(draws);
-  player.settle();
-  player.attack();
+  Player player = trusted(e);
   player.faulty = SensorSet::of(player.noise.below(e.n));
   for (int station = 0; station < 25; ++station) {
     player.direction = player.noise.direction();
@@ -124,14 +126,7 @@ Tally play_adaptive(const Episode& e) {
 }
 
 Tally play_after_fault(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.g_mps2 = gravity_within_bounds(draws);
-  player.settle();
-  player.direction = player.noise.direction();
-  player.block(2);
-  player.attack();
-  player.faulty = SensorSet::of(player.noise.below(e.n));
+  Player player = at_rest_with_one_faulty(e);
   const double bias_mps2 = any_step(player.noise, 0.05, 1.0);
   player.lie = [bias_mps2](int, double y) { return y + bias_mps2; };
   player.block(60);

@@ -21,12 +21,9 @@ Tally play_steady_push(const Episode& e) {
   constexpr double kThrust_mg = 300.0, kMost_mg = 50.0;
   constexpr double kWithVerticalPart = 1.02;  // at 300 mg across, what keeps the length is 46 mg upwards
   const bool horizontal = e.family.number == 0.0;
-  TrialNoise draws = e.draws();
   MonitorConfig config;
   config.acceleration_bound_mps2 = (horizontal ? kMost_mg : kThrust_mg * kWithVerticalPart) * kMilligee_mps2;
-  Player player = e.player(any_tool(e.n, draws), config);
-  player.settle();
-  player.attack();
+  Player player = trusted_at_g0(e, config);
   for (int station = 0; station < 12; ++station) {
     player.direction = player.noise.direction();
     const Vec3 side = across(player.direction, player.noise);
@@ -44,13 +41,9 @@ Tally play_steady_push(const Episode& e) {
 
 Tally play_truncated_frame(const Episode& e) {
   constexpr double kRate_radps = rad_from_deg(400.0);
-  TrialNoise draws = e.draws();
   MonitorConfig config;
   if (e.family.number > 0.0) config.asserted_faults = static_cast<int>(e.family.number);
-  Player player = e.player(any_tool(e.n, draws), config);
-  player.g_mps2 = gravity_within_bounds(draws);
-  player.settle();
-  player.attack();
+  Player player = trusted(e, config);
   for (int station = 0; station < 12; ++station) {
     player.block(1 + player.noise.below(2));
     player.rest(player.window() - 1);
@@ -68,10 +61,7 @@ Tally play_truncated_frame(const Episode& e) {
 }
 
 Tally play_slow_turn(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.settle();
-  player.attack();
+  Player player = trusted_at_g0(e);
   const double step_rad = rad_from_deg(e.family.number) * player.period_s;
   const Vec3 axis = across(player.direction, player.noise);
   for (int k = 0; k < kBlocksInMotion * player.window(); ++k) {
@@ -83,10 +73,7 @@ Tally play_slow_turn(const Episode& e) {
 }
 
 Tally play_wobble(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.settle();
-  player.attack();
+  Player player = trusted_at_g0(e);
   const double most_rad = std::sqrt(2.0) * rad_from_deg(e.family.number);
   for (int station = 0; station < 10; ++station) {
     const Vec3 middle = player.noise.direction();
@@ -102,10 +89,7 @@ Tally play_wobble(const Episode& e) {
 }
 
 Tally play_vibration(const Episode& e) {
-  TrialNoise draws = e.draws();
-  Player player = e.player(any_tool(e.n, draws));
-  player.settle();
-  player.attack();
+  Player player = trusted_at_g0(e);
   const double rms_mps2 = e.family.number * kPoolSigma_mps2;
   for (int station = 0; station < 10; ++station) {
     player.direction = player.noise.direction();
