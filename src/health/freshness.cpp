@@ -51,11 +51,13 @@ void Freshness::compare(const SensorArray& array, SensorSet in_service, SensorSe
   const SensorSet compared = in_service & usable & block.usable;
   // Sensors that span no space do not feel every turn: their agreement says nothing.
   departed_ = !compared.contains(in_service) && rank_of(array, compared) < 3;
+  // Any one sensor of the block may be the only one that feels the motion: where one is silent, none is allowed for.
+  const float motion_mps2 = compared.contains(in_service & block.usable) ? motion_mps2_ : 0.0F;
   std::uint32_t left = compared.bits;
   for (size_t a = 0; left != 0 && a < y_mps2.size(); ++a, left >>= 1U) {
     // Written so that what is not a number has departed.
     const auto away_mps2 = static_cast<float>(y_mps2[a] - block.mean_mps2[a]);
-    if ((left & 1U) != 0 && !(std::fabs(away_mps2) <= tolerance_mps2_[a] + motion_mps2_)) departed_ = true;
+    if ((left & 1U) != 0 && !(std::fabs(away_mps2) <= tolerance_mps2_[a] + motion_mps2)) departed_ = true;
   }
 }
 

@@ -135,6 +135,26 @@ TEST(Freshness, OneRowWithoutOneChannelIsBorneAndSeveralAreNot) {
   }
 }
 
+/// A block holds the turn before it, and its readings may depart by what some sensor feels of such a turn. Where that
+/// sensor is silent, the others may feel less of a turn that is larger: they are held to their noise alone.
+// Negative: REQ-128
+TEST(Freshness, ATurnThatTheSilentSensorAloneWouldShowIsNotHidden) {
+  for (int silent = 0; silent < 4; ++silent) {
+    Slow tool(0.01);
+    const Vec3 h = tool.rig.setup.array.axis(silent);
+    const Vec3 side = cross(h, std::fabs(h[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+    const auto tilted = [&h, &side](double deg) {
+      const double angle = rad_from_deg(deg);
+      return plus(scaled(side, std::cos(angle) / norm(side)), scaled(h, std::sin(angle)));
+    };
+    tool.stay(tilted(-1.0), 2 * tool.rig.setup.config.window);
+    ASSERT_EQ(tool.stay(tilted(0.0), tool.rig.setup.config.window).validity, Validity::valid) << silent;
+    Sample s = tool.sample(tilted(1.5));
+    s.delivered = s.delivered.without(silent);
+    EXPECT_EQ(tool.rig.step(s).validity, Validity::held) << silent;
+  }
+}
+
 /// Of a row with too few channels to tell a direction from, nothing is claimed: those that are there may not feel it.
 // Verifies: REQ-128
 // Negative: REQ-128
