@@ -71,7 +71,8 @@ inline judge() {
   /* S16: an alarm ends recalibration, and nothing collected outlives it */
   assert(!(DOUBTED && m0_ == RECALIBRATING) || (mode != RECALIBRATING && !fit));
   assert(!(DOUBTED && m0_ == INITIAL) || !fit);
-  /* S17: doubt, and no evidence, are never published as valid */
+  /* S17: doubt and no evidence never leave the monitor in a state that shows output without regard to them: in suspect it
+     is valid within its bound only, of which this model knows nothing but `within` */
   assert(!DOUBTED || !VALID);
   assert(!(kind == NO_EVIDENCE) || !VALID);
   assert(!unproven || !SHOWS_OUTPUT);
