@@ -299,6 +299,7 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   });
   const int suspected = protect.suspected(out.least <= kScanDepth ? out.least : 0);
   levels.close(faults_covered(protect, suspected, strict_grade()), out);
+  out.bears_more = !protect.doubted || out.covered >= suspected + protect.faults;
   if (any_asserted && !common.empty()) {
     const SetTest& rest = tests.of(posed - common);
     const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubt.excuses(posed - common));

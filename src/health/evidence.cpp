@@ -218,6 +218,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
     mae_.clear();
     leave_station();
+    rest_.clear();
     return 0;
   }
   evidence_ = judged.evidence;
@@ -241,6 +242,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   if (episode_.open && view.kind != Kind::reference) vote(tests);
   count_doubt(view);
   count_clean(tests, view);
+  rest_.follow(array_, evidence_);
+  if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
   rescan(tests);
   count_unbounded(view);
   examine_probation(tests, view);

@@ -14,9 +14,6 @@ namespace {
 constexpr double kProvingShare = 0.02;
 /// ... and by this many standard deviations of its block mean.
 constexpr double kProvingSigmas = 10.0;
-/// A reading that differs by less than so many standard deviations from an earlier one is the same: that of a tool at
-/// rest always is.
-constexpr double kSameSigmas = 5.0;
 /// A direction may stand on record where half of the angle that tells attitudes apart is so many times its own standard
 /// deviation.
 constexpr double kDirectionSigmas = 3.0;
@@ -34,15 +31,9 @@ Vec3 HealthMonitor::known_direction(const SetTest& test) const noexcept {
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
 /// turned, whatever the others make of the direction: a liar that steps is no new attitude.
 bool HealthMonitor::is_still_there() const noexcept {
-  SensorSet same;
-  for (int i = 0; i < array_.size(); ++i) {
-    const auto a = static_cast<size_t>(i);
-    const auto before = static_cast<double>(station_.reading_mps2[a]);
-    const double scatter = std::sqrt(1.0 / evidence_.samples + 1.0 / static_cast<double>(station_.samples));
-    const bool stays = std::fabs(evidence_.mean_mps2[a] - before) <= kSameSigmas * array_.sigma_mps2(i) * scatter;
-    if (stays) same = same.with(i);
-  }
-  return rank_of(array_, same & evidence_.usable & station_.delivered) == 3;
+  const auto samples = static_cast<double>(station_.samples);
+  const SensorSet same = reads_the_same(array_, evidence_, station_.reading_mps2, samples);
+  return rank_of(array_, same & station_.delivered) == 3;
 }
 
 /// A station at which the question was asked, and no block gave the candidate for an answer, takes it back.

@@ -239,7 +239,10 @@ struct Rule {
     for (const SensorSet f : subsets(left != there ? left : SensorSet{}, 0, std::min(3, std::max(0, terms.faults)))) {
       note(f.size(), left - f, tests.of(left - f).tested, explains(left - f));
     }
-    out.covered = covers(terms, out.least <= 3 ? out.least : 0);
+    const int least = out.least <= 3 ? out.least : 0;
+    out.covered = covers(terms, least);
+    const int known = std::max(terms.provisional, terms.doubted ? least : 0) + (terms.unvalidated ? 1 : 0);
+    out.bears_more = !terms.doubted || out.covered >= known + terms.faults;
     bool any = false, bounded = out.covered <= 3;
     for (const Noted& told : notes) {
       if (told.faults > out.covered) continue;
@@ -310,6 +313,8 @@ void expect_same(const FaultSetScan& code, const FaultSetScan& rule) {
   EXPECT_EQ(code.asserted, rule.asserted);
   EXPECT_EQ(code.least, rule.least);
   EXPECT_EQ(code.protection_available, rule.protection_available);
+  EXPECT_EQ(code.covered, rule.covered);
+  EXPECT_EQ(code.bears_more, rule.bears_more);
   EXPECT_NEAR(code.protection_rad, rule.protection_rad, 1e-7 + 1e-9 * rule.protection_rad);
 }
 

@@ -56,13 +56,15 @@ struct FaultSetScan {
   int least = 255;     ///< size of the smallest live fault set
   bool protection_available = false;
   int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many members
+  bool bears_more = true;       ///< that is the priors' number on top of what an alarm on record takes to explain
   double protection_rad = 0.0;  ///< of what is felt, g + a
 
   bool plausible() const noexcept { return protection_rad >= 0.0; }
   static constexpr auto fields() noexcept {
     using S = FaultSetScan;
     return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255),
-                      &S::protection_available, within(&S::covered, 0, kCapacity), &S::protection_rad);
+                      &S::protection_available, within(&S::covered, 0, kCapacity), &S::bears_more,
+                      &S::protection_rad);
   }
 };
 

@@ -21,6 +21,7 @@
 #include "plumb/health/monitor_setup.hpp"
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/reference_study.hpp"
+#include "plumb/health/rest_reference.hpp"
 #include "plumb/health/rotation.hpp"
 #include "plumb/health/snapshot.hpp"
 #include "plumb/health/temperature_rate.hpp"
@@ -326,6 +327,7 @@ class HealthMonitor {
   Isolation isolation_;
   Episode episode_;
   StationTrack station_;
+  RestReference rest_;
   LeastSquares map_;  ///< of the sensors in service
 #if PLUMB_SINGLE
   NearLengths near_;  ///< of the block at hand, by that map
@@ -392,7 +394,7 @@ class HealthMonitor {
         &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
         &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
-        &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
+        &M::mae_, &M::isolation_, &M::episode_, &M::station_, &M::rest_, not_stored(&M::map_),
 #if PLUMB_SINGLE
         not_stored(&M::near_),
 #endif
