@@ -65,6 +65,10 @@ tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::Array
   error.file = array.path;
   if (reason.code == Errc::range_too_small && reason.index >= 0)
     error.field = "sensor[" + std::to_string(reason.index + 1) + "].full_scale";
+  if (reason.code == Errc::out_of_range && reason.index < 0) {
+    error.field = "days_since_calibration";
+    error.remedy = "give the days from the calibration to the run, from 0 up";
+  }
   if (reason.code == Errc::implausible && reason.index >= 0) {
     error.field = "sensor[" + std::to_string(reason.index + 1) + "].prior";
     error.what =
