@@ -308,5 +308,27 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   return out;
 }
 
+bool Isolation::bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
+                                const ProtectionTerms& protect, double limit_rad) const noexcept {
+  const TestLimits& limits = tests.limits();
+  const SensorSet posed = posed_ & tests.block().usable;
+  const SetTest unsuspected = tests.of((in_service & tests.block().usable) - scan.suspects);
+  const int faults = scan.least > scan.covered ? scan.least : scan.covered;
+  if (!unsuspected.tested || faults > kScanDepth) return false;
+  const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
+  bool bounded = true;
+  for_each_fault_set(posed, universe_, faults, [&](SensorSet f) {
+    if (!bounded) return;
+    const SensorSet rest = posed - f;
+    const SetTest& t = tests.of(rest);
+    if (!t.tested) {
+      bounded = mirror_separation_rad(tests, unsuspected.x_mps2, rest, protect) <= limit_rad;
+    } else if (t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest)) && !has_dead_subset(rest)) {
+      bounded = separation_rad(tests, unsuspected.x_mps2, rest, t, protect) <= limit_rad;
+    }
+  });
+  return bounded;
+}
+
 }  // namespace PLUMB_ABI
 }  // namespace plumb

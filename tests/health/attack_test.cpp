@@ -205,7 +205,10 @@ TEST(Attack, SensorsThatHangTogetherDoNotPassAShakenBlockForAQuietOne) {
       }
       ASSERT_TRUE(liars.contains(rig.ever_blamed)) << "seed " << seed << ", station " << station;
     }
-    EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named: seed " << seed;
+    // Two explanations are images of each other at every attitude: that is doubt without an end, and no failure.
+    const Verdict& v = rig.monitor.verdict();
+    EXPECT_EQ(v.state, HealthState::suspect) << "seen, and nobody named: seed " << seed;
+    EXPECT_TRUE(v.alert && (v.qualifiers & Qualifier::exhausted) != 0) << "seed " << seed;
   }
 }
 
@@ -230,7 +233,7 @@ TEST(Attack, SensorsThatHangDoNotPassAPushedOneForANoisyOne) {
         rig.stay(plumb_test::random_direction(noise));
         ASSERT_TRUE(liars.contains(rig.monitor.verdict().excluded)) << n << " " << seed << ", station " << station;
       }
-      EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named: " << n << " " << seed;
+      EXPECT_NE(rig.monitor.verdict().state, HealthState::nominal) << "seen, and nobody named: " << n << " " << seed;
     }
   }
 }

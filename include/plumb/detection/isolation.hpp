@@ -96,6 +96,12 @@ class Isolation {
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                     const ProtectionTerms& protect, SensorSet witnesses = SensorSet::first(kCapacity)) const noexcept;
 
+  /// Whether the sensors in service that nobody suspects would be right within `limit_rad`, by the terms of `scan`,
+  /// over every explanation of up to as many faults as it takes, or as `protect` covers. False where they determine no
+  /// vector, where an explanation leaves too few to determine one, and where nothing explains the block.
+  bool bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
+                       const ProtectionTerms& protect, double limit_rad) const noexcept;
+
   int live() const noexcept;
   int voting() const noexcept { return voting_; }
 

@@ -173,7 +173,6 @@ class HealthMonitor {
   void judge_mae(const BlockTests& tests, BlockView& view) const noexcept;
   void note_block() noexcept;
   void allow_for_drift(BlockEvidence& evidence) const noexcept;
-  void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
 
@@ -201,7 +200,11 @@ class HealthMonitor {
   bool answers_by_scatter(const BlockTests& tests) const noexcept;
   void vote(const BlockTests& tests) noexcept;
   void count_doubt(const BlockView& view) noexcept;
+  bool is_out_of_stations() const noexcept;
+  bool is_out_of_blocks() const noexcept;
   bool patience_is_over() const noexcept;
+  bool is_isolable() const noexcept;
+  void count_unbounded(const BlockTests& tests, const BlockView& view) noexcept;
   void count_clean(const BlockTests& tests, const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
@@ -278,7 +281,7 @@ class HealthMonitor {
   EventMask pending_ = 0;  ///< block events that a channel event pushed back
   SensorSet block_usable_;
   double drift_rad_ = 0.0;  ///< turn since the block before, at one station
-  int unbounded_run_ = 0;   ///< blocks in a row whose protection level was beyond the alert limit
+  int unbounded_run_ = 0;   ///< blocks in a row without a bound within the alert limit, and without a way out
   std::uint32_t sequence_ = 0;
   int clean_run_ = 0;
   /// Stands for the sum in a monitor that was never configured, or whose memory was lost. It is not zero: storage that
