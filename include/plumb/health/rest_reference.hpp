@@ -17,7 +17,7 @@ SensorSet reads_the_same(const SensorArray& array, const BlockEvidence& block,
 
 class RestReference {
  public:
-  void clear() noexcept { held_ = false; }
+  void clear() noexcept { *this = RestReference{}; }
   /// A passed block, with no alarm on record.
   void take(const BlockEvidence& block) noexcept;
   /// Another block: enough sensors to determine a vector read the same, or the tool may have turned and it is over.
