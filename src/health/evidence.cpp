@@ -163,14 +163,23 @@ bool HealthMonitor::joins_block(SensorSet usable) noexcept {
   return true;
 }
 
+/// What the block says of the noise of all sensors, and what is expected of each of them with that.
+BlockNoise HealthMonitor::learn_noise() noexcept {
+  const BlockNoise stated = noise_of(array_, 1.0, resolution_mps2_);
+  const bool whole = map_.valid && map_.used == in_service_ && block_.complete().contains(in_service_);
+  if (whole && noise_study_.add(array_, block_, map_, stated)) noise_study_.add_smoothness(array_, mae_, in_service_);
+  const double factor = noise_study_.factor();
+  verdict_.noise_factor = factor;
+  return factor > 1.0 ? noise_of(array_, factor, resolution_mps2_) : stated;
+}
+
 /// What is kept of the samples of a block: who delivered, who was calm.
-void HealthMonitor::note_block() noexcept {
+void HealthMonitor::note_block(const BlockNoise& noise) noexcept {
   block_usable_ = block_.complete();
   calm_ = SensorSet{};
   for (int i = 0; i < array_.size(); ++i) {
     if (!block_usable_.has(i)) continue;  // silent when the tool moved, it is no witness that it rested
-    const double sigma = array_.sigma_mps2(i);
-    if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * sigma * sigma) calm_ = calm_.with(i);
+    if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * noise.of(i)) calm_ = calm_.with(i);
   }
 }
 
@@ -186,12 +195,16 @@ void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
 EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
-  note_block();
-  BlockJudgement judged =
-      judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
+  const BlockNoise noise = learn_noise();
+  note_block(noise);
+  BlockJudgement judged = judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2,
+                                      noise, &scatter_, &map_);
+  const double alike = noise_study_.correlation(block_.size());
+  judged.evidence.samples /= verdict_.noise_factor * verdict_.noise_factor * alike;
+  verdict_.noise_correlation = alike;
   judged.evidence.usable = judged.evidence.usable & block_usable_;
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
-  freshness_.measure(array_, block_, resolution_mps2_);
+  freshness_.measure(array_, block_, noise, block_.size() / alike, resolution_mps2_);
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();

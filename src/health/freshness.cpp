@@ -17,13 +17,12 @@ constexpr std::uint16_t one_more(std::uint16_t run) noexcept {
 
 }  // namespace
 
-void Freshness::measure(const SensorArray& array, const BlockAccumulator& block,
-                        const std::array<float, kCapacity>& resolution_mps2) noexcept {
+void Freshness::measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& expected,
+                        double independent, const std::array<float, kCapacity>& resolution_mps2) noexcept {
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
-    const double sigma = array.sigma_mps2(i);
-    const double variance = std::fmax(sigma * sigma, block.covariance(i, i));
-    const double noise = kDepartureSigmas * std::sqrt(variance * (1.0 + 1.0 / block.size()));
+    const double variance = std::fmax(expected.of(i), block.covariance(i, i));
+    const double noise = kDepartureSigmas * std::sqrt(variance * (1.0 + 1.0 / independent));
     tolerance_mps2_[a] = static_cast<float>(noise + static_cast<double>(resolution_mps2[a]));
   }
 }

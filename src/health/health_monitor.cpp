@@ -120,6 +120,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
   told_reference_ = reference_notice_ = ReferenceKind::none;
   scatter_.clear();
+  noise_study_.clear();
   reference_study_.clear();
   trend_.clear();
   temperature_rate_.clear();

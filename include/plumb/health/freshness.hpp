@@ -25,9 +25,10 @@ class Freshness {
   void lapse() noexcept { anchored_ = false; }
   /// The first sample of a block.
   void begin_block(double time_s) noexcept { block_begin_s_ = time_s; }
-  /// How far a reading of each sensor may be from the mean of this block by noise: by the array's or, where the block
-  /// scattered more than that, by the block's own, and by one step of the converter.
-  void measure(const SensorArray& array, const BlockAccumulator& block,
+  /// How far a reading of each sensor may be from the mean of this block by noise: by what is expected or, where the
+  /// block scattered more than that, by the block's own, and by one step of the converter. The mean is as good as that
+  /// of `independent` samples.
+  void measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, double independent,
                const std::array<float, kCapacity>& resolution_mps2) noexcept;
   /// The block that ends at `time_s` was quiet, and its vector is published. The bound holds motion that some sensor
   /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.

@@ -19,6 +19,7 @@
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/monitor_setup.hpp"
+#include "plumb/health/noise_study.hpp"
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
@@ -170,7 +171,8 @@ class HealthMonitor {
   double clear_fraction() const noexcept;
   BlockView judge(const BlockTests& tests) const noexcept;
   void judge_mae(const BlockTests& tests, BlockView& view) const noexcept;
-  void note_block() noexcept;
+  BlockNoise learn_noise() noexcept;
+  void note_block(const BlockNoise& noise) noexcept;
   void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
@@ -313,6 +315,7 @@ class HealthMonitor {
 
   // Evidence.
   ScatterRecord scatter_;
+  NoiseStudy noise_study_;
   ReferenceStudy reference_study_;
   Trend trend_;
   TemperatureRate temperature_rate_;
@@ -388,8 +391,8 @@ class HealthMonitor {
         per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
         &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
-        &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
-        &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
+        &M::scatter_, &M::noise_study_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_,
+        &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
 #if PLUMB_SINGLE
         not_stored(&M::near_),
 #endif
