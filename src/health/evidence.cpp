@@ -183,6 +183,34 @@ void HealthMonitor::note_block(const BlockNoise& noise) noexcept {
   }
 }
 
+/// How far each mean may be off for drift since the calibration, at the temperature of now.
+void HealthMonitor::allow_for_drift(BlockEvidence& evidence) const noexcept {
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double away_degc = last_temperature_degc_ - model_.sensor[a].reference_degc;
+    evidence.tolerance_mps2[a] = stability_[a].tolerance_mps2(away_degc, temperature_rate_.lag_degc_per_min());
+  }
+}
+
+/// What rounding to steps does to each mean. Where noise reaches from one step to the next it averages out and is noise
+/// itself, a twelfth of the square of a step; where it does not, the mean may be off by half a step for as long as the
+/// tool stays.
+void HealthMonitor::allow_for_steps(BlockEvidence& evidence) const noexcept {
+  double widest = 1.0;
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double step = static_cast<double>(resolution_mps2_[a]), sigma = array_.sigma_mps2(i);
+    const double scatter = block_.size() > 1 ? block_.covariance(i, i) : sigma * sigma;
+    if (!(2.0 * sigma >= step && 4.0 * scatter >= step * step)) {
+      const double within = static_cast<double>(evidence.tolerance_mps2[a]) + 0.5 * step;
+      evidence.tolerance_mps2[a] = static_cast<float>(std::fmin(within, static_cast<double>(kMostTolerance_mps2)));
+    } else if (in_service_.has(i)) {
+      widest = std::fmax(widest, 1.0 + step * step / (12.0 * sigma * sigma));
+    }
+  }
+  evidence.samples /= widest;
+}
+
 void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
   const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
   if (bounded) {
@@ -204,6 +232,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   verdict_.noise_correlation = alike;
   judged.evidence.usable = judged.evidence.usable & block_usable_;
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
+  allow_for_drift(judged.evidence);
+  allow_for_steps(judged.evidence);
   freshness_.measure(array_, block_, noise, block_.size() / alike, resolution_mps2_);
   block_.clear();
   const RawBlock raw = raw_;

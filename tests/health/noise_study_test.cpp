@@ -251,5 +251,50 @@ TEST(NoiseStudy, ASnapshotKeepsWhatWasLearned) {
   EXPECT_GT(other->verdict().noise_factor, 1.7);
 }
 
+/// A converter of `step_sigmas` behind each sensor.
+Rig stepping(int n, double step_sigmas, std::uint64_t seed) {
+  Rig rig(n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n), {}, seed);
+  const double step = step_sigmas * rig.setup.array.sigma_mps2(0);
+  for (int i = 0; i < n; ++i) rig.setup.resolution_raw[static_cast<std::size_t>(i)] = step;
+  rig.distort = [step](int, double reading, int) { return step * std::nearbyint(reading / step); };
+  rig.restart();
+  return rig;
+}
+
+/// Half a step is more than all noise of a mean, and is in the level as a bound.
+// Verifies: REQ-067
+TEST(NoiseStudy, StepsOfFourSigmasAreNoFault) {
+  for (const int n : {4, 6, 8}) {
+    for (const double sigmas : {1.0, 1.9, 2.1, 4.0, 20.0}) {
+      Rig rig = stepping(n, sigmas, 47);
+      rig.prove();
+      int valid = 0;
+      for (int k = 0; k < 40; ++k) {
+        const Vec3 u = direction_at(20 + 3.3 * k, 50.7 * k);
+        const Verdict& v = rig.stay(u, 2);
+        valid += v.validity == Validity::valid ? 1 : 0;
+        ASSERT_TRUE(v.protection_available) << n;
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad) << n << " " << sigmas;
+      }
+      EXPECT_GE(valid, 39) << n << " " << sigmas;
+      EXPECT_TRUE(rig.ever_blamed.empty()) << n << " " << sigmas;
+    }
+  }
+}
+
+/// Without a word about the steps the same tool is never trusted, or its sensors blamed: the bound is not there for
+/// nothing.
+// Negative: REQ-067
+TEST(NoiseStudy, StepsThatNobodyStatedAreMistakenForMore) {
+  Rig rig = stepping(6, 6.0, 53);
+  rig.setup.resolution_raw = {};
+  rig.restart();
+  rig.prove();
+  int valid = 0;
+  for (int k = 0; k < 40; ++k)
+    valid += rig.stay(direction_at(20 + 3.3 * k, 50.7 * k), 2).validity == Validity::valid ? 1 : 0;
+  EXPECT_LT(valid, 20);
+}
+
 }  // namespace
 }  // namespace noise_study_test
