@@ -40,6 +40,10 @@ constexpr double kOwnShare = 0.5;
 /// blocks in a row are asked for.
 constexpr double kCertainRate = 0.05;
 
+/// A vector that swings by more than 0.1 g0 inside a block is motion whatever its noise class says: square of that
+/// share.
+constexpr double kMostSpread = 0.01;
+
 /// So many of the others are doubted at once, at most: all that the parity grade bears of eight; among more sensors the
 /// choices would take too long.
 constexpr int most_doubted(int n) noexcept { return n <= 8 ? 4 : 3; }
@@ -322,11 +326,24 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   }
   if (out.quiet) {
     out.evidence.spread_mps2_sq = vector_spread(array, block, noise, ls);
-    // A vector that swings by more than 0.1 g0 inside a block is motion whatever its noise class says.
-    out.quiet = out.evidence.spread_mps2_sq < 0.01 * g_mps2 * g_mps2;
+    out.quiet = out.evidence.spread_mps2_sq < kMostSpread * g_mps2 * g_mps2;
   }
   if (!out.quiet) out.noisy = out.noisy_for_certain = SensorSet{};
   return out;
+}
+
+bool moves_together(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                    double g_mps2, const BlockNoise& noise, BlockJudgement& out) noexcept {
+  const SensorSet judged = out.evidence.usable & considered;
+  if (block.size() < 2 || judged.size() < 4) return false;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!out.restless.has(i)) continue;
+    const LeastSquares others = least_squares(array, judged.without(i));
+    if (!others.valid || !(residual_scatter(array, block, noise, others, i).ratio <= factor)) return false;
+  }
+  const LeastSquares all = least_squares(array, judged);
+  out.evidence.spread_mps2_sq = vector_spread(array, block, noise, all);
+  return all.valid && out.evidence.spread_mps2_sq < kMostSpread * g_mps2 * g_mps2;
 }
 
 }  // namespace PLUMB_ABI

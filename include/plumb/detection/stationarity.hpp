@@ -124,6 +124,12 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
                            double g_mps2) noexcept;
 
+/// For a block that is not quiet: whether every restless channel of `considered` does what the others of them predict,
+/// so that the tool moves and no channel by itself. Where it does, `out.evidence` holds the spread of their vector.
+/// With fewer than four sensors nobody can tell.
+bool moves_together(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                    double g_mps2, const BlockNoise& noise, BlockJudgement& out) noexcept;
+
 /// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag, by roll group or by a
 /// change of direction. Serves calibration from continuous logs. The first and the last quiet block of
 /// a stretch are left out: they hold the settling and the onset of motion that noise still covers.
