@@ -119,6 +119,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   rotation_ = Rotation{};
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
   told_reference_ = reference_notice_ = ReferenceKind::none;
+  gravity_widened_mps2_ = 0.0;
   scatter_.clear();
   reference_study_.clear();
   trend_.clear();
@@ -160,6 +161,11 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   if (!sound) return sound;
   if (!whole()) return fail(Errc::not_calibrated);
   gravity_ = gravity;
+  if (gravity_widened_mps2_ > 0.0) {  // the finding was about the other one
+    gravity_widened_mps2_ = 0.0;
+    told_reference_ = ReferenceKind::none;
+    verdict_.reference = ReferenceFinding{};
+  }
   forget_near();
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {

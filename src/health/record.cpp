@@ -251,6 +251,8 @@ void HealthMonitor::rescan(const BlockTests& tests) noexcept {
                           {protection_faults_, k_integrity_, config_.common_drift_mps2}, witnesses());
   // What the sensors feel is g + a: every explanation bounds its direction, and no reading tells the rest.
   scan_.protection_rad += motion_in_bound_rad() + acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
+  // Widened, the norm does not see what may have turned the direction beside the offset.
+  if (gravity_widened_mps2_ > 0.0) scan_.protection_rad += verdict_.reference.turn_rad;
 }
 
 }  // namespace PLUMB_ABI

@@ -184,8 +184,12 @@ class HealthMonitor {
   void name_causes(SensorSet named, Cause cause) noexcept;
   SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
 
-  // rotation_request.cpp, reference: what the host could do about it
+  // gravity_finding.cpp: the length of gravity
   void study_reference(const BlockView& view) noexcept;
+  void tell_reference(bool trusted) noexcept;
+  void widen_gravity(const ReferenceFinding& found) noexcept;
+
+  // rotation_request.cpp: what the host could do about doubt
   double proving_change_mps2(int sensor) const noexcept;
   RotationRequest rotation_request() const noexcept;
   RotationRequest proving_turn() const noexcept;
@@ -257,7 +261,8 @@ class HealthMonitor {
   Mode mode_ = Mode::suspect;
   SizeClass size_class_ = SizeClass::rank_lost;  ///< of the sensors in service
   ReferenceKind told_reference_ = ReferenceKind::none, reference_notice_ = ReferenceKind::none;
-  int live_ = 0;  ///< voting sets alive
+  double gravity_widened_mps2_ = 0.0;  ///< part of three sigma of gravity that the monitor found, not the host stated
+  int live_ = 0;                       ///< voting sets alive
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_;
   SensorSet calibrated_;
@@ -373,20 +378,20 @@ class HealthMonitor {
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_),
         up_to(&M::told_reference_, ReferenceKind::common_bias),
-        up_to(&M::reference_notice_, ReferenceKind::common_bias), within(&M::live_, 0, kVotingCapacity),
-        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,
-        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::have_predictions_,
-        not_stored(&M::configured_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::freshness_, &M::clock_,
-        &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks),
-        &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_),
-        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_,
-        &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
-        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
-        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_,
-        &M::temperature_min_degc_, &M::temperature_max_degc_,
-        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
-        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
-        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        up_to(&M::reference_notice_, ReferenceKind::common_bias), &M::gravity_widened_mps2_,
+        within(&M::live_, 0, kVotingCapacity), &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_,
+        &M::readmitted_, &M::calibrated_, &M::unproven_, &M::exhausted_, &M::moving_, &M::temperature_out_,
+        &M::partial_, &M::have_evidence_, &M::have_predictions_, not_stored(&M::configured_), &M::evidence_time_s_,
+        &M::last_temperature_degc_, &M::freshness_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_,
+        &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
+        within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_), per_sensor(&M::least_prediction_),
+        per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_, &M::reset_sensors_, &M::reset_pending_,
+        up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause),
+        &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_, not_stored(&M::lever_arms_known_),
+        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_, &M::temperature_min_degc_,
+        &M::temperature_max_degc_, within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)),
+        per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
+        &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
         &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
         &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
