@@ -50,6 +50,7 @@ enum class Play : std::uint8_t {
   mirrored_still,
   after_fault,
   latitude,
+  drift_and_fault,
 };
 
 struct Family {

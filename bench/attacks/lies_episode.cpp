@@ -76,7 +76,7 @@ void LiesEpisode::configure() {
   config.isolation_stations = noise_.below(2) == 0 ? 4 : 1 + noise_.below(3);
   if (liars_.size() <= 1 && noise_.below(4) == 0) config.asserted_faults = 1;
   config.recalibrate_after_exclusion = situation_ == Situation::recalibrate && noise_.below(2) == 0;
-  if (noise_.below(4) == 0) config.common_drift_mps2 = 0.0;
+  if (noise_.below(4) == 0) setup_.stability.fill({0.1 * kMilligee_mps2, 0.0, 0.0, 0.0});
   if (noise_.below(4) == 0) config.patience_blocks = 6 + noise_.below(30);
   if (noise_.below(4) == 0) config.probation_stations = 1 + noise_.below(3);
   if (!monitor_->configure(setup_).has_value()) ++count_.broken;

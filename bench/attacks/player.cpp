@@ -48,6 +48,11 @@ Player::Player(const AttackTool& tool, const MonitorConfig& config, std::uint64_
   if (!monitor_->configure(setup_).has_value()) find(Count::broken, true, "the setup is refused");
 }
 
+void Player::state_stability(const Stability& stability) {
+  setup_.stability.fill(stability);
+  if (!monitor_->configure(setup_).has_value()) find(Count::broken, true, "the stability is refused");
+}
+
 Sample Player::next() {
   Sample out;
   out.time_s = time_s += period_s;

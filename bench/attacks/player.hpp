@@ -48,6 +48,8 @@ class Player {
   void rest(int samples);
   void block(int blocks = 1) { rest(blocks * window()); }
   void turn_to(const plumb::Vec3& to, double rate_radps);
+  /// States how far every sensor may have drifted, and powers on anew. Before the first sample.
+  void state_stability(const plumb::Stability& stability);
   /// Honest blocks at random attitudes until nominal, sixty at most.
   void settle();
   /// From here on blocks count for availability.

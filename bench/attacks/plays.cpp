@@ -91,7 +91,8 @@ Tally play_family(const Episode& e) {
     case Play::mirror:
     case Play::mirrored_still: return play_mirror(e);
     case Play::adaptive: return play_adaptive(e);
-    case Play::drift: return play_drift(e);
+    case Play::drift:
+    case Play::drift_and_fault: return play_drift(e);
     case Play::thermal: return play_thermal(e);
     case Play::small_sigma:
     case Play::no_covariance: return play_misstated(e);

@@ -21,8 +21,16 @@ Tally play_drift(const Episode& e) {
   TrialNoise draws = e.draws();
   Player player = e.player(any_tool(e.n, draws));
   player.g_mps2 = gravity_within_bounds(draws);
+  player.state_stability({e.family.number * kMilligee_mps2, 0.0, 0.0, 0.0});
   for (int i = 0; i < e.n; ++i) player.shift_mps2[slot(i)] = e.family.number * kMilligee_mps2 * draws.normal();
+  const bool one_lies = e.family.play == Play::drift_and_fault;
+  if (!one_lies) player.attack();
+  visit_stations(player, one_lies ? 4 : kStations, 2);
+  if (!one_lies) return e.done(player);
   player.attack();
+  player.faulty = SensorSet::of(draws.below(e.n));
+  const double bias_mps2 = fault_mps2(draws);
+  player.lie = [bias_mps2](int, double y) { return y + bias_mps2; };
   visit_stations(player, kStations, 2);
   return e.done(player);
 }
@@ -32,6 +40,8 @@ Tally play_thermal(const Episode& e) {
   TrialNoise draws = e.draws();
   Player player = e.player(any_tool(e.n, draws));
   player.g_mps2 = gravity_within_bounds(draws);
+  // Slopes of up to the number are 1 sigma of a third of it, for each of the two minutes that the sensors lag behind.
+  player.state_stability({0.0, 0.0, 0.0, e.family.number / std::sqrt(3.0) * kMilligee_mps2 * kLag_s / 60.0});
   Readings slope{};
   for (int i = 0; i < e.n; ++i) slope[slot(i)] = e.family.number * kMilligee_mps2 * draws.between(-1.0, 1.0);
   player.settle();
@@ -80,11 +90,10 @@ Tally play_wrong_gravity(const Episode& e) {
 Tally play_bias_shift(const Episode& e) {
   TrialNoise draws = e.draws();
   Player player = e.player(any_tool(e.n, draws));
+  player.state_stability({e.family.number * kMilligee_mps2, 0.0, 0.0, 0.0});
   player.settle();
   player.attack();
-  player.faulty = SensorSet::of(draws.below(e.n));
-  const double bias_mps2 = draws.sign() * e.family.number * kMilligee_mps2;
-  player.lie = [bias_mps2](int, double y) { return y + bias_mps2; };
+  player.shift_mps2[slot(draws.below(e.n))] = draws.sign() * e.family.number * kMilligee_mps2;
   visit_stations(player, kStations, 2);
   return e.done(player);
 }

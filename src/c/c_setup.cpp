@@ -45,9 +45,6 @@ MonitorConfig settings_of(const plumb_config& c) noexcept {
   out.fault_prior = c.fault_prior;
   out.temperature_min_degc = c.temperature_min_degc;
   out.temperature_max_degc = c.temperature_max_degc;
-  out.drift_bias_mps2 = c.drift_bias_mps2;
-  out.drift_scale = c.drift_scale;
-  out.common_drift_mps2 = c.common_drift_mps2;
   out.acceleration_bound_mps2 = c.acceleration_bound_mps2;
   return out;
 }
@@ -76,6 +73,8 @@ plumb_error take_sensors(const plumb_config& config, Workspace& work) noexcept {
     setup.full_scale_raw[a] = given.full_scale_raw;
     setup.resolution_raw[a] = given.resolution_raw;
     setup.lever_arm_m[a] = array_of(given.lever_arm_m);
+    setup.stability[a] = {given.stability_mps2, given.stability_per_day_mps2, given.stability_per_degc_mps2,
+                          given.stability_per_degc_per_min_mps2};
     double sum = given.reference_degc + given.misfit_mps2 + given.full_scale_raw + given.resolution_raw;
     for (size_t k = 0; k < 4; ++k) sum += c.scale[k] + c.bias[k];
     for (size_t k = 0; k < 3; ++k) sum += given.lever_arm_m[k];
@@ -149,6 +148,7 @@ plumb_error prepare(const plumb_config* given, Workspace& work, int argument) no
   work.setup.gravity = {config.gravity_mps2, config.gravity_sigma_mps2, GravityModel::value};
   work.setup.output_frame = array_of(config.output_frame);
   work.setup.config = settings_of(config);
+  work.setup.days_since_calibration = config.days_since_calibration;
   return answer(PLUMB_OK);
 }
 
@@ -195,9 +195,6 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   config->fault_prior = d.fault_prior;
   config->temperature_min_degc = d.temperature_min_degc;
   config->temperature_max_degc = d.temperature_max_degc;
-  config->drift_bias_mps2 = d.drift_bias_mps2;
-  config->drift_scale = d.drift_scale;
-  config->common_drift_mps2 = d.common_drift_mps2;
   config->acceleration_bound_mps2 = d.acceleration_bound_mps2;
   return plumb::c_api::answer(PLUMB_OK);
 }

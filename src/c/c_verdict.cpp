@@ -113,6 +113,7 @@ static_assert(static_cast<int>(HealthState::failed) == PLUMB_FAILED, "the states
 static_assert(static_cast<int>(Validity::invalid) == PLUMB_INVALID && static_cast<int>(Validity::valid) == PLUMB_VALID,
               "the validities are numbered alike");
 static_assert(Qualifier::standstill_assumed == PLUMB_STANDSTILL_ASSUMED, "bits alike");
+static_assert(Qualifier::stability_unstated == PLUMB_STABILITY_UNSTATED, "bits alike");
 static_assert(Usable::reference == PLUMB_USABLE_REFERENCE && Usable::monitored == PLUMB_USABLE_MONITORED, "bits alike");
 
 }  // namespace c_api

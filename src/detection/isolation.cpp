@@ -52,19 +52,6 @@ void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
   }
 }
 
-/// Turn of the estimate over `set` that a bias shared by all its sensors makes.
-double common_drift_turn_rad(const SensorArray& array, SensorSet set, const SetTest& test, double bias_mps2) noexcept {
-  const double length = norm(test.x_mps2);
-  if (!(bias_mps2 > 0.0) || !(length > 0.0)) return 0.0;
-  Vec3 moved{};
-  for (int i = 0; i < array.size(); ++i) {
-    if (set.has(i)) moved = plus(moved, scaled(estimate_column(array, test, i), bias_mps2));
-  }
-  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
-  const double across = dot(moved, moved) - dot(moved, u) * dot(moved, u);
-  return across > 0.0 ? angle_of(std::sqrt(across), std::fmax(0.0, length - norm(moved))) : 0.0;
-}
-
 }  // namespace
 
 void Isolation::clear() noexcept {
@@ -225,13 +212,14 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) no
 namespace {
 
 /// How far off the estimate `used` may be if `rest`, with its test `t`, are the healthy ones.
-double level_of(const SensorArray& array, const SetTest& used, SensorSet rest, const SetTest& t,
+double level_of(const BlockTests& tests, const SetTest& used, SensorSet rest, const SetTest& t,
                 const ProtectionTerms& protect) noexcept {
+  const SensorArray& array = tests.array();
   const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
   const double left = calibration_tilt_sigma_rad(array, t, rest);
   const double spread = std::sqrt(noise * noise + left * left);
-  const double shared = common_drift_turn_rad(array, rest, t, protect.common_drift_mps2);
-  return angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + shared;
+  const double drift = tolerance_turn_rad(array, tests.block(), rest, t);
+  return angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + drift;
 }
 
 /// The faults `f` explain the block, with `rest` healthy.
@@ -269,7 +257,7 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   };
   const auto cover = [&](SensorSet rest, const SetTest& t) {
     if (!used.tested) return;
-    const double level = level_of(tests.array(), used, rest, t, protect);
+    const double level = level_of(tests, used, rest, t, protect);
     if (level > out.protection_rad) out.protection_rad = level;
   };
   for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {

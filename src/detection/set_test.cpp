@@ -19,6 +19,8 @@ struct Rows {
   std::array<Vec3, kCapacity> a{};    ///< h_i / sigma_i
   std::array<double, kCapacity> z{};  ///< y_i / sigma_i
   std::array<double, kCapacity> inverse_sigma{};
+  std::array<double, kCapacity> tolerance{};  ///< tau_i / sigma_i
+  bool tolerant = false;                      ///< some of them is not zero
 };
 
 Rows gather(const SensorArray& array, const BlockEvidence& block, SensorSet set) noexcept {
@@ -35,6 +37,11 @@ Rows gather(const SensorArray& array, const BlockEvidence& block, SensorSet set)
     rows.a[k] = scaled(array.axis(i), inverse);
     rows.z[k] = block.mean_mps2[static_cast<size_t>(i)] * inverse;
     rows.inverse_sigma[k] = inverse;
+    const auto tolerance_mps2 = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(i)]);
+    if (tolerance_mps2 > 0.0) {
+      rows.tolerance[k] = tolerance_mps2 * inverse;
+      rows.tolerant = true;
+    }
     ++rows.count;
   }
   return rows;
@@ -169,6 +176,46 @@ Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows
   return out;
 }
 
+/// How far errors of single readings can move a vector along itself and across.
+struct Reach {
+  double along = 0.0, across = 0.0;
+
+  void add(const Vec3& column, const Vec3& u, double tau) noexcept {
+    const double projection = dot(u, column);
+    along += std::fabs(projection) * tau;
+    across += norm(minus(column, scaled(u, projection))) * tau;
+  }
+  /// What remains of the length at least: the truth is `length` less what lies along it.
+  double least_length(double length) const noexcept { return length > along ? length - along : 0.0; }
+  /// Of the length: what moves across lengthens it by the square over twice the rest, and never by more than itself.
+  double of_length_mps2(double length) const noexcept {
+    const double rest = least_length(length);
+    return along + (rest > across ? across * across / (2.0 * rest) : across);
+  }
+};
+
+/// What errors d with |d_i| <= tau_i, of whatever signs, do to the parity residual and to the norm row, whitened. The
+/// projector P of the parity rows gives |P d| <= |d| <= sqrt(sum tau_i^2), and by its columns, whose lengths are the
+/// roots of the leverages, |P d| <= sum |P e_i| tau_i.
+Systematic tolerance_bound(const Rows& rows, const Projection& p, const Vec3& u, double length,
+                           double sigma_norm) noexcept {
+  Systematic out;
+  Reach reach;
+  double columns = 0.0, square = 0.0;
+  for (int i = 0; i < rows.count; ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double tau = rows.tolerance[a];
+    const double leverage = 1.0 - dot(rows.a[a], p.ca[a]);
+    columns += leverage > 0.0 ? std::sqrt(leverage) * tau : 0.0;
+    square += tau * tau;
+    reach.add(p.ca[a], u, tau);
+  }
+  if (rows.count > 3) out.parity = std::fmin(columns, std::sqrt(square));
+  out.norm = reach.of_length_mps2(length) / sigma_norm;
+  out.both = std::sqrt(out.parity * out.parity + out.norm * out.norm);
+  return out;
+}
+
 }  // namespace
 
 TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejection_rate,
@@ -252,14 +299,15 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
     }
   }
 
-  // Systematic terms: calibration at this attitude, gravity, motion inside the block, and the acceleration that the
-  // host allows for. All sets of a block feel the same one, so it widens the norm and leaves parity alone.
+  // Systematic terms: calibration at this attitude, drift since, gravity, motion inside the block, and the acceleration
+  // that the host allows for. All sets of a block feel the same one, so it widens the norm and leaves parity alone.
   const Systematic cal = uncertainty != nullptr ? calibration_bound(*uncertainty, rows, p, x) : Systematic{};
+  const Systematic drift = rows.tolerant ? tolerance_bound(rows, p, u, length, sigma_norm) : Systematic{};
   const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + limits.acceleration_mps2;
   const double reference = (TestLimits::gravity * gravity.sigma_mps2 + moved) / sigma_norm;
-  out.parity_systematic = root_n * limits.calibration * cal.parity;
-  out.norm_systematic = root_n * (limits.calibration * cal.norm + reference);
-  out.systematic = root_n * (limits.calibration * cal.both + reference);
+  out.parity_systematic = root_n * (limits.calibration * cal.parity + drift.parity);
+  out.norm_systematic = root_n * (limits.calibration * cal.norm + drift.norm + reference);
+  out.systematic = root_n * (limits.calibration * cal.both + drift.both + reference);
 }
 
 SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,
@@ -316,6 +364,39 @@ double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test,
     variance += array.uncertainty().at(i, i, attitude) * dot(own, own);
   }
   return variance > 0.0 ? std::sqrt(variance) / length : 0.0;
+}
+
+ToleranceBound tolerance_bound(const SensorArray& array, const BlockEvidence& block, SensorSet set,
+                               const SetTest& test) noexcept {
+  ToleranceBound out;
+  const double length = norm(test.x_mps2);
+  if (!test.tested || !(length > 0.0)) return out;
+  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
+  Reach reach;
+  double square = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    const auto tau = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(i)]);
+    if (!set.has(i) || !(tau > 0.0)) continue;
+    const double whitened = tau / array.sigma_mps2(i);
+    square += whitened * whitened;
+    reach.add(estimate_column(array, test, i), u, tau);
+  }
+  out.norm_mps2 = reach.of_length_mps2(length);
+  if (test.parity_rows > 0) out.parity = std::sqrt(square * test.samples);
+  return out;
+}
+
+double tolerance_turn_rad(const SensorArray& array, const BlockEvidence& block, SensorSet set,
+                          const SetTest& test) noexcept {
+  const double length = norm(test.x_mps2);
+  if (!test.tested || !(length > 0.0)) return 0.0;
+  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
+  Reach reach;
+  for (int i = 0; i < array.size(); ++i) {
+    const auto tau = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(i)]);
+    if (set.has(i) && tau > 0.0) reach.add(estimate_column(array, test, i), u, tau);
+  }
+  return reach.across > 0.0 ? angle_of(reach.across, reach.least_length(length)) : 0.0;
 }
 
 double acceleration_turn_rad(const GravityReference& gravity, double bound_mps2) noexcept {

@@ -174,6 +174,15 @@ void HealthMonitor::note_block() noexcept {
   }
 }
 
+/// How far each mean may be off for drift since the calibration, at the temperature of now.
+void HealthMonitor::allow_for_drift(BlockEvidence& evidence) const noexcept {
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double away_degc = last_temperature_degc_ - model_.sensor[a].reference_degc;
+    evidence.tolerance_mps2[a] = stability_[a].tolerance_mps2(away_degc, temperature_rate_.lag_degc_per_min());
+  }
+}
+
 void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
   const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
   if (bounded) {
@@ -191,6 +200,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
       judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
   judged.evidence.usable = judged.evidence.usable & block_usable_;
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
+  allow_for_drift(judged.evidence);
   freshness_.measure(array_, block_, resolution_mps2_);
   block_.clear();
   const RawBlock raw = raw_;

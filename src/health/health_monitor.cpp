@@ -52,10 +52,14 @@ Expected<void> HealthMonitor::configure(const MonitorSetup& setup) noexcept {
   array_ = setup.array;
   gravity_ = setup.gravity;
   frame_ = setup.output_frame;
+  stability_stated_ = true;
   for (int i = 0; i < array_.size(); ++i) {
     const double scale = model_.scale_at(i, model_.sensor[static_cast<size_t>(i)].reference_degc);
     const double step_mps2 = std::fabs(setup.resolution_raw[static_cast<size_t>(i)] / scale);
     resolution_mps2_[static_cast<size_t>(i)] = static_cast<float>(step_mps2);
+    stability_[static_cast<size_t>(i)] =
+        StabilityNow::of(setup.stability[static_cast<size_t>(i)], setup.days_since_calibration);
+    stability_stated_ = stability_stated_ && setup.stability[static_cast<size_t>(i)].stated();
   }
   lever_arm_m_ = setup.lever_arm_m;
   lever_arms_known_ = setup.lever_arms_known;
@@ -82,6 +86,21 @@ void HealthMonitor::derive_limits() noexcept {
                                                                    : triple_share(array_, config_.false_alarm_rate);
   mae_quantile_ = half_normal_mean_quantile(config_.window, triple_rate);
 }
+
+namespace {
+
+/// A sensor that moved may have changed by its bias alone, or by its scale alone.
+std::array<DriftSigmas, kCapacity> drift_sigmas(const MonitorSetup& setup) noexcept {
+  std::array<DriftSigmas, kCapacity> out{};
+  for (size_t a = 0; a < out.size(); ++a) {
+    const Stability& s = setup.stability[a];
+    const double sigma_mps2 = s.mps2 + setup.days_since_calibration * s.per_day_mps2;
+    if (sigma_mps2 > 0.0) out[a] = {sigma_mps2, sigma_mps2 / setup.gravity.g_mps2};
+  }
+  return out;
+}
+
+}  // namespace
 
 /// Everything that is remembered, as it stands before the first sample.
 void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
@@ -127,8 +146,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
-  recalibration_.configure(model_, {config_.drift_bias_mps2, config_.drift_scale}, config_.station_angle_rad,
-                           !setup.calibrated);
+  recalibration_.configure(model_, drift_sigmas(setup), config_.station_angle_rad, !setup.calibrated);
   if (mode_ == Mode::initial) recalibration_.start(in_service_);
   base_ = Mode::suspect;
   suspicion_ = Cause::none;

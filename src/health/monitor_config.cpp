@@ -43,12 +43,9 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {0, 0, 0},  // reset_key: any
       {c.temperature_min_degc, -1e9, 1e9},
       {c.temperature_max_degc, -1e9, 1e9},
-      {c.drift_bias_mps2, 1e-6, 10},
-      {c.drift_scale, 1e-7, 0.1},
       {static_cast<double>(c.patience_blocks), 0, kMostPatienceBlocks},
       {static_cast<double>(c.alarm_form), 0, 1},
       {0, 0, 0},  // recalibrate_after_exclusion: either
-      {c.common_drift_mps2, 0, 10},
       {c.acceleration_bound_mps2, 0, c.recalibrate_after_exclusion ? 0.0 : kMostAcceleration_mps2},
       {c.triple_false_alarm_rate, 0, 1e-2},
   };

@@ -49,6 +49,15 @@ Expected<void> sound_sensor(const MonitorSetup& setup, int i) noexcept {
   return {};
 }
 
+Expected<void> sound_age(const MonitorSetup& setup) noexcept {
+  const double days = setup.days_since_calibration;
+  const double most = setup.calibrated ? kMostDaysSinceCalibration : 0.0;
+  if (!finite(days)) return fail(Errc::not_finite, -1, days, 0.0);
+  if (days < 0.0) return fail(Errc::out_of_range, -1, days, 0.0);
+  if (days > most) return fail(Errc::out_of_range, -1, days, most);
+  return {};
+}
+
 /// How far a sensor may be from its datasheet, which the first calibration starts from.
 Expected<void> sound_prior(const SensorArray& array, int i) noexcept {
   const Prior open = prior_in(array, i), most = Recalibration::kMostOpen;
@@ -85,6 +94,8 @@ Expected<void> checked(const MonitorSetup& setup) noexcept {
   }
   Expected<void> sound = plausible(setup.gravity);
   for (int i = 0; i < n && sound; ++i) sound = sound_sensor(setup, i);
+  for (int i = 0; i < n && sound; ++i) sound = checked(setup.stability[static_cast<size_t>(i)], i);
+  if (sound) sound = sound_age(setup);
   if (sound) sound = sound_frame(setup.output_frame);
   if (!sound) return sound;
   if (!kCalibratesItself && !setup.calibrated) return fail(Errc::not_calibrated, -1, 0.0, 1.0);

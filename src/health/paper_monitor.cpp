@@ -205,10 +205,11 @@ void PaperMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.time_s = sample.time_s;
   v.tick = ticked && !moving_;
   v.state = state_of(mode_);
-  // The paper's method takes the length for gravity's whatever the host allows for.
-  v.qualifiers = static_cast<std::uint16_t>(
-      Qualifier::standstill_assumed | (unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
-      (exhausted_ ? Qualifier::exhausted : 0) | (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0));
+  // The paper's method takes the length for gravity's and the calibration for true whatever the host allows for.
+  v.qualifiers = static_cast<std::uint16_t>(Qualifier::standstill_assumed | Qualifier::stability_unstated |
+                                            (unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
+                                            (exhausted_ ? Qualifier::exhausted : 0) |
+                                            (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0));
   v.configured = array_.all();
   v.in_service = in_service_;
   v.excluded = excluded_;

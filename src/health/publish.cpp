@@ -160,7 +160,8 @@ void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
       (!set_aside_.empty() ? Qualifier::provisional : 0) | (exhausted_ ? Qualifier::exhausted : 0) |
       (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
       (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0) |
-      (config_.acceleration_bound_mps2 > 0.0 ? 0 : Qualifier::standstill_assumed));
+      (config_.acceleration_bound_mps2 > 0.0 ? 0 : Qualifier::standstill_assumed) |
+      (stability_stated_ ? 0 : Qualifier::stability_unstated));
   v.config_hash = identity_;
   v.configured = array_.all();
   v.in_service = in_service_;

@@ -40,8 +40,8 @@ const char* to_string(RecalibrationPhase phase) noexcept {
   return "?";
 }
 
-void Recalibration::configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad,
-                              bool first) noexcept {
+void Recalibration::configure(const SensorModel& commissioning, const std::array<DriftSigmas, kCapacity>& drift,
+                              double same_attitude_rad, bool first) noexcept {
   store_ = StationStore(same_attitude_rad);
   drift_ = drift;
   commission(commissioning);

@@ -66,7 +66,8 @@ Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
     sensor.row = in_force.array.row(i);
     sensor.row.sigma_mps2 = std::sqrt(reading_error(in_force.array, in_force.gravity, i).total_mps2_sq);
     sensor.coefficients = in_force.model.sensor[at(i)];
-    sensor.prior = first() ? prior_in(in_force.array, i) : Prior{drift_.bias_mps2, drift_.scale, 0.0, {}, {}};
+    sensor.prior =
+        first() ? prior_in(in_force.array, i) : Prior{drift_[at(i)].bias_mps2, drift_[at(i)].scale, 0.0, {}, {}};
   }
   return out;
 }
@@ -85,7 +86,7 @@ bool Recalibration::uncertainty_of_fit(const SensorArray& array, const GravityRe
     const ReadingError error = reading_error(array, gravity, i);
     fit.sigma_mps2[at(i)] = std::sqrt(error.total_mps2_sq);
     fit.noise_share = std::fmax(fit.noise_share, error.noise_mps2_sq / error.total_mps2_sq);
-    fit.prior[at(i)] = {drift_.bias_mps2, drift_.scale};
+    fit.prior[at(i)] = {drift_[at(i)].bias_mps2, drift_[at(i)].scale};
   }
   std::array<double, kCapacity> data_share{};
   if (!held_axis_uncertainty(array, gravity, fit, out, data_share)) return false;
@@ -191,11 +192,11 @@ Error Recalibration::check_bounds(const SensorModel& model, double time_s) const
     if (!sensors_.has(i)) continue;
     const SensorCoefficients& to = next.sensor[at(i)];
     const SensorCoefficients& from = model.sensor[at(i)];
-    const double since_last = larger(std::fabs(to.scale[0] / from.scale[0] - 1.0) / drift_.scale,
-                                     std::fabs(to.bias[0] - from.bias[0]) / drift_.bias_mps2);
+    const double since_last = larger(std::fabs(to.scale[0] / from.scale[0] - 1.0) / drift_[at(i)].scale,
+                                     std::fabs(to.bias[0] - from.bias[0]) / drift_[at(i)].bias_mps2);
     const double since_commissioning =
-        larger(std::fabs(to.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_.scale,
-               std::fabs(to.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_.bias_mps2);
+        larger(std::fabs(to.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_[at(i)].scale,
+               std::fabs(to.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_[at(i)].bias_mps2);
     if (!(since_last <= last)) return Error{Errc::implausible, i, since_last, last};
     if (!(since_commissioning <= kCommissioningSigmas)) {
       return Error{Errc::implausible, i, since_commissioning, kCommissioningSigmas};
@@ -225,8 +226,8 @@ bool Recalibration::commissioned_as(const SensorModel& model) const noexcept {
 bool Recalibration::coefficients_are_plausible(const SensorModel& model) const noexcept {
   for (int i = 0; i < model.size; ++i) {
     const SensorCoefficients& c = model.sensor[at(i)];
-    const double scale = std::fabs(c.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_.scale;
-    const double bias = std::fabs(c.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_.bias_mps2;
+    const double scale = std::fabs(c.scale[0] / commissioned_scale_[at(i)] - 1.0) / drift_[at(i)].scale;
+    const double bias = std::fabs(c.bias[0] - commissioned_bias_mps2_[at(i)]) / drift_[at(i)].bias_mps2;
     if (!(scale <= kCommissioningSigmas && bias <= kCommissioningSigmas)) return false;
   }
   return true;

@@ -80,8 +80,8 @@ Error Recalibration::read_offer(const InForce& in_force, const SensorModel& mode
   const double limit_rad = kCommissioningSigmas * std::fmax(kOfferAxis_rad, axis_sigma_rad(in_force.array, i));
   const double off_rad = angle_between_rad(array.axis(i), in_force.array.axis(i));
   if (!(off_rad <= limit_rad)) return Error{Errc::implausible, i, off_rad, limit_rad};
-  const double worst = std::fmax(std::sqrt(offered_variance(2 * i)) / drift_.scale,
-                                 std::sqrt(offered_variance(2 * i + 1)) / drift_.bias_mps2);
+  const double worst = std::fmax(std::sqrt(offered_variance(2 * i)) / drift_[at(i)].scale,
+                                 std::sqrt(offered_variance(2 * i + 1)) / drift_[at(i)].bias_mps2);
   const double least = std::fmin(offered_variance(2 * i), offered_variance(2 * i + 1));
   if (!(least > 0.0 && worst <= 1.0)) return Error{Errc::implausible, i, worst, 1.0};
   const SensorCoefficients& now = in_force.model.sensor[at(i)];
@@ -175,7 +175,7 @@ bool Recalibration::offer_is_plausible(const InForce& in_force) const noexcept {
       const double c = offered_covariance_[packed(a, b)];
       if (!(c * c <= offered_variance(a) * offered_variance(b) * (1.0 + 1e-9))) return false;
     }
-    const double limit = a % 2 == 0 ? drift_.scale : drift_.bias_mps2;
+    const double limit = a % 2 == 0 ? drift_[at(a / 2)].scale : drift_[at(a / 2)].bias_mps2;
     const bool sane = offered_variance(a) > 0.0 && offered_variance(a) <= limit * limit;
     if (sensors_.has(a / 2) && !sane) return false;
   }

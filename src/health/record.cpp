@@ -247,8 +247,7 @@ void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   int depth = protection_faults_;
   if (asserted_left_ > depth) depth = asserted_left_;
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
-  scan_ = isolation_.scan(tests, in_service_, depth, asserted_left_,
-                          {protection_faults_, k_integrity_, config_.common_drift_mps2}, witnesses());
+  scan_ = isolation_.scan(tests, in_service_, depth, asserted_left_, {protection_faults_, k_integrity_}, witnesses());
   // What the sensors feel is g + a: every explanation bounds its direction, and no reading tells the rest.
   scan_.protection_rad += motion_in_bound_rad() + acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
   // Widened, the norm does not see what may have turned the direction beside the offset.

@@ -131,6 +131,7 @@ std::uint64_t HealthMonitor::identity(const MonitorSetup& setup) const noexcept 
     out.put(setup.full_scale_raw[static_cast<size_t>(i)]);
     out.put(setup.lever_arm_m[static_cast<size_t>(i)]);
     out.put(setup.resolution_raw[static_cast<size_t>(i)]);
+    out.put(setup.stability[static_cast<size_t>(i)]);
   }
   out.put(setup.array.uncertainty());
   out.put(setup.output_frame);

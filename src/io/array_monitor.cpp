@@ -36,12 +36,9 @@ const std::vector<std::string>& known_keys() {
                                                  "reset_key",
                                                  "temperature_min",
                                                  "temperature_max",
-                                                 "drift_bias",
-                                                 "drift_scale",
                                                  "patience_blocks",
                                                  "alarm_form",
                                                  "recalibrate",
-                                                 "common_drift",
                                                  "acceleration_bound",
                                                  "triple_false_alarm_rate"};
   return names;
@@ -88,10 +85,7 @@ MonitorConfig filled(const TomlTable& table) {
   config.temperature_min_degc = table.quantity(Quantity::temperature, "temperature_min", config.temperature_min_degc);
   config.temperature_max_degc = table.quantity(Quantity::temperature, "temperature_max", config.temperature_max_degc);
   config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
-  config.drift_bias_mps2 = table.quantity(Quantity::acceleration, "drift_bias", config.drift_bias_mps2);
-  config.drift_scale = table.quantity(Quantity::ratio, "drift_scale", config.drift_scale);
   config.patience_blocks = whole(table, "patience_blocks", config.patience_blocks);
-  config.common_drift_mps2 = table.quantity(Quantity::acceleration, "common_drift", config.common_drift_mps2);
   config.acceleration_bound_mps2 =
       table.quantity(Quantity::acceleration, "acceleration_bound", config.acceleration_bound_mps2);
   const bool average = table.choice("alarm_form", {"every-tool", "average-tool"}, 0) == 1;
@@ -103,7 +97,7 @@ MonitorConfig filled(const TomlTable& table) {
 
 /// Unit in which MonitorConfig holds the field of a key, for messages.
 const char* unit_of(const std::string& key) noexcept {
-  if (key == "delta_f" || key == "drift_bias" || key == "common_drift" || key == "acceleration_bound") return " m/s^2";
+  if (key == "delta_f" || key == "acceleration_bound") return " m/s^2";
   if (key == "max_gap" || key == "max_age") return " s";
   if (key == "station_angle" || key == "excitation_angle" || key == "alert_limit") return " rad";
   if (key == "temperature_min" || key == "temperature_max") return " degC";

@@ -148,13 +148,13 @@ class Object {
     out_ += ']';
   }
   void qualifiers(const char* key, std::uint16_t bits) {
-    static constexpr const char* kNames[] = {"unproven",         "moving",        "initial_calibration",
-                                             "provisional",      "no_redundancy", "exhausted",
-                                             "three_sensor_fit", "inhibited",     "standstill_assumed"};
+    static constexpr const char* kNames[] = {
+        "unproven",  "moving",           "initial_calibration", "provisional",        "no_redundancy",
+        "exhausted", "three_sensor_fit", "inhibited",           "standstill_assumed", "stability_unstated"};
     name(key);
     out_ += '[';
     bool first = true;
-    for (unsigned k = 0; k < 9; ++k) {
+    for (unsigned k = 0; k < sizeof kNames / sizeof kNames[0]; ++k) {
       if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
       if (!first) out_ += ',';
       first = false;

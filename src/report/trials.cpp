@@ -76,10 +76,7 @@ std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad) {
   quantity("temperature_min", config.temperature_min_degc, usual.temperature_min_degc, "degC");
   quantity("temperature_max", config.temperature_max_degc, usual.temperature_max_degc, "degC");
   if (config.recalibrate_after_exclusion) out += "recalibrate = \"after-exclusion\"\n";
-  quantity("drift_bias", config.drift_bias_mps2, usual.drift_bias_mps2, "m/s^2");
-  ratio("drift_scale", config.drift_scale, usual.drift_scale);
   number("patience_blocks", config.patience_blocks, usual.patience_blocks);
-  quantity("common_drift", config.common_drift_mps2, usual.common_drift_mps2, "m/s^2");
   quantity("acceleration_bound", config.acceleration_bound_mps2, usual.acceleration_bound_mps2, "m/s^2");
   if (config.alarm_form == AlarmForm::average_tool) out += "alarm_form = \"average-tool\"\n";
   ratio("triple_false_alarm_rate", config.triple_false_alarm_rate, usual.triple_false_alarm_rate);

@@ -105,7 +105,7 @@ void run(const SensorArray& array, std::uint64_t seed, int rounds) {
     const SensorSet witnesses = luck.uniform() < 0.7 ? array.all() : asked.some(0.7);
     if (luck.uniform() < 0.5) expect_kept_to_grades(isolation, isolation.vote(tests, witnesses));
     const int asserted = asked.whole(-1, 4);
-    const ProtectionTerms protect = {asked.whole(0, 4), 5.0, luck.uniform() < 0.5 ? 0.0 : 1e-3};
+    const ProtectionTerms protect = {asked.whole(0, 4), 5.0};
     const FaultSetScan scan = isolation.scan(tests, luck.uniform() < 0.6 ? array.all() : asked.some(0.9),
                                              asked.whole(-1, 5), asserted, protect, witnesses);
     ASSERT_TRUE(array.all().contains(scan.asserted | scan.suspects));

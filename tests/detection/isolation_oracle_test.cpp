@@ -162,15 +162,17 @@ struct Rule {
   }
 
   /// Angle by which a bias that all of `set` share turns its estimate.
-  static double shared_turn(const SensorArray& array, SensorSet set, const SetTest& t, double bias) {
-    Vec3 moved{};
-    for (int i = 0; i < array.size(); ++i) {
-      if (set.has(i)) moved = plus(moved, scaled(estimate_column(array, t, i), bias));
-    }
+  static double drift_turn(const BlockTests& tests, SensorSet set, const SetTest& t) {
     const double length = norm(t.x_mps2);
-    if (bias <= 0.0 || length <= 0.0) return 0.0;
-    const double across = norm(cross(moved, scaled(t.x_mps2, 1.0 / length)));
-    return std::atan2(across, std::max(0.0, length - norm(moved)));
+    double across = 0.0, whole = 0.0;
+    for (int i = 0; i < tests.array().size(); ++i) {
+      if (!set.has(i) || length <= 0.0) continue;
+      const double tau = static_cast<double>(tests.block().tolerance_mps2[static_cast<std::size_t>(i)]);
+      const Vec3 column = estimate_column(tests.array(), t, i);
+      across += tau * norm(cross(column, scaled(t.x_mps2, 1.0 / length)));
+      whole += tau * std::fabs(dot(column, t.x_mps2)) / length;
+    }
+    return across > 0.0 ? std::atan2(across, std::max(0.0, length - whole)) : 0.0;
   }
 
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted,
@@ -189,8 +191,7 @@ struct Rule {
       const SetTest t = tests.of(rest);
       const double spread =
           std::hypot(tilt_sigma_rad(t.x_mps2, t.covariance), calibration_tilt_sigma_rad(tests.array(), t, rest));
-      return angle_between_rad(t.x_mps2, used.x_mps2) + terms.k_integrity * spread +
-             shared_turn(tests.array(), rest, t, terms.common_drift_mps2);
+      return angle_between_rad(t.x_mps2, used.x_mps2) + terms.k_integrity * spread + drift_turn(tests, rest, t);
     };
     bool bounded = true, any_bound = false, any_asserted = false;
     SensorSet common = there;
@@ -309,14 +310,16 @@ void play(const SensorArray& array, std::uint64_t seed, int stations) {
   code.pose(array, posed);
   rule.pose(array, posed);
   for (int k = 0; k < stations; ++k) {
-    const BlockEvidence block = episode.station();
+    BlockEvidence block = episode.station();
+    const float drift_mps2 =
+        luck.uniform() < 0.5 ? 0.0F : static_cast<float>(std::pow(10.0, 3.0 * luck.uniform() - 4.0));
+    for (float& tau : block.tolerance_mps2) tau = drift_mps2 * static_cast<float>(luck.uniform());
     const BlockTests tests(array, gravity, limits, block);
     const SensorSet witnesses = luck.uniform() < 0.7 ? array.all() : episode.some(0.8);
     if (luck.uniform() < 0.7) expect_same(code.vote(tests, witnesses), rule.vote(tests, witnesses));
     EXPECT_EQ(code.live(), rule.live());
     const int depth = static_cast<int>(6 * luck.uniform()) - 1, asserted = static_cast<int>(6 * luck.uniform()) - 1;
-    const ProtectionTerms terms{static_cast<int>(5 * luck.uniform()), 5.0 * luck.uniform(),
-                                luck.uniform() < 0.5 ? 0.0 : std::pow(10.0, 3.0 * luck.uniform() - 3.0)};
+    const ProtectionTerms terms{static_cast<int>(5 * luck.uniform()), 5.0 * luck.uniform()};
     const SensorSet in_service = luck.uniform() < 0.5 ? posed : luck.uniform() < 0.5 ? array.all() : episode.some(0.8);
     expect_same(code.scan(tests, in_service, depth, asserted, terms, witnesses),
                 rule.scan(tests, in_service, depth, asserted, terms, witnesses));

@@ -109,7 +109,7 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
     const BlockEvidence block = episode.block(scaled(noise.direction(), kG0_mps2), noise);
     isolation.vote({tool.array, tool.gravity, tool.limits, block});
     const FaultSetScan scan =
-        isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(), 1, 1, {1, 4.9, 0.0});
+        isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(), 1, 1, {1, 4.9});
     count.add(episode.faulty(), scan.asserted, false);
   }
   EXPECT_EQ(count.wrong, 0U);

@@ -159,7 +159,7 @@ TEST(Isolation, TheNextFaultBehindASetAsideSensorIsWithinTheProtectionLevel) {
     for (int station = 0; station < 20; ++station) {
       fault[2] = 1e-5 * station * kG0_mps2;
       const BlockEvidence block = c.block(plumb_test::random_direction(c.noise), fault);
-      const ProtectionTerms terms{1, 4.9, 0.0};
+      const ProtectionTerms terms{1, 4.9};
       const FaultSetScan aside = c.isolation.scan({c.array, kGravity, c.limits, block}, left, 1, -1, terms);
       const FaultSetScan out = latched.scan({c.array, kGravity, c.limits, block}, left, 1, -1, terms);
       if (!aside.protection_available || !out.protection_available) continue;
@@ -290,7 +290,7 @@ TEST(Isolation, ScanNamesTheFewestFaults) {
   fault[2] = 1.0;
   const BlockEvidence block = c.block(plumb_test::direction_at(70, 10), fault);
   c.isolation.vote({c.array, kGravity, c.limits, block});
-  const FaultSetScan scan = c.isolation.scan({c.array, kGravity, c.limits, block}, c.array.all(), 3, 1, {1, 4.9, 0.0});
+  const FaultSetScan scan = c.isolation.scan({c.array, kGravity, c.limits, block}, c.array.all(), 3, 1, {1, 4.9});
   EXPECT_EQ(scan.least, 1);
   EXPECT_EQ(scan.suspects, SensorSet::of(2));
   EXPECT_EQ(scan.asserted, SensorSet::of(2));

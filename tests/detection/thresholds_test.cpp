@@ -242,7 +242,7 @@ RC_GTEST_PROP(SureFaultLaw, IsToldFromEveryOtherWhereTwiceTheFaultsAreAllowedFor
   }
   Isolation isolation;
   isolation.pose(array, array.all());
-  const FaultSetScan scan = isolation.scan({array, kExact, budget.limits, block}, array.all(), m, m, {1, 5.0, 0.0});
+  const FaultSetScan scan = isolation.scan({array, kExact, budget.limits, block}, array.all(), m, m, {1, 5.0});
   RC_ASSERT(scan.asserted == faulty);
 }
 

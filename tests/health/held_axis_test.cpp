@@ -28,7 +28,7 @@ TEST(HeldAxis, TheUncertaintyIsThatOfTheErrors) {
       Shadow s(n, seed);
       s.gravity.sigma_mps2 = 0.0;
       s.drift_sigmas.scale = 5e-3;
-      s.fit->configure(s.model, s.drift_sigmas, rad_from_deg(2.0));
+      s.fit->configure(s.model, alike(s.drift_sigmas), rad_from_deg(2.0));
       plumb_test::leave_uncertainty(s.array, 1e-4 * kG0_mps2, 5e-4);
       s.bend_axes(5e-4);
       s.drift(5e-4 * kG0_mps2, 1e-4);
@@ -68,7 +68,7 @@ TEST(HeldAxis, WhatThePriorMakesOfAWrongLengthIsWithinTheUncertaintyOfTheDirecti
       const double sigma = 1e-3;  // of the length, relative
       s.gravity.sigma_mps2 = sigma * kG0_mps2;
       s.drift_sigmas.scale = 5e-4;
-      s.fit->configure(s.model, s.drift_sigmas, rad_from_deg(2.0));
+      s.fit->configure(s.model, alike(s.drift_sigmas), rad_from_deg(2.0));
       plumb_test::leave_uncertainty(s.array, 1e-5 * kG0_mps2, 1e-5);
       const double then = sigma * s.noise.normal(), now = sigma * s.noise.normal();
       for (double& scale : s.drifted_scale) scale = then;

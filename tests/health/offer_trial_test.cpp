@@ -103,7 +103,7 @@ TEST(OfferTrial, NothingIsWithinABoundOfWhatIsNoNumber) {
   Shadow s(5, 22);
   SensorModel none = s.model;
   none.sensor[1].scale[0] = std::nan("");
-  s.fit->configure(none, s.drift_sigmas, rad_from_deg(2.0));
+  s.fit->configure(none, alike(s.drift_sigmas), rad_from_deg(2.0));
   const auto made = s.fit->offer({s.model, s.array, s.gravity, s.limits}, s.model, s.array, s.array.all(), 0.0);
   ASSERT_FALSE(made.has_value());
   EXPECT_EQ(made.error().code, Errc::implausible);

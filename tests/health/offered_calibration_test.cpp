@@ -194,9 +194,7 @@ TEST(OfferedCalibration, TheStationsRefuseWhatIsWrong) {
 // Negative: REQ-135
 TEST(OfferedCalibration, WhatItsStationsCannotSeeIsWithinTheProtectionLevel) {
   for (int n = 4; n <= kCapacity; ++n) {
-    MonitorConfig config;
-    config.common_drift_mps2 = 0.0;
-    Tool tool(n, config, static_cast<std::uint64_t>(n));
+    Tool tool(n, {}, static_cast<std::uint64_t>(n));
     plumb_test::leave_uncertainty(tool.rig.setup.array, 1e-4, 1e-5);
     tool.rig.setup.gravity.sigma_mps2 = 3e-4 * kG0_mps2;
     tool.rig.restart();

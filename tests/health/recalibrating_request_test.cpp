@@ -159,13 +159,11 @@ TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
 /// Seven sensors on a cone, attitudes within 60 deg of its axis: a common bias along it looks like another length of
 /// gravity. A host that asks for a fit under that suspicion gets one, and must not get a false bound with it.
 TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
-  MonitorConfig config;
-  config.drift_bias_mps2 = 1e-2 * kG0_mps2;
   const double g = kG0_mps2 * (1.0 - 2.2e-3);
   int adopted = 0;
   int vouched = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    Tool tool(7, config, seed);
+    Tool tool(7, {}, seed);
     tool.rig.prove();
     for (int k = 0; k < 60; ++k) {
       const double inclination_deg = 60.0 * tool.directions.uniform();
@@ -188,23 +186,22 @@ TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
 }
 
 TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
-  MonitorConfig config;
-  config.drift_bias_mps2 = 2e-3;
-  config.drift_scale = 1e-4;
-  Tool tool(6, config, 6);
+  constexpr double kStability_mps2 = 2e-3;
+  Tool tool(6, {}, 6);
+  tool.rig.setup.stability.fill({kStability_mps2, 0.0, 0.0, 0.0});
   plumb_test::leave_uncertainty(tool.rig.setup.array, 5e-4, 1e-5);
   tool.rig.restart();
   tool.rig.prove();
   tool.fault = [](int i, double r, int k) { return i == 2 ? r + 4e-7 * k : r; };
   double farthest = 0.0;
-  for (int k = 0; k < 900 && tool.rig.ever_blamed.empty(); ++k) {
+  for (int k = 0; k < 2500 && tool.rig.ever_blamed.empty(); ++k) {
     tool.rig.monitor.request_recalibration();
     tool.visit(1);
     farthest = std::max(farthest, std::fabs(tool.rig.monitor.model().sensor[2].bias[0]));
     const Verdict& v = tool.rig.monitor.verdict();
     EXPECT_TRUE(v.protection_available || v.validity != Validity::valid);
   }
-  EXPECT_LE(farthest, Recalibration::kCommissioningSigmas * config.drift_bias_mps2);
+  EXPECT_LE(farthest, Recalibration::kCommissioningSigmas * kStability_mps2);
   EXPECT_GT(tool.count(HealthEvent::fit_accepted) + tool.count(HealthEvent::fit_rejected), 0);
   EXPECT_EQ(tool.rig.ever_blamed, SensorSet::of(2)) << "in the end it is convicted, and it alone";
 }

@@ -245,9 +245,8 @@ TEST(Recalibrating, MotionNeitherAbortsNorCollects) {
 
 // Negative: REQ-133
 TEST(Recalibrating, ARefusedFitLeavesEverythingAndSaysWhy) {
-  MonitorConfig config;
-  config.drift_bias_mps2 = 3e-4;  // the drift of this tool is far more than its datasheet admits
-  Tool tool(plumb_test::cone_array(6, 5e-5 * kG0_mps2), config);
+  Tool tool(plumb_test::cone_array(6, 5e-5 * kG0_mps2), {});
+  tool.rig.setup.stability.fill({3e-4, 0.0, 0.0, 0.0});  // the drift of this tool is far more than is stated
   plumb_test::leave_uncertainty(tool.rig.setup.array, 5e-4, 1e-6);
   tool.rig.restart();
   tool.bias[2] = 2e-3;

@@ -36,7 +36,7 @@ struct Shadow {
     }
     limits = plumb::TestLimits::from_rates(n, 1e-5, 1e-6);
     used = array.all();
-    fit->configure(model, drift_sigmas, plumb::rad_from_deg(2.0));
+    fit->configure(model, plumb::alike(drift_sigmas), plumb::rad_from_deg(2.0));
   }
   static plumb::SensorArray triad() {
     plumb::AxisList axes{};

@@ -338,7 +338,7 @@ TEST(Recalibration, WithoutACovarianceNoFitIsAcceptedAndNoneIsSurer) {
 TEST(Recalibration, AParameterThatTheStationsDoNotTellRefusesTheFit) {
   Shadow s(5, 25);
   s.drift_sigmas.scale = 10.0;
-  s.fit->configure(s.model, s.drift_sigmas, rad_from_deg(2.0));
+  s.fit->configure(s.model, alike(s.drift_sigmas), rad_from_deg(2.0));
   s.start();
   EXPECT_EQ(s.roam(24), Outcome::rejected);
   EXPECT_EQ(s.fit->progress(s.array).last_refusal.code, Errc::unobservable);

@@ -258,9 +258,9 @@ TEST(Snapshot, IsBoundToEverySetting) {
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.false_alarm_rate *= 1.01; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.reset_key ^= 1U; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.recalibrate_after_exclusion = true; }));
-  EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.drift_scale *= 1.01; }));
+  EXPECT_TRUE(refused([](MonitorSetup& s) { s.stability[2].mps2 = 1e-3; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.patience_blocks = 100; }));
-  EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.common_drift_mps2 *= 2.0; }));
+  EXPECT_TRUE(refused([](MonitorSetup& s) { s.stability[2].per_degc_mps2 = 1e-5; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.lever_arm_m[5][1] = 0.01; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.lever_arms_known = true; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.model.reads = Reads::specific_force; }));

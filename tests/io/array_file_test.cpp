@@ -303,19 +303,11 @@ TEST(ArrayFile, PaperModeHasThePapersLimitUnlessAnotherIsGiven) {
 TEST(ArrayFile, RecalibrationIsAskedForInTheMonitorTable) {
   const MonitorConfig unset = array_of().monitor;
   EXPECT_FALSE(unset.recalibrate_after_exclusion);
-  EXPECT_NEAR(unset.drift_bias_mps2, 2e-3 * kG0_mps2, 1e-15);
-  const MonitorConfig given =
-      array_of(
-          changed("window = 16", "recalibrate = \"after-exclusion\"\ndrift_bias = \"5 mg\"\ndrift_scale = \"0.1 %\""))
-          .monitor;
-  EXPECT_TRUE(given.recalibrate_after_exclusion);
-  EXPECT_NEAR(given.drift_bias_mps2, 5e-3 * kG0_mps2, 1e-12);
-  EXPECT_NEAR(given.drift_scale, 1e-3, 1e-15);
+  EXPECT_TRUE(
+      array_of(changed("window = 16", "recalibrate = \"after-exclusion\"")).monitor.recalibrate_after_exclusion);
   EXPECT_FALSE(array_of(changed("window = 16", "recalibrate = \"never\"")).monitor.recalibrate_after_exclusion);
   expect_refused(changed("window = 16", "recalibrate = \"always\""), 7, "monitor.recalibrate",
                  {"always", "never", "after-exclusion"});
-  expect_refused(changed("window = 16", "drift_bias = \"0 mg\""), 7, "monitor.drift_bias", {"at least 1e-06 m/s^2"});
-  expect_refused(changed("window = 16", "drift_scale = \"20 %\""), 7, "monitor.drift_scale", {"at most 0.1"});
 }
 
 TEST(ArrayFile, AnAccelerationIsAllowedForInTheMonitorTable) {

@@ -61,7 +61,6 @@ TEST(VerificationTrials, TheMonitorIsTheOneOfTheArrayFile) {
   array.monitor.clear_fraction = 0.6;
   array.monitor.temperature_min_degc = -20.0;
   array.monitor.recalibrate_after_exclusion = true;
-  array.monitor.drift_bias_mps2 = 0.03;
   array.monitor.alarm_form = AlarmForm::average_tool;
   report::TrialSettings s = settings(1);
   const std::vector<std::uint8_t> bytes = monitor_of(array, s);

@@ -371,7 +371,7 @@ inline void soundness_trial(const TrialTool& tool, double gravity_error, int hea
     if (ask_parity) parity = parity || !episode.faulty().contains(answer.parity);
     if (ask_asserted) {
       const plumb::FaultSetScan scan =
-          isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(), m, m, {1, 4.9, 0.0});
+          isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(), m, m, {1, 4.9});
       asserted = asserted || !episode.faulty().contains(scan.asserted);
     }
     last = answer.strict;

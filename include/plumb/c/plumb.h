@@ -62,6 +62,9 @@ typedef struct plumb_sensor {
   double lever_arm_m[3]; /* from the axis of rotation */
   /* What the datasheet leaves open of bias, scale (relative) and axis, 1 sigma: read where `calibrated` is 0. */
   double prior_bias_mps2, prior_scale, prior_axis_rad;
+  /* Drift since the calibration, 1 sigma of what a reading is off by: at once, and more for every day since, for every
+   * degree from reference_degc, for every degree a minute. All 0: not stated, and nothing is allowed for. */
+  double stability_mps2, stability_per_day_mps2, stability_per_degc_mps2, stability_per_degc_per_min_mps2;
 } plumb_sensor;
 
 typedef struct plumb_config {
@@ -92,7 +95,7 @@ typedef struct plumb_config {
   double max_gap_s, max_age_s, station_angle_rad, excitation_angle_rad, clear_fraction;
   double alert_limit_rad, integrity_risk, fault_prior;
   double temperature_min_degc, temperature_max_degc;
-  double drift_bias_mps2, drift_scale, common_drift_mps2;
+  double days_since_calibration;
   double acceleration_bound_mps2; /* 0: a standstill is assumed */
 } plumb_config;
 
@@ -134,8 +137,10 @@ enum plumb_validity { PLUMB_INVALID, PLUMB_HELD, PLUMB_UNCONFIRMED, PLUMB_DEGRAD
 #define PLUMB_USABLE_TEMPERATURE 64u
 #define PLUMB_USABLE_CALIBRATION 128u
 #define PLUMB_USABLE_REFERENCE 256u
-/* A bit of `qualifiers`, the others are in plumb/health/state.hpp: no acceleration bound was stated. */
+/* Bits of `qualifiers`, the others are in plumb/health/state.hpp: no acceleration bound was stated; no stability was, of
+ * some sensor. */
 #define PLUMB_STANDSTILL_ASSUMED 256u
+#define PLUMB_STABILITY_UNSTATED 512u
 
 /* One change of state or of a set of sensors; sequence 0: nothing changed at this sample. */
 typedef struct plumb_transition {

@@ -67,9 +67,8 @@ struct FaultSetScan {
 
 /// What the protection level covers beside the separation of the live explanations.
 struct ProtectionTerms {
-  int faults = 1;                  ///< fault sets of at most so many members
-  double k_integrity = 0.0;        ///< sigmas of noise and calibration
-  double common_drift_mps2 = 0.0;  ///< bias that all sensors may share
+  int faults = 1;            ///< fault sets of at most so many members
+  double k_integrity = 0.0;  ///< sigmas of noise and calibration
 };
 
 class Isolation {
@@ -95,7 +94,7 @@ class Isolation {
   /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
   /// protection level is the largest separation from the estimate of `in_service` (solution
   /// separation; of those in service alone, too, where some are set aside) plus `k_integrity` sigmas of noise and
-  /// calibration, plus what a bias that all sensors share does to the direction, |(I - uu') H^+ 1| b / G.
+  /// calibration, plus the largest turn by errors within the block's tolerances (`tolerance_turn_rad`).
   /// For the asserted answer a fault set that leaves others than `witnesses`, or too few to be tested, stays alive.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                     const ProtectionTerms& protect, SensorSet witnesses = SensorSet::first(kCapacity)) const noexcept;

@@ -16,6 +16,8 @@ inline namespace PLUMB_ABI {
 /// Readings beyond this are held at it: large enough that nothing believes them, small enough that no square or sum of
 /// them overflows.
 inline constexpr double kReadingClamp_mps2 = 1e5;
+/// A tolerance beyond ten times gravity says no more than one of that size: the vector points anywhere.
+inline constexpr float kMostTolerance_mps2 = 100.0F;
 
 /// The evidence of a block: means of the readings and what their noise may be.
 struct BlockEvidence {
@@ -23,16 +25,23 @@ struct BlockEvidence {
   SensorSet usable;             ///< channels that delivered in at least half of the samples
   double samples = 0.0;         ///< N behind the mean
   double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
+  /// tau_i: largest error of the mean of sensor i beside noise and calibration, of either sign and whatever the others
+  /// err by: drift since the calibration. It enters every limit and the protection level as a bound, not as a variance.
+  std::array<float, kCapacity> tolerance_mps2{};
 
   bool plausible() const noexcept {
     for (const double mean : mean_mps2) {
       if (!(std::fabs(mean) <= 2.0 * kReadingClamp_mps2)) return false;  // twice: for the rounding of a mean
     }
+    for (const float tolerance : tolerance_mps2) {
+      if (!(tolerance >= 0.0F && tolerance <= kMostTolerance_mps2)) return false;
+    }
     return samples >= 0.0 && spread_mps2_sq >= 0.0;
   }
   static constexpr auto fields() noexcept {
     using E = BlockEvidence;
-    return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq);
+    return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq,
+                      per_sensor(&E::tolerance_mps2));
   }
 };
 
@@ -106,6 +115,18 @@ double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test,
 
 /// What the reading of sensor i adds to x, for a member of the tested set: a column of the least-squares map.
 Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexcept;
+
+/// What errors within the tolerances of the block can do to the residuals of a set, whatever their signs: to parity in
+/// standard deviations of the block mean, to the length in m/s^2. Zero where the set was not tested.
+struct ToleranceBound {
+  double parity = 0.0, norm_mps2 = 0.0;
+};
+ToleranceBound tolerance_bound(const SensorArray& array, const BlockEvidence& block, SensorSet set,
+                               const SetTest& test) noexcept;
+
+/// Largest turn of the estimate over the set by errors within the tolerances of the block, whatever their signs.
+double tolerance_turn_rad(const SensorArray& array, const BlockEvidence& block, SensorSet set,
+                          const SetTest& test) noexcept;
 
 /// How far the direction of what the sensors feel may be from that of gravity under any acceleration of at most
 /// `bound_mps2`: |a| <= A < G leaves g + a within asin(A / G) of g. pi from G on. G is taken 3 sigmas short.

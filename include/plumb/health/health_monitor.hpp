@@ -171,6 +171,7 @@ class HealthMonitor {
   BlockView judge(const BlockTests& tests) const noexcept;
   void judge_mae(const BlockTests& tests, BlockView& view) const noexcept;
   void note_block() noexcept;
+  void allow_for_drift(BlockEvidence& evidence) const noexcept;
   void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
@@ -249,6 +250,7 @@ class HealthMonitor {
   GravityReference gravity_;
   Mat3 frame_{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::array<float, kCapacity> resolution_mps2_{};
+  std::array<StabilityNow, kCapacity> stability_{};
   TestLimits limits_;
   double restless_factor_ = 0.0;
   double mae_quantile_ = 0.0;
@@ -271,7 +273,8 @@ class HealthMonitor {
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
   bool have_predictions_ = false;
-  bool configured_ = false;  ///< not remembered, but here is room for it
+  bool configured_ = false;        ///< not remembered, but here is room for it
+  bool stability_stated_ = false;  ///< of every sensor; not remembered either
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   Freshness freshness_;  ///< of the evidence
   SampleClock clock_;
@@ -372,7 +375,7 @@ class HealthMonitor {
     return field_list(
         // configured
         not_stored(&M::config_), &M::model_, not_stored(&M::coefficients_), &M::array_, &M::gravity_,
-        not_stored(&M::frame_), not_stored(&M::resolution_mps2_), not_stored(&M::limits_),
+        not_stored(&M::frame_), not_stored(&M::resolution_mps2_), not_stored(&M::stability_), not_stored(&M::limits_),
         not_stored(&M::restless_factor_), not_stored(&M::mae_quantile_), not_stored(&M::k_integrity_),
         not_stored(&M::protection_faults_), within(&M::asserted_left_, -1, 3), not_stored(&M::identity_),
         // remembered
@@ -381,17 +384,18 @@ class HealthMonitor {
         up_to(&M::reference_notice_, ReferenceKind::common_bias), &M::gravity_widened_mps2_,
         within(&M::live_, 0, kVotingCapacity), &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_,
         &M::readmitted_, &M::calibrated_, &M::unproven_, &M::exhausted_, &M::moving_, &M::temperature_out_,
-        &M::partial_, &M::have_evidence_, &M::have_predictions_, not_stored(&M::configured_), &M::evidence_time_s_,
-        &M::last_temperature_degc_, &M::freshness_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_,
-        &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
-        within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_), per_sensor(&M::least_prediction_),
-        per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_, &M::reset_sensors_, &M::reset_pending_,
-        up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause),
-        &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_, not_stored(&M::lever_arms_known_),
-        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_, &M::temperature_min_degc_,
-        &M::temperature_max_degc_, within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)),
-        per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
-        &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        &M::partial_, &M::have_evidence_, &M::have_predictions_, not_stored(&M::configured_),
+        not_stored(&M::stability_stated_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::freshness_, &M::clock_,
+        &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks),
+        &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_),
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_,
+        &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
+        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_,
+        &M::temperature_min_degc_, &M::temperature_max_degc_,
+        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
+        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
         &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
         &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),

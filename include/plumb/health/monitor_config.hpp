@@ -48,17 +48,9 @@ struct MonitorConfig {
   std::uint64_t reset_key = 0x706c756d62ULL;        ///< what `reset` must be called with
   double temperature_min_degc = -1e9;               ///< calibrated span; beyond it by > 5 degC output is unconfirmed
   double temperature_max_degc = 1e9;
-  /// How far a bias and a scale factor may have drifted since the commissioning calibration, 1 sigma: the prior of a
-  /// recalibration, and the unit of its bounds. Defaults: the yearly repeatability of a borehole servo accelerometer
-  /// with margin. MEMS need more.
-  double drift_bias_mps2 = 2e-3 * kG0_mps2;
-  double drift_scale = 5e-4;
   int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
   AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
   bool recalibrate_after_exclusion = false;      ///< estimate biases and scales anew once the survivors are trusted
-  /// Largest bias that all sensors may have taken on together since the calibration (heat, a common voltage reference).
-  /// No test sees it whole, so the protection level carries it. The default is a stated assumption, not a measured one.
-  double common_drift_mps2 = 1e-4 * kG0_mps2;
   /// Largest steady acceleration of the tool, in any direction. Gravity and a steady acceleration are one vector to
   /// every accelerometer: across gravity it changes the length by a^2 / 2 G only, which no test sees. 0: the tool
   /// stands still whenever its readings are quiet, and every verdict says that this was assumed (`standstill_assumed`).
@@ -76,10 +68,9 @@ struct MonitorConfig {
                       within(&C::max_age_samples, 0, kMostAgeSamples), &C::max_gap_s, &C::max_age_s,
                       &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction, &C::alert_limit_rad,
                       &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
-                      &C::temperature_max_degc, &C::drift_bias_mps2, &C::drift_scale,
-                      within(&C::patience_blocks, 0, kMostPatienceBlocks),
+                      &C::temperature_max_degc, within(&C::patience_blocks, 0, kMostPatienceBlocks),
                       up_to(&C::alarm_form, AlarmForm::average_tool), &C::recalibrate_after_exclusion,
-                      &C::common_drift_mps2, &C::acceleration_bound_mps2, &C::triple_false_alarm_rate);
+                      &C::acceleration_bound_mps2, &C::triple_false_alarm_rate);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/health/monitor_config.hpp"
+#include "plumb/health/stability.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -23,6 +24,10 @@ struct MonitorSetup {
   /// False: there is no calibration yet, the monitor makes its own (`set_datasheet`). Model and axes are then the
   /// datasheet's, and the array's uncertainty is how far a sensor may be from it, 1 sigma.
   bool calibrated = true;
+  std::array<Stability, kCapacity> stability{};  ///< how far each sensor may have drifted since the calibration
+  /// Since the calibration was made. The monitor has no calendar: the host passes it at every power-on. A snapshot does
+  /// not hold it.
+  double days_since_calibration = 0.0;
 };
 
 /// A monitor that is to calibrate itself: fills in model, array, ranges and codes, and says `calibrated = false`.
@@ -35,9 +40,10 @@ Expected<void> plausible(const GravityReference& gravity) noexcept;
 
 /// Checks a setup but for its configuration. Errors: too_few_sensors; not_calibrated; range_too_small; out_of_range
 /// (index = sensor whose sigma is too large beside the least, whose full scale or code is negative, or whose scale is
-/// 0); not_finite (index = sensor of whose coefficients, range, code or lever arm one is no number);
-/// implausible_gravity; frame_not_orthogonal; implausible where the uncertainty of the rows is no covariance, and where
-/// there is no calibration (index = sensor of whose bias, scale or axis the uncertainty is below
+/// 0); not_finite (index = sensor of whose coefficients, range, code, lever arm or stability one is no number);
+/// out_of_range of a stability (index = sensor) and of the days since the calibration (index -1), which must be 0 where
+/// there is none; implausible_gravity; frame_not_orthogonal; implausible where the uncertainty of the rows is no
+/// covariance, and where there is no calibration (index = sensor of whose bias, scale or axis the uncertainty is below
 /// `Recalibration::kLeastOpen` or beyond `Recalibration::kMostOpen`: value, limit); may_accelerate where there is no
 /// calibration and an acceleration is allowed for (value = the bound [m/s^2]).
 Expected<void> checked(const MonitorSetup& setup) noexcept;

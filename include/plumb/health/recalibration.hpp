@@ -20,13 +20,21 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// How far a sensor may have drifted since it was calibrated, 1 sigma.
+/// How far a sensor may have drifted since it was calibrated, 1 sigma. The defaults are for sensors whose stability
+/// nobody stated: the yearly repeatability of a borehole servo accelerometer with margin. MEMS need more.
 struct DriftSigmas {
   double bias_mps2 = 2e-3 * kG0_mps2;
   double scale = 5e-4;  ///< relative
 
   static constexpr auto fields() noexcept { return field_list(&DriftSigmas::bias_mps2, &DriftSigmas::scale); }
 };
+
+/// The same for every sensor.
+inline std::array<DriftSigmas, kCapacity> alike(const DriftSigmas& drift) noexcept {
+  std::array<DriftSigmas, kCapacity> out{};
+  out.fill(drift);
+  return out;
+}
 
 class Recalibration {
  public:
@@ -65,8 +73,8 @@ class Recalibration {
 
   /// Remembers the commissioning calibration. Empties everything. `first`: there is none, `commissioning` is the
   /// datasheet; the calibration that is adopted first becomes the commissioning one.
-  void configure(const SensorModel& commissioning, const DriftSigmas& drift, double same_attitude_rad,
-                 bool first = false) noexcept;
+  void configure(const SensorModel& commissioning, const std::array<DriftSigmas, kCapacity>& drift,
+                 double same_attitude_rad, bool first = false) noexcept;
 
   // ---- The store
   /// A block that was clean, of a station that has just begun or goes on. Ignored while a fit runs over the store.
@@ -182,7 +190,7 @@ class Recalibration {
   Vec3 wanted_direction(const SensorArray& array) const noexcept;
 
   StationStore store_;
-  DriftSigmas drift_;
+  std::array<DriftSigmas, kCapacity> drift_{};
   std::array<double, kCapacity> commissioned_scale_{}, commissioned_bias_mps2_{};
   std::array<double, kCapacity> length_{};      ///< fitted: new scale over the one in force
   std::array<double, kCapacity> shift_mps2_{};  ///< fitted: what is added to the bias, before the new scale

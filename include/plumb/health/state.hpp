@@ -89,6 +89,7 @@ struct Qualifier {
   static constexpr std::uint16_t inhibited = 128;  ///< the host froze exclusion and recalibration
   /// No acceleration bound was stated: vector, protection level and alert hold for a tool that does not accelerate.
   static constexpr std::uint16_t standstill_assumed = 256;
+  static constexpr std::uint16_t stability_unstated = 512;  ///< of some sensor: no limit holds its drift
 };
 
 /// Grade of an exclusion (design, section 4).

@@ -25,14 +25,26 @@ class TemperatureRate {
       young_ = {time_s, temperature_degc};
     }
     const double span_s = time_s - old_.time_s;
+    known_long_enough_ = known_long_enough_ || span_s >= kSpan_s;
     const double rate = span_s >= kSpan_s ? 60.0 * (temperature_degc - old_.temperature_degc) / span_s : 0.0;
     degc_per_min_ = std::fmax(-kTold, std::fmin(kTold, rate));
+    lag_degc_per_min_ = std::fmax(std::fabs(degc_per_min_), kept(time_s) * lag_degc_per_min_);
+    lag_time_s_ = time_s;
   }
   double degc_per_min() const noexcept { return degc_per_min_; }  ///< 0 = not known yet
+  /// What a lag behind the thermometer goes by: the largest rate so far, forgotten as a lag of two minutes is; until a
+  /// rate is known, the largest at which compensation is trusted.
+  double lag_degc_per_min() const noexcept { return known_long_enough_ ? lag_degc_per_min_ : kMost_degc_per_min; }
   bool slow() const noexcept { return std::fabs(degc_per_min_) <= kMost_degc_per_min; }
 
  private:
   static constexpr double kTold = 1e6;  ///< a broken thermometer gives no infinity
+  static constexpr double kLag_s = 120.0;
+  /// Of a lag, what is left since the last block: no less than exp(-t / kLag_s), and no exponential.
+  double kept(double time_s) const noexcept {
+    const double span = (time_s - lag_time_s_) / kLag_s;
+    return span > 0.0 ? 1.0 / (1.0 + span) : 1.0;
+  }
   struct Mark {
     double time_s = 0.0;
     double temperature_degc = 0.0;
@@ -40,12 +52,14 @@ class TemperatureRate {
   };
   Mark old_, young_;
   double degc_per_min_ = 0.0;
-  bool known_ = false;
+  double lag_degc_per_min_ = 0.0, lag_time_s_ = 0.0;
+  bool known_ = false, known_long_enough_ = false;
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using T = TemperatureRate;
-    return field_list(&T::old_, &T::young_, &T::degc_per_min_, &T::known_);
+    return field_list(&T::old_, &T::young_, &T::degc_per_min_, &T::lag_degc_per_min_, &T::lag_time_s_, &T::known_,
+                      &T::known_long_enough_);
   }
 };
 
