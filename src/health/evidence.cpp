@@ -117,7 +117,8 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
   }
   if (accuses) {
     const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
-    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
+    aside_ =
+        ((by_parity && may_convict(answer_.parity) ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
     if (!aside_.empty() && rank_of(array_, in_service_ - aside_) == 3) raised |= bit(HealthEvent::set_aside);
   }
   if (view.kind != Kind::reference && patience_is_over()) raised |= bit(HealthEvent::patience_over);
@@ -127,8 +128,9 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
     const HealthEvent event = answer_.contradiction || refuted ? HealthEvent::contradiction : HealthEvent::alarm;
     if (!expected(event)) raised |= bit(event);
   }
+  if (check_.refused() && !expected(HealthEvent::contradiction)) raised |= bit(HealthEvent::contradiction);
   if (view.kind == Kind::reference && !expected(HealthEvent::reference)) raised |= bit(HealthEvent::reference);
-  if (view.kind == Kind::clean) raised |= bit(HealthEvent::clean_block);
+  if (view.kind == Kind::clean && !check_.refused()) raised |= bit(HealthEvent::clean_block);
   if (!on_probation_.empty() && probation_.size() >= config_.probation_stations)
     raised |= bit(HealthEvent::probation_passed);
   return raised;
@@ -180,6 +182,7 @@ void HealthMonitor::allow_for_drift(BlockEvidence& evidence) const noexcept {
     const auto a = static_cast<size_t>(i);
     const double away_degc = last_temperature_degc_ - model_.sensor[a].reference_degc;
     evidence.tolerance_mps2[a] = stability_[a].tolerance_mps2(away_degc, temperature_rate_.lag_degc_per_min());
+    evidence.tolerance_mps2[a] = std::fmin(evidence.tolerance_mps2[a] + check_.tolerance_mps2(), kMostTolerance_mps2);
   }
 }
 
@@ -243,10 +246,12 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   count_clean(tests, view);
   rescan(tests);
   count_unbounded(view);
+  check_calibration();
   examine_probation(tests, view);
   study_reference(view);
   if (view.kind == Kind::clean && !owes_calibration())
     trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
+  if (check_.refused()) verdict_.cause = Cause::calibration_contradicted;
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);

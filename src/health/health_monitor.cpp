@@ -141,6 +141,8 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   gravity_widened_mps2_ = 0.0;
   scatter_.clear();
   reference_study_.clear();
+  check_.clear();
+  calibration_notice_ = false;
   trend_.clear();
   temperature_rate_.clear();
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
@@ -194,6 +196,7 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   isolation_.clear();
   answer_ = IsolationAnswer{};
   reference_study_.clear();
+  check_.forget_readings();
   episode_.take_back();
   seal();
   return {};
@@ -355,7 +358,7 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
   return arrival != Arrival::in_order || gate.gap || block_.size() >= config_.window ||
          silence_.is_due(config_.window) || fits || reset_pending_ || pending_ != 0 ||
          !((gate_.lost() & array_.all()) - absent_).empty() || !(gate_.back() & absent_).empty() || inhibit_notice_ ||
-         reference_notice_ != ReferenceKind::none || news();
+         reference_notice_ != ReferenceKind::none || calibration_notice_ || news();
 }
 
 /// The row that ends a block may be the first of another attitude: the block's vector is held against it, too. Apart

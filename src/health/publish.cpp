@@ -57,6 +57,9 @@ void HealthMonitor::give_notice(double time_s) noexcept {
   if (inhibit_notice_) {
     cause = inhibited_ ? Cause::inhibited : Cause::released;
     inhibit_notice_ = false;
+  } else if (calibration_notice_) {
+    cause = Cause::calibration_contradicted;
+    calibration_notice_ = false;
   } else if (reference_notice_ != ReferenceKind::none) {
     cause = reference_notice_ == ReferenceKind::common_scale ? Cause::common_scale : Cause::common_bias;
     reference_notice_ = ReferenceKind::none;

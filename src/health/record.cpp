@@ -125,6 +125,7 @@ void HealthMonitor::count_doubt(const BlockView& view) noexcept {
 
 bool HealthMonitor::patience_is_over() const noexcept {
   if (mode_ != Mode::suspect && mode_ != Mode::recalibrating) return false;
+  if (check_.rests()) return false;  // nobody is accused of it
   const bool over = episode_.stations.size() >= config_.patience ||
                     (config_.patience_blocks > 0 && episode_.doubtful_blocks >= config_.patience_blocks);
   return over && (!exhausted_ || unbounded_run_ >= config_.clean_blocks);
@@ -173,7 +174,8 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
 
 SensorSet HealthMonitor::culprits() const noexcept {
   const SensorSet posed = isolation_.posed();
-  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_)
+  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_ &&
+      may_convict(scan_.asserted))
     return scan_.asserted;
   if (isolation_.strict_grade() < 1 || episode_.candidate.empty()) return {};
   const int survivors = (posed - episode_.candidate).size();
@@ -181,7 +183,8 @@ SensorSet HealthMonitor::culprits() const noexcept {
   if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
   if (episode_.by_scatter && isolation_.parity_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
   if (episode_.by_scatter && needed < 2) needed = 2;                     // at one station its scatter may be a push
-  return episode_.agreeing.size() >= needed ? episode_.candidate : SensorSet{};
+  const bool agreed = episode_.agreeing.size() >= needed && may_convict(episode_.candidate);
+  return agreed ? episode_.candidate : SensorSet{};
 }
 
 void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& view) noexcept {

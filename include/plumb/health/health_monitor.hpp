@@ -13,6 +13,7 @@
 #include "plumb/detection/isolation.hpp"
 #include "plumb/detection/near_lengths.hpp"
 #include "plumb/detection/stationarity.hpp"
+#include "plumb/health/calibration_check.hpp"
 #include "plumb/health/decision.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/freshness.hpp"
@@ -185,6 +186,10 @@ class HealthMonitor {
   void name_causes(SensorSet named, Cause cause) noexcept;
   SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
 
+  // check_calibration.cpp: the calibration's first attitudes
+  void check_calibration() noexcept;
+  bool may_convict(SensorSet culprits) const noexcept;
+
   // gravity_finding.cpp: the length of gravity
   void study_reference(const BlockView& view) noexcept;
   void tell_reference(bool trusted) noexcept;
@@ -302,7 +307,7 @@ class HealthMonitor {
   bool three_sensor_fit_ = false;
   bool lever_arms_known_ = false;  // beside other single bytes: here they cost no room
   Flag rotation_locked_;
-  bool inhibited_ = false, inhibit_notice_ = false;
+  bool inhibited_ = false, inhibit_notice_ = false, calibration_notice_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
   /// Calibrated span: as configured, else that of the stations of the monitor's own calibration.
   double temperature_min_degc_ = 0.0, temperature_max_degc_ = 0.0;
@@ -322,6 +327,7 @@ class HealthMonitor {
   // Evidence.
   ScatterRecord scatter_;
   ReferenceStudy reference_study_;
+  CalibrationCheck check_;
   Trend trend_;
   TemperatureRate temperature_rate_;
   ChannelMonitor gate_;
@@ -391,14 +397,14 @@ class HealthMonitor {
         per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_,
         &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
         up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
-        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_,
-        &M::temperature_min_degc_, &M::temperature_max_degc_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        &M::calibration_notice_, &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
         within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
         per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
         &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
-        &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
-        &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
+        &M::scatter_, &M::reference_study_, &M::check_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_,
+        &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
 #if PLUMB_SINGLE
         not_stored(&M::near_),
 #endif

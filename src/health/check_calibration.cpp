@@ -1,0 +1,29 @@
+// Whether the calibration keeps its word: before it is believed nobody is convicted by it.
+#include "block_view.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// One attitude more. With it the calibration may be believed, or contradicted: then what was held against single
+/// sensors is forgotten, for it rested on limits that do not hold.
+[[gnu::noinline]] void HealthMonitor::check_calibration() noexcept {
+  if (!check_.open() || check_.refused() || owes_calibration() || mode_ == Mode::failed) return;
+  if (!check_.add(station_.direction, evidence_, config_.excitation_angle_rad)) return;
+  const CalibrationCheck::Terms terms{array_, gravity_, limits_};
+  const SensorSet posed = isolation_.posed();
+  if (!episode_.open && !unproven_) check_.corroborate(terms, posed);
+  if (!check_.open() || !check_.contradict(terms, posed, isolation_.strict_grade())) return;
+  forget_episode();
+  clean_run_ = 0;
+  verdict_.calibration = check_.finding();
+  calibration_notice_ = true;
+}
+
+/// Until the calibration is believed a sensor is convicted only if the others agree at every attitude on record.
+bool HealthMonitor::may_convict(SensorSet culprits) const noexcept {
+  if (!check_.open()) return true;
+  return !check_.refused() && check_.vouches({array_, gravity_, limits_}, isolation_.posed() - culprits);
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb
