@@ -18,7 +18,10 @@ using std::size_t;
 /// deviation stated a tenth of what it is gives 30 to 100.
 constexpr double kConsistent = 6.0;
 /// Degrees of freedom below which chance decides.
-constexpr int kLeastDegrees = 5;
+constexpr int kLeastDegrees = 6;
+/// Attitudes below which nobody is convicted, however many degrees of freedom they have: of many sensors there are many
+/// sets that might be innocent by chance.
+constexpr int kLeastVouching = 4;
 /// What is learned explains its own attitudes to the noise, and leaves as much again for others.
 constexpr double kExplained = 1.5;
 constexpr double kLearnedFactor = 2.0;
@@ -95,16 +98,18 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
   mean = std::fmax(-most_mps2, std::fmin(most_mps2, mean / weights));
   for (size_t n = 0; n < at(lengths); ++n) out.sum += square(beyond(std::fabs(off[n] - mean), hard[n]) / sigma[n]);
   out.degrees += lengths - 1;
+  out.attitudes = lengths;
   return out;
 }
 
 bool CalibrationCheck::vouches(const Terms& terms, SensorSet set) const noexcept {
   const Fit found = fit(terms, set, 0.0);
-  return found.degrees >= kLeastDegrees && found.consistent();
+  return found.attitudes >= kLeastVouching && found.degrees >= kLeastDegrees && found.consistent();
 }
 
 void CalibrationCheck::corroborate(const Terms& terms, SensorSet posed) noexcept {
-  corroborated_ = vouches(terms, posed);
+  const Fit found = fit(terms, posed, 0.0);
+  corroborated_ = found.degrees >= kLeastDegrees && found.consistent();
 }
 
 double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept {

@@ -6,12 +6,14 @@ inline namespace PLUMB_ABI {
 
 /// One attitude more. With it the calibration may be believed, or contradicted: then what was held against single
 /// sensors is forgotten, for it rested on limits that do not hold.
-[[gnu::noinline]] void HealthMonitor::check_calibration() noexcept {
+[[gnu::noinline]] void HealthMonitor::check_calibration(const BlockView& view) noexcept {
+  if (isolation_.strict_grade() < 1) return;  // three sensors: what is wrong with one is wrong with all
   if (!check_.open() || check_.refused() || owes_calibration() || mode_ == Mode::failed) return;
+  check_.count(view.kind == BlockView::Kind::clean);
   if (!check_.add(station_.direction, evidence_, config_.excitation_angle_rad)) return;
   const CalibrationCheck::Terms terms{array_, gravity_, limits_};
   const SensorSet posed = isolation_.posed();
-  if (!episode_.open && !unproven_) check_.corroborate(terms, posed);
+  if (!episode_.open) check_.corroborate(terms, posed);
   if (!check_.open() || !check_.contradict(terms, posed, isolation_.strict_grade())) return;
   forget_episode();
   clean_run_ = 0;

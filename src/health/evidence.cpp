@@ -243,10 +243,10 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   follow_station(sample, pose.tested ? pose : view.used);
   if (episode_.open && view.kind != Kind::reference) vote(tests);
   count_doubt(view);
+  check_calibration(view);
   count_clean(tests, view);
   rescan(tests);
   count_unbounded(view);
-  check_calibration();
   examine_probation(tests, view);
   study_reference(view);
   if (view.kind == Kind::clean && !owes_calibration())

@@ -125,8 +125,10 @@ void HealthMonitor::count_doubt(const BlockView& view) noexcept {
 
 bool HealthMonitor::patience_is_over() const noexcept {
   if (mode_ != Mode::suspect && mode_ != Mode::recalibrating) return false;
-  if (check_.rests()) return false;  // nobody is accused of it
-  const bool over = episode_.stations.size() >= config_.patience ||
+  // Of a calibration that is wrong nobody is accused; and while its check may still tell, attitudes do not count.
+  if (check_.refused()) return false;
+  const bool gathers = check_.gathers() && isolation_.strict_grade() >= 1;
+  const bool over = (!gathers && episode_.stations.size() >= config_.patience) ||
                     (config_.patience_blocks > 0 && episode_.doubtful_blocks >= config_.patience_blocks);
   return over && (!exhausted_ || unbounded_run_ >= config_.clean_blocks);
 }
@@ -161,7 +163,8 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
       if (!(static_cast<double>(most_prediction_[a] - least_prediction_[a]) >= proving_change_mps2(i))) moved = false;
     }
     have_predictions_ = true;
-    if (moved && clean_run_ >= config_.clean_blocks) unproven_ = false;
+    const bool believed = isolation_.strict_grade() < 1 || check_.believed();
+    if (moved && believed && clean_run_ >= config_.clean_blocks) unproven_ = false;
   }
   // While a sensor is set aside the episode ends only when it, too, agrees again.
   const SensorSet posed = isolation_.posed() & evidence_.usable;

@@ -37,8 +37,8 @@ inline constexpr double kMostLearnedTolerance_mps2 = 4e-3 * kG0_mps2;
 
 class CalibrationCheck {
  public:
-  /// Six attitudes leave three sensors, whose length alone is checked, five degrees of freedom.
-  static constexpr int kLeast = 6;
+  /// Seven attitudes leave three sensors, whose length alone is checked, six degrees of freedom.
+  static constexpr int kLeast = 7;
   static constexpr int kMost = CalibrationFinding::kMostAttitudes;
 
   /// What the readings are tested with.
@@ -54,8 +54,13 @@ class CalibrationCheck {
 
   bool open() const noexcept { return !corroborated_; }
   bool refused() const noexcept { return finding_.refused; }
-  /// Patience rests: of what is wrong nobody is accused, or the attitudes are too few to accuse anybody.
-  bool rests() const noexcept { return refused() || (open() && size_ < kLeast); }
+  /// One block more, clean or not. Where so many in a row are clean the tool shows no more attitudes than it has, and
+  /// what it is trusted for is those.
+  static constexpr int kBelieved = 12;
+  void count(bool clean) noexcept { clean_run_ = !clean ? 0 : clean_run_ < kBelieved ? clean_run_ + 1 : kBelieved; }
+  bool believed() const noexcept { return !gathers() || clean_run_ == kBelieved; }
+  /// There are attitudes to come that may tell.
+  bool gathers() const noexcept { return open() && size_ < kMost; }
   const CalibrationFinding& finding() const noexcept { return finding_; }
   float tolerance_mps2() const noexcept { return static_cast<float>(finding_.tolerance_mps2); }
 
@@ -86,13 +91,14 @@ class CalibrationCheck {
   };
   struct Fit {
     double sum = 0.0;  ///< of squares, each 1 on average where noise and covariance are true
-    int degrees = 0;
+    int degrees = 0, attitudes = 0;
     bool consistent() const noexcept;
   };
   Fit fit(const Terms& terms, SensorSet set, double tolerance_mps2) const noexcept;
   double least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept;
 
   bool corroborated_ = false;
+  int clean_run_ = 0;
   int size_ = 0;
   std::array<Entry, kMost> entry_{};
   CalibrationFinding finding_;
@@ -101,7 +107,8 @@ class CalibrationCheck {
   int size() const noexcept { return size_; }
   static constexpr auto fields() noexcept {
     using C = CalibrationCheck;
-    return field_list(&C::corroborated_, within(&C::size_, 0, kMost), counted(&C::entry_, &C::size), &C::finding_);
+    return field_list(&C::corroborated_, within(&C::clean_run_, 0, kBelieved), within(&C::size_, 0, kMost),
+                      counted(&C::entry_, &C::size), &C::finding_);
   }
 };
 
