@@ -124,7 +124,9 @@ bool CalibrationCheck::contradict(const Terms& terms, SensorSet posed, int grade
   if (size_ < kLeast || refused()) return false;
   const Fit all = fit(terms, posed, 0.0);
   if (all.consistent()) return false;
-  const int depth = grade < kScanDepth ? grade : kScanDepth;
+  // Contradicted once, it is likelier to be so again than for a sensor to have failed meanwhile.
+  const int most = finding_.contradicted ? 0 : grade;
+  const int depth = most < kScanDepth ? most : kScanDepth;
   const SensorSet every = terms.array.all();
   for (int size = 1; size <= depth; ++size) {
     for (SensorSet f = SensorSet::first(size); every.contains(f); f = next_of_same_size(f)) {

@@ -21,10 +21,11 @@ inline namespace PLUMB_ABI {
   calibration_notice_ = true;
 }
 
-/// Until the calibration is believed a sensor is convicted only if the others agree at every attitude on record.
+/// Until the calibration is believed a sensor is convicted only if the others agree at every attitude on record; once
+/// it has been contradicted, by no evidence: that rests on what was learned a moment ago.
 bool HealthMonitor::may_convict(SensorSet culprits) const noexcept {
   if (!check_.open()) return true;
-  return !check_.refused() && check_.vouches({array_, gravity_, limits_}, isolation_.posed() - culprits);
+  return !check_.finding().contradicted && check_.vouches({array_, gravity_, limits_}, isolation_.posed() - culprits);
 }
 
 }  // namespace PLUMB_ABI

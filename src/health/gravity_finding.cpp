@@ -34,8 +34,9 @@ void HealthMonitor::study_reference(const BlockView& view) noexcept {
     if (config_.alarm_form == AlarmForm::average_tool) bound += limits_.acceleration_mps2;
     const bool one_length = reference_study_.agrees(view.used.norm_error_mps2, bound);
     if (!one_length && (trusted || told_reference_ == ReferenceKind::none)) reference_study_.clear();
-    if (used == in_service_ && reference_study_.add(view.used.x_mps2, view.used.norm_error_mps2, bound,
-                                                    kStudyAngles * config_.excitation_angle_rad)) {
+    if (used == in_service_ &&
+        reference_study_.add(view.used.x_mps2, view.used.norm_error_mps2, bound,
+                             kStudyAngles * config_.excitation_angle_rad, limits_.reject[1] * sigma)) {
       news = true;
     }
   }

@@ -58,17 +58,21 @@ class ReferenceStudy {
   bool empty() const noexcept { return size_ == 0; }
   /// `bound_mps2`: largest error of |x| - G that noise and calibration explain. An attitude nearer than `apart_rad` to
   /// one on record is not news: true where it was.
-  bool add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad) noexcept;
+  /// `noise_mps2`: the part of the bound that is noise, and averages away over the attitudes.
+  bool add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad,
+           double noise_mps2 = 0.0) noexcept;
   /// `gravity_bound_mps2`: largest credible error of the gravity reference. `usable_rad`: turn that the user can bear.
   ReferenceFinding find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
 
  private:
   struct Entry {
     Vec3 u{};
-    double off_mps2 = 0.0, bound_mps2 = 0.0;
+    double off_mps2 = 0.0, bound_mps2 = 0.0, noise_mps2 = 0.0;
 
     bool plausible() const noexcept { return bound_mps2 > 0.0; }
-    static constexpr auto fields() noexcept { return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2); }
+    static constexpr auto fields() noexcept {
+      return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2, &Entry::noise_mps2);
+    }
   };
   int size_ = 0;
   std::array<Entry, kMax> entry_{};
