@@ -17,6 +17,13 @@ using std::size_t;
 /// errors that the covariance admits leave one tool in a hundred beyond 6.6 however few of them there are; a standard
 /// deviation stated a tenth of what it is gives 30 to 100.
 constexpr double kConsistent = 6.0;
+/// Who speaks against others has to agree better: one set in many does so by chance.
+constexpr double kVouching = 4.0;
+/// More faults than this at once are rarer than a wrong covariance: they have to explain what is on record all the
+/// better.
+constexpr double kVouchingFew = 2.5;
+/// Arrays of up to so many sensors are searched for every fault set of their grade.
+constexpr int kSearched = 8;
 /// Degrees of freedom below which chance decides.
 constexpr int kLeastDegrees = 6;
 /// Attitudes below which nobody is convicted, however many degrees of freedom they have: of many sensors there are many
@@ -34,7 +41,7 @@ double beyond(double x, double bound) noexcept { return std::fmax(0.0, x - bound
 
 }  // namespace
 
-bool CalibrationCheck::Fit::consistent() const noexcept { return sum <= kConsistent * degrees; }
+bool CalibrationCheck::Fit::within(double mean_square) const noexcept { return sum <= mean_square * degrees; }
 
 bool CalibrationCheck::add(const Vec3& direction, const BlockEvidence& block, double apart_rad) noexcept {
   const double length = norm(direction);
@@ -104,18 +111,18 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
 
 bool CalibrationCheck::vouches(const Terms& terms, SensorSet set) const noexcept {
   const Fit found = fit(terms, set, 0.0);
-  return found.attitudes >= kLeastVouching && found.degrees >= kLeastDegrees && found.consistent();
+  return found.attitudes >= kLeastVouching && found.degrees >= kLeastDegrees && found.within(kVouching);
 }
 
 void CalibrationCheck::corroborate(const Terms& terms, SensorSet posed) noexcept {
   const Fit found = fit(terms, posed, 0.0);
-  corroborated_ = found.degrees >= kLeastDegrees && found.consistent();
+  corroborated_ = found.degrees >= kLeastDegrees && found.within(kConsistent);
 }
 
 double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept {
   for (double tau = kFinestTolerance_mps2; kLearnedFactor * tau <= kMostLearnedTolerance_mps2; tau *= 2.0) {
     const Fit found = fit(terms, posed, tau);
-    if (found.sum <= kExplained * found.degrees) return tau;
+    if (found.within(kExplained)) return tau;
   }
   return 0.0;
 }
@@ -123,17 +130,18 @@ double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet pose
 bool CalibrationCheck::contradict(const Terms& terms, SensorSet posed, int grade) noexcept {
   if (size_ < kLeast || refused()) return false;
   const Fit all = fit(terms, posed, 0.0);
-  if (all.consistent()) return false;
+  if (all.within(kConsistent)) return false;
   // Contradicted once, it is likelier to be so again than for a sensor to have failed meanwhile.
   const int most = finding_.contradicted ? 0 : grade;
-  const int depth = most < kScanDepth ? most : kScanDepth;
+  const bool all_sizes = most < kScanDepth || terms.array.size() <= kSearched;
+  const int depth = all_sizes ? most : kScanDepth;
   const SensorSet every = terms.array.all();
   for (int size = 1; size <= depth; ++size) {
     for (SensorSet f = SensorSet::first(size); every.contains(f); f = next_of_same_size(f)) {
       if (!posed.contains(f)) continue;
       const Fit rest = fit(terms, posed - f, 0.0);
       // Too few attitudes at which the rest delivered refute nothing.
-      if (rest.degrees < kLeastDegrees || rest.consistent()) return false;
+      if (rest.degrees < kLeastDegrees || rest.within(size > kScanDepth ? kVouchingFew : kVouching)) return false;
     }
   }
   finding_.contradicted = true;

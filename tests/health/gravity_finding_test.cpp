@@ -58,11 +58,11 @@ TEST(GravityFinding, AnOffsetBelowEveryLimitIsToldOverManyAttitudes) {
   rig.restart();
   rig.prove();
   Noise noise(5);
-  const Verdict& v = visit(rig, noise, 24, 0.14);
+  const Verdict& v = visit(rig, noise, 14, 0.115);
   for (const TransitionRecord& r : rig.records)
     EXPECT_NE(r.event, HealthEvent::reference) << "no block is beyond its limit";
   EXPECT_EQ(v.reference.kind, ReferenceKind::common_scale);
-  EXPECT_NEAR(v.reference.length_mps2, 0.14 * kMilligee_mps2, v.reference.length_bound_mps2);
+  EXPECT_NEAR(v.reference.length_mps2, 0.115 * kMilligee_mps2, v.reference.length_bound_mps2);
 }
 
 // Negative: REQ-069

@@ -92,7 +92,7 @@ class CalibrationCheck {
   struct Fit {
     double sum = 0.0;  ///< of squares, each 1 on average where noise and covariance are true
     int degrees = 0, attitudes = 0;
-    bool consistent() const noexcept;
+    bool within(double mean_square) const noexcept;
   };
   Fit fit(const Terms& terms, SensorSet set, double tolerance_mps2) const noexcept;
   double least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept;
