@@ -186,15 +186,6 @@ void HealthMonitor::allow_for_drift(BlockEvidence& evidence) const noexcept {
   }
 }
 
-void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
-  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
-  if (bounded) {
-    unbounded_run_ = 0;
-  } else if (view.kind != BlockView::Kind::reference && unbounded_run_ < config_.clean_blocks) {
-    ++unbounded_run_;
-  }
-}
-
 EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
@@ -221,6 +212,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
     mae_.clear();
     leave_station();
+    rest_.clear();
     return 0;
   }
   evidence_ = judged.evidence;
@@ -245,8 +237,10 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   count_doubt(view);
   check_calibration(view);
   count_clean(tests, view);
+  rest_.follow(array_, evidence_);
+  if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
   rescan(tests);
-  count_unbounded(view);
+  count_unbounded(tests, view);
   examine_probation(tests, view);
   study_reference(view);
   if (view.kind == Kind::clean && !owes_calibration())

@@ -159,6 +159,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   isolation_.pose(array_, in_service_);
   episode_.clear();
   station_.clear();
+  rest_.clear();
   map_ = least_squares(array_, in_service_);
   evidence_ = BlockEvidence{};
   answer_ = IsolationAnswer{};
@@ -245,6 +246,7 @@ void HealthMonitor::empty_windows() noexcept {
   raw_.clear();
   mae_.clear();
   leave_station();
+  rest_.clear();
 }
 
 /// The sample is refused and the windows stay as they are; what was valid is now only held.
