@@ -42,7 +42,7 @@ bool noticed(const Rig& rig) {
   return false;
 }
 
-// Verifies: REQ-049
+// Verifies: REQ-041
 TEST(CalibrationCheck, ACovarianceOfZeroThatIsNotTrueIsToldAndNobodyIsConvictedByIt) {
   int told = 0, valid = 0;
   constexpr int kTools = 60;
@@ -70,7 +70,7 @@ TEST(CalibrationCheck, ACovarianceOfZeroThatIsNotTrueIsToldAndNobodyIsConvictedB
   EXPECT_GE(valid, told * 8 / 10) << "widened, the tool is of use";
 }
 
-// Verifies: REQ-049
+// Verifies: REQ-041
 TEST(CalibrationCheck, WidenedTheOutputKeepsItsProtectionLevel) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Rig rig(array_of(6), {}, seed);
@@ -88,7 +88,7 @@ TEST(CalibrationCheck, WidenedTheOutputKeepsItsProtectionLevel) {
   }
 }
 
-// Negative: REQ-049
+// Negative: REQ-041
 TEST(CalibrationCheck, AFaultFromPowerOnIsFoundAndTheCalibrationIsNotBlamed) {
   for (const int n : {4, 5, 6}) {
     for (const double fault_mg : {5.0, 30.0, 500.0}) {
@@ -105,7 +105,7 @@ TEST(CalibrationCheck, AFaultFromPowerOnIsFoundAndTheCalibrationIsNotBlamed) {
   }
 }
 
-// Negative: REQ-049
+// Negative: REQ-041
 TEST(CalibrationCheck, NobodyIsConvictedAtTheFirstThreeAttitudes) {
   Rig rig(array_of(6));
   Noise noise(7);
@@ -117,7 +117,7 @@ TEST(CalibrationCheck, NobodyIsConvictedAtTheFirstThreeAttitudes) {
   }
 }
 
-// Negative: REQ-049
+// Negative: REQ-041
 TEST(CalibrationCheck, HealthyToolsAreNotTold) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const int n = 4 + static_cast<int>(seed % 5);
@@ -130,7 +130,7 @@ TEST(CalibrationCheck, HealthyToolsAreNotTold) {
   }
 }
 
-// Verifies: REQ-049
+// Verifies: REQ-041
 TEST(CalibrationCheck, CoefficientsOfOtherSensorsAreRefusedAndTheToolIsNotFailed) {
   for (const int n : {4, 6}) {
     Rig rig(array_of(n));
@@ -152,7 +152,7 @@ TEST(CalibrationCheck, CoefficientsOfOtherSensorsAreRefusedAndTheToolIsNotFailed
   }
 }
 
-// Verifies: REQ-049
+// Verifies: REQ-041
 TEST(CalibrationCheck, WhatWasLearntOutlivesAPowerCycle) {
   Rig rig(array_of(6));
   Noise noise(5);

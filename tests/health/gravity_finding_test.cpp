@@ -24,7 +24,7 @@ const Verdict& visit(Rig& rig, Noise& noise, int attitudes, double off_mg) {
   return rig.monitor.verdict();
 }
 
-// Verifies: REQ-069
+// Verifies: REQ-063
 TEST(GravityFinding, IsToldWithTheValueToConfigureAndTheToolIsOfUseAgain) {
   for (const int n : {4, 5, 6}) {
     for (const double off_mg : {-2.7, -1.0, 0.8, 2.7, 8.0}) {
@@ -51,7 +51,7 @@ TEST(GravityFinding, IsToldWithTheValueToConfigureAndTheToolIsOfUseAgain) {
 }
 
 /// Within the limit of every block, and beyond three sigma of the stated gravity.
-// Verifies: REQ-069
+// Verifies: REQ-063
 TEST(GravityFinding, AnOffsetBelowEveryLimitIsToldOverManyAttitudes) {
   Rig rig(array_of(6));
   rig.setup.gravity.sigma_mps2 = 2e-5 * kG0_mps2;
@@ -65,7 +65,7 @@ TEST(GravityFinding, AnOffsetBelowEveryLimitIsToldOverManyAttitudes) {
   EXPECT_NEAR(v.reference.length_mps2, 0.115 * kMilligee_mps2, v.reference.length_bound_mps2);
 }
 
-// Negative: REQ-069
+// Negative: REQ-063
 TEST(GravityFinding, WithinThreeSigmaNothingIsTold) {
   for (const double off_mg : {-0.3, 0.0, 0.3}) {
     Rig rig(array_of(6));
@@ -79,7 +79,7 @@ TEST(GravityFinding, WithinThreeSigmaNothingIsTold) {
 }
 
 /// Too far off, fewer sensors than the array has, an acceleration that may be it, a fault on record.
-// Negative: REQ-069
+// Negative: REQ-063
 TEST(GravityFinding, IsNotWidenedWhereNotEverySensorVouchesForIt) {
   const auto widened = [](Rig& rig, double off_mg) {
     Noise noise(5);
@@ -109,7 +109,7 @@ TEST(GravityFinding, IsNotWidenedWhereNotEverySensorVouchesForIt) {
   EXPECT_FALSE(widened(faulty, 2.7));
 }
 
-// Verifies: REQ-069
+// Verifies: REQ-063
 TEST(GravityFinding, AFaultThatComesBehindItIsIsolatedAndNotFailed) {
   int isolated = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -126,7 +126,7 @@ TEST(GravityFinding, AFaultThatComesBehindItIsIsolatedAndNotFailed) {
   EXPECT_GE(isolated, 18);
 }
 
-// Verifies: REQ-069
+// Verifies: REQ-063
 TEST(GravityFinding, OutlivesAPowerCycle) {
   Rig rig(array_of(6));
   rig.prove();
