@@ -235,7 +235,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   follow_station(sample, pose.tested ? pose : view.used);
   if (episode_.open && view.kind != Kind::reference) vote(tests);
   count_doubt(view);
-  check_calibration(view);
+  const bool contradicted = check_calibration(view);
   count_clean(tests, view);
   rest_.follow(array_, evidence_);
   if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
@@ -250,6 +250,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   collect(view, raw, raised);
   publish_vector(tests);
   freshness_.anchor(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
+  if (contradicted) freshness_.lapse();
   return raised;
 }
 

@@ -104,6 +104,9 @@ Validity HealthMonitor::validity() const noexcept {
   if (mode == Mode::degraded) return Validity::degraded;
   // The length itself is in doubt: by it, and by nothing else, some explanations are taken for inconsistent.
   if (mode == Mode::suspect && suspicion_ == Cause::reference) return Validity::unconfirmed;
+  // Bounds rest on the calibration, and that has not been borne out yet.
+  const bool believed = isolation_.strict_grade() < 1 || check_.believed();
+  if (check_.refused() || (episode_.open && !believed)) return Validity::unconfirmed;
   // An array that cannot bear another fault beside the suspected one has to have been at rest since before.
   if (!scan_.bears_more && !rest_.holds()) return Validity::unconfirmed;
   const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;

@@ -187,7 +187,7 @@ class HealthMonitor {
   SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
 
   // check_calibration.cpp: the calibration's first attitudes
-  void check_calibration(const BlockView& view) noexcept;
+  bool check_calibration(const BlockView& view) noexcept;
   bool may_convict(SensorSet culprits) const noexcept;
 
   // gravity_finding.cpp: the length of gravity
