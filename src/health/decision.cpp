@@ -146,6 +146,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const Mode from = mode_;
   const double statistic = verdict_.statistic, limit = verdict_.limit;
   const bool by_noise = event == HealthEvent::set_aside && noise_confirmed().contains(aside_);
+  const bool refused = event == HealthEvent::contradiction && check_.refused();
   const SensorSet named = carry_out(decision, state);
   mode_ = state.mode;
   if (reset_pending_) {
@@ -158,6 +159,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const Cause asked_by = recalibration_asked_ ? Cause::host_request : Cause::isolated_fault;
   const Cause cause = event == HealthEvent::recalibrate ? asked_by
                       : by_noise                        ? Cause::noisy
+                      : refused                         ? Cause::calibration_contradicted
                                                         : cause_of(event, verdict_.cause);
   name_causes(named - in_service_, cause);
   verdict_.cause = cause;

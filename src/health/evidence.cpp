@@ -117,7 +117,8 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
   }
   if (accuses) {
     const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
-    aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
+    aside_ =
+        ((by_parity && may_convict(answer_.parity) ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
     if (!aside_.empty() && rank_of(array_, in_service_ - aside_) == 3) raised |= bit(HealthEvent::set_aside);
   }
   if (view.kind != Kind::reference && patience_is_over()) raised |= bit(HealthEvent::patience_over);
@@ -127,8 +128,9 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
     const HealthEvent event = answer_.contradiction || refuted ? HealthEvent::contradiction : HealthEvent::alarm;
     if (!expected(event)) raised |= bit(event);
   }
+  if (check_.refused() && !expected(HealthEvent::contradiction)) raised |= bit(HealthEvent::contradiction);
   if (view.kind == Kind::reference && !expected(HealthEvent::reference)) raised |= bit(HealthEvent::reference);
-  if (view.kind == Kind::clean) raised |= bit(HealthEvent::clean_block);
+  if (view.kind == Kind::clean && !check_.refused()) raised |= bit(HealthEvent::clean_block);
   if (!on_probation_.empty() && probation_.size() >= config_.probation_stations)
     raised |= bit(HealthEvent::probation_passed);
   return raised;
@@ -150,6 +152,16 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
   recalibration_.add_block(raw.mean(in_service_, view.used.x_mps2, evidence_.samples), station_.blocks == 1);
 }
 
+/// What the block says of the noise of all sensors, and what is expected of each of them with that.
+BlockNoise HealthMonitor::learn_noise() noexcept {
+  const BlockNoise stated = noise_of(array_, 1.0, resolution_mps2_);
+  const bool whole = map_.valid && map_.used == in_service_ && block_.complete().contains(in_service_);
+  if (whole && noise_study_.add(array_, block_, map_, stated)) noise_study_.add_smoothness(array_, mae_, in_service_);
+  const double factor = noise_study_.factor();
+  verdict_.noise_factor = factor;
+  return factor > 1.0 ? noise_of(array_, factor, resolution_mps2_) : stated;
+}
+
 /// A block is made of rows in which the same sensors in service deliver: where one was silent the tool may have moved,
 /// and means over other rows cannot be held against one another. A row that lacks a sensor is left out; one that brings
 /// a sensor which the block lacks begins it anew.
@@ -161,16 +173,6 @@ bool HealthMonitor::joins_block(SensorSet usable) noexcept {
   block_.clear();
   raw_.clear();
   return true;
-}
-
-/// What the block says of the noise of all sensors, and what is expected of each of them with that.
-BlockNoise HealthMonitor::learn_noise() noexcept {
-  const BlockNoise stated = noise_of(array_, 1.0, resolution_mps2_);
-  const bool whole = map_.valid && map_.used == in_service_ && block_.complete().contains(in_service_);
-  if (whole && noise_study_.add(array_, block_, map_, stated)) noise_study_.add_smoothness(array_, mae_, in_service_);
-  const double factor = noise_study_.factor();
-  verdict_.noise_factor = factor;
-  return factor > 1.0 ? noise_of(array_, factor, resolution_mps2_) : stated;
 }
 
 /// What is kept of the samples of a block: who delivered, who was calm.
@@ -189,6 +191,7 @@ void HealthMonitor::allow_for_drift(BlockEvidence& evidence) const noexcept {
     const auto a = static_cast<size_t>(i);
     const double away_degc = last_temperature_degc_ - model_.sensor[a].reference_degc;
     evidence.tolerance_mps2[a] = stability_[a].tolerance_mps2(away_degc, temperature_rate_.lag_degc_per_min());
+    evidence.tolerance_mps2[a] = std::fmin(evidence.tolerance_mps2[a] + check_.tolerance_mps2(), kMostTolerance_mps2);
   }
 }
 
@@ -246,9 +249,8 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
   return alarm ? bit(HealthEvent::alarm) : EventMask{0};
 }
 
-EventMask HealthMonitor::tick(const Sample& sample) noexcept {
-  using Kind = BlockView::Kind;
-  const SensorSet posed = in_service_ | set_aside_;
+/// The block that is complete, judged: what moved in it, and how far its means may be off. The next one begins.
+BlockJudgement HealthMonitor::close_block(double time_s, bool turning, bool& slow) noexcept {
   const BlockNoise noise = learn_noise();
   note_block(noise);
   BlockJudgement judged = judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2,
@@ -257,19 +259,38 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   judged.evidence.samples /= verdict_.noise_factor * verdict_.noise_factor * alike;
   verdict_.noise_correlation = alike;
   judged.evidence.usable = judged.evidence.usable & block_usable_;
-  temperature_rate_.add(sample.time_s, last_temperature_degc_);
+  temperature_rate_.add(time_s, last_temperature_degc_);
   allow_for_drift(judged.evidence);
   allow_for_steps(judged.evidence);
-  const bool turning = rotation_locked_;
-  rotation_locked_ = false;
-  const bool slow = moves_slowly(noise, turning, judged);
+  slow = moves_slowly(noise, turning, judged);
   freshness_.measure(array_, block_, noise, block_.size() / alike, resolution_mps2_, slow);
   block_.clear();
-  const RawBlock raw = raw_;
   raw_.clear();
   verdict_.restless = judged.restless;
   moving_ = !note_facts(judged, !judged.quiet || turning) && !slow;
   partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
+  return judged;
+}
+
+/// A block that is no evidence, and whose vector is no news.
+void HealthMonitor::leave_to_motion(bool turning) noexcept {
+  moving_ = true;
+  slow_motion_.lapse();
+  verdict_.cause = turning ? Cause::rotating : Cause::moving;
+  count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
+  mae_.clear();
+  leave_station();
+  rest_.clear();
+}
+
+EventMask HealthMonitor::tick(const Sample& sample) noexcept {
+  using Kind = BlockView::Kind;
+  const SensorSet posed = in_service_ | set_aside_;
+  const bool turning = rotation_locked_;
+  rotation_locked_ = false;
+  const RawBlock raw = raw_;
+  bool slow = false;
+  BlockJudgement judged = close_block(sample.time_s, turning, slow);
   const SlowMotion before = slow_motion_;
   if (!moving_) {
     const double swing_mps2 = std::sqrt(judged.evidence.spread_mps2_sq);
@@ -282,16 +303,9 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     const double sigma_rad = tilt_sigma_rad(view.used.x_mps2, view.used.covariance);
     slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad);
   }
-  // A block that cannot be tested is no evidence, and its vector no news.
   if (moving_ || !view.used.tested || (slow && !bears_motion(view))) {
-    moving_ = true;
     slow_motion_ = before;  // what moves too much says nothing of what may be borne
-    slow_motion_.lapse();
-    verdict_.cause = turning ? Cause::rotating : Cause::moving;
-    count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
-    mae_.clear();
-    leave_station();
-    rest_.clear();
+    leave_to_motion(turning);
     return 0;
   }
   evidence_ = judged.evidence;
@@ -315,6 +329,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   follow_station(sample, pose.tested ? pose : view.used);
   if (episode_.open && view.kind != Kind::reference) vote(tests);
   count_doubt(view);
+  const bool contradicted = check_calibration(view);
   count_clean(tests, view);
   rest_.follow(array_, evidence_);
   if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
@@ -324,10 +339,12 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   study_reference(view);
   if (view.kind == Kind::clean && !owes_calibration())
     trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
+  if (check_.refused()) verdict_.cause = Cause::calibration_contradicted;
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);
   freshness_.anchor(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
+  if (contradicted) freshness_.lapse();
   return raised;
 }
 

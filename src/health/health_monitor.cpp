@@ -138,10 +138,13 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   rotation_ = Rotation{};
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
   told_reference_ = reference_notice_ = ReferenceKind::none;
+  gravity_widened_mps2_ = 0.0;
   scatter_.clear();
   noise_study_.clear();
   slow_motion_.clear();
   reference_study_.clear();
+  check_.clear();
+  calibration_notice_ = false;
   trend_.clear();
   temperature_rate_.clear();
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
@@ -181,6 +184,11 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   if (!sound) return sound;
   if (!whole()) return fail(Errc::not_calibrated);
   gravity_ = gravity;
+  if (gravity_widened_mps2_ > 0.0) {  // the finding was about the other one
+    gravity_widened_mps2_ = 0.0;
+    told_reference_ = ReferenceKind::none;
+    verdict_.reference = ReferenceFinding{};
+  }
   forget_near();
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - store_g_mps2_) <= gravity.sigma_mps2)) {
@@ -191,6 +199,7 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   isolation_.clear();
   answer_ = IsolationAnswer{};
   reference_study_.clear();
+  check_.forget_readings();
   episode_.take_back();
   seal();
   return {};
@@ -355,7 +364,7 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
   return arrival != Arrival::in_order || gate.gap || block_.size() >= config_.window ||
          silence_.is_due(config_.window) || fits || reset_pending_ || pending_ != 0 ||
          !((gate_.lost() & array_.all()) - absent_).empty() || !(gate_.back() & absent_).empty() || inhibit_notice_ ||
-         reference_notice_ != ReferenceKind::none || news();
+         reference_notice_ != ReferenceKind::none || calibration_notice_ || news();
 }
 
 /// The row that ends a block may be the first of another attitude: the block's vector is held against it, too. Apart

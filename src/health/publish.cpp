@@ -57,6 +57,9 @@ void HealthMonitor::give_notice(double time_s) noexcept {
   if (inhibit_notice_) {
     cause = inhibited_ ? Cause::inhibited : Cause::released;
     inhibit_notice_ = false;
+  } else if (calibration_notice_) {
+    cause = Cause::calibration_contradicted;
+    calibration_notice_ = false;
   } else if (reference_notice_ != ReferenceKind::none) {
     cause = reference_notice_ == ReferenceKind::common_scale ? Cause::common_scale : Cause::common_bias;
     reference_notice_ = ReferenceKind::none;
@@ -103,6 +106,9 @@ Validity HealthMonitor::validity() const noexcept {
   if (mode == Mode::degraded) return Validity::degraded;
   // The length itself is in doubt: by it, and by nothing else, some explanations are taken for inconsistent.
   if (mode == Mode::suspect && suspicion_ == Cause::reference) return Validity::unconfirmed;
+  // Bounds rest on the calibration, and that has not been borne out yet.
+  const bool believed = isolation_.strict_grade() < 1 || check_.believed();
+  if (check_.refused() || (episode_.open && !believed)) return Validity::unconfirmed;
   // An array that cannot bear another fault beside the suspected one has to have been at rest since before.
   if (!scan_.bears_more && !rest_.holds()) return Validity::unconfirmed;
   return bounded ? Validity::valid : Validity::unconfirmed;

@@ -123,6 +123,8 @@ void HealthMonitor::adopt() noexcept {
   coefficients_.forget();
   forget_near();
   three_sensor_fit_ = size_class_ == SizeClass::critical;
+  check_.clear();
+  verdict_.calibration = CalibrationFinding{};
   forget_episode();
   empty_windows();
   scan_ = FaultSetScan{};

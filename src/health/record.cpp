@@ -116,14 +116,19 @@ void HealthMonitor::count_doubt(const BlockView& view) noexcept {
   if (episode_.doubtful_blocks < config_.patience_blocks) ++episode_.doubtful_blocks;
 }
 
-/// Of attitudes in doubt; of blocks in doubt where they are counted.
-bool HealthMonitor::is_out_of_stations() const noexcept { return episode_.stations.size() >= config_.patience; }
+/// Of attitudes in doubt, which do not count while those to come may speak against the calibration; of blocks in doubt
+/// where they are counted.
+bool HealthMonitor::is_out_of_stations() const noexcept {
+  const bool gathers = check_.gathers() && isolation_.strict_grade() >= 1;
+  return !gathers && episode_.stations.size() >= config_.patience;
+}
 bool HealthMonitor::is_out_of_blocks() const noexcept {
   return config_.patience_blocks > 0 && episode_.doubtful_blocks >= config_.patience_blocks;
 }
 
 bool HealthMonitor::patience_is_over() const noexcept {
   if (mode_ != Mode::suspect && mode_ != Mode::recalibrating) return false;
+  if (check_.refused()) return false;  // nobody is accused of it
   return (is_out_of_stations() || is_out_of_blocks()) && (!exhausted_ || unbounded_run_ >= config_.clean_blocks);
 }
 
@@ -183,7 +188,8 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
       if (!(static_cast<double>(most_prediction_[a] - least_prediction_[a]) >= proving_change_mps2(i))) moved = false;
     }
     have_predictions_ = true;
-    if (moved && clean_run_ >= config_.clean_blocks) unproven_ = false;
+    const bool believed = isolation_.strict_grade() < 1 || check_.believed();
+    if (moved && believed && clean_run_ >= config_.clean_blocks) unproven_ = false;
   }
   // While a sensor is set aside the episode ends only when it, too, agrees again.
   const SensorSet posed = isolation_.posed() & evidence_.usable;
@@ -196,7 +202,8 @@ void HealthMonitor::count_clean(const BlockTests& tests, const BlockView& view) 
 
 SensorSet HealthMonitor::culprits() const noexcept {
   const SensorSet posed = isolation_.posed();
-  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_)
+  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_ &&
+      may_convict(scan_.asserted))
     return scan_.asserted;
   if (isolation_.strict_grade() < 1 || episode_.candidate.empty()) return {};
   const int survivors = (posed - episode_.candidate).size();
@@ -204,7 +211,8 @@ SensorSet HealthMonitor::culprits() const noexcept {
   if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
   if (episode_.by_scatter && isolation_.parity_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
   if (episode_.by_scatter && needed < 2) needed = 2;                     // at one station its scatter may be a push
-  return episode_.agreeing.size() >= needed ? episode_.candidate : SensorSet{};
+  const bool agreed = episode_.agreeing.size() >= needed && may_convict(episode_.candidate);
+  return agreed ? episode_.candidate : SensorSet{};
 }
 
 void HealthMonitor::examine_probation(const BlockTests& tests, const BlockView& view) noexcept {
@@ -278,6 +286,8 @@ void HealthMonitor::rescan(const BlockTests& tests) noexcept {
       witnesses());
   // What the sensors feel is g + a: every explanation bounds its direction, and no reading tells the rest.
   scan_.protection_rad += motion_in_bound_rad() + acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
+  // Widened, the norm does not see what may have turned the direction beside the offset.
+  if (gravity_widened_mps2_ > 0.0) scan_.protection_rad += verdict_.reference.turn_rad;
 }
 
 }  // namespace PLUMB_ABI

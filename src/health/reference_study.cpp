@@ -36,16 +36,25 @@ double weight_of(double bound_mps2) noexcept {
 
 }  // namespace
 
-void ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double bound_mps2,
-                         double apart_rad) noexcept {
+bool ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad,
+                         double noise_mps2) noexcept {
   const double length = norm(direction);
-  if (size_ == kMax || !(length > 0.0) || !(bound_mps2 > 0.0)) return;
+  if (size_ == kMax || !(length > 0.0) || !(bound_mps2 > 0.0)) return false;
   const Vec3 u = scaled(direction, 1.0 / length);
   for (int k = 0; k < size_; ++k) {
-    if (!(angle_between_rad(entry_[at(k)].u, u) >= apart_rad)) return;
+    if (!(angle_between_rad(entry_[at(k)].u, u) >= apart_rad)) return false;
   }
-  entry_[at(size_)] = {u, length_error_mps2, bound_mps2};
+  entry_[at(size_)] = {u, length_error_mps2, bound_mps2, noise_mps2};
   ++size_;
+  return true;
+}
+
+bool ReferenceStudy::agrees(double length_error_mps2, double bound_mps2) const noexcept {
+  for (int k = 0; k < size_; ++k) {
+    const Entry& e = entry_[at(k)];
+    if (!(std::fabs(e.off_mps2 - length_error_mps2) <= e.bound_mps2 + bound_mps2)) return false;
+  }
+  return true;
 }
 
 ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept {
@@ -73,7 +82,7 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   // How far bounded errors may have bent each parameter, and how well the model explains what was seen. A bias across
   // gravity lengthens the vector by its square over 2 G, which the model leaves out.
   std::array<double, kParameters> bend{};
-  double low = -1e9, high = 1e9;
+  double low = -1e9, high = 1e9, hard_mps2 = 0.0, noise_square = 0.0;
   bool explained = true;
   const double curve = dot(a, a) / (2.0 * g_mps2);
   for (int k = 0; k < size_; ++k) {
@@ -84,6 +93,9 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
       double gain = 0.0;
       for (int j = 0; j < kParameters; ++j) gain += m[at(kParameters * i + j)] * row(k, j) * weight;
       bend[at(i)] += std::fabs(gain) * bound;
+      if (i > 0) continue;
+      hard_mps2 += std::fabs(gain) * std::fmax(0.0, bound - e.noise_mps2);
+      noise_square += gain * gain * e.noise_mps2 * e.noise_mps2;
     }
     if (!(std::fabs(e.off_mps2 - p[0] - dot(a, e.u)) <= bound)) explained = false;
     low = std::fmax(low, e.off_mps2 - e.bound_mps2);
@@ -104,6 +116,8 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   const bool off = low > 0.0 || high < 0.0;
   if (one_length && off && out.turn_rad <= usable_rad) {
     out.kind = ReferenceKind::common_scale;
+    out.length_bound_mps2 = std::fmin(bend[0], hard_mps2 + std::sqrt(noise_square));
+    out.configure_mps2 = g_mps2 + p[0];
   } else if (!one_length && least > 0.0 && std::fabs(p[0]) <= gravity_bound_mps2 + bend[0]) {
     out.kind = ReferenceKind::common_bias;
   }

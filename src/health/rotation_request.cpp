@@ -1,5 +1,4 @@
-// What the host could do about doubt: which turn would tell the live explanations apart, what the length being off
-// means.
+// What the host could do about doubt: which turn would tell the live explanations apart.
 #include <cmath>
 
 #include "block_view.hpp"
@@ -8,44 +7,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 using std::size_t;
-
-namespace {
-
-/// The study takes attitudes that differ by this many excitation angles: neighbours tell it nothing new.
-constexpr double kStudyAngles = 2.0;
-
-}  // namespace
-
-void HealthMonitor::study_reference(const BlockView& view) noexcept {
-  using Kind = BlockView::Kind;
-  const SensorSet used = in_service_ & evidence_.usable;
-  const bool trusted = view.kind == Kind::clean && mode_ != Mode::suspect && mode_ != Mode::recalibrating;
-  if (view.kind == Kind::alarm || trusted || view.used.parity_rows < 1) {
-    reference_study_.clear();
-  } else if (view.kind == Kind::reference || !reference_study_.empty()) {
-    // Reject, not alarm: as wide as what latches, for the finding is believed for long. Without the gravity term, which
-    // is alike at every attitude and part of what is looked for.
-    const double sigma = view.used.norm_sigma_mps2 / std::sqrt(evidence_.samples);
-    double bound = view.used.norm_reject_limit(limits_) * sigma - TestLimits::gravity * gravity_.sigma_mps2;
-    // There the limit counts in sigmas of noise and calibration together, and not all of the acceleration is left in
-    // it.
-    if (config_.alarm_form == AlarmForm::average_tool) bound += limits_.acceleration_mps2;
-    if (used == in_service_) {
-      reference_study_.add(view.used.x_mps2, view.used.norm_error_mps2, bound,
-                           kStudyAngles * config_.excitation_angle_rad);
-    }
-  }
-  // An acceleration that was allowed for turns the direction whatever the length says.
-  const double turn_rad = acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
-  verdict_.reference = reference_study_.find(gravity_.g_mps2, TestLimits::gravity * gravity_.sigma_mps2,
-                                             config_.alert_limit_rad - turn_rad);
-  if (verdict_.reference.turn_rad > 0.0) verdict_.reference.turn_rad += turn_rad;
-  const ReferenceKind kind = verdict_.reference.kind;
-  const bool told = kind == ReferenceKind::common_scale || kind == ReferenceKind::common_bias;
-  if (told && kind != told_reference_) reference_notice_ = kind;
-  told_reference_ = kind;
-  verdict_.reference.bias_mps2 = times(frame_, verdict_.reference.bias_mps2);
-}
 
 /// Unproven: the sensor whose prediction has moved least must be moved by what is missing.
 RotationRequest HealthMonitor::proving_turn() const noexcept {

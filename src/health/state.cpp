@@ -69,6 +69,7 @@ const char* to_string(Cause cause) noexcept {
     case Cause::common_bias: return "common_bias";
     case Cause::snapshot_refused: return "snapshot_refused";
     case Cause::memory: return "memory";
+    case Cause::calibration_contradicted: return "calibration_contradicted";
   }
   return "?";
 }

@@ -81,8 +81,25 @@ void append_reference(Object& object, const Verdict& v, const Mat3& frame) {
   inner.word("kind", to_string(v.reference.kind));
   inner.whole("attitudes", v.reference.attitudes);
   inner.number("length_mps2", v.reference.length_mps2);
+  inner.number_if(v.reference.length_bound_mps2 > 0.0, "length_bound_mps2", v.reference.length_bound_mps2);
+  inner.number_if(v.reference.configure_mps2 > 0.0, "configure_mps2", v.reference.configure_mps2);
+  inner.number_if(v.reference.widened_mps2 > 0.0, "widened_mps2", v.reference.widened_mps2);
   inner.numbers("bias_mps2", in_frame(frame, v.reference.bias_mps2));
   inner.number_if(v.reference.turn_rad > 0.0, "turn_deg", deg_from_rad(v.reference.turn_rad));
+  inner.close();
+}
+
+/// null unless the first attitudes contradict the calibration.
+void append_contradiction(Object& object, const Verdict& v) {
+  if (!v.calibration.contradicted) {
+    object.nothing("calibration_contradicted");
+    return;
+  }
+  Object inner = object.object("calibration_contradicted");
+  inner.whole("attitudes", v.calibration.attitudes);
+  inner.number("ratio", v.calibration.ratio);
+  inner.flag("refused", v.calibration.refused);
+  inner.number_if(v.calibration.tolerance_mps2 > 0.0, "tolerance_mps2", v.calibration.tolerance_mps2);
   inner.close();
 }
 
@@ -221,6 +238,7 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.number("parity_limit", v.parity_limit);
   object.number("norm_error_mps2", v.norm_error_mps2);
   append_reference(object, v, frame);
+  append_contradiction(object, v);
   object.drifts("drift_mps2_per_h", v, array.size());
   object.number("noise_factor", v.noise_factor);
   object.number("noise_correlation", v.noise_correlation);

@@ -59,6 +59,8 @@ std::string explain(Cause cause, Grade grade, HealthEvent event) {
     case Cause::common_scale: return "gravity or a common scale is off: the direction is usable";
     case Cause::common_bias: return "the sensors share a bias: the direction is not usable";
     case Cause::snapshot_refused: return "switched on without its history: the snapshot offered was of no use";
+    case Cause::calibration_contradicted:
+      return "the first attitudes contradict what the calibration says of its own errors: recalibrate";
     case Cause::memory: return "the monitor's storage changed by itself: configure or restore it";
   }
   return "?";

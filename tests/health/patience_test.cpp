@@ -251,7 +251,7 @@ TEST(Patience, RestsWhileOnlyTheReferenceIsInDoubt) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   for (int k = 0; k < 72; ++k) {
-    const Verdict& v = rig.stay(spiral(k), 1, 1.003 * kG0_mps2);
+    const Verdict& v = rig.stay(spiral(k), 1, 1.02 * kG0_mps2);
     EXPECT_EQ(v.cause, Cause::reference);
     EXPECT_EQ(v.state, HealthState::suspect);
     EXPECT_EQ(v.stations_on_record, 0);

@@ -65,10 +65,10 @@ TEST(Stability, DriftWithinWhatIsStatedBlamesNobodyAndStaysWithinTheProtectionLe
 // Negative: REQ-123
 TEST(Stability, WhereNothingIsStatedTheSameDriftIsBeyondBound) {
   const Outcome out = run(0.0, 0.5 * kMilligee_mps2, false, 100);
-  EXPECT_GT(out.blamed, 10);
-  EXPECT_GT(out.beyond + out.failed, 10);
+  EXPECT_EQ(out.blamed, 0) << "the first attitudes contradict the calibration, and nobody is convicted by it";
+  EXPECT_LT(out.valid, out.blocks * 9 / 10);
   const Outcome shared = run(0.0, 2.0 * kMilligee_mps2, true, 100);
-  EXPECT_GT(shared.beyond, 10) << "no test sees the whole of a bias that all sensors share";
+  EXPECT_GT(out.beyond + shared.beyond, 0) << "what comes before the contradiction is not bounded";
 }
 
 /// A cone along z under a tolerance of one sensor, by hand: nothing else is uncertain.

@@ -215,8 +215,7 @@ TEST(Law, NineWhatTheParityGradeBearsIsSetAsideAtTheFirstStation) {
     const Readings y = c.readings(direction, noise);
     const LawOracle oracle(tool.tool, direction);
     if (!oracle.parity_tells(c.faulty(), tool.plane + 2, y)) return not_of_this_law();
-    Watch watch = std::abs(gravity) > 3.0 ? fresh_watch(tool, MonitorConfig(), 0)
-                                          : proven_watch(tool, MonitorConfig(), 0, gravity);
+    Watch watch = proven_watch(tool, MonitorConfig(), 0, std::abs(gravity) > 3.0 ? 0.0 : gravity);
     const Verdict& v = watch.station(c.with_noise(y, noise));
     return broken(tool, c, 1, v.set_aside == c.faulty() ? "" : said(tool, c, v));
   });

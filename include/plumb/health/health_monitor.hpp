@@ -13,6 +13,7 @@
 #include "plumb/detection/isolation.hpp"
 #include "plumb/detection/near_lengths.hpp"
 #include "plumb/detection/stationarity.hpp"
+#include "plumb/health/calibration_check.hpp"
 #include "plumb/health/decision.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/freshness.hpp"
@@ -176,6 +177,8 @@ class HealthMonitor {
   void judge_mae(const BlockTests& tests, BlockView& view) const noexcept;
   BlockNoise learn_noise() noexcept;
   void note_block(const BlockNoise& noise) noexcept;
+  BlockJudgement close_block(double time_s, bool turning, bool& slow) noexcept;
+  void leave_to_motion(bool turning) noexcept;
   void allow_for_drift(BlockEvidence& evidence) const noexcept;
   void allow_for_steps(BlockEvidence& evidence) const noexcept;
   bool moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept;
@@ -193,8 +196,16 @@ class HealthMonitor {
   void name_causes(SensorSet named, Cause cause) noexcept;
   SensorSet doubted() const noexcept { return (noisy_ | stuck_ | full_scale_) & in_service_; }
 
-  // rotation_request.cpp, reference: what the host could do about it
+  // check_calibration.cpp: the calibration's first attitudes
+  bool check_calibration(const BlockView& view) noexcept;
+  bool may_convict(SensorSet culprits) const noexcept;
+
+  // gravity_finding.cpp: the length of gravity
   void study_reference(const BlockView& view) noexcept;
+  void tell_reference(bool trusted) noexcept;
+  void widen_gravity(const ReferenceFinding& found) noexcept;
+
+  // rotation_request.cpp: what the host could do about doubt
   double proving_change_mps2(int sensor) const noexcept;
   RotationRequest rotation_request() const noexcept;
   RotationRequest proving_turn() const noexcept;
@@ -271,7 +282,8 @@ class HealthMonitor {
   Mode mode_ = Mode::suspect;
   SizeClass size_class_ = SizeClass::rank_lost;  ///< of the sensors in service
   ReferenceKind told_reference_ = ReferenceKind::none, reference_notice_ = ReferenceKind::none;
-  int live_ = 0;  ///< voting sets alive
+  double gravity_widened_mps2_ = 0.0;  ///< part of three sigma of gravity that the monitor found, not the host stated
+  int live_ = 0;                       ///< voting sets alive
   SensorSet in_service_, set_aside_, excluded_, absent_;
   SensorSet readmitted_;
   SensorSet calibrated_;
@@ -309,7 +321,7 @@ class HealthMonitor {
   bool three_sensor_fit_ = false;
   bool lever_arms_known_ = false;  // beside other single bytes: here they cost no room
   Flag rotation_locked_;
-  bool inhibited_ = false, inhibit_notice_ = false;
+  bool inhibited_ = false, inhibit_notice_ = false, calibration_notice_ = false;
   double store_g_mps2_ = 0.0;  ///< gravity when the store was last empty
   /// Calibrated span: as configured, else that of the stations of the monitor's own calibration.
   double temperature_min_degc_ = 0.0, temperature_max_degc_ = 0.0;
@@ -331,6 +343,7 @@ class HealthMonitor {
   NoiseStudy noise_study_;
   SlowMotion slow_motion_;
   ReferenceStudy reference_study_;
+  CalibrationCheck check_;
   Trend trend_;
   TemperatureRate temperature_rate_;
   ChannelMonitor gate_;
@@ -391,24 +404,25 @@ class HealthMonitor {
         // remembered
         up_to(&M::mode_, Mode::failed), not_stored(&M::size_class_),
         up_to(&M::told_reference_, ReferenceKind::common_bias),
-        up_to(&M::reference_notice_, ReferenceKind::common_bias), within(&M::live_, 0, kVotingCapacity),
-        &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_,
-        &M::exhausted_, &M::moving_, &M::temperature_out_, &M::partial_, &M::have_evidence_, &M::have_predictions_,
-        not_stored(&M::configured_), not_stored(&M::stability_stated_), &M::evidence_time_s_,
-        &M::last_temperature_degc_, &M::freshness_, &M::clock_, &M::silence_, &M::pending_, &M::block_usable_,
-        &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks), &M::sequence_,
-        within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_), per_sensor(&M::least_prediction_),
-        per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_, &M::reset_sensors_, &M::reset_pending_,
-        up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed), up_to(&M::suspicion_, kLastCause),
-        &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_, not_stored(&M::lever_arms_known_),
-        &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_, &M::store_g_mps2_, &M::temperature_min_degc_,
-        &M::temperature_max_degc_, within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)),
-        per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
-        &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
+        up_to(&M::reference_notice_, ReferenceKind::common_bias), &M::gravity_widened_mps2_,
+        within(&M::live_, 0, kVotingCapacity), &M::in_service_, &M::set_aside_, &M::excluded_, &M::absent_,
+        &M::readmitted_, &M::calibrated_, &M::unproven_, &M::exhausted_, &M::moving_, &M::temperature_out_,
+        &M::partial_, &M::have_evidence_, &M::have_predictions_, not_stored(&M::configured_),
+        not_stored(&M::stability_stated_), &M::evidence_time_s_, &M::last_temperature_degc_, &M::freshness_, &M::clock_,
+        &M::silence_, &M::pending_, &M::block_usable_, &M::drift_rad_, within(&M::unbounded_run_, 0, kMostCleanBlocks),
+        &M::sequence_, within(&M::clean_run_, 0, kMostCleanBlocks), not_stored(&M::core_sum_),
+        per_sensor(&M::least_prediction_), per_sensor(&M::most_prediction_), &M::probation_, &M::on_probation_,
+        &M::reset_sensors_, &M::reset_pending_, up_to(&M::last_grade_, Grade::asserted), up_to(&M::base_, Mode::failed),
+        up_to(&M::suspicion_, kLastCause), &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_,
+        not_stored(&M::lever_arms_known_), &M::rotation_locked_, &M::inhibited_, &M::inhibit_notice_,
+        &M::calibration_notice_, &M::store_g_mps2_, &M::temperature_min_degc_, &M::temperature_max_degc_,
+        within(&M::sensor_cause_, 0, static_cast<int>(kLastCause)), per_sensor(&M::noisy_run_),
+        per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_, &M::calm_, &M::stuck_watch_,
+        &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
-        &M::scatter_, &M::noise_study_, &M::slow_motion_, &M::reference_study_, &M::trend_, &M::temperature_rate_,
-        &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, &M::rest_,
-        not_stored(&M::map_),
+        &M::scatter_, &M::noise_study_, &M::slow_motion_, &M::reference_study_, &M::check_, &M::trend_,
+        &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_,
+        &M::rest_, not_stored(&M::map_),
 #if PLUMB_SINGLE
         not_stored(&M::near_),
 #endif

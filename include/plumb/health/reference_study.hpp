@@ -8,6 +8,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/fields.hpp"
+#include "plumb/core/units.hpp"
 #include "plumb/core/vec3.hpp"
 
 namespace plumb {
@@ -24,17 +25,24 @@ const char* to_string(ReferenceKind kind) noexcept;
 struct ReferenceFinding {
   ReferenceKind kind = ReferenceKind::none;
   int attitudes = 0;
-  double length_mps2 = 0.0;  ///< kappa G: what is off alike at every attitude
-  Vec3 bias_mps2{};          ///< a: what is off along a direction, tool frame
+  double length_mps2 = 0.0;        ///< kappa G: what is off alike at every attitude
+  double length_bound_mps2 = 0.0;  ///< of its error; 0 = none told
+  double configure_mps2 = 0.0;     ///< common_scale: the length of gravity to configure; 0 = none told
+  double widened_mps2 = 0.0;       ///< by so much the monitor has widened what it takes gravity to be known to
+  Vec3 bias_mps2{};                ///< a: what is off along a direction, tool frame
   double turn_rad = 0.0;  ///< most that `a` and the acceleration allowed for can turn the direction; 0 = no bound yet
 
   static constexpr int kMostAttitudes = 12;
   static constexpr auto fields() noexcept {
     using F = ReferenceFinding;
     return field_list(up_to(&F::kind, ReferenceKind::common_bias), within(&F::attitudes, 0, kMostAttitudes),
-                      any(&F::length_mps2), any(&F::bias_mps2), any(&F::turn_rad));
+                      any(&F::length_mps2), any(&F::length_bound_mps2), any(&F::configure_mps2), any(&F::widened_mps2),
+                      any(&F::bias_mps2), any(&F::turn_rad));
   }
 };
+
+/// What the monitor widens its gravity by for an offset that it has found; farther off it is told and not believed.
+inline constexpr double kMostGravityOffset_mps2 = 1e-2 * kG0_mps2;
 
 /// |x| - G at up to kMax attitudes against kappa G + a.u. Errors are taken as bounded, not as random: what calibration
 /// leaves is the same at every block, and averages away over none.
@@ -45,20 +53,26 @@ class ReferenceStudy {
   static constexpr int kLeast = 6;
 
   void clear() noexcept { *this = ReferenceStudy{}; }
+  /// Whether one length that is off alike everywhere explains this attitude beside those on record.
+  bool agrees(double length_error_mps2, double bound_mps2) const noexcept;
   bool empty() const noexcept { return size_ == 0; }
   /// `bound_mps2`: largest error of |x| - G that noise and calibration explain. An attitude nearer than `apart_rad` to
-  /// one on record is not news.
-  void add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad) noexcept;
+  /// one on record is not news: true where it was.
+  /// `noise_mps2`: the part of the bound that is noise, and averages away over the attitudes.
+  bool add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad,
+           double noise_mps2 = 0.0) noexcept;
   /// `gravity_bound_mps2`: largest credible error of the gravity reference. `usable_rad`: turn that the user can bear.
   ReferenceFinding find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
 
  private:
   struct Entry {
     Vec3 u{};
-    double off_mps2 = 0.0, bound_mps2 = 0.0;
+    double off_mps2 = 0.0, bound_mps2 = 0.0, noise_mps2 = 0.0;
 
     bool plausible() const noexcept { return bound_mps2 > 0.0; }
-    static constexpr auto fields() noexcept { return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2); }
+    static constexpr auto fields() noexcept {
+      return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2, &Entry::noise_mps2);
+    }
   };
   int size_ = 0;
   std::array<Entry, kMax> entry_{};

@@ -54,18 +54,19 @@ enum class Cause : std::uint8_t {
   time_fault,    ///< time not increasing; the sample was refused
   gap,
   clean,
-  noisy,             ///< a channel scatters by itself: the others are quiet
-  stuck,             ///< a channel repeats one value while the others predict a change
-  clipped,           ///< a channel is at full scale while the others predict it inside its range
-  rotating,          ///< the tool turns and what that does to the readings is not known
-  inhibited,         ///< the host froze exclusion and recalibration
-  released,          ///< ... and let them go
-  common_scale,      ///< reference told: common scale or gravity, direction usable
-  common_bias,       ///< reference told: a bias that the sensors share, direction not usable
-  snapshot_refused,  ///< switched on without its history: the snapshot that was offered is of no use
-  memory,            ///< the monitor's storage changed by itself: configure or restore it
+  noisy,                     ///< a channel scatters by itself: the others are quiet
+  stuck,                     ///< a channel repeats one value while the others predict a change
+  clipped,                   ///< a channel is at full scale while the others predict it inside its range
+  rotating,                  ///< the tool turns and what that does to the readings is not known
+  inhibited,                 ///< the host froze exclusion and recalibration
+  released,                  ///< ... and let them go
+  common_scale,              ///< reference told: common scale or gravity, direction usable
+  common_bias,               ///< reference told: a bias that the sensors share, direction not usable
+  snapshot_refused,          ///< switched on without its history: the snapshot that was offered is of no use
+  memory,                    ///< the monitor's storage changed by itself: configure or restore it
+  calibration_contradicted,  ///< the first attitudes do not keep to what the calibration says of itself
 };
-inline constexpr Cause kLastCause = Cause::memory;
+inline constexpr Cause kLastCause = Cause::calibration_contradicted;
 const char* to_string(Cause cause) noexcept;
 
 /// The cause that an event stands for; `of_block` is what the last block said, for an alarm.

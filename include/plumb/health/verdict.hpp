@@ -8,6 +8,7 @@
 #include "plumb/core/vec3.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/detection/triple_set.hpp"
+#include "plumb/health/calibration_check.hpp"
 #include "plumb/health/episode.hpp"
 #include "plumb/health/recalibration_progress.hpp"
 #include "plumb/health/reference_study.hpp"
@@ -100,7 +101,8 @@ struct Verdict {
   double parity_limit = 0.0;
   double norm_error_mps2 = 0.0;                             ///< |x| - G of the last block
   double reference_mps2 = 0.0, reference_sigma_mps2 = 0.0;  ///< G and its 1 sigma
-  ReferenceFinding reference;  ///< what the length being off means; bias in the output frame
+  ReferenceFinding reference;      ///< what the length being off means; bias in the output frame
+  CalibrationFinding calibration;  ///< what its first attitudes say against the calibration
   /// Slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0 = none told.
   std::array<float, kCapacity> drift_mps2_per_h{};
   /// Noise of all sensors in stated sigmas, as blocks at rest have shown it; above 1 the stated ones are too small, and
@@ -161,7 +163,7 @@ struct Verdict {
         within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
         &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::triples_tested, &V::triples_passed,
         &V::parity, &V::parity_limit, &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference,
-        any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation, &V::temperature_degc,
+        &V::calibration, any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation, &V::temperature_degc,
         &V::temperature_rate_degc_per_min, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance,
         &V::age_s, &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable,
         &V::faults_covered, &V::protection_available, &V::alert, up_to(&V::snapshot_refusal, kLastErrc),
