@@ -211,8 +211,9 @@ void Player::judge_claims() {
 void Player::judge_vector() {
   const Verdict& v = verdict();
   const double error_rad = angle_between_rad(v.gravity_mps2, tool_.seen(direction));
-  // At rest since before the block began, the bound alone; else what one row does not show comes on top.
-  const bool at_rest = still_ >= since_tick_ + static_cast<std::uint64_t>(window());
+  // At rest since before the block began, or in a motion that goes on, the bound alone; else what one row does not show
+  // comes on top.
+  const bool at_rest = steady_motion || still_ >= since_tick_ + static_cast<std::uint64_t>(window());
   const double sigma_mps2 = std::fmax(noise_factor, 1.0) * setup_.array.sigma_mps2(0) + step_mps2;
   const double unseen_rad = at_rest ? 0.0 : kUnseenSigmas * sigma_mps2 / kG0_mps2 * std::sqrt(n() / 3.0);
   const bool crowd = (v.in_service & faulty).size() > 1;

@@ -27,6 +27,8 @@ class Player {
   double noise_factor = 1.0;  ///< times the stated sigma
   double correlation = 0.0;   ///< of the noise, from sample to sample
   double step_mps2 = 0.0;     ///< of the converter
+  bool steady_motion =
+      false;  ///< it moves as it did over the last two blocks: the level must hold that at every sample
   plumb::Readings shift_mps2{};
   plumb::SensorSet faulty;                     ///< may be excluded
   bool count_all = false;                      ///< also what nothing promises, under its own name

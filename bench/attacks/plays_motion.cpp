@@ -12,6 +12,7 @@ using namespace plumb_test;
 namespace {
 
 constexpr int kBlocksInMotion = 60;
+constexpr int kBlocksToShow = 2;  ///< one that has begun at rest, and one to learn of it
 
 Vec3 across(const Vec3& direction, TrialNoise& noise) { return turned(direction, 0.5 * kPi, noise); }
 
@@ -65,6 +66,7 @@ Tally play_slow_turn(const Episode& e) {
   const double step_rad = rad_from_deg(e.family.number) * player.period_s;
   const Vec3 axis = across(player.direction, player.noise);
   for (int k = 0; k < kBlocksInMotion * player.window(); ++k) {
+    player.steady_motion = k >= kBlocksToShow * player.window();
     const Vec3 moved = plus(player.direction, scaled(cross(axis, player.direction), step_rad));
     player.direction = scaled(moved, 1.0 / norm(moved));
     player.rest(1);
@@ -80,6 +82,7 @@ Tally play_wobble(const Episode& e) {
     const Vec3 side = across(middle, player.noise);
     const double phase = player.noise.between(0.0, 2.0 * kPi);
     for (int k = 0; k < 6 * player.window(); ++k) {
+      player.steady_motion = k >= kBlocksToShow * player.window();
       const double angle = most_rad * std::sin(2.0 * kPi * player.time_s + phase);
       player.direction = plus(scaled(middle, std::cos(angle)), scaled(side, std::sin(angle)));
       player.rest(1);

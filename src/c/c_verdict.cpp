@@ -57,6 +57,8 @@ void write_figures(const Verdict& v, plumb_verdict& out) noexcept {
   out.reference_mps2 = v.reference_mps2;
   out.reference_sigma_mps2 = v.reference_sigma_mps2;
   out.temperature_degc = v.temperature_degc;
+  out.noise_factor = v.noise_factor;
+  out.noise_correlation = v.noise_correlation;
   copy_to(out.gravity_mps2, v.gravity_mps2);
   copy_to(out.covariance, v.covariance);
   out.age_s = v.age_s;
@@ -77,6 +79,7 @@ void no_verdict(plumb_verdict& out) noexcept {
   out.transition.event = number(HealthEvent::none);
   out.validity = PLUMB_INVALID;
   out.alert = 1;
+  out.noise_factor = out.noise_correlation = 1.0;
 }
 
 plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept {

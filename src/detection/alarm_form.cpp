@@ -65,7 +65,8 @@ SetTest in_quadrature(const SensorArray& array, const GravityReference& gravity,
   // Drift since the calibration is a bound as well, and the metric of noise and calibration makes it no longer.
   const ToleranceBound drift = tolerance_bound(array, block, set, test);
   out.parity_systematic = drift.parity;
-  out.norm_systematic = (block.spread_mps2_sq / (2.0 * gravity.g_mps2) + acceleration_mps2 + drift.norm_mps2) / sigma;
+  out.norm_systematic =
+      (block.spread_mps2_sq / (2.0 * gravity.g_mps2) + block.motion_mps2 + acceleration_mps2 + drift.norm_mps2) / sigma;
   out.systematic = std::sqrt(drift.parity * drift.parity + out.norm_systematic * out.norm_systematic);
   return out;
 }

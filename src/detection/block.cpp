@@ -40,6 +40,10 @@ constexpr double kOwnShare = 0.5;
 /// blocks in a row are asked for.
 constexpr double kCertainRate = 0.05;
 
+/// A vector that swings by more than 0.1 g0 inside a block is motion whatever its noise class says: square of that
+/// share.
+constexpr double kMostSpread = 0.01;
+
 /// So many of the others are doubted at once, at most: all that the parity grade bears of eight; among more sensors the
 /// choices would take too long.
 constexpr int most_doubted(int n) noexcept { return n <= 8 ? 4 : 3; }
@@ -51,15 +55,15 @@ struct ResidualScatter {
   double excess = 0.0;  ///< of the residual, beyond noise [(m/s^2)^2]
 };
 
-ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& others,
-                                 int i) noexcept {
+ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise,
+                                 const LeastSquares& others, int i) noexcept {
   std::array<double, kCapacity> l{};
-  const double own_noise = array.sigma_mps2(i) * array.sigma_mps2(i);
+  const double own_noise = noise.of(i);
   double expected = own_noise;
   for (int j = 0; j < array.size(); ++j) {
     const double weight = dot(array.axis(i), others.column[static_cast<size_t>(j)]);
     l[static_cast<size_t>(j)] = -weight;
-    expected += weight * weight * array.sigma_mps2(j) * array.sigma_mps2(j);
+    expected += weight * weight * noise.of(j);
   }
   l[static_cast<size_t>(i)] = 1.0;
   const double variance = functional_variance(block, l, array.size());
@@ -69,14 +73,14 @@ ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulato
 /// True where the scatter of channel i is its own, whichever `grade` sensors of `calm` are left out of the estimate:
 /// with at most that many faulty ones among them, some choice leaves healthy sensors only, and those would have
 /// predicted a movement of the tool.
-bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, SensorSet calm, int i,
-                     int grade) noexcept {
+bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, SensorSet calm,
+                     int i, int grade) noexcept {
   const double least_ratio = restless_factor(1, block.size(), kCertainRate);
   for (SensorSet left = SensorSet::first(grade); array.all().contains(left); left = next_of_same_size(left)) {
     if (!calm.contains(left)) continue;
     const LeastSquares ls = least_squares(array, calm - left);
     if (!ls.valid) return false;
-    const ResidualScatter r = residual_scatter(array, block, ls, i);
+    const ResidualScatter r = residual_scatter(array, block, noise, ls, i);
     // Few that lie badly say little of what the others feel: noise times a large factor.
     if (!(r.excess > kOwnShare * r.own && r.ratio > least_ratio)) return false;
   }
@@ -84,16 +88,17 @@ bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, Se
 }
 
 /// v of the systematic limit: variance of the vector inside the block beyond what noise explains.
-double vector_spread(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& ls) noexcept {
+double vector_spread(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise,
+                     const LeastSquares& ls) noexcept {
   Vec3 excess{};
   for (int i = 0; i < array.size(); ++i) {
     if (!ls.used.has(i)) continue;
     const Vec3& own = ls.column[static_cast<size_t>(i)];
     for (int j = 0; j <= i; ++j) {
       if (!ls.used.has(j)) continue;
-      const double noise = i == j ? array.sigma_mps2(i) * array.sigma_mps2(i) : 0.0;
+      const double expected = i == j ? noise.of(i) : 0.0;
       const double times = i == j ? 1.0 : 2.0;
-      const double beyond = times * (block.covariance(i, j) - noise);
+      const double beyond = times * (block.covariance(i, j) - expected);
       const Vec3& other = ls.column[static_cast<size_t>(j)];
       for (size_t axis = 0; axis < 3; ++axis) excess[axis] += own[axis] * other[axis] * beyond;
     }
@@ -237,8 +242,9 @@ double restless_factor(int n, int size, double rate) noexcept {
 namespace {
 
 /// Sorts the restless channels: noisy ones, and whether the rest leaves the tool quiet.
-void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, const LeastSquares& ls,
-                            double factor, ScatterRecord* record, BlockJudgement& out) noexcept {
+void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise,
+                            const LeastSquares& ls, double factor, ScatterRecord* record,
+                            BlockJudgement& out) noexcept {
   const SensorSet calm = ls.used;
   if (record != nullptr) {
     for (int i = 0; i < array.size(); ++i) {
@@ -249,7 +255,7 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
   const int grade = std::min(parity_grade(array, calm | out.restless), most_doubted(array.size()));
   for (int i = 0; i < array.size(); ++i) {
     if (!out.restless.has(i)) continue;
-    const ResidualScatter r = residual_scatter(array, block, ls, i);
+    const ResidualScatter r = residual_scatter(array, block, noise, ls, i);
     bool noisy = r.ratio > factor;
     if (record != nullptr) {
       const auto a = static_cast<size_t>(i);
@@ -264,15 +270,32 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
       continue;
     }
     out.noisy = out.noisy.with(i);
-    if (grade > 0 && own_for_certain(array, block, calm, i, grade))
+    if (grade > 0 && own_for_certain(array, block, noise, calm, i, grade))
       out.noisy_for_certain = out.noisy_for_certain.with(i);
   }
 }
 
 }  // namespace
 
+BlockNoise noise_of(const SensorArray& array, double factor,
+                    const std::array<float, kCapacity>& resolution_mps2) noexcept {
+  BlockNoise out;
+  for (int i = 0; i < array.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double sigma = factor * array.sigma_mps2(i), step = static_cast<double>(resolution_mps2[a]);
+    out.variance[a] = sigma * sigma + step * step / (step > sigma ? 4.0 : 12.0);
+  }
+  return out;
+}
+
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
-                           double g_mps2, ScatterRecord* record, const LeastSquares* known) noexcept {
+                           double g_mps2) noexcept {
+  return judge_block(array, block, considered, factor, g_mps2, noise_of(array));
+}
+
+BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                           double g_mps2, const BlockNoise& noise, ScatterRecord* record,
+                           const LeastSquares* known) noexcept {
   BlockJudgement out;
   out.evidence.mean_mps2 = block.mean();
   out.evidence.usable = block.usable() & array.all();
@@ -285,8 +308,7 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   }
   for (int i = 0; i < array.size(); ++i) {
     if (!judged.has(i)) continue;
-    const double limit = factor * array.sigma_mps2(i) * array.sigma_mps2(i);
-    if (!(block.covariance(i, i) <= limit)) out.restless = out.restless.with(i);
+    if (!(block.covariance(i, i) <= factor * noise.of(i))) out.restless = out.restless.with(i);
   }
   const SensorSet calm = judged - out.restless;
   const bool at_hand = known != nullptr && known->valid && known->used == calm;
@@ -298,17 +320,30 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   if (ls.valid && may_hang) {
     out.quiet = false;
   } else if (ls.valid) {
-    tell_noise_from_motion(array, block, ls, factor, record, out);
+    tell_noise_from_motion(array, block, noise, ls, factor, record, out);
   } else if (rank_of(array, judged) < 3) {
     out.restless = SensorSet{};  // too few sensors to say anything
   }
   if (out.quiet) {
-    out.evidence.spread_mps2_sq = vector_spread(array, block, ls);
-    // A vector that swings by more than 0.1 g0 inside a block is motion whatever its noise class says.
-    out.quiet = out.evidence.spread_mps2_sq < 0.01 * g_mps2 * g_mps2;
+    out.evidence.spread_mps2_sq = vector_spread(array, block, noise, ls);
+    out.quiet = out.evidence.spread_mps2_sq < kMostSpread * g_mps2 * g_mps2;
   }
   if (!out.quiet) out.noisy = out.noisy_for_certain = SensorSet{};
   return out;
+}
+
+bool moves_together(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                    double g_mps2, const BlockNoise& noise, BlockJudgement& out) noexcept {
+  const SensorSet judged = out.evidence.usable & considered;
+  if (block.size() < 2 || judged.size() < 4) return false;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!out.restless.has(i)) continue;
+    const LeastSquares others = least_squares(array, judged.without(i));
+    if (!others.valid || !(residual_scatter(array, block, noise, others, i).ratio <= factor)) return false;
+  }
+  const LeastSquares all = least_squares(array, judged);
+  out.evidence.spread_mps2_sq = vector_spread(array, block, noise, all);
+  return all.valid && out.evidence.spread_mps2_sq < kMostSpread * g_mps2 * g_mps2;
 }
 
 }  // namespace PLUMB_ABI

@@ -174,6 +174,19 @@ std::int64_t CombinationMae::fresh_triple_sum(int k) const noexcept {
   return sum;
 }
 
+double CombinationMae::smoothness(int k) const noexcept {
+  if (count_[static_cast<size_t>(k)] < window_ || window_ < 3) return -1.0;
+  const double mean = whole(sum_[static_cast<size_t>(k)]) / window_;
+  double square = 0.0, steps = 0.0, before = 0.0;
+  for (int n = 0, slot = head_; n < window_; ++n, slot = slot + 1 == window_ ? 0 : slot + 1) {
+    const double off = static_cast<double>(ring_[row(slot) + static_cast<size_t>(k)]) - mean;
+    if (n > 0) steps += (off - before) * (off - before);
+    square += off * off;
+    before = off;
+  }
+  return square > 0.0 ? 0.5 * steps / square : -1.0;
+}
+
 bool CombinationMae::holds() const noexcept {
   // An absent value is -1, all bits set: the words of a ring, as numbers without sign, add up to its sums and to that
   // for each absent one. One flipped bit, in a ring, in a sum or in a count, and they do not.

@@ -303,7 +303,7 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   // that the host allows for. All sets of a block feel the same one, so it widens the norm and leaves parity alone.
   const Systematic cal = uncertainty != nullptr ? calibration_bound(*uncertainty, rows, p, x) : Systematic{};
   const Systematic drift = rows.tolerant ? tolerance_bound(rows, p, u, length, sigma_norm) : Systematic{};
-  const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + limits.acceleration_mps2;
+  const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + block.motion_mps2 + limits.acceleration_mps2;
   const double reference = (TestLimits::gravity * gravity.sigma_mps2 + moved) / sigma_norm;
   out.parity_systematic = root_n * (limits.calibration * cal.parity + drift.parity);
   out.norm_systematic = root_n * (limits.calibration * cal.norm + drift.norm + reference);

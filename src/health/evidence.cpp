@@ -163,14 +163,23 @@ bool HealthMonitor::joins_block(SensorSet usable) noexcept {
   return true;
 }
 
+/// What the block says of the noise of all sensors, and what is expected of each of them with that.
+BlockNoise HealthMonitor::learn_noise() noexcept {
+  const BlockNoise stated = noise_of(array_, 1.0, resolution_mps2_);
+  const bool whole = map_.valid && map_.used == in_service_ && block_.complete().contains(in_service_);
+  if (whole && noise_study_.add(array_, block_, map_, stated)) noise_study_.add_smoothness(array_, mae_, in_service_);
+  const double factor = noise_study_.factor();
+  verdict_.noise_factor = factor;
+  return factor > 1.0 ? noise_of(array_, factor, resolution_mps2_) : stated;
+}
+
 /// What is kept of the samples of a block: who delivered, who was calm.
-void HealthMonitor::note_block() noexcept {
+void HealthMonitor::note_block(const BlockNoise& noise) noexcept {
   block_usable_ = block_.complete();
   calm_ = SensorSet{};
   for (int i = 0; i < array_.size(); ++i) {
     if (!block_usable_.has(i)) continue;  // silent when the tool moved, it is no witness that it rested
-    const double sigma = array_.sigma_mps2(i);
-    if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * sigma * sigma) calm_ = calm_.with(i);
+    if (block_.size() < 2 || block_.covariance(i, i) <= restless_factor_ * noise.of(i)) calm_ = calm_.with(i);
   }
 }
 
@@ -183,28 +192,101 @@ void HealthMonitor::allow_for_drift(BlockEvidence& evidence) const noexcept {
   }
 }
 
+/// What rounding to steps does to each mean. Where noise reaches from one step to the next it averages out and is noise
+/// itself, a twelfth of the square of a step; where it does not, the mean may be off by half a step for as long as the
+/// tool stays.
+void HealthMonitor::allow_for_steps(BlockEvidence& evidence) const noexcept {
+  double widest = 1.0;
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double step = static_cast<double>(resolution_mps2_[a]), sigma = array_.sigma_mps2(i);
+    const double scatter = block_.size() > 1 ? block_.covariance(i, i) : sigma * sigma;
+    if (!(2.0 * sigma >= step && 4.0 * scatter >= step * step)) {
+      const double within = static_cast<double>(evidence.tolerance_mps2[a]) + 0.5 * step;
+      evidence.tolerance_mps2[a] = static_cast<float>(std::fmin(within, static_cast<double>(kMostTolerance_mps2)));
+    } else if (in_service_.has(i)) {
+      widest = std::fmax(widest, 1.0 + step * step / (12.0 * sigma * sigma));
+    }
+  }
+  evidence.samples /= widest;
+}
+
+/// Whether a block that is not quiet is one of a tool in slow motion.
+bool HealthMonitor::moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept {
+  const SensorSet used = in_service_ & block_usable_;
+  if (judged.quiet || turning || !used.contains(in_service_) || temperature_out_ || owes_calibration()) return false;
+  if (!(gate_.clipped_beyond(0.0) & used).empty()) return false;
+  return moves_together(array_, block_, used, restless_factor_, gravity_.g_mps2, noise, judged);
+}
+
+/// Whether a block in slow motion still gives a vector: within the alert limit for what the tool moves by until the
+/// next, and of gravity's length within what it scattered. Parity is no matter of motion.
+bool HealthMonitor::bears_motion(const BlockView& view) const noexcept {
+  using Kind = BlockView::Kind;
+  const bool off = view.kind == Kind::reference || (view.kind == Kind::alarm && view.cause != Cause::parity);
+  return !off && slow_motion_.bound_rad(gravity_.g_mps2) <= config_.alert_limit_rad;
+}
+
+/// Of a tool in slow motion: a vector and its bound. Nobody is accused by it and nobody cleared, it is no station, and
+/// nothing is learned from it; but that the sensors do not agree is an alarm whatever the tool does.
+EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests& tests,
+                                          const BlockView& view) noexcept {
+  calm_ = SensorSet{};
+  leave_station();
+  rest_.clear();
+  drift_rad_ = 0.0;
+  rescan(tests);
+  publish_vector(tests);
+  // Of one row and the mean of the block: the noise of a row is that of the mean times the samples behind it.
+  const double of_one_row = 1.0 + evidence_.samples * verdict_.noise_correlation;
+  const double trace = of_one_row * (view.used.covariance[0] + view.used.covariance[4] + view.used.covariance[8]);
+  freshness_.anchor_moving(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2, trace);
+  const bool alarm = view.kind == BlockView::Kind::alarm && !expected(HealthEvent::alarm);
+  if (alarm) recalibration_.drop_last();
+  return alarm ? bit(HealthEvent::alarm) : EventMask{0};
+}
+
 EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
-  note_block();
-  BlockJudgement judged =
-      judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2, &scatter_, &map_);
+  const BlockNoise noise = learn_noise();
+  note_block(noise);
+  BlockJudgement judged = judge_block(array_, block_, in_service_ & block_usable_, restless_factor_, gravity_.g_mps2,
+                                      noise, &scatter_, &map_);
+  const double alike = noise_study_.correlation(block_.size());
+  judged.evidence.samples /= verdict_.noise_factor * verdict_.noise_factor * alike;
+  verdict_.noise_correlation = alike;
   judged.evidence.usable = judged.evidence.usable & block_usable_;
   temperature_rate_.add(sample.time_s, last_temperature_degc_);
   allow_for_drift(judged.evidence);
-  freshness_.measure(array_, block_, resolution_mps2_);
+  allow_for_steps(judged.evidence);
+  const bool turning = rotation_locked_;
+  rotation_locked_ = false;
+  const bool slow = moves_slowly(noise, turning, judged);
+  freshness_.measure(array_, block_, noise, block_.size() / alike, resolution_mps2_, slow);
   block_.clear();
   const RawBlock raw = raw_;
   raw_.clear();
   verdict_.restless = judged.restless;
-  const bool turning = rotation_locked_;
-  rotation_locked_ = false;
-  moving_ = !note_facts(judged, !judged.quiet || turning);
+  moving_ = !note_facts(judged, !judged.quiet || turning) && !slow;
   partial_ = !block_usable_.contains(in_service_) || !doubted().empty();
+  const SlowMotion before = slow_motion_;
+  if (!moving_) {
+    const double swing_mps2 = std::sqrt(judged.evidence.spread_mps2_sq);
+    slow_motion_.add_swing(slow, swing_mps2);
+    judged.evidence.motion_mps2 = slow_motion_.lately() ? swing_mps2 : 0.0;
+  }
   const BlockTests tests(array_, gravity_, limits_, judged.evidence);
   const BlockView view = moving_ ? BlockView{} : judge(tests);
-  if (moving_ || !view.used.tested) {  // a block that cannot be tested is no evidence, and its vector no news
+  if (view.used.tested) {
+    const double sigma_rad = tilt_sigma_rad(view.used.x_mps2, view.used.covariance);
+    slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad);
+  }
+  // A block that cannot be tested is no evidence, and its vector no news.
+  if (moving_ || !view.used.tested || (slow && !bears_motion(view))) {
     moving_ = true;
+    slow_motion_ = before;  // what moves too much says nothing of what may be borne
+    slow_motion_.lapse();
     verdict_.cause = turning ? Cause::rotating : Cause::moving;
     count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
     mae_.clear();
@@ -217,6 +299,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   have_evidence_ = true;
   verdict_.cause = temperature_out_ ? Cause::temperature : view.cause;
   publish_decision(view);
+  if (slow) return serve_slow_block(sample, tests, view);
   if (temperature_out_) {  // all sensors leave their model together: nothing dies, nothing latches
     rescan(tests);
     publish_vector(tests);

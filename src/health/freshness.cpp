@@ -1,5 +1,6 @@
 #include "plumb/health/freshness.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "plumb/array/geometry.hpp"
@@ -11,19 +12,21 @@ using std::size_t;
 
 namespace {
 
+/// In blocks, from the first sample to the last, each one period shorter than a block lasts: time stamps that jitter.
+constexpr double kMovedAge = 1.25;
+
 constexpr std::uint16_t one_more(std::uint16_t run) noexcept {
   return run < kMostConfirm ? static_cast<std::uint16_t>(run + 1) : run;
 }
 
 }  // namespace
 
-void Freshness::measure(const SensorArray& array, const BlockAccumulator& block,
-                        const std::array<float, kCapacity>& resolution_mps2) noexcept {
+void Freshness::measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& expected,
+                        double independent, const std::array<float, kCapacity>& resolution_mps2, bool moved) noexcept {
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
-    const double sigma = array.sigma_mps2(i);
-    const double variance = std::fmax(sigma * sigma, block.covariance(i, i));
-    const double noise = kDepartureSigmas * std::sqrt(variance * (1.0 + 1.0 / block.size()));
+    const double variance = moved ? expected.of(i) : std::fmax(expected.of(i), block.covariance(i, i));
+    const double noise = kDepartureSigmas * std::sqrt(variance * (1.0 + 1.0 / independent));
     tolerance_mps2_[a] = static_cast<float>(noise + static_cast<double>(resolution_mps2[a]));
   }
 }
@@ -33,10 +36,18 @@ void Freshness::anchor(const MonitorConfig& config, double time_s, double motion
       config.max_age_s == 0.0 ? std::fmax(kLeastAge_s, 2.0 * (time_s - block_begin_s_)) : config.max_age_s;
   motion_mps2_ = static_cast<float>(motion_mps2);
   most_age_s_ = static_cast<float>(most_s);
+  most_samples_ = static_cast<std::uint32_t>(config.max_age_samples > 0 ? config.max_age_samples : 2 * config.window);
   samples_ = 0;
   missing_run_ = 0;
   anchored_ = true;
   departed_ = false;
+}
+
+void Freshness::anchor_moving(const MonitorConfig& config, double time_s, double motion_mps2, double trace) noexcept {
+  anchor(config, time_s, motion_mps2);
+  most_age_s_ = std::fmin(most_age_s_, static_cast<float>(kMovedAge * (time_s - block_begin_s_)));
+  most_samples_ = std::min(most_samples_, static_cast<std::uint32_t>(config.window));
+  most_away_mps2_ = motion_mps2 + kVectorSigmas * std::sqrt(trace);
 }
 
 void Freshness::note(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
@@ -72,9 +83,7 @@ void Freshness::note_gap() noexcept {
 }
 
 bool Freshness::holds(const MonitorConfig& config, double age_s) const noexcept {
-  const auto most_samples =
-      static_cast<std::uint32_t>(config.max_age_samples > 0 ? config.max_age_samples : 2 * config.window);
-  return anchored_ && !departed_ && missing_run_ < config.missing_confirm && samples_ <= most_samples &&
+  return anchored_ && !departed_ && missing_run_ < config.missing_confirm && samples_ <= most_samples_ &&
          age_s <= static_cast<double>(most_age_s_);
 }
 

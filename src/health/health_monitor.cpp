@@ -139,6 +139,8 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
   told_reference_ = reference_notice_ = ReferenceKind::none;
   scatter_.clear();
+  noise_study_.clear();
+  slow_motion_.clear();
   reference_study_.clear();
   trend_.clear();
   temperature_rate_.clear();
@@ -238,6 +240,7 @@ void HealthMonitor::empty_windows() noexcept {
   mae_.clear();
   leave_station();
   rest_.clear();
+  slow_motion_.lapse();
 }
 
 /// The sample is refused and the windows stay as they are; what was valid is now only held.
@@ -307,6 +310,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   verdict_.accepted = true;
   if (!joins_block(gate.usable)) return;
   add_readings(y, gate.usable, sample.count > 0 ? sample.count : 1);
+  compare_in_motion(gate.usable);
   raw_.add(sample.raw, gate.usable, last_temperature_degc_);
 }
 
@@ -358,6 +362,13 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
 /// from `serve`, beneath which the stack is deepest.
 [[gnu::noinline]] void HealthMonitor::compare_with_block(const Sample& sample, GateResult& gate) noexcept {
   freshness_.compare(array_, in_service_, gate.usable, readings_now(sample, gate), evidence_);
+  compare_in_motion(gate.usable);
+}
+
+/// In slow motion one sensor may feel the whole of what the bound holds: the vector tells how much it is.
+void HealthMonitor::compare_in_motion(SensorSet usable) noexcept {
+  if (slow_motion_.slow() && usable.contains(in_service_))
+    freshness_.compare_vectors(verdict_.latest_mps2, verdict_.gravity_mps2);
 }
 
 /// What a sample leads to that is not merely collected.

@@ -81,7 +81,7 @@ std::uint16_t HealthMonitor::usable_bits() const noexcept {
       when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
       when(verdict_.protection_available, Usable::protection_level) |
       when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(is_fresh() && verdict_.validity != Validity::held, Usable::stationary) |
+      when(is_fresh() && verdict_.validity != Validity::held && !slow_motion_.slow(), Usable::stationary) |
       when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
       when(!owes_calibration() && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
 }
@@ -95,6 +95,8 @@ Validity HealthMonitor::validity() const noexcept {
   if (mode_ == Mode::failed || owes_calibration() || !have_evidence_) return Validity::invalid;
   if (!has_variances(verdict_.covariance)) return Validity::invalid;
   if (!is_fresh()) return Validity::held;
+  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
+  if (slow_motion_.slow() && !bounded) return Validity::held;
   const Mode mode = published_mode();
   if (temperature_out_ || partial_) return Validity::unconfirmed;
   if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
@@ -103,7 +105,6 @@ Validity HealthMonitor::validity() const noexcept {
   if (mode == Mode::suspect && suspicion_ == Cause::reference) return Validity::unconfirmed;
   // An array that cannot bear another fault beside the suspected one has to have been at rest since before.
   if (!scan_.bears_more && !rest_.holds()) return Validity::unconfirmed;
-  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
   return bounded ? Validity::valid : Validity::unconfirmed;
 }
 
@@ -147,7 +148,8 @@ bool HealthMonitor::news() const noexcept {
   const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
   // An offer that an inhibit keeps waiting raises no event, and is told all the same.
   const Validity now = validity();
-  const bool stationary_now = now == Validity::invalid ? is_fresh() : now != Validity::held;
+  const bool fresh = now == Validity::invalid ? is_fresh() : now != Validity::held;
+  const bool stationary_now = fresh && !slow_motion_.slow();
   const bool offered = verdict_.recalibration.offered != recalibration_.offered();
   return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now(now) ||
          mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != now ||

@@ -239,7 +239,9 @@ SensorSet HealthMonitor::witnesses() const noexcept {
 
 /// The vector is that of a block: what the tool turned since the one before, and inside it, comes on top of its bound.
 double HealthMonitor::motion_in_bound_rad() const noexcept {
-  return drift_rad_ + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
+  const double now_rad =
+      std::fmax(drift_rad_, slow_motion_.now_rad()) + std::sqrt(3.0 * evidence_.spread_mps2_sq) / gravity_.g_mps2;
+  return std::fmax(now_rad, slow_motion_.bound_rad(gravity_.g_mps2));
 }
 
 /// Of a change of the specific force, in whatever direction, some sensor in service feels this share at least: the

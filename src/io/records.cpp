@@ -222,6 +222,8 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.number("norm_error_mps2", v.norm_error_mps2);
   append_reference(object, v, frame);
   object.drifts("drift_mps2_per_h", v, array.size());
+  object.number("noise_factor", v.noise_factor);
+  object.number("noise_correlation", v.noise_correlation);
   object.number("temperature_degc", v.temperature_degc);
   object.number("temperature_rate_degc_per_min", v.temperature_rate_degc_per_min);
   object.usable("usable", v.usable);

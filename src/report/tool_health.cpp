@@ -134,6 +134,10 @@ bool ToolHealth::begins_station(const Sample& sample, const Vec3& direction) con
 }
 
 void ToolHealth::take_block(const Sample& sample, const Verdict& verdict) {
+  if ((verdict.usable & Usable::vector) != 0 && (verdict.usable & Usable::stationary) == 0) {
+    moved_ = true;  // in slow motion: a direction, and no station
+    return;
+  }
   if (begins_station(sample, verdict.gravity_mps2)) {
     StationHealth fresh;
     fresh.label = sample.station == 0 ? -1 : static_cast<std::int64_t>(sample.station) - 1;

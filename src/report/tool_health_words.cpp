@@ -144,6 +144,16 @@ std::vector<std::string> ToolHealth::actions() const {
   if (count(Colour::orange) > 0)
     add(use() == SurveyUse::no ? "Use the orange stations for orientation only."
                                : "Use the orange stations for orientation only, or shoot them again.");
+  if (last_.noise_factor > 1.0)
+    add(fmt::format(
+        "The noise is {0:.2g} times what the array file states, and every limit is wider for it: write {0:.2g} "
+        "times the noise.",
+        last_.noise_factor));
+  if (last_.noise_correlation > 1.0)
+    add(
+        fmt::format("Rows share their noise: {:.2g} are worth one. Filter less before they are recorded, or take "
+                    "fewer of them.",
+                    last_.noise_correlation));
   if (use() == SurveyUse::yes) add("Continue.");
   return out;
 }

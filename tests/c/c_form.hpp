@@ -137,6 +137,8 @@ inline std::string difference(const plumb_verdict& c, const plumb::Verdict& v) {
   PLUMB_SAME(reference_mps2)
   PLUMB_SAME(reference_sigma_mps2)
   PLUMB_SAME(temperature_degc)
+  PLUMB_SAME(noise_factor)
+  PLUMB_SAME(noise_correlation)
   PLUMB_SAME(gravity_mps2)
   PLUMB_SAME(covariance)
   PLUMB_SAME(age_s)

@@ -166,6 +166,8 @@ TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
   v.reference.bias_mps2 = {0.0, 2.0, 0.0};
   v.sensor_cause[2] = Cause::noisy;
   v.drift_mps2_per_h[1] = 0.25F;
+  v.noise_factor = 2.5;
+  v.noise_correlation = 1.5;
   const Mat3 turned = {1, 0, 0, 0, 0, -1, 0, 1, 0};
   const Json object = Json::parse(verdict_json(v, file.array, turned));
   EXPECT_EQ(object["rotation"]["along"], Json({0.0, 0.0, 1.0}));
@@ -175,6 +177,8 @@ TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
   EXPECT_TRUE(object["reference"]["turn_deg"].is_null());
   EXPECT_EQ(object["sensor_cause"], Json({"none", "none", "noisy", "none"}));
   EXPECT_EQ(object["drift_mps2_per_h"], Json({0.0, 0.25, 0.0, 0.0}));
+  EXPECT_EQ(object["noise_factor"], 2.5);
+  EXPECT_EQ(object["noise_correlation"], 1.5);
   v.rotation.change_mps2 = 0.0;
   EXPECT_TRUE(Json::parse(verdict_json(v, file.array))["rotation"]["along"].is_null()) << "any turn does";
 }

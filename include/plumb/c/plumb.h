@@ -177,6 +177,7 @@ typedef struct plumb_verdict {
   double protection_level_rad, toolface_protection_rad;   /* 0 and pi: no bound (`protection_available` 0) */
   double turn_along[3], turn_change_mps2, turn_angle_rad; /* of the rotation that is wanted */
   double drift_mps2_per_h[PLUMB_C_SENSORS];
+  double noise_factor, noise_correlation; /* 1 where the noise is as stated: see `plumb::Verdict` */
 } plumb_verdict;
 
 /* A verdict that is none: suspect, invalid, alert. Error: null_pointer. */

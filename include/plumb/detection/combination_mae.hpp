@@ -75,6 +75,9 @@ class CombinationMae {
   double all_mps2() const noexcept { return mean(all_sum_, all_count_); }
   int all_samples() const noexcept { return all_count_; }
   int window() const noexcept { return window_; }
+  /// Mean square difference of successive values of triple k over twice their variance: near 1 for white noise, near 0
+  /// where each value is nearly the one before. Less than 0 where a value is missing or all are the same.
+  double smoothness(int k) const noexcept;
   /// Whether it is that of so many triples and samples: no index then leads out of it.
   bool fits(int triples, int window) const noexcept {
     return triples_ == triples && window_ == window && head_ >= 0 && head_ < window && triples <= kTripleCapacity &&

@@ -25,6 +25,7 @@ struct BlockEvidence {
   SensorSet usable;             ///< channels that delivered in at least half of the samples
   double samples = 0.0;         ///< N behind the mean
   double spread_mps2_sq = 0.0;  ///< v: variance of the vector inside the block beyond noise [(m/s^2)^2]
+  double motion_mps2 = 0.0;     ///< how far the length of what all sensors felt may be from gravity's: the tool shakes
   /// tau_i: largest error of the mean of sensor i beside noise and calibration, of either sign and whatever the others
   /// err by: drift since the calibration. It enters every limit and the protection level as a bound, not as a variance.
   std::array<float, kCapacity> tolerance_mps2{};
@@ -36,11 +37,11 @@ struct BlockEvidence {
     for (const float tolerance : tolerance_mps2) {
       if (!(tolerance >= 0.0F && tolerance <= kMostTolerance_mps2)) return false;
     }
-    return samples >= 0.0 && spread_mps2_sq >= 0.0;
+    return samples >= 0.0 && spread_mps2_sq >= 0.0 && motion_mps2 >= 0.0;
   }
   static constexpr auto fields() noexcept {
     using E = BlockEvidence;
-    return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq,
+    return field_list(per_sensor(&E::mean_mps2), &E::usable, &E::samples, &E::spread_mps2_sq, &E::motion_mps2,
                       per_sensor(&E::tolerance_mps2));
   }
 };

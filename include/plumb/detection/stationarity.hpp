@@ -65,6 +65,16 @@ class BlockAccumulator {
   }
 };
 
+/// What noise makes of the readings of each sensor [(m/s^2)^2].
+struct BlockNoise {
+  std::array<double, kCapacity> variance{};
+  double of(int i) const noexcept { return variance[static_cast<std::size_t>(i)]; }
+};
+/// `factor` times the stated sigma, and what rounding to steps of `resolution_mps2` adds: a twelfth of the square of a
+/// step; up to a quarter where noise is less than a step and a reading may stand on the edge between two.
+BlockNoise noise_of(const SensorArray& array, double factor = 1.0,
+                    const std::array<float, kCapacity>& resolution_mps2 = {}) noexcept;
+
 /// How a block looked.
 struct BlockJudgement {
   bool quiet = false;
@@ -106,10 +116,19 @@ double restless_factor(int n, int size, double rate) noexcept;
 /// an excluded one cannot stop the evidence. `factor` comes from `restless_factor`. With a `record` of the blocks
 /// before, a channel is noisy as well where its residual is restless over all of them, and at least half of its scatter
 /// is found in the residual: of a movement of the tool the others would have predicted it. `known`: a map at hand, used
-/// where it is that of the calm channels.
+/// where it is that of the calm channels. `noise`: what is expected of the channels.
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
-                           double g_mps2, ScatterRecord* record = nullptr,
+                           double g_mps2, const BlockNoise& noise, ScatterRecord* record = nullptr,
                            const LeastSquares* known = nullptr) noexcept;
+/// The same with the noise that the array states.
+BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                           double g_mps2) noexcept;
+
+/// For a block that is not quiet: whether every restless channel of `considered` does what the others of them predict,
+/// so that the tool moves and no channel by itself. Where it does, `out.evidence` holds the spread of their vector.
+/// With fewer than four sensors nobody can tell.
+bool moves_together(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
+                    double g_mps2, const BlockNoise& noise, BlockJudgement& out) noexcept;
 
 /// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag, by roll group or by a
 /// change of direction. Serves calibration from continuous logs. The first and the last quiet block of

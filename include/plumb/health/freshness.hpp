@@ -20,18 +20,30 @@ class Freshness {
   static constexpr double kDepartureSigmas = 6.0;
   /// Without an age limit of the host's, the vector may be this old, or two blocks where these take longer [s].
   static constexpr double kLeastAge_s = 1.0;
+  /// The same of the vector of one row, in roots of the trace of its covariance: 2e-5 per block at most.
+  static constexpr double kVectorSigmas = 5.0;
 
   /// From here on nothing is known of now, until a block is quiet: at power-on, behind a gap, on a new time base.
   void lapse() noexcept { anchored_ = false; }
   /// The first sample of a block.
   void begin_block(double time_s) noexcept { block_begin_s_ = time_s; }
-  /// How far a reading of each sensor may be from the mean of this block by noise: by the array's or, where the block
-  /// scattered more than that, by the block's own, and by one step of the converter.
-  void measure(const SensorArray& array, const BlockAccumulator& block,
-               const std::array<float, kCapacity>& resolution_mps2) noexcept;
+  /// How far a reading of each sensor may be from the mean of this block by noise: by what is expected or, where the
+  /// block scattered more than that, by the block's own, and by one step of the converter. The mean is as good as that
+  /// of `independent` samples. `moved`: what the block scattered by is no noise, and the bound holds it as motion.
+  void measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, double independent,
+               const std::array<float, kCapacity>& resolution_mps2, bool moved = false) noexcept;
   /// The block that ends at `time_s` was quiet, and its vector is published. The bound holds motion that some sensor
   /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.
   void anchor(const MonitorConfig& config, double time_s, double motion_mps2) noexcept;
+  /// The same of a block in slow motion: the bound holds `motion_mps2` of motion, as the vector of every row is then
+  /// held to, with `trace` of the covariance of one row [(m/s^2)^2]; up to the end of the next block and no longer.
+  void anchor_moving(const MonitorConfig& config, double time_s, double motion_mps2, double trace) noexcept;
+  /// The vector of a complete row beside that of the block in slow motion.
+  void compare_vectors(const Vec3& now_mps2, const Vec3& block_mps2) noexcept {
+    const Vec3 away = minus(now_mps2, block_mps2);
+    // Written so that what is not a number has departed.
+    if (!(dot(away, away) <= most_away_mps2_ * most_away_mps2_)) departed_ = true;
+  }
   /// One sample: the readings of `usable` beside the block's.
   void note(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,
             const BlockEvidence& block) noexcept;
@@ -51,9 +63,11 @@ class Freshness {
  private:
   double block_begin_s_ = 0.0;
   std::array<float, kCapacity> tolerance_mps2_{};
+  double most_away_mps2_ = 0.0;  ///< of the vector of a row, in slow motion
   float motion_mps2_ = 0.0F;
-  float most_age_s_ = 0.0F;        ///< of the vector
-  std::uint32_t samples_ = 0;      ///< offered since that block
+  float most_age_s_ = 0.0F;    ///< of the vector
+  std::uint32_t samples_ = 0;  ///< offered since that block
+  std::uint32_t most_samples_ = 0;
   std::uint16_t missing_run_ = 0;  ///< of these, in a row up to now, without a sensor in service
   bool anchored_ = false;
   Flag departed_;  ///< the last row does not show that the tool is where the block had it
@@ -67,8 +81,8 @@ class Freshness {
   static constexpr auto core() noexcept { return field_list(&Freshness::anchored_); }
   static constexpr auto fields() noexcept {
     using F = Freshness;
-    return field_list(&F::block_begin_s_, per_sensor(&F::tolerance_mps2_), &F::motion_mps2_, &F::most_age_s_,
-                      &F::samples_, &F::missing_run_, &F::anchored_, &F::departed_);
+    return field_list(&F::block_begin_s_, per_sensor(&F::tolerance_mps2_), &F::most_away_mps2_, &F::motion_mps2_,
+                      &F::most_age_s_, &F::samples_, &F::most_samples_, &F::missing_run_, &F::anchored_, &F::departed_);
   }
 };
 

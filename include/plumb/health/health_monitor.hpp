@@ -19,10 +19,12 @@
 #include "plumb/health/intake.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/monitor_setup.hpp"
+#include "plumb/health/noise_study.hpp"
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rest_reference.hpp"
 #include "plumb/health/rotation.hpp"
+#include "plumb/health/slow_motion.hpp"
 #include "plumb/health/snapshot.hpp"
 #include "plumb/health/temperature_rate.hpp"
 #include "plumb/health/trend.hpp"
@@ -136,6 +138,7 @@ class HealthMonitor {
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
   void compare_with_block(const Sample& sample, GateResult& gate) noexcept;
+  void compare_in_motion(SensorSet usable) noexcept;
   bool joins_block(SensorSet usable) noexcept;
   Readings readings_now(const Sample& sample, GateResult& gate) noexcept;
   bool is_rotation_modelled() const noexcept { return rotation_.rate_known && lever_arms_known_; }
@@ -171,8 +174,13 @@ class HealthMonitor {
   double clear_fraction() const noexcept;
   BlockView judge(const BlockTests& tests) const noexcept;
   void judge_mae(const BlockTests& tests, BlockView& view) const noexcept;
-  void note_block() noexcept;
+  BlockNoise learn_noise() noexcept;
+  void note_block(const BlockNoise& noise) noexcept;
   void allow_for_drift(BlockEvidence& evidence) const noexcept;
+  void allow_for_steps(BlockEvidence& evidence) const noexcept;
+  bool moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept;
+  bool bears_motion(const BlockView& view) const noexcept;
+  EventMask serve_slow_block(const Sample& sample, const BlockTests& tests, const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
 
@@ -320,6 +328,8 @@ class HealthMonitor {
 
   // Evidence.
   ScatterRecord scatter_;
+  NoiseStudy noise_study_;
+  SlowMotion slow_motion_;
   ReferenceStudy reference_study_;
   Trend trend_;
   TemperatureRate temperature_rate_;
@@ -396,8 +406,9 @@ class HealthMonitor {
         per_sensor(&M::noisy_run_), per_sensor(any(&M::stuck_since_)), &M::noisy_, &M::stuck_, &M::full_scale_,
         &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
-        &M::scatter_, &M::reference_study_, &M::trend_, &M::temperature_rate_, &M::gate_, &M::block_, &M::raw_,
-        &M::mae_, &M::isolation_, &M::episode_, &M::station_, &M::rest_, not_stored(&M::map_),
+        &M::scatter_, &M::noise_study_, &M::slow_motion_, &M::reference_study_, &M::trend_, &M::temperature_rate_,
+        &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, &M::rest_,
+        not_stored(&M::map_),
 #if PLUMB_SINGLE
         not_stored(&M::near_),
 #endif

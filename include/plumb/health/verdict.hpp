@@ -103,6 +103,11 @@ struct Verdict {
   ReferenceFinding reference;  ///< what the length being off means; bias in the output frame
   /// Slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0 = none told.
   std::array<float, kCapacity> drift_mps2_per_h{};
+  /// Noise of all sensors in stated sigmas, as blocks at rest have shown it; above 1 the stated ones are too small, and
+  /// every limit is wider for it.
+  double noise_factor = 1.0;
+  /// Samples that are worth one independent one: above 1 each shares its noise with the one before.
+  double noise_correlation = 1.0;
   double temperature_degc = 0.0;               ///< last finite one
   double temperature_rate_degc_per_min = 0.0;  ///< over the last half to whole minute; 0 = not known yet
   int block_fill = 0;                          ///< samples of the block that is being collected
@@ -156,10 +161,11 @@ struct Verdict {
         within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
         &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::triples_tested, &V::triples_passed,
         &V::parity, &V::parity_limit, &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference,
-        any(&V::drift_mps2_per_h), &V::temperature_degc, &V::temperature_rate_degc_per_min,
-        within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance, &V::age_s, &V::latest_mps2,
-        &V::protection_level_rad, &V::toolface_protection_rad, &V::usable, &V::faults_covered, &V::protection_available,
-        &V::alert, up_to(&V::snapshot_refusal, kLastErrc), not_stored(&V::config_hash));
+        any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation, &V::temperature_degc,
+        &V::temperature_rate_degc_per_min, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance,
+        &V::age_s, &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable,
+        &V::faults_covered, &V::protection_available, &V::alert, up_to(&V::snapshot_refusal, kLastErrc),
+        not_stored(&V::config_hash));
   }
 };
 
