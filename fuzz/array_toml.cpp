@@ -19,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto setup = std::make_unique<MonitorSetup>();
   setup->gravity = read->gravity;
   setup->config = read->monitor;
+  setup->stability = read->stability;
   if (!set_datasheet(read->datasheet, *setup)) return 0;
   auto monitor = std::make_unique<HealthMonitor>();
   if (!monitor->configure(*setup)) return 0;

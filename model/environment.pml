@@ -135,12 +135,18 @@ inline ballot() {
   fi
 }
 
+byte to_go;
 inline count_doubt() {
+  to_go = TO_GO;
+  /* One more is suspected than ever before in this episode: patience begins anew, and so no more than n times. */
+  if :: SUSPECTED > most -> most = SUSPECTED; doubt = 0 :: else fi;
+  assert(TO_GO <= to_go);
   if
   :: (kind == ALARMING && !(result == 1 && EXPECTED(CONTRADICTION, NONE_ALIVE))) || (kind == SOFT && mode == SUSPECT) ->
-       if :: doubt < P_STATIONS && excited -> doubt++ :: else fi
+       if :: doubt < P_STATIONS && excited -> doubt++; assert(TO_GO < to_go) :: else fi
   :: else
-  fi
+  fi;
+  to_go = 0
 }
 
 inline count_clean() {

@@ -62,8 +62,13 @@ inline judge() {
   assert(event != PROBATION_PASSED || WITHIN(CAME_BACK, readmitted & ~readmitted0_));
   assert(event == RESET || WITHIN(CAME_BACK & out0_, readmitted & ~readmitted0_));
   assert(WITHIN(readmitted0_, readmitted));
-  /* S12: patience over is bounded by the protection level, or failed */
+  /* S12: patience over is bounded by a protection level, or an explanation is left that the rest corroborates, or failed.
+     It is over after (n + 1) P stations in doubt at most: each of them takes one from what is left (TO_GO), and nothing
+     but the end of the episode gives any back. */
+  assert(most <= SENSORS && doubt <= P_STATIONS);
   assert(event != PATIENCE_OVER || m0_ != SUSPECT || (within -> (mode == SUSPECT && exhausted) : mode == FAILED));
+  /* In failed the qualifier tells a failure by patience from one by what is left. */
+  assert(mode != FAILED || m0_ == FAILED || exhausted == (event == PATIENCE_OVER));
   /* S14: within an episode the accused only grow, but for those that are gone, and for a sensor that joined */
   assert(!(open0_ && open) || CAME_BACK & ~posed0_ || WITHIN(accused0_ & POSED, accused));
   /* S15: a step that changes something has an event to record */
@@ -71,7 +76,8 @@ inline judge() {
   /* S16: an alarm ends recalibration, and nothing collected outlives it */
   assert(!(DOUBTED && m0_ == RECALIBRATING) || (mode != RECALIBRATING && !fit));
   assert(!(DOUBTED && m0_ == INITIAL) || !fit);
-  /* S17: doubt, and no evidence, are never published as valid */
+  /* S17: doubt and no evidence never leave the monitor in a state that shows output without regard to them: in suspect it
+     is valid within its bound only, of which this model knows nothing but `within` */
   assert(!DOUBTED || !VALID);
   assert(!(kind == NO_EVIDENCE) || !VALID);
   assert(!unproven || !SHOWS_OUTPUT);

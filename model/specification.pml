@@ -218,6 +218,7 @@ byte accused;            /* in every live fault set of the strict grade: the com
 bit standing;            /* the survivors are alive together, so the accused are the answer */
 byte agree;              /* stations at which that answer stood */
 byte doubt;              /* stations in doubt */
+byte most;               /* sensors at most that the answer and those set aside came to in this episode */
 byte clean_stations;     /* clean stations since */
 byte probation, probation_stations;
 byte pending;            /* what a block said while a channel event or a reset was taken */
@@ -229,6 +230,9 @@ bit fit;                 /* stations held out of the fit were clean */
 bit held;                /* no evidence for good */
 
 #define POSED (serving | aside)
+#define SUSPECTED COUNT((standing -> accused : 0) | aside)
+/* Stations in doubt that an episode has left before patience is over: (n + 1) P at first. */
+#define TO_GO ((SENSORS - most) * P_STATIONS + P_STATIONS - doubt)
 #define PUBLISHES(m) ((m) == NOMINAL || (m) == ISOLATED || (m) == DEGRADED)
 /* Recalibrating is published as the state it came from, the first calibration as nothing. */
 #define SHOWS_OUTPUT (PUBLISHES(mode) || (mode == RECALIBRATING && base != SUSPECT))
@@ -238,7 +242,7 @@ bit held;                /* no evidence for good */
 
 short raised;
 byte culprits, to_aside, lost, back, proven, named;
-bit within;              /* protection level within the alert limit */
+bit within;              /* the doubt has a bound within the alert limit, or an explanation that the rest corroborates */
 byte event;
 short does;              /* the actions of the cell taken */
 byte moved;              /* the sensors that the event is about */
@@ -335,13 +339,15 @@ inline machine() {
   if :: serving != in_was_ || (does & (ADOPT_FIT | RETURN_NAMED)) -> clean_run = 0 :: else fi;
 #endif
   if :: does & ADOPT_FIT -> calibrated = 1 :: else fi;
-  lead()
+  lead();
+  /* In failed it says that time ran out; a failure of another kind says so, whatever was before. */
+  if :: mode == FAILED && was_ != FAILED && !(does & EXHAUST) -> exhausted = 0 :: else fi
 }
 
 /* --- What the step means for the evidence on record. ------------------------------------------------------------- */
 
 inline forget_episode() {
-  open = 0; accused = 0; standing = 0; agree = 0; doubt = 0; clean_stations = 0
+  open = 0; accused = 0; standing = 0; agree = 0; doubt = 0; most = 0; clean_stations = 0
 }
 
 inline follow() {

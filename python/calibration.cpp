@@ -1,6 +1,7 @@
 // Calibration: numpy columns in, coefficients out, or the refusal in the tool's words.
 #include <pybind11/stl.h>
 
+#include "calibration_age.hpp"
 #include "fit_summary.hpp"
 #include "fit_words.hpp"
 #include "module.hpp"
@@ -24,7 +25,10 @@ plumb::cli::CalibrationChoice choice_of(const std::string& hold_out, const std::
 }
 
 Calibration calibrate(const Array& array, const Log& log, const std::string& hold_out,
-                      const std::string& temperature_order, bool keep_outliers) {
+                      const std::string& temperature_order, bool keep_outliers, const std::string& date,
+                      const std::string& serial) {
+  const std::string no_date = date.empty() ? "" : plumb::cli::date_refusal(date);
+  if (!no_date.empty()) throw Refused("date: " + no_date);
   const plumb::cli::CalibrationChoice choice = choice_of(hold_out, temperature_order, keep_outliers);
   const Log::View view(log, *array);
   plumb::cli::CalibrationRun run;
@@ -43,6 +47,8 @@ Calibration calibrate(const Array& array, const Log& log, const std::string& hol
   out.array = array;
   out.report = plumb::cli::fit_json(run, *array);
   out.context.log_file = "numpy arrays";
+  out.context.date = date;
+  out.context.serial = serial;
   out.context.stations = run.report.stations;
   out.context.plumb_version = plumb::cli::kVersion;
   out.context.gravity = array->gravity;
@@ -138,17 +144,23 @@ void bind_calibration(py::module_& module) {
             return py::module_::import("json").attr("loads")(c.report);
           },
           "The report of the fit as `plumb calibrate --json` prints it, as a dict; None where it was read from a file.")
+      .def_property_readonly(
+          "date", [](const Calibration& c) { return c.context.date; }, "Of the log, '2026-03-31'; empty: not told.")
+      .def_property_readonly(
+          "serial", [](const Calibration& c) { return c.context.serial; }, "Of the tool; empty: not told.")
       .def("apply", &apply, py::arg("log"),
            "Accelerations along the sensor axes [m/s^2], positive down, (rows, n); NaN where a channel said nothing.");
 
   module.def(
       "calibrate", &calibrate, array_argument(), py::arg("log"), py::arg("hold_out") = "",
-      py::arg("temperature_order") = "auto", py::arg("keep_outliers") = false,
+      py::arg("temperature_order") = "auto", py::arg("keep_outliers") = false, py::arg("date") = "",
+      py::arg("serial") = "",
       "Estimate bias, scale and direction of every sensor from a log of quiet attitudes, as `plumb calibrate` does:\n"
       "it finds the still stretches by itself, or takes rows as stations where the array file says so. Raises Error\n"
       "where the fit is not accepted, with what is wrong and what to do. hold_out: a number of folds, a fraction, "
       "'one'\n"
-      "or 'none'; temperature_order: 'auto' or 0 to 3.");
+      "or 'none'; temperature_order: 'auto' or 0 to 3. date ('2026-03-31') and serial are kept with the "
+      "calibration.");
 }
 
 }  // namespace plumb_python

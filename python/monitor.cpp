@@ -76,11 +76,11 @@ const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Cali
 
 class Monitor {
  public:
-  Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot)
+  Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot, double days)
       : array_(std::move(array)),
-        monitor_(taken(snapshot
-                           ? plumb::cli::restore_monitor(*array_, made_for(*array_, calibration), *snapshot, "snapshot")
-                           : plumb::cli::make_monitor(*array_, made_for(*array_, calibration)))) {}
+        monitor_(taken(
+            snapshot ? plumb::cli::restore_monitor(*array_, made_for(*array_, calibration), *snapshot, "snapshot", days)
+                     : plumb::cli::make_monitor(*array_, made_for(*array_, calibration), days))) {}
 
   py::array_t<Row> run(const Log& log) {
     const Log::View view(log, *array_);
@@ -166,9 +166,10 @@ void bind_monitor(py::module_& module) {
   py::class_<Monitor>(
       module, "Monitor",
       "Watches an array. Feed it logs, whole or in parts; it goes on where it was. Starts as suspect: trust is\n"
-      "earned. snapshot: bytes of Monitor.snapshot, under the same array and calibration. For one thread at a time.")
-      .def(py::init<Array, const Calibration&, const std::optional<py::bytes>&>(), array_argument(),
-           py::arg("calibration"), py::arg("snapshot") = py::none())
+      "earned. snapshot: bytes of Monitor.snapshot, under the same array and calibration.\n"
+      "days_since_calibration: for what the array file states to drift per day. For one thread at a time.")
+      .def(py::init<Array, const Calibration&, const std::optional<py::bytes>&, double>(), array_argument(),
+           py::arg("calibration"), py::arg("snapshot") = py::none(), py::arg("days_since_calibration") = 0.0)
       .def("run", &Monitor::run, py::arg("log"),
            "Step all samples; returns a structured array (verdict_dtype), one row per sample. state, validity and "
            "cause\n"

@@ -59,6 +59,8 @@ const std::vector<Family>& all() {
       {"b3-resolution", "readings in steps of four sigma", Play::coarse_steps, kPromised, kOutside, 4, 8, false, false, 4.0, 0.5},
       {"b3-ar1", "noise of the stated sigma, correlated by 0.99 from row to row", Play::slow_noise, kPromised, kOutside, 4, 8, false, false, 0.99, 0.5},
       {"b4-adaptive-fail", "one adaptive liar that wants failed", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 2, 2},
+      {"b4-successive-1", "sensors fail one after another, one station between: constant biases, as many as the confirmed grade", Play::successive, kPromised, kOutside, 5, 8, true, false, 1, 0.5},
+      {"b4-successive-2", "the same with two stations between", Play::successive, kPromised, kOutside, 5, 8, true, false, 2, 0.5},
       {"b5-mirrored", "two mirrored sensors of 6 to 8, default configuration", Play::mirrored_still, kPromised, kOutside, 6, 8, true, false, 2, 0.5},
       {"b6-after-fault", "four sensors at rest behind a fault of one of them", Play::after_fault, kPromised, kOutside, 4, 4, false, false, 0, 0.5},
       {"b7-latitude", "gravity left at another latitude, up to 2.7 mg off, and one fault", Play::latitude, kOutside, kOutside, 4, 8, true, false, 2.7, 0.5},

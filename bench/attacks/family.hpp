@@ -48,6 +48,7 @@ enum class Play : std::uint8_t {
   coarse_steps,
   slow_noise,
   mirrored_still,
+  successive,
   after_fault,
   latitude,
   drift_and_fault,

@@ -108,6 +108,7 @@ Tally play_family(const Episode& e) {
     case Play::understated_noise:
     case Play::coarse_steps:
     case Play::slow_noise: return play_noise(e);
+    case Play::successive: return play_successive(e);
     case Play::after_fault: return play_after_fault(e);
   }
   return {};

@@ -61,6 +61,7 @@ Tally play_steps(const Episode& e);
 Tally play_settling(const Episode& e);
 Tally play_mirror(const Episode& e);
 Tally play_adaptive(const Episode& e);
+Tally play_successive(const Episode& e);
 Tally play_after_fault(const Episode& e);
 // plays_calibration.cpp: what is known of sensors and gravity is not true
 Tally play_drift(const Episode& e);

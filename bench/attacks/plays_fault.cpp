@@ -125,6 +125,32 @@ Tally play_adaptive(const Episode& e) {
   return e.done(player);
 }
 
+Tally play_successive(const Episode& e) {
+  TrialNoise draws = e.draws();
+  const AttackTool& tool = any_tool(e.n, draws);
+  Player player = e.player(tool);
+  player.g_mps2 = gravity_within_bounds(draws);
+  player.settle();
+  player.attack();
+  const int gap = static_cast<int>(e.family.number);
+  const SensorSet all = LawCase::some(e.n, std::max(1, tool.law.strict()), draws);
+  std::array<double, kCapacity> bias_mps2{};
+  player.lie = [&bias_mps2](int i, double y) { return y + bias_mps2[slot(i)]; };
+  for (SensorSet left = all; !left.empty();) {
+    int next = draws.below(e.n);
+    while (!left.has(next)) next = (next + 1) % e.n;
+    left = left.without(next);
+    player.faulty = player.faulty.with(next);
+    bias_mps2[slot(next)] = any_step(draws, 0.05, 1.0);
+    const int stations = left.empty() ? 24 : 1 + gap;
+    for (int station = 0; station < stations; ++station) {
+      player.direction = player.noise.direction();
+      player.block();
+    }
+  }
+  return e.done(player);
+}
+
 Tally play_after_fault(const Episode& e) {
   Player player = at_rest_with_one_faulty(e);
   const double bias_mps2 = any_step(player.noise, 0.05, 1.0);

@@ -29,13 +29,13 @@ double worst_error(const LawTool& tool) {
   return worst;
 }
 
-AttackTool attack_tool(LawTool tool) {
-  AttackTool out{std::move(tool), {}};
-  // Least squares: h_i + theta x h_i comes nearest to the true rows.
+namespace {
+
+/// The small turn theta with h + theta x h nearest to w over all rows, by least squares.
+Vec3 small_turn(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   Vec3 rows[3] = {}, right{};
-  for (int i = 0; i < out.law.n(); ++i) {
-    const Vec3& h = out.law.tool.array.axis(i);
-    const Vec3& w = out.law.tool.row[slot(i)];
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Vec3 &h = from[i], &w = to[i];
     right = plus(right, cross(h, minus(w, h)));
     for (std::size_t a = 0; a < 3; ++a) {
       Vec3 unit{};
@@ -44,11 +44,39 @@ AttackTool attack_tool(LawTool tool) {
     }
   }
   const double det = dot(rows[0], cross(rows[1], rows[2]));
-  const Vec3 theta =
-      scaled(plus(plus(scaled(cross(rows[1], rows[2]), right[0]), scaled(cross(rows[2], rows[0]), right[1])),
-                  scaled(cross(rows[0], rows[1]), right[2])),
-             1.0 / det);
-  out.turn = scaled(theta, -1.0);  // from the true frame to that of the calibrated axes
+  return scaled(plus(plus(scaled(cross(rows[1], rows[2]), right[0]), scaled(cross(rows[2], rows[0]), right[1])),
+                     scaled(cross(rows[0], rows[1]), right[2])),
+                1.0 / det);
+}
+
+/// `v` turned about `theta` by its length.
+Vec3 turned_about(const Vec3& theta, const Vec3& v) {
+  const double angle = norm(theta);
+  if (angle == 0.0) return v;
+  const Vec3 axis = scaled(theta, 1.0 / angle);
+  return plus(plus(scaled(v, std::cos(angle)), scaled(cross(axis, v), std::sin(angle))),
+              scaled(axis, dot(axis, v) * (1.0 - std::cos(angle))));
+}
+
+}  // namespace
+
+AttackTool attack_tool(LawTool tool) {
+  AttackTool out{std::move(tool), {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  // The datasheet's axes may lie degrees from the true ones: to the first order alone the frame would be off by the
+  // square of that, as much as what is judged in it.
+  constexpr int kRounds = 6;
+  std::vector<Vec3> from, to;
+  for (int i = 0; i < out.law.n(); ++i) {
+    from.push_back(out.law.tool.row[slot(i)]);
+    to.push_back(out.law.tool.array.axis(i));
+  }
+  Vec3 column[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int round = 0; round < kRounds; ++round) {
+    const Vec3 theta = small_turn(from, to);
+    for (Vec3& row : from) row = turned_about(theta, row);
+    for (Vec3& c : column) c = turned_about(theta, c);
+  }
+  for (std::size_t k = 0; k < 9; ++k) out.turn[k] = column[k % 3][k / 3];
   return out;
 }
 

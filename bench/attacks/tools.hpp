@@ -15,10 +15,10 @@ inline constexpr double kMilligee_mps2 = 1e-3 * plumb::kG0_mps2;
 /// A tool, and how its frame is turned against that of the calibrated axes: no test sees that, and no bound covers it.
 struct AttackTool {
   plumb_test::LawTool law;
-  plumb::Vec3 turn{};
+  plumb::Mat3 turn{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< from the true frame to that of the calibrated axes
   int n() const { return law.n(); }
   const plumb::SensorArray& array() const { return law.tool.array; }
-  plumb::Vec3 seen(const plumb::Vec3& direction) const { return plumb::plus(direction, plumb::cross(turn, direction)); }
+  plumb::Vec3 seen(const plumb::Vec3& direction) const { return plumb::times(turn, direction); }
 };
 AttackTool attack_tool(plumb_test::LawTool tool);
 /// What its calibration is wrong by in the length of a triple, over what it is bounded by: the bound holds for 99 % of

@@ -44,6 +44,7 @@ int main(void) {
     sensor[i].id[0] = 'a';
     sensor[i].id[1] = (char)('1' + i);
     sensor[i].sigma_mps2 = 0.002;
+    sensor[i].stability_mps2 = 0.001; /* drift since the calibration, 1 sigma, from its datasheet */
     for (int c = 0; c < 3; ++c) sensor[i].axis[c] = axes[i][c];
   }
   plumb_config_defaults(&config);

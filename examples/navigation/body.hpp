@@ -14,6 +14,9 @@ inline constexpr double kStep_s = 0.01, kSigma_mps2 = 0.002, kGyroSigma_radps = 
 /// every protection level. 0 for what lies on rock.
 inline constexpr double kVehicle_mps2 = 5e-3 * plumb::kG0_mps2;
 
+/// Drift of a sensor since its calibration, 1 sigma: servo accelerometers. 0.02 deg of every protection level.
+inline constexpr double kStability_mps2 = 3e-5 * plumb::kG0_mps2;
+
 class Body {
  public:
   explicit Body(double dead_from_s, double acceleration_bound_mps2 = kVehicle_mps2) : dead_from_s_(dead_from_s) {
@@ -25,7 +28,8 @@ class Body {
     for (std::size_t i = 0; i < 4; ++i) rows[i] = {plumb::make_id(ids[i]), axes[i], kSigma_mps2};
     const plumb::Expected<plumb::SensorArray> array = plumb::SensorArray::make(rows, 4);
     if (array) setup_.array = *array;  // else empty: the monitor refuses it
-    setup_.model.size = 4;             // scale 1, bias 0: the raw values are m/s^2 along the axes already
+    setup_.stability.fill({kStability_mps2, 0.0, 0.0, 0.0});
+    setup_.model.size = 4;  // scale 1, bias 0: the raw values are m/s^2 along the axes already
   }
 
   const plumb::MonitorSetup& setup() const { return setup_; }

@@ -136,7 +136,8 @@ Theorem suspect_is_left_by_evidence e c f :
   publishes (goes M_suspect e c f) -> (e = E_clean_block /\ earned f = true) \/ (e = E_culprit /\ unproven f = false).
 Proof. unfold publishes. revert e. intros e. destruct e; unfold goes; simpl; intros; settle; every_fact. Qed.
 
-(* S12 (its part in the table): patience over in suspect: bounded by the protection level, or failed. *)
+(* S12 (its part in the table): patience over in suspect: bounded, or with an explanation that the rest corroborates
+   ([within]), or failed. *)
 Theorem S12_patience c f :
   goes M_suspect E_patience_over c f = (if within f then M_suspect else M_failed).
 Proof. destruct f as [s u r b w]. destruct w; reflexivity. Qed.

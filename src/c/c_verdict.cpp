@@ -100,6 +100,7 @@ plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept {
   out.protection_available = byte(v.protection_available);
   out.wants_rotation = byte(v.wants_rotation);
   out.recalibration_phase = number(v.recalibration.phase);
+  out.faults_covered = v.faults_covered;
   out.usable = v.usable;
   const TransitionRecord& t = v.transition;
   out.transition = {t.sequence, number(t.from), number(t.to), number(t.event), number(t.cause), number(t.grade),

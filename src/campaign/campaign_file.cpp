@@ -72,10 +72,14 @@ std::vector<double> read_gravity(const TomlTable& top, Plan& plan) {
 }
 
 void read_calibration(const TomlTable& top, Plan& plan) {
-  const TomlTable table = section_of(top, "calibration", {"left"});
+  const TomlTable table = section_of(top, "calibration", {"left", "days"});
   plan.calibration_mps2 = table.quantity(Quantity::acceleration, "left", 0.0);
   if (!(plan.calibration_mps2 >= 0.0 && plan.calibration_mps2 <= 0.1)) {
     table.fail(table.line_of("left"), "left", "is out of range", "1 sigma of what calibration left, \"0.03 mg0\"");
+  }
+  plan.days_since_calibration = table.quantity(Quantity::ratio, "days", 0.0);
+  if (!(plan.days_since_calibration >= 0.0 && plan.days_since_calibration <= kMostDaysSinceCalibration)) {
+    table.fail(table.line_of("days"), "days", "is out of range", "days since the calibration, from 0 up: days = 30");
   }
 }
 
@@ -160,7 +164,7 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   read_run(top, monitor, plan);
   const std::vector<double> gravity = read_gravity(top, plan);
   read_calibration(top, plan);
-  plan.tools = read_tools(top, monitor);
+  plan.tools = read_tools(top, monitor, io::read_usual_stability(root, path));
   plan.attitudes = read_attitudes(top);
   lay_cells(top, read_faults(top), gravity, within_grade, plan);
   out.expect = read_expectations(top);
@@ -268,7 +272,7 @@ std::uint64_t hash_of(const Plan& plan) {
     hash.add(number);
   }
   for (const double number : {plan.rate_hz, plan.move_s, plan.gravity_mps2, plan.gravity_sigma_mps2,
-                              plan.calibration_mps2, plan.alert_limit_rad}) {
+                              plan.calibration_mps2, plan.alert_limit_rad, plan.days_since_calibration}) {
     hash.add(number);
   }
   hash.add(plan.monitor.data(), plan.monitor.size());
@@ -279,6 +283,7 @@ std::uint64_t hash_of(const Plan& plan) {
     hash.add(tool.detectable_mps2.data(), sizeof tool.detectable_mps2);
     hash.add(tool.volt_per_mps2);
     hash.add(tool.resolution_raw);
+    for (const auto& stability : tool.stability) hash.add(stability.data(), sizeof stability);
   }
   for (const AttitudePlan& a : plan.attitudes) {
     hash.add(static_cast<int>(a.kind));

@@ -7,6 +7,7 @@
 #include "../io/toml_table.hpp"
 #include "plumb/campaign/campaign_file.hpp"
 #include "plumb/health/monitor_config.hpp"
+#include "plumb/health/stability.hpp"
 
 namespace plumb {
 namespace campaign {
@@ -21,7 +22,8 @@ int whole(const io::TomlTable& table, const char* key, int fallback, int least, 
 std::vector<double> numbers(const io::TomlTable& table, const char* key, const std::vector<double>& fallback,
                             double least, double most, const std::string& remedy);
 
-std::vector<ToolPlan> read_tools(const io::TomlTable& top, const MonitorConfig& monitor);
+/// `usual`: the stability of every sensor that neither its [[tool]] nor its array file states one of.
+std::vector<ToolPlan> read_tools(const io::TomlTable& top, const MonitorConfig& monitor, const Stability& usual);
 std::vector<AttitudePlan> read_attitudes(const io::TomlTable& top);
 
 /// What one `[[fault]]` contributes: kinds and sizes, and how many sensors at once.

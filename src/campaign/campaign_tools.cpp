@@ -1,6 +1,7 @@
 // [[tool]] and [[attitude]] of the campaign file.
 #include <cmath>
 
+#include "../io/array_parts.hpp"
 #include "campaign_parts.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/array/named.hpp"
@@ -37,7 +38,10 @@ int axes_of(int geometry, int sensors, AxisList& axes) {
   }
 }
 
-SensorArray array_from(const TomlTable& table, ToolPlan& tool) {
+/// What the sensors state: `stability` comes with the usual one, and is that of an array file where it states any.
+using StabilityOfAll = std::array<Stability, kCapacity>;
+
+SensorArray array_from(const TomlTable& table, ToolPlan& tool, StabilityOfAll& stability) {
   if (table.has("array")) {
     if (table.has("geometry"))
       table.fail(table.line_of("geometry"), "geometry", "and array both name axes", "keep one");
@@ -47,6 +51,9 @@ SensorArray array_from(const TomlTable& table, ToolPlan& tool) {
                  "name an array file, relative to where plumb runs");
     }
     tool.name = table.text("name", file->name);
+    for (size_t i = 0; i < stability.size(); ++i) {
+      if (file->stability[i].stated()) stability[i] = file->stability[i];
+    }
     return file->array;
   }
   table.need("geometry", "name the axes: geometry = \"cone\" with sensors = 5, or array = \"my_tool.toml\"");
@@ -92,18 +99,24 @@ void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, Too
 
 }  // namespace
 
-std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& monitor) {
+std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& monitor, const Stability& usual) {
   std::vector<ToolPlan> out;
-  for (const TomlTable& table :
-       tables_of(top, "tool", {"name", "geometry", "sensors", "noise", "array", "resolution", "samples_per_row"})) {
+  const std::vector<std::string> keys =
+      io::with_stability_keys({"name", "geometry", "sensors", "noise", "array", "resolution", "samples_per_row"});
+  for (const TomlTable& table : tables_of(top, "tool", keys)) {
     ToolPlan tool;
-    const SensorArray array = array_from(table, tool);
+    StabilityOfAll stability{};
+    stability.fill(usual);
+    const SensorArray array = array_from(table, tool, stability);
     tool.sensors = array.size();
     // A row that is the mean of so many samples scatters less than one of them.
     const double shrink = std::sqrt(static_cast<double>(whole(table, "samples_per_row", 1, 1, kMostBehindARow)));
     for (int i = 0; i < array.size(); ++i) {
       tool.axis[static_cast<size_t>(i)] = array.axis(i);
       tool.sigma_mps2[static_cast<size_t>(i)] = array.sigma_mps2(i) / shrink;
+      const Stability own = io::read_stability(table, stability[static_cast<size_t>(i)]);
+      tool.stability[static_cast<size_t>(i)] = {own.mps2, own.per_day_mps2, own.per_degc_mps2,
+                                                own.per_degc_per_min_mps2};
     }
     tool.volt_per_mps2 = 3.0 / kG0_mps2;  // the paper's sensors
     tool.resolution_raw = tool.volt_per_mps2 * table.quantity(Quantity::acceleration, "resolution", 0.0);

@@ -74,6 +74,8 @@ std::string array_toml(const Plan& plan, const ToolPlan& tool) {
             io::shortest(tool.axis[a][0]) + ", " + io::shortest(tool.axis[a][1]) + ", " +
             io::shortest(tool.axis[a][2]) + "]\nnoise = \"" + io::shortest(tool.sigma_mps2[a]) + " m/s^2\"\n";
     if (tool.resolution_raw > 0.0) text += "resolution = \"" + io::shortest(tool.resolution_raw) + " V\"\n";
+    const std::array<double, 4>& s = tool.stability[a];
+    text += io::stability_toml({s[0], s[1], s[2], s[3]});
   }
   return text;
 }

@@ -1,9 +1,11 @@
 // plumb calibrate: a log of quiet attitudes in, a calibration file out.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
 #include <sstream>
 
+#include "calibration_age.hpp"
 #include "fit_pictures.hpp"
 #include "fit_summary.hpp"
 #include "pipeline.hpp"
@@ -22,6 +24,7 @@ struct CalibrateOptions {
   std::string out;
   CalibrationChoice choice;
   std::string plots;
+  CalibrationTag tag;
   bool suggest = false;
   bool json = false;
   bool verbose = false;
@@ -77,6 +80,13 @@ std::string read_wobble(const std::string& text, double& wobble_rad) {
   return "";
 }
 
+std::string serial_refusal(const std::string& text) {
+  constexpr std::size_t kMost = 64;
+  const bool printable = std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  if (text.empty() || text.size() > kMost || !printable) return "give 1 to 64 printable ASCII characters";
+  return "";
+}
+
 /// The pictures, where asked for. Without gnuplot the rest is done all the same.
 io::FileExpected<void> draw_fit(const CalibrateOptions& options, const CalibrationRun& fit,
                                 const io::ArrayFile& array) {
@@ -123,7 +133,7 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
-  const io::FileExpected<void> saved = save_calibration(options.out, *fit, *array, options.log.path);
+  const io::FileExpected<void> saved = save_calibration(options.out, *fit, *array, options.log.path, options.tag);
   if (!saved) return report(saved.error());
   if (!options.json && options.out != "-") print("written: " + options.out + "\n");
   if (!fit->interrupted) return io::ExitCode::done;
@@ -145,6 +155,15 @@ Command add_calibrate(const Options& tool) {
       .required()
       .type_name("LOG.csv");
   command.add_option("--out", options->out, "the calibration file to write").required().type_name("CAL.json");
+  command
+      .add_option("--date", options->tag.date,
+                  "when the log was recorded; kept in the calibration file: what is stated to drift per day "
+                  "(stability_per_day) counts from it")
+      .check(date_refusal)
+      .type_name("YYYY-MM-DD");
+  command.add_option("--serial", options->tag.serial, "the serial number of the tool; kept in the calibration file")
+      .check(serial_refusal)
+      .type_name("TEXT");
   add_bad_row_option(command, options->log.on_bad_row);
   command.add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
   command

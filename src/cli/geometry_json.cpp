@@ -36,6 +36,7 @@ Json sensors_json(const GeometrySubject& subject, const GeometryStudy& study) {
     }
     one["thresholds_mps2"] =
         io::object({{"block_noise", study.budget.noise_mps2[at(i)]},
+                    {"drift_tolerance", subject.settings.tolerance_mps2[at(i)]},
                     {"detectable", finite_or_null(t.detectable_mps2)},
                     {"sure_detection", finite_or_null(t.sure_detection_mps2)},
                     {"set_aside", finite_or_null(t.set_aside_mps2)},

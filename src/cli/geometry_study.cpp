@@ -66,7 +66,7 @@ std::vector<HiddenWiring> hidden_wirings(const SensorArray& array, const Gravity
                                          const ErrorBudget& budget) {
   const int n = array.size();
   double noise = 0.0;
-  for (int i = 0; i < n; ++i) noise = std::fmax(noise, budget.noise_mps2[at(i)] + budget.calibration_mps2[at(i)]);
+  for (int i = 0; i < n; ++i) noise = std::fmax(noise, budget.noise_mps2[at(i)] + budget.systematic_mps2[at(i)]);
   const double parity = n > 3 ? budget.limits.parity_alarm[at(n - 3)] * noise / gravity.g_mps2 : 0.0;
   const double gain = figures_of_merit(array).gdop;
   const double length = (budget.limits.norm_alarm * gain * noise + budget.gravity_mps2) / gravity.g_mps2;
@@ -197,13 +197,14 @@ void find_limits(const GeometrySubject& subject, GeometryStudy& study) {
 
 }  // namespace
 
-TestSettings settings_of(const io::ArrayFile& array) {
+TestSettings settings_of(const io::ArrayFile& array, double days_since_calibration) {
   TestSettings out;
   out.samples = array.monitor.window;
   out.false_alarm_rate = array.monitor.false_alarm_rate;
   out.rejection_rate = array.monitor.rejection_rate;
   out.integrity_risk = array.monitor.integrity_risk;
   out.acceleration_mps2 = array.monitor.acceleration_bound_mps2;
+  out.tolerance_mps2 = io::tolerance_mps2(array, days_since_calibration);
   return out;
 }
 

@@ -78,8 +78,8 @@ struct GeometryStudy {
   std::vector<Finding> limits;    ///< known limits of such an array
 };
 
-/// How the array file has its array judged.
-TestSettings settings_of(const io::ArrayFile& array);
+/// How the array file has its array judged, so many days after the calibration.
+TestSettings settings_of(const io::ArrayFile& array, double days_since_calibration = 0.0);
 
 /// How many mistakes of wiring show at no attitude, by the nominal axes.
 int hidden_wiring_count(const io::ArrayFile& array);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calibration_age.hpp"
 #include "figures.hpp"
 #include "geometry_study.hpp"
 #include "plumb/core/units.hpp"
@@ -110,11 +111,12 @@ std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& 
                        figure(isolable ? in_mg0(one.blind_half_width_mps2) : kNone, 12, 1),
                        figure(isolable ? in_mg0(one.any_attitude_mps2) : kNone, 12, 1));
   }
+  if (subject.file) out += "  drift since the calibration: " + drift_words(*subject.file, 0.0) + "\n";
   return out;
 }
 
 std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& study) {
-  std::string out = "\nundetected tilt error (one bias at its worst, noise, calibration; one block)\n";
+  std::string out = "\nundetected tilt error (one bias at its worst, noise, calibration, drift; one block)\n";
   const bool known = study.thresholds.protection_rad < kPi;
   out += line("  protection level of this array",
               known ? fmt::format("{:.4f} deg", deg_from_rad(study.thresholds.protection_rad)) : "not available");

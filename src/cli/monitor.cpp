@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "calibration_age.hpp"
 #include "monitor_options.hpp"
 #include "monitor_pipeline.hpp"
 #include "monitor_report.hpp"
@@ -99,7 +100,7 @@ struct Outputs {
 };
 
 io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::ArrayFile& array,
-                                    const SensorArray& sensors, const Verdict& now, Outputs& out) {
+                                    const SensorArray& sensors, const Verdict& now, double days, Outputs& out) {
   const bool live = options.log.path == "-" || options.log.follow;
   const bool taken = options.events == "-" || options.verdicts == "-";
   if (!options.events.empty()) {
@@ -114,7 +115,7 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
         &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
   }
   if (!options.report.empty()) {
-    io::FileExpected<std::unique_ptr<HealthReport>> report = HealthReport::create(options, array, sensors);
+    io::FileExpected<std::unique_ptr<HealthReport>> report = HealthReport::create(options, array, sensors, days);
     if (!report) return tl::unexpected<io::FileError>(report.error());
     out.report = *std::move(report);
     out.sinks.push_back(out.report.get());
@@ -182,7 +183,13 @@ std::string summary_text(const MonitorRun& run, const SensorArray& sensors, cons
                                        : std::string("no bound on the error can be given\n"));
 }
 
-std::string summary_json(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame) {
+/// What of drift the run allowed for; the paper's method allows for none.
+std::string drift_of(const io::ArrayFile& array, double days) {
+  if (array.monitor.mode == MonitorMode::paper) return "none allowed for: the paper's algorithm takes none";
+  return drift_words(array, days);
+}
+
+std::string summary_json(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame, double days) {
   nlohmann::ordered_json s;
   s["state"] = to_string(run.last.state);
   s["output"] = to_string(run.last.validity);
@@ -192,6 +199,7 @@ std::string summary_json(const MonitorRun& run, const SensorArray& sensors, cons
   s["rows_bad"] = run.log.rows_bad;
   s["last_time_s"] = run.last_time_s;
   s["interrupted"] = run.interrupted;
+  s["days_since_calibration"] = days;
   s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, frame));
   return io::object({{"summary", std::move(s)}}).dump() + "\n";
 }
@@ -215,9 +223,10 @@ io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonito
 /// `run` has refused the options: there is nothing to keep.
 io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
 
-/// The run itself, with either monitor; `stepper`, where there is one, is stepped in its place.
+/// The run itself, with either monitor, `days` after the calibration; `stepper`, where there is one, is stepped in its
+/// place.
 template <class Monitor>
-io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor,
+io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor, double days,
                    stepping::Stepper* stepper = nullptr) {
   const SensorArray& sensors = monitor.array();
   std::vector<scenario::HostRequest> requests;
@@ -228,7 +237,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   }
   scenario::Host host(std::move(requests));
   Outputs outputs;
-  const io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), outputs);
+  const io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), days, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
   LogSpec log = options.log;
@@ -241,9 +250,10 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
-    print_now(summary_json(*done, sensors, array.output_frame));
+    print_now(summary_json(*done, sensors, array.output_frame, days));
   } else if (outputs.table) {
-    print_now(summary_text(*done, sensors, array.output_frame) + (outputs.report ? outputs.report->summary() : ""));
+    print_now(summary_text(*done, sensors, array.output_frame) + "drift       " + drift_of(array, days) + "\n" +
+              (outputs.report ? outputs.report->summary() : ""));
   }
   if (done->stopped) {
     print_error(
@@ -263,14 +273,16 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
 /// The monitor that a run steps: of the smallest build that holds the array. A snapshot is bound to the capacity that
 /// wrote it, so that a run with one, or with requests of a host, keeps to the monitor for all arrays (null).
 std::unique_ptr<stepping::Stepper> stepper_of(const MonitorOptions& options, const io::ArrayFile& array,
-                                              const Calibration* calibration) {
+                                              const Calibration* calibration, double days) {
   const bool kept = !options.snapshot_in.empty() || !options.snapshot_out.empty() || !options.host.empty();
-  return kept ? nullptr : make_stepper(array, calibration);
+  return kept ? nullptr : make_stepper(array, calibration, 0, days);
 }
 
 /// --limits: what the monitor would decide by.
-io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& calibrated) {
-  const report::MonitorLimits limits = report::monitor_limits(calibrated, array.gravity, array.monitor);
+io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& calibrated,
+                         double days) {
+  const report::MonitorLimits limits =
+      report::monitor_limits(calibrated, array.gravity, array.monitor, io::tolerance_mps2(array, days));
   print_now(options.json ? report::limits_json(limits) : report::limits_text(limits));
   return io::ExitCode::done;
 }
@@ -284,7 +296,7 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
   const auto monitor =
       options.snapshot_in.empty() ? make_monitor(array, nullptr) : restore_monitor(array, nullptr, options.snapshot_in);
   if (!monitor) return report(monitor.error());
-  return watch(options, array, **monitor, stepper_of(options, array, nullptr).get());
+  return watch(options, array, **monitor, 0.0, stepper_of(options, array, nullptr, 0.0).get());
 }
 
 void warn_of_stations(const io::ArrayFile& array) {
@@ -318,20 +330,24 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   }
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
   if (!calibration) return report(calibration.error());
+  const io::FileExpected<double> days = days_since(*calibration, options.calibration, options.date);
+  if (!days) return report(days.error());
+  print_error(undated_note(*array, *calibration, options.calibration));
   if (const std::optional<io::FileError> misuse = snapshot_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
     if (!monitor) return report(monitor.error());
     if (options.limits) return report(limits_of_paper(*array));
-    return watch(options, *array, **monitor);
+    return watch(options, *array, **monitor, *days);
   }
   const auto monitor = options.snapshot_in.empty()
-                           ? make_monitor(*array, &calibration->calibration)
-                           : restore_monitor(*array, &calibration->calibration, options.snapshot_in);
+                           ? make_monitor(*array, &calibration->calibration, *days)
+                           : restore_monitor(*array, &calibration->calibration, options.snapshot_in, *days);
   if (!monitor) return report(monitor.error());
-  if (options.limits) return tell_limits(options, *array, (*monitor)->array());
-  return watch(options, *array, **monitor, stepper_of(options, *array, &calibration->calibration).get());
+  if (options.limits) return tell_limits(options, *array, (*monitor)->array(), *days);
+  const auto stepper = stepper_of(options, *array, &calibration->calibration, *days);
+  return watch(options, *array, **monitor, *days, stepper.get());
 }
 
 }  // namespace
@@ -368,6 +384,11 @@ Command add_monitor(const Options& tool) {
   command.add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
       .type_name("REQUEST");
   add_bad_row_option(command, options->log.on_bad_row);
+  command
+      .add_option("--date", options->date,
+                  "of the run, for what drifts per day since the calibration (stability_per_day); today by default")
+      .check(date_refusal)
+      .type_name("YYYY-MM-DD");
   command.add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
   command.add_flag("--json", options->json, "JSON lines instead of the table, for machines");
   command.footer(kMonitorNotes + exit_codes_help());

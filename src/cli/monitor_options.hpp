@@ -20,6 +20,7 @@ struct MonitorOptions {
   std::string events;
   std::string verdicts;
   std::string report;
+  std::string date;  ///< of the run; empty: today
   std::string snapshot_in;
   std::string snapshot_out;
   std::vector<std::string> host;

@@ -28,14 +28,16 @@ std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array) {
     const auto a = static_cast<std::size_t>(i);
     setup->full_scale_raw[a] = array.datasheet.sensor[a].full_scale_raw;
     setup->resolution_raw[a] = array.datasheet.sensor[a].resolution_raw;
+    setup->stability[a] = array.stability[a];
     if (!array.lever_arm_m.empty()) setup->lever_arm_m[a] = array.lever_arm_m[a];
   }
   setup->lever_arms_known = !array.lever_arm_m.empty();
   return setup;
 }
 
-std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibration& calibration) {
+std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibration& calibration, double days) {
   auto setup = setup_of(array);
+  setup->days_since_calibration = days;
   setup->model = calibration.model;
   setup->array = calibration.array;
   // The calibrated span, where the array file does not claim another.
@@ -49,8 +51,9 @@ std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibra
 }
 
 /// null: the monitor is to calibrate itself.
-Expected<std::unique_ptr<MonitorSetup>> setup_of(const io::ArrayFile& array, const Calibration* calibration) {
-  if (calibration != nullptr) return setup_of(array, *calibration);
+Expected<std::unique_ptr<MonitorSetup>> setup_of(const io::ArrayFile& array, const Calibration* calibration,
+                                                 double days) {
+  if (calibration != nullptr) return setup_of(array, *calibration, days);
   auto setup = setup_of(array);
   const Expected<void> known = set_datasheet(array.datasheet, *setup);
   if (!known) return tl::unexpected<Error>(known.error());
@@ -62,6 +65,10 @@ tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::Array
   error.file = array.path;
   if (reason.code == Errc::range_too_small && reason.index >= 0)
     error.field = "sensor[" + std::to_string(reason.index + 1) + "].full_scale";
+  if (reason.code == Errc::out_of_range && reason.index < 0) {
+    error.field = "days_since_calibration";
+    error.remedy = "give the days from the calibration to the run, from 0 up";
+  }
   if (reason.code == Errc::implausible && reason.index >= 0) {
     error.field = "sensor[" + std::to_string(reason.index + 1) + "].prior";
     error.what =
@@ -107,8 +114,8 @@ io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict)
 }
 
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
-                                                              const Calibration* calibration) {
-  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration);
+                                                              const Calibration* calibration, double days) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
   if (!setup) return refused_setup(setup.error(), array);
   auto monitor = std::make_unique<HealthMonitor>();
   const Expected<void> configured = monitor->configure(**setup);
@@ -118,18 +125,19 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFil
 
 io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
                                                                  const Calibration* calibration,
-                                                                 const std::string& snapshot_path) {
+                                                                 const std::string& snapshot_path, double days) {
   const io::FileExpected<std::string> bytes = io::read_file(snapshot_path);
   if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
-  auto monitor = restore_monitor(array, calibration, *bytes, snapshot_path);
+  auto monitor = restore_monitor(array, calibration, *bytes, snapshot_path, days);
   if (!monitor && monitor.error().file == snapshot_path) monitor.error().remedy += " (leave out --snapshot-in)";
   return monitor;
 }
 
 io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
                                                                  const Calibration* calibration,
-                                                                 const std::string& bytes, const std::string& name) {
-  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration);
+                                                                 const std::string& bytes, const std::string& name,
+                                                                 double days) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
   if (!setup) return refused_setup(setup.error(), array);
   auto monitor = std::make_unique<HealthMonitor>();
   const Expected<void> restored =
@@ -157,7 +165,7 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
         "run plumb calibrate again with this array file (--paper is implied), or set mode = \"plumb\""});
   }
   auto setup = std::make_unique<PaperSetup>();
-  setup->base = *setup_of(array, calibration.calibration);
+  setup->base = *setup_of(array, calibration.calibration, 0.0);
   setup->datasheet = array.datasheet;
   setup->paper = *calibration.paper;
   auto monitor = std::make_unique<PaperMonitor>();
@@ -167,8 +175,8 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
 }
 
 std::unique_ptr<stepping::Stepper> make_stepper(const io::ArrayFile& array, const Calibration* calibration,
-                                                int least_capacity) {
-  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration);
+                                                int least_capacity, double days) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
   if (!setup) return nullptr;
   const int sensors = (*setup)->array.size();
   std::array<SensorRow, kCapacity> rows{};

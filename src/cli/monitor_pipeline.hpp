@@ -81,20 +81,22 @@ struct MonitorRun {
 };
 
 /// A monitor with this calibration, switched on; on the heap, because at capacity 24 it is 2 MB large. Without one
-/// (null) it makes its own, from the datasheet in the array file.
+/// (null) it makes its own, from the datasheet in the array file. `days` since the calibration was made, here and
+/// below.
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
-                                                              const Calibration* calibration);
+                                                              const Calibration* calibration, double days = 0.0);
 
 /// The same, gone on from the snapshot that the file holds. Errors: those of `make_monitor`; the file cannot be read;
 /// the snapshot is refused, and then the message says why.
 io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
                                                                  const Calibration* calibration,
-                                                                 const std::string& snapshot_path);
+                                                                 const std::string& snapshot_path, double days = 0.0);
 
 /// The same of bytes that are in memory; `name` is used in messages.
 io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
                                                                  const Calibration* calibration,
-                                                                 const std::string& bytes, const std::string& name);
+                                                                 const std::string& bytes, const std::string& name,
+                                                                 double days = 0.0);
 
 /// Puts the snapshot in its place as a whole, or not at all.
 io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor);
@@ -108,7 +110,7 @@ io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::Arr
 /// `make_monitor`, whose outcome it shares: to be asked for only where that was made. Null where this program has none
 /// of `least_capacity` or more that holds it.
 std::unique_ptr<stepping::Stepper> make_stepper(const io::ArrayFile& array, const Calibration* calibration,
-                                                int least_capacity = 0);
+                                                int least_capacity = 0, double days = 0.0);
 
 /// Steps all samples of the log. An error of the log is returned in `stop`, an error of a sink (a file that cannot be
 /// written) as the error.

@@ -1,5 +1,7 @@
 #include "monitor_report.hpp"
 
+#include "calibration_age.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -77,18 +79,34 @@ Json coefficients_of(const Calibration& calibration) {
   return out;
 }
 
+/// The drift since the calibration that the limits allow for, of every sensor; 0 where it states no stability.
+Json drift_of(const io::ArrayFile& array, double days) {
+  const bool paper = array.monitor.mode == MonitorMode::paper;  // whose algorithm allows for none
+  const Readings tolerance = io::tolerance_mps2(array, days);
+  Json sensors = Json::array();
+  for (int i = 0; i < array.array.size(); ++i)
+    sensors.push_back(io::object({{"id", array.array.row(i).id.data()},
+                                  {"tolerance_mps2", paper ? 0.0 : tolerance[static_cast<std::size_t>(i)]}}));
+  return io::object({{"days_since_calibration", days},
+                     {"text", paper ? "none allowed for: the paper's algorithm takes none" : drift_words(array, days)},
+                     {"sensors", std::move(sensors)}});
+}
+
 /// What every verdict of the run rests on: the length of gravity, and the calibration as it was read.
-io::FileExpected<Json> basis_of(const MonitorOptions& options, const io::ArrayFile& array) {
+io::FileExpected<Json> basis_of(const MonitorOptions& options, const io::ArrayFile& array, double days) {
   Json out = io::object({{"gravity", io::object({{"model", to_string(array.gravity.model)},
                                                  {"g_mps2", array.gravity.g_mps2},
                                                  {"sigma_mps2", array.gravity.sigma_mps2}})},
-                         {"calibration", Json()}});
+                         {"calibration", Json()},
+                         {"drift", drift_of(array, days)}});
   if (options.calibration.empty()) return out;  // made in flight: events and snapshot tell of it
   const io::FileExpected<io::CalibrationFile> file = io::read_calibration(options.calibration, array);
   if (!file) return tl::unexpected<io::FileError>(file.error());
   const FitReport& fit = file->calibration.report;
   out["calibration"] = io::object({{"log", file->context.log_file},
                                    {"made_by", file->context.plumb_version},
+                                   {"date", file->context.date},
+                                   {"serial", file->context.serial},
                                    {"g_mps2", file->context.gravity.g_mps2},
                                    {"stations", fit.stations},
                                    {"norm_rms_mps2", fit.norm_rms_mps2},
@@ -162,10 +180,11 @@ std::optional<io::FileError> report_misuse(const MonitorOptions& options) {
 }
 
 HealthReport::HealthReport(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& sensors,
-                           io::OutputFile page, io::OutputFile data)
+                           double days, io::OutputFile page, io::OutputFile data)
     : options_(options),
       array_(array),
       sensors_(sensors),
+      days_(days),
       page_(std::move(page)),
       data_(std::move(data)),
       health_(array.output_frame, array.input.rows == io::RowKind::stations, array.monitor.acceleration_bound_mps2),
@@ -173,13 +192,15 @@ HealthReport::HealthReport(const MonitorOptions& options, const io::ArrayFile& a
 
 io::FileExpected<std::unique_ptr<HealthReport>> HealthReport::create(const MonitorOptions& options,
                                                                      const io::ArrayFile& array,
-                                                                     const SensorArray& sensors) {
+                                                                     const SensorArray& sensors,
+                                                                     double days_since_calibration) {
   io::FileExpected<io::OutputFile> page = io::OutputFile::create(options.report, io::OutputFile::Mode::whole);
   if (!page) return tl::unexpected<io::FileError>(page.error());
   io::FileExpected<io::OutputFile> data =
       io::OutputFile::create(health_data_path(options.report), io::OutputFile::Mode::whole);
   if (!data) return tl::unexpected<io::FileError>(data.error());
-  return std::unique_ptr<HealthReport>(new HealthReport(options, array, sensors, *std::move(page), *std::move(data)));
+  return std::unique_ptr<HealthReport>(
+      new HealthReport(options, array, sensors, days_since_calibration, *std::move(page), *std::move(data)));
 }
 
 io::FileExpected<void> HealthReport::take(const Sample& sample, const Verdict& verdict) {
@@ -191,7 +212,7 @@ io::FileExpected<void> HealthReport::write(const MonitorRun& run) {
   Json report = report::health_json(health_, sensors_);
   io::FileExpected<Json> inputs = inputs_of(options_, array_, run);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
-  io::FileExpected<Json> basis = basis_of(options_, array_);
+  io::FileExpected<Json> basis = basis_of(options_, array_, days_);
   if (!basis) return tl::unexpected<io::FileError>(basis.error());
   report["basis"] = *std::move(basis);
   const char* const ended = run.stopped ? "in an error" : (run.interrupted ? "by an interruption" : "where it ends");

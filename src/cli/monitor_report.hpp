@@ -25,7 +25,8 @@ class HealthReport : public VerdictSink {
   /// Both files are opened now, so that a directory that is not there is told before the run; they appear with
   /// `write`.
   static io::FileExpected<std::unique_ptr<HealthReport>> create(const MonitorOptions& options,
-                                                                const io::ArrayFile& array, const SensorArray& sensors);
+                                                                const io::ArrayFile& array, const SensorArray& sensors,
+                                                                double days_since_calibration);
 
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_depth(double depth_m) override { depth_m_ = depth_m; }
@@ -36,12 +37,13 @@ class HealthReport : public VerdictSink {
   std::string summary() const;
 
  private:
-  HealthReport(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& sensors,
+  HealthReport(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& sensors, double days,
                io::OutputFile page, io::OutputFile data);
 
   const MonitorOptions& options_;
   const io::ArrayFile& array_;
   const SensorArray& sensors_;
+  double days_;  ///< since the calibration
   io::OutputFile page_, data_;
   report::ToolHealth health_;
   double depth_m_;

@@ -237,8 +237,10 @@ CalibrationRun run_calibration(const io::ArrayFile& array, const std::vector<Sam
 }
 
 io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
-                                        const std::string& log_path) {
+                                        const std::string& log_path, const CalibrationTag& tag) {
   io::CalibrationContext context;
+  context.date = tag.date;
+  context.serial = tag.serial;
   context.log_file = log_path;
   context.log_bytes = run.log.bytes;
   context.log_hash = run.log.hash;

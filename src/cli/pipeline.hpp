@@ -65,9 +65,15 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
 CalibrationRun run_calibration(const io::ArrayFile& array, const std::vector<Sample>& samples,
                                const CalibrationChoice& choice = {});
 
+/// What only the user can tell of a calibration; empty where not told.
+struct CalibrationTag {
+  std::string date;    ///< "2026-03-31"
+  std::string serial;  ///< of the tool
+};
+
 /// Writes the accepted calibration with its provenance.
 io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
-                                        const std::string& log_path);
+                                        const std::string& log_path, const CalibrationTag& tag = {});
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

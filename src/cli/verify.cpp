@@ -175,6 +175,12 @@ Command add_verify(const Options& tool) {
   command.add_option("--limits", options->limits, "what you need it for; see below").type_name("LIMITS.toml");
   command.add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
       .type_name("CAL.json");
+  command
+      .add_option(
+          "--days-since-calibration", options->days_since_calibration,
+          "the age at which sizes and bounds are told, for what drifts per day (stability_per_day); 0 by default")
+      .range(0.0, kMostDaysSinceCalibration)
+      .type_name("N");
   command.add_option("--positions", options->positions, "a log of quiet attitudes, to calibrate from")
       .type_name("LOG.csv");
   command

@@ -152,6 +152,8 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
                                     {"outliers", report.outliers},
                                     {"temperature_min_degc", report.temperature_min_degc},
                                     {"temperature_max_degc", report.temperature_max_degc},
+                                    {"date", file->context.date},
+                                    {"serial", file->context.serial},
                                     {"log", file->context.log_file},
                                     {"made_by", file->context.plumb_version}});
   out.section["sensors"] = sensors_of(file->calibration);

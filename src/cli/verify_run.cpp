@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "calibration_age.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
@@ -94,6 +95,7 @@ io::FileExpected<Inputs> read_inputs(const VerifyOptions& options, Verification&
   inputs.limits = report::limits_of(out.array);
   if (!options.limits.empty() && !take(report::read_limits(options.limits, out.array), inputs.limits, error))
     return fail();
+  inputs.limits.drift = drift_words(out.array, options.days_since_calibration);
   if (!options.test_results.empty() && !take(report::read_test_results(options.test_results), inputs.tests, error))
     return fail();
   if (!options.assurance.empty() && !take(report::read_assurance(options.assurance), inputs.assurance, error))
@@ -134,14 +136,14 @@ io::FileExpected<CalibrationPart> calibration_of(const VerifyOptions& options, c
   return predicted_calibration(array, options.seed);
 }
 
-GeometrySubject subject_of(const io::ArrayFile& array, const CalibrationPart& part) {
+GeometrySubject subject_of(const io::ArrayFile& array, const CalibrationPart& part, double days_since_calibration) {
   GeometrySubject out;
   out.name = array.name;
   out.array = part.calibration ? part.calibration->array : array.array;
   out.model = part.calibration ? part.calibration->model : array.datasheet.model();
   out.calibrated = part.calibration != nullptr;
   out.gravity = array.gravity;
-  out.settings = settings_of(array);
+  out.settings = settings_of(array, days_since_calibration);
   out.settings.samples *= part.samples_per_row;
   out.file = std::make_unique<const io::ArrayFile>(array);
   return out;
@@ -224,6 +226,8 @@ std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
   add("--traceability", options.traceability);
   add("--analysis", options.analysis);
   add("--resources", options.resources);
+  if (options.days_since_calibration > 0.0)
+    add("--days-since-calibration", io::shortest(options.days_since_calibration));
   for (const std::string& path : options.reuse) add("--reuse", path);
   add("--compare", options.compare);
   return out + fmt::format(" --scenarios {} --seed {}", scenarios, options.seed);
@@ -255,12 +259,13 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   settings.seed = options.seed;
   settings.scenarios = scenarios;
   settings.samples_per_row = part->samples_per_row;
+  settings.days_since_calibration = options.days_since_calibration;
   Json campaigns;
   std::vector<std::int64_t> step_ns;
   const io::FileExpected<void> played = play_campaigns(options, settings, threads, out, campaigns, step_ns);
   if (!played) return tl::unexpected<io::FileError>(played.error());
   campaigns["table2"] = table2_section(out.array, options.seed);
-  const GeometrySubject subject = subject_of(out.array, *part);
+  const GeometrySubject subject = subject_of(out.array, *part, options.days_since_calibration);
 
   Json& report = out.report;
   report["schema"] = report::kReportSchema;

@@ -22,7 +22,8 @@ struct VerifyOptions {
   std::vector<std::string> reuse;  ///< finished results of the campaigns, larger than those played here
   std::uint64_t seed = 1;
   std::optional<std::uint64_t>
-      scenarios;    ///< of each campaign; by default fewer for larger arrays, so that it takes minutes
+      scenarios;  ///< of each campaign; by default fewer for larger arrays, so that it takes minutes
+  double days_since_calibration = 0.0;
   int threads = 0;  ///< 0: one per processor
   bool json = false, pdf = false;
 };

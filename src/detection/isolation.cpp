@@ -211,16 +211,29 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) no
 
 namespace {
 
-/// How far off the estimate `used` may be if `rest`, with its test `t`, are the healthy ones.
-double level_of(const BlockTests& tests, const SetTest& used, SensorSet rest, const SetTest& t,
-                const ProtectionTerms& protect) noexcept {
-  const SensorArray& array = tests.array();
-  const double noise = tilt_sigma_rad(t.x_mps2, t.covariance);
-  const double left = calibration_tilt_sigma_rad(array, t, rest);
-  const double spread = std::sqrt(noise * noise + left * left);
-  const double drift = tolerance_turn_rad(array, tests.block(), rest, t);
-  return angle_between_rad(t.x_mps2, used.x_mps2) + protect.k_integrity * spread + drift;
-}
+/// The protection level under construction: the worst of the explanations by the size of their fault sets.
+struct Levels {
+  std::array<double, kScanDepth + 1> rad{};
+  std::array<bool, kScanDepth + 1> explained{}, unbounded{};
+
+  void note(int size, double level_rad) noexcept {
+    double& worst = rad[static_cast<size_t>(size)];
+    if (level_rad > worst) worst = level_rad;
+    if (!(level_rad < kPi)) unbounded[static_cast<size_t>(size)] = true;
+  }
+  /// Over all fault sets of at most `covered` members.
+  void close(int covered, FaultSetScan& out) const noexcept {
+    out.covered = covered;
+    bool any = false, bounded = covered <= kScanDepth;
+    for (int size = 0; size <= covered && size <= kScanDepth; ++size) {
+      const auto a = static_cast<size_t>(size);
+      any = any || explained[a];
+      bounded = bounded && !unbounded[a];
+      if (rad[a] > out.protection_rad) out.protection_rad = rad[a];
+    }
+    out.protection_available = any && bounded;
+  }
+};
 
 /// The faults `f` explain the block, with `rest` healthy.
 void note_explanation(SensorSet f, SensorSet rest, FaultSetScan& out) noexcept {
@@ -247,19 +260,24 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   const SensorSet posed = posed_ & tests.block().usable;
   const SetTest& used = tests.of(in_service & tests.block().usable);
   const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
-  out.protection_available = used.tested && protect.faults <= kScanDepth && used.parity_rows > 0;
   const bool deaths = any_dead();
-  bool any_protected = false, any_asserted = false;
+  bool any_asserted = false;
+  Levels levels;
   SensorSet common = posed;
   const auto explains = [&](SensorSet rest, const SetTest& t) {
     const bool here = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
     return here && (!deaths || !has_dead_subset(rest));
   };
-  const auto cover = [&](SensorSet rest, const SetTest& t) {
+  // What the fault sets of a size leave open of the estimate in use; without a test of what is left, one of two
+  // vectors.
+  const auto cover = [&](int size, SensorSet rest, const SetTest& t, bool explained) {
     if (!used.tested) return;
-    const double level = level_of(tests, used, rest, t, protect);
-    if (level > out.protection_rad) out.protection_rad = level;
+    if (!t.tested) levels.note(size, mirror_separation_rad(tests, used.x_mps2, rest, protect));
+    if (explained) levels.note(size, separation_rad(tests, used.x_mps2, rest, t, protect));
+    if (explained) levels.explained[static_cast<size_t>(size)] = true;
   };
+  const int most = faults_covered(protect, protect.suspected(strict_grade()), strict_grade());
+  if (depth < most) depth = most;
   for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
     const int size = f.size();
     const SensorSet rest = posed - f;
@@ -269,32 +287,47 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
       common = common & f;
       any_asserted = true;
     }
-    if (!t.tested) {
-      // What is left cannot determine a vector, so this hypothesis bounds nothing.
-      if (size <= protect.faults) out.protection_available = false;
-      return;
-    }
-    if (!explained) return;
-    note_explanation(f, rest, out);
-    if (size > protect.faults) return;
-    any_protected = any_protected || used.tested;
-    cover(rest, t);
+    cover(size, rest, t, explained);
+    if (explained) note_explanation(f, rest, out);
   });
   // Who is set aside is out of the estimate as if latched out: the next fault is one of those that are left.
   const SensorSet left = posed & in_service;
   for_each_fault_set(left != posed ? left : SensorSet{}, universe_, protect.faults, [&](SensorSet f) {
     const SensorSet rest = left - f;
     const SetTest t = tests.of(rest);
-    if (!t.tested) out.protection_available = false;
-    if (t.tested && explains(rest, t)) cover(rest, t);
+    cover(f.size(), rest, t, t.tested && explains(rest, t));
   });
-  out.protection_available = out.protection_available && any_protected;
+  const int suspected = protect.suspected(out.least <= kScanDepth ? out.least : 0);
+  levels.close(faults_covered(protect, suspected, strict_grade()), out);
+  out.bears_more = !protect.doubted || out.covered >= suspected + protect.faults;
   if (any_asserted && !common.empty()) {
     const SetTest& rest = tests.of(posed - common);
     const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubt.excuses(posed - common));
     if (rest.tested && alive) out.asserted = common;
   }
   return out;
+}
+
+bool Isolation::bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
+                                const ProtectionTerms& protect, double limit_rad) const noexcept {
+  const TestLimits& limits = tests.limits();
+  const SensorSet posed = posed_ & tests.block().usable;
+  const SetTest unsuspected = tests.of((in_service & tests.block().usable) - scan.suspects);
+  const int faults = scan.least > scan.covered ? scan.least : scan.covered;
+  if (!unsuspected.tested || faults > kScanDepth) return false;
+  const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
+  bool bounded = true;
+  for_each_fault_set(posed, universe_, faults, [&](SensorSet f) {
+    if (!bounded) return;
+    const SensorSet rest = posed - f;
+    const SetTest& t = tests.of(rest);
+    if (!t.tested) {
+      bounded = mirror_separation_rad(tests, unsuspected.x_mps2, rest, protect) <= limit_rad;
+    } else if (t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest)) && !has_dead_subset(rest)) {
+      bounded = separation_rad(tests, unsuspected.x_mps2, rest, t, protect) <= limit_rad;
+    }
+  });
+  return bounded;
 }
 
 }  // namespace PLUMB_ABI

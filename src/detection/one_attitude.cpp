@@ -26,15 +26,15 @@ double moved_by(const Mat3& map, const Vec3& errors) noexcept {
 double allowance(const SensorArray& array, const ErrorBudget& budget, int triple) noexcept {
   const Triple& t = array.triple(triple);
   Vec3 errors{};
-  double calibration = 0.0;
+  double systematic = 0.0;
   for (std::size_t m = 0; m < 3; ++m) {
     const std::size_t i = t.sensors[m];
-    errors[m] = budget.noise_factor * budget.noise_mps2[i] + budget.calibration_mps2[i];
-    calibration += norm(triple_weight(array, triple, static_cast<int>(m))) * budget.calibration_mps2[i];
+    errors[m] = budget.noise_factor * budget.noise_mps2[i] + budget.systematic_mps2[i];
+    systematic += norm(triple_weight(array, triple, static_cast<int>(m))) * budget.systematic_mps2[i];
   }
   const double root_n = array.sigma_mps2(t.sensors[0]) / budget.noise_mps2[t.sensors[0]];
   const double noise = std::sqrt(largest_eigenvalue(least_squares(array, t.set()).covariance)) / root_n;
-  const double limit = budget.limits.reject[1] * noise + calibration + budget.gravity_mps2;
+  const double limit = budget.limits.reject[1] * noise + systematic + budget.gravity_mps2;
   return limit + budget.gravity_mps2 + moved_by(triple_map(array, triple), errors);
 }
 

@@ -110,6 +110,20 @@ class SetAside {
   double sets_ = 0.0;
 };
 
+/// Longest parity residual of drift within its tolerance, in standard deviations of a block mean: as `tolerance_bound`
+/// of the tests has it for all sensors. The residual of fewer is no longer.
+double drift_in_parity(const SensorArray& array, const TestSettings& settings, const Readings& noise_mps2) noexcept {
+  const LeastSquares fit = least_squares(array, array.all());
+  double columns = 0.0, square = 0.0;
+  for (int i = 0; i < array.size() && array.size() > 3; ++i) {
+    const double tau = settings.tolerance_mps2[index(i)] / noise_mps2[index(i)];
+    const double leverage = 1.0 - dot(array.axis(i), fit.column[index(i)]);
+    columns += leverage > 0.0 ? std::sqrt(leverage) * tau : 0.0;
+    square += tau * tau;
+  }
+  return std::fmin(columns, std::sqrt(square));
+}
+
 /// What parity finds of single biases: fills `detectable_mps2` and `gain`.
 void find_detectable(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget,
                      std::array<SensorThresholds, kCapacity>& sensor) noexcept {
@@ -132,7 +146,7 @@ double protection_level(const SensorArray& array, const GravityReference& gravit
     const SensorThresholds& s = sensor[index(i)];
     const double moved = s.gain * s.detectable_mps2;
     if (moved > bias) bias = moved;
-    left += s.gain * budget.calibration_mps2[index(i)];
+    left += s.gain * budget.systematic_mps2[index(i)];
   }
   const double largest = largest_eigenvalue(least_squares(array, array.all()).covariance);
   const double noise = normal_tail_quantile(0.5 * settings.integrity_risk) * std::sqrt(largest / settings.samples);
@@ -158,11 +172,11 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
     const double sigma = array.sigma_mps2(i) / std::sqrt(settings.samples);
     const double left = out.limits.calibration * calibration_sigma(array, i, gravity.g_mps2);
     out.noise_mps2[index(i)] = sigma;
-    out.calibration_mps2[index(i)] = left;
+    out.systematic_mps2[index(i)] = left + settings.tolerance_mps2[index(i)];
     trace += left / sigma * (left / sigma);
   }
   // b_S is the root of an eigenvalue of a projection of the covariance: at most the root of its trace.
-  out.parity_systematic = std::sqrt(trace);
+  out.parity_systematic = std::sqrt(trace) + drift_in_parity(array, settings, out.noise_mps2);
   return out;
 }
 
@@ -191,7 +205,7 @@ Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravi
   Readings slack{};
   for (int i = 0; i < n; ++i) {
     slack[index(i)] = budget.noise_mps2[index(i)] * (limit + budget.parity_systematic + budget.noise_factor) +
-                      budget.calibration_mps2[index(i)];
+                      budget.systematic_mps2[index(i)];
   }
   out.sure = fault_bounds(array, slack);
   find_detectable(array, settings, budget, out.sensor);

@@ -10,6 +10,13 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
+namespace {
+
+/// Blocks at rest that show the noise, before a sensor is set aside by parity alone.
+constexpr double kBlocksOfNoise = 3.0;
+
+}  // namespace
+
 void HealthMonitor::judge_mae(const BlockTests& tests, BlockView& view) const noexcept {
   const BlockEvidence& evidence = tests.block();
   for (int k = 0; k < array_.triple_count(); ++k) {
@@ -116,7 +123,9 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
     }
   }
   if (accuses) {
-    const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
+    // What noise the sensors have is not known from fewer blocks; it may be all that is wrong.
+    const bool noise_known = config_.window < NoiseStudy::kLeastWindow || noise_study_.blocks() >= kBlocksOfNoise;
+    const bool by_parity = episode_.open && noise_known && view.kind == Kind::alarm && view.cause == Cause::parity;
     aside_ = ((by_parity ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
     if (!aside_.empty() && rank_of(array_, in_service_ - aside_) == 3) raised |= bit(HealthEvent::set_aside);
   }
@@ -211,15 +220,6 @@ void HealthMonitor::allow_for_steps(BlockEvidence& evidence) const noexcept {
   evidence.samples /= widest;
 }
 
-void HealthMonitor::count_unbounded(const BlockView& view) noexcept {
-  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
-  if (bounded) {
-    unbounded_run_ = 0;
-  } else if (view.kind != BlockView::Kind::reference && unbounded_run_ < config_.clean_blocks) {
-    ++unbounded_run_;
-  }
-}
-
 /// Whether a block that is not quiet is one of a tool in slow motion.
 bool HealthMonitor::moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept {
   const SensorSet used = in_service_ & block_usable_;
@@ -242,6 +242,7 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
                                           const BlockView& view) noexcept {
   calm_ = SensorSet{};
   leave_station();
+  rest_.clear();
   drift_rad_ = 0.0;
   rescan(tests);
   publish_vector(tests);
@@ -299,6 +300,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     count_up(turning ? counters_.rotating_blocks : counters_.moving_blocks);
     mae_.clear();
     leave_station();
+    rest_.clear();
     return 0;
   }
   evidence_ = judged.evidence;
@@ -323,8 +325,10 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   if (episode_.open && view.kind != Kind::reference) vote(tests);
   count_doubt(view);
   count_clean(tests, view);
+  rest_.follow(array_, evidence_);
+  if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
   rescan(tests);
-  count_unbounded(view);
+  count_unbounded(tests, view);
   examine_probation(tests, view);
   study_reference(view);
   if (view.kind == Kind::clean && !owes_calibration())

@@ -158,6 +158,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   isolation_.pose(array_, in_service_);
   episode_.clear();
   station_.clear();
+  rest_.clear();
   map_ = least_squares(array_, in_service_);
   evidence_ = BlockEvidence{};
   answer_ = IsolationAnswer{};
@@ -239,6 +240,7 @@ void HealthMonitor::empty_windows() noexcept {
   mae_.clear();
   leave_station();
   slow_motion_.lapse();
+  rest_.clear();
 }
 
 /// The sample is refused and the windows stay as they are; what was valid is now only held.

@@ -98,15 +98,20 @@ Validity HealthMonitor::validity() const noexcept {
   const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
   if (slow_motion_.slow() && !bounded) return Validity::held;
   const Mode mode = published_mode();
-  if (mode == Mode::suspect || temperature_out_ || partial_) return Validity::unconfirmed;
+  if (temperature_out_ || partial_) return Validity::unconfirmed;
   if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
-  return mode == Mode::degraded ? Validity::degraded : Validity::valid;
+  if (mode == Mode::degraded) return Validity::degraded;
+  // The length itself is in doubt: by it, and by nothing else, some explanations are taken for inconsistent.
+  if (mode == Mode::suspect && suspicion_ == Cause::reference) return Validity::unconfirmed;
+  // An array that cannot bear another fault beside the suspected one has to have been at rest since before.
+  if (!scan_.bears_more && !rest_.holds()) return Validity::unconfirmed;
+  return bounded ? Validity::valid : Validity::unconfirmed;
 }
 
 /// Of an older vector the bound says nothing now.
 bool HealthMonitor::protected_now(Validity validity) const noexcept {
   return scan_.protection_available && have_evidence_ && validity != Validity::held && !temperature_out_ &&
-         !owes_calibration() && mode_ != Mode::failed && published_mode() != Mode::degraded;
+         !owes_calibration() && mode_ != Mode::failed;
 }
 
 void HealthMonitor::publish_vector(const BlockTests& tests) noexcept {
@@ -199,6 +204,7 @@ void HealthMonitor::publish_claims(Validity validity) noexcept {
   v.validity = validity;
   v.protection_available = protected_now(validity);
   v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
+  v.faults_covered = static_cast<std::uint8_t>(v.protection_available ? scan_.covered : 0);
   const double sine = across_tool(v.gravity_mps2) / std::fmax(norm(v.gravity_mps2), 1e-9);
   const bool told =
       v.protection_available && v.protection_level_rad < 0.5 * kPi && sine_of(v.protection_level_rad) < sine;

@@ -1,4 +1,5 @@
 // What is kept on record from block to block: the station, the votes of an episode, patience, clean blocks, probation.
+#include <algorithm>
 #include <cmath>
 
 #include "block_view.hpp"
@@ -14,9 +15,6 @@ namespace {
 constexpr double kProvingShare = 0.02;
 /// ... and by this many standard deviations of its block mean.
 constexpr double kProvingSigmas = 10.0;
-/// A reading that differs by less than so many standard deviations from an earlier one is the same: that of a tool at
-/// rest always is.
-constexpr double kSameSigmas = 5.0;
 /// A direction may stand on record where half of the angle that tells attitudes apart is so many times its own standard
 /// deviation.
 constexpr double kDirectionSigmas = 3.0;
@@ -34,15 +32,9 @@ Vec3 HealthMonitor::known_direction(const SetTest& test) const noexcept {
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
 /// turned, whatever the others make of the direction: a liar that steps is no new attitude.
 bool HealthMonitor::is_still_there() const noexcept {
-  SensorSet same;
-  for (int i = 0; i < array_.size(); ++i) {
-    const auto a = static_cast<size_t>(i);
-    const auto before = static_cast<double>(station_.reading_mps2[a]);
-    const double scatter = std::sqrt(1.0 / evidence_.samples + 1.0 / static_cast<double>(station_.samples));
-    const bool stays = std::fabs(evidence_.mean_mps2[a] - before) <= kSameSigmas * array_.sigma_mps2(i) * scatter;
-    if (stays) same = same.with(i);
-  }
-  return rank_of(array_, same & evidence_.usable & station_.delivered) == 3;
+  const auto samples = static_cast<double>(station_.samples);
+  const SensorSet same = reads_the_same(array_, evidence_, station_.reading_mps2, samples);
+  return rank_of(array_, same & station_.delivered) == 3;
 }
 
 /// A station at which the question was asked, and no block gave the candidate for an answer, takes it back.
@@ -118,16 +110,47 @@ void HealthMonitor::vote(const BlockTests& tests) noexcept {
 void HealthMonitor::count_doubt(const BlockView& view) noexcept {
   // The contradiction for which the host had a fit made is no news, and the fit needs more stations than patience has.
   const bool known = answer_.contradiction && expected(HealthEvent::contradiction);
+  episode_.note_suspected((episode_.candidate | set_aside_).size());
   if (!view.doubtful(mode_) || known || owes_calibration()) return;
   episode_.stations.add(station_.direction, config_.excitation_angle_rad);
   if (episode_.doubtful_blocks < config_.patience_blocks) ++episode_.doubtful_blocks;
 }
 
+/// Of attitudes in doubt; of blocks in doubt where they are counted.
+bool HealthMonitor::is_out_of_stations() const noexcept { return episode_.stations.size() >= config_.patience; }
+bool HealthMonitor::is_out_of_blocks() const noexcept {
+  return config_.patience_blocks > 0 && episode_.doubtful_blocks >= config_.patience_blocks;
+}
+
 bool HealthMonitor::patience_is_over() const noexcept {
   if (mode_ != Mode::suspect && mode_ != Mode::recalibrating) return false;
-  const bool over = episode_.stations.size() >= config_.patience ||
-                    (config_.patience_blocks > 0 && episode_.doubtful_blocks >= config_.patience_blocks);
-  return over && (!exhausted_ || unbounded_run_ >= config_.clean_blocks);
+  return (is_out_of_stations() || is_out_of_blocks()) && (!exhausted_ || unbounded_run_ >= config_.clean_blocks);
+}
+
+/// Whether the block is explained by no more faults than the grade bears, with enough sensors left to check one
+/// another. Another attitude may then single that explanation out; and where none does, because two of them are images
+/// of each other, no attitude speaks against the tool.
+bool HealthMonitor::is_isolable() const noexcept {
+  const int grade = std::max(isolation_.strict_grade(), isolation_.parity_grade());
+  return scan_.least <= grade && (isolation_.posed() & evidence_.usable).size() - scan_.least >= 4;
+}
+
+/// Blocks in a row in which the doubt had neither a bound nor a way out. A bound: of the estimate, or of that of the
+/// sensors which nobody suspects: a liar takes the estimate as far as it likes once it is known, and has so many
+/// stations to go before it is excluded. A way out: `is_isolable`, which ends with the blocks where these are counted.
+void HealthMonitor::count_unbounded(const BlockTests& tests, const BlockView& view) noexcept {
+  bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
+  if (!bounded && mode_ == Mode::suspect && (is_out_of_stations() || is_out_of_blocks())) {
+    const double turn_rad = motion_in_bound_rad() + acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
+    const ProtectionTerms terms{protection_faults_, k_integrity_};
+    bounded = (!is_out_of_blocks() && is_isolable()) ||
+              isolation_.bounded_without(tests, in_service_, scan_, terms, config_.alert_limit_rad - turn_rad);
+  }
+  if (bounded) {
+    unbounded_run_ = 0;
+  } else if (view.kind != BlockView::Kind::reference && unbounded_run_ < config_.clean_blocks) {
+    ++unbounded_run_;
+  }
 }
 
 /// By how much the prediction of a sensor must have moved before it is proven.
@@ -249,7 +272,10 @@ void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   int depth = protection_faults_;
   if (asserted_left_ > depth) depth = asserted_left_;
   if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
-  scan_ = isolation_.scan(tests, in_service_, depth, asserted_left_, {protection_faults_, k_integrity_}, witnesses());
+  scan_ = isolation_.scan(
+      tests, in_service_, depth, asserted_left_,
+      {protection_faults_, k_integrity_, (set_aside_ & evidence_.usable).size(), episode_.open, unproven_},
+      witnesses());
   // What the sensors feel is g + a: every explanation bounds its direction, and no reading tells the rest.
   scan_.protection_rad += motion_in_bound_rad() + acceleration_turn_rad(gravity_, limits_.acceleration_mps2);
 }

@@ -137,7 +137,7 @@ const char* to_string(Target target) noexcept {
     case Target::suspect: return "suspect";
     case Target::suspect_or_failed: return "suspect (rank < 3: failed)";
     case Target::stay_or_failed: return "stay (rank < 3: failed)";
-    case Target::by_protection: return "stay while PL <= AL, else failed";
+    case Target::by_protection: return "stay while bounded or isolable, else failed";
     case Target::recalibrating: return "recalibrating";
     case Target::base: return "by size; from suspect: suspect";
     case Target::rearm: return "suspect (rank < 3: stay; no calibration: recalibrating (initial))";

@@ -225,6 +225,23 @@ FileExpected<ArrayFile> read_array_file(const std::string& path) {
   return parse_array_text(*text, path);
 }
 
+SensorSet without_stability(const ArrayFile& array) noexcept {
+  SensorSet out;
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    if (!array.stability[static_cast<std::size_t>(i)].stated()) out = out.with(i);
+  }
+  return out;
+}
+
+Readings tolerance_mps2(const ArrayFile& array, double days_since_calibration) noexcept {
+  Readings out{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(array.datasheet.size); ++i) {
+    const auto now = StabilityNow::of(array.stability[i], days_since_calibration);
+    out[i] = static_cast<double>(now.tolerance_mps2(0.0, 0.0));
+  }
+  return out;
+}
+
 std::uint64_t fingerprint_of(const Datasheet& datasheet) noexcept {
   const char reads = datasheet.reads == Reads::gravity ? 'g' : 's';
   std::uint64_t hash = fnv1a(&reads, 1);

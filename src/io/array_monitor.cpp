@@ -10,37 +10,38 @@ inline namespace PLUMB_ABI {
 namespace io {
 namespace {
 
-/// Keys in the order of the fields of MonitorConfig, which is the order of the indices of `checked`.
+/// Keys in the order of the fields of MonitorConfig, which is the order of the indices of `checked`; then those that
+/// are none of its fields.
 const std::vector<std::string>& known_keys() {
-  static const std::vector<std::string> names = {"mode",
-                                                 "window",
-                                                 "delta_f",
-                                                 "false_alarm_rate",
-                                                 "rejection_rate",
-                                                 "asserted_faults",
-                                                 "isolation_stations",
-                                                 "patience",
-                                                 "clean_blocks",
-                                                 "forget_blocks",
-                                                 "probation_stations",
-                                                 "missing_confirm",
-                                                 "max_age_samples",
-                                                 "max_gap",
-                                                 "max_age",
-                                                 "station_angle",
-                                                 "excitation_angle",
-                                                 "clear_fraction",
-                                                 "alert_limit",
-                                                 "integrity_risk",
-                                                 "fault_prior",
-                                                 "reset_key",
-                                                 "temperature_min",
-                                                 "temperature_max",
-                                                 "patience_blocks",
-                                                 "alarm_form",
-                                                 "recalibrate",
-                                                 "acceleration_bound",
-                                                 "triple_false_alarm_rate"};
+  static const std::vector<std::string> names = with_stability_keys({"mode",
+                                                                     "window",
+                                                                     "delta_f",
+                                                                     "false_alarm_rate",
+                                                                     "rejection_rate",
+                                                                     "asserted_faults",
+                                                                     "isolation_stations",
+                                                                     "patience",
+                                                                     "clean_blocks",
+                                                                     "forget_blocks",
+                                                                     "probation_stations",
+                                                                     "missing_confirm",
+                                                                     "max_age_samples",
+                                                                     "max_gap",
+                                                                     "max_age",
+                                                                     "station_angle",
+                                                                     "excitation_angle",
+                                                                     "clear_fraction",
+                                                                     "alert_limit",
+                                                                     "integrity_risk",
+                                                                     "fault_prior",
+                                                                     "reset_key",
+                                                                     "temperature_min",
+                                                                     "temperature_max",
+                                                                     "patience_blocks",
+                                                                     "alarm_form",
+                                                                     "recalibrate",
+                                                                     "acceleration_bound",
+                                                                     "triple_false_alarm_rate"});
   return names;
 }
 
@@ -116,16 +117,32 @@ const char* unit_of(const std::string& key) noexcept {
                  brief(error.limit) + unit);
 }
 
+TomlNode no_table() {
+  TomlNode nothing;
+  nothing.kind = TomlNode::Kind::table;
+  return nothing;
+}
+
+/// Of the node of the file, or of `nothing`, which must outlive it.
+TomlTable monitor_table(const TomlNode& root, const TomlNode& nothing, const std::string& file) {
+  const TomlNode* node = root.find("monitor");
+  if (node != nullptr) refuse_gone_keys(*node, file);
+  return {node == nullptr ? nothing : *node, file, "monitor", known_keys()};
+}
+
 }  // namespace
 
 MonitorConfig read_monitor(const TomlNode& root, const std::string& file) {
-  const TomlNode* node = root.find("monitor");
-  TomlNode nothing;
-  nothing.kind = TomlNode::Kind::table;
-  const TomlTable table(node == nullptr ? nothing : *node, file, "monitor", known_keys());
+  const TomlNode nothing = no_table();
+  const TomlTable table = monitor_table(root, nothing, file);
   const Expected<MonitorConfig> config = plumb::checked(filled(table));
   if (config) return *config;
   refuse_field(table, config.error());
+}
+
+Stability read_usual_stability(const TomlNode& root, const std::string& file) {
+  const TomlNode nothing = no_table();
+  return read_stability(monitor_table(root, nothing, file), {});
 }
 
 }  // namespace io

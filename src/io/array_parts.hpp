@@ -2,9 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "plumb/io/array_file.hpp"
-#include "toml_tree.hpp"
+#include "toml_table.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -12,6 +13,14 @@ namespace io {
 
 GravityReference read_gravity(const TomlNode& root, const std::string& file);
 MonitorConfig read_monitor(const TomlNode& root, const std::string& file);
+/// Of [monitor]: what holds of every sensor that states nothing of its own.
+Stability read_usual_stability(const TomlNode& root, const std::string& file);
+/// The keys of a table that states one, for its list of known keys.
+std::vector<std::string> with_stability_keys(std::vector<std::string> names);
+/// A figure that the table leaves out is that of `fallback`.
+Stability read_stability(const TomlTable& table, const Stability& fallback);
+/// Keys of [monitor] that version 1.0 had.
+void refuse_gone_keys(const TomlNode& monitor, const std::string& file);
 /// All of [input] but the columns of the sensors.
 InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);
 /// Fills `out.datasheet`, `out.array` and the columns; `out.input` and `out.gravity` must be set.

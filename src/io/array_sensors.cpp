@@ -13,9 +13,9 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_keys() {
-  static const std::vector<std::string> names = {"id",         "column",     "axis",       "scale", "bias",
-                                                 "bias_t",     "scale_t",    "t_ref",      "noise", "prior",
-                                                 "full_scale", "resolution", "lever_arm_m"};
+  static const std::vector<std::string> names =
+      with_stability_keys({"id", "column", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref", "noise", "prior",
+                           "full_scale", "resolution", "lever_arm_m"});
   return names;
 }
 
@@ -248,12 +248,14 @@ void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& s
 
 void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out) {
   const TomlNode& list = sensor_list(root, file);
+  const Stability usual = read_usual_stability(root, file);
   std::vector<TomlTable> tables;
   std::vector<std::string> ids;
   std::vector<std::string> columns;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     tables.emplace_back(list.items[i], file, path_of(i), known_keys());
     out.datasheet.sensor[i] = read_sensor(tables.back(), {out.input.unit, out.gravity.g_mps2});
+    out.stability[i] = read_stability(tables.back(), usual);
     ids.push_back(tables.back().text("id", ""));
     columns.push_back(tables.back().text("column", ids.back()));
   }

@@ -165,6 +165,8 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
                                {"log_hash", hex(context.log_hash)},
                                {"stations", context.stations},
                                {"plumb_version", context.plumb_version}});
+  if (!context.date.empty()) root["provenance"]["date"] = context.date;
+  if (!context.serial.empty()) root["provenance"]["serial"] = context.serial;
   root["report"] = from_report(calibration.report, n);
   root["sensors"] = from_sensors(calibration);
   root["paper_parameters"] = from_paper_parameters(array.array, calibration);

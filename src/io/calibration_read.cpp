@@ -5,6 +5,7 @@
 
 #include "calibration_source.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/io/date.hpp"
 #include "plumb/io/output_file.hpp"
 #include "text_tools.hpp"
 
@@ -228,6 +229,12 @@ CalibrationContext read_context(const Source& source, const Json& root) {
   context.log_hash = std::strtoull(source.text_of(provenance, "log_hash").c_str(), nullptr, 16);
   context.stations = source.whole_of<int>(provenance, "stations");
   context.plumb_version = source.text_of(provenance, "plumb_version");
+  if (provenance.contains("date")) {  // a file may lack both
+    context.date = source.text_of(provenance, "date");
+    const FileExpected<int> day = day_number(context.date);
+    if (!day) source.fail(source.line_of("provenance", "\"date\""), "provenance.date", day.error().what, kMakeAnew);
+  }
+  if (provenance.contains("serial")) context.serial = source.text_of(provenance, "serial");
   return context;
 }
 

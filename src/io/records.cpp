@@ -126,6 +126,7 @@ void append_vector(Object& object, const Verdict& v, const Mat3& frame) {
   object.number_if(tilt.toolface_valid, "toolface_sigma_deg", deg_from_rad(tilt.toolface_sigma_rad));
   object.number_if(v.protection_available, "protection_level_deg", deg_from_rad(v.protection_level_rad));
   object.flag("protection_available", v.protection_available);
+  object.whole("faults_covered", v.faults_covered);
   object.flag("alert", v.alert);
   object.number("age_s", v.age_s);
   object.numbers("gravity_mps2", gravity);

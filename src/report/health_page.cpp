@@ -150,6 +150,8 @@ Section extremes_view(const Json& report) {
   return out;
 }
 
+std::string told(const Json& text) { return text.get<std::string>().empty() ? "not told" : text.get<std::string>(); }
+
 Section basis_view(const Json& report) {
   const Json& basis = report["basis"];
   const Json& g = basis["gravity"];
@@ -160,12 +162,16 @@ Section basis_view(const Json& report) {
              {"length, m/s^2", fixed(g["g_mps2"], 1.0, 6)},
              {"standard deviation, mg0", shown(g["sigma_mps2"], kMg0)}},
             "From [gravity] of the array file.");
+  out.text("Drift since the calibration: " + basis["drift"]["text"].get<std::string>() +
+           ". What a reading drifts by beyond that is in no limit and in no bound on the direction.");
   if (c.is_null()) {
     out.text("There was no calibration file: the run began by calibrating itself.");
     return out;
   }
   out.table("Calibration, as it was read", {"figure", "value"},
             {{"log", c["log"].get<std::string>()},
+             {"date of the log", told(c["date"])},
+             {"serial number of the tool", told(c["serial"])},
              {"made by", "plumb " + c["made_by"].get<std::string>()},
              {"stations", c["stations"].dump()},
              {"length of gravity then, m/s^2", fixed(c["g_mps2"], 1.0, 6)},
@@ -174,7 +180,7 @@ Section basis_view(const Json& report) {
              {"rms of |G| less gravity, mg0", shown(c["norm_rms_mps2"], kMg0)},
              {"rms of parity, mg0", shown(c["parity_rms_mps2"], kMg0)},
              {"chance of such residuals or worse", shown(c["p_value"])}},
-            "The file holds no date. Its hash is in the next section.");
+            "Date and serial number are those given to plumb calibrate. The hash of the file is in the next section.");
   ViewRows rows;
   for (const Json& s : c["sensors"])
     rows.push_back({s["id"].get<std::string>(), shown(s["bias_mps2"][0], kMg0), shown(s["scale_raw_per_mps2"][0]),

@@ -200,8 +200,11 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
                                    {"degrees_of_freedom", "degrees of freedom"},
                                    {"p_value", "p value"},
                                    {"outliers", "stations set aside"},
+                                   {"date", "date of the log"},
+                                   {"serial", "serial number of the tool"},
                                    {"made_by", "made by plumb"}}) {
-    if (figures.contains(key) && !figures[key].is_null()) rows.push_back({words, shown(figures[key])});
+    if (figures.contains(key) && !figures[key].is_null() && figures[key] != "")
+      rows.push_back({words, shown(figures[key])});
   }
   if (!rows.empty()) out.table("The fit", {"figure", "value"}, rows);
   if (!c.contains("fit")) return out;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plumb/detection/mae_test.hpp"
+#include "plumb/health/stability.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -42,9 +43,10 @@ struct Collected {
   TestLimit median_of() const { return {median(noise), median(systematic), median(bias)}; }
 };
 
-/// A healthy block without noise.
-BlockEvidence block_at(const SensorArray& array, const Vec3& g, int window) {
+/// A healthy block without noise, with the drift that its limits allow for.
+BlockEvidence block_at(const SensorArray& array, const Vec3& g, int window, const Readings& tolerance_mps2) {
   BlockEvidence block;
+  for (size_t i = 0; i < tolerance_mps2.size(); ++i) block.tolerance_mps2[i] = static_cast<float>(tolerance_mps2[i]);
   block.usable = array.all();
   block.samples = window;
   for (int i = 0; i < array.size(); ++i) block.mean_mps2[static_cast<size_t>(i)] = dot(array.axis(i), g);
@@ -74,23 +76,25 @@ struct AttitudeLimits {
   double left = 0.0;  ///< 1 sigma of what calibration leaves, in sigmas of one sample
 };
 
-AttitudeLimits limits_of(const SetTest& t, const TestLimits& limits, const GravityReference& gravity, AlarmForm form,
-                         int window) {
+/// `t` of a block with its tolerances, `undrifted` without, `drift` what these add.
+AttitudeLimits limits_of(const SetTest& t, const SetTest& undrifted, const ToleranceBound& drift,
+                         const TestLimits& limits, const GravityReference& gravity, AlarmForm form, int window) {
   AttitudeLimits out;
   const double root_n = std::sqrt(window), s = t.norm_sigma_mps2;
-  const double parity_left = t.parity_systematic / root_n / limits.calibration;
+  const double parity_left = undrifted.parity_systematic / root_n / limits.calibration;
   const double gravity_bound = TestLimits::gravity * gravity.sigma_mps2 / s, pushed = limits.acceleration_mps2 / s;
-  const double length_left = std::fmax(t.norm_systematic / root_n - gravity_bound - pushed, 0.0) / limits.calibration;
+  const double length_left =
+      std::fmax(undrifted.norm_systematic / root_n - gravity_bound - pushed, 0.0) / limits.calibration;
   const double alarm = limits.parity_alarm[static_cast<size_t>(t.parity_rows)];
   out.left = t.parity_rows > 0 ? parity_left : length_left;
   out.parity_noise = t.parity_rows > 0 ? alarm / root_n : 0.0;
   out.length_noise_mps2 = limits.norm_alarm * s / root_n;
   if (form == AlarmForm::average_tool) {
-    out.parity = out.parity_noise * std::sqrt(1.0 + window * parity_left * parity_left);
+    out.parity = out.parity_noise * std::sqrt(1.0 + window * parity_left * parity_left) + drift.parity / root_n;
     const double sigma_g = gravity.sigma_mps2 / s;
     out.length_mps2 =
         out.length_noise_mps2 * std::sqrt(1.0 + window * (length_left * length_left + sigma_g * sigma_g)) +
-        limits.acceleration_mps2;
+        limits.acceleration_mps2 + drift.norm_mps2;
   } else {
     out.parity = out.parity_noise + t.parity_systematic / root_n;
     out.length_mps2 = out.length_noise_mps2 + t.norm_systematic / root_n * s;
@@ -163,13 +167,25 @@ std::string row(const char* name, const TestLimit& t, bool with_bias) {
                      mg(t.noise_mps2 + t.systematic_mps2), with_bias ? mg(t.bias_mps2) : std::string("-"));
 }
 
+/// Which stability the limits hold.
+std::string drift_words(const MonitorLimits& l) {
+  if (l.untold == l.sensors)
+    return "No stability is stated: these limits allow for no drift since the calibration. State it in the array file "
+           "(stability).\n";
+  return fmt::format(
+      "drift since the calibration allowed for: {} in a reading, {:.0f} sigmas of the stability{}\n",
+      mg(l.tolerance_mps2), kStabilitySigmas,
+      l.untold > 0 ? fmt::format("; none for {} of the sensors, which state none", l.untold) : std::string());
+}
+
 nlohmann::ordered_json json_of(const TestLimit& t) {
   return io::object({{"noise_mps2", t.noise_mps2}, {"systematic_mps2", t.systematic_mps2}, {"bias_mps2", t.bias_mps2}});
 }
 
 }  // namespace
 
-MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& gravity, const MonitorConfig& config) {
+MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& gravity, const MonitorConfig& config,
+                             const Readings& tolerance_mps2) {
   MonitorLimits out;
   const int n = array.size();
   out.sensors = n;
@@ -184,12 +200,17 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
   double noise = 0.0, left = 0.0;
   for (int i = 0; i < n; ++i) noise += array.sigma_mps2(i) * array.sigma_mps2(i) / n;
   out.noise_mps2 = std::sqrt(noise);
+  out.tolerance_mps2 = *std::max_element(tolerance_mps2.begin(), tolerance_mps2.end());
+  for (int i = 0; i < n; ++i) out.untold += tolerance_mps2[static_cast<size_t>(i)] > 0.0 ? 0 : 1;
   Collected parity, length, triple;
   for (int k = 0; k < kSearched; ++k) {
     const Vec3 u = attitude(k);
-    const BlockEvidence block = block_at(array, scaled(u, gravity.g_mps2), config.window);
+    const Vec3 g = scaled(u, gravity.g_mps2);
+    const BlockEvidence block = block_at(array, g, config.window, tolerance_mps2);
     const SetTest t = test_set(array, gravity, limits, block, array.all());
-    const AttitudeLimits at = limits_of(t, limits, gravity, config.alarm_form, config.window);
+    const SetTest undrifted = test_set(array, gravity, limits, block_at(array, g, config.window, {}), array.all());
+    const AttitudeLimits at = limits_of(t, undrifted, tolerance_bound(array, block, array.all(), t), limits, gravity,
+                                        config.alarm_form, config.window);
     const Visibility seen = visibility(array, map, u);
     if (n > 3) parity.add(at.parity_noise * out.noise_mps2, at.parity * out.noise_mps2, at.parity / seen.parity);
     length.add(at.length_noise_mps2, at.length_mps2, at.length_mps2 / std::fmax(seen.length, 1e-9));
@@ -214,6 +235,7 @@ std::string limits_text(const MonitorLimits& l) {
   out += row("length of the vector", l.length, true);
   out += row(l.delta_f_mps2 > 0.0 ? "triples (given delta_f)" : "triple, the widest", l.triple, false);
   out += fmt::format("\nnoise of a sample {}, left by calibration {}\n", mg(l.noise_mps2), mg(l.left_mps2));
+  out += drift_words(l);
   if (l.useful_samples > 0.0) {
     const auto enough = static_cast<long>(std::ceil(l.useful_samples * (1.0 - 1e-9)));
     out += fmt::format(
@@ -241,6 +263,8 @@ std::string limits_json(const MonitorLimits& l) {
   out["triple"] = io::object({{"noise_mps2", l.triple.noise_mps2}, {"systematic_mps2", l.triple.systematic_mps2}});
   out["noise_mps2"] = l.noise_mps2;
   out["left_by_calibration_mps2"] = l.left_mps2;
+  out["drift_tolerance_mps2"] = l.tolerance_mps2;
+  out["without_stability"] = l.untold;
   out["useful_samples"] = l.useful_samples > 0.0 ? nlohmann::ordered_json(l.useful_samples) : nullptr;
   if (l.delta_f_mps2 > 0.0) {
     out["delta_f_mps2"] = l.delta_f_mps2;

@@ -114,8 +114,9 @@ std::string common_part(const io::ArrayFile& array, const std::string& array_pat
          shortest(array.gravity.sigma_mps2) + " m/s^2\"\n";
   out += array.gravity.sigma_mps2 > 0.0 ? "errors = [0, 3]  # true gravity less told, in sigmas\n" : "errors = [0]\n";
   // `left` is of the bias; with scale and axis, twice as large each, a reading is off by sqrt(5) of it.
-  if (settings.e_cal_mps2 > 0.0)
-    out += "\n[calibration]\nleft = \"" + shortest(settings.e_cal_mps2 / std::sqrt(5.0)) + " m/s^2\"\n";
+  if (settings.e_cal_mps2 > 0.0 || settings.days_since_calibration > 0.0) out += "\n[calibration]\n";
+  if (settings.e_cal_mps2 > 0.0) out += "left = \"" + shortest(settings.e_cal_mps2 / std::sqrt(5.0)) + " m/s^2\"\n";
+  if (settings.days_since_calibration > 0.0) out += "days = " + shortest(settings.days_since_calibration) + "\n";
   out += monitor_toml(monitor, settings.alert_limit_rad);
   out +=
       "\n[[attitude]]\nlaw = \"random\"\n[[attitude]]\nlaw = \"roll-test\"\ninclination = \"60 deg\"\n[[attitude]]\n"

@@ -256,9 +256,18 @@ std::string standstill_words(const UserLimits& limits) {
                     deg_from_rad(limits.acceleration_turn_rad));
 }
 
+/// Beside it: no test tells drift that all sensors share from gravity, and what a limit does not hold is blamed on
+/// somebody.
+std::string drift_sentence(const UserLimits& limits) {
+  return "Drift since the calibration: " + limits.drift +
+         ". A healthy sensor that has drifted further can be excluded, and the direction can be off by more than the "
+         "protection level. The array file states it: stability.";
+}
+
 Json assumptions_of(const UserLimits& limits, const Json& report) {
   Json out = Json::array();
   out.push_back(standstill_words(limits));
+  if (!limits.drift.empty()) out.push_back(drift_sentence(limits));
   const Json& array = report["array"];
   const int grade = array["figures_of_merit"]["strict_grade"];
   out.push_back(fmt::format(

@@ -107,7 +107,7 @@ Finding ask_monitor(HealthMonitor& monitor, const std::vector<Sample>& samples) 
     const Verdict& verdict = monitor.step(s);
     out.named = out.named | verdict.excluded | verdict.set_aside;
   }
-  out.alarm = monitor.verdict().validity != Validity::valid;
+  out.alarm = monitor.verdict().state != HealthState::nominal || monitor.verdict().validity != Validity::valid;
   return out;
 }
 

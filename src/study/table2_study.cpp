@@ -89,7 +89,8 @@ StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& 
       const Verdict& verdict = monitor->verdict();
       if (result.named_after == 0 && !result.ever_named.empty()) result.named_after = static_cast<int>(a) + 1;
       const bool faulty_in_use = !(printed.faulty & verdict.in_service).empty();
-      if (faulty_in_use && verdict.validity == Validity::valid) ++result.silent;
+      const bool unsuspected = verdict.state != HealthState::suspect && verdict.validity == Validity::valid;
+      if (faulty_in_use && unsuspected) ++result.silent;
     }
     result.finding = rule.finding(read_by, kPaperDeltaF_mps2, fits.nominal.all());
     result.same_verdict = result.finding.detected == printed.detected && result.finding.isolated == printed.isolated;

@@ -154,8 +154,10 @@ LawResult detects_above_the_threshold(const Case& c) {
     station = truth.station;
     if (!v.tick || truth.station < first || truth.station >= last) return std::string();
     ++blocks;
-    const bool plain = v.validity == Validity::valid && v.in_service.has(fault.sensor);
-    return plain && blocks >= 1 ? std::string("valid with the faulty sensor in service") : std::string();
+    const bool plain =
+        v.state != HealthState::suspect && v.validity == Validity::valid && v.in_service.has(fault.sensor);
+    return plain && blocks >= 1 ? std::string("valid without suspicion, with the faulty sensor in service")
+                                : std::string();
   });
 }
 
@@ -253,7 +255,10 @@ LawResult verdict_agrees_with_itself(const Case& c) {
   return play(c, [&](const HealthMonitor&, const Verdict& v, const Sample& sample, const scenario::Truth&) {
     const bool usable = v.validity == Validity::valid || v.validity == Validity::degraded;
     if (!all_finite(v)) return std::string("a number is not finite");
-    if (v.state == HealthState::suspect && usable) return std::string("suspect, but published as usable");
+    if (v.state == HealthState::suspect && v.validity == Validity::degraded)
+      return std::string("suspect, but published as degraded");
+    if (v.validity == Validity::valid && (!v.protection_available || v.alert))
+      return std::string("valid without a bound within the alert limit");
     if (v.state == HealthState::failed && v.validity != Validity::invalid)
       return std::string("failed, but not invalid");
     if ((v.qualifiers & Qualifier::moving) != 0 && v.validity == Validity::valid)

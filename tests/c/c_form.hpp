@@ -95,6 +95,7 @@ inline std::string difference(const plumb_verdict& c, const plumb::Verdict& v) {
   PLUMB_SAME(accepted)
   PLUMB_SAME(alert)
   PLUMB_SAME(protection_available)
+  PLUMB_SAME(faults_covered)
   PLUMB_SAME(wants_rotation)
   PLUMB_SAME(usable)
   PLUMB_SAME(transition.sequence)

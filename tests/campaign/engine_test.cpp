@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "campaign_support.hpp"
@@ -264,6 +265,41 @@ TEST(CampaignFile, SaysWhatIsWrongWhereAndHowToMendIt) {
   }
 }
 
+/// A sensor's own figure before the array file's, that before the campaign's.
+TEST(CampaignFile, TheStabilityOfTheSensorsReachesTheirMonitor) {
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "stated.toml";
+  const std::string tool = "examples/paper_tool.toml";
+  std::ifstream in(std::string(PLUMB_SOURCE_DIR "/") + tool);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::size_t at = text.find("[[sensor]]");
+  ASSERT_NE(at, std::string::npos);
+  text.insert(at + 10, "\nstability = \"0.3 m/s^2\"");
+  std::ofstream(path) << text;
+  const auto file = parse_campaign_text(
+      "scenarios = 10\n[monitor]\nstability = \"0.1 m/s^2\"\n[calibration]\ndays = 30\n"
+      "[[tool]]\narray = \"" +
+          path.string() +
+          "\"\nstability_per_day = \"0.001 m/s^2\"\n"
+          "[[tool]]\ngeometry = \"cone\"\nsensors = 5\nnoise = \"0.2 mg0\"\nstability = \"0.2 m/s^2\"\n"
+          "[[fault]]\nspec = \"none\"\n",
+      "test.toml");
+  ASSERT_TRUE(file.has_value()) << file.error().text();
+  using Four = std::array<double, 4>;
+  EXPECT_EQ(file->plan.tools[0].stability[0], (Four{0.3, 0.001, 0.0, 0.0}));
+  EXPECT_EQ(file->plan.tools[0].stability[1], (Four{0.1, 0.001, 0.0, 0.0}));
+  EXPECT_EQ(file->plan.tools[1].stability[4], (Four{0.2, 0.0, 0.0, 0.0}));
+  EXPECT_EQ(file->plan.days_since_calibration, 30.0);
+  for (const int k : {0, 1}) {
+    const auto setup = plumb::campaign_kernel::setup_of(file->plan, k);
+    ASSERT_TRUE(setup.has_value());
+    EXPECT_EQ(setup->days_since_calibration, 30.0);
+    EXPECT_EQ(setup->stability[0].mps2, k == 0 ? 0.3 : 0.2);
+  }
+  Spec spec = spec_of(file->plan, 0);
+  spec.tool = 0;
+  EXPECT_NE(case_text(file->plan, spec).find("stability_per_day = \"0.001 m/s^2/day\""), std::string::npos);
+}
+
 TEST(CampaignFile, TheHashTellsPlansApart) {
   const CampaignFile file = small_campaign(100);
   std::set<std::uint64_t> hashes = {hash_of(file.plan)};
@@ -277,6 +313,8 @@ TEST(CampaignFile, TheHashTellsPlansApart) {
   with([](Plan& p) { p.tools[0].sigma_mps2[3] *= 2.0; });
   with([](Plan& p) { p.faults[3].magnitude += 1e-9; });
   with([](Plan& p) { p.monitor[20] ^= 1U; });
+  with([](Plan& p) { p.tools[0].stability[3][1] = 1e-6; });
+  with([](Plan& p) { p.days_since_calibration = 1.0; });
   with([](Plan& p) { p.cells.pop_back(); });
   with([](Plan& p) { p.attitudes[1].inclination_rad += 1e-9; });
   EXPECT_EQ(hash_of(file.plan), hash_of(small_campaign(100).plan));

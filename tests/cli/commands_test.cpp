@@ -333,9 +333,9 @@ TEST(Model, EveryTargetSaysWhatItDependsOn) {
   const auto json = nlohmann::json::parse(run(where, {"model", "--format", "json"}).out);
   std::map<std::string, std::vector<nlohmann::json>> rows;
   for (const auto& row : json["targets"]) rows[row["target"]].push_back(row);
-  const auto& patience = rows["stay while PL <= AL, else failed"];
+  const auto& patience = rows["stay while bounded or isolable, else failed"];
   ASSERT_EQ(patience.size(), 2U);
-  EXPECT_EQ(patience[0]["when"], nlohmann::json({{"PL <= AL", false}}));
+  EXPECT_EQ(patience[0]["when"], nlohmann::json({{"bounded or isolable", false}}));
   EXPECT_EQ(patience[0]["to"], "failed");
   EXPECT_EQ(patience[1]["to"], "stay");
   EXPECT_EQ(rows["by size"].size(), 4U);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "detection/mirrored_oracle.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "support/simulated_tool.hpp"
 
@@ -175,6 +176,16 @@ struct Rule {
     return across > 0.0 ? std::atan2(across, std::max(0.0, length - whole)) : 0.0;
   }
 
+  /// The number of faults that the level has to hold, by the words of `faults_covered`.
+  int covers(const ProtectionTerms& terms, int least) const {
+    int known = terms.provisional;
+    if (terms.doubted) known = std::max(known, least);
+    if (terms.unvalidated) ++known;
+    if (known == 0) return terms.faults;
+    const int on_top = std::min(known + terms.faults, std::min(strict(), 3));
+    return std::max(terms.faults, std::max(known, on_top));
+  }
+
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted,
                     const ProtectionTerms& terms, SensorSet witnesses) {
     const TestLimits& limits = tests.limits();
@@ -193,7 +204,19 @@ struct Rule {
           std::hypot(tilt_sigma_rad(t.x_mps2, t.covariance), calibration_tilt_sigma_rad(tests.array(), t, rest));
       return angle_between_rad(t.x_mps2, used.x_mps2) + terms.k_integrity * spread + drift_turn(tests, rest, t);
     };
-    bool bounded = true, any_bound = false, any_asserted = false;
+    struct Noted {
+      int faults;
+      bool explained;
+      double rad;
+    };
+    std::vector<Noted> notes;
+    const auto note = [&](int faults, SensorSet rest, bool tested, bool good) {
+      if (!used.tested) return;
+      if (good) notes.push_back({faults, true, level(rest)});
+      if (!tested) notes.push_back({faults, false, plumb_test::mirrored_rad(tests, rest, used.x_mps2, terms)});
+    };
+    depth = std::max(depth, covers(terms, strict()));
+    bool any_asserted = false;
     SensorSet common = there;
     for (const SensorSet f : subsets(there, 0, std::min(3, std::max(0, depth)))) {
       const SensorSet rest = there - f;
@@ -202,7 +225,7 @@ struct Rule {
         any_asserted = true;
         common = common & f;
       }
-      if (!tested && f.size() <= terms.faults) bounded = false;
+      note(f.size(), rest, tested, good);
       if (!good) continue;
       for (int i = 0; i < universe; ++i) {
         auto& fewest = out.fewest_faults[static_cast<std::size_t>(i)];
@@ -211,17 +234,23 @@ struct Rule {
       if (f.size() < out.least) out.suspects = SensorSet{};
       if (f.size() <= out.least) out.suspects = out.suspects | f;
       out.least = std::min(out.least, f.size());
-      if (f.size() <= terms.faults && used.tested) {
-        any_bound = true;
-        out.protection_rad = std::max(out.protection_rad, level(rest));
-      }
     }
     const SensorSet left = there & in_service;
     for (const SensorSet f : subsets(left != there ? left : SensorSet{}, 0, std::min(3, std::max(0, terms.faults)))) {
-      if (!tests.of(left - f).tested) bounded = false;
-      if (explains(left - f) && used.tested) out.protection_rad = std::max(out.protection_rad, level(left - f));
+      note(f.size(), left - f, tests.of(left - f).tested, explains(left - f));
     }
-    out.protection_available = bounded && any_bound && used.tested && used.parity_rows > 0 && terms.faults <= 3;
+    const int least = out.least <= 3 ? out.least : 0;
+    out.covered = covers(terms, least);
+    const int known = std::max(terms.provisional, terms.doubted ? least : 0) + (terms.unvalidated ? 1 : 0);
+    out.bears_more = !terms.doubted || out.covered >= known + terms.faults;
+    bool any = false, bounded = out.covered <= 3;
+    for (const Noted& told : notes) {
+      if (told.faults > out.covered) continue;
+      any = any || told.explained;
+      bounded = bounded && told.rad < kPi;
+      out.protection_rad = std::max(out.protection_rad, told.rad);
+    }
+    out.protection_available = any && bounded;
     const SetTest rest = tests.of(there - common);
     const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubted.excuses(there - common));
     if (any_asserted && rest.tested && alive) out.asserted = common;
@@ -284,6 +313,8 @@ void expect_same(const FaultSetScan& code, const FaultSetScan& rule) {
   EXPECT_EQ(code.asserted, rule.asserted);
   EXPECT_EQ(code.least, rule.least);
   EXPECT_EQ(code.protection_available, rule.protection_available);
+  EXPECT_EQ(code.covered, rule.covered);
+  EXPECT_EQ(code.bears_more, rule.bears_more);
   EXPECT_NEAR(code.protection_rad, rule.protection_rad, 1e-7 + 1e-9 * rule.protection_rad);
 }
 
@@ -319,7 +350,9 @@ void play(const SensorArray& array, std::uint64_t seed, int stations) {
     if (luck.uniform() < 0.7) expect_same(code.vote(tests, witnesses), rule.vote(tests, witnesses));
     EXPECT_EQ(code.live(), rule.live());
     const int depth = static_cast<int>(6 * luck.uniform()) - 1, asserted = static_cast<int>(6 * luck.uniform()) - 1;
-    const ProtectionTerms terms{static_cast<int>(5 * luck.uniform()), 5.0 * luck.uniform()};
+    const ProtectionTerms terms{static_cast<int>(5 * luck.uniform()), 5.0 * luck.uniform(),
+                                std::max(0, static_cast<int>(6 * luck.uniform()) - 3), luck.uniform() < 0.5,
+                                luck.uniform() < 0.5};
     const SensorSet in_service = luck.uniform() < 0.5 ? posed : luck.uniform() < 0.5 ? array.all() : episode.some(0.8);
     expect_same(code.scan(tests, in_service, depth, asserted, terms, witnesses),
                 rule.scan(tests, in_service, depth, asserted, terms, witnesses));

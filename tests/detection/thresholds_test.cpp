@@ -60,6 +60,34 @@ TEST(ThresholdsOf, SureDetectionIsTheGeometrysConstantTimesTheErrors) {
   EXPECT_NEAR(budget.noise_factor, normal_tail_quantile(1e-6 / 10.0), 1e-12);
 }
 
+/// The limits of the tests, and sizes that hold whatever the drift within its tolerance.
+// Verifies: REQ-123
+TEST(ThresholdsOf, DriftIsInThemAsTheLimitsHaveIt) {
+  const SensorArray array = cone_array(6, kSigma);
+  const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};
+  TestSettings settings;
+  const Thresholds still = thresholds_of(array, gravity, settings);
+  BlockEvidence block = exact_block(array, {0.0, 0.0, 1.0}, settings.samples);
+  for (std::size_t i = 0; i < 6; ++i) {
+    settings.tolerance_mps2[i] = (1.0 + static_cast<double>(i)) * 1e-4 * kG0_mps2;
+    block.tolerance_mps2[i] = static_cast<float>(settings.tolerance_mps2[i]);
+  }
+  const ErrorBudget budget = error_budget(array, gravity, settings);
+  const SetTest test = test_set(array, gravity, budget.limits, block, array.all());
+  EXPECT_NEAR(budget.parity_systematic, test.parity_systematic, 1e-6 * test.parity_systematic);
+  const Thresholds drifted = thresholds_of(array, gravity, settings);
+  double turned = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_DOUBLE_EQ(budget.systematic_mps2[i], settings.tolerance_mps2[i]);
+    // Drift may hide the fault, and the limit is wider by the same: twice the tolerance of its own sensor at least.
+    EXPECT_GT(drifted.sensor[i].detectable_mps2, still.sensor[i].detectable_mps2 + 2.0 * settings.tolerance_mps2[i]);
+    EXPECT_GT(drifted.sensor[i].set_aside_mps2, still.sensor[i].set_aside_mps2 + 2.0 * settings.tolerance_mps2[i]);
+    EXPECT_GT(drifted.sensor[i].sure_detection_mps2, still.sensor[i].sure_detection_mps2);
+    turned += drifted.sensor[i].gain * settings.tolerance_mps2[i];
+  }
+  EXPECT_GT(drifted.protection_rad, still.protection_rad + turned / kG0_mps2);
+}
+
 // Negative: REQ-016
 TEST(ThresholdsOf, WithoutRedundancyNothingIsPromised) {
   AxisList axes{};

@@ -118,12 +118,14 @@ TEST(Attack, AChannelEventDoesNotSwallowTheAlarm) {
     if (i == 0 && k % 32 < 29) return std::numeric_limits<double>::quiet_NaN();  // back exactly at the tick
     return i == 5 ? r + 0.1 : r;
   };
-  int valid = 0;
+  int unsuspected = 0;
   for (int k = 0; k < 30; ++k) {
     const Verdict& v = rig.stay(direction_at(45, 200));
-    valid += v.validity == Validity::valid && v.in_service.has(5) ? 1 : 0;
+    if (v.validity != Validity::valid || !v.in_service.has(5)) continue;
+    EXPECT_LE(angle_between_rad(v.gravity_mps2, direction_at(45, 200)), v.protection_level_rad);
+    unsuspected += v.state == HealthState::suspect ? 0 : 1;
   }
-  EXPECT_LE(valid, 1);
+  EXPECT_LE(unsuspected, 1);
 }
 
 // Negative: REQ-146
@@ -203,7 +205,10 @@ TEST(Attack, SensorsThatHangTogetherDoNotPassAShakenBlockForAQuietOne) {
       }
       ASSERT_TRUE(liars.contains(rig.ever_blamed)) << "seed " << seed << ", station " << station;
     }
-    EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named: seed " << seed;
+    // Two explanations are images of each other at every attitude: that is doubt without an end, and no failure.
+    const Verdict& v = rig.monitor.verdict();
+    EXPECT_EQ(v.state, HealthState::suspect) << "seen, and nobody named: seed " << seed;
+    EXPECT_TRUE(v.alert && (v.qualifiers & Qualifier::exhausted) != 0) << "seed " << seed;
   }
 }
 
@@ -228,7 +233,7 @@ TEST(Attack, SensorsThatHangDoNotPassAPushedOneForANoisyOne) {
         rig.stay(plumb_test::random_direction(noise));
         ASSERT_TRUE(liars.contains(rig.monitor.verdict().excluded)) << n << " " << seed << ", station " << station;
       }
-      EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed) << "seen, and nobody named: " << n << " " << seed;
+      EXPECT_NE(rig.monitor.verdict().state, HealthState::nominal) << "seen, and nobody named: " << n << " " << seed;
     }
   }
 }

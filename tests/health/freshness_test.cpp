@@ -140,7 +140,9 @@ TEST(Freshness, OneRowWithoutOneChannelIsBorneAndSeveralAreNot) {
 // Negative: REQ-128
 TEST(Freshness, ATurnThatTheSilentSensorAloneWouldShowIsNotHidden) {
   for (int silent = 0; silent < 4; ++silent) {
-    Slow tool(0.01);
+    MonitorConfig config;
+    config.alert_limit_rad = rad_from_deg(3.0);  // the turn before is in the bound
+    Slow tool(0.01, config);
     const Vec3 h = tool.rig.setup.array.axis(silent);
     const Vec3 side = cross(h, std::fabs(h[0]) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
     const auto tilted = [&h, &side](double deg) {

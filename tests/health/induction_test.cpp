@@ -430,7 +430,8 @@ TEST(Induction, EveryPairOfEventsIsTakenInRankOrder) {
 
 /// Patience that is used up stays so until somebody is convicted, the key turned or a fit adopted.
 // Verifies: REQ-098
-TEST(Induction, ExhaustedEndsByAConvictionTheKeyOrAFitAlone) {
+/// In failed it tells a failure by patience from every other.
+TEST(Induction, ExhaustedEndsByAConvictionTheKeyAFitOrAFailureOfAnotherKind) {
   for (int m = 0; m < kModeCount; ++m) {
     for (int e = 0; e < kEventCount; ++e) {
       for (const bool before : {false, true}) {
@@ -443,7 +444,8 @@ TEST(Induction, ExhaustedEndsByAConvictionTheKeyOrAFitAlone) {
         const Decision d = decide(kTransitionTable, state, input, [](SensorSet) { return SizeClass::reduced; });
         const bool convicts = (d.actions & Action::exclude) != 0, turned = (d.actions & Action::rearm) != 0;
         const bool adopts = (d.actions & Action::adopt_fit) != 0, sets = (d.actions & Action::exhausted) != 0;
-        EXPECT_EQ(state.exhausted, sets || (before && !convicts && !turned && !adopts)) << m << " " << e;
+        const bool fails = state.mode == Mode::failed && static_cast<Mode>(m) != Mode::failed && !sets;
+        EXPECT_EQ(state.exhausted, sets || (before && !convicts && !turned && !adopts && !fails)) << m << " " << e;
       }
     }
   }

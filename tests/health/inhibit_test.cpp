@@ -292,7 +292,7 @@ TEST(VerdictFields, NearVerticalTheToolfaceIsNotUsable) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   EXPECT_TRUE(rig.stay(direction_at(3.5, 20)).usable & Usable::toolface);
-  const Verdict& v = rig.stay(direction_at(2.5, 20));
+  const Verdict& v = rig.stay(direction_at(2.5, 20), 2);  // a turn of 1 deg is in the bound of the first block
   EXPECT_FALSE(v.usable & Usable::toolface);
   EXPECT_TRUE(v.usable & Usable::inclination);
   EXPECT_EQ(rig.stay({0, 0, 1}).toolface_protection_rad, kPi);

@@ -61,8 +61,8 @@ bool finite(const Verdict& v) {
   return ok;
 }
 
-/// S4, S11, S3, S17: total over raw inputs; the sets partition; nothing finite is lost; suspect, moving
-/// and failed are never valid.
+/// S4, S11, S3, S17: total over raw inputs; the sets partition; nothing finite is lost; moving and failed are never
+/// valid, and nothing is without a bound within the alert limit.
 // Verifies: REQ-101, REQ-120, REQ-140
 RC_GTEST_PROP(MonitorLaw, IsTotalAndPartitionsTheSensorsOverAnyInput, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
@@ -76,7 +76,9 @@ RC_GTEST_PROP(MonitorLaw, IsTotalAndPartitionsTheSensorsOverAnyInput, ()) {
     RC_ASSERT((v.in_service | v.set_aside | v.excluded | v.absent) == v.configured);
     RC_ASSERT(v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size() == n);
     RC_ASSERT(finite(v));
-    if (v.state == HealthState::suspect) RC_ASSERT(v.validity != Validity::valid && v.validity != Validity::degraded);
+    if (v.validity == Validity::valid) RC_ASSERT(v.protection_available && !v.alert);
+    if (v.validity == Validity::valid) RC_ASSERT(v.protection_level_rad <= rig.setup.config.alert_limit_rad);
+    if (v.state == HealthState::suspect) RC_ASSERT(v.validity != Validity::degraded);
     if (v.qualifiers & Qualifier::moving) RC_ASSERT(v.validity != Validity::valid);
     if (v.state == HealthState::failed) RC_ASSERT(v.validity == Validity::invalid);
     if (v.validity == Validity::valid) RC_ASSERT(rank_of(rig.setup.array, v.in_service) == 3);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/simulated_tool.hpp"
@@ -77,15 +78,28 @@ TEST(Patience, ThreeSensorsBetweenCleanAndAlarmEndInFailed) {
   EXPECT_EQ(held.rig.records.back().event, HealthEvent::patience_over);
 }
 
-/// L3, S12: whatever blocks say, 24 excited stations in suspect end it, take a sensor out or find it bounded.
+/// An explanation of no more faults than the grade bears, with enough sensors left to check one another.
+bool is_isolable(const SensorArray& array, const Verdict& v) {
+  int least = 255;
+  for (int i = 0; i < array.size(); ++i) {
+    least = std::min(least, static_cast<int>(v.fewest_faults[static_cast<std::size_t>(i)]));
+  }
+  return least <= std::max(v.strict_grade, v.parity_grade) && (v.in_service | v.set_aside).size() - least >= 4;
+}
+
+/// L3, S12: whatever blocks say, (n + 1) P excited stations in suspect end it, take a sensor out, find it bounded or
+/// leave an explanation whose other sensors check one another; and that, too, ends by the blocks where they are
+/// counted.
 // Verifies: REQ-105
 RC_GTEST_PROP(PatienceLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   MonitorConfig config;
   const bool strict_user = *rc::gen::arbitrary<bool>();
   if (strict_user) config.alert_limit_rad = 1e-5;  // a bound that no array of this noise holds
+  const bool counts_blocks = *rc::gen::arbitrary<bool>();
+  if (counts_blocks) config.patience_blocks = *rc::gen::inRange(2, 7);
   Held held(n == 3 ? triad() : n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n), config);
-  int in_suspect = 0, unbounded = 0;
+  int in_suspect = 0, unbounded = 0, in_doubt = 0, without = 0;
   SensorSet in_service;
   for (int k = 0; k < 72; ++k) {
     const int kind = *rc::gen::inRange(0, 3);
@@ -94,10 +108,118 @@ RC_GTEST_PROP(PatienceLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
     const bool began = v.state != HealthState::suspect || v.in_service != in_service;  // who is out is an answer, too
     in_service = v.in_service;
     in_suspect = began ? 0 : in_suspect + 1;
+    in_doubt = began ? 0 : in_doubt + (kind == 0 ? 0 : 1);
     const bool bounded = v.protection_available && v.protection_level_rad <= config.alert_limit_rad;
     unbounded = bounded ? 0 : unbounded + 1;
-    RC_ASSERT(in_suspect < 24 || unbounded < config.clean_blocks);
+    without = bounded || is_isolable(held.rig.setup.array, v) ? 0 : without + 1;
+    RC_ASSERT(in_suspect < (n + 1) * config.patience || without < config.clean_blocks);
+    const int most = (n + 1) * config.patience_blocks + config.clean_blocks;
+    RC_ASSERT(!counts_blocks || in_doubt < most || unbounded < config.clean_blocks);
   }
+}
+
+/// Sensors that fail one after another: every one that is suspected beside those before it has its own time.
+// Verifies: REQ-098
+TEST(Patience, BeginsAnewWithEveryFurtherSensorThatIsSuspected) {
+  if (kCapacity < 8) GTEST_SKIP() << "eight sensors";
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rig rig(plumb_test::cone_array(8), {}, seed);
+    rig.prove();
+    plumb_test::Noise noise(seed);
+    int faulty = 0;
+    rig.distort = [&faulty](int i, double r, int) { return i < faulty ? r + (0.1 + 0.07 * i) * kG0_mps2 : r; };
+    int most_on_record = 0, resets = 0, before = 0;
+    while (faulty < 4) {
+      ++faulty;
+      for (int station = 0; station < (faulty < 4 ? 2 : 20); ++station) {
+        const Verdict& v = rig.stay(plumb_test::random_direction(noise));
+        ASSERT_NE(v.state, HealthState::failed) << seed << ", sensor " << faulty;
+        ASSERT_TRUE(SensorSet::first(faulty).contains(v.excluded)) << seed;
+        resets += v.stations_on_record < before ? 1 : 0;
+        before = v.stations_on_record;
+        most_on_record = std::max(most_on_record, before);
+      }
+    }
+    EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::first(4)) << seed;
+    EXPECT_LE(resets, 8) << seed;
+    EXPECT_LE(most_on_record, rig.setup.config.patience + 1) << seed;
+  }
+}
+
+/// A fault of five that is small where two explanations fit it, and large once it is known: the estimate is far off,
+/// that of the sensors which nobody suspects is not.
+// Verifies: REQ-098
+TEST(Patience, ALiarThatIsKnownByThenIsExcludedAndDoesNotFailTheTool) {
+  if (kCapacity < 5) GTEST_SKIP() << "five sensors";
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Rig rig(plumb_test::cone_array(5), {}, seed);
+    rig.prove();
+    plumb_test::Noise noise(seed);
+    double bias_mps2 = 4e-4 * kG0_mps2;
+    rig.distort = [&bias_mps2](int i, double r, int) { return i == 2 ? r + bias_mps2 : r; };
+    for (int station = 0; station < 8; ++station) rig.stay(plumb_test::random_direction(noise));
+    const Verdict& v = rig.monitor.verdict();
+    bias_mps2 = kG0_mps2;
+    for (int station = 0; station < 8 && v.excluded.empty(); ++station) {
+      rig.stay(plumb_test::random_direction(noise), 2);
+      ASSERT_NE(v.state, HealthState::failed) << seed << ", station " << station;
+    }
+    EXPECT_EQ(v.excluded, SensorSet::of(2)) << seed;
+  }
+}
+
+/// Counter-example to "suspect ends at excited stations, or is bounded by its protection level": two of six show
+/// gravity mirrored in the plane of two others, and four explain every attitude either way.
+// Verifies: REQ-098
+TEST(Patience, TwoMirroredOfSixAreDoubtWithoutAnEndAndEndByBlocksAlone) {
+  if (kCapacity < 6) GTEST_SKIP() << "six sensors";
+  for (const int blocks : {0, 40}) {
+    MonitorConfig config;
+    config.patience_blocks = blocks;
+    Rig rig(plumb_test::cone_array(6), config);
+    rig.prove();
+    const SensorArray& array = rig.setup.array;
+    const Vec3 across = cross(array.axis(0), array.axis(1));
+    Vec3 u{};
+    rig.distort = [&](int i, double r, int) {
+      if (i != 2 && i != 3) return r;
+      return r - kG0_mps2 * dot(array.axis(i), scaled(across, 2.0 * dot(u, across) / dot(across, across)));
+    };
+    int beyond = 0;
+    const Verdict& v = rig.monitor.verdict();
+    for (int k = 0; k < 60 && v.state != HealthState::failed; ++k) {
+      u = spiral(k);
+      rig.stay(u);
+      if (v.validity == Validity::valid) {
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad) << k;
+      }
+      EXPECT_EQ(v.alert, v.validity != Validity::valid);
+      EXPECT_TRUE(v.excluded.empty() && v.set_aside.empty());
+      if (!(v.protection_available && v.protection_level_rad <= config.alert_limit_rad)) ++beyond;
+    }
+    EXPECT_GT(beyond, 20) << "no bound holds it";
+    EXPECT_EQ(v.state, blocks > 0 ? HealthState::failed : HealthState::suspect);
+    EXPECT_TRUE(v.qualifiers & Qualifier::exhausted) << "time ran out, either way";
+    EXPECT_EQ(v.wants_rotation, blocks == 0);
+  }
+}
+
+/// Four sensors with one fault: three are left of any explanation, and nobody checks them. No way out, so that
+/// patience ends in failed where no bound holds.
+// Negative: REQ-098
+TEST(Patience, FourSensorsWithoutABoundStillFail) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const SensorArray& array = rig.setup.array;
+  const Vec3 across = cross(array.axis(0), array.axis(1));
+  Vec3 u{};
+  rig.distort = [&](int i, double r, int) {
+    if (i != 2) return r;
+    return r - kG0_mps2 * dot(array.axis(i), scaled(across, 2.0 * dot(u, across) / dot(across, across)));
+  };
+  for (int k = 0; k < 24 && rig.monitor.verdict().state != HealthState::failed; ++k) rig.stay(u = spiral(k));
+  EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed);
+  EXPECT_TRUE(rig.monitor.verdict().qualifiers & Qualifier::exhausted);
 }
 
 /// L6: a violation that persists with three sensors ends in failed, though clean blocks in between end the suspicion.

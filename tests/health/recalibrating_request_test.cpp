@@ -106,7 +106,7 @@ TEST(Recalibrating, ThreeSensorsStayUnconfirmedAfterTheirFit) {
   tool.visit(1);
   EXPECT_EQ(tool.state(), HealthState::recalibrating);
   EXPECT_EQ(tool.rig.monitor.verdict().validity, Validity::degraded) << "as the state it came from";
-  EXPECT_FALSE(tool.rig.monitor.verdict().protection_available);
+  EXPECT_TRUE(tool.rig.monitor.verdict().alert);
   for (int k = 0; k < 40 && tool.count(HealthEvent::fit_accepted) == 0; ++k) tool.visit(1);
   ASSERT_EQ(tool.count(HealthEvent::fit_accepted), 1);
   tool.visit(12);

@@ -192,7 +192,7 @@ RC_GTEST_PROP(SnapshotLaw, AbsurdContentsDoNoHarm, ()) {
       RC_ASSERT((v.in_service | v.set_aside | v.excluded | v.absent) == v.configured);
       RC_ASSERT(v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size() == setup.array.size());
       if (v.state == HealthState::failed) RC_ASSERT(v.validity == Validity::invalid);
-      if (v.state == HealthState::suspect) RC_ASSERT(v.validity != Validity::valid && v.validity != Validity::degraded);
+      if (v.validity == Validity::valid) RC_ASSERT(v.protection_available && !v.alert);
     }
   }
   RC_TAG(accepted > 0 ? "some accepted" : "all refused");

@@ -142,6 +142,25 @@ TEST(CalibrationFile, KeepsContext) {
   EXPECT_EQ(file->calibration.report.stations, 48);
 }
 
+// Verifies: REQ-040
+TEST(CalibrationFile, DateAndSerialNumberGoAlongWhereTheyAreTold) {
+  const ArrayFile array = array_of();
+  CalibrationContext context = context_of(array);
+  const std::string plain = calibration_json(*calibration_of(array, &third), array, context);
+  for (const char* key : {"\"date\"", "\"serial\""}) EXPECT_EQ(plain.find(key), std::string::npos) << key;
+  context.date = "2026-03-31";
+  context.serial = "T-7";
+  const auto file =
+      read_calibration(written("cal.json", calibration_json(*calibration_of(array, &third), array, context)), array);
+  ASSERT_TRUE(file.has_value()) << file.error().text();
+  EXPECT_EQ(file->context.date, "2026-03-31");
+  EXPECT_EQ(file->context.serial, "T-7");
+  context.date = "2026-02-30";
+  const FileError error = refusal_of(calibration_json(*calibration_of(array, &third), array, context), array);
+  EXPECT_EQ(error.field, "provenance.date");
+  EXPECT_NE(error.what.find("is no date"), std::string::npos);
+}
+
 TEST(CalibrationFile, HoldsThePapersParametersOrSaysWhyNot) {
   const ArrayFile array = array_of(changed("[0.6, 0.0, 0.8]", "[0.6, 0.48, 0.64]"));
   const auto calibration = calibration_of(array, &third);

@@ -108,6 +108,7 @@ TEST(Records, VerdictCarriesEverything) {
                           "covariance_mps2_2",
                           "latest_mps2",
                           "protection_available",
+                          "faults_covered",
                           "alert",
                           "snapshot_refused",
                           "inclination_sigma_deg",

@@ -128,8 +128,9 @@ class Watch {
  public:
   double samples = kTrialSamples;
 
-  Watch(const LawTool& tool, const plumb::MonitorConfig& config) {
+  Watch(const LawTool& tool, const plumb::MonitorConfig& config, double stability_mps2 = 0.0) {
     plumb::MonitorSetup setup;
+    for (plumb::Stability& one : setup.stability) one.mps2 = stability_mps2;
     setup.array = tool.tool.array;
     setup.model.size = tool.n();
     setup.gravity = tool.tool.gravity;
@@ -158,11 +159,11 @@ class Watch {
 
 /// A monitor that has earned its trust with healthy sensors under that gravity, kept for the next case like it.
 inline const Watch& proven_watch(const LawTool& tool, const plumb::MonitorConfig& config, int key,
-                                 double gravity_sigmas) {
+                                 double gravity_sigmas, double stability_mps2 = 0.0) {
   static std::map<std::pair<std::pair<const LawTool*, int>, int>, std::unique_ptr<Watch>> known;
   auto& kept = known[{{&tool, key}, static_cast<int>(std::lround(gravity_sigmas))}];
   if (kept) return *kept;
-  kept = std::make_unique<Watch>(tool, config);
+  kept = std::make_unique<Watch>(tool, config, stability_mps2);
   LawCase quiet(tool.tool, {}, Lie::constant, gravity_sigmas);
   TrialNoise noise(3);
   for (int k = 0; k < 8; ++k) kept->station(quiet.healthy_readings(noise.direction()));
@@ -170,10 +171,11 @@ inline const Watch& proven_watch(const LawTool& tool, const plumb::MonitorConfig
 }
 
 /// The same, before the first sample.
-inline const Watch& fresh_watch(const LawTool& tool, const plumb::MonitorConfig& config, int key) {
+inline const Watch& fresh_watch(const LawTool& tool, const plumb::MonitorConfig& config, int key,
+                                double stability_mps2 = 0.0) {
   static std::map<std::pair<const LawTool*, int>, std::unique_ptr<Watch>> known;
   auto& kept = known[{&tool, key}];
-  if (!kept) kept = std::make_unique<Watch>(tool, config);
+  if (!kept) kept = std::make_unique<Watch>(tool, config, stability_mps2);
   return *kept;
 }
 

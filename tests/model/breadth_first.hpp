@@ -50,10 +50,10 @@ struct Limits {
 struct World {
   plumb_model_state machine{};
   Set ever = 0, accused = 0, probation = 0;
-  std::uint8_t open = 0, standing = 0, agree = 0, doubt = 0, clean_stations = 0, probation_stations = 0;
+  std::uint8_t open = 0, standing = 0, agree = 0, doubt = 0, most = 0, clean_stations = 0, probation_stations = 0;
   std::uint8_t pending = 0, suspicion = other, fit = 0, alarmed = 0;
 };
-static_assert(sizeof(World) == sizeof(plumb_model_state) + 13, "no padding: states are compared by their bytes");
+static_assert(sizeof(World) == sizeof(plumb_model_state) + 14, "no padding: states are compared by their bytes");
 
 class Search {
  public:
@@ -258,6 +258,11 @@ class Search {
     Step t = s;
     World& w = t.w;
     plumb_model_state& m = w.machine;
+    const int suspected = count((w.standing ? w.accused : 0U) | m.set_aside);
+    if (records(w) && suspected > w.most) {
+      w.most = static_cast<std::uint8_t>(suspected);
+      w.doubt = 0;
+    }
     const bool in_doubt = (t.kind == Block::alarming && !(nothing_alive && expected(w, none_alive))) ||
                           (t.kind == Block::soft && m.mode == suspect);
     if (records(w) && in_doubt && excited && w.doubt < limits_.patience) ++w.doubt;
@@ -273,7 +278,7 @@ class Search {
     if (on_record && excited) {
       if (m.set_aside != 0) probe(t, excited);  // those set aside do not agree
       if (++w.clean_stations == limits_.forget) {
-        w.open = w.accused = w.standing = w.agree = w.doubt = w.clean_stations = w.ever = 0;
+        w.open = w.accused = w.standing = w.agree = w.doubt = w.most = w.clean_stations = w.ever = 0;
         m.exhausted = 0;
       }
     }
@@ -394,7 +399,7 @@ class Search {
         taken && (event == culprit || event == reset || answer.adopted) && (event != culprit || before.mode != failed);
     const Set now_posed = posed(w);
     if (forgets) {
-      w.open = w.accused = w.standing = w.agree = w.doubt = w.clean_stations = 0;
+      w.open = w.accused = w.standing = w.agree = w.doubt = w.most = w.clean_stations = 0;
     } else if (now_posed != posed_before) {
       w.standing = w.agree = 0;
       w.accused = (now_posed & ~posed_before) != 0 ? Set{0} : static_cast<Set>(w.accused & now_posed);

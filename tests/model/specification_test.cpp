@@ -60,7 +60,7 @@ const std::map<std::string, std::string> kWords = {
     {"TO_SUSPECT", "suspect"},
     {"SUSPECT_OR_FAILED", "suspect (rank < 3: failed)"},
     {"STAY_OR_FAILED", "stay (rank < 3: failed)"},
-    {"BY_PROTECTION", "stay while PL <= AL, else failed"},
+    {"BY_PROTECTION", "stay while bounded or isolable, else failed"},
     {"TO_RECALIBRATING", "recalibrating"},
     {"TO_BASE", "by size; from suspect: suspect"},
     {"BY_RESET", "suspect (rank < 3: stay; no calibration: recalibrating (initial))"},

@@ -275,6 +275,25 @@ class Errors(unittest.TestCase):
         snapshot = plumb.Monitor(same, calibration).snapshot()
         self.assertEqual(self.said(plumb.Monitor, other, calibration, snapshot=snapshot), said)
 
+    def test_the_days_since_the_calibration_widen_the_bound(self):
+        text = (EXAMPLES / "paper_tool.toml").read_text()
+        growing = 'stability = "10 ug"\nstability_per_day = "5 ug"\n'
+        array = plumb.Array.parse(text.replace("[input]", "[monitor]\n" + growing + "[input]", 1))
+        calibration = plumb.calibrate(array, self.log, date="2026-03-31", serial="0042")
+        self.assertEqual((calibration.date, calibration.serial), ("2026-03-31", "0042"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = str(pathlib.Path(folder) / "cal.json")
+            calibration.save(path)
+            again = plumb.Calibration.read(array, path)
+        self.assertEqual((again.date, again.serial), ("2026-03-31", "0042"))
+        bounds = []
+        for days in (0.0, 30.0):
+            monitor = plumb.Monitor(array, calibration, days_since_calibration=days)
+            bounds.append(np.nanmax(monitor.run(self.log)["protection_level_rad"][-1:]))
+        self.assertGreater(bounds[1], bounds[0] + 1e-4)
+        self.assertIn("is no date", self.said(plumb.calibrate, array, self.log, date="31.03.2026"))
+        self.assertIn("days", self.said(plumb.Monitor, array, calibration, days_since_calibration=-1.0))
+
     def test_a_monitor_is_for_one_thread_at_a_time(self):
         calibration = plumb.calibrate(self.array, self.log)
         monitor = plumb.Monitor(self.array, calibration)

@@ -107,6 +107,31 @@ TEST(MonitorLimits, AnAccelerationThatIsAllowedForIsPartOfTheLengthAlone) {
   }
 }
 
+// Verifies: REQ-123
+TEST(MonitorLimits, DriftThatIsAllowedForIsPartOfEveryLimitAndSaid) {
+  const SensorArray array = with_offsets(plumb_test::tetrahedron(kSigma), kSigma / 3.0);
+  Readings tolerance{};
+  for (std::size_t i = 0; i < 4; ++i) tolerance[i] = 8e-4 * kG0_mps2;
+  for (const AlarmForm form : {AlarmForm::every_tool, AlarmForm::average_tool}) {
+    MonitorConfig config;
+    config.alarm_form = form;
+    const MonitorLimits still = monitor_limits(array, kExact, config);
+    const MonitorLimits drifted = monitor_limits(array, kExact, config, tolerance);
+    // Four sensors on a tetrahedron: every one has a quarter in parity, and its column is 3/4 long.
+    EXPECT_NEAR(drifted.parity.systematic_mps2 - still.parity.systematic_mps2, 2.0 * tolerance[0], 1e-6);
+    const double longer = drifted.length.systematic_mps2 - still.length.systematic_mps2;
+    EXPECT_GT(longer, 0.75 * tolerance[0]);
+    EXPECT_LT(longer, 3.0 * 1.01 * tolerance[0]);
+    EXPECT_GT(drifted.triple.systematic_mps2, still.triple.systematic_mps2 + tolerance[0]);
+    EXPECT_NEAR(drifted.useful_samples, still.useful_samples, 1e-6) << "what calibration leaves is the same";
+    EXPECT_NE(limits_text(drifted).find("0.8 mg in a reading, 4 sigmas of the stability\n"), std::string::npos);
+    EXPECT_NE(limits_text(still).find("No stability is stated"), std::string::npos);
+  }
+  tolerance[2] = 0.0;
+  const std::string some = limits_text(monitor_limits(array, kExact, {}, tolerance));
+  EXPECT_NE(some.find("none for 1 of the sensors, which state none"), std::string::npos) << some;
+}
+
 TEST(MonitorLimits, TheAverageFormIsTheNarrower) {
   const SensorArray array = with_offsets(plumb_test::tetrahedron(kSigma), kSigma / 3.0);
   MonitorConfig config;

@@ -83,6 +83,15 @@ TEST(VerificationTrials, TheMonitorIsTheOneOfTheArrayFile) {
   EXPECT_NE(monitor_of(array, s), bytes);
 }
 
+TEST(VerificationTrials, TheDriftThatIsAllowedForIsPlayedAtTheDayThatWasAsked) {
+  report::TrialSettings s = settings(1);
+  EXPECT_EQ(parsed(report::fault_campaign(paper_array(), kPath, s)).plan.days_since_calibration, 0.0);
+  s.days_since_calibration = 45.5;
+  EXPECT_EQ(parsed(report::fault_campaign(paper_array(), kPath, s)).plan.days_since_calibration, 45.5);
+  s.e_cal_mps2 = 1e-4;
+  EXPECT_EQ(parsed(report::healthy_campaign(paper_array(), kPath, s)).plan.days_since_calibration, 45.5);
+}
+
 double first_sigma(const report::TrialSettings& s) {
   return parsed(report::fault_campaign(paper_array(), kPath, s)).plan.tools.at(0).sigma_mps2[0];
 }

@@ -95,6 +95,16 @@ TEST(VerificationVerdict, AStandstillOrTheAccelerationAllowedForIsSaidFirst) {
   EXPECT_TRUE(plumb_test::says(first(), {"at most 30 mg0", "the alert never ends"})) << first();
 }
 
+// Verifies: REQ-123
+TEST(VerificationVerdict, TheDriftThatIsAllowedForIsSaidBesideIt) {
+  report::UserLimits given = limits("");
+  const Json report = calibrated_report();
+  const auto second = [&] { return report::verdict_section(given, report)["assumptions"][1].get<std::string>(); };
+  given.drift = "none is allowed for: no stability is stated";
+  EXPECT_TRUE(plumb_test::says(second(), {"Drift since the calibration: none is allowed for", "no stability is stated",
+                                          "can be excluded", "stability"}));
+}
+
 // Negative: REQ-181
 TEST(VerificationVerdict, ARateIsShownRefutedOrOpenByItsInterval) {
   Json report = calibrated_report();

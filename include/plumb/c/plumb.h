@@ -163,7 +163,7 @@ typedef struct plumb_verdict {
   uint8_t state, validity, cause, decided_by, grade;
   uint8_t tick, accepted, alert, protection_available, wants_rotation;
   uint8_t recalibration_phase;
-  uint8_t reserved; /* 0 */
+  uint8_t faults_covered; /* by the protection level */
   uint16_t usable, qualifiers;
   plumb_transition transition;
   uint32_t configured, in_service, set_aside, excluded, absent;

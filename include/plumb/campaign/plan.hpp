@@ -26,7 +26,9 @@ struct ToolPlan {
   std::array<double, kMostSensors> detectable_mps2{};  ///< MDB: missed by parity in one block in a thousand; 0 = none
   double volt_per_mps2 = 0.0;                          ///< scale factor, raw unit
   double resolution_raw = 0.0;                         ///< one code [V]; 0 = not known, nothing is rounded
-  int grade = 0;                                       ///< strict grade: faults that the monitor promises to bear
+  /// Of each sensor, the four figures of a `Stability` in their order; all zero: not stated.
+  std::array<std::array<double, 4>, kMostSensors> stability{};
+  int grade = 0;  ///< strict grade: faults that the monitor promises to bear
 };
 
 enum class AttitudeKind : std::uint8_t { random, roll_test, drilling_path, fixed };
@@ -74,7 +76,8 @@ struct Plan {
   Start start = Start::proven;
   int trust_stations = 8;
   double gravity_mps2 = 9.80665, gravity_sigma_mps2 = 1e-3;
-  double calibration_mps2 = 0.0;      ///< 1 sigma of what calibration left, known to the monitor; drawn within two
+  double calibration_mps2 = 0.0;  ///< 1 sigma of what calibration left, known to the monitor; drawn within two
+  double days_since_calibration = 0.0;
   int window = 32;                    ///< of the monitor, samples
   double alert_limit_rad = 0.0;       ///< of the monitor
   std::vector<std::uint8_t> monitor;  ///< the `MonitorConfig`, as `ArchiveWriter` writes it

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
-#include "plumb/detection/block_tests.hpp"
+#include "plumb/detection/protection_level.hpp"
 #include "plumb/detection/reference_doubt.hpp"
 
 namespace plumb {
@@ -55,20 +55,17 @@ struct FaultSetScan {
   SensorSet asserted;  ///< intersection of the live fault sets of at most `asserted_faults` members
   int least = 255;     ///< size of the smallest live fault set
   bool protection_available = false;
-  double protection_rad = 0.0;  ///< over live fault sets of at most `protection_faults` members; of what is felt, g + a
+  int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many members
+  bool bears_more = true;       ///< that is the priors' number on top of what an alarm on record takes to explain
+  double protection_rad = 0.0;  ///< of what is felt, g + a
 
   bool plausible() const noexcept { return protection_rad >= 0.0; }
   static constexpr auto fields() noexcept {
     using S = FaultSetScan;
     return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255),
-                      &S::protection_available, &S::protection_rad);
+                      &S::protection_available, within(&S::covered, 0, kCapacity), &S::bears_more,
+                      &S::protection_rad);
   }
-};
-
-/// What the protection level covers beside the separation of the live explanations.
-struct ProtectionTerms {
-  int faults = 1;            ///< fault sets of at most so many members
-  double k_integrity = 0.0;  ///< sigmas of noise and calibration
 };
 
 class Isolation {
@@ -91,13 +88,19 @@ class Isolation {
   /// scatters beyond its noise reads on average may be noise, or motion that faulty ones hide by hanging.
   IsolationAnswer vote(const BlockTests& tests, SensorSet witnesses = SensorSet::first(kCapacity)) noexcept;
 
-  /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the
-  /// protection level is the largest separation from the estimate of `in_service` (solution
-  /// separation; of those in service alone, too, where some are set aside) plus `k_integrity` sigmas of noise and
-  /// calibration, plus the largest turn by errors within the block's tolerances (`tolerance_turn_rad`).
-  /// For the asserted answer a fault set that leaves others than `witnesses`, or too few to be tested, stays alive.
+  /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the protection level is
+  /// the largest separation from the estimate of `in_service` over the consistent fault sets of at most
+  /// `faults_covered` members (solution separation; of those in service alone, too, where some are provisionally
+  /// excluded). Where the sensors that a fault set leaves measure in one plane only, the mirrored vector counts. For
+  /// the asserted answer a fault set that leaves others than `witnesses`, or too few to be tested, stays alive.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
                     const ProtectionTerms& protect, SensorSet witnesses = SensorSet::first(kCapacity)) const noexcept;
+
+  /// Whether the sensors in service that nobody suspects would be right within `limit_rad`, by the terms of `scan`,
+  /// over every explanation of up to as many faults as it takes, or as `protect` covers. False where they determine no
+  /// vector, where an explanation leaves too few to determine one, and where nothing explains the block.
+  bool bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
+                       const ProtectionTerms& protect, double limit_rad) const noexcept;
 
   int live() const noexcept;
   int voting() const noexcept { return voting_; }

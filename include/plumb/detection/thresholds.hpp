@@ -18,12 +18,14 @@ struct TestSettings {
   double missed_detection = 1e-3;  ///< how often a fault of just the detectable size may be missed, per block
   double integrity_risk = 1e-6;    ///< of the noise in the protection level, two-sided
   double acceleration_mps2 = 0.0;  ///< largest steady acceleration of the tool
+  Readings tolerance_mps2{};       ///< tau_i: drift of each sensor that the limits allow for, of either sign
 };
 
 /// What limits the sensors of one array: everything as 1 block of `TestSettings::samples`.
 struct ErrorBudget {
-  Readings noise_mps2{};           ///< sigma_i / sqrt(N)
-  Readings calibration_mps2{};     ///< what calibration leaves: k_c sigmas of the worst attitude, misfit included
+  Readings noise_mps2{};  ///< sigma_i / sqrt(N)
+  /// What calibration leaves, k_c sigmas of the worst attitude with the misfit, and drift within its tolerance.
+  Readings systematic_mps2{};
   double noise_factor = 0.0;       ///< k_e: all n sensors stay within k_e sigmas but for the rejection rate
   double parity_systematic = 0.0;  ///< bound on b_S of the parity rows, in standard deviations of a block mean
   double gravity_mps2 = 0.0;       ///< what the length felt may be off: `TestLimits::gravity` sigmas, and acceleration

@@ -36,7 +36,9 @@ struct DecisionState {
 struct DecisionInput {
   EventMask raised = 0;
   NamedSensors named;
-  bool protection_within = false;  ///< protection level available and within the alert limit
+  /// The doubt has a bound within the alert limit, or an explanation by no more faults than the grade bears whose other
+  /// sensors check one another.
+  bool protection_within = false;
   bool calibrated = true;
   int clean_blocks = 3;  ///< R
 };
@@ -78,6 +80,9 @@ Decision decide(const TransitionTable& table, DecisionState& state, const Decisi
   facts.protection_within = input.protection_within;
   facts.calibrated = input.calibrated;
   state.mode = resolve(from, cell.target, facts);
+  // In failed the qualifier tells that time ran out from that too few sensors are left.
+  const bool fails = state.mode == Mode::failed && from != Mode::failed;
+  if (fails && (cell.actions & Action::exhausted) == 0) state.exhausted = false;
 
   const SensorLedger& after = state.sensors;
   out.changed = state.mode != from || before.in_service != after.in_service || before.set_aside != after.set_aside ||

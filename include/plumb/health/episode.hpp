@@ -52,23 +52,35 @@ class DirectionRecord {
 };
 
 struct Episode {
-  bool open = false;         ///< an alarm is on record
-  bool by_scatter = false;   ///< the candidate's own scatter is all that names it
-  DirectionRecord stations;  ///< excited stations in doubt (patience); kept without an alarm too
-  int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where patience counts them
+  bool open = false;        ///< an alarm is on record
+  bool by_scatter = false;  ///< the candidate's own scatter is all that names it
+  /// Sensors at most that the candidate and those provisionally excluded came to: an episode that names one more than
+  /// ever before is another question.
+  std::uint8_t most_suspected = 0;
+  DirectionRecord stations;  ///< distinct attitudes in doubt (isolation timeout); kept without an alarm too
+  int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where the timeout counts them
   SensorSet candidate;       ///< the unique strict answer so far
   DirectionRecord agreeing;  ///< excited stations at which it was the answer (E)
   DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
 
   void clear() noexcept {
     open = by_scatter = false;
+    most_suspected = 0;
     stations.clear();
     doubtful_blocks = 0;
     candidate = SensorSet{};
     agreeing.clear();
     clean.clear();
   }
-  /// The answer is taken back; how long the doubt has lasted is not.
+  /// The isolation timeout begins anew where more sensors are suspected than before in this episode: what was doubted
+  /// until now has an answer, and the next fault its own time. The number only grows, so that no more than n times.
+  void note_suspected(int sensors) noexcept {
+    if (sensors <= most_suspected) return;
+    most_suspected = static_cast<std::uint8_t>(sensors);
+    stations.clear();
+    doubtful_blocks = 0;
+  }
+  /// The answer is taken back; how long the doubt has lasted, and how many were suspected at most, is not.
   void take_back() noexcept {
     by_scatter = false;
     candidate = SensorSet{};
@@ -76,8 +88,8 @@ struct Episode {
   }
   static constexpr auto fields() noexcept {
     using E = Episode;
-    return field_list(&E::open, &E::by_scatter, &E::stations, within(&E::doubtful_blocks, 0, kMostPatienceBlocks),
-                      &E::candidate, &E::agreeing, &E::clean);
+    return field_list(&E::open, &E::by_scatter, within(&E::most_suspected, 0, kCapacity), &E::stations,
+                      within(&E::doubtful_blocks, 0, kMostPatienceBlocks), &E::candidate, &E::agreeing, &E::clean);
   }
 };
 

@@ -22,6 +22,7 @@
 #include "plumb/health/noise_study.hpp"
 #include "plumb/health/recalibration.hpp"
 #include "plumb/health/reference_study.hpp"
+#include "plumb/health/rest_reference.hpp"
 #include "plumb/health/rotation.hpp"
 #include "plumb/health/slow_motion.hpp"
 #include "plumb/health/snapshot.hpp"
@@ -180,7 +181,6 @@ class HealthMonitor {
   bool moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept;
   bool bears_motion(const BlockView& view) const noexcept;
   EventMask serve_slow_block(const Sample& sample, const BlockTests& tests, const BlockView& view) noexcept;
-  void count_unbounded(const BlockView& view) noexcept;
   EventMask raise_block_events(const BlockView& view) noexcept;
   void collect(const BlockView& view, const RawBlock& raw, EventMask raised) noexcept;
 
@@ -208,7 +208,11 @@ class HealthMonitor {
   bool answers_by_scatter(const BlockTests& tests) const noexcept;
   void vote(const BlockTests& tests) noexcept;
   void count_doubt(const BlockView& view) noexcept;
+  bool is_out_of_stations() const noexcept;
+  bool is_out_of_blocks() const noexcept;
   bool patience_is_over() const noexcept;
+  bool is_isolable() const noexcept;
+  void count_unbounded(const BlockTests& tests, const BlockView& view) noexcept;
   void count_clean(const BlockTests& tests, const BlockView& view) noexcept;
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
@@ -285,7 +289,7 @@ class HealthMonitor {
   EventMask pending_ = 0;  ///< block events that a channel event pushed back
   SensorSet block_usable_;
   double drift_rad_ = 0.0;  ///< turn since the block before, at one station
-  int unbounded_run_ = 0;   ///< blocks in a row whose protection level was beyond the alert limit
+  int unbounded_run_ = 0;   ///< blocks in a row without a bound within the alert limit, and without a way out
   std::uint32_t sequence_ = 0;
   int clean_run_ = 0;
   /// Stands for the sum in a monitor that was never configured, or whose memory was lost. It is not zero: storage that
@@ -336,6 +340,7 @@ class HealthMonitor {
   Isolation isolation_;
   Episode episode_;
   StationTrack station_;
+  RestReference rest_;
   LeastSquares map_;  ///< of the sensors in service
 #if PLUMB_SINGLE
   NearLengths near_;  ///< of the block at hand, by that map
@@ -402,7 +407,8 @@ class HealthMonitor {
         &M::calm_, &M::stuck_watch_, &M::aside_, &M::counters_, not_stored(&M::lever_arm_m_), &M::rotation_,
         // evidence
         &M::scatter_, &M::noise_study_, &M::slow_motion_, &M::reference_study_, &M::trend_, &M::temperature_rate_,
-        &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, not_stored(&M::map_),
+        &M::gate_, &M::block_, &M::raw_, &M::mae_, &M::isolation_, &M::episode_, &M::station_, &M::rest_,
+        not_stored(&M::map_),
 #if PLUMB_SINGLE
         not_stored(&M::near_),
 #endif

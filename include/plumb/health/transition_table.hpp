@@ -41,7 +41,7 @@ enum class Target : std::uint8_t {
   suspect,
   suspect_or_failed,  ///< failed where rank < 3
   stay_or_failed,     ///< failed where rank < 3
-  by_protection,      ///< stay while the protection level is within the alert limit, else failed
+  by_protection,      ///< stay while the doubt has a bound or a way out, else failed
   recalibrating,
   base,   ///< back where recalibration came from: suspect, or by size
   rearm,  ///< rank < 3: stay; no calibration: initial; else suspect(unproven)
@@ -246,7 +246,7 @@ struct TargetFacts {
   bool unproven = false;
   bool earned = false;             ///< R clean blocks in a row (unproven: over stations that move every sensor)
   bool base_suspect = false;       ///< recalibration came from suspect
-  bool protection_within = false;  ///< protection level available and within the alert limit
+  bool protection_within = false;  ///< a bound within the alert limit, or a way out (`DecisionInput`)
   bool calibrated = false;
 };
 

@@ -123,8 +123,11 @@ struct Verdict {
   double protection_level_rad = 0.0;
   double toolface_protection_rad = 0.0;  ///< what it means for the toolface: asin(sin PL / sin I), pi near vertical
   std::uint16_t usable = 0;              ///< bits of Usable
-  bool protection_available = false;     ///< never with three sensors or none to spare: nothing checks direction then
-  bool alert = true;                     ///< protection level beyond the alert limit, or none available where valid
+  /// K: the level holds for every consistent explanation with at most so many faulty sensors among those monitored;
+  /// 0 where there is none. It is the priors' number, and more while faults are suspected (`faults_covered`).
+  std::uint8_t faults_covered = 0;
+  bool protection_available = false;
+  bool alert = true;  ///< protection level beyond the alert limit, or none available where valid
 
   Errc snapshot_refusal = Errc::ok;  ///< why the monitor runs without the history that was offered to it
   /// Of what the monitor was configured with (`SnapshotHeader::identity`): equal setups, gravity apart, have equal
@@ -161,7 +164,8 @@ struct Verdict {
         any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation, &V::temperature_degc,
         &V::temperature_rate_degc_per_min, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance,
         &V::age_s, &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable,
-        &V::protection_available, &V::alert, up_to(&V::snapshot_refusal, kLastErrc), not_stored(&V::config_hash));
+        &V::faults_covered, &V::protection_available, &V::alert, up_to(&V::snapshot_refusal, kLastErrc),
+        not_stored(&V::config_hash));
   }
 };
 

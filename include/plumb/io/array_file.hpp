@@ -2,6 +2,7 @@
 /// Contract: design, section 6.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "plumb/core/vec3.hpp"
 #include "plumb/gravity/gravity.hpp"
 #include "plumb/health/monitor_config.hpp"
+#include "plumb/health/stability.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/units.hpp"
 
@@ -58,6 +60,7 @@ struct ArrayFile {
   GravityReference gravity;
   MonitorConfig monitor;
   InputSpec input;
+  std::array<Stability, kCapacity> stability{};  ///< of each sensor since its calibration; all zero: not stated
   std::vector<Vec3> lever_arm_m;   ///< of each sensor from the axis of rotation, tool frame; empty: not known
   Mat3 output_frame = kIdentity3;  ///< rows; applied to vectors at output only
   std::uint64_t fingerprint = 0;   ///< binds a calibration to this array, see fingerprint_of
@@ -69,8 +72,18 @@ FileExpected<ArrayFile> read_array_file(const std::string& path);
 /// The same from text; `path` is used in messages only.
 FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path);
 
+/// The sensors that state no stability.
+SensorSet without_stability(const ArrayFile& array) noexcept;
+
+/// tau of every sensor so many days after its calibration, at its reference temperature and with that at rest: what the
+/// limits of a monitor allow for at least.
+Readings tolerance_mps2(const ArrayFile& array, double days_since_calibration) noexcept;
+
+/// The keys that state it, one a line, as the reader takes them; empty where nothing is stated.
+std::string stability_toml(const Stability& stability);
+
 /// FNV-1a (64 bit) over ids, axes, nominal coefficients and `reads`: what a calibration depends on.
-/// Names, limits, noise, priors and the layout of the log do not enter.
+/// Names, limits, noise, priors, stability and the layout of the log do not enter.
 std::uint64_t fingerprint_of(const Datasheet& datasheet) noexcept;
 
 }  // namespace io

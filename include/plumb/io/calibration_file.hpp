@@ -22,13 +22,16 @@ inline constexpr int kCalibrationVersion = 1;
 /// Of the section `paper`, which a file need not have.
 inline constexpr int kPaperSectionVersion = 1;
 
-/// Where a calibration comes from. No clock time: the same input gives the same bytes.
+/// Where a calibration comes from. No clock time: the same input gives the same bytes, and the date is what the user
+/// says.
 struct CalibrationContext {
   std::string log_file;  ///< only the last part of the path is kept
   std::uint64_t log_bytes = 0;
   std::uint64_t log_hash = 0;  ///< FNV-1a of the bytes of the log
   int stations = 0;            ///< used by the fit
   std::string plumb_version;
+  std::string date;          ///< of the log, "2026-03-31"; empty: not told
+  std::string serial;        ///< of the tool; empty: not told
   GravityReference gravity;  ///< that the fit assumed
 };
 

@@ -22,6 +22,7 @@ struct UserLimits {
   std::string faults_from;
   double acceleration_bound_mps2 = 0.0;        ///< of the array file: 0 = a standstill is assumed
   double acceleration_turn_rad = 0.0;          ///< most that it turns what the sensors feel
+  std::string drift;                           ///< what of it the limits allow for; empty: not told
   std::optional<double> false_alarm_rate;      ///< per block
   std::optional<double> misleading_rate;       ///< per scenario with faults: error above the alert limit, no alert
   std::optional<double> wrong_exclusion_rate;  ///< per scenario with faults

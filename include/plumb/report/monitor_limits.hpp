@@ -26,6 +26,8 @@ struct MonitorLimits {
   /// What calibration leaves, 1 sigma as parity sees it in its worst direction (three sensors: as the length does), rms
   /// over attitudes.
   double left_mps2 = 0.0;
+  double tolerance_mps2 = 0.0;  ///< drift that the limits allow for, of the sensor for which most
+  int untold = 0;               ///< sensors of which no drift is allowed for
   /// (noise / left)^2: blocks beyond it do not make a test of one attitude sharper. 0 where calibration leaves nothing.
   double useful_samples = 0.0;
   double delta_f_mps2 = 0.0;  ///< given limit of the triples, 0 = none
@@ -35,8 +37,10 @@ struct MonitorLimits {
   double blind_tilt_rad = 0.0;  ///< ... and the largest error of direction under such a bias, none excluded
 };
 
-/// `array` is the calibrated one. 100 attitudes spread evenly; faults up to 2 g0.
-MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& gravity, const MonitorConfig& config);
+/// `array` is the calibrated one, `tolerance_mps2` the drift of each sensor that is allowed for. 100 attitudes spread
+/// evenly; faults up to 2 g0.
+MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& gravity, const MonitorConfig& config,
+                             const Readings& tolerance_mps2 = {});
 
 std::string limits_text(const MonitorLimits& limits);
 /// One JSON object.

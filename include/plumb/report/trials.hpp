@@ -25,6 +25,7 @@ struct TrialSettings {
   int faults = 1;  ///< sensors at fault at once, at most; never beyond the strict grade where there is one
   double alert_limit_rad = 0.0;
   double e_cal_mps2 = 0.0;  ///< 1 sigma of what calibration left in a reading; 0 = nothing
+  double days_since_calibration = 0.0;
   std::uint64_t seed = 1;
   std::uint64_t scenarios = 0;        ///< of each campaign
   std::uint32_t samples_per_row = 1;  ///< behind every row of the log, where its rows are means

@@ -22,7 +22,7 @@ struct Table2Result {
   SensorSet excluded;    ///< for good or provisionally
   SensorSet ever_named;  ///< at any time
   int named_after = 0;   ///< attitudes until the first was named; 0: nobody was
-  int silent = 0;        ///< attitudes at whose end the output was called valid with a faulty sensor in use
+  int silent = 0;        ///< attitudes at whose end the output was valid and not suspect with a faulty sensor in use
 };
 
 struct Table2Study {

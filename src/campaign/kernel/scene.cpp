@@ -123,7 +123,10 @@ Expected<MonitorSetup> setup_of(const Plan& plan, int tool) noexcept {
   if (!reader.sound()) return fail(Errc::out_of_range, 1, plan.window, kWindowCapacity);
   for (int i = 0; i < datasheet.size; ++i) {
     setup.resolution_raw[static_cast<size_t>(i)] = datasheet.sensor[static_cast<size_t>(i)].resolution_raw;
+    const std::array<double, 4>& s = plan.tools[static_cast<size_t>(tool)].stability[static_cast<size_t>(i)];
+    setup.stability[static_cast<size_t>(i)] = {s[0], s[1], s[2], s[3]};
   }
+  setup.days_since_calibration = plan.days_since_calibration;
   if (plan.calibration_mps2 > 0.0) {
     RowUncertainty left;
     const double rows = 2.0 * plan.calibration_mps2 / plan.gravity_mps2;  // scale and axis, each as large as the bias

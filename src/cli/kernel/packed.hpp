@@ -111,6 +111,7 @@ void lead(Pipe& pipe, Setup& setup, Rows& rows, Uncertainty& uncertainty) noexce
     pipe(setup.full_scale_raw[i]);
     pipe(setup.resolution_raw[i]);
     pipe(setup.lever_arm_m[i]);
+    pipe(setup.stability[i]);
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(RowUncertainty::packed_size(n)); ++k)
     pipe(uncertainty.covariance[k]);
@@ -119,6 +120,7 @@ void lead(Pipe& pipe, Setup& setup, Rows& rows, Uncertainty& uncertainty) noexce
   pipe(setup.output_frame);
   pipe(setup.lever_arms_known);
   pipe(setup.calibrated);
+  pipe(setup.days_since_calibration);
 }
 
 }  // namespace stepping_detail

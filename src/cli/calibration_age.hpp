@@ -1,0 +1,30 @@
+/// How long ago a calibration was made: the monitor has no calendar, so that the host tells it at every power-on.
+#pragma once
+
+#include <string>
+
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/calibration_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// For an option that takes a date: what is wrong with the text, "" where nothing is.
+std::string date_refusal(const std::string& text);
+
+/// From the date of the calibration in `path` to `date`, or to today by the clock of this machine where that is empty;
+/// 0 where the calibration has no date. Refuses a date before the calibration, and one a century after it.
+io::FileExpected<double> days_since(const io::CalibrationFile& calibration, const std::string& path,
+                                    const std::string& date);
+
+/// A note for standard error: the array file states a growth per day, and the calibration has no date. Else empty.
+std::string undated_note(const io::ArrayFile& array, const io::CalibrationFile& calibration, const std::string& path);
+
+/// What the limits allow for: "up to 0.8 mg0 allowed for, 4 sigmas of the stability 31 days after the calibration", and
+/// which sensors state none. Without a full stop.
+std::string drift_words(const io::ArrayFile& array, double days_since_calibration);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,76 @@
+// How far a sensor may drift after its calibration: the same keys in [monitor], for all, and in [[sensor]].
+#include <algorithm>
+
+#include "array_parts.hpp"
+#include "refusal.hpp"
+#include "text_tools.hpp"
+#include "toml_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+struct StabilityKey {
+  const char* key;
+  const char* per;  ///< what may stand after the unit, and need not: the key says it too
+  double Stability::*figure;
+};
+
+constexpr std::array<StabilityKey, 4> kKeys = {
+    {{"stability", "", &Stability::mps2},
+     {"stability_per_day", "/day", &Stability::per_day_mps2},
+     {"stability_per_degc", "/degC", &Stability::per_degc_mps2},
+     {"stability_per_degc_per_min", "/degC/min", &Stability::per_degc_per_min_mps2}}};
+
+double read_figure(const TomlTable& table, const StabilityKey& key, double fallback) {
+  const TomlNode* value = table.find(key.key);
+  if (value == nullptr) return fallback;
+  std::string text = table.text_with_unit(*value, key.key, accepted_units(Quantity::acceleration));
+  const std::string per = key.per;
+  if (text.size() > per.size() && text.compare(text.size() - per.size(), per.size(), per) == 0)
+    text.resize(text.size() - per.size());
+  const double mps2 = table.checked(parse_quantity(Quantity::acceleration, text), key.key, *value);
+  if (mps2 >= 0.0 && mps2 <= kMostStability_mps2) return mps2;
+  table.fail(value->line, key.key, "is " + brief(mps2) + " m/s^2" + per + ", out of range",
+             "give 1 sigma of what a reading may be off by, from 0 up, below " + brief(kMostStability_mps2) +
+                 " m/s^2: " + key.key + " = \"0.2 mg" + per + "\"");
+}
+
+}  // namespace
+
+std::vector<std::string> with_stability_keys(std::vector<std::string> names) {
+  for (const StabilityKey& key : kKeys) names.emplace_back(key.key);
+  return names;
+}
+
+Stability read_stability(const TomlTable& table, const Stability& fallback) {
+  Stability out = fallback;
+  for (const StabilityKey& key : kKeys) out.*key.figure = read_figure(table, key, fallback.*key.figure);
+  return out;
+}
+
+void refuse_gone_keys(const TomlNode& monitor, const std::string& file) {
+  for (const char* key : {"drift_bias", "drift_scale", "common_drift"}) {
+    const TomlNode* value = monitor.find(key);
+    if (value == nullptr) continue;
+    throw Refusal(FileError{file, value->line, std::string("monitor.") + key,
+                            "is gone since 1.1: one statement of drift stands behind limits, protection level and "
+                            "recalibration now",
+                            "state stability = \"0.2 mg\" in its place, 1 sigma of what a reading may be off by since "
+                            "the calibration, bias and scale together"});
+  }
+}
+
+std::string stability_toml(const Stability& stability) {
+  std::string out;
+  for (const StabilityKey& key : kKeys) {
+    const double mps2 = stability.*key.figure;
+    if (mps2 > 0.0) out += std::string(key.key) + " = \"" + shortest(mps2) + " m/s^2" + key.per + "\"\n";
+  }
+  return out;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb
