@@ -289,7 +289,9 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const BlockView view = moving_ ? BlockView{} : judge(tests);
   if (view.used.tested) {
     const double sigma_rad = tilt_sigma_rad(view.used.x_mps2, view.used.covariance);
-    slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad);
+    slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad,
+                          std::sqrt(judged.evidence.spread_mps2_sq) / gravity_.g_mps2,
+                          sigma_rad * std::sqrt(view.used.samples));
   }
   // A block that cannot be tested is no evidence, and its vector no news.
   if (moving_ || !view.used.tested || (slow && !bears_motion(view))) {
