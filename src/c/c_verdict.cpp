@@ -79,6 +79,7 @@ void no_verdict(plumb_verdict& out) noexcept {
   out.transition.event = number(HealthEvent::none);
   out.validity = PLUMB_INVALID;
   out.alert = 1;
+  out.noise_factor = out.noise_correlation = 1.0;
 }
 
 plumb_error write(const Verdict& v, plumb_verdict* to, int argument) noexcept {
