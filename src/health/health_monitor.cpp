@@ -239,8 +239,8 @@ void HealthMonitor::empty_windows() noexcept {
   raw_.clear();
   mae_.clear();
   leave_station();
-  slow_motion_.lapse();
   rest_.clear();
+  slow_motion_.lapse();
 }
 
 /// The sample is refused and the windows stay as they are; what was valid is now only held.

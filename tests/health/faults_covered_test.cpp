@@ -141,6 +141,7 @@ TEST(FaultsCovered, ASuspectWhoseExclusionTurnsTheVectorByLessThanTheAlertLimitL
   Rig rig(tetrahedron());
   rig.prove();
   const Vec3 u = direction_at(40, 30);
+  rig.stay(u, 2);
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 5e-3 * kG0_mps2 : r; };
   const Verdict& v = rig.stay(u, 3);
   EXPECT_EQ(v.state, HealthState::suspect);
