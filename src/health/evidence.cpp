@@ -10,6 +10,13 @@ inline namespace PLUMB_ABI {
 
 using std::size_t;
 
+namespace {
+
+/// Blocks at rest that show the noise, before a sensor is set aside by parity alone.
+constexpr double kBlocksOfNoise = 3.0;
+
+}  // namespace
+
 void HealthMonitor::judge_mae(const BlockTests& tests, BlockView& view) const noexcept {
   const BlockEvidence& evidence = tests.block();
   for (int k = 0; k < array_.triple_count(); ++k) {
@@ -116,9 +123,11 @@ EventMask HealthMonitor::raise_block_events(const BlockView& view) noexcept {
     }
   }
   if (accuses) {
-    const bool by_parity = episode_.open && view.kind == Kind::alarm && view.cause == Cause::parity;
-    aside_ =
-        ((by_parity && may_convict(answer_.parity) ? answer_.parity : SensorSet{}) | noise_confirmed()) & in_service_;
+    // What noise the sensors have is not known from fewer blocks; it may be all that is wrong.
+    const bool noise_known = config_.window < NoiseStudy::kLeastWindow || noise_study_.blocks() >= kBlocksOfNoise;
+    const bool by_parity = episode_.open && noise_known && view.kind == Kind::alarm && view.cause == Cause::parity;
+    const SensorSet odd = by_parity && may_convict(answer_.parity) ? answer_.parity : SensorSet{};
+    aside_ = (odd | noise_confirmed()) & in_service_;
     if (!aside_.empty() && rank_of(array_, in_service_ - aside_) == 3) raised |= bit(HealthEvent::set_aside);
   }
   if (view.kind != Kind::reference && patience_is_over()) raised |= bit(HealthEvent::patience_over);
@@ -301,7 +310,9 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const BlockView view = moving_ ? BlockView{} : judge(tests);
   if (view.used.tested) {
     const double sigma_rad = tilt_sigma_rad(view.used.x_mps2, view.used.covariance);
-    slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad);
+    slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad,
+                          std::sqrt(judged.evidence.spread_mps2_sq) / gravity_.g_mps2,
+                          sigma_rad * std::sqrt(view.used.samples));
   }
   if (moving_ || !view.used.tested || (slow && !bears_motion(view))) {
     slow_motion_ = before;  // what moves too much says nothing of what may be borne

@@ -29,6 +29,8 @@ class NoiseStudy {
            const BlockNoise& stated) noexcept;
   void add_smoothness(const SensorArray& array, const CombinationMae& window, SensorSet used) noexcept;
 
+  /// Blocks that it rests on.
+  double blocks() const noexcept { return static_cast<double>(blocks_); }
   /// Noise in stated sigmas, 1 .. kMostFactor; 1 until it is certain to be more.
   double factor() const noexcept;
   /// The variance of a block's mean is so many times that of `samples` independent ones, 1 .. `samples`.

@@ -33,13 +33,18 @@ class SlowMotion {
   }
   /// The vector of that block, its direction known by `sigma_rad`. One more than `most_rad` from the one before is that
   /// of another attitude: the tool was brought there, and does not go on so.
-  void add_turn(const Vec3& x_mps2, double sigma_rad, double most_rad) noexcept {
+  /// A turn goes on where the block scattered by half at least of what it would make of it, or where that would be less
+  /// than the noise of one sample, `noise_rad`.
+  void add_turn(const Vec3& x_mps2, double sigma_rad, double most_rad, double rms_rad = 1.0,
+                double noise_rad = 0.0) noexcept {
     const double apart_rad = known_ ? angle_between_rad(last_mps2_, x_mps2) : 0.0;
     now_rad_ = apart_rad <= most_rad ? apart_rad : 0.0;
-    const bool turns = slow_ || now_rad_ > kSeenSigmas * sigma_rad;
+    const double made_rad = now_rad_ / std::sqrt(12.0);
+    const bool goes_on = rms_rad >= 0.5 * made_rad || made_rad <= noise_rad;
+    const bool turns = slow_ || (now_rad_ > kSeenSigmas * sigma_rad && goes_on);
     if (turns) left_ = kMemoryBlocks;
     if (!turns) swing_mps2_ *= kKeptAtRest;
-    turn_rad_ = left_ > 0 ? std::fmax((turns ? kKept : kKeptAtRest) * turn_rad_, now_rad_) : 0.0;
+    turn_rad_ = left_ > 0 ? std::fmax((turns ? kKept : kKeptAtRest) * turn_rad_, goes_on ? now_rad_ : 0.0) : 0.0;
     last_mps2_ = x_mps2;
     known_ = true;
   }
