@@ -94,8 +94,9 @@ class InPlane {
 }  // namespace
 
 int faults_covered(const ProtectionTerms& terms, int suspected, int confirmed_grade) noexcept {
-  if (suspected < 1) return terms.faults;
-  return std::max({terms.faults, suspected, std::min({suspected + terms.faults, confirmed_grade, 3})});
+  const int possible = suspected + (terms.unvalidated ? 1 : 0);
+  if (possible < 1) return terms.faults;
+  return std::max({terms.faults, suspected, std::min({possible + terms.faults, confirmed_grade, 3})});
 }
 
 double separation_rad(const BlockTests& tests, const Vec3& x_mps2, SensorSet rest, const SetTest& test,

@@ -57,7 +57,7 @@ bool CalibrationCheck::add(const Vec3& direction, const BlockEvidence& block, do
   for (int i = 0; i < kCapacity; ++i) {
     if (block.usable.has(i)) e.mean_mps2[at(i)] = static_cast<float>(block.mean_mps2[at(i)]);
   }
-  e.tolerance_mps2 = block.tolerance_mps2;
+  for (const float tolerance : block.tolerance_mps2) e.tolerance_mps2 = std::fmax(e.tolerance_mps2, tolerance);
   e.samples = static_cast<float>(block.samples);
   e.moved_mps2 = static_cast<float>(block.spread_mps2_sq / (2.0 * kG0_mps2));
   e.usable = block.usable;
@@ -85,8 +85,7 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
     for (int i = 0; i < kCapacity; ++i) block.mean_mps2[at(i)] = static_cast<double>(e.mean_mps2[at(i)]);
     const SetTest t = test_set(terms.array, gravity, limits, block, set);
     if (!t.tested) continue;
-    for (int i = 0; i < kCapacity; ++i)
-      block.tolerance_mps2[at(i)] = e.tolerance_mps2[at(i)] + static_cast<float>(tolerance_mps2);
+    block.tolerance_mps2.fill(e.tolerance_mps2 + static_cast<float>(tolerance_mps2));
     const ToleranceBound bound = tolerance_bound(terms.array, block, set, t);
     const double parity_variance = 1.0 + square(t.parity_systematic / limits.calibration);
     out.sum += square(beyond(t.parity, bound.parity)) / parity_variance;

@@ -42,9 +42,13 @@ bool ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double
   if (size_ == kMax || !(length > 0.0) || !(bound_mps2 > 0.0)) return false;
   const Vec3 u = scaled(direction, 1.0 / length);
   for (int k = 0; k < size_; ++k) {
-    if (!(angle_between_rad(entry_[at(k)].u, u) >= apart_rad)) return false;
+    if (!(angle_between_rad(entry_[at(k)].direction(), u) >= apart_rad)) return false;
   }
-  entry_[at(size_)] = {u, length_error_mps2, bound_mps2, noise_mps2};
+  Entry& e = entry_[at(size_)];
+  for (std::size_t i = 0; i < 3; ++i) e.u[i] = static_cast<float>(u[i]);
+  e.off_mps2 = static_cast<float>(length_error_mps2);
+  e.bound_mps2 = static_cast<float>(bound_mps2);
+  e.noise_mps2 = static_cast<float>(noise_mps2);
   ++size_;
   return true;
 }
@@ -52,7 +56,7 @@ bool ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double
 bool ReferenceStudy::agrees(double length_error_mps2, double bound_mps2) const noexcept {
   for (int k = 0; k < size_; ++k) {
     const Entry& e = entry_[at(k)];
-    if (!(std::fabs(e.off_mps2 - length_error_mps2) <= e.bound_mps2 + bound_mps2)) return false;
+    if (!(std::fabs(e.off() - length_error_mps2) <= e.bound() + bound_mps2)) return false;
   }
   return true;
 }
@@ -66,11 +70,11 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   // Least squares with rows (1, u), weighted by the bounds.
   std::array<double, kSquare> m{};
   std::array<double, kParameters> p{};
-  const auto row = [this](int k, int j) { return j == 0 ? 1.0 : entry_[at(k)].u[at(j - 1)]; };
+  const auto row = [this](int k, int j) { return j == 0 ? 1.0 : static_cast<double>(entry_[at(k)].u[at(j - 1)]); };
   for (int k = 0; k < size_; ++k) {
-    const double weight = weight_of(entry_[at(k)].bound_mps2);
+    const double weight = weight_of(entry_[at(k)].bound());
     for (int i = 0; i < kParameters; ++i) {
-      p[at(i)] += weight * row(k, i) * entry_[at(k)].off_mps2;
+      p[at(i)] += weight * row(k, i) * entry_[at(k)].off();
       for (int j = 0; j < kParameters; ++j) m[at(kParameters * i + j)] += weight * row(k, i) * row(k, j);
     }
   }
@@ -87,19 +91,19 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   const double curve = dot(a, a) / (2.0 * g_mps2);
   for (int k = 0; k < size_; ++k) {
     const Entry& e = entry_[at(k)];
-    const double bound = e.bound_mps2 + curve;
-    const double weight = weight_of(e.bound_mps2);
+    const double bound = e.bound() + curve;
+    const double weight = weight_of(e.bound());
     for (int i = 0; i < kParameters; ++i) {
       double gain = 0.0;
       for (int j = 0; j < kParameters; ++j) gain += m[at(kParameters * i + j)] * row(k, j) * weight;
       bend[at(i)] += std::fabs(gain) * bound;
       if (i > 0) continue;
-      hard_mps2 += std::fabs(gain) * std::fmax(0.0, bound - e.noise_mps2);
-      noise_square += gain * gain * e.noise_mps2 * e.noise_mps2;
+      hard_mps2 += std::fabs(gain) * std::fmax(0.0, bound - e.noise());
+      noise_square += gain * gain * e.noise() * e.noise();
     }
-    if (!(std::fabs(e.off_mps2 - p[0] - dot(a, e.u)) <= bound)) explained = false;
-    low = std::fmax(low, e.off_mps2 - e.bound_mps2);
-    high = std::fmin(high, e.off_mps2 + e.bound_mps2);
+    if (!(std::fabs(e.off() - p[0] - dot(a, e.direction())) <= bound)) explained = false;
+    low = std::fmax(low, e.off() - e.bound());
+    high = std::fmin(high, e.off() + e.bound());
   }
   if (!explained) return out;
   double most = 0.0, least = 0.0;

@@ -104,7 +104,7 @@ std::vector<CatalogueEntry> one_sensor() {
        {{"exchange=$1"}},
        false,
        {0, 0, kNominal | kSuspect | kFailed, AllowedMask::only_faulty, kPi},
-       {0, kStation, kSuspect | kFailed, AllowedMask::only_faulty},
+       {0, kStation, kSuspect | kFailed, AllowedMask::only_faulty, rad_from_deg(1.0)},
        "Known limit with four sensors: channels 1 to 3 of the paper's tool can be exchanged without any test of "
        "the sensors noticing. The state stays nominal and the tilt is wrong by 60 deg, hence the bound of 180 "
        "deg. An exchange with the fourth is seen. A commissioning attitude of known toolface tells, and `plumb "
@@ -232,9 +232,10 @@ std::vector<CatalogueEntry> tool_wide() {
        {{"factor", "1", "1.003", "0.9999 to 1.05; a common bias of 0.1mg0 to 50mg0"}},
        {{"scale=1.003", Victim::every}},
        false,
-       {0, kStation, kSuspect, AllowedMask::nobody},
-       {0, kStation, kSuspect, AllowedMask::nobody},
-       "Parity does not see a common scale: only the length of gravity does, and it cannot name anybody."},
+       {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
+       {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
+       "Parity does not see a common scale: only the length of gravity does, and it cannot name anybody. After six "
+       "attitudes the offset is told as one of gravity, allowed for, and the output is valid again."},
       {"F24",
        "colluding",
        "All show one false gravity",
@@ -263,9 +264,10 @@ std::vector<CatalogueEntry> tool_wide() {
        {{"error", "acceleration", "3mg0", "0.2mg0 to 5mg0"}},
        {{"gravity=3mg0", Victim::log}},
        false,
-       {0, kStation, kSuspect, AllowedMask::nobody},
-       {0, kStation, kSuspect, AllowedMask::nobody},
-       ""},
+       {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
+       {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
+       "After six attitudes the offset is told with the value to configure, allowed for, and the output is valid "
+       "again."},
   };
 }
 

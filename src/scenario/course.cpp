@@ -99,7 +99,8 @@ tl::expected<CourseResult, std::string> run(const Course& course) {
     } else {
       // The vector of a station that the tool has left is held until the first block of the new one: that is no doubt.
       const bool between = verdict.validity == Validity::held && (verdict.qualifiers & Qualifier::moving) == 0;
-      const bool plain = (verdict.validity == Validity::valid || between) && verdict.in_service == verdict.configured;
+      const bool whole = verdict.in_service == verdict.configured && verdict.state != HealthState::suspect;
+      const bool plain = (verdict.validity == Validity::valid || between) && whole;
       if (!plain && result.first_doubt_block < 0) {
         result.first_doubt_block =
             static_cast<int>(since_onset / static_cast<std::uint64_t>(course.setup.config.window));

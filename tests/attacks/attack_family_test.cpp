@@ -43,8 +43,8 @@ TEST(AttackFamilies, AreNamedOnceAndWithinWhatThePlayersBear) {
 
 TEST(AttackFamilies, AreFoundByNameAndByTheBeginningOfIt) {
   EXPECT_EQ(families_like("lies").size(), 8U);
-  EXPECT_EQ(families_like("b3-noise").size(), 2U);
-  EXPECT_EQ(families_like("drift").size(), 1U);
+  EXPECT_EQ(families_like("b3-noise").size(), 3U);
+  EXPECT_EQ(families_like("drift").size(), 2U);
   EXPECT_TRUE(families_like("b3-noi").empty()) << "whole words";
   EXPECT_TRUE(families_like("").empty());
   EXPECT_EQ(family_named("lies"), -1);
@@ -84,7 +84,7 @@ TEST(AttackFamilies, SeedsAndFamiliesHaveRandomNumbersOfTheirOwn) {
 /// What is certain of a family, so that its counters are known to count.
 TEST(AttackFamilies, CountWhatTheyAreAbout) {
   const Tally yaw = several("b1-yaw", 5);
-  EXPECT_EQ(yaw[Count::valid_blocks], 0U) << "one attitude validates nobody";
+  EXPECT_GT(yaw[Count::valid_blocks], 0U) << "within the bound, at one attitude";
   EXPECT_EQ(yaw.to_nominal[kNominalBins - 1], 5U);
   EXPECT_EQ(yaw[Count::faulty], 0U);
   EXPECT_EQ(yaw.unsafe(), 0U);
@@ -99,18 +99,18 @@ TEST(AttackFamilies, CountWhatTheyAreAbout) {
   EXPECT_EQ(turn.unsafe(), 0U);
 
   const Tally noise = several("b3-noise-2", 5);
-  EXPECT_EQ(noise[Count::valid_blocks], 0U) << "it passes for motion";
+  EXPECT_GT(noise[Count::valid_blocks], 0U) << "it is learned";
 }
 
-/// A covariance that denies the errors that there are: healthy sensors are accused, and it is counted and told.
+/// More colluders than the grade of the array: what they achieve is counted and told.
 TEST(AttackFamilies, TellWhatTheyFind) {
   std::vector<Finding> findings;
   Tally sum;
-  for (std::uint64_t k = 0; k < 10; ++k) sum.add(played("no-covariance", k, findings));
+  for (std::uint64_t k = 0; k < 10; ++k) sum.add(played("adaptive-axis-cone", k, findings));
   EXPECT_GT(sum.unsafe(), 0U);
   ASSERT_FALSE(findings.empty());
-  EXPECT_EQ(findings[0].family, family_named("no-covariance"));
-  EXPECT_NE(findings[0].text.find("faulty nobody"), std::string::npos) << findings[0].text;
+  EXPECT_EQ(findings[0].family, family_named("adaptive-axis-cone"));
+  EXPECT_NE(findings[0].text.find("faulty a"), std::string::npos) << findings[0].text;
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(AttackOptions, AreTaken) {
   EXPECT_EQ(options->seed, 9U);
   EXPECT_EQ(options->episodes, 1000000U);
   EXPECT_DOUBLE_EQ(options->adaptive_share, 0.25);
-  EXPECT_EQ(options->chosen.size(), families_like("b3").size() + 1);
+  EXPECT_EQ(options->chosen.size(), families_like("b3").size() + families_like("drift").size());
   EXPECT_EQ(options->state, "s");
   EXPECT_EQ(options->json, "j");
   EXPECT_EQ(options->before, "b");

@@ -24,7 +24,7 @@ RunPlan small_plan() {
   plan.seed = 11;
   plan.chunk = 4;
   plan.episodes.assign(families().size(), 0);
-  for (const char* name : {"v5a-vertical", "no-covariance", "adaptive-many"}) {
+  for (const char* name : {"v5a-vertical", "adaptive-axis-cone", "adaptive-many"}) {
     plan.episodes[at(family_named(name))] = 10;
   }
   return plan;
@@ -61,7 +61,7 @@ TEST(AttackProgress, InterruptedAndResumedIsTheSameAsInOneGo) {
     play(plan, *resumed, kToTheEnd);
     EXPECT_EQ(state_text(*resumed), state_text(whole)) << stop;
   }
-  EXPECT_GT(whole.total(family_named("no-covariance")).unsafe(), 0U);
+  EXPECT_GT(whole.total(family_named("adaptive-axis-cone")).unsafe(), 0U);
   EXPECT_FALSE(whole.findings.empty());
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "../../src/campaign/kernel/scene.hpp"
 #include "campaign_support.hpp"
 #include "plumb/campaign/replay.hpp"
 #include "plumb/campaign/result_file.hpp"

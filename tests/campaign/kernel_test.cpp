@@ -78,7 +78,7 @@ TEST(CampaignKernel, FromPowerOnTheSameHoldsAndTrustComesLater) {
   const Spec spec = spec_of(file.plan, 0);  // nothing happens
   ASSERT_EQ(spec.faults, 0);
   kernel->play(spec, *fast);
-  EXPECT_FALSE(fast->block.front().usable);
+  EXPECT_TRUE(fast->block.front().usable) << "within the bound, though not yet validated";
   EXPECT_TRUE(fast->block[static_cast<std::size_t>(fast->blocks - 1)].usable);
   const auto slow = replay(file.plan, spec.tool, scenario_of(file.plan, spec), [](const plumb::Verdict&) {});
   ASSERT_TRUE(slow.has_value());

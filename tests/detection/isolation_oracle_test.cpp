@@ -180,9 +180,9 @@ struct Rule {
   int covers(const ProtectionTerms& terms, int least) const {
     int known = terms.provisional;
     if (terms.doubted) known = std::max(known, least);
-    if (terms.unvalidated) ++known;
-    if (known == 0) return terms.faults;
-    const int on_top = std::min(known + terms.faults, std::min(strict(), 3));
+    const int more = terms.unvalidated ? 1 : 0;
+    if (known + more == 0) return terms.faults;
+    const int on_top = std::min(known + more + terms.faults, std::min(strict(), 3));
     return std::max(terms.faults, std::max(known, on_top));
   }
 
@@ -241,7 +241,7 @@ struct Rule {
     }
     const int least = out.least <= 3 ? out.least : 0;
     out.covered = covers(terms, least);
-    const int known = std::max(terms.provisional, terms.doubted ? least : 0) + (terms.unvalidated ? 1 : 0);
+    const int known = std::max(terms.provisional, terms.doubted ? least : 0);
     out.bears_more = !terms.doubted || out.covered >= known + terms.faults;
     bool any = false, bounded = out.covered <= 3;
     for (const Noted& told : notes) {

@@ -34,7 +34,11 @@ TEST(FaultsCovered, SuspicionPutsThePriorsNumberOnTopAsFarAsTheGradeBearsIt) {
   const ProtectionTerms seen{1, 5.0, 1, true, false};
   EXPECT_EQ(seen.suspected(2), 2);
   EXPECT_EQ(seen.suspected(0), 1) << "provisionally excluded";
-  EXPECT_EQ((ProtectionTerms{1, 5.0, 0, false, true}).suspected(2), 1) << "no alarm on record: not yet validated alone";
+  const ProtectionTerms unvalidated{1, 5.0, 0, false, true};
+  EXPECT_EQ(unvalidated.suspected(2), 0) << "no alarm on record";
+  EXPECT_EQ(faults_covered(unvalidated, 0, 2), 2) << "one more may be faulty";
+  EXPECT_EQ(faults_covered(unvalidated, 0, 1), 1) << "... as far as the grade bears it";
+  EXPECT_EQ(faults_covered(unvalidated, 1, 1), 1);
 }
 
 /// Three of an orthogonal triad, without the third: gravity lies in the plane by 60 deg, its mirror image 60 deg

@@ -153,6 +153,7 @@ TEST(NoiseStudy, LearnsNoMoreThanThreeSigmasAndForgetsSlowly) {
 }
 
 /// A sensor that leaves service takes nothing along of what the others have shown.
+// Verifies: REQ-066
 TEST(NoiseStudy, AnotherSetOfSensorsBeginsWithWhatIsKnown) {
   Bench bench(6, 23);
   bench.factor.fill(2.0);
@@ -171,6 +172,7 @@ TEST(NoiseStudy, AnotherSetOfSensorsBeginsWithWhatIsKnown) {
 }
 
 /// What is too short to show it, and what cannot be checked, says nothing.
+// Verifies: REQ-066
 TEST(NoiseStudy, ThreeSensorsAndShortBlocksSayNothing) {
   const SensorArray array = plumb_test::tetrahedron();
   BlockAccumulator block;
@@ -189,6 +191,7 @@ TEST(NoiseStudy, ThreeSensorsAndShortBlocksSayNothing) {
   EXPECT_EQ(study.correlation(kWindow), 1.0);
 }
 
+// Verifies: REQ-066
 TEST(NoiseStudy, WhateverWasReadBackTheFiguresAreWithinTheirBounds) {
   Bench bench(4, 29);
   bench.factor.fill(2.0);
@@ -282,7 +285,8 @@ TEST(NoiseStudy, StepsOfFourSigmasAreNoFault) {
   }
 }
 
-/// Without a word about the steps the same tool seems to contradict its calibration: the bound is not there for nothing.
+/// Without a word about the steps the same tool seems to contradict its calibration: the bound is not there for
+/// nothing.
 // Negative: REQ-067
 TEST(NoiseStudy, StepsThatNobodyStatedAreMistakenForMore) {
   Rig rig = stepping(6, 6.0, 53);

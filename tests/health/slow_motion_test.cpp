@@ -51,6 +51,7 @@ TEST(SlowMotion, TheBoundReachesToTheEndOfTheNextBlock) {
   }
 }
 
+// Verifies: REQ-068
 TEST(SlowMotion, AtRestThereIsNoneAndBehindMotionItFades) {
   SlowMotion motion;
   for (int k = 0; k < 5; ++k) {
@@ -76,6 +77,7 @@ TEST(SlowMotion, AtRestThereIsNoneAndBehindMotionItFades) {
 }
 
 /// A vector far from the one before is another attitude, and behind a gap nothing is known of a turn.
+// Verifies: REQ-068
 TEST(SlowMotion, AnotherAttitudeIsNoRate) {
   for (const bool gap : {true, false}) {
     SlowMotion motion;

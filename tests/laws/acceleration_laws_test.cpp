@@ -78,7 +78,9 @@ TEST(Law, ElevenNoAccelerationWithinItsBoundIsBeyondTheProtectionLevelOrBlamesTh
       };
       if (!c.faulty().contains(v.excluded)) return broken(names_of(v.excluded) + " are out");
       if (faults == 0 && !(v.margin >= 0.0)) return broken(std::string("an alarm, ") + to_string(v.cause));
-      if ((v.validity != Validity::valid && v.validity != Validity::degraded) || !v.protection_available) continue;
+      const bool told =
+          v.validity != Validity::held && v.validity != Validity::invalid;  // valid within the alert limit
+      if (!told || !v.protection_available) continue;
       usable = true;
       ++bounded;
       const double error = angle_between_rad(v.gravity_mps2, direction);

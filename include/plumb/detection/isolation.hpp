@@ -63,8 +63,7 @@ struct FaultSetScan {
   static constexpr auto fields() noexcept {
     using S = FaultSetScan;
     return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255),
-                      &S::protection_available, within(&S::covered, 0, kCapacity), &S::bears_more,
-                      &S::protection_rad);
+                      &S::protection_available, within(&S::covered, 0, kCapacity), &S::bears_more, &S::protection_rad);
   }
 };
 

@@ -17,13 +17,13 @@ struct ProtectionTerms {
   /// Faults that are suspected, if the alarm on record takes `least` to explain.
   int suspected(int least) const noexcept {
     const int by_alarm = doubted ? least : 0;
-    return (by_alarm > provisional ? by_alarm : provisional) + (unvalidated ? 1 : 0);
+    return by_alarm > provisional ? by_alarm : provisional;
   }
 };
 
-/// K: so many faults the protection level covers where `suspected` of them are known of. The priors' number comes on
-/// top of those as far as the array can bear it, which is its confirmed grade: with four sensors one is all. 0
-/// suspected: the priors' number.
+/// K: so many faults the protection level covers where `suspected` are, and no fewer. The priors' number comes on top
+/// of those, and of one more where some sensor is not validated, as far as the array can bear it, which is its
+/// confirmed grade: with four sensors one is all. Nothing suspected and all validated: the priors' number.
 int faults_covered(const ProtectionTerms& terms, int suspected, int confirmed_grade) noexcept;
 
 /// Largest angle between `x_mps2` and the truth if the sensors `rest`, with their test, are the healthy ones: their own

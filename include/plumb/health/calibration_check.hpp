@@ -78,15 +78,16 @@ class CalibrationCheck {
 
  private:
   struct Entry {
-    std::array<float, kCapacity> mean_mps2{}, tolerance_mps2{};
+    std::array<float, kCapacity> mean_mps2{};
     std::array<float, 3> u{};
     float samples = 0.0F, moved_mps2 = 0.0F;
+    float tolerance_mps2 = 0.0F;  ///< the largest of all sensors: fewer contradictions, and one number
     SensorSet usable;
 
-    bool plausible() const noexcept { return samples > 0.0F; }
+    bool plausible() const noexcept { return samples > 0.0F && tolerance_mps2 >= 0.0F && moved_mps2 >= 0.0F; }
     static constexpr auto fields() noexcept {
-      return field_list(per_sensor(&Entry::mean_mps2), per_sensor(&Entry::tolerance_mps2), &Entry::u, &Entry::samples,
-                        &Entry::moved_mps2, &Entry::usable);
+      return field_list(per_sensor(&Entry::mean_mps2), &Entry::u, &Entry::samples, &Entry::moved_mps2,
+                        &Entry::tolerance_mps2, &Entry::usable);
     }
   };
   struct Fit {

@@ -65,11 +65,18 @@ class ReferenceStudy {
   ReferenceFinding find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
 
  private:
+  /// In single precision: 6e-8 is nothing to a direction, nor to what a length is off by.
   struct Entry {
-    Vec3 u{};
-    double off_mps2 = 0.0, bound_mps2 = 0.0, noise_mps2 = 0.0;
+    std::array<float, 3> u{};
+    float off_mps2 = 0.0F, bound_mps2 = 0.0F, noise_mps2 = 0.0F;
 
-    bool plausible() const noexcept { return bound_mps2 > 0.0; }
+    Vec3 direction() const noexcept {
+      return {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
+    }
+    double off() const noexcept { return static_cast<double>(off_mps2); }
+    double bound() const noexcept { return static_cast<double>(bound_mps2); }
+    double noise() const noexcept { return static_cast<double>(noise_mps2); }
+    bool plausible() const noexcept { return bound_mps2 > 0.0F && noise_mps2 >= 0.0F; }
     static constexpr auto fields() noexcept {
       return field_list(&Entry::u, &Entry::off_mps2, &Entry::bound_mps2, &Entry::noise_mps2);
     }
