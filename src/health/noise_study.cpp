@@ -12,6 +12,9 @@ namespace {
 
 /// Channels that scatter by more than so many times what their residuals do scatter together: the tool moves.
 constexpr double kTogether = 2.0;
+/// Channels that scatter by more than the largest factor explains in a block do so for another reason. With a dead
+/// sensor among them they need not do it together: it does not follow what moves the others.
+constexpr double kMostOfOneBlock = 1.8 * NoiseStudy::kMostFactor * NoiseStudy::kMostFactor;
 /// What the smoothest that counts of the triples shows of white noise, on average: it is one of the least smooth.
 constexpr double kWhite = 1.1;
 /// Noise is called correlated from this part of that on, and in few blocks from so much less.
@@ -74,7 +77,7 @@ bool NoiseStudy::add(const SensorArray& array, const BlockAccumulator& block, co
   }
   const double parity = kept(parity_scatter(array, block, used, stated));
   const double most = static_cast<double>(ranked(sorted, count, count / 2 + 1));
-  if (most > kTogether * std::fmax(parity, 1.0)) return false;
+  if (most > kTogether * std::fmax(parity, 1.0) || most > kMostOfOneBlock) return false;
   blocks_ = static_cast<float>(std::fmin(static_cast<double>(blocks_) + 1.0, kMemoryBlocks));
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
