@@ -389,9 +389,10 @@ class HealthMonitor {
     using M = HealthMonitor;
     return field_list(&M::mode_, &M::size_class_, &M::live_, &M::in_service_, &M::set_aside_, &M::excluded_,
                       &M::absent_, &M::readmitted_, &M::calibrated_, &M::unproven_, &M::exhausted_, &M::moving_,
-                      &M::partial_, &M::have_evidence_, &M::configured_, &M::reset_pending_, &M::recalibration_asked_,
-                      &M::recalibration_due_, &M::three_sensor_fit_, &M::lever_arms_known_, &M::inhibited_,
-                      &M::inhibit_notice_, &M::rotation_, &M::gate_, &M::freshness_, &M::verdict_);
+                      &M::partial_, &M::have_evidence_, &M::configured_, &M::stability_stated_, &M::reset_pending_,
+                      &M::recalibration_asked_, &M::recalibration_due_, &M::three_sensor_fit_, &M::lever_arms_known_,
+                      &M::inhibited_, &M::inhibit_notice_, &M::calibration_notice_, &M::rotation_, &M::gate_,
+                      &M::freshness_, &M::verdict_);
   }
   static constexpr auto fields() noexcept {
     using M = HealthMonitor;

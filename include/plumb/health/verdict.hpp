@@ -148,7 +148,7 @@ struct Verdict {
     using V = Verdict;
     return field_list(&V::state, &V::qualifiers, &V::validity, &V::configured, &V::in_service, &V::set_aside,
                       &V::excluded, &V::absent, &V::gravity_mps2, &V::protection_level_rad, &V::toolface_protection_rad,
-                      &V::usable, &V::protection_available, &V::alert);
+                      &V::usable, &V::faults_covered, &V::protection_available, &V::alert);
   }
   static constexpr auto fields() noexcept {
     using V = Verdict;
