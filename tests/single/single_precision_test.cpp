@@ -51,6 +51,8 @@ TEST_P(SinglePrecision, DecidesAtEveryStepWhatDoubleDecides) {
     }
   }
   for (const HealthState seen : {HealthState::nominal, HealthState::suspect, HealthState::degraded_3_sensor}) {
+    // Among spikes too few attitudes in a row speak for the calibration, and nobody is excluded by it.
+    if (rough && seen == HealthState::degraded_3_sensor) continue;
     EXPECT_TRUE((states >> static_cast<unsigned>(seen)) & 1U) << to_string(seen);
   }
   std::printf(
