@@ -63,6 +63,7 @@ const std::vector<Family>& all() {
       {"b4-successive-2", "the same with two stations between", Play::successive, kPromised, kOutside, 5, 8, true, false, 2, 0.5},
       {"b5-mirrored", "two mirrored sensors of 6 to 8, default configuration", Play::mirrored_still, kPromised, kOutside, 6, 8, true, false, 2, 0.5},
       {"b6-after-fault", "four sensors at rest behind a fault of one of them", Play::after_fault, kPromised, kOutside, 4, 4, false, false, 0, 0.5},
+      {"b6-small-fault", "four sensors at rest behind a fault of one of them, of 1 to 12 mg", Play::after_fault, kPromised, kOutside, 4, 4, false, false, 0.012, 0.5},
       {"b7-latitude", "gravity left at another latitude, up to 2.7 mg off, and one fault", Play::latitude, kOutside, kOutside, 4, 8, true, false, 2.7, 0.5},
   };
   return kAll;

@@ -153,7 +153,8 @@ Tally play_successive(const Episode& e) {
 
 Tally play_after_fault(const Episode& e) {
   Player player = at_rest_with_one_faulty(e);
-  const double bias_mps2 = any_step(player.noise, 0.05, 1.0);
+  const bool small = e.family.number > 0.0;  // so small that the vector stays within the alert limit
+  const double bias_mps2 = any_step(player.noise, small ? 0.001 : 0.05, small ? e.family.number : 1.0);
   player.lie = [bias_mps2](int, double y) { return y + bias_mps2; };
   player.block(60);
   return e.done(player);
