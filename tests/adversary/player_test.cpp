@@ -146,18 +146,19 @@ TEST(AttackAdversary, GetsNearerToWhatItWants) {
 
 /// What a fit is off by, in the frame that its tool is judged in, is what its covariance says: to the first order alone
 /// that frame was off by up to 0.014 deg, fourteen sigmas.
-TEST(Player, FittedToolsAreJudgedInTheFrameOfTheirCalibratedAxes) {
-  TrialNoise noise(5);
+TEST(AttackPlayer, FittedToolsAreJudgedInTheFrameOfTheirCalibratedAxes) {
+  plumb_test::TrialNoise noise(5);
   for (int n = 4; n <= 8; ++n) {
     for (const AttackTool& tool : pool(n)) {
-      const TrialTool& t = tool.law.tool;
+      const plumb_test::TrialTool& t = tool.law.tool;
       BlockEvidence block;
       block.usable = t.array.all();
       block.samples = 1e9;
       for (int k = 0; k < 100; ++k) {
         const Vec3 u = noise.direction();
         for (int i = 0; i < n; ++i)
-          block.mean_mps2[slot(i)] = dot(t.row[slot(i)], scaled(u, kG0_mps2)) + t.offset_mps2[slot(i)];
+          block.mean_mps2[plumb_test::slot(i)] =
+              dot(t.row[plumb_test::slot(i)], scaled(u, kG0_mps2)) + t.offset_mps2[plumb_test::slot(i)];
         const SetTest test = test_set(t.array, t.gravity, t.limits, block, t.array.all());
         const double sigma_rad = calibration_tilt_sigma_rad(t.array, test, t.array.all());
         EXPECT_LE(angle_between_rad(test.x_mps2, tool.seen(u)), 4.0 * sigma_rad + 1e-9) << n << " sensors";
