@@ -59,6 +59,11 @@ void write_figures(const Verdict& v, plumb_verdict& out) noexcept {
   out.temperature_degc = v.temperature_degc;
   out.noise_factor = v.noise_factor;
   out.noise_correlation = v.noise_correlation;
+  const bool offset = v.reference.configure_mps2 > 0.0;
+  out.gravity_offset_mps2 = offset ? v.reference.length_mps2 : 0.0;
+  out.gravity_to_configure_mps2 = v.reference.configure_mps2;
+  out.calibration_ratio = v.calibration.contradicted ? v.calibration.ratio : 0.0;
+  out.calibration_tolerance_mps2 = v.calibration.tolerance_mps2;
   copy_to(out.gravity_mps2, v.gravity_mps2);
   copy_to(out.covariance, v.covariance);
   out.age_s = v.age_s;

@@ -13,6 +13,7 @@
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
 #include "plumb/report/monitor_limits.hpp"
+#include "plumb/report/run_findings.hpp"
 #include "plumb/report/timeline.hpp"
 #include "plumb/report/words.hpp"
 #include "tool.hpp"
@@ -178,9 +179,10 @@ std::string summary_text(const MonitorRun& run, const SensorArray& sensors, cons
   out += fmt::format("inclination {}, {} ({})\n", known ? fmt::format("{:.3f} deg", inclination_deg) : "not known",
                      to_string(v.validity), report::meaning(v.validity));
   out += "protection  ";
-  return out + (v.protection_available ? fmt::format("the direction is within {:.3f} deg of the truth\n",
-                                                     deg_from_rad(v.protection_level_rad))
-                                       : std::string("no bound on the error can be given\n"));
+  out += v.protection_available
+             ? fmt::format("the direction is within {:.3f} deg of the truth\n", deg_from_rad(v.protection_level_rad))
+             : std::string("no bound on the error can be given\n");
+  return out + report::findings_text(v);
 }
 
 /// What of drift the run allowed for; the paper's method allows for none.

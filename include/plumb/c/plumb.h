@@ -137,8 +137,8 @@ enum plumb_validity { PLUMB_INVALID, PLUMB_HELD, PLUMB_UNCONFIRMED, PLUMB_DEGRAD
 #define PLUMB_USABLE_TEMPERATURE 64u
 #define PLUMB_USABLE_CALIBRATION 128u
 #define PLUMB_USABLE_REFERENCE 256u
-/* Bits of `qualifiers`, the others are in plumb/health/state.hpp: no acceleration bound was stated; no stability was, of
- * some sensor. */
+/* Bits of `qualifiers`, the others are in plumb/health/state.hpp: no acceleration bound was stated; no stability was,
+ * of some sensor. */
 #define PLUMB_STANDSTILL_ASSUMED 256u
 #define PLUMB_STABILITY_UNSTATED 512u
 
@@ -178,6 +178,11 @@ typedef struct plumb_verdict {
   double turn_along[3], turn_change_mps2, turn_angle_rad; /* of the rotation that is wanted */
   double drift_mps2_per_h[PLUMB_C_SENSORS];
   double noise_factor, noise_correlation; /* 1 where the noise is as stated: see `plumb::Verdict` */
+  /* Gravity that is off alike at many attitudes: by how much, and the length to configure; 0: none found. */
+  double gravity_offset_mps2, gravity_to_configure_mps2;
+  /* What the first attitudes contradict of the calibration: residuals in what its covariance allows, 0: nothing; and
+   * the tolerance that every sensor has since, 0 where the calibration is refused. */
+  double calibration_ratio, calibration_tolerance_mps2;
 } plumb_verdict;
 
 /* A verdict that is none: suspect, invalid, alert. Error: null_pointer. */

@@ -292,7 +292,7 @@ class HealthMonitor {
   bool partial_ = false;  ///< a sensor in service was silent or doubted in the last block: nobody vouches for it
   bool have_evidence_ = false;
   bool have_predictions_ = false;
-  bool configured_ = false;        ///< not remembered, but here is room for it
+  Flag configured_;                ///< not remembered, but here is room for it
   bool stability_stated_ = false;  ///< of every sensor; not remembered either
   double evidence_time_s_ = 0.0, last_temperature_degc_ = 25.0;
   Freshness freshness_;  ///< of the evidence
