@@ -106,7 +106,8 @@ std::string markdown() {
 }
 
 constexpr std::array<const char*, 4> kSizes = {"rank lost", "critical", "all configured", "reduced"};
-constexpr std::array<const char*, 5> kYesNoFacts = {"unproven", "earned", "from suspect", "bounded or isolable", "calibrated"};
+constexpr std::array<const char*, 5> kYesNoFacts = {"unproven", "earned", "from suspect", "bounded or isolable",
+                                                    "calibrated"};
 static_assert(sizeof(TargetFacts) == 1 + kYesNoFacts.size(), "a fact was added to the table: name it here and below");
 
 /// A situation is a number: the size class in bits 0-1, then one bit per yes-or-no fact.

@@ -33,6 +33,7 @@ constexpr int kLeastVouching = 4;
 constexpr double kExplained = 1.5;
 constexpr double kLearnedFactor = 2.0;
 constexpr double kFinestTolerance_mps2 = 6.25e-5 * kG0_mps2;
+constexpr int kMostDoublings = 8;
 
 constexpr size_t at(int i) noexcept { return static_cast<size_t>(i); }
 
@@ -119,9 +120,11 @@ void CalibrationCheck::corroborate(const Terms& terms, SensorSet posed) noexcept
 }
 
 double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept {
-  for (double tau = kFinestTolerance_mps2; kLearnedFactor * tau <= kMostLearnedTolerance_mps2; tau *= 2.0) {
+  double tau = kFinestTolerance_mps2;
+  for (int doubled = 0; doubled < kMostDoublings && kLearnedFactor * tau <= kMostLearnedTolerance_mps2; ++doubled) {
     const Fit found = fit(terms, posed, tau);
     if (found.within(kExplained)) return tau;
+    tau *= 2.0;
   }
   return 0.0;
 }

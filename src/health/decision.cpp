@@ -13,6 +13,7 @@ SizeClass HealthMonitor::classify(SensorSet set) const noexcept {
 void HealthMonitor::sets_changed() noexcept {
   size_class_ = classify(in_service_);
   freshness_.allow_no_motion();
+  if (slow_motion_.lately()) freshness_.lapse();  // how fast the others show it to move is not known
   map_ = least_squares(array_, in_service_);
   forget_near();
   mae_.clear_all_sensor();

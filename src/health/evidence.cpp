@@ -165,7 +165,9 @@ void HealthMonitor::collect(const BlockView& view, const RawBlock& raw, EventMas
 BlockNoise HealthMonitor::learn_noise() noexcept {
   const BlockNoise stated = noise_of(array_, 1.0, resolution_mps2_);
   const bool whole = map_.valid && map_.used == in_service_ && block_.complete().contains(in_service_);
-  if (whole && noise_study_.add(array_, block_, map_, stated)) noise_study_.add_smoothness(array_, mae_, in_service_);
+  // A sensor that scatters beside a tool that moves would pass for noise of all.
+  const bool learns = whole && !slow_motion_.lately() && !episode_.open;
+  if (learns && noise_study_.add(array_, block_, map_, stated)) noise_study_.add_smoothness(array_, mae_, in_service_);
   const double factor = noise_study_.factor();
   verdict_.noise_factor = factor;
   return factor > 1.0 ? noise_of(array_, factor, resolution_mps2_) : stated;
@@ -253,6 +255,8 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
   const double of_one_row = 1.0 + evidence_.samples * verdict_.noise_correlation;
   const double trace = of_one_row * (view.used.covariance[0] + view.used.covariance[4] + view.used.covariance[8]);
   freshness_.anchor_moving(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2, trace);
+  // A liar may hide part of the movement, from the block and from every row after it.
+  if (view.kind == BlockView::Kind::alarm || episode_.open) freshness_.lapse();
   const bool alarm = view.kind == BlockView::Kind::alarm && !expected(HealthEvent::alarm);
   if (alarm) recalibration_.drop_last();
   return alarm ? bit(HealthEvent::alarm) : EventMask{0};
@@ -292,9 +296,40 @@ void HealthMonitor::leave_to_motion(bool turning) noexcept {
   rest_.clear();
 }
 
-EventMask HealthMonitor::tick(const Sample& sample) noexcept {
+/// Of a tool at rest within its temperatures: who is accused and who is cleared by it, and what is learned.
+EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTests& tests, const BlockView& view,
+                                             const RawBlock& raw) noexcept {
   using Kind = BlockView::Kind;
   const SensorSet posed = in_service_ | set_aside_;
+  if (view.kind == Kind::alarm && !episode_.open && !owes_calibration()) {  // nobody is accused by a datasheet
+    episode_.open = true;
+    station_.clear();  // votes are counted from the alarm
+  }
+  const SensorSet voters = episode_.candidate.empty() ? in_service_ : posed - episode_.candidate;
+  const SetTest& pose = tests.of(voters & evidence_.usable);
+  follow_station(sample, pose.tested ? pose : view.used);
+  if (episode_.open && view.kind != Kind::reference) vote(tests);
+  count_doubt(view);
+  const bool contradicted = check_calibration(view);
+  count_clean(tests, view);
+  rest_.follow(array_, evidence_);
+  if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
+  rescan(tests);
+  count_unbounded(tests, view);
+  examine_probation(tests, view);
+  study_reference(view);
+  if (view.kind == Kind::clean && !owes_calibration())
+    trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
+  if (check_.refused()) verdict_.cause = Cause::calibration_contradicted;
+  const EventMask raised = raise_block_events(view);
+  collect(view, raw, raised);
+  publish_vector(tests);
+  freshness_.anchor(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
+  if (contradicted) freshness_.lapse();
+  return raised;
+}
+
+EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   const bool turning = rotation_locked_;
   rotation_locked_ = false;
   const RawBlock raw = raw_;
@@ -331,32 +366,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     freshness_.anchor(config_, sample.time_s, 0.0);
     return 0;
   }
-  if (view.kind == Kind::alarm && !episode_.open && !owes_calibration()) {  // nobody is accused by a datasheet
-    episode_.open = true;
-    station_.clear();  // votes are counted from the alarm
-  }
-  const SensorSet voters = episode_.candidate.empty() ? in_service_ : posed - episode_.candidate;
-  const SetTest& pose = tests.of(voters & evidence_.usable);
-  follow_station(sample, pose.tested ? pose : view.used);
-  if (episode_.open && view.kind != Kind::reference) vote(tests);
-  count_doubt(view);
-  const bool contradicted = check_calibration(view);
-  count_clean(tests, view);
-  rest_.follow(array_, evidence_);
-  if (view.kind == Kind::clean && !episode_.open && !owes_calibration()) rest_.take(evidence_);
-  rescan(tests);
-  count_unbounded(tests, view);
-  examine_probation(tests, view);
-  study_reference(view);
-  if (view.kind == Kind::clean && !owes_calibration())
-    trend_.add(array_, evidence_, in_service_, view.used.x_mps2, sample.time_s);
-  if (check_.refused()) verdict_.cause = Cause::calibration_contradicted;
-  const EventMask raised = raise_block_events(view);
-  collect(view, raw, raised);
-  publish_vector(tests);
-  freshness_.anchor(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
-  if (contradicted) freshness_.lapse();
-  return raised;
+  return serve_block_at_rest(sample, tests, view, raw);
 }
 
 }  // namespace PLUMB_ABI

@@ -102,6 +102,18 @@ std::array<DriftSigmas, kCapacity> drift_sigmas(const MonitorSetup& setup) noexc
 
 }  // namespace
 
+/// What many blocks together have shown.
+void HealthMonitor::forget_studies() noexcept {
+  scatter_.clear();
+  noise_study_.clear();
+  slow_motion_.clear();
+  reference_study_.clear();
+  check_.clear();
+  calibration_notice_ = false;
+  trend_.clear();
+  temperature_rate_.clear();
+}
+
 /// Everything that is remembered, as it stands before the first sample.
 void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   mode_ = setup.calibrated ? Mode::suspect : Mode::initial;
@@ -139,14 +151,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   rotation_locked_ = inhibited_ = inhibit_notice_ = false;
   told_reference_ = reference_notice_ = ReferenceKind::none;
   gravity_widened_mps2_ = 0.0;
-  scatter_.clear();
-  noise_study_.clear();
-  slow_motion_.clear();
-  reference_study_.clear();
-  check_.clear();
-  calibration_notice_ = false;
-  trend_.clear();
-  temperature_rate_.clear();
+  forget_studies();
   gate_.configure(array_.size(), setup.full_scale_raw, config_.missing_confirm);
   block_.clear();
   raw_.clear();
@@ -319,7 +324,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
   verdict_.accepted = true;
   if (!joins_block(gate.usable)) return;
   add_readings(y, gate.usable, sample.count > 0 ? sample.count : 1);
-  compare_in_motion(gate.usable);
+  compare_in_motion(y, gate.usable);
   raw_.add(sample.raw, gate.usable, last_temperature_degc_);
 }
 
@@ -370,14 +375,24 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
 /// The row that ends a block may be the first of another attitude: the block's vector is held against it, too. Apart
 /// from `serve`, beneath which the stack is deepest.
 [[gnu::noinline]] void HealthMonitor::compare_with_block(const Sample& sample, GateResult& gate) noexcept {
-  freshness_.compare(array_, in_service_, gate.usable, readings_now(sample, gate), evidence_);
-  compare_in_motion(gate.usable);
+  const Readings y = readings_now(sample, gate);
+  freshness_.compare(array_, in_service_, gate.usable, y, evidence_);
+  compare_in_motion(y, gate.usable);
 }
 
 /// In slow motion one sensor may feel the whole of what the bound holds: the vector tells how much it is.
-void HealthMonitor::compare_in_motion(SensorSet usable) noexcept {
-  if (slow_motion_.slow() && usable.contains(in_service_))
-    freshness_.compare_vectors(verdict_.latest_mps2, verdict_.gravity_mps2);
+/// A liar can pull that vector back. So what the sensors depart by since the block has to be one movement, too: beyond
+/// that no reading departs by more than its noise.
+void HealthMonitor::compare_in_motion(const Readings& y, SensorSet usable) noexcept {
+  if (!slow_motion_.slow() || !usable.contains(in_service_) || !map_.valid) return;
+  freshness_.compare_vectors(verdict_.latest_mps2, verdict_.gravity_mps2);
+  Readings away{};
+  for (size_t a = 0; a < away.size(); ++a) away[a] = y[a] - evidence_.mean_mps2[a];
+  const Vec3 moved = map_.estimate(away);
+  for (int i = 0; i < array_.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    if (in_service_.has(i)) freshness_.compare_residual(i, away[a] - dot(array_.axis(i), moved));
+  }
 }
 
 /// What a sample leads to that is not merely collected.

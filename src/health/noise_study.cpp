@@ -76,7 +76,7 @@ bool NoiseStudy::add(const SensorArray& array, const BlockAccumulator& block, co
     sorted[static_cast<size_t>(count++)] = now[static_cast<size_t>(i)];
   }
   const double parity = kept(parity_scatter(array, block, used, stated));
-  const double most = static_cast<double>(ranked(sorted, count, count / 2 + 1));
+  const auto most = static_cast<double>(ranked(sorted, count, count / 2 + 1));
   if (most > kTogether * std::fmax(parity, 1.0) || most > kMostOfOneBlock) return false;
   blocks_ = static_cast<float>(std::fmin(static_cast<double>(blocks_) + 1.0, kMemoryBlocks));
   for (int i = 0; i < array.size(); ++i) {

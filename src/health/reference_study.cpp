@@ -34,6 +34,22 @@ double weight_of(double bound_mps2) noexcept {
   return square > 0.0 ? 1.0 / square : 0.0;
 }
 
+/// Square of the common bias at most and at least, each of its components known to within `bend`.
+struct Extent {
+  double most = 0.0, least = 0.0;
+};
+
+Extent extent_of(const std::array<double, kParameters>& p, const std::array<double, kParameters>& bend) noexcept {
+  Extent out;
+  for (int i = 1; i < kParameters; ++i) {
+    const double size = std::fabs(p[at(i)]);
+    out.most += (size + bend[at(i)]) * (size + bend[at(i)]);
+    const double sure = std::fmax(0.0, size - bend[at(i)]);
+    out.least += sure * sure;
+  }
+  return out;
+}
+
 }  // namespace
 
 bool ReferenceStudy::add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad,
@@ -106,23 +122,17 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
     high = std::fmin(high, e.off() + e.bound());
   }
   if (!explained) return out;
-  double most = 0.0, least = 0.0;
-  for (int i = 1; i < kParameters; ++i) {
-    const double size = std::fabs(p[at(i)]);
-    most += (size + bend[at(i)]) * (size + bend[at(i)]);
-    const double sure = std::fmax(0.0, size - bend[at(i)]);
-    least += sure * sure;
-  }
+  const Extent bias = extent_of(p, bend);
   out.length_mps2 = p[0];
   out.bias_mps2 = a;
-  out.turn_rad = angle_with_sine(std::fmin(1.0, std::sqrt(most) / g_mps2));
+  out.turn_rad = angle_with_sine(std::fmin(1.0, std::sqrt(bias.most) / g_mps2));
   const bool one_length = low <= high;
   const bool off = low > 0.0 || high < 0.0;
   if (one_length && off && out.turn_rad <= usable_rad) {
     out.kind = ReferenceKind::common_scale;
     out.length_bound_mps2 = std::fmin(bend[0], hard_mps2 + std::sqrt(noise_square));
     out.configure_mps2 = g_mps2 + p[0];
-  } else if (!one_length && least > 0.0 && std::fabs(p[0]) <= gravity_bound_mps2 + bend[0]) {
+  } else if (!one_length && bias.least > 0.0 && std::fabs(p[0]) <= gravity_bound_mps2 + bend[0]) {
     out.kind = ReferenceKind::common_bias;
   }
   return out;

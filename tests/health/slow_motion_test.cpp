@@ -258,5 +258,32 @@ TEST(SlowMotion, AChannelThatMovesByItselfIsNoMotionOfTheTool) {
   }
 }
 
+/// The turn quickens, and one sensor pulls the vector back to where it would have been: the others show it, row by row.
+// Negative: REQ-068
+TEST(SlowMotion, ALiarThatPullsTheVectorBackIsNotFollowed) {
+  for (int n = 4; n <= kCapacity; ++n) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      Rig rig = trusted(n, seed);
+      const LeastSquares map = least_squares(rig.setup.array, rig.setup.array.all());
+      Turn truth, shown;
+      rig.stay(truth.now(), 2);
+      double pull_mps2 = 0.0;
+      rig.distort = [&pull_mps2](int i, double r, int) { return i == 1 ? r + pull_mps2 : r; };
+      for (int k = 0; k < 32 * 12; ++k) {
+        truth.on(k < 32 * 6 ? 0.3 : 1.2);
+        shown.on(0.3);
+        const Vec3& column = map.column[1];
+        const Vec3 back = scaled(minus(shown.now(), truth.now()), kG0_mps2);
+        pull_mps2 = dot(column, back) / dot(column, column);
+        const Verdict& v = rig.step(rig.sample(truth.now(), kG0_mps2));
+        if (v.alert) continue;
+        // What six sigmas of one row hide of it, of four sensors the most.
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, truth.now()), v.protection_level_rad + rad_from_deg(0.25)) << n;
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, truth.now()), rig.setup.config.alert_limit_rad) << n;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slow_motion_test

@@ -30,7 +30,7 @@ class Freshness {
   /// How far a reading of each sensor may be from the mean of this block by noise: by what is expected or, where the
   /// block scattered more than that, by the block's own, and by one step of the converter. The mean is as good as that
   /// of `independent` samples. `moved`: what the block scattered by is no noise, and the bound holds it as motion.
-  void measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, double independent,
+  void measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& expected, double independent,
                const std::array<float, kCapacity>& resolution_mps2, bool moved = false) noexcept;
   /// The block that ends at `time_s` was quiet, and its vector is published. The bound holds motion that some sensor
   /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.
@@ -43,6 +43,11 @@ class Freshness {
     const Vec3 away = minus(now_mps2, block_mps2);
     // Written so that what is not a number has departed.
     if (!(dot(away, away) <= most_away_mps2_ * most_away_mps2_)) departed_ = true;
+  }
+  /// What a reading departs by from the one movement of all, in slow motion: noise, or it hides what the others show.
+  void compare_residual(int sensor, double residual_mps2) noexcept {
+    const auto tolerance_mps2 = static_cast<double>(tolerance_mps2_[static_cast<std::size_t>(sensor)]);
+    if (!(residual_mps2 <= tolerance_mps2 && -residual_mps2 <= tolerance_mps2)) departed_ = true;
   }
   /// One sample: the readings of `usable` beside the block's.
   void note(const SensorArray& array, SensorSet in_service, SensorSet usable, const Readings& y_mps2,

@@ -139,7 +139,8 @@ class HealthMonitor {
   void refuse(const Sample& sample) noexcept;
   void collect_sample(const Sample& sample, GateResult& gate) noexcept;
   void compare_with_block(const Sample& sample, GateResult& gate) noexcept;
-  void compare_in_motion(SensorSet usable) noexcept;
+  void compare_in_motion(const Readings& y, SensorSet usable) noexcept;
+  void forget_studies() noexcept;
   bool joins_block(SensorSet usable) noexcept;
   Readings readings_now(const Sample& sample, GateResult& gate) noexcept;
   bool is_rotation_modelled() const noexcept { return rotation_.rate_known && lever_arms_known_; }
@@ -179,6 +180,8 @@ class HealthMonitor {
   void note_block(const BlockNoise& noise) noexcept;
   BlockJudgement close_block(double time_s, bool turning, bool& slow) noexcept;
   void leave_to_motion(bool turning) noexcept;
+  EventMask serve_block_at_rest(const Sample& sample, const BlockTests& tests, const BlockView& view,
+                                const RawBlock& raw) noexcept;
   void allow_for_drift(BlockEvidence& evidence) const noexcept;
   void allow_for_steps(BlockEvidence& evidence) const noexcept;
   bool moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept;
