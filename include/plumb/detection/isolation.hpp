@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/flag.hpp"
 #include "plumb/detection/protection_level.hpp"
 #include "plumb/detection/reference_doubt.hpp"
 
@@ -54,9 +55,9 @@ struct FaultSetScan {
   SensorSet suspects;                                   ///< union of the live fault sets of least size
   SensorSet asserted;  ///< intersection of the live fault sets of at most `asserted_faults` members
   int least = 255;     ///< size of the smallest live fault set
-  bool protection_available = false;
+  Flag protection_available;
   int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many members
-  bool bears_more = true;       ///< that is the priors' number on top of what an alarm on record takes to explain
+  Flag bears_more = true;       ///< that is the priors' number on top of what an alarm on record takes to explain
   double protection_rad = 0.0;  ///< of what is felt, g + a
 
   bool plausible() const noexcept { return protection_rad >= 0.0; }

@@ -8,6 +8,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/fields.hpp"
+#include "plumb/core/flag.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/core/vec3.hpp"
@@ -18,8 +19,8 @@ inline namespace PLUMB_ABI {
 
 /// What is told of a calibration that its first attitudes contradict.
 struct CalibrationFinding {
-  bool contradicted = false;
-  bool refused = false;         ///< no tolerance up to `kMostLearnedTolerance_mps2` explains them: nothing is valid
+  Flag contradicted;
+  Flag refused;                 ///< no tolerance up to `kMostLearnedTolerance_mps2` explains them: nothing is valid
   int attitudes = 0;            ///< that contradict it
   double ratio = 0.0;           ///< rms of the residuals there, in units of what noise and covariance allow
   double tolerance_mps2 = 0.0;  ///< in force for every sensor since then, on top of its stability
@@ -98,7 +99,7 @@ class CalibrationCheck {
   Fit fit(const Terms& terms, SensorSet set, double tolerance_mps2) const noexcept;
   double least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept;
 
-  bool corroborated_ = false;
+  Flag corroborated_;
   int clean_run_ = 0;
   int size_ = 0;
   std::array<Entry, kMost> entry_{};

@@ -6,6 +6,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/fields.hpp"
+#include "plumb/core/flag.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
 #include "plumb/health/monitor_config.hpp"
@@ -52,7 +53,7 @@ class DirectionRecord {
 };
 
 struct Episode {
-  bool open = false;        ///< an alarm is on record
+  Flag open;                ///< an alarm is on record
   bool by_scatter = false;  ///< the candidate's own scatter is all that names it
   /// Sensors at most that the candidate and those provisionally excluded came to: an episode that names one more than
   /// ever before is another question.

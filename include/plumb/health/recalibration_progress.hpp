@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "plumb/core/error.hpp"
+#include "plumb/core/flag.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
 
@@ -15,7 +16,7 @@ const char* to_string(RecalibrationPhase phase) noexcept;
 
 struct RecalibrationProgress {
   RecalibrationPhase phase = RecalibrationPhase::idle;
-  bool offered = false;     ///< the host's calibration is on trial: no fit is made, every station is a proof
+  Flag offered;             ///< the host's calibration is on trial: no fit is made, every station is a proof
   int stations = 0;         ///< entered and used by the fit
   int held_out = 0;         ///< entered and kept for the proof
   int stations_wanted = 0;  ///< still missing, of either kind; 0 unless collecting

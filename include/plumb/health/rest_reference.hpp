@@ -5,6 +5,7 @@
 #include <array>
 
 #include "plumb/array/geometry.hpp"
+#include "plumb/core/flag.hpp"
 #include "plumb/detection/set_test.hpp"
 
 namespace plumb {
@@ -28,7 +29,7 @@ class RestReference {
   std::array<float, kCapacity> reading_mps2_{};
   SensorSet delivered_;
   float samples_ = 1.0F;
-  bool held_ = false;
+  Flag held_;
 
   friend struct FieldsOf;
   bool plausible() const noexcept { return samples_ > 0.0F; }
