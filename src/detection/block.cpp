@@ -87,7 +87,8 @@ bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, co
   return true;
 }
 
-/// v of the systematic limit: variance of the vector inside the block beyond what noise explains.
+/// v of the systematic limit: variance of the vector inside the block beyond what the stated noise explains. Noise that
+/// was learned is not taken off: a movement may have been learned with it.
 double vector_spread(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise,
                      const LeastSquares& ls) noexcept {
   Vec3 excess{};
@@ -96,7 +97,7 @@ double vector_spread(const SensorArray& array, const BlockAccumulator& block, co
     const Vec3& own = ls.column[static_cast<size_t>(i)];
     for (int j = 0; j <= i; ++j) {
       if (!ls.used.has(j)) continue;
-      const double expected = i == j ? noise.of(i) : 0.0;
+      const double expected = i == j ? noise.stated_of(i) : 0.0;
       const double times = i == j ? 1.0 : 2.0;
       const double beyond = times * (block.covariance(i, j) - expected);
       const Vec3& other = ls.column[static_cast<size_t>(j)];
@@ -282,8 +283,9 @@ BlockNoise noise_of(const SensorArray& array, double factor,
   BlockNoise out;
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
-    const double sigma = factor * array.sigma_mps2(i), step = static_cast<double>(resolution_mps2[a]);
+    const double stated = array.sigma_mps2(i), sigma = factor * stated, step = static_cast<double>(resolution_mps2[a]);
     out.variance[a] = sigma * sigma + step * step / (step > sigma ? 4.0 : 12.0);
+    out.stated[a] = stated * stated + step * step / (step > stated ? 4.0 : 12.0);
   }
   return out;
 }

@@ -347,7 +347,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     const double sigma_rad = tilt_sigma_rad(view.used.x_mps2, view.used.covariance);
     slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad,
                           std::sqrt(judged.evidence.spread_mps2_sq) / gravity_.g_mps2,
-                          sigma_rad * std::sqrt(view.used.samples));
+                          sigma_rad * std::sqrt(view.used.samples), slow_motion_.known() ? 0.0 : hidden_turn_rad());
   }
   if (moving_ || !view.used.tested || (slow && !bears_motion(view))) {
     slow_motion_ = before;  // what moves too much says nothing of what may be borne

@@ -274,6 +274,18 @@ double HealthMonitor::least_share_felt() const noexcept {
   return std::sqrt(least / used.size());
 }
 
+/// The most by which a tool turns in a block whose channels all pass for quiet: a steady turn by t scatters a channel
+/// that feels all of it by t g / sqrt(12), and what noise may reach hides that.
+double HealthMonitor::hidden_turn_rad() const noexcept {
+  const double share = least_share_felt();
+  if (!(share > 0.0) || !(restless_factor_ > 1.0)) return 0.0;  // a row that is a station has no scatter
+  double most_mps2 = 0.0;
+  for (int i = 0; i < array_.size(); ++i) {
+    if (in_service_.has(i)) most_mps2 = std::fmax(most_mps2, array_.sigma_mps2(i) * verdict_.noise_factor);
+  }
+  return std::sqrt(12.0 * (restless_factor_ - 1.0)) * most_mps2 / (share * gravity_.g_mps2);
+}
+
 void HealthMonitor::rescan(const BlockTests& tests) noexcept {
   live_ = isolation_.live();
   if (!have_evidence_) return;

@@ -91,6 +91,67 @@ TEST(SlowMotion, AnotherAttitudeIsNoRate) {
   }
 }
 
+/// Behind motion no vector before tells whether the tool still turns: what the noise of one block may hide is allowed
+/// for.
+// Verifies: REQ-068
+// Negative: REQ-068
+TEST(SlowMotion, TheFirstBlockBehindMotionAllowsForTheTurnThatItsNoiseHides) {
+  for (const int n : {4, 5, 6, 8}) {
+    int judged = 0;
+    for (int seed = 1; seed <= 40; ++seed) {
+      Rig rig = trusted(n, static_cast<std::uint64_t>(seed));
+      Turn turn;
+      rig.stay(turn.now(), 3);
+      // 3 deg a block, until somewhere within a block, then 0.07 deg a block.
+      for (int k = 0; k < 96 + seed % 32; ++k) rig.step(rig.sample(turn.on(9.4), kG0_mps2));
+      for (int k = 0; k < 160; ++k) {
+        const Vec3 here = turn.on(0.22);
+        const Verdict& v = rig.step(rig.sample(here, kG0_mps2));
+        // The block in which it slowed down, and the one before, hold more.
+        if (k < 64 || v.validity != Validity::valid || v.alert) continue;
+        ++judged;
+        ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_rad) << n << " " << seed;
+      }
+    }
+    EXPECT_GE(judged, 40 * 64) << n;
+  }
+}
+
+/// What was learned as noise, beside a tool that swayed, may have been the sway: it is not taken off when the tool
+/// moves.
+// Verifies: REQ-068
+// Negative: REQ-068
+TEST(SlowMotion, LearnedNoiseHidesNoMovement) {
+  int judged = 0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    Rig rig = trusted(8, static_cast<std::uint64_t>(seed));
+    const double sigma_mps2 = rig.setup.array.sigma_mps2(0);
+    const int liar = seed % 8;
+    Noise own(static_cast<std::uint64_t>(seed) + 5);
+    bool scatters = true;
+    rig.distort = [&](int i, double y, int) { return i == liar && scatters ? y + 6.0 * sigma_mps2 * own.normal() : y; };
+    Turn turn;
+    const double rms_deg = deg_from_rad(2.0 * sigma_mps2 / kG0_mps2);
+    for (int k = 0; k < 64 * 32; ++k) {
+      const double phase_rad = 2.0 * kPi * k / 16.0;
+      const Vec3 here = direction_at(turn.inclination_deg + rms_deg * std::sqrt(2.0) * std::sin(phase_rad),
+                                     40.0 + 2.0 * rms_deg * std::sqrt(2.0) * std::cos(phase_rad));
+      rig.step(rig.sample(here, kG0_mps2));
+    }
+    EXPECT_GT(rig.monitor.verdict().noise_factor, 1.2);
+    scatters = false;
+    rig.stay(turn.now(), 2);
+    for (int k = 0; k < 12 * 32; ++k) {
+      const Vec3 here = turn.on(0.11);
+      const Verdict& v = rig.step(rig.sample(here, kG0_mps2));
+      if (k < 96 || v.validity != Validity::valid || v.alert) continue;
+      ++judged;
+      ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_rad) << seed << " " << k;
+    }
+  }
+  EXPECT_GE(judged, 40 * 200);
+}
+
 // Verifies: REQ-068
 TEST(SlowMotion, ATurningToolIsValidWithinItsLevelAtEverySample) {
   for (const int n : {4, 6, 8}) {

@@ -68,7 +68,10 @@ class BlockAccumulator {
 /// What noise makes of the readings of each sensor [(m/s^2)^2].
 struct BlockNoise {
   std::array<double, kCapacity> variance{};
+  /// The same as the array states it. A channel that scatters by more may be noisier than its data sheet says, or move.
+  std::array<double, kCapacity> stated{};
   double of(int i) const noexcept { return variance[static_cast<std::size_t>(i)]; }
+  double stated_of(int i) const noexcept { return stated[static_cast<std::size_t>(i)]; }
 };
 /// `factor` times the stated sigma, and what rounding to steps of `resolution_mps2` adds: a twelfth of the square of a
 /// step; up to a quarter where noise is less than a step and a reading may stand on the edge between two.

@@ -232,6 +232,7 @@ class HealthMonitor {
   void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
   double motion_in_bound_rad() const noexcept;
   double least_share_felt() const noexcept;
+  double hidden_turn_rad() const noexcept;
   void rescan(const BlockTests& tests) noexcept;
 
   // recalibrating.cpp: the shadow fit

@@ -35,8 +35,10 @@ class SlowMotion {
   /// of another attitude: the tool was brought there, and does not go on so.
   /// A turn goes on where the block scattered by half at least of what it would make of it, or where that would be less
   /// than the noise of one sample, `noise_rad`.
-  void add_turn(const Vec3& x_mps2, double sigma_rad, double most_rad, double rms_rad = 1.0,
-                double noise_rad = 0.0) noexcept {
+  /// Where there is no vector before to tell, the tool may have turned by `hidden_rad` in the block, for all that is
+  /// known of it.
+  void add_turn(const Vec3& x_mps2, double sigma_rad, double most_rad, double rms_rad = 1.0, double noise_rad = 0.0,
+                double hidden_rad = 0.0) noexcept {
     const double apart_rad = known_ ? angle_between_rad(last_mps2_, x_mps2) : 0.0;
     now_rad_ = apart_rad <= most_rad ? apart_rad : 0.0;
     const double made_rad = now_rad_ / std::sqrt(12.0);
@@ -45,15 +47,18 @@ class SlowMotion {
     if (turns) left_ = kMemoryBlocks;
     if (!turns) swing_mps2_ *= kKeptAtRest;
     turn_rad_ = left_ > 0 ? std::fmax((turns ? kKept : kKeptAtRest) * turn_rad_, goes_on ? now_rad_ : 0.0) : 0.0;
+    if (!known_) now_rad_ = hidden_rad;
     last_mps2_ = x_mps2;
     known_ = true;
   }
 
   bool slow() const noexcept { return slow_; }  ///< the last block
+  /// The vector before says whether the tool turned since.
+  bool known() const noexcept { return known_; }
   /// In slow motion, and in the blocks behind it: what a block scatters by is motion, and its mean may be off by as
   /// much.
   bool lately() const noexcept { return left_ > 0; }
-  /// By how much the vector turned from the block before.
+  /// By how much the vector turned from the block before, or may have turned where there is none.
   double now_rad() const noexcept { return now_rad_; }
   /// Between the vector of the last block and the direction at any sample up to the end of the next: half of what the
   /// block turned by, and as much as it turns from one block to the next; 0 at rest.
