@@ -226,4 +226,10 @@ plumb_error plumb_monitor_inhibit(plumb_monitor* monitor, std::int32_t frozen) n
   return e;
 }
 
+plumb_error plumb_monitor_begin_time_base(plumb_monitor* monitor) noexcept {
+  const plumb_error e = check(monitor);
+  if (e.code == PLUMB_OK) monitor->monitor.begin_time_base();
+  return e;
+}
+
 }  // extern "C"

@@ -6,16 +6,11 @@
 
 #include "calibration_age.hpp"
 #include "monitor_options.hpp"
+#include "monitor_outputs.hpp"
 #include "monitor_pipeline.hpp"
-#include "monitor_report.hpp"
-#include "plumb/core/units.hpp"
-#include "plumb/io/json_fields.hpp"
-#include "plumb/io/records.hpp"
-#include "plumb/navigation/tilt.hpp"
+#include "monitor_summary.hpp"
 #include "plumb/report/monitor_limits.hpp"
-#include "plumb/report/run_findings.hpp"
-#include "plumb/report/timeline.hpp"
-#include "plumb/report/words.hpp"
+#include "roll_test.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -49,6 +44,11 @@ constexpr const char* kMonitorNotes =
     "and\n"
     "`failed` outlive the end of a log as they outlive a power cycle. The snapshot must be of the same array file and\n"
     "calibration; both options may name one file.\n"
+    "--roll-test validates beforehand: a recording of the tool at several attitudes, with the columns of [input], "
+    "goes\n"
+    "through the monitor before the log. One line on standard error says which sensors it validated, or which turn is\n"
+    "still missing; the run goes on from there as from a snapshot, by the log's own time. Nothing of the recording is\n"
+    "valid in the run. A doubt, an exclusion or `failed` of the roll test goes along.\n"
     "--follow waits at the end of the log for what is appended to it, as on standard input, until Ctrl-C; the "
     "snapshot\n"
     "and the files are complete then too.\n"
@@ -62,149 +62,6 @@ constexpr const char* kMonitorNotes =
     "samples a block can use, and what a given delta_f hides.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
     "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
-
-/// A table line at each change.
-class TableSink : public VerdictSink {
- public:
-  /// `now`: what the monitor says before the first sample; `restored`: where it goes on from a snapshot.
-  TableSink(const SensorArray& array, const Mat3& frame, const Verdict& now, bool restored)
-      : array_(array), frame_(frame), now_(now), restored_(restored) {}
-
-  io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override {
-    if (!started_) {
-      print_now(report::table_header() + report::table_line(restored_
-                                                                ? report::restored_row(sample.time_s, now_, frame_)
-                                                                : report::power_on_row(sample.time_s, now_.state)));
-    }
-    started_ = true;
-    if (verdict.transition.sequence != 0) print_now(report::table_line(report::row_of(verdict, array_, frame_)));
-    return {};
-  }
-  stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
-
- private:
-  const SensorArray& array_;
-  Mat3 frame_;
-  Verdict now_;
-  bool restored_;
-  bool started_ = false;
-};
-
-/// All that `run` opened, in the order in which samples are handed on.
-struct Outputs {
-  std::optional<EventsFile> events;
-  std::optional<VerdictsFile> verdicts;
-  std::optional<EventsFile> json;
-  std::optional<TableSink> table;
-  std::unique_ptr<HealthReport> report;
-  std::vector<VerdictSink*> sinks;
-};
-
-io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::ArrayFile& array,
-                                    const SensorArray& sensors, const Verdict& now, double days, Outputs& out) {
-  const bool live = options.log.path == "-" || options.log.follow;
-  const bool taken = options.events == "-" || options.verdicts == "-";
-  if (!options.events.empty()) {
-    io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.events, io::OutputFile::Mode::stream);
-    if (!file) return tl::unexpected<io::FileError>(file.error());
-    out.sinks.push_back(&out.events.emplace(*std::move(file), sensors, live || options.events == "-"));
-  }
-  if (!options.verdicts.empty()) {
-    io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.verdicts, io::OutputFile::Mode::stream);
-    if (!file) return tl::unexpected<io::FileError>(file.error());
-    out.sinks.push_back(
-        &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
-  }
-  if (!options.report.empty()) {
-    io::FileExpected<std::unique_ptr<HealthReport>> report = HealthReport::create(options, array, sensors, days);
-    if (!report) return tl::unexpected<io::FileError>(report.error());
-    out.report = *std::move(report);
-    out.sinks.push_back(out.report.get());
-  }
-  // --events - writes there what --json would.
-  const bool told = options.events == "-";
-  if (options.json && told) return {};
-  if (options.json) {
-    io::FileExpected<io::OutputFile> file = io::OutputFile::create("-", io::OutputFile::Mode::stream);
-    if (!file) return tl::unexpected<io::FileError>(file.error());
-    out.sinks.push_back(&out.json.emplace(*std::move(file), sensors, true));
-  } else if (!taken) {
-    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame, now, !options.snapshot_in.empty()));
-  }
-  return {};
-}
-
-io::FileExpected<void> commit(Outputs& out, const MonitorRun& run) {
-  io::FileExpected<void> done;
-  if (out.events) done = out.events->commit();
-  if (done && out.verdicts) done = out.verdicts->commit();
-  if (done && out.json) done = out.json->commit();
-  if (done && out.report) done = out.report->write(run);
-  return done;
-}
-
-/// What a recalibration is at, or why the last one was refused; empty where there was none.
-std::string recalibration_text(const Verdict& v, const SensorArray& sensors, const Mat3& frame) {
-  const RecalibrationProgress& p = v.recalibration;
-  if (v.state != HealthState::recalibrating) {
-    return p.last_refusal.code == Errc::ok ? ""
-                                           : fmt::format("recalibrate refused: {}\n", describe(p.last_refusal.code));
-  }
-  std::string out = fmt::format("recalibrate {}: {} stations, {} held out", to_string(p.phase), p.stations, p.held_out);
-  if (p.stations_wanted > 0) {
-    const Tilt tilt = tilt_of(io::in_frame(frame, p.wanted_direction), Mat3{});
-    out += fmt::format(", {} more wanted, best at inclination {:.0f} deg", p.stations_wanted,
-                       deg_from_rad(tilt.inclination_rad));
-    if (tilt.toolface_valid) out += fmt::format(", toolface {:.0f} deg", deg_from_rad(tilt.toolface_rad));
-  }
-  if (!p.lacking.empty()) out += fmt::format("; too little change along {}", report::sensor_names(p.lacking, sensors));
-  if (p.last_refusal.code != Errc::ok)
-    out += fmt::format("; the last fit was refused: {}", describe(p.last_refusal.code));
-  return out + "\n";
-}
-
-std::string summary_text(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame) {
-  const Verdict& v = run.last;
-  std::string out = fmt::format("\nstate       {}: {}\n", to_string(v.state), report::meaning(v.state));
-  out += fmt::format("log         {} samples, {} quiet blocks, {} changes, {} bad rows skipped\n", run.samples,
-                     run.blocks, run.transitions, run.log.rows_bad);
-  const bool failed = v.state == HealthState::failed;
-  out += fmt::format("in service  {}\n", failed ? "none may be used" : report::sensor_names(v.in_service, sensors));
-  out += fmt::format("excluded    {}\n", report::sensor_names(v.excluded, sensors));
-  if (!v.set_aside.empty()) out += fmt::format("set aside   {}\n", report::sensor_names(v.set_aside, sensors));
-  if (!v.absent.empty()) out += fmt::format("absent      {}\n", report::sensor_names(v.absent, sensors));
-  out += recalibration_text(v, sensors, frame);
-  double inclination_deg = 0.0;
-  const bool known = report::inclination_of(v.gravity_mps2, frame, inclination_deg);
-  out += fmt::format("inclination {}, {} ({})\n", known ? fmt::format("{:.3f} deg", inclination_deg) : "not known",
-                     to_string(v.validity), report::meaning(v.validity));
-  out += "protection  ";
-  out += v.protection_available
-             ? fmt::format("the direction is within {:.3f} deg of the truth\n", deg_from_rad(v.protection_level_rad))
-             : std::string("no bound on the error can be given\n");
-  return out + report::findings_text(v);
-}
-
-/// What of drift the run allowed for; the paper's method allows for none.
-std::string drift_of(const io::ArrayFile& array, double days) {
-  if (array.monitor.mode == MonitorMode::paper) return "none allowed for: the paper's algorithm takes none";
-  return drift_words(array, days);
-}
-
-std::string summary_json(const MonitorRun& run, const SensorArray& sensors, const Mat3& frame, double days) {
-  nlohmann::ordered_json s;
-  s["state"] = to_string(run.last.state);
-  s["output"] = to_string(run.last.validity);
-  s["samples"] = run.samples;
-  s["blocks"] = run.blocks;
-  s["changes"] = run.transitions;
-  s["rows_bad"] = run.log.rows_bad;
-  s["last_time_s"] = run.last_time_s;
-  s["interrupted"] = run.interrupted;
-  s["days_since_calibration"] = days;
-  s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, frame));
-  return io::object({{"summary", std::move(s)}}).dump() + "\n";
-}
 
 /// What became of --host, where it did not become what was asked for.
 void tell_refusals(const scenario::Host& host, const SensorArray& sensors) {
@@ -225,11 +82,17 @@ io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonito
 /// `run` has refused the options: there is nothing to keep.
 io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
 
+/// What the run goes on from.
+struct Past {
+  std::string told;    ///< in the table; empty: power-on
+  io::Json roll_test;  ///< for the summary of --json; null: none
+};
+
 /// The run itself, with either monitor, `days` after the calibration; `stepper`, where there is one, is stepped in its
 /// place.
 template <class Monitor>
 io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor, double days,
-                   stepping::Stepper* stepper = nullptr) {
+                   const Past& past = {}, stepping::Stepper* stepper = nullptr) {
   const SensorArray& sensors = monitor.array();
   std::vector<scenario::HostRequest> requests;
   for (const std::string& text : options.host) {
@@ -239,7 +102,8 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   }
   scenario::Host host(std::move(requests));
   Outputs outputs;
-  const io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), days, outputs);
+  const io::FileExpected<void> opened =
+      open_outputs(options, array, sensors, monitor.verdict(), past.told, days, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
   LogSpec log = options.log;
@@ -252,10 +116,9 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
-    print_now(summary_json(*done, sensors, array.output_frame, days));
+    print_now(summary_json(*done, sensors, array.output_frame, days, past.roll_test));
   } else if (outputs.table) {
-    print_now(summary_text(*done, sensors, array.output_frame) + "drift       " + drift_of(array, days) + "\n" +
-              (outputs.report ? outputs.report->summary() : ""));
+    print_now(summary_text(*done, array, sensors, days) + (outputs.report ? outputs.report->summary() : ""));
   }
   if (done->stopped) {
     print_error(
@@ -272,11 +135,20 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   return io::ExitCode::not_accepted;
 }
 
+std::optional<io::FileError> past_misuse(const MonitorOptions& options, const io::ArrayFile& array) {
+  const std::optional<io::FileError> misuse = snapshot_misuse(options, array);
+  return misuse ? misuse : roll_test_misuse(options, array);
+}
+
+Past past_of(const MonitorOptions& options) { return {options.snapshot_in.empty() ? "" : "the snapshot", io::Json()}; }
+
 /// The monitor that a run steps: of the smallest build that holds the array. A snapshot is bound to the capacity that
-/// wrote it, so that a run with one, or with requests of a host, keeps to the monitor for all arrays (null).
+/// wrote it, so that a run with one, with a roll test or with requests of a host keeps to the monitor for all arrays
+/// (null).
 std::unique_ptr<stepping::Stepper> stepper_of(const MonitorOptions& options, const io::ArrayFile& array,
                                               const Calibration* calibration, double days) {
-  const bool kept = !options.snapshot_in.empty() || !options.snapshot_out.empty() || !options.host.empty();
+  const bool kept = !options.snapshot_in.empty() || !options.snapshot_out.empty() || !options.roll_test.empty() ||
+                    !options.host.empty();
   return kept ? nullptr : make_stepper(array, calibration, 0, days);
 }
 
@@ -289,6 +161,20 @@ io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& arr
   return io::ExitCode::done;
 }
 
+/// The run after a recorded roll test, from which the monitor goes on as it would from a snapshot.
+io::ExitCode watch_after_roll_test(const MonitorOptions& options, const io::ArrayFile& array, HealthMonitor& monitor,
+                                   double days) {
+  const io::FileExpected<RollTest> test = play_roll_test(monitor, array, options);
+  if (!test) return report(test.error());
+  if (test->run.interrupted) {
+    print_error("plumb: interrupted in the roll test; the log was not read.\n");
+    return io::ExitCode::other;
+  }
+  print_error(roll_test_text(*test, options.roll_test, monitor, array.output_frame));
+  const io::Json told = options.json ? roll_test_json(*test, monitor, array.output_frame) : io::Json();
+  return watch(options, array, monitor, days, Past{"the roll test", told});
+}
+
 /// --calibrate-first: the datasheet in the array file is all that is known.
 io::ExitCode run_without_calibration(const MonitorOptions& options, const io::ArrayFile& array) {
   if (array.monitor.mode == MonitorMode::paper) {
@@ -298,7 +184,7 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
   const auto monitor =
       options.snapshot_in.empty() ? make_monitor(array, nullptr) : restore_monitor(array, nullptr, options.snapshot_in);
   if (!monitor) return report(monitor.error());
-  return watch(options, array, **monitor, 0.0, stepper_of(options, array, nullptr, 0.0).get());
+  return watch(options, array, **monitor, 0.0, past_of(options), stepper_of(options, array, nullptr, 0.0).get());
 }
 
 void warn_of_stations(const io::ArrayFile& array) {
@@ -320,13 +206,15 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
     return report(*clash);
   to_write.push_back({"--snapshot-out", options.snapshot_out});
-  const std::vector<NamedFile> to_read = {
-      {"--array", options.array}, {"--calibration", options.calibration}, {"--log", options.log.path}};
+  const std::vector<NamedFile> to_read = {{"--array", options.array},
+                                          {"--calibration", options.calibration},
+                                          {"--log", options.log.path},
+                                          {"--roll-test", options.roll_test}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   if (options.calibrate_first) {
-    if (const std::optional<io::FileError> misuse = snapshot_misuse(options, *array)) return report(*misuse);
+    if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
     warn_of_stations(*array);
     return run_without_calibration(options, *array);
   }
@@ -335,7 +223,7 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   const io::FileExpected<double> days = days_since(*calibration, options.calibration, options.date);
   if (!days) return report(days.error());
   print_error(undated_note(*array, *calibration, options.calibration));
-  if (const std::optional<io::FileError> misuse = snapshot_misuse(options, *array)) return report(*misuse);
+  if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
@@ -348,8 +236,9 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
                            : restore_monitor(*array, &calibration->calibration, options.snapshot_in, *days);
   if (!monitor) return report(monitor.error());
   if (options.limits) return tell_limits(options, *array, (*monitor)->array(), *days);
+  if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days);
   const auto stepper = stepper_of(options, *array, &calibration->calibration, *days);
-  return watch(options, *array, **monitor, *days, stepper.get());
+  return watch(options, *array, **monitor, *days, past_of(options), stepper.get());
 }
 
 }  // namespace
@@ -381,6 +270,10 @@ Command add_monitor(const Options& tool) {
       .type_name("R.html");
   command.add_option("--snapshot-in", options->snapshot_in, "go on from this snapshot instead of from power-on")
       .type_name("S.bin");
+  command
+      .add_option("--roll-test", options->roll_test,
+                  "validate the sensors by this recorded roll test first; its columns are those of the log")
+      .type_name("ROLL.csv");
   command.add_option("--snapshot-out", options->snapshot_out, "at the end of the run, write what the monitor remembers")
       .type_name("S.bin");
   command.add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")

@@ -22,6 +22,7 @@ struct MonitorOptions {
   std::string report;
   std::string date;  ///< of the run; empty: today
   std::string snapshot_in;
+  std::string roll_test;
   std::string snapshot_out;
   std::vector<std::string> host;
   bool every_sample = false;

@@ -40,14 +40,15 @@ std::string command_of(const MonitorOptions& o) {
   out += " --log " + word(o.log.path);
   if (o.log.on_bad_row == io::BadRowPolicy::skip) out += " --on-bad-row skip";
   if (!o.snapshot_in.empty()) out += " --snapshot-in " + word(o.snapshot_in);
+  if (!o.roll_test.empty()) out += " --roll-test " + word(o.roll_test);
   for (const std::string& request : o.host) out += " --host " + word(request);
   return out + " --report " + word(o.report);
 }
 
 io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayFile& array, const MonitorRun& run) {
   Json out = Json::array({report::input_json("array", array.path, array.text)});
-  const std::pair<const char*, const std::string&> files[] = {{"calibration", options.calibration},
-                                                              {"snapshot", options.snapshot_in}};
+  const std::pair<const char*, const std::string&> files[] = {
+      {"calibration", options.calibration}, {"snapshot", options.snapshot_in}, {"roll test", options.roll_test}};
   for (const auto& [role, path] : files) {
     if (path.empty()) continue;
     const io::FileExpected<std::string> bytes = io::read_file(path);

@@ -32,7 +32,9 @@ namespace {
 Arrival SampleClock::admit(double time_s, double max_gap_s) noexcept {
   if (!std::isfinite(time_s)) return Arrival::refused;
   Arrival arrival = Arrival::in_order;
-  if (started_ && !(time_s > last_s_)) {
+  if (!started_ && refused_run_ > 0) {
+    arrival = Arrival::new_time_base;
+  } else if (started_ && !(time_s > last_s_)) {
     const bool goes_on = refused_run_ > 0 && time_s > last_refused_s_;
     refused_run_ = goes_on ? refused_run_ + 1 : 1;
     last_refused_s_ = time_s;

@@ -220,5 +220,14 @@ void HealthMonitor::publish_claims(Validity validity) noexcept {
       !v.protection_available || !(v.protection_level_rad <= config_.alert_limit_rad) || v.validity != Validity::valid;
 }
 
+/// What was valid is only held, from now on and not from the next sample on.
+void HealthMonitor::begin_time_base() noexcept {
+  if (!configured_ || !whole()) return;  // the next block says so
+  clock_.expect_new_time_base();
+  freshness_.lapse();
+  if (verdict_.validity != Validity::invalid) publish_claims(Validity::held);
+  seal();
+}
+
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -75,14 +75,14 @@ TimelineRow power_on_row(double time_s, HealthState state) {
   return row;
 }
 
-TimelineRow restored_row(double time_s, const Verdict& verdict, const Mat3& frame) {
+TimelineRow restored_row(double time_s, const Verdict& verdict, const Mat3& frame, const std::string& past) {
   TimelineRow row;
   row.time_s = time_s;
   row.from = row.state = verdict.state;
   row.validity = verdict.validity;
   row.cause = verdict.cause;
   row.sensors = "-";
-  row.explanation = "goes on from the snapshot";
+  row.explanation = "goes on from " + past;
   row.statistic = verdict.statistic;
   row.limit = verdict.limit;
   row.has_inclination = inclination_of(verdict.gravity_mps2, frame, row.inclination_deg);

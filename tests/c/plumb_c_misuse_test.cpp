@@ -80,6 +80,7 @@ TEST(CMisuse, NoFunctionTakesWhatIsNoMonitor) {
     EXPECT_EQ(plumb_monitor_set_rotation(none, 1, rate).code, code);
     EXPECT_EQ(plumb_monitor_request_recalibration(none).code, code);
     EXPECT_EQ(plumb_monitor_inhibit(none, 1).code, code);
+    EXPECT_EQ(plumb_monitor_begin_time_base(none).code, code);
     EXPECT_EQ(plumb_monitor_calibration(none, 0, &sensor).code, code);
     EXPECT_EQ(plumb_monitor_offer(none, m.workspace.data(), 8 * m.workspace.size(), &form.config).code, code);
   }

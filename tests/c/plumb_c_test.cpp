@@ -72,6 +72,16 @@ TEST(CFunctions, WhatTheHostAsksReachesTheMonitor) {
     ASSERT_EQ(plumb_monitor_verdict(c, &verdict).code, PLUMB_OK);
     ASSERT_EQ(difference(verdict, v), "");
   }
+  EXPECT_EQ(plumb_monitor_begin_time_base(c).code, PLUMB_OK);
+  twin.begin_time_base();
+  for (int k = 0; k < 64; ++k) {
+    Sample s = life.next({});
+    s.time_s = 0.01 * k;  // before all that was
+    const plumb_sample given = c_form(s);
+    ASSERT_EQ(plumb_monitor_step(c, &given, &verdict).code, PLUMB_OK);
+    ASSERT_EQ(difference(verdict, twin.step(s)), "");
+    ASSERT_NE(verdict.accepted, 0);
+  }
   EXPECT_EQ(verdict.reference_mps2, 9.81);
   EXPECT_NE(verdict.qualifiers & Qualifier::inhibited, 0);
 }

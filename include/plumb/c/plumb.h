@@ -243,6 +243,9 @@ plumb_error plumb_monitor_offer(plumb_monitor* monitor, void* workspace, size_t 
  * out_of_range (sensor). The other members are left as they are. */
 plumb_error plumb_monitor_calibration(const plumb_monitor* monitor, int32_t sensor, plumb_sensor* to) PLUMB_NOEXCEPT;
 plumb_error plumb_monitor_inhibit(plumb_monitor* monitor, int32_t frozen) PLUMB_NOEXCEPT;
+/* The next sample may have any time: a recording has been played and the run begins, or the clock was set. Nothing is
+ * valid before the next block at rest; what the monitor has learned stays. */
+plumb_error plumb_monitor_begin_time_base(plumb_monitor* monitor) PLUMB_NOEXCEPT;
 
 #ifdef __cplusplus
 }

@@ -109,6 +109,11 @@ class HealthMonitor {
   static constexpr double kStillRate_radps = 0.02;  ///< 0.04 mm/s^2 at 0.1 m
   Expected<void> set_rotation(const Rotation& rotation) noexcept;
 
+  /// The next sample may have any time: a recording has been played and the run begins, or the clock was set. What was
+  /// measured before is no evidence of now: the output is held until that sample, and invalid from it to the next block
+  /// at rest. What the monitor has learned stays: validation, exclusions, doubts.
+  void begin_time_base() noexcept;
+
   /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
   /// released. Never held back: a lost channel, rank < 3, failed. Patience goes on, too: who freezes the way out of a
   /// doubt has not ended it, and beyond the alert limit nothing else would warn. Either is recorded as a notice.

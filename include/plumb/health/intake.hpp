@@ -20,8 +20,10 @@ inline namespace PLUMB_ABI {
 enum class Arrival : std::uint8_t {
   refused,  ///< not finite, or not later: the sample must not be used
   in_order,
-  after_gap,     ///< later than the longest gap allows
-  new_time_base  ///< samples that increase among themselves have been refused for so long that they are the truth now
+  after_gap,  ///< later than the longest gap allows
+  /// Samples that increase among themselves have been refused for so long that they are the truth now; or the host says
+  /// that time begins anew.
+  new_time_base
 };
 
 /// So many refused samples that increase among themselves are a new time base, not a glitch.
@@ -31,6 +33,11 @@ inline constexpr int kNewTimeBase = 16;
 class SampleClock {
  public:
   void clear() noexcept { *this = SampleClock{}; }
+  /// The next finite time is a new time base, whatever it is: somebody who knows says so.
+  void expect_new_time_base() noexcept {
+    started_ = false;
+    refused_run_ = kNewTimeBase - 1;
+  }
   Arrival admit(double time_s, double max_gap_s) noexcept;
   /// Of the last sample that was not refused; 0 before the first.
   double last_s() const noexcept { return last_s_; }

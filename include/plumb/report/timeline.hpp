@@ -32,8 +32,9 @@ struct TimelineRow {
 
 /// The row of power-on, before the first sample has been judged.
 TimelineRow power_on_row(double time_s, HealthState state);
-/// The row with which a monitor begins that goes on from a snapshot; `verdict` is what it says before its next sample.
-TimelineRow restored_row(double time_s, const Verdict& verdict, const Mat3& frame);
+/// The row with which a monitor begins that goes on from `past` ("the snapshot"); `verdict` is what it says before its
+/// next sample.
+TimelineRow restored_row(double time_s, const Verdict& verdict, const Mat3& frame, const std::string& past);
 /// The row of a verdict that carries a transition.
 TimelineRow row_of(const Verdict& verdict, const SensorArray& array, const Mat3& frame);
 
