@@ -135,8 +135,10 @@ std::string roll_test_text(const RollTest& test, const std::string& path, const 
   if (test.run.log.rows_bad > 0) out += fmt::format(", {} bad rows skipped", test.run.log.rows_bad);
   out += "; ";
   if (v.state == HealthState::failed) {
-    return out + fmt::format("ended in failed ({}: {}): no output of the run is valid until a reset (--host)\n",
-                             to_string(v.cause), report::explain(v.cause));
+    const bool timed_out = (v.qualifiers & Qualifier::exhausted) != 0;
+    const std::string why = timed_out ? report::explain(Cause::patience) : "too few sensors are left";
+    return out +
+           fmt::format("ended in failed, because {}: no output of the run is valid until a reset (--host)\n", why);
   }
   out += out_of_service_text(v, array);
   if (in_doubt(v)) out += doubt_text(v, array, frame) + "; ";
