@@ -2,68 +2,13 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
-#include <cstring>
 
 #include "module.hpp"
 #include "plumb/io/records.hpp"
+#include "verdict_row.hpp"
 
 namespace plumb_python {
 namespace {
-
-/// What of a verdict stands in a row. Sets of sensors are bits.
-struct Row {
-  double time_s;
-  std::uint8_t state, validity, cause, decided_by;
-  bool tick, accepted, alert, wants_rotation;
-  std::uint16_t usable;
-  std::uint16_t qualifiers;
-  std::uint32_t in_service, set_aside, excluded, absent, suspects;
-  double statistic, limit, margin;
-  double mae_all_mps2, mae_worst_mps2, parity, parity_limit, norm_error_mps2;
-  double gravity_mps2[3];
-  double covariance[9];
-  double age_s, latest_mps2[3];
-  double protection_level_rad;
-  std::uint32_t transition;
-};
-
-Row row_of(const plumb::Verdict& v, const plumb::Mat3& frame) {
-  Row row{};
-  row.time_s = v.time_s;
-  row.state = static_cast<std::uint8_t>(v.state);
-  row.validity = static_cast<std::uint8_t>(v.validity);
-  row.cause = static_cast<std::uint8_t>(v.cause);
-  row.decided_by = static_cast<std::uint8_t>(v.decided_by);
-  row.tick = v.tick;
-  row.accepted = v.accepted;
-  row.alert = v.alert;
-  row.wants_rotation = v.wants_rotation;
-  row.usable = v.usable;
-  row.qualifiers = v.qualifiers;
-  row.in_service = v.in_service.bits;
-  row.set_aside = v.set_aside.bits;
-  row.excluded = v.excluded.bits;
-  row.absent = v.absent.bits;
-  row.suspects = v.suspects.bits;
-  row.statistic = v.statistic;
-  row.limit = v.limit;
-  row.margin = v.margin;
-  row.mae_all_mps2 = v.mae_all_mps2;
-  row.mae_worst_mps2 = v.mae_worst_mps2;
-  row.parity = v.parity;
-  row.parity_limit = v.parity_limit;
-  row.norm_error_mps2 = v.norm_error_mps2;
-  const plumb::Vec3 gravity = plumb::io::in_frame(frame, v.gravity_mps2);
-  const plumb::Vec3 latest = plumb::io::in_frame(frame, v.latest_mps2);
-  const plumb::Mat3 covariance = plumb::io::covariance_in_frame(frame, v.covariance);
-  std::memcpy(row.gravity_mps2, gravity.data(), sizeof row.gravity_mps2);
-  std::memcpy(row.latest_mps2, latest.data(), sizeof row.latest_mps2);
-  std::memcpy(row.covariance, covariance.data(), sizeof row.covariance);
-  row.age_s = v.age_s;
-  row.protection_level_rad = v.protection_available ? v.protection_level_rad : std::numeric_limits<double>::quiet_NaN();
-  row.transition = v.transition.sequence;
-  return row;
-}
 
 /// Of that array: else its axes and coefficients are those of other sensors, which may even be as many.
 const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Calibration& calibration) {
@@ -82,14 +27,14 @@ class Monitor {
             snapshot ? plumb::cli::restore_monitor(*array_, made_for(*array_, calibration), *snapshot, "snapshot", days)
                      : plumb::cli::make_monitor(*array_, made_for(*array_, calibration), days))) {}
 
-  py::array_t<Row> run(const Log& log) {
+  py::array_t<VerdictRow> run(const Log& log) {
     const Log::View view(log, *array_);
-    py::array_t<Row> out(view.rows());
-    Row* to = out.mutable_data();
+    py::array_t<VerdictRow> out(view.rows());
+    VerdictRow* to = out.mutable_data();
     plumb::HealthMonitor& monitor = idle();
     const Running running(running_);
     const py::gil_scoped_release others_may_run;
-    for (py::ssize_t r = 0; r < view.rows(); ++r) *to++ = row_of(monitor.step(view.at(r)), array_->output_frame);
+    for (py::ssize_t r = 0; r < view.rows(); ++r) write_row(monitor.step(view.at(r)), array_->output_frame, *to++);
     return out;
   }
 
@@ -143,26 +88,10 @@ plumb::SensorSet set_of(const Array& array, const std::vector<std::string>& ids)
   return out;
 }
 
-/// The names of an enumeration, in its order.
-template <class Enum>
-py::tuple names(Enum last) {
-  py::tuple out(static_cast<std::size_t>(last) + 1);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = py::str(to_string(static_cast<Enum>(k)));
-  return out;
-}
-
 }  // namespace
 
 void bind_monitor(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(Row, time_s, state, validity, cause, decided_by, tick, accepted, alert, wants_rotation, usable,
-                       qualifiers, in_service, set_aside, excluded, absent, suspects, statistic, limit, margin,
-                       mae_all_mps2, mae_worst_mps2, parity, parity_limit, norm_error_mps2, gravity_mps2, covariance,
-                       age_s, latest_mps2, protection_level_rad, transition);
-  module.attr("STATES") = names(plumb::HealthState::failed);
-  module.attr("VALIDITIES") = names(plumb::Validity::valid);
-  module.attr("CAUSES") = names(plumb::kLastCause);
-  module.attr("verdict_dtype") = py::dtype::of<Row>();
-
+  bind_verdict_row(module);
   py::class_<Monitor>(
       module, "Monitor",
       "Watches an array. Feed it logs, whole or in parts; it goes on where it was. Starts as suspect: trust is\n"
@@ -170,11 +99,12 @@ void bind_monitor(py::module_& module) {
       "days_since_calibration: for what the array file states to drift per day. For one thread at a time.")
       .def(py::init<Array, const Calibration&, const std::optional<py::bytes>&, double>(), array_argument(),
            py::arg("calibration"), py::arg("snapshot") = py::none(), py::arg("days_since_calibration") = 0.0)
-      .def("run", &Monitor::run, py::arg("log"),
-           "Step all samples; returns a structured array (verdict_dtype), one row per sample. state, validity and "
-           "cause\n"
-           "are indices into STATES, VALIDITIES and CAUSES; sets of sensors are bits; covariance is row-major;\n"
-           "protection_level_rad is NaN where there is no bound. Read validity before anything else.")
+      .def(
+          "run", &Monitor::run, py::arg("log"),
+          "Step all samples; returns a structured array (verdict_dtype), one row per sample, with every figure of a\n"
+          "verdict: VERDICT_FIELDS says what each is and in which unit. state, validity and cause are indices into\n"
+          "STATES, VALIDITIES and CAUSES; sets of sensors are bits, as are qualifiers and usable (named in QUALIFIERS\n"
+          "and USABLE). Read validity before anything else.")
       .def_property_readonly(
           "verdict", [](const Monitor& m) { return py::module_::import("json").attr("loads")(m.verdict_json()); },
           "The last verdict in full, as a dict with the keys of `plumb monitor --verdicts`.")
@@ -196,6 +126,10 @@ void bind_monitor(py::module_& module) {
             m.done(m.idle().set_gravity(*gravity));
           },
           py::arg("g_mps2"), py::arg("sigma_mps2"), "Another length of gravity: the depth has changed.")
+      .def(
+          "begin_time_base", [](Monitor& m) { m.idle().begin_time_base(); },
+          "The next sample may have any time: a recorded roll test has been run, and the log begins. Nothing is valid\n"
+          "before its first block at rest; validation, exclusions and doubts stay.")
       .def(
           "inhibit", [](Monitor& m, bool frozen) { m.idle().inhibit(frozen); }, py::arg("frozen"),
           "Freeze exclusion and recalibration, or let them go.");

@@ -98,21 +98,7 @@ class Object {
     out_ += ']';
   }
   /// What of the verdict may be used.
-  void usable(const char* key, std::uint16_t bits) {
-    static constexpr const char* kNames[] = {"vector",           "inclination", "toolface",
-                                             "protection_level", "monitored",   "stationary",
-                                             "temperature",      "calibration", "reference"};
-    name(key);
-    out_ += '[';
-    bool first = true;
-    for (unsigned k = 0; k < 9; ++k) {
-      if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
-      if (!first) out_ += ',';
-      first = false;
-      out_.append("\"").append(kNames[k]).append("\"");
-    }
-    out_ += ']';
-  }
+  void usable(const char* key, std::uint16_t bits) { named_bits(key, bits, kUsableNames); }
   /// Those tested and not passed, each by its three sensors.
   void failing_triples(const char* key, const Verdict& verdict, const SensorArray& array) {
     name(key);
@@ -147,27 +133,26 @@ class Object {
     }
     out_ += ']';
   }
-  void qualifiers(const char* key, std::uint16_t bits) {
-    static constexpr const char* kNames[] = {
-        "unproven",  "moving",           "initial_calibration", "provisional",        "no_redundancy",
-        "exhausted", "three_sensor_fit", "inhibited",           "standstill_assumed", "stability_unstated"};
-    name(key);
-    out_ += '[';
-    bool first = true;
-    for (unsigned k = 0; k < sizeof kNames / sizeof kNames[0]; ++k) {
-      if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
-      if (!first) out_ += ',';
-      first = false;
-      out_.append("\"").append(kNames[k]).append("\"");
-    }
-    out_ += ']';
-  }
+  void qualifiers(const char* key, std::uint16_t bits) { named_bits(key, bits, kQualifierNames); }
 
  private:
   void name(const char* key) {
     if (!first_) out_ += ',';
     first_ = false;
     out_.append("\"").append(key).append("\":");
+  }
+  template <std::size_t N>
+  void named_bits(const char* key, std::uint16_t bits, const std::array<const char*, N>& names) {
+    name(key);
+    out_ += '[';
+    bool first = true;
+    for (std::size_t k = 0; k < N; ++k) {
+      if ((static_cast<unsigned>(bits) >> k & 1U) == 0) continue;
+      if (!first) out_ += ',';
+      first = false;
+      out_.append("\"").append(names[k]).append("\"");
+    }
+    out_ += ']';
   }
   void append_whole(std::int64_t value) {
     char text[24];

@@ -2,6 +2,7 @@
 /// precision (null where not finite), sensor sets as arrays of ids, angles in deg with `_deg` keys.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,16 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
+
+/// The bits of `Verdict::qualifiers`, and those of `Verdict::usable`, by name.
+inline constexpr std::array<const char*, 10> kQualifierNames = {
+    "unproven",  "moving",           "initial_calibration", "provisional",        "no_redundancy",
+    "exhausted", "three_sensor_fit", "inhibited",           "standstill_assumed", "stability_unstated"};
+inline constexpr std::array<const char*, 9> kUsableNames = {"vector",           "inclination", "toolface",
+                                                            "protection_level", "monitored",   "stationary",
+                                                            "temperature",      "calibration", "reference"};
+static_assert(1U << (kQualifierNames.size() - 1) == Qualifier::stability_unstated, "a name for every qualifier");
+static_assert(1U << (kUsableNames.size() - 1) == Usable::reference, "a name for every use");
 
 /// Without a newline at the end.
 std::string event_json(const TransitionRecord& record, const SensorArray& array);
