@@ -1,5 +1,5 @@
 // What a steady acceleration within the stated bound does: law 11 of docs/property-testing.md.
-#include "laws/law_run.hpp"
+#include "laws/bound_law.hpp"
 
 namespace acceleration_laws_test {
 namespace {
@@ -37,20 +37,15 @@ Vec3 pushed(Push push, const Vec3& g, double bound, TrialNoise& noise) {
   return {};
 }
 
-/// Alarms as rare as rejections: noise of the laws is shorter than every limit, so that none alarms by itself.
 MonitorConfig allowing(double bound_mps2) {
-  MonitorConfig config;
-  config.false_alarm_rate = config.rejection_rate;
+  MonitorConfig config = as_rare_as_rejections();
   config.acceleration_bound_mps2 = bound_mps2;
   return config;
 }
 
 TEST(Law, ElevenNoAccelerationWithinItsBoundIsBeyondTheProtectionLevelOrBlamesTheHealthy) {
-  static std::uint64_t bounded = 0, usable_at_all = 0;
-  static double nearest = 0.0;
-  bounded = usable_at_all = 0;
-  nearest = 0.0;
-  const LawCount count = run_law(11, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
+  BoundLaw law(BoundLaw::Tried::unconfirmed_too);
+  const LawCount count = run_law(11, kLawCases, [&law](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -65,40 +60,13 @@ TEST(Law, ElevenNoAccelerationWithinItsBoundIsBeyondTheProtectionLevelOrBlamesTh
     c.least_mps2 = 0.1 * kTrialSigma_mps2;
     c.draw(noise);
     Watch watch = proven_watch(tool, allowing(bound), 100 + allowed, gravity);
-    bool usable = false;
-    for (int k = 0; k < 6; ++k) {
-      const Vec3 direction = noise.direction();
+    const std::string influence = "under up to " + std::to_string(bound) + " m/s^2";
+    return law.visit(watch, tool, c, noise, influence, [&](const Vec3& direction) {
       const Vec3 g = scaled(direction, kG0_mps2 + gravity * tool.tool.gravity.sigma_mps2);
-      const Verdict& v = watch.station(c.with_noise(c.felt(plus(g, pushed(push, g, bound, noise)), noise), noise));
-      const auto broken = [&](const std::string& what) {
-        return LawOutcome{true,
-                          "of " + std::to_string(tool.n()) + " sensors under up to " + std::to_string(bound) +
-                              " m/s^2: " + what + "; station " + std::to_string(k),
-                          {tool.n(), faults, k}};
-      };
-      if (!c.faulty().contains(v.excluded)) return broken(names_of(v.excluded) + " are out");
-      if (faults == 0 && !(v.margin >= 0.0)) return broken(std::string("an alarm, ") + to_string(v.cause));
-      const bool told =
-          v.validity != Validity::held && v.validity != Validity::invalid;  // valid within the alert limit
-      if (!told || !v.protection_available) continue;
-      usable = true;
-      ++bounded;
-      const double error = angle_between_rad(v.gravity_mps2, direction);
-      nearest = std::max(nearest, error / v.protection_level_rad);
-      if (!(error <= v.protection_level_rad)) {
-        return broken("tilted by " + std::to_string(1e3 * error) + " mrad, bound " +
-                      std::to_string(1e3 * v.protection_level_rad));
-      }
-    }
-    usable_at_all += usable ? 1U : 0U;
-    return LawOutcome{};
+      return c.with_noise(c.felt(plus(g, pushed(push, g, bound, noise)), noise), noise);
+    });
   });
-  std::printf("law 11: the bound was put to the test at %llu stations; the largest error was %.4f of its bound\n",
-              static_cast<unsigned long long>(bounded), nearest);
-  EXPECT_EQ(count.broken, 0U);
-  if (count.cases < 100) return;  // PLUMB_LAW_CASE asks for one
-  EXPECT_GT(2 * usable_at_all, count.cases) << "what is never published is within every bound";
-  EXPECT_GT(nearest, 0.9) << "the pushes must reach what the bound allows for";
+  law.conclude(11, count, 0.5, 0.9);
 }
 
 }  // namespace

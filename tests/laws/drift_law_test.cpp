@@ -1,5 +1,5 @@
 // What drift since the calibration does within its tolerance: law 12 of docs/property-testing.md.
-#include "laws/law_run.hpp"
+#include "laws/bound_law.hpp"
 #include "plumb/array/geometry.hpp"
 
 namespace drift_law_test {
@@ -45,33 +45,9 @@ Readings drift_of(Corner corner, const SensorArray& array, TrialNoise& noise) {
   return out;
 }
 
-MonitorConfig as_rare_as_rejections() {
-  MonitorConfig config;
-  config.false_alarm_rate = config.rejection_rate;
-  return config;
-}
-
-/// Who is blamed that is healthy, or how far the vector is beyond its level; else empty.
-std::string wrong_with(const Verdict& v, const LawTool& tool, SensorSet faulty, const Vec3& direction,
-                       double& nearest) {
-  const int faults = faulty.size();
-  if (!faulty.contains(v.excluded)) return names_of(v.excluded) + " are out";
-  if (faults <= tool.parity() && !faulty.contains(v.set_aside)) return names_of(v.set_aside) + " are set aside";
-  if (faults == 0 && !(v.margin >= 0.0)) return std::string("an alarm, ") + to_string(v.cause);
-  if ((v.validity != Validity::valid && v.validity != Validity::degraded) || !v.protection_available) return "";
-  if (faults > 1) return "";  // the level is of one fault, by the priors of the default configuration
-  const double error = angle_between_rad(v.gravity_mps2, direction);
-  nearest = std::max(nearest, error / v.protection_level_rad);
-  if (error <= v.protection_level_rad) return "";
-  return "tilted by " + std::to_string(1e3 * error) + " mrad, bound " + std::to_string(1e3 * v.protection_level_rad);
-}
-
 TEST(Law, TwelveNoDriftWithinItsToleranceBlamesTheHealthyOrIsBeyondTheProtectionLevel) {
-  static std::uint64_t usable_at_all = 0;
-  static double nearest = 0.0;
-  usable_at_all = 0;
-  nearest = 0.0;
-  const LawCount count = run_law(12, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
+  BoundLaw law(BoundLaw::Tried::usable);
+  const LawCount count = run_law(12, kLawCases, [&law](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();
     const LawTool& tool = tools[slot(strata.digit(static_cast<int>(tools.size())))];
@@ -102,28 +78,12 @@ TEST(Law, TwelveNoDriftWithinItsToleranceBlamesTheHealthyOrIsBeyondTheProtection
       const Vec3 direction = noise.direction();
       watch.station(drifted(direction, c.healthy_readings(direction)));
     }
-    bool usable = false;
-    for (int k = 0; k < 6; ++k) {
-      const Vec3 direction = noise.direction();
-      const Verdict& v = watch.station(drifted(direction, c.readings(direction, noise)));
-      usable = usable || v.validity == Validity::valid || v.validity == Validity::degraded;
-      const std::string wrong = wrong_with(v, tool, c.faulty(), direction, nearest);
-      if (wrong.empty()) continue;
-      return LawOutcome{true,
-                        "of " + std::to_string(tool.n()) + " sensors drifted by up to " +
-                            std::to_string(1e3 * kStabilitySigmas * sigma / kG0_mps2) + " mg: " + wrong + "; station " +
-                            std::to_string(k),
-                        {tool.n(), faults, k}};
-    }
-    usable_at_all += usable ? 1U : 0U;
-    return LawOutcome{};
+    const std::string influence =
+        "drifted by up to " + std::to_string(1e3 * kStabilitySigmas * sigma / kG0_mps2) + " mg";
+    return law.visit(watch, tool, c, noise, influence,
+                     [&](const Vec3& direction) { return drifted(direction, c.readings(direction, noise)); });
   });
-  std::printf("law 12: usable in %llu cases; the largest error was %.4f of its bound\n",
-              static_cast<unsigned long long>(usable_at_all), nearest);
-  EXPECT_EQ(count.broken, 0U);
-  if (count.cases < 100) return;  // PLUMB_LAW_CASE asks for one
-  EXPECT_GT(4 * usable_at_all, count.cases) << "what is never published is within every bound";
-  EXPECT_GT(nearest, 0.5) << "the drift must reach what the bound allows for";
+  law.conclude(12, count, 0.25, 0.5);
 }
 
 }  // namespace
