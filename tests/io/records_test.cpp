@@ -147,10 +147,11 @@ TEST(Records, RecalibrationIsAnObjectWhileItGoesOnOrWasRefused) {
 
 TEST(Records, EveryQualifierHasItsName) {
   Verdict v;
-  v.qualifiers = 511;
+  v.qualifiers = 1023;
   const Json object = Json::parse(verdict_json(v, array_of().array));
-  EXPECT_EQ(object["qualifiers"], Json({"unproven", "moving", "initial_calibration", "provisional", "no_redundancy",
-                                        "exhausted", "three_sensor_fit", "inhibited", "standstill_assumed"}));
+  EXPECT_EQ(object["qualifiers"],
+            Json({"unproven", "moving", "initial_calibration", "provisional", "no_redundancy", "exhausted",
+                  "three_sensor_fit", "inhibited", "standstill_assumed", "stability_unstated"}));
 }
 
 TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
