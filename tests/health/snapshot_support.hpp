@@ -138,6 +138,7 @@ class Life {
   void ask(const std::vector<plumb::HealthMonitor*>& asked) {
     const double pick = luck.uniform();
     const double told_mps2 = plumb::kG0_mps2 * (1.0 + 2e-4 * (luck.uniform() - 0.5));
+    if (!asked.empty() && pick > 0.30 && pick < 0.33) skew_s -= 50.0;  // told, as the clock is set back
     for (plumb::HealthMonitor* monitor : asked) {
       if (pick < 0.1) monitor->request_recalibration();
       if (pick > 0.1 && pick < 0.13) monitor->reset(monitor->config().reset_key, monitor->array().all());
@@ -145,6 +146,7 @@ class Life {
       if (pick > 0.18 && pick < 0.24) monitor->inhibit(false);
       if (pick > 0.24 && pick < 0.26) monitor->set_rotation({true, false, {}});
       if (pick > 0.26 && pick < 0.30) monitor->set_rotation({});
+      if (pick > 0.30 && pick < 0.33) monitor->begin_time_base();
       if (pick > 0.13 && pick < 0.15) {
         monitor->set_gravity({told_mps2, 1e-4 * plumb::kG0_mps2, plumb::GravityModel::value});
       }

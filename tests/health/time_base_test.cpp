@@ -15,6 +15,7 @@ using plumb_test::bits_of;
 using plumb_test::Bytes;
 using plumb_test::cone_array;
 using plumb_test::direction_at;
+using plumb_test::Life;
 using plumb_test::Noise;
 using plumb_test::random_direction;
 using plumb_test::Rig;
@@ -164,6 +165,39 @@ TEST(TimeBase, RowsThatLeaveASensorWhereItIsValidateNobody) {
   // The turn that was asked for, in the run: what the roll test has shown of the others counts.
   for (int k = 320; k < 480; ++k) rig.monitor.step(row_at(rig, direction_at(60, 70), k));
   EXPECT_FALSE(unproven(rig.monitor.verdict()));
+}
+
+/// Whatever happened before, and at whichever step of a block the word is given: nothing is usable before a block of
+/// the new time base is at rest, and the monitor's own snapshot is taken up.
+// Verifies: REQ-150, REQ-163
+// Negative: REQ-120
+TEST(TimeBase, InNoLifeIsAnythingOfBeforeValidBehindIt) {
+  int valid_before = 0, states = 0;
+  for (int number = 0; number < 300; ++number) {
+    Life life(4 + number % 5, 77U + static_cast<std::uint64_t>(number));
+    HealthMonitor& monitor = life.tool.rig.monitor;
+    for (int k = 0; k < 400 + 37 * (number % 40); ++k) monitor.step(life.next({&monitor}));
+    valid_before += monitor.verdict().validity == Validity::valid ? 1 : 0;
+    states |= 1 << static_cast<int>(monitor.verdict().state);
+    monitor.begin_time_base();
+    const Bytes bytes = snapshot_of(monitor);
+    auto twin = std::make_unique<HealthMonitor>();
+    ASSERT_TRUE(twin->restore(life.tool.rig.setup, bytes.data(), bytes.size()).has_value()) << number;
+    bool at_rest = false;
+    for (int k = 0; k < 64; ++k) {
+      Sample sample = life.next({});
+      sample.time_s = 0.01 * k;
+      const Verdict& v = monitor.step(sample);
+      ASSERT_EQ(bits_of(v), bits_of(twin->step(sample)));
+      at_rest = at_rest || v.tick;
+      if (at_rest) continue;
+      ASSERT_EQ(v.usable & Usable::vector, 0) << number << " " << k;
+      ASSERT_TRUE(v.alert);
+      ASSERT_FALSE(v.protection_available);
+    }
+  }
+  EXPECT_GT(valid_before, 20);
+  EXPECT_GE(states, 16) << "lives of many states";
 }
 
 /// Exclusions and doubts are not left behind with the time base.
