@@ -7,6 +7,7 @@
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
 #include "plumb/report/run_findings.hpp"
+#include "plumb/report/timeline.hpp"
 #include "plumb/report/words.hpp"
 
 namespace plumb {
