@@ -124,8 +124,8 @@ void Player::tell_snapshot() {
   snapshot();
   if (size_ < kSnapshotFrameSize) return;
   stage_.trace.in(Part::snapshots);
-  stage_.trace.bytes("snapshot", bytes_.data() + kSnapshotHeaderSize, size_ - kSnapshotFrameSize);
   if (stage_.tells_memory) tell_memory(stage_.trace, *monitor_);
+  stage_.trace.bytes("snapshot", bytes_.data() + kSnapshotHeaderSize, size_ - kSnapshotFrameSize);
 }
 
 void Player::power_cycle() {
