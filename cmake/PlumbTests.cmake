@@ -234,6 +234,13 @@ if(TARGET plumb_attack_harness)
   set_tests_properties(attacks.quick PROPERTIES LABELS "host;slow" TIMEOUT 900)
 endif()
 
+# The corpus by which two commits are compared: the same twice, and what differs is found.
+if(TARGET plumb_replay)
+  add_test(NAME replay.quick COMMAND bash "${PROJECT_SOURCE_DIR}/tests/replay/quick.sh" "$<TARGET_FILE:plumb_replay>"
+    "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}/replay_test")
+  set_tests_properties(replay.quick PROPERTIES LABELS host TIMEOUT 120)
+endif()
+
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
 if(TARGET plumb_cli)
   plumb_test_executable(plumb_stepper_tests LABEL host ROOMS stepper LIBRARIES plumb_cli
