@@ -324,7 +324,8 @@ EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTe
   const EventMask raised = raise_block_events(view);
   collect(view, raw, raised);
   publish_vector(tests);
-  freshness_.anchor(config_, sample.time_s, motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt());
+  freshness_.anchor(config_, sample.time_s,
+                    motion_in_bound_rad() * gravity_.g_mps2 * least_share_felt(evidence_.usable));
   if (contradicted) freshness_.lapse();
   return raised;
 }
@@ -347,7 +348,8 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
     const double sigma_rad = tilt_sigma_rad(view.used.x_mps2, view.used.covariance);
     slow_motion_.add_turn(view.used.x_mps2, sigma_rad, config_.alert_limit_rad,
                           std::sqrt(judged.evidence.spread_mps2_sq) / gravity_.g_mps2,
-                          sigma_rad * std::sqrt(view.used.samples), slow_motion_.known() ? 0.0 : hidden_turn_rad());
+                          sigma_rad * std::sqrt(view.used.samples),
+                          slow_motion_.known() ? 0.0 : hidden_turn_rad(judged.evidence.usable));
   }
   if (moving_ || !view.used.tested || (slow && !bears_motion(view))) {
     slow_motion_ = before;  // what moves too much says nothing of what may be borne

@@ -256,8 +256,8 @@ double HealthMonitor::motion_in_bound_rad() const noexcept {
 /// greatest of n squares is no less than their mean, and their sum no less than the least eigenvalue of sum h h'. That
 /// is the determinant over the product of the other two, which is no more than the square of their mean; each round
 /// takes the eigenvalue found so far from the trace, and so stays below it.
-double HealthMonitor::least_share_felt() const noexcept {
-  const SensorSet used = in_service_ & evidence_.usable;
+double HealthMonitor::least_share_felt(SensorSet usable) const noexcept {
+  const SensorSet used = in_service_ & usable;
   Mat3 m{};
   for (int i = 0; i < array_.size(); ++i) {
     if (!used.has(i)) continue;
@@ -276,8 +276,8 @@ double HealthMonitor::least_share_felt() const noexcept {
 
 /// The most by which a tool turns in a block whose channels all pass for quiet: a steady turn by t scatters a channel
 /// that feels all of it by t g / sqrt(12), and what noise may reach hides that.
-double HealthMonitor::hidden_turn_rad() const noexcept {
-  const double share = least_share_felt();
+double HealthMonitor::hidden_turn_rad(SensorSet usable) const noexcept {
+  const double share = least_share_felt(usable);
   if (!(share > 0.0) || !(restless_factor_ > 1.0)) return 0.0;  // a row that is a station has no scatter
   double most_mps2 = 0.0;
   for (int i = 0; i < array_.size(); ++i) {

@@ -236,8 +236,8 @@ class HealthMonitor {
   SensorSet culprits() const noexcept;
   void examine_probation(const BlockTests& tests, const BlockView& view) noexcept;
   double motion_in_bound_rad() const noexcept;
-  double least_share_felt() const noexcept;
-  double hidden_turn_rad() const noexcept;
+  double least_share_felt(SensorSet usable) const noexcept;
+  double hidden_turn_rad(SensorSet usable) const noexcept;
   void rescan(const BlockTests& tests) noexcept;
 
   // recalibrating.cpp: the shadow fit
