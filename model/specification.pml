@@ -1,4 +1,4 @@
-/* The state machine of the monitor, written by hand from the design (section 5) and docs/requirements. Nothing here is
+/* The state machine of the monitor, written by hand from docs/requirements and docs/theory.md (section 5). Nothing here is
    generated and nothing of the library is included: lockstep.pml runs the compiled decision layer beside it.
 
    SENSORS sensors in general position. A set of sensors is a mask, bit i stands for sensor i. */

@@ -1,7 +1,7 @@
-/// A start for the fit without iteration (calibration note 8). With x the vector by the datasheet's own map, any set of
-/// sensors of rank 3 that counts linearly puts x on an ellipsoid: x'Qx + 2 l'x = c, nine unknowns with tr Q = 3, linear
-/// least squares. Its centre and its root give gravity in the frame that turns x least; readings over that gravity, by
-/// linear regression, are W and b. One pass over the stations, for any number of sensors.
+/// A start for the fit without iteration (docs/theory.md, section 9.3). With x the vector by the datasheet's own map,
+/// any set of sensors of rank 3 that counts linearly puts x on an ellipsoid: x'Qx + 2 l'x = c, nine unknowns with tr Q
+/// = 3, linear least squares. Its centre and its root give gravity in the frame that turns x least; readings over that
+/// gravity, by linear regression, are W and b. One pass over the stations, for any number of sensors.
 #include <cmath>
 
 #include "fit_internal.hpp"

@@ -139,7 +139,7 @@ double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigure
 }
 
 /// With three sensors a station has one residual, and the fit can bend towards a few stations that err so that the
-/// sound ones look it (calibration note 5). That happens where few degrees of freedom are left.
+/// sound ones look it (docs/theory.md, section 9.6). That happens where few degrees of freedom are left.
 Error doubtful_screening(const Datasheet& datasheet, const FitFigures& report) noexcept {
   constexpr int kFewFreedom = 24;  // from there on not one fit in 2000 was seen to take the wrong stations
   constexpr int kLeastFreedom = 8;

@@ -16,9 +16,10 @@ bool independent(const Datasheet& datasheet, SensorSet delivered) noexcept;
 int usable_stations(const Problem& problem) noexcept;
 
 /// The residual of a station across the tangents of the sphere |g| = G falls into a norm row and n - 3 parity rows
-/// (calibration note 8). With weights L and A = (W'LW)^-1: x = A W'L (r - b), the parity part is p = r - W x - b, the
-/// norm residual is (u'x - G) / sqrt(u'Au) along normal = L W A u / sqrt(u'Au), u the fitted direction; the projector
-/// is L - LWAW'L + normal normal'. All but `normal` is shared by stations with the same sensors and count, and kept.
+/// (docs/theory.md, section 9.2). With weights L and A = (W'LW)^-1: x = A W'L (r - b), the parity part is p = r - W x -
+/// b, the norm residual is (u'x - G) / sqrt(u'Au) along normal = L W A u / sqrt(u'Au), u the fitted direction; the
+/// projector is L - LWAW'L + normal normal'. All but `normal` is shared by stations with the same sensors and count,
+/// and kept.
 class StationSolver {
  public:
   StationSolver(const Problem& problem, const Parameters& theta, double misfit_variance) noexcept;
@@ -80,9 +81,9 @@ class StationSolver {
 };
 
 /// Beyond this many standard deviations a station is an outlier, and beyond the other its pull is held (Huber).
-/// `freedom` = 1 and 2 are the usual 95 % constants (calibration note 5). A residual of more dimensions is longer by
-/// nature; the outlier limit stays three times the other, for real misfit is no noise and differs from sensor to
-/// sensor.
+/// `freedom` = 1 and 2 are the usual 95 % constants (docs/theory.md, section 9.6). A residual of more dimensions is
+/// longer by nature; the outlier limit stays three times the other, for real misfit is no noise and differs from sensor
+/// to sensor.
 double outlier_limit(int freedom) noexcept;
 double huber_limit(int freedom) noexcept;
 

@@ -15,7 +15,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-/// A geometry that needs more errors than this to tell two sensors apart is of no use (isolation note, bar 13).
+/// A geometry that needs more errors than this to tell two sensors apart is of no use (docs/theory.md, section 8.2).
 constexpr double kMostErrors = 40.0;
 constexpr double kUnseenBias = 0.05;
 /// Two axes closer than this are the same for wiring: to exchange them changes nothing.

@@ -12,7 +12,7 @@ namespace {
 enum Field : int { kLatitude = 0, kElevation = 1, kDepth = 2, kDensity = 3, kThickness = 4, kSigma = 5 };
 constexpr int kValue = 0;  // of given_gravity and table_gravity
 
-// WGS84 (domain note 2).
+// WGS84 (docs/theory.md, section 1.3).
 constexpr double kEquator_mps2 = 9.7803253359;
 constexpr double kSomigliana = 0.00193185265241;
 constexpr double kEccentricity2 = 0.00669437999013;

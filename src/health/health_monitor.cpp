@@ -17,7 +17,7 @@ static_assert(noexcept(std::declval<HealthMonitor&>().step(std::declval<const Sa
 
 namespace {
 
-/// Output beyond the calibrated span by more than this is unconfirmed (design, section 4).
+/// Output beyond the calibrated span by more than this is unconfirmed (docs/theory.md, section 9.7).
 constexpr double kTemperatureMargin_degc = 5.0;
 constexpr double kRestlessRate = 1e-6;
 /// Least k for which more than k faults among n are rarer than `risk`, each sensor faulty with `prior`.

@@ -7,8 +7,8 @@ namespace test {
 namespace common_bias_test {
 namespace {
 
-/// Safety note 5: parity of the paper's tool sees half of it and the vector takes 1.5 b along z; with the fourth sensor
-/// the other way round parity sees all and the vector takes nothing.
+/// docs/theory.md, section 1.4: parity of the paper's tool sees half of it and the vector takes 1.5 b along z; with the
+/// fourth sensor the other way round parity sees all and the vector takes nothing.
 TEST(CommonBiasOf, TheTetrahedronAndItsFourthSensorReversed) {
   const CommonBias plain = common_bias(tetrahedron());
   EXPECT_NEAR(plain.visibility, 0.5, 1e-15);

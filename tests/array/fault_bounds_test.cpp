@@ -39,7 +39,7 @@ double by_definition(const SensorArray& array, const Readings& slack, int k, int
   return worst;
 }
 
-/// The table of the isolation note, in units of e: rows k = 1.., and the error of the vector.
+/// The table of docs/theory.md, section 8.2, in units of e: rows k = 1.., and the error of the vector.
 TEST(FaultBoundsOf, MatchTheTableOfTheNote) {
   const FaultBounds tetra = fault_bounds(tetrahedron());
   EXPECT_NEAR(tetra.worst_fault(1), 8.0, 1e-9);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kVisible = 1e-9;
 
-/// Safety note 13: swaps among the three on the cone leave every test silent; with the axial one they do not.
+/// docs/theory.md, section 1.5: swaps among the three on the cone leave every test silent; with the axial one they do
+/// not.
 TEST(WiringEffectOf, SwapsOfTheTetrahedron) {
   const SensorArray array = tetrahedron();
   for (int i = 0; i < 3; ++i) {

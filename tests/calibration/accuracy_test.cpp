@@ -1,4 +1,4 @@
-/// The acceptance bar of the fit (calibration note 9): n = 4, 48 attitudes, 2e-4 g0 of noise, 300 tools.
+/// The acceptance bar of the fit (docs/theory.md, section 9.2): n = 4, 48 attitudes, 2e-4 g0 of noise, 300 tools.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// The fit against simulated tools: accuracy, honesty of its covariance, rank, frame (calibration note 9).
+/// The fit against simulated tools: accuracy, honesty of its covariance, rank, frame (docs/theory.md, section 9.2).
 #include "plumb/calibration/calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -85,8 +85,8 @@ TEST(Calibrator, PaperToolReachesTheAcceptanceBar) {
 }
 
 TEST(Calibrator, ConvergesFromTenTimesTheUsualErrors) {
-  // Bias within 0.2 g0, scale within 20 %, two tilts within 10 deg each (calibration note 2, ten times its spread); the
-  // datasheet knows no better than 1x.
+  // Bias within 0.2 g0, scale within 20 %, two tilts within 10 deg each (docs/theory.md, section 9.3, ten times its
+  // spread); the datasheet knows no better than 1x.
   plumb::FitOptions lenient;
   lenient.max_bias_sigmas = 100.0;
   lenient.max_scale_change = 1.0;

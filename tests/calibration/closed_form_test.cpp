@@ -1,4 +1,5 @@
-/// Where a fit starts: with the closed form it gets there from anywhere, in fewer iterations (calibration note 2).
+/// Where a fit starts: with the closed form it gets there from anywhere, in fewer iterations (docs/theory.md,
+/// section 9.3).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -133,7 +134,7 @@ TEST(FitStart, EveryStartHasAName) {
 }
 
 TEST(FitStart, WithThePriorEveryStationSetConverges) {
-  // Calibration note 4: from one station rolled in place to the uniform sphere.
+  // docs/theory.md, section 9.1: from one station rolled in place to the uniform sphere.
   const std::vector<std::pair<std::vector<double>, int>> sets = {{{0.0}, 24},
                                                                  {{30.0}, 24},
                                                                  {{30.0, 60.0}, 12},

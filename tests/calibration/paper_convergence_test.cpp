@@ -1,4 +1,4 @@
-/// How often the paper's calibration ends, and how well, over simulated tools (calibration note 1).
+/// How often the paper's calibration ends, and how well, over simulated tools (docs/theory.md, section 9.4).
 #include <gtest/gtest.h>
 
 #include <algorithm>

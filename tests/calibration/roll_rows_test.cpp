@@ -1,5 +1,5 @@
-/// Stations that share an inclination while the tool rolls: what gravity's length alone cannot see (calibration note
-/// 4).
+/// Stations that share an inclination while the tool rolls: what gravity's length alone cannot see
+/// (docs/theory.md, section 9.5).
 #include <gtest/gtest.h>
 
 #include <cmath>

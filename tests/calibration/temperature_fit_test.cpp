@@ -1,4 +1,4 @@
-// The fit over temperature against the figures of calibration note 7, and its own claims against the truth.
+// The fit over temperature against the figures of docs/theory.md, section 9.7, and its own claims against the truth.
 #include "plumb/calibration/temperature_fit.hpp"
 
 #include <gtest/gtest.h>

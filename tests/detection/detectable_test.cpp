@@ -59,7 +59,7 @@ TEST(MissedShift, MatchesASimulation) {
   EXPECT_NEAR(missed, kTrials * p, 4.0 * std::sqrt(kTrials * p * (1.0 - p)));
 }
 
-/// The domain note's figures: 4.417 + 3.090 for one degree of freedom.
+/// The figures of docs/theory.md, section 7.1: 4.417 + 3.090 for one degree of freedom.
 TEST(DetectableShift, OfOneDegreeIsTheSumOfTwoQuantiles) {
   const double limit = std::sqrt(chi2_tail_quantile(1e-5, 1));
   EXPECT_NEAR(detectable_shift(limit, 1, 1e-3), 4.4172 + 3.0902, 1e-3);

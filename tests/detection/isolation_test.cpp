@@ -205,7 +205,7 @@ TEST(Isolation, WhatTheOthersCannotDenyIsNoFaultOfAWeaklyCheckedMember) {
   EXPECT_GT(denied, 30);
 }
 
-/// Design, section 4, names any set of >= 4 that passes parity and fails the norm as voiding the norm.
+/// In its plain form the rule of docs/theory.md, section 5.3, lets any set of >= 4 that passes parity void the norm.
 /// Counter-example: four of mikoff5's z axes with three coplanar pass parity whatever the fourth reads;
 /// taken literally, its fault would void the norm for ever. Only sets whose members are all checked may.
 // Negative: REQ-061

@@ -25,7 +25,8 @@ ErrorBudget limit_only(double d_mps2) {
   return budget;
 }
 
-/// Isolation note: delta' .05, .005, .002, .0005 g give .261, .082, .052, .026 g and 1.673, 1.636, 1.634, 1.633 g.
+/// docs/theory.md, section 8.3: delta' .05, .005, .002, .0005 g give .261, .082, .052, .026 g
+/// and 1.673, 1.636, 1.634, 1.633 g.
 // Verifies: REQ-017
 TEST(OneAttitude, HasTheNotesFiguresForTheTetrahedron) {
   const double g = 0.9995;

@@ -106,7 +106,7 @@ TEST(SetTest, APerfectlyKnownArrayIsTestedAsWithZerosWrittenOut) {
   EXPECT_TRUE(array.perfectly_known());
 }
 
-/// Safety note 1: an error of the gravity reference within three of its sigmas kills nothing.
+/// docs/theory.md, section 3.5: an error of the gravity reference within three of its sigmas kills nothing.
 // Verifies: REQ-022
 RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);

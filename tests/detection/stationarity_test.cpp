@@ -88,7 +88,7 @@ TEST(Stationarity, AnUnweightedMeanIsAsNoisyAsItsScarcestSamples) {
 
 // Negative: REQ-058
 TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {
-  // Safety note 12: purely axial vibration shakes sensor 4 of the paper's tool three times as much as
+  // docs/theory.md, section 6.2: purely axial vibration shakes sensor 4 of the paper's tool three times as much as
   // the others; a rule that looked at single channels would blame the innocent.
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const double factor = restless_factor(4, 32, 1e-6);

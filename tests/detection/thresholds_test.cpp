@@ -28,8 +28,8 @@ TestSettings one_sample() {
   return s;
 }
 
-/// Domain note 3: false alarms 1e-5, missed 1e-3, integrity 1e-7: 3.0 mg and 0.18 deg at 0.2 mg, 15 mg and 0.90 at 1
-/// mg.
+/// docs/theory.md, section 7.1: false alarms 1e-5, missed 1e-3, integrity 1e-7: 3.0 mg and 0.18 deg at 0.2 mg, 15 mg
+/// and 0.90 at 1 mg.
 // Verifies: REQ-016
 TEST(ThresholdsOf, TheTetrahedronHasTheNotesFigures) {
   const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};

@@ -50,7 +50,7 @@ TEST(NormalGravity, FiveKilometresOfRock) {
   in.layer_count = 1;
   in.layers[0] = {0.0, 2670.0};  // the only layer goes on for ever
   EXPECT_NEAR(normal_gravity(in)->g_mps2 - surface, 4.249e-3, 5e-6);
-  // Table of domain note 2, 2.50 and 2.30 g/cm^3.
+  // Table of docs/theory.md, section 1.3: 2.50 and 2.30 g/cm^3.
   in.layers[0].density_kgpm3 = 2500.0;
   EXPECT_NEAR((normal_gravity(in)->g_mps2 - surface) / kG0_mps2, 0.506e-3, 6e-7);
   in.layers[0].density_kgpm3 = 2300.0;

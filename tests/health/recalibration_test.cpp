@@ -42,7 +42,7 @@ TEST(Recalibration, FindsTheBiasesAndScalesAndLeavesAxesAndTemperatureAlone) {
   }
 }
 
-/// Safety note 11: a fit that may turn the axes hides a shifted mount; this one must not.
+/// docs/theory.md, section 9.8: a fit that may turn the axes hides a shifted mount; this one must not.
 // Negative: REQ-130
 TEST(Recalibration, AShiftedMountIsRefusedNotLaundered) {
   for (int n = 3; n <= std::min(6, kCapacity); ++n) {

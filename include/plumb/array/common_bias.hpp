@@ -1,5 +1,5 @@
 /// A bias that all sensors share (reference voltage, heat): how much of it shows, what it does to the vector, and which
-/// sensors to mount the other way round so that it shows most (safety note 5).
+/// sensors to mount the other way round so that it shows most (docs/theory.md, section 1.4).
 #pragma once
 
 #include "plumb/array/geometry.hpp"

@@ -1,5 +1,5 @@
 /// How large a fault must be so that no error of the healthy sensors can hide it, at any attitude and whatever the
-/// other faulty sensors read (isolation theorem T7). Needs no gravity.
+/// other faulty sensors read (theorem T7). Needs no gravity.
 #pragma once
 
 #include <array>

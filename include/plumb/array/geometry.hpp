@@ -51,7 +51,7 @@ ParityBasis parity_basis(const SensorArray& array, SensorSet used) noexcept;
 /// rank < 3.
 int coplanarity(const SensorArray& array, SensorSet used) noexcept;
 
-/// m_strict = |used| - 1 - c, never below 0 (safety note 4; n-3 is the case of general position).
+/// m_strict = |used| - 1 - c, never below 0 (docs/theory.md, section 5.1; n-3 is the case of general position).
 int strict_grade(const SensorArray& array, SensorSet used) noexcept;
 /// The same of so many sensors whose coplanarity number is known.
 constexpr int strict_grade(int sensors, int coplanarity) noexcept {
@@ -73,7 +73,7 @@ struct FiguresOfMerit {
   double nearest_angle_rad = 0.0;  ///< smallest angle between two measurement lines
   double min_triple_det = 0.0;     ///< smallest |det| over all triples
   double max_triple_condition = 0.0;
-  double common_bias_visibility = 0.0;  ///< |V'1|/|1|, V = parity basis (safety note 5)
+  double common_bias_visibility = 0.0;  ///< |V'1|/|1|, V = parity basis (docs/theory.md, section 1.4)
   int coplanarity = 0;
   int strict_grade = 0;
   int parity_grade = 0;

@@ -1,5 +1,5 @@
 /// Mirrors: what a wrong reading or a wrong mounting of one sensor of a triple must be so that the triple still
-/// measures the right length (isolation theorem T1).
+/// measures the right length (theorem T1).
 #pragma once
 
 #include "plumb/array/geometry.hpp"

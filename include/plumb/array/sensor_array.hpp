@@ -45,7 +45,7 @@ struct RowUncertainty {
   std::array<double, kCapacity> misfit_mps2{};  ///< 1 sigma per sensor and attitude
 
   /// Covariance of the errors of sensors i and j at gravity vector g [m/s^2]: z' Cov_ij z with
-  /// z = (g, 1), plus misfit^2 where i == j. Safety note 10. [(m/s^2)^2]
+  /// z = (g, 1), plus misfit^2 where i == j. docs/theory.md, section 3.3. [(m/s^2)^2]
   double at(int i, int j, const Vec3& g_mps2) const noexcept { return at(i, j, AttitudeProducts(g_mps2)); }
   /// The same for many pairs at one attitude.
   double at(int i, int j, const AttitudeProducts& attitude) const noexcept;

@@ -1,6 +1,6 @@
 /// What the recorded attitudes cover, and which ones would tell most next. The planner works with the information
-/// about the 4n fit parameters (calibration note 1) with the datasheet as prior, so that it ranks attitudes from the
-/// first station on.
+/// about the 4n fit parameters (docs/theory.md, section 9.1) with the datasheet as prior, so that it ranks attitudes
+/// from the first station on.
 #pragma once
 
 #include <array>

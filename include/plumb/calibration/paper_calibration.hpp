@@ -1,7 +1,7 @@
 /// The paper's own auto-calibration, kept beside the forward fit so that its method can be run, shown and compared. It
 /// sees the length of gravity alone: of the n(n+1) parameters 9 combinations show in the data whatever n is, the
-/// Hessian is singular (calibration note 1), and what the 9 leave open (the common frame, all parity) stays where the
-/// datasheet had it. `calibration.hpp` is the fit to use.
+/// Hessian is singular (docs/theory.md, section 9.4), and what the 9 leave open (the common frame, all parity) stays
+/// where the datasheet had it. `calibration.hpp` is the fit to use.
 #pragma once
 
 #include <array>

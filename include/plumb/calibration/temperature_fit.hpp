@@ -1,6 +1,6 @@
 /// Calibration over temperature: one fit of axes, scale factors and biases to stations at several temperatures, scale
 /// and bias of every sensor polynomials of one order in the temperature. Inside they are Chebyshev polynomials over the
-/// span of use (calibration note 7); the result is in powers of T_S - T_C, as `SensorCoefficients` has them.
+/// span of use (docs/theory.md, section 9.7); the result is in powers of T_S - T_C, as `SensorCoefficients` has them.
 #pragma once
 
 #include <array>

@@ -67,7 +67,7 @@ inline constexpr int kCapacity = PLUMB_CAPACITY;
 inline constexpr bool kRecalibrates = PLUMB_RECALIBRATION != 0;
 inline constexpr bool kCalibratesItself = PLUMB_FIRST_CALIBRATION != 0;
 
-/// Largest number of sensors for which the strict isolation grade is decided (design, section 2).
+/// Largest number of sensors for which the strict isolation grade is decided (docs/theory.md, section 5.1).
 inline constexpr int kStrictCapacity = kCapacity < 16 ? kCapacity : 16;
 
 /// Longest sliding window, in samples.

@@ -1,4 +1,5 @@
-/// Which false-alarm rate the limits of parity and norm keep once a calibration stands behind them (safety note 10).
+/// Which false-alarm rate the limits of parity and norm keep once a calibration stands behind them (docs/theory.md,
+/// section 3.6).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// Limits of the mean absolute error of a triple: given (the paper's delta_F), or computed from noise, geometry and
-/// what is systematic (isolation note 5, safety note 10).
+/// what is systematic (docs/theory.md, section 2.3).
 #pragma once
 
 #include <limits>

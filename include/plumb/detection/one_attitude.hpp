@@ -1,4 +1,4 @@
-/// What the length of gravity isolates at a single attitude, and where it is blind (isolation theorem T8): a triple
+/// What the length of gravity isolates at a single attitude, and where it is blind (theorem T8): a triple
 /// with one faulty sensor passes near two errors, zero and the mirror value of `mirror_error`.
 #pragma once
 

@@ -1,6 +1,6 @@
 /// What one block of quiet samples says about one set of sensors: can a single acceleration of
 /// gravity's length still explain their readings? Parity residual and norm residual with limits that
-/// carry both noise and what is systematic (safety notes 1 and 10).
+/// carry both noise and what is systematic (docs/theory.md, section 3.2).
 #pragma once
 
 #include <array>
@@ -89,7 +89,7 @@ struct SetTest {
   double norm_alarm_limit(const TestLimits& limits) const noexcept;
   double norm_reject_limit(const TestLimits& limits) const noexcept;
 
-  /// A set that was not tested is alive (safety note 4). Comparisons are written so that a NaN,
+  /// A set that was not tested is alive (docs/theory.md, section 5.2). Comparisons are written so that a NaN,
   /// which cannot arise from finite readings, would leave the set alive and raise the alarm.
   bool alive(const TestLimits& limits) const noexcept { return !tested || !(combined() > reject_limit(limits)); }
   bool parity_alive(const TestLimits& limits) const noexcept {

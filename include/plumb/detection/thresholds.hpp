@@ -52,8 +52,8 @@ struct Thresholds {
   /// others, fault[2m] is accused by every explanation with at most m faults.
   FaultBounds sure{};
   /// Bound on the tilt error at any attitude while nothing alarms: the worst single bias that can go undetected, noise
-  /// and calibration (domain note 3), and the turn by the acceleration allowed for. pi where parity does not check
-  /// every sensor.
+  /// and calibration (docs/theory.md, section 7.1), and the turn by the acceleration allowed for. pi where parity does
+  /// not check every sensor.
   double protection_rad = 0.0;
 };
 

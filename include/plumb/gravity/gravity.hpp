@@ -12,7 +12,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Default 1-sigma of a gravity model [m/s^2]: 0.15 mg (anomaly, density and latitude, domain note 2).
+/// Default 1-sigma of a gravity model [m/s^2]: 0.15 mg (anomaly, density and latitude, docs/theory.md, section 1.3).
 inline constexpr double kDefaultGravitySigma_mps2 = 0.15e-3 * kG0_mps2;
 
 enum class GravityModel : std::uint8_t { normal, paper, value, table };

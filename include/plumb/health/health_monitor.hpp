@@ -82,10 +82,10 @@ class HealthMonitor {
   const Verdict& verdict() const noexcept { return verdict_; }
 
   /// Leaves `failed` at the next step: the named sensors return to service where they deliver.
-  /// Error: wrong_key. Ignored in any other state (design, section 5).
+  /// Error: wrong_key. Ignored in any other state (model/state_table.txt).
   Expected<void> reset(std::uint64_t key, SensorSet sensors) noexcept;
 
-  /// Asks for new biases and scales of the sensors in service (design, section 5): taken at the next step. Error:
+  /// Asks for new biases and scales of the sensors in service: taken at the next step. Error:
   /// wrong_state (value = HealthState) unless the monitor is nominal, isolated or degraded with no alarm on record, or
   /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare; always in
   /// a build without `kRecalibrates`. may_accelerate (value = the bound [m/s^2]) where an acceleration is allowed for:

@@ -1,7 +1,7 @@
 /// In-flight recalibration: biases and scales of the sensors in service are estimated anew in the shadow of
 /// the calibration in force; axes and temperature coefficients are held. Axes stay those of the commissioning
 /// calibration because gravity cannot tell a common turn of the axes from none: a fit that is free to turn them
-/// launders a shifted mount, one with frozen axes shows it in the parity residual (design, section 5).
+/// launders a shifted mount, one with frozen axes shows it in the parity residual (docs/theory.md, section 9.8).
 /// A calibration that the host brings goes the same way, with its biases and scales in the place of the fitted ones.
 ///
 /// The first calibration of a monitor that was given none goes the same way too, but is a full fit: axes, scales and

@@ -12,7 +12,7 @@ enum class HealthState : std::uint8_t { nominal, suspect, isolated, degraded_3_s
 inline constexpr int kStateCount = 6;
 const char* to_string(HealthState state) noexcept;
 
-/// Events in rank order: the first that applies is taken (design, section 5).
+/// Events in rank order: the first that applies is taken (model/state_table.txt).
 enum class HealthEvent : std::uint8_t {
   reset,
   channel_lost,
@@ -93,7 +93,7 @@ struct Qualifier {
   static constexpr std::uint16_t stability_unstated = 512;  ///< of some sensor: no limit holds its drift
 };
 
-/// Grade of an exclusion (design, section 4).
+/// Grade of an exclusion (docs/theory.md, section 5.1).
 enum class Grade : std::uint8_t { none, parity, strict, asserted };
 const char* to_string(Grade grade) noexcept;
 

@@ -1,5 +1,5 @@
 /// The state machine as one constexpr table: it runs in the monitor, it is proven total by the
-/// static_asserts at the end of this file, and `plumb model` prints it. Design, section 5.
+/// static_asserts at the end of this file, and `plumb model` prints it. By hand: model/state_table.txt.
 ///
 /// Two departures from the design's drawing, both to make the code's table exact: "recalibrating" before
 /// any calibration has been accepted is a mode of its own (`initial`), and setting a sensor aside (parity

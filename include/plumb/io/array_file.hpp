@@ -1,5 +1,5 @@
 /// The array file (TOML): one array of sensors, where it is, how its log looks, how it is watched.
-/// Contract: design, section 6.
+/// Contract: docs/array-file.md, "The array file".
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
-/// Exit codes of the tool (design, section 6).
+/// Exit codes of the tool (docs/array-file.md, "Exit codes and errors").
 enum class ExitCode {
   done = 0,
   other = 1,  ///< anything else, unwritable output among it

@@ -16,7 +16,7 @@ double chi2_tail(double x, int dof) noexcept;
 /// x with P(chi^2_dof > x) = p. Relative error of p below 1e-9 for dof 1..96, p in [1e-12, 0.999].
 double chi2_tail_quantile(double p, int dof) noexcept;
 /// q with P(mean of n half-normals |Z| > q) = alpha, by the Lugannani-Rice saddlepoint
-/// (isolation note 5): within 0.5 % of numerical convolution for n = 1..1024, alpha 1e-2..1e-9.
+/// (docs/theory.md, section 2.3): within 0.5 % of numerical convolution for n = 1..1024, alpha 1e-2..1e-9.
 /// The limit of a triple's MAE is s_T * q(N, alpha). n = 1 is exact.
 double half_normal_mean_quantile(int n, double alpha) noexcept;
 

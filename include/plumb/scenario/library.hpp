@@ -17,8 +17,8 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace scenario {
 
-/// White noise of one sample of the paper's tool: the paper prints none; 2e-4 g0 is the figure that the
-/// calibration note works with, and gives MAEs of the size of Table 2 after calibration.
+/// White noise of one sample of the paper's tool: the paper prints none; 2e-4 g0 is the figure of
+/// docs/theory.md, section 9.2, and gives MAEs of the size of Table 2 after calibration.
 inline constexpr double kPaperNoise_mps2 = 2e-4 * kG0_mps2;
 inline constexpr double kPaperScale_VpMps2 = 3.0 / kG0_mps2;  ///< 3 V/g0
 inline constexpr double kPaperFullScale_V = 5.0;              ///< 1.67 g0: +-3 V faults lie inside it

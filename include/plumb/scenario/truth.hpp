@@ -23,7 +23,7 @@ struct Tool {
   std::array<Vec3, kCapacity> lever_arm_m{};  ///< of each sensor from the axis of rotation, tool frame
 };
 
-/// How far a truth may lie from the datasheet (defaults: calibration note). `uniform` draws within
+/// How far a truth may lie from the datasheet (defaults: docs/theory.md, section 9.2). `uniform` draws within
 /// +- the span, `normal` takes the span as 1 sigma.
 struct TruthSpans {
   enum class Shape : std::uint8_t { uniform, normal };
