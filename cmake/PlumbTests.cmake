@@ -193,6 +193,15 @@ if(PLUMB_PYTHON3)
   set_tests_properties(tests.assert_something tests.without_assertions_are_found PROPERTIES LABELS trace TIMEOUT 120)
 endif()
 
+# What a comment cites exists: pages and their sections, theorems, equations, requirements; and the check sees what does not.
+if(PLUMB_PYTHON3)
+  add_test(NAME docs.citations_resolve
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/citations.py" "${PROJECT_SOURCE_DIR}")
+  add_test(NAME docs.broken_citations_are_found
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/citations.py" --self-test)
+  set_tests_properties(docs.citations_resolve docs.broken_citations_are_found PROPERTIES LABELS trace TIMEOUT 120)
+endif()
+
 # The manual page as man reads it, the completion as the shells do, and the guided tour as it is printed.
 if(TARGET plumb_tool)
   add_test(NAME cli.manual COMMAND bash "${PROJECT_SOURCE_DIR}/tests/cli/manual.sh" "$<TARGET_FILE:plumb_tool>"
