@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Resolves every citation in comments: `docs/NAME.md`, with a section or a "heading"; theorems T1, T2 ...; equations of the
-paper; requirement ids. What is cited must exist, and nothing may be cited that is not in the project.
+paper; requirement ids. What is cited must exist, and nothing may be cited that is not in the project. The links of the pages
+among one another lead somewhere, too.
 
 citations.py ROOT        every file of the folders below
 citations.py --self-test each rule finds what it is for
@@ -101,9 +102,29 @@ class House:
             if name not in known:
                 yield f"docs/theory.md: no theorem {name} in proofs/"
 
+    def anchors_of(self, file):
+        """As GitHub makes them: in small letters, without marks, spaces as hyphens; and those written by hand."""
+        text = re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.M | re.S)
+        headings = re.findall(r"^#+ (.+?)\s*$", text, re.M)
+        plain = [re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", h) for h in headings]
+        made = {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in plain}
+        return made | set(re.findall(r'<a id="([^"]+)"', text))
+
+    def wrong_links(self):
+        """Links from one page to another, or to a heading of it, lead somewhere."""
+        pages = [self.root / name for name in ("README.md", "CONTRIBUTING.md")] + sorted((self.root / "docs").rglob("*.md"))
+        for page in (p for p in pages if p.is_file()):
+            text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+            for target, anchor in re.findall(r"\]\(([^)#\s:]*)(?:#([^)\s]+))?\)", text):
+                file = page.parent / target if target else page
+                if not file.exists():
+                    yield f"{page.relative_to(self.root)}: links to {target}, which does not exist"
+                elif anchor and file.suffix == ".md" and anchor not in self.anchors_of(file):
+                    yield f"{page.relative_to(self.root)}: {target or 'itself'} has no anchor #{anchor}"
+
     def check(self):
         """(what is wrong, how many citations of sections and theorems were met)"""
-        found, met = list(self.wrong_proofs()), 0
+        found, met = list(self.wrong_proofs()) + list(self.wrong_links()), 0
         for folder in FOLDERS:
             for file in sorted((self.root / folder).rglob("*")):
                 if file.suffix not in SUFFIXES or not file.is_file():
@@ -145,7 +166,10 @@ def self_test():
         code.write_text("")
         (root / "docs/theory.md").write_text(theory + "`T1_imagined`\n")
         assert ["T1_imagined" in one for one in House(root).check()[0]] == [True]
-    print(f"each of {len(broken) + 1} broken citations is found, {len(sound)} sound ones pass")
+        for link, why in {"gone.md": "does not exist", "#13-gone": "no anchor", "theory.md#gone": "no anchor"}.items():
+            (root / "docs/theory.md").write_text(theory + f"[sound](theory.md#12-more) [broken]({link})\n")
+            assert [why in one for one in House(root).check()[0]] == [True], link
+    print(f"each of {len(broken) + 4} broken citations is found, {len(sound)} sound ones pass")
 
 
 def main():
