@@ -179,11 +179,12 @@ class Finder:
 
 
 def sources(root, arguments):
-    """The decision code and the isolation rule: of `record.cpp` what turns answers at several attitudes into culprits."""
+    """The decision code and the isolation rule: of `diagnosis.cpp` what turns answers at several attitudes into culprits."""
     header = ["-x", "c++", *arguments]
     sources = {
         "src/health/decision.cpp": None,
-        "src/health/record.cpp": {"vote", "culprits", "witnesses"},
+        "src/health/serve_event.cpp": None,
+        "src/health/diagnosis.cpp": {"vote", "culprits", "witnesses"},
         "src/detection/isolation.cpp": None,
         "src/detection/reference_doubt.cpp": None,
         "include/plumb/health/decision.hpp": {"decide"},

@@ -31,8 +31,8 @@ NOTICE_MOST = ("IsolationOracle.", "Induction.", "Decision.")
 INDUCTION = ("tests/health/induction_test.cpp", "tests/health/transition_table_test.cpp",
              "tests/health/decision_test.cpp")
 # The sources that have mutants, and the tests that compile a changed header themselves: each is a library of its own.
-APART = ("src/health/decision.cpp", "src/health/record.cpp", "src/detection/isolation.cpp",
-         "src/detection/reference_doubt.cpp", *INDUCTION)
+APART = ("src/health/decision.cpp", "src/health/serve_event.cpp", "src/health/diagnosis.cpp",
+         "src/detection/isolation.cpp", "src/detection/reference_doubt.cpp", *INDUCTION)
 # Where a changed header is compiled anew; all else that reads it keeps the original.
 READERS = {
     "include/plumb/health/decision.hpp": ("src/health/decision.cpp", *INDUCTION),

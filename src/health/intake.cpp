@@ -101,6 +101,22 @@ Readings readings_of(const SensorModel& model, const Sample& sample, double temp
   return readings_of(model, nothing, sample, temperature_degc, gate);
 }
 
+/// y = h.g is what the sensors feel of gravity; turning adds -h.(w x (w x r)). A rate or an arm that the host got wrong
+/// may make of a reading what is no reading.
+Readings Intake::read(const InForce& in_force, const Settings& settings, const Sample& sample,
+                      GateResult& gate_result) noexcept {
+  Readings y = readings_of(in_force.model, coefficients, sample, temperature_degc, gate_result);
+  if (!rotation.turning || !models_rotation(settings)) return y;
+  const Vec3& w = rotation.rate_radps;
+  for (int i = 0; i < in_force.array.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    if (!gate_result.usable.has(i)) continue;
+    const double turning = dot(in_force.array.axis(i), cross(w, cross(w, settings.lever_arm_m[a])));
+    keep_reading(i, y[a] + turning, y, gate_result);
+  }
+  return y;
+}
+
 SensorSet SilenceCounter::note(SensorSet usable, int n, int confirm) noexcept {
   SensorSet silent;
   for (int i = 0; i < n; ++i) {

@@ -10,10 +10,11 @@ inline namespace PLUMB_ABI {
 bool HealthMonitor::core_holds() const noexcept {
   // No index may lead out of the object before the sum over all of it has been compared. The number of sensors stands
   // in three places; one write over all of them may leave them equal and beyond every index, so their range counts too.
-  const int n = gate_.size();
-  const bool fits = n >= 3 && n <= kCapacity && array_.size() == n && model_.size == n &&
-                    mae_.fits(triple_count_of(n), config_.window) && block_.size() >= 0 &&
-                    block_.size() < config_.window;
+  const MonitorState& s = state_;
+  const int n = s.intake.gate.size(), window = s.settings.config.window;
+  const bool fits = n >= 3 && n <= kCapacity && s.in_force.array.size() == n && s.in_force.model.size == n &&
+                    s.window.mae.fits(triple_count_of(n), window) && s.window.block.size() >= 0 &&
+                    s.window.block.size() < window;
   return fits && folded(storage_sum<StoragePart::core>(*this)) == core_sum_;
 }
 
@@ -24,8 +25,7 @@ bool HealthMonitor::core_holds() const noexcept {
 /// Everything else, but for clocks, counters and what single channels did in the last samples: a flip in those costs a
 /// block, or the sensor whose record it is.
 bool HealthMonitor::steady_holds() const noexcept {
-  return steady_now() == steady_sum_ && block_.holds() && raw_.holds() && mae_.holds() && near_holds() &&
-         coefficients_.hold(model_);
+  return steady_now() == steady_sum_ && state_.window.holds() && state_.intake.coefficients.hold(state_.in_force.model);
 }
 
 /// A monitor that was never configured has a mark in place of the sum. Without that, one flipped bit would pass for it,
@@ -44,16 +44,16 @@ void HealthMonitor::seal() noexcept {
 /// that was never configured, in `failed`, until it is configured or restored.
 const Verdict& HealthMonitor::lose_memory(const Sample& sample) noexcept {
   TransitionRecord record;
-  record.sequence = sequence_ + 1;
+  record.sequence = state_.requests.sequence + 1;
   record.time_s = sample.time_s;
-  record.from = state_of(mode_);
+  record.from = state_of(state_.machine.mode);
   record.to = HealthState::failed;
   record.cause = Cause::memory;
   configured_ = false;
   core_sum_ = kNeverConfigured;
   verdict_ = Verdict{};
   verdict_.time_s = sample.time_s;
-  verdict_.sample = counters_.samples;
+  verdict_.sample = state_.counters.samples;
   verdict_.state = HealthState::failed;
   verdict_.qualifiers = Qualifier::unproven;
   verdict_.cause = Cause::memory;

@@ -1,8 +1,7 @@
-// What a verdict says: the figures of the last block, who is in and who is out, what may be used.
+#include "plumb/health/publish.hpp"
+
 #include <cmath>
 #include <cstring>
-
-#include "block_view.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -30,203 +29,178 @@ bool has_variances(const Mat3& covariance) noexcept {
   return variance(0) && variance(1) && variance(2);
 }
 
-}  // namespace
-
-void HealthMonitor::publish_decision(const BlockView& view) noexcept {
-  verdict_.decided_by = view.decided_by;
-  verdict_.statistic = view.statistic;
-  verdict_.limit = view.limit;
-  verdict_.margin = view.limit > 0.0 ? 1.0 - view.statistic / view.limit : 0.0;
-  verdict_.parity = view.used.parity;
-  verdict_.parity_limit = view.used.parity_rows > 0 ? view.used.parity_alarm_limit(limits_) : 0.0;
-  verdict_.mae_worst_mps2 = view.mae_worst_mps2;
-  verdict_.mae_worst_limit_mps2 = view.mae_limit_mps2;
-  verdict_.triples_tested = view.triples_tested;
-  verdict_.triples_passed = view.triples_passed;
-  const bool whole = evidence_.usable.contains(in_service_);
-  const LeastSquares map = whole ? map_ : least_squares(array_, in_service_ & evidence_.usable);
-  for (int i = 0; i < array_.size(); ++i) {
-    const auto a = static_cast<size_t>(i);
-    const double check = in_service_.has(i) ? 1.0 - dot(array_.axis(i), map.column[a]) : 0.0;
-    verdict_.drift_mps2_per_h[a] = static_cast<float>(trend_.rate_mps2_per_h(i, check));
-  }
-}
-
-void HealthMonitor::give_notice(double time_s) noexcept {
-  Cause cause = Cause::none;
-  if (inhibit_notice_) {
-    cause = inhibited_ ? Cause::inhibited : Cause::released;
-    inhibit_notice_ = false;
-  } else if (calibration_notice_) {
-    cause = Cause::calibration_contradicted;
-    calibration_notice_ = false;
-  } else if (reference_notice_ != ReferenceKind::none) {
-    cause = reference_notice_ == ReferenceKind::common_scale ? Cause::common_scale : Cause::common_bias;
-    reference_notice_ = ReferenceKind::none;
-  }
-  if (cause == Cause::none) return;
-  TransitionRecord& record = verdict_.transition;
-  record.sequence = ++sequence_;
-  record.time_s = time_s;
-  record.from = record.to = state_of(mode_);
-  record.cause = cause;
-  record.statistic = verdict_.statistic;
-  record.limit = verdict_.limit;
-}
-
-std::uint16_t HealthMonitor::usable_bits() const noexcept {
-  const bool vector = verdict_.validity == Validity::valid || verdict_.validity == Validity::degraded;
-  const double across = across_tool(verdict_.gravity_mps2);
-  const bool toolface = across >= std::sin(kLeastInclination_rad) * norm(verdict_.gravity_mps2);
-  const bool reference = verdict_.reference.kind == ReferenceKind::none && suspicion_ != Cause::reference;
+std::uint16_t qualifiers_of(const MonitorState& s) noexcept {
   const auto when = [](bool holds, std::uint16_t which) { return holds ? static_cast<unsigned>(which) : 0U; };
   return static_cast<std::uint16_t>(
-      when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
-      when(verdict_.protection_available, Usable::protection_level) |
-      when(size_class_ == SizeClass::all_configured || size_class_ == SizeClass::reduced, Usable::monitored) |
-      when(is_fresh() && verdict_.validity != Validity::held && !slow_motion_.slow(), Usable::stationary) |
-      when(!temperature_out_ && temperature_rate_.slow(), Usable::temperature) |
-      when(!owes_calibration() && !three_sensor_fit_, Usable::calibration) | when(reference, Usable::reference));
+      when(s.machine.unproven, Qualifier::unproven) | when(s.last.moving, Qualifier::moving) |
+      when(s.machine.mode == Mode::initial, Qualifier::initial_calibration) |
+      when(!s.machine.sensors.set_aside.empty(), Qualifier::provisional) |
+      when(s.machine.exhausted, Qualifier::exhausted) |
+      when(s.service.size == SizeClass::critical, Qualifier::no_redundancy) |
+      when(s.in_force.three_sensor_fit, Qualifier::three_sensor_fit) |
+      when(s.requests.inhibited, Qualifier::inhibited) |
+      when(!(s.settings.config.acceleration_bound_mps2 > 0.0), Qualifier::standstill_assumed) |
+      when(!s.settings.stability_stated, Qualifier::stability_unstated));
 }
 
-/// Whether the vector of the last block is that of this sample too.
-bool HealthMonitor::is_fresh() const noexcept {
-  return !moving_ && have_evidence_ && freshness_.holds(config_, clock_.last_s() - evidence_time_s_);
+void publish_sensors(const MonitorState& s, Verdict& v) noexcept {
+  const SensorLedger& sensors = s.machine.sensors;
+  v.configured = s.in_force.array.all();
+  v.in_service = sensors.in_service;
+  v.set_aside = sensors.set_aside;
+  v.excluded = sensors.excluded;
+  v.absent = sensors.absent;
+  v.noisy = s.facts.noisy() & sensors.in_service;
+  v.stuck = s.facts.stuck() & sensors.in_service;
+  v.contradicted_clip = s.facts.full_scale() & sensors.in_service;
+  v.restless = s.last.restless;
+  v.sensor_cause = s.facts.causes();
 }
 
-Validity HealthMonitor::validity() const noexcept {
-  if (mode_ == Mode::failed || owes_calibration() || !have_evidence_) return Validity::invalid;
-  if (!has_variances(verdict_.covariance)) return Validity::invalid;
-  if (!is_fresh()) return Validity::held;
-  const bool bounded = scan_.protection_available && scan_.protection_rad <= config_.alert_limit_rad;
-  if (slow_motion_.slow() && !bounded) return Validity::held;
-  const Mode mode = published_mode();
-  if (temperature_out_ || partial_) return Validity::unconfirmed;
-  if (size_class_ == SizeClass::critical && three_sensor_fit_) return Validity::unconfirmed;
+void publish_diagnosis(const MonitorState& s, Verdict& v) noexcept {
+  const Diagnosis& d = s.diagnosis;
+  v.suspects = d.episode().open ? d.scan().suspects : SensorSet{};
+  v.fewest_faults = d.scan().fewest_faults;
+  v.grade = d.last_grade();
+  v.strict_grade = d.isolation().strict_grade();
+  v.parity_grade = d.isolation().parity_grade();
+  v.live_hypotheses = d.live();
+  v.stations_on_record = d.episode().stations.size();
+}
+
+}  // namespace
+
+Validity validity_of(const MonitorState& s) noexcept {
+  const DecisionState& machine = s.machine;
+  if (machine.mode == Mode::failed || s.in_force.owes_calibration() || !s.last.known) return Validity::invalid;
+  if (!has_variances(s.last.covariance)) return Validity::invalid;
+  if (!s.is_fresh()) return Validity::held;
+  const bool bounded = s.diagnosis.bounded(s.settings.config.alert_limit_rad);
+  if (s.studies.slow_motion.slow() && !bounded) return Validity::held;
+  const Mode mode = s.published_mode();
+  if (s.intake.temperature_out || s.last.partial) return Validity::unconfirmed;
+  if (s.service.size == SizeClass::critical && s.in_force.three_sensor_fit) return Validity::unconfirmed;
   if (mode == Mode::degraded) return Validity::degraded;
   // The length itself is in doubt: by it, and by nothing else, some explanations are taken for inconsistent.
-  if (mode == Mode::suspect && suspicion_ == Cause::reference) return Validity::unconfirmed;
+  if (mode == Mode::suspect && s.diagnosis.suspicion() == Cause::reference) return Validity::unconfirmed;
   // Bounds rest on the calibration, and that has not been borne out yet.
-  const bool believed = isolation_.strict_grade() < 1 || check_.believed();
-  if (check_.refused() || (episode_.open && !believed)) return Validity::unconfirmed;
+  const CalibrationCheck& check = s.studies.check;
+  const bool believed = s.diagnosis.isolation().strict_grade() < 1 || check.believed();
+  if (check.refused() || (s.diagnosis.episode().open && !believed)) return Validity::unconfirmed;
   // An array that cannot bear another fault beside the suspected one has to have been at rest since before.
-  if (!scan_.bears_more && !rest_.holds()) return Validity::unconfirmed;
+  if (!s.diagnosis.scan().bears_more && !s.diagnosis.rested()) return Validity::unconfirmed;
   return bounded ? Validity::valid : Validity::unconfirmed;
 }
 
-/// Of an older vector the bound says nothing now.
-bool HealthMonitor::protected_now(Validity validity) const noexcept {
-  return scan_.protection_available && have_evidence_ && validity != Validity::held && !temperature_out_ &&
-         !owes_calibration() && mode_ != Mode::failed;
+bool is_protected(const MonitorState& s, Validity validity) noexcept {
+  return s.diagnosis.scan().protection_available && s.last.known && validity != Validity::held &&
+         !s.intake.temperature_out && !s.in_force.owes_calibration() && s.machine.mode != Mode::failed;
 }
 
-void HealthMonitor::publish_vector(const BlockTests& tests) noexcept {
-  const SensorSet used = in_service_ & evidence_.usable;
-  const SetTest& t = tests.of(used);
-  if (!t.tested) return;
-  Mat3 covariance = calibration_covariance(array_, t, used);
-  for (size_t k = 0; k < 9; ++k) covariance[k] += t.covariance[k];
-  verdict_.covariance = turned_covariance(frame_, covariance);
-  verdict_.gravity_mps2 = times(frame_, t.x_mps2);
-  verdict_.norm_error_mps2 = t.norm_error_mps2;
+std::uint16_t usable_bits(const MonitorState& s, Validity validity) noexcept {
+  const bool vector = validity == Validity::valid || validity == Validity::degraded;
+  const Vec3& g = s.last.gravity_mps2;
+  const bool toolface = across_tool(g) >= std::sin(kLeastInclination_rad) * norm(g);
+  const bool reference = s.studies.gravity.told() == ReferenceKind::none && s.diagnosis.suspicion() != Cause::reference;
+  const bool monitored = s.service.size == SizeClass::all_configured || s.service.size == SizeClass::reduced;
+  const auto when = [](bool holds, std::uint16_t which) { return holds ? static_cast<unsigned>(which) : 0U; };
+  return static_cast<std::uint16_t>(
+      when(vector, Usable::vector) | when(vector, Usable::inclination) | when(vector && toolface, Usable::toolface) |
+      when(is_protected(s, validity), Usable::protection_level) | when(monitored, Usable::monitored) |
+      when(s.is_fresh() && validity != Validity::held && !s.studies.slow_motion.slow(), Usable::stationary) |
+      when(!s.intake.temperature_out && s.studies.temperature_rate.slow(), Usable::temperature) |
+      when(!s.in_force.owes_calibration() && !s.in_force.three_sensor_fit, Usable::calibration) |
+      when(reference, Usable::reference));
 }
 
-/// What every sample changes.
-void HealthMonitor::publish_sample(const Sample& sample) noexcept {
-  Verdict& v = verdict_;
-  v.time_s = sample.time_s;
-  v.sample = counters_.samples;
-  v.clipped = clipped_;
-  v.not_finite = not_finite_;
-  v.temperature_degc = last_temperature_degc_;
-  v.temperature_rate_degc_per_min = temperature_rate_.degc_per_min();
-  v.block_fill = block_.size();
-  v.mae_all_mps2 = mae_.all_mps2();
-  v.age_s = have_evidence_ ? clock_.last_s() - evidence_time_s_ : 0.0;
-}
-
-/// Whether anything but that has changed since the last verdict though neither a block nor an event says so: by the
-/// host, by time alone, or in the fit that is being made.
-bool HealthMonitor::news() const noexcept {
-  const bool temperature_fine = (verdict_.usable & Usable::temperature) != 0;
-  const bool fine_now = !temperature_out_ && temperature_rate_.slow();
-  const bool stationary = (verdict_.usable & Usable::stationary) != 0;
-  const bool inhibited = (verdict_.qualifiers & Qualifier::inhibited) != 0;
+bool has_news(const MonitorState& s, const Verdict& last) noexcept {
+  const bool temperature_fine = (last.usable & Usable::temperature) != 0;
+  const bool fine_now = !s.intake.temperature_out && s.studies.temperature_rate.slow();
+  const bool stationary = (last.usable & Usable::stationary) != 0;
+  const bool inhibited = (last.qualifiers & Qualifier::inhibited) != 0;
   // An offer that an inhibit keeps waiting raises no event, and is told all the same.
-  const Validity now = validity();
-  const bool fresh = now == Validity::invalid ? is_fresh() : now != Validity::held;
-  const bool stationary_now = fresh && !slow_motion_.slow();
-  const bool offered = verdict_.recalibration.offered != recalibration_.offered();
-  return offered || verdict_.transition.sequence != 0 || verdict_.protection_available != protected_now(now) ||
-         mode_ == Mode::recalibrating || mode_ == Mode::initial || verdict_.validity != now ||
-         temperature_fine != fine_now || stationary != stationary_now || inhibited != inhibited_ ||
-         verdict_.reference_mps2 != gravity_.g_mps2 || verdict_.reference_sigma_mps2 != gravity_.sigma_mps2;
+  const Validity now = validity_of(s);
+  const bool fresh = now == Validity::invalid ? s.is_fresh() : now != Validity::held;
+  const bool stationary_now = fresh && !s.studies.slow_motion.slow();
+  const bool offered = last.recalibration.offered != s.recalibration.offered();
+  return offered || last.transition.sequence != 0 || last.protection_available != is_protected(s, now) ||
+         s.machine.mode == Mode::recalibrating || s.machine.mode == Mode::initial || last.validity != now ||
+         temperature_fine != fine_now || stationary != stationary_now || inhibited != s.requests.inhibited ||
+         last.reference_mps2 != s.in_force.gravity.g_mps2 || last.reference_sigma_mps2 != s.in_force.gravity.sigma_mps2;
 }
 
-void HealthMonitor::publish(const Sample& sample, bool ticked) noexcept {
-  publish_sample(sample);
-  Verdict& v = verdict_;
-  v.tick = ticked && !moving_;
-  v.state = state_of(mode_);
-  v.qualifiers = static_cast<std::uint16_t>(
-      (unproven_ ? Qualifier::unproven : 0) | (moving_ ? Qualifier::moving : 0) |
-      (mode_ == Mode::initial ? Qualifier::initial_calibration : 0) |
-      (!set_aside_.empty() ? Qualifier::provisional : 0) | (exhausted_ ? Qualifier::exhausted : 0) |
-      (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0) |
-      (three_sensor_fit_ ? Qualifier::three_sensor_fit : 0) | (inhibited_ ? Qualifier::inhibited : 0) |
-      (config_.acceleration_bound_mps2 > 0.0 ? 0 : Qualifier::standstill_assumed) |
-      (stability_stated_ ? 0 : Qualifier::stability_unstated));
-  v.config_hash = identity_;
-  v.configured = array_.all();
-  v.in_service = in_service_;
-  v.set_aside = set_aside_;
-  v.excluded = excluded_;
-  v.absent = absent_;
-  v.noisy = noisy_ & in_service_;
-  v.stuck = stuck_ & in_service_;
-  v.contradicted_clip = full_scale_ & in_service_;
-  if (ticked) name_causes(SensorSet{}, Cause::none);
-  v.sensor_cause = sensor_cause_;
-  v.suspects = episode_.open ? scan_.suspects : SensorSet{};
-  v.fewest_faults = scan_.fewest_faults;
-  v.grade = last_grade_;
-  v.strict_grade = isolation_.strict_grade();
-  v.parity_grade = isolation_.parity_grade();
-  v.live_hypotheses = live_;
-  v.stations_on_record = episode_.stations.size();
-  v.recalibration = recalibration_.progress(array_);
-  v.recalibration.wanted_direction = times(frame_, v.recalibration.wanted_direction);
-  if (ticked || v.transition.sequence != 0) v.rotation = rotation_request();
+void publish_report(const MonitorState& s, const BlockReport& report, Verdict& v) noexcept {
+  v.decided_by = report.decided_by;
+  v.statistic = report.statistic;
+  v.limit = report.limit;
+  v.margin = report.limit > 0.0 ? 1.0 - report.statistic / report.limit : 0.0;
+  v.parity = report.used.parity;
+  v.parity_limit = report.used.parity_rows > 0 ? report.used.parity_alarm_limit(s.settings.limits) : 0.0;
+  v.mae_worst_mps2 = report.mae_worst_mps2;
+  v.mae_worst_limit_mps2 = report.mae_limit_mps2;
+  v.triples_tested = report.triples_tested;
+  v.triples_passed = report.triples_passed;
+  const SensorArray& array = s.in_force.array;
+  const SensorSet in_service = s.in_service(), usable = s.last.evidence.usable;
+  const LeastSquares map = usable.contains(in_service) ? s.service.map : least_squares(array, in_service & usable);
+  for (int i = 0; i < array.size(); ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double check = in_service.has(i) ? 1.0 - dot(array.axis(i), map.column[a]) : 0.0;
+    v.drift_mps2_per_h[a] = static_cast<float>(s.studies.trend.rate_mps2_per_h(i, check));
+  }
+}
+
+void publish_sample(const MonitorState& s, const Sample& sample, Verdict& v) noexcept {
+  v.time_s = sample.time_s;
+  v.sample = s.counters.samples;
+  v.clipped = s.window.clipped;
+  v.not_finite = s.window.not_finite;
+  v.latest_mps2 = s.window.latest_mps2;
+  v.temperature_degc = s.intake.temperature_degc;
+  v.temperature_rate_degc_per_min = s.studies.temperature_rate.degc_per_min();
+  v.block_fill = s.window.block.size();
+  v.mae_all_mps2 = s.window.mae.all_mps2();
+  v.age_s = s.last.known ? s.intake.clock.last_s() - s.last.time_s : 0.0;
+}
+
+void publish(const MonitorState& s, const Sample& sample, bool ticked, bool turns, Verdict& v) noexcept {
+  publish_sample(s, sample, v);
+  v.tick = ticked && !s.last.moving;
+  v.cause = s.last.cause;
+  v.state = state_of(s.machine.mode);
+  v.qualifiers = qualifiers_of(s);
+  v.config_hash = s.settings.identity;
+  publish_sensors(s, v);
+  publish_diagnosis(s, v);
+  v.gravity_mps2 = s.last.gravity_mps2;
+  v.covariance = s.last.covariance;
+  v.norm_error_mps2 = s.last.norm_error_mps2;
+  v.noise_factor = s.last.noise_factor;
+  v.noise_correlation = s.last.noise_correlation;
+  v.calibration = s.studies.check.finding();
+  v.recalibration = s.recalibration.progress(s.in_force.array);
+  v.recalibration.wanted_direction = times(s.settings.frame, v.recalibration.wanted_direction);
+  if (turns) v.rotation = s.diagnosis.rotation_request(s.diagnosis_terms());
   v.wants_rotation =
-      v.rotation.wanted || (state_of(mode_) == HealthState::recalibrating && v.recalibration.stations_wanted > 0);
-  v.reference_mps2 = gravity_.g_mps2;
-  v.reference_sigma_mps2 = gravity_.sigma_mps2;
-  publish_claims(validity());
+      v.rotation.wanted || (v.state == HealthState::recalibrating && v.recalibration.stations_wanted > 0);
+  v.reference_mps2 = s.in_force.gravity.g_mps2;
+  v.reference_sigma_mps2 = s.in_force.gravity.sigma_mps2;
+  publish_claims(s, validity_of(s), v);
 }
 
-/// What the verdict claims of this sample.
-void HealthMonitor::publish_claims(Validity validity) noexcept {
-  Verdict& v = verdict_;
+void publish_claims(const MonitorState& s, Validity validity, Verdict& v) noexcept {
   v.validity = validity;
-  v.protection_available = protected_now(validity);
-  v.protection_level_rad = v.protection_available ? scan_.protection_rad : 0.0;
-  v.faults_covered = static_cast<std::uint8_t>(v.protection_available ? scan_.covered : 0);
-  const double sine = across_tool(v.gravity_mps2) / std::fmax(norm(v.gravity_mps2), 1e-9);
+  v.protection_available = is_protected(s, validity);
+  v.protection_level_rad = v.protection_available ? s.diagnosis.scan().protection_rad : 0.0;
+  v.faults_covered = static_cast<std::uint8_t>(v.protection_available ? s.diagnosis.scan().covered : 0);
+  const Vec3& g = s.last.gravity_mps2;
+  const double sine = across_tool(g) / std::fmax(norm(g), 1e-9);
   const bool told =
       v.protection_available && v.protection_level_rad < 0.5 * kPi && sine_of(v.protection_level_rad) < sine;
   v.toolface_protection_rad = told ? angle_with_sine(sine_of(v.protection_level_rad) / sine) : kPi;
-  v.usable = usable_bits();
-  v.alert =
-      !v.protection_available || !(v.protection_level_rad <= config_.alert_limit_rad) || v.validity != Validity::valid;
-}
-
-/// What was valid is only held, from now on and not from the next sample on.
-void HealthMonitor::begin_time_base() noexcept {
-  if (!configured_ || !whole()) return;  // the next block says so
-  clock_.expect_new_time_base();
-  freshness_.lapse();
-  if (verdict_.validity != Validity::invalid) publish_claims(Validity::held);
-  seal();
+  v.usable = usable_bits(s, validity);
+  const bool within = v.protection_available && v.protection_level_rad <= s.settings.config.alert_limit_rad;
+  v.alert = !within || validity != Validity::valid;
 }
 
 }  // namespace PLUMB_ABI

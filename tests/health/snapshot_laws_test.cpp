@@ -71,11 +71,12 @@ bool is_fresh_but_for(const HealthMonitor& monitor, const MonitorSetup& setup, E
   if (!told || bits_of(verdict) != bits_of(fresh->verdict())) return false;
   Bytes a = snapshot_of(monitor);
   Bytes b = snapshot_of(*fresh);
-  // Cause, and refusal as the last field of the last member, are all that differ.
+  // The cause, in the state and in the verdict, and the refusal as the last field of the last member are all that
+  // differ.
   int different = 0;
   if (a.size() != b.size()) return false;
   for (std::size_t k = 0; k + 8 < a.size(); ++k) different += a[k] != b[k] ? 1 : 0;
-  return different == 2;
+  return different == 3;
 }
 
 // Negative: REQ-163

@@ -2,7 +2,9 @@
 /// where the machine goes. Small plain states, so that tests/health/induction_test.cpp can try all of them.
 #pragma once
 
+#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
+#include "plumb/health/monitor_config.hpp"
 #include "plumb/health/transition_table.hpp"
 
 namespace plumb {
@@ -12,6 +14,11 @@ inline namespace PLUMB_ABI {
 struct SensorLedger {
   SensorSet in_service, set_aside, excluded, absent;
   SensorSet readmitted;  ///< have come back by probation once: not a second time
+
+  static constexpr auto fields() noexcept {
+    using L = SensorLedger;
+    return field_list(&L::in_service, &L::set_aside, &L::excluded, &L::absent, &L::readmitted);
+  }
 };
 
 /// Which sensors the events of a step are about.
@@ -25,12 +32,18 @@ struct NamedSensors {
 };
 
 struct DecisionState {
+  SensorLedger sensors;
+  int clean_run = 0;  ///< clean blocks in a row
   Mode mode = Mode::suspect;
   Mode base = Mode::suspect;  ///< what recalibrating was entered from
-  SensorLedger sensors;
   bool unproven = true;
   bool exhausted = false;
-  int clean_run = 0;  ///< clean blocks in a row
+
+  static constexpr auto fields() noexcept {
+    using S = DecisionState;
+    return field_list(&S::sensors, within(&S::clean_run, 0, kMostCleanBlocks), up_to(&S::mode, Mode::failed),
+                      up_to(&S::base, Mode::failed), &S::unproven, &S::exhausted);
+  }
 };
 
 struct DecisionInput {

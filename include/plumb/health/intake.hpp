@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,7 +12,9 @@
 #include "plumb/core/flag.hpp"
 #include "plumb/detection/channel_monitor.hpp"
 #include "plumb/detection/stationarity.hpp"
-#include "plumb/health/monitor_config.hpp"
+#include "plumb/health/in_force.hpp"
+#include "plumb/health/rotation.hpp"
+#include "plumb/health/settings.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -121,6 +124,67 @@ class SilenceCounter {
   static constexpr auto fields() noexcept {
     using S = SilenceCounter;
     return field_list(per_sensor(&S::run_), per_sensor(&S::missed_), &S::rows_);
+  }
+};
+
+/// From a sample to its readings.
+struct Intake {
+  /// While the tool turns by more than this, and no lever arm tells what the sensors feel of it, evidence rests.
+  static constexpr double kStillRate_radps = 0.02;  ///< 0.04 mm/s^2 at 0.1 m
+  /// Output beyond the calibrated span by more than this is unconfirmed.
+  static constexpr double kTemperatureMargin_degc = 5.0;
+
+  ChannelMonitor gate;
+  SilenceCounter silence;
+  CoefficientsAt coefficients;  ///< of the model in force
+  SampleClock clock;
+  Rotation rotation;               ///< as the host said
+  double temperature_degc = 25.0;  ///< last finite one
+  Flag temperature_out;            ///< in the block at hand
+  Flag rotation_locked;            ///< the tool turned in the block at hand
+
+  /// As before the first sample, but for the gate.
+  void power_on() noexcept {
+    silence.clear();
+    coefficients.forget();
+    clock.clear();
+    rotation = Rotation{};
+    temperature_degc = 25.0;
+    temperature_out = rotation_locked = false;
+  }
+  /// Readings of one sample. With a rate and lever arms that are known, what the sensors feel of the turning is off.
+  Readings read(const InForce& in_force, const Settings& settings, const Sample& sample, GateResult& gate) noexcept;
+  /// Temperature and rotation of the block to which the sample belongs. True where the temperature is outside the
+  /// calibrated span and its margin.
+  bool note_conditions(const InForce& in_force, const Settings& settings, const Sample& sample,
+                       bool begins_block) noexcept {
+    if (rotation.turning && !models_rotation(settings)) {
+      const bool still = rotation.rate_known && norm(rotation.rate_radps) <= kStillRate_radps;
+      rotation_locked = rotation_locked || !still;
+    }
+    const double t = sample.temperature_degc;
+    const bool outside = !(t >= in_force.temperature_min_degc - kTemperatureMargin_degc &&
+                           t <= in_force.temperature_max_degc + kTemperatureMargin_degc);
+    temperature_out = begins_block ? outside : temperature_out || outside;  // one hot sample taints its block
+    if (std::isfinite(t)) temperature_degc = t;
+    return outside;
+  }
+
+ private:
+  bool models_rotation(const Settings& settings) const noexcept {
+    return rotation.rate_known && settings.lever_arms_known;
+  }
+
+  friend struct FieldsOf;
+  static constexpr auto core() noexcept { return field_list(&Intake::rotation, &Intake::gate); }
+  static constexpr auto changing() noexcept {
+    using I = Intake;
+    return field_list(&I::coefficients, &I::clock, &I::temperature_degc, &I::temperature_out, &I::rotation_locked);
+  }
+  static constexpr auto fields() noexcept {
+    using I = Intake;
+    return field_list(&I::gate, &I::silence, not_stored(&I::coefficients), &I::clock, &I::rotation,
+                      &I::temperature_degc, &I::temperature_out, &I::rotation_locked);
   }
 };
 

@@ -1,13 +1,16 @@
-/// What the evidence of one block said: shared by the files that judge it and that keep it on record.
+/// What a block says about the sensors in service: by parity, by the length, by the combination MAE of every triple.
 #pragma once
 
-#include "plumb/health/health_monitor.hpp"
+#include "plumb/detection/block_tests.hpp"
+#include "plumb/detection/combination_mae.hpp"
+#include "plumb/detection/triple_set.hpp"
+#include "plumb/health/in_force.hpp"
+#include "plumb/health/settings.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// What a quiet block said about the sensors in service.
-struct HealthMonitor::BlockView {
+struct BlockReport {
   enum class Kind : std::uint8_t { none, clean, soft, alarm, reference };
   SetTest used;
   Kind kind = Kind::none;
@@ -24,6 +27,18 @@ struct HealthMonitor::BlockView {
     return kind == Kind::alarm || (kind == Kind::soft && mode == Mode::suspect);
   }
 };
+
+/// What a block is judged by.
+struct JudgeTerms {
+  const Settings& settings;
+  const InForce& in_force;
+  const CombinationMae& mae;
+  SensorSet in_service;
+  bool suspect = false;  ///< then clean is a part of the limit
+  bool partial = false;  ///< a sensor in service was silent or doubted: the block is not clean
+};
+
+BlockReport judge(const BlockTests& tests, const JudgeTerms& terms) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

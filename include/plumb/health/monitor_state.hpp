@@ -1,0 +1,78 @@
+/// All that a monitor holds beside what it said last, in parts: each is written to by its own functions, and by the
+/// order of a step (health_monitor.cpp). What is asked of several parts at once stands here and changes none.
+#pragma once
+
+#include "plumb/health/channel_facts.hpp"
+#include "plumb/health/decision.hpp"
+#include "plumb/health/diagnosis.hpp"
+#include "plumb/health/freshness.hpp"
+#include "plumb/health/in_force.hpp"
+#include "plumb/health/intake.hpp"
+#include "plumb/health/last_block.hpp"
+#include "plumb/health/monitor_counters.hpp"
+#include "plumb/health/recalibration.hpp"
+#include "plumb/health/requests.hpp"
+#include "plumb/health/settings.hpp"
+#include "plumb/health/studies.hpp"
+#include "plumb/health/window.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+struct MonitorState {
+  Settings settings;
+  InForce in_force;
+  Service service;
+  DecisionState machine;
+  Intake intake;
+  Window window;
+  ChannelFacts facts;
+  LastBlock last;
+  Diagnosis diagnosis;
+  Studies studies;
+  Requests requests;
+  Freshness freshness;  ///< of the vector of the last block
+  Recalibration recalibration;
+  MonitorCounters counters;
+
+  SensorSet in_service() const noexcept { return machine.sensors.in_service; }
+  SensorSet posed() const noexcept { return machine.sensors.in_service | machine.sensors.set_aside; }
+  SensorSet doubted() const noexcept { return facts.doubted() & in_service(); }
+  /// While recalibrating the output is that of the state it came from.
+  Mode published_mode() const noexcept { return machine.mode == Mode::recalibrating ? machine.base : machine.mode; }
+  SizeClass classify(SensorSet set) const noexcept;
+  /// Whether the vector of the last block is that of this sample too.
+  bool is_fresh() const noexcept {
+    return !last.moving && last.known && freshness.holds(settings.config, intake.clock.last_s() - last.time_s);
+  }
+  bool may_recalibrate() const noexcept;
+  /// The vector is that of a block: what the tool turned since the one before, and inside it, and what an allowed
+  /// acceleration turns it by, comes on top of its bound.
+  double motion_in_bound_rad() const noexcept;
+  double turn_in_bound_rad() const noexcept;
+
+  Diagnosis::Terms diagnosis_terms() const noexcept {
+    return {settings, in_force, machine, facts, last, studies.check};
+  }
+  JudgeTerms judge_terms() const noexcept {
+    return {settings, in_force, window.mae, in_service(), machine.mode == Mode::suspect, last.partial};
+  }
+  Recalibration::InForce fit_terms() const noexcept {
+    return {in_force.model, in_force.array, in_force.gravity, settings.limits};
+  }
+
+  /// What a step writes to that ends no block and raises no event.
+  static constexpr auto changing() noexcept { return field_list(&MonitorState::window, &MonitorState::counters); }
+  static constexpr auto core() noexcept {
+    using S = MonitorState;
+    return field_list(&S::in_force, &S::machine, &S::intake, &S::last, &S::requests, &S::freshness);
+  }
+  static constexpr auto fields() noexcept {
+    using S = MonitorState;
+    return field_list(&S::settings, &S::in_force, &S::service, &S::machine, &S::intake, &S::window, &S::facts, &S::last,
+                      &S::diagnosis, &S::studies, &S::requests, &S::freshness, &S::recalibration, &S::counters);
+  }
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

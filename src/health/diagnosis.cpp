@@ -1,0 +1,238 @@
+#include "plumb/health/diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+using std::size_t;
+
+namespace {
+
+/// A direction may stand on record where half of the angle that tells attitudes apart is so many times its own standard
+/// deviation.
+constexpr double kDirectionSigmas = 3.0;
+/// Votes at one station are taken at 1, 2, 4, 8 and 16 blocks: refined, never repeated at will.
+constexpr int kLastVoteBlock = 16;
+
+}  // namespace
+
+Vec3 known_direction(const SetTest& test, double excitation_angle_rad) noexcept {
+  const double sigma_rad = tilt_sigma_rad(test.x_mps2, test.covariance);
+  return kDirectionSigmas * sigma_rad <= 0.5 * excitation_angle_rad ? test.x_mps2 : Vec3{};
+}
+
+void Diagnosis::clear(const InForce& in_force, SensorSet in_service, int asserted_faults) noexcept {
+  *this = Diagnosis{};
+  asserted_left_ = asserted_faults;
+  isolation_.pose(in_force.array, in_service);
+  live_ = isolation_.live();
+}
+
+void Diagnosis::forget_episode() noexcept {
+  episode_.clear();
+  isolation_.clear();
+  answer_ = IsolationAnswer{};
+}
+
+void Diagnosis::forget_votes() noexcept {
+  isolation_.clear();
+  answer_ = IsolationAnswer{};
+  episode_.take_back();
+}
+
+void Diagnosis::forget_probation() noexcept {
+  probation_.clear();
+  on_probation_ = SensorSet{};
+}
+
+void Diagnosis::begin_anew() noexcept {
+  forget_episode();
+  scan_ = FaultSetScan{};
+  forget_probation();
+  unbounded_run_ = 0;
+  drift_rad_ = 0.0;
+}
+
+void Diagnosis::withdraw_answer() noexcept {
+  answer_ = IsolationAnswer{};
+  episode_.take_back();
+}
+
+void Diagnosis::spend_asserted(int faults) noexcept {
+  if (asserted_left_ > 0) asserted_left_ -= std::min(faults, asserted_left_);
+}
+
+void Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcept {
+  // Nobody is accused by a datasheet.
+  if (report.kind != BlockReport::Kind::alarm || episode_.open || !calibrated) return;
+  episode_.open = true;
+  station_.clear();
+}
+
+/// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
+/// turned, whatever the others make of the direction: a liar that steps is no new attitude.
+bool Diagnosis::is_still_there(const Terms& terms) const noexcept {
+  const auto samples = static_cast<double>(station_.samples);
+  const SensorArray& array = terms.in_force.array;
+  const SensorSet same = reads_the_same(array, terms.last.evidence, station_.reading_mps2, samples);
+  return rank_of(array, same & station_.delivered) == 3;
+}
+
+/// A station at which the question was asked, and no block gave the candidate for an answer, takes it back.
+void Diagnosis::leave_station() noexcept {
+  if (station_.asked && !station_.answered) episode_.take_back();
+  station_.clear();
+}
+
+void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, const BlockReport& report,
+                               std::uint32_t tag) noexcept {
+  const BlockEvidence& evidence = tests.block();
+  const SensorLedger& sensors = terms.machine.sensors;
+  const SensorSet posed = sensors.in_service | sensors.set_aside;
+  const SensorSet voters = episode_.candidate.empty() ? sensors.in_service : posed - episode_.candidate;
+  const SetTest& clear = tests.of(voters & evidence.usable);
+  const SetTest& pose = clear.tested ? clear : report.used;
+  const Vec3& direction = pose.x_mps2;
+  // A station of sensors that all read zero points nowhere: no angle to it would ever end it.
+  const bool nowhere = !(norm(station_.direction) > 0.0);
+  const MonitorConfig& config = terms.settings.config;
+  const bool turned = nowhere || angle_between_rad(station_.direction, direction) > config.station_angle_rad;
+  if (!station_.open || tag != station_.tag || (turned && !is_still_there(terms))) {
+    leave_station();
+    station_.open = true;
+    station_.tag = tag;
+    station_.direction = known_direction(pose, config.excitation_angle_rad);
+    station_.last = direction;
+    station_.samples = static_cast<float>(evidence.samples);
+    station_.delivered = evidence.usable;
+    for (size_t a = 0; a < kCapacity; ++a) station_.reading_mps2[a] = static_cast<float>(evidence.mean_mps2[a]);
+  }
+  drift_rad_ = angle_between_rad(station_.last, direction);
+  station_.last = direction;
+  if (station_.blocks < StationTrack::kMostBlocks) ++station_.blocks;
+}
+
+/// What scatters may be all that shows of a movement: the strict grade bears so many faulty ones that hang that the
+/// calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing. But a
+/// sensor that alone scatters, whichever others are doubted, while these agree, is the answer of this station by that.
+bool Diagnosis::answers_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
+  const SensorSet noisy = terms.facts.noisy();
+  if (noisy.size() != 1 || isolation_.strict_grade() < 1) return false;
+  const bool checked = isolation_.parity_grade() >= 1;
+  if (checked && !terms.facts.noisy_for_certain().contains(noisy)) return false;
+  const SensorSet others = isolation_.posed() - noisy;
+  const TestLimits& limits = terms.settings.limits;
+  const SetTest& rest = tests.of(others & tests.block().usable);
+  return terms.last.calm.contains(others) && rest.tested && rest.alive(limits) && rest.parity_alive(limits);
+}
+
+void Diagnosis::vote(const Terms& terms, const BlockTests& tests) noexcept {
+  const BlockEvidence& evidence = tests.block();
+  const int blocks = station_.blocks;
+  // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
+  const bool testable = evidence.usable.contains(isolation_.posed());
+  const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
+  if (!due) return;
+  answer_ = isolation_.vote(tests, terms.last.calm);
+  station_.asked = true;
+  const SensorSet posed = isolation_.posed();
+  const bool by_scatter = answer_.strict.empty() && answers_by_scatter(terms, tests);
+  if (by_scatter) answer_.strict = terms.facts.noisy();
+  const TestLimits& limits = terms.settings.limits;
+  const SetTest& full = tests.of(posed & evidence.usable);
+  const bool visible = !full.alive(limits) || !full.parity_alive(limits);
+  // A fault may come and go within a station: a block without it neither confirms nor takes back.
+  if (answer_.strict.empty() && !visible) return;
+  if (answer_.strict != episode_.candidate) {
+    episode_.take_back();
+    episode_.candidate = answer_.strict;
+    episode_.by_scatter = by_scatter;
+  }
+  station_.answered = !answer_.strict.empty();
+  // A station at which the fault cannot be seen confirms nothing.
+  if (answer_.strict.empty() || !visible) return;
+  episode_.by_scatter = episode_.by_scatter && by_scatter;
+  const SetTest& survivors = tests.of((posed - answer_.strict) & evidence.usable);
+  const double apart_rad = terms.settings.config.excitation_angle_rad;
+  if (survivors.tested) episode_.agreeing.add(known_direction(survivors, apart_rad), apart_rad);
+}
+
+SensorSet Diagnosis::noise_confirmed(const ChannelFacts& facts) const noexcept {
+  const SensorSet out = facts.noisy_long_enough();
+  const bool at_stations = episode_.by_scatter && episode_.agreeing.size() >= ChannelFacts::kConfirm;
+  return at_stations && isolation_.parity_grade() >= 1 ? out | episode_.candidate : out;
+}
+
+/// Until the calibration is believed a sensor is convicted only if the others agree at every attitude on record; once
+/// it has been contradicted, by no evidence: that rests on what was learned a moment ago.
+bool Diagnosis::may_convict(const Terms& terms, SensorSet culprits) const noexcept {
+  if (!terms.check.open()) return true;
+  const CalibrationCheck::Terms by{terms.in_force.array, terms.in_force.gravity, terms.settings.limits};
+  return !terms.check.finding().contradicted && terms.check.vouches(by, isolation_.posed() - culprits);
+}
+
+SensorSet Diagnosis::culprits(const Terms& terms) const noexcept {
+  const SensorSet posed = isolation_.posed();
+  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_ &&
+      may_convict(terms, scan_.asserted))
+    return scan_.asserted;
+  if (isolation_.strict_grade() < 1 || episode_.candidate.empty()) return {};
+  const int survivors = (posed - episode_.candidate).size();
+  int needed = terms.settings.config.isolation_stations;
+  if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
+  if (episode_.by_scatter && isolation_.parity_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
+  if (episode_.by_scatter && needed < 2) needed = 2;                     // at one station its scatter may be a push
+  const bool agreed = episode_.agreeing.size() >= needed && may_convict(terms, episode_.candidate);
+  return agreed ? episode_.candidate : SensorSet{};
+}
+
+Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, bool noise_known) noexcept {
+  using Kind = BlockReport::Kind;
+  Conclusion out;
+  out.refuted = report.kind == Kind::alarm && asserted_left_ == 0 && !terms.in_force.owes_calibration();
+  if (may_accuse(terms.machine.mode)) {
+    out.culprits = episode_.open ? culprits(terms) : SensorSet{};
+    if (!out.culprits.empty())
+      last_grade_ = asserted_left_ > 0 && out.culprits == scan_.asserted ? Grade::asserted : Grade::strict;
+    const bool by_parity = episode_.open && noise_known && report.kind == Kind::alarm && report.cause == Cause::parity;
+    const SensorSet odd = by_parity && may_convict(terms, answer_.parity) ? answer_.parity : SensorSet{};
+    out.aside = aside_ = (odd | noise_confirmed(terms.facts)) & terms.machine.sensors.in_service;
+  }
+  if (out.refuted) asserted_left_ = -1;
+  return out;
+}
+
+/// Who may speak against a fault set of the asserted size: the calm, and those that scatter by themselves whichever so
+/// many others hang.
+SensorSet Diagnosis::witnesses(const Terms& terms) const noexcept {
+  const SensorSet in_service = terms.machine.sensors.in_service;
+  if (asserted_left_ > parity_grade(terms.in_force.array, in_service & terms.last.usable)) return terms.last.calm;
+  return terms.last.calm | terms.facts.noisy_for_certain();
+}
+
+void Diagnosis::rescan(const Terms& terms, const BlockTests& tests, double turn_rad,
+                       double reference_turn_rad) noexcept {
+  live_ = isolation_.live();
+  if (!terms.last.known) return;
+  const int priors = terms.settings.protection_faults;
+  int depth = std::max(priors, asserted_left_);
+  if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
+  const SensorLedger& sensors = terms.machine.sensors;
+  const int aside = (sensors.set_aside & terms.last.evidence.usable).size();
+  scan_ = isolation_.scan(tests, sensors.in_service, depth, asserted_left_,
+                          {priors, terms.settings.k_integrity, aside, episode_.open, terms.machine.unproven},
+                          witnesses(terms));
+  scan_.protection_rad += turn_rad;
+  scan_.protection_rad += reference_turn_rad;
+}
+
+void Diagnosis::follow_rest(const Terms& terms, const BlockReport& report) noexcept {
+  rest_.follow(terms.in_force.array, terms.last.evidence);
+  const bool passed = report.kind == BlockReport::Kind::clean && !episode_.open;
+  if (passed && !terms.in_force.owes_calibration()) rest_.take(terms.last.evidence);
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,170 @@
+// How long a doubt may last, and how trust is earned: the isolation timeout, validation, probation.
+#include <algorithm>
+#include <cmath>
+
+#include "plumb/health/diagnosis.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+using std::size_t;
+
+namespace {
+
+/// A sensor is validated only when its prediction has moved by this part of gravity ...
+constexpr double kProvingShare = 0.02;
+/// ... and by this many standard deviations of its block mean.
+constexpr double kProvingSigmas = 10.0;
+
+}  // namespace
+
+double proving_change_mps2(const InForce& in_force, int sensor, double samples) noexcept {
+  return std::fmax(kProvingShare * in_force.gravity.g_mps2,
+                   kProvingSigmas * in_force.array.sigma_mps2(sensor) / std::sqrt(samples));
+}
+
+bool Diagnosis::expected(HealthEvent event, const DecisionState& machine) const noexcept {
+  return machine.mode == Mode::recalibrating && machine.base == Mode::suspect &&
+         suspicion_ == cause_of(event, Cause::none) &&
+         (event == HealthEvent::reference || event == HealthEvent::contradiction);
+}
+
+/// The timeout counts doubt, not alarms alone: a block between the limit to leave suspect and the one to enter it would
+/// else hold the monitor there for ever. It rests at a reference error, of which nobody in service is accused.
+void Diagnosis::count_doubt(const Terms& terms, const BlockReport& report) noexcept {
+  // The contradiction for which the host had a fit made is no news, and the fit needs more stations than patience has.
+  const bool known = answer_.contradiction && expected(HealthEvent::contradiction, terms.machine);
+  episode_.note_suspected((episode_.candidate | terms.machine.sensors.set_aside).size());
+  if (!report.doubtful(terms.machine.mode) || known || terms.in_force.owes_calibration()) return;
+  const MonitorConfig& config = terms.settings.config;
+  episode_.stations.add(station_.direction, config.excitation_angle_rad);
+  if (episode_.doubtful_blocks < config.patience_blocks) ++episode_.doubtful_blocks;
+}
+
+/// Of attitudes in doubt, which do not count while those to come may speak against the calibration; of blocks in doubt
+/// where they are counted.
+bool Diagnosis::is_out_of_stations(const Terms& terms) const noexcept {
+  const bool gathers = terms.check.gathers() && isolation_.strict_grade() >= 1;
+  return !gathers && episode_.stations.size() >= terms.settings.config.patience;
+}
+bool Diagnosis::is_out_of_blocks(const Terms& terms) const noexcept {
+  const MonitorConfig& config = terms.settings.config;
+  return config.patience_blocks > 0 && episode_.doubtful_blocks >= config.patience_blocks;
+}
+
+bool Diagnosis::patience_is_over(const Terms& terms) const noexcept {
+  const Mode mode = terms.machine.mode;
+  if (mode != Mode::suspect && mode != Mode::recalibrating) return false;
+  if (terms.check.refused()) return false;  // nobody is accused of it
+  return (is_out_of_stations(terms) || is_out_of_blocks(terms)) &&
+         (!terms.machine.exhausted || unbounded_run_ >= terms.settings.config.clean_blocks);
+}
+
+/// Whether the block is explained by no more faults than the grade bears, with enough sensors left to check one
+/// another. Another attitude may then single that explanation out; and where none does, because two of them are images
+/// of each other, no attitude speaks against the tool.
+bool Diagnosis::is_isolable(const BlockEvidence& evidence) const noexcept {
+  const int grade = std::max(isolation_.strict_grade(), isolation_.parity_grade());
+  return scan_.least <= grade && (isolation_.posed() & evidence.usable).size() - scan_.least >= 4;
+}
+
+/// Blocks in a row in which the doubt had neither a bound nor a way out. A bound: of the estimate, or of that of the
+/// sensors which nobody suspects: a liar takes the estimate as far as it likes once it is known, and has so many
+/// stations to go before it is excluded. A way out: `is_isolable`, which ends with the blocks where these are counted.
+void Diagnosis::count_unbounded(const Terms& terms, const BlockTests& tests, const BlockReport& report,
+                                double turn_rad) noexcept {
+  const MonitorConfig& config = terms.settings.config;
+  bool within = bounded(config.alert_limit_rad);
+  if (!within && terms.machine.mode == Mode::suspect && (is_out_of_stations(terms) || is_out_of_blocks(terms))) {
+    const ProtectionTerms by{terms.settings.protection_faults, terms.settings.k_integrity};
+    within = (!is_out_of_blocks(terms) && is_isolable(tests.block())) ||
+             isolation_.bounded_without(tests, terms.machine.sensors.in_service, scan_, by,
+                                        config.alert_limit_rad - turn_rad);
+  }
+  if (within) {
+    unbounded_run_ = 0;
+  } else if (report.kind != BlockReport::Kind::reference && unbounded_run_ < config.clean_blocks) {
+    ++unbounded_run_;
+  }
+}
+
+/// Takes note of what each sensor in service should read; whether that of every one has moved by enough by now.
+bool Diagnosis::note_predictions(const Terms& terms, const Vec3& x_mps2) noexcept {
+  const SensorArray& array = terms.in_force.array;
+  bool moved = true;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!terms.machine.sensors.in_service.has(i)) continue;
+    const auto a = static_cast<size_t>(i);
+    const auto prediction = static_cast<float>(dot(array.axis(i), x_mps2));
+    if (!have_predictions_ || prediction < least_prediction_[a]) least_prediction_[a] = prediction;
+    if (!have_predictions_ || prediction > most_prediction_[a]) most_prediction_[a] = prediction;
+    const auto change_mps2 = static_cast<double>(most_prediction_[a] - least_prediction_[a]);
+    if (!(change_mps2 >= proving_change_mps2(terms.in_force, i, terms.last.evidence.samples))) moved = false;
+  }
+  have_predictions_ = true;
+  return moved;
+}
+
+void Diagnosis::count_clean(const Terms& terms, const BlockTests& tests, const BlockReport& report,
+                            DecisionState& machine) noexcept {
+  using Kind = BlockReport::Kind;
+  const MonitorConfig& config = terms.settings.config;
+  if (report.kind != Kind::clean) {
+    machine.clean_run = 0;
+    if (report.kind != Kind::soft || report.doubtful(machine.mode)) episode_.clean.clear();
+    if (report.kind != Kind::soft) {
+      forget_predictions();
+      forget_probation();
+    }
+    return;
+  }
+  if (machine.clean_run < config.clean_blocks) ++machine.clean_run;
+  if (machine.unproven && !terms.in_force.owes_calibration()) {
+    const bool moved = note_predictions(terms, report.used.x_mps2);
+    const bool believed = isolation_.strict_grade() < 1 || terms.check.believed();
+    if (moved && believed && machine.clean_run >= config.clean_blocks) machine.unproven = false;
+  }
+  // While a sensor is set aside the episode ends only when it, too, agrees again.
+  const SensorSet posed = isolation_.posed() & tests.block().usable;
+  const SetTest& all = tests.of(posed);
+  if (!(all.alive(terms.settings.limits) && all.parity_alive(terms.settings.limits))) return;
+  const double apart_rad = config.excitation_angle_rad;
+  episode_.clean.add(known_direction(report.used, apart_rad), apart_rad);
+  const bool on_record = episode_.open || episode_.stations.size() > 0;
+  if (on_record && episode_.clean.size() >= config.forget_blocks) {
+    forget_episode();
+    machine.exhausted = false;
+  }
+}
+
+void Diagnosis::examine_probation(const Terms& terms, const BlockTests& tests, const BlockReport& report) noexcept {
+  const DecisionState& machine = terms.machine;
+  if (report.kind != BlockReport::Kind::clean || episode_.open || machine.unproven || machine.mode == Mode::failed ||
+      machine.mode == Mode::suspect)
+    return;
+  const BlockEvidence& evidence = tests.block();
+  const SensorLedger& s = machine.sensors;
+  const TestLimits& limits = terms.settings.limits;
+  const MonitorConfig& config = terms.settings.config;
+  const SensorSet asked = ((s.excluded | s.set_aside) - (s.readmitted | s.absent)) & evidence.usable & terms.last.calm &
+                          terms.in_force.calibrated;
+  SensorSet fine;
+  for (int i = 0; i < terms.in_force.array.size(); ++i) {
+    if (!asked.has(i)) continue;
+    const SetTest& t = tests.of((s.in_service & evidence.usable).with(i));
+    if (t.tested && t.alive(limits) && t.parity <= config.clear_fraction * t.parity_alarm_limit(limits))
+      fine = fine.with(i);
+  }
+  const SensorSet still = on_probation_ & fine;
+  if (still.empty()) probation_.clear();
+  on_probation_ = still.empty() ? fine : still;
+  const double apart_rad = config.excitation_angle_rad;
+  if (!on_probation_.empty()) probation_.add(known_direction(report.used, apart_rad), apart_rad);
+}
+
+bool Diagnosis::probation_passed(const MonitorConfig& config) const noexcept {
+  return !on_probation_.empty() && probation_.size() >= config.probation_stations;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb
