@@ -182,9 +182,7 @@ class HealthMonitor {
   static constexpr auto changing() noexcept {
     return field_list(&HealthMonitor::core_sum_, &HealthMonitor::steady_sum_);
   }
-  static constexpr auto core() noexcept {
-    return field_list(&HealthMonitor::state_, &HealthMonitor::verdict_);
-  }
+  static constexpr auto core() noexcept { return field_list(&HealthMonitor::state_, &HealthMonitor::verdict_); }
   static constexpr auto fields() noexcept {
     using M = HealthMonitor;
     return field_list(&M::state_, &M::verdict_, not_stored(&M::steady_sum_), not_stored(&M::core_sum_),
