@@ -61,7 +61,7 @@ void HealthMonitor::inhibit(bool frozen) noexcept {
 
 Expected<void> HealthMonitor::request_recalibration() noexcept {
   if (!whole()) return fail(Errc::not_calibrated);
-  const double state = static_cast<double>(state_of(state_.machine.mode));
+  const auto state = static_cast<double>(state_of(state_.machine.mode));
   if (!kRecalibrates || !configured_ || !state_.may_recalibrate()) return fail(Errc::wrong_state, -1, state);
   // A fit takes the length at every station for gravity's: a steady push would end in the biases, and nothing would
   // show it. An offer is not fitted to the length, only tried by it, within limits that carry the bound.
@@ -75,7 +75,7 @@ Expected<void> HealthMonitor::request_recalibration() noexcept {
 
 Expected<void> HealthMonitor::offer_calibration(const SensorModel& model, const SensorArray& array) noexcept {
   if (!whole()) return fail(Errc::not_calibrated);
-  const double state = static_cast<double>(state_of(state_.machine.mode));
+  const auto state = static_cast<double>(state_of(state_.machine.mode));
   if (!kRecalibrates || !configured_ || !state_.may_recalibrate()) return fail(Errc::wrong_state, -1, state);
   const double now_s = state_.intake.clock.last_s();
   const Expected<void> taken = state_.recalibration.offer(state_.fit_terms(), model, array, state_.in_service(), now_s);
