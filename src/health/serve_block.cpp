@@ -15,6 +15,9 @@ using Kind = BlockReport::Kind;
 /// Blocks at rest that show the noise, before a sensor is set aside by parity alone.
 constexpr double kBlocksOfNoise = 3.0;
 
+/// Blocks that show how correlated the noise is, before a doubt keeps more from being learned.
+constexpr double kBlocksOfSmoothness = 8.0;
+
 /// What noise the sensors have is not known from fewer blocks; it may be all that is wrong.
 bool is_noise_known(const MonitorState& s) noexcept {
   return s.settings.config.window < NoiseStudy::kLeastWindow || s.studies.noise.blocks() >= kBlocksOfNoise;
@@ -57,8 +60,10 @@ BlockNoise HealthMonitor::learn_noise() noexcept {
   const bool whole = map.valid && map.used == s.in_service() && s.window.block.complete().contains(s.in_service());
   // A sensor that scatters beside a tool that moves would pass for noise of all.
   const bool learns = whole && !s.studies.slow_motion.lately() && !s.diagnosis.episode().open;
-  if (learns && study.add(array, s.window.block, map, stated))
-    study.add_smoothness(array, s.window.mae, s.in_service());
+  const bool learned = learns && study.add(array, s.window.block, map, stated);
+  // An alarm of the first blocks may be correlated noise of which nothing is known yet. That is learned all the same.
+  const bool early = whole && s.diagnosis.episode().open && study.smooth_blocks() < kBlocksOfSmoothness;
+  if (learned || early) study.add_smoothness(array, s.window.mae, s.in_service());
   s.last.noise_factor = study.factor();
   return s.last.noise_factor > 1.0 ? noise_of(array, s.last.noise_factor, s.settings.resolution_mps2) : stated;
 }

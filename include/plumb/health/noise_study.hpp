@@ -31,6 +31,7 @@ class NoiseStudy {
 
   /// Blocks that it rests on.
   double blocks() const noexcept { return static_cast<double>(blocks_); }
+  double smooth_blocks() const noexcept { return static_cast<double>(smooth_blocks_); }  ///< the same of correlation
   /// Noise in stated sigmas, 1 .. kMostFactor; 1 until it is certain to be more.
   double factor() const noexcept;
   /// The variance of a block's mean is so many times that of `samples` independent ones, 1 .. `samples`.
