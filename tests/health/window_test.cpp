@@ -57,6 +57,7 @@ TEST_F(WindowRows, ARowThatBringsASensorBeginsTheBlockAnew) {
   EXPECT_TRUE(window_.delivered().empty());
 }
 
+// Verifies: REQ-078
 TEST_F(WindowRows, TheLatestVectorIsThatOfACompleteRow) {
   add(all());
   const Vec3 complete = window_.latest_mps2;
