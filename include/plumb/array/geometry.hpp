@@ -4,6 +4,7 @@
 #include <array>
 
 #include "plumb/array/sensor_array.hpp"
+#include "plumb/core/flag.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -19,7 +20,7 @@ int rank_of(const SensorArray& array, SensorSet used) noexcept;
 /// The 3 x |used| map of least squares (eq 5, the matrix of eq 17 for the paper's axes; weighted with 1/sigma^2 where
 /// the sigmas differ) and what follows from it. `valid` is false where rank(used) < 3.
 struct LeastSquares {
-  bool valid = false;
+  Flag valid;  ///< `used` determines a vector
   SensorSet used;
   std::array<Vec3, kCapacity> column{};  ///< column i of the pseudo-inverse; zero for sensors not used
   Mat3 covariance{};                     ///< of x for one sample [(m/s^2)^2]

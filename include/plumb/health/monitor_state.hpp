@@ -45,10 +45,12 @@ struct MonitorState {
   bool is_fresh() const noexcept {
     return !last.moving && last.known && freshness.holds(settings.config, intake.clock.last_s() - last.time_s);
   }
+  /// Whether a recalibration may begin: asked for by the host, by an offer, or due after an exclusion.
   bool may_recalibrate() const noexcept;
-  /// The vector is that of a block: what the tool turned since the one before, and inside it, and what an allowed
-  /// acceleration turns it by, comes on top of its bound.
+  /// What comes on top of the bound of a block's vector [rad]: what the tool turned by since the block before and
+  /// inside this one, docs/theory.md, section 6 ...
   double motion_in_bound_rad() const noexcept;
+  /// ... and what an allowed acceleration turns it by as well.
   double turn_in_bound_rad() const noexcept;
 
   Diagnosis::Terms diagnosis_terms() const noexcept {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "plumb/core/flag.hpp"
 #include "plumb/detection/set_test.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/monitor_setup.hpp"
@@ -25,8 +26,8 @@ struct Settings {
   double k_integrity = 0.0;       ///< sigmas that the integrity risk leaves
   int protection_faults = 1;      ///< K of the priors
   bool stability_stated = false;  ///< of every sensor
-  bool lever_arms_known = false;
-  std::uint64_t identity = 0;  ///< of the setup, gravity left out
+  Flag lever_arms_known;          ///< read in every row, before the storage has been compared
+  std::uint64_t identity = 0;     ///< of the setup, gravity left out
 
   static constexpr auto fields() noexcept {
     using S = Settings;
