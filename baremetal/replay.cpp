@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace metal {
 inline namespace PLUMB_ABI {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "plumb/calibration/paper_calibration.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 #ifdef PLUMB_BENCH_CERES
 #include "ceres_rivals.hpp"
 #endif

@@ -8,7 +8,7 @@
 #include <deque>
 #include <memory>
 
-#include "plumb/calibration/paper_calibration.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 
 namespace plumb_bench {
 inline namespace PLUMB_ABI {

@@ -36,19 +36,19 @@ struct Front : msm::front::state_machine_def<Front> {
   // The cells that lead somewhere. The cells that stay are left out, which is what MSM does fastest.
   // clang-format off
   struct transition_table : boost::mpl::vector<
-      Row<M::nominal, E::channel_lost>, Row<M::nominal, E::culprit>, Row<M::nominal, E::set_aside>,
-      Row<M::nominal, E::contradiction>, Row<M::nominal, E::alarm>, Row<M::nominal, E::reference>,
+      Row<M::nominal, E::channel_lost>, Row<M::nominal, E::exclusion>, Row<M::nominal, E::provisional_exclusion>,
+      Row<M::nominal, E::no_consistent_hypothesis>, Row<M::nominal, E::alarm>, Row<M::nominal, E::norm_mismatch>,
       Row<M::nominal, E::probation_passed>, Row<M::nominal, E::recalibrate>,
-      Row<M::isolated, E::channel_lost>, Row<M::isolated, E::culprit>, Row<M::isolated, E::set_aside>,
-      Row<M::isolated, E::contradiction>, Row<M::isolated, E::alarm>, Row<M::isolated, E::reference>,
+      Row<M::isolated, E::channel_lost>, Row<M::isolated, E::exclusion>, Row<M::isolated, E::provisional_exclusion>,
+      Row<M::isolated, E::no_consistent_hypothesis>, Row<M::isolated, E::alarm>, Row<M::isolated, E::norm_mismatch>,
       Row<M::isolated, E::probation_passed>, Row<M::isolated, E::recalibrate>,
-      Row<M::suspect, E::culprit>, Row<M::suspect, E::patience_over>, Row<M::suspect, E::recalibrate>,
-      Row<M::suspect, E::clean_block>,
-      Row<M::degraded, E::channel_lost>, Row<M::degraded, E::contradiction>, Row<M::degraded, E::alarm>,
-      Row<M::degraded, E::reference>, Row<M::degraded, E::probation_passed>, Row<M::degraded, E::recalibrate>,
-      Row<M::recalibrating, E::channel_lost>, Row<M::recalibrating, E::culprit>, Row<M::recalibrating, E::set_aside>,
-      Row<M::recalibrating, E::patience_over>, Row<M::recalibrating, E::contradiction>,
-      Row<M::recalibrating, E::alarm>, Row<M::recalibrating, E::reference>, Row<M::recalibrating, E::fit_accepted>,
+      Row<M::suspect, E::exclusion>, Row<M::suspect, E::isolation_timeout>, Row<M::suspect, E::recalibrate>,
+      Row<M::suspect, E::passed_block>,
+      Row<M::degraded, E::channel_lost>, Row<M::degraded, E::no_consistent_hypothesis>, Row<M::degraded, E::alarm>,
+      Row<M::degraded, E::norm_mismatch>, Row<M::degraded, E::probation_passed>, Row<M::degraded, E::recalibrate>,
+      Row<M::recalibrating, E::channel_lost>, Row<M::recalibrating, E::exclusion>, Row<M::recalibrating, E::provisional_exclusion>,
+      Row<M::recalibrating, E::isolation_timeout>, Row<M::recalibrating, E::no_consistent_hypothesis>,
+      Row<M::recalibrating, E::alarm>, Row<M::recalibrating, E::norm_mismatch>, Row<M::recalibrating, E::fit_accepted>,
       Row<M::recalibrating, E::fit_rejected>,
       Row<M::initial, E::fit_accepted>,
       Row<M::failed, E::reset>> {};
@@ -76,17 +76,17 @@ void dispatch(Machine& machine, HealthEvent event) {
     case E::reset: return process<E::reset>(machine);
     case E::channel_lost: return process<E::channel_lost>(machine);
     case E::channel_back: return process<E::channel_back>(machine);
-    case E::culprit: return process<E::culprit>(machine);
-    case E::set_aside: return process<E::set_aside>(machine);
-    case E::patience_over: return process<E::patience_over>(machine);
-    case E::contradiction: return process<E::contradiction>(machine);
+    case E::exclusion: return process<E::exclusion>(machine);
+    case E::provisional_exclusion: return process<E::provisional_exclusion>(machine);
+    case E::isolation_timeout: return process<E::isolation_timeout>(machine);
+    case E::no_consistent_hypothesis: return process<E::no_consistent_hypothesis>(machine);
     case E::alarm: return process<E::alarm>(machine);
-    case E::reference: return process<E::reference>(machine);
+    case E::norm_mismatch: return process<E::norm_mismatch>(machine);
     case E::fit_accepted: return process<E::fit_accepted>(machine);
     case E::fit_rejected: return process<E::fit_rejected>(machine);
     case E::probation_passed: return process<E::probation_passed>(machine);
     case E::recalibrate: return process<E::recalibrate>(machine);
-    case E::clean_block: return process<E::clean_block>(machine);
+    case E::passed_block: return process<E::passed_block>(machine);
     case E::none: return process<E::none>(machine);
   }
 }

@@ -13,8 +13,8 @@ constexpr plumb::TargetFacts facts_at(plumb::Mode mode, plumb::HealthEvent event
   using plumb::Mode;
   using plumb::SizeClass;
   plumb::TargetFacts facts;
-  facts.earned = facts.calibrated = true;
-  const bool better = event == plumb::HealthEvent::probation_passed || event == plumb::HealthEvent::clean_block;
+  facts.enough_passed = facts.calibrated = true;
+  const bool better = event == plumb::HealthEvent::probation_passed || event == plumb::HealthEvent::passed_block;
   facts.size = mode == Mode::nominal ? SizeClass::reduced : better ? SizeClass::all_configured : SizeClass::critical;
   if (mode == Mode::degraded) facts.size = better ? SizeClass::reduced : SizeClass::rank_lost;
   return facts;

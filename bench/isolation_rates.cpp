@@ -58,7 +58,7 @@ void print(const SoundCount& c, const std::string& lead) {
 }
 
 constexpr const char* kSoundHead =
-    "| n | trials | blocks | strict wrong, % | strict right, % | parity grade wrong, % | asserted wrong, % |\n"
+    "| n | trials | blocks | strict wrong, % | strict right, % | provisional grade wrong, % | asserted wrong, % |\n"
     "|---|---|---|---|---|---|---|\n";
 
 /// More trials where they are cheap: a vote among 16 takes a thousand times as long as one among 4.

@@ -125,7 +125,7 @@ Count asserted_at_one_block(const RatesJob& job) {
     const plumb::BlockEvidence block = episode.block(g, noise);
     isolation.vote({tool.array, tool.gravity, tool.limits, block});
     const plumb::FaultSetScan scan = isolation.scan({tool.array, tool.gravity, tool.limits, block}, tool.array.all(),
-                                                    job.faults, job.faults, {1, 4.9, 0.0});
+                                                    job.faults, job.faults, {1, 4.9});
     count.add(episode.faulty(), scan.asserted, false);
   }
   return plain(count);

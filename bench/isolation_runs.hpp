@@ -49,7 +49,7 @@ struct BoundCount {
   std::uint64_t trials = 0;
   std::uint64_t told = 0;            ///< over eight attitudes, gravity within its bound
   std::uint64_t told_moving = 0;     ///< and not one fault either in a tool that is accelerated anyhow
-  std::uint64_t told_by_parity = 0;  ///< at the first attitude, by parity alone, at the parity grade
+  std::uint64_t told_by_parity = 0;  ///< at the first attitude, by parity alone, at the provisional grade
 };
 
 #define PLUMB_BENCH_ISOLATION_RUNS                  \

@@ -11,6 +11,9 @@
 #include "bench_array.hpp"
 #include "pairs.hpp"
 #include "plumb/detection/combination_mae.hpp"
+#ifdef PLUMB_BENCH_HIGHWAY
+#include "lanes_highway.hpp"
+#endif
 
 namespace {
 
@@ -127,5 +130,59 @@ const plumb_bench::Enrolled kLuPortable{{work("portable"), "Eigen LU of every tr
                                          [] { return contest<&Kernel::add_portable>(by_lu); }}};
 const plumb_bench::Enrolled kInverse{{work("portable"), "Eigen inverse of every triple", 2.5,
                                       [] { return contest<&Kernel::add_portable>(by_inverse); }}};
+
+#ifdef PLUMB_BENCH_HIGHWAY
+/// The kernel's lanes alone: a ring of rows, and readings of which some are no numbers on request.
+class Rows {
+ public:
+  explicit Rows(bool odd = false)
+      : stream_(stream_of(array_)),
+        triples_(static_cast<std::size_t>(array_.triple_count())),
+        ring_(kRows * triples_, 7),
+        sums_(triples_, 7 * kRows) {
+    const double strange[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, 5e-324, -0.0, 1e3};
+    for (std::size_t k = 0; odd && k < kSamples; k += 3) stream_[k][k % kCapacity] = strange[k % 7];
+  }
+  template <class Replace>
+  void add(Replace replace, std::size_t k) {
+    const TripleRange all = {0, array_.triple_count()};
+    replace(array_, stream_[k % kSamples].data(), kG0_mps2, &ring_[k % kRows * triples_], sums_.data(), all);
+    benchmark::ClobberMemory();
+  }
+  bool same_as(const Rows& other) const { return ring_ == other.ring_ && sums_ == other.sums_; }
+
+ private:
+  static constexpr std::size_t kRows = 32;
+  SensorArray array_ = plumb_bench::array_of(kCapacity);
+  std::vector<Readings> stream_;
+  std::size_t triples_;
+  std::vector<std::int32_t> ring_;
+  std::vector<std::int64_t> sums_;
+};
+
+int by_lanes(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots, std::int64_t* sums,
+             TripleRange range) {
+  return replace_side_by_side(array, y_mps2, g_mps2, slots, sums, range, most_lanes());
+}
+
+/// Empty, and the table is not printed, where the two do not give the same bits.
+plumb_bench::Contest against_highway() {
+  Rows ours(true), theirs(true);
+  for (std::size_t k = 0; k < 2 * kSamples; ++k) {
+    ours.add(by_lanes, k);
+    theirs.add(plumb_bench::replace_by_highway, k);
+  }
+  if (!ours.same_as(theirs)) return {};
+  const auto rows = std::make_shared<Rows>();
+  return {[rows](std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k) rows->add(by_lanes, k);
+          },
+          [rows](std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k) rows->add(plumb_bench::replace_by_highway, k);
+          }};
+}
+const plumb_bench::Enrolled kHighway{
+    {work(widest()) + ", lanes alone", "Highway, dynamic dispatch", 0.0, against_highway}};
+#endif
 
 }  // namespace

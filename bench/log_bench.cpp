@@ -20,7 +20,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
 #ifdef PLUMB_TOOL_PATH
-#include "monitor_pipeline.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 #endif
 
 extern char** environ;
@@ -118,8 +118,8 @@ plumb_bench::Runs monitoring(bool binary) {
   calibration->report.temperature_max_degc = MonitorConfig{}.temperature_max_degc;
   return [both, calibration, binary](std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
-      const auto stepper = cli::make_stepper(both->array(), calibration.get());
-      const auto run = cli::run_stepper(*stepper, both->array(), {binary ? both->binary() : both->csv()}, {});
+      const auto stepper = session::make_stepper(both->array(), calibration.get());
+      const auto run = session::run_stepper(*stepper, both->array(), {binary ? both->binary() : both->csv()}, {});
       if (!run || run->samples != kRows) std::abort();
     }
   };

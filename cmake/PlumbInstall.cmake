@@ -1,9 +1,11 @@
 # cmake --install: headers, libraries, tool, licence, and the package plumb for find_package(plumb CONFIG).
 #   find_package(plumb CONFIG)                  -> plumb::plumb (8 sensors), plumb::plumb_4, _8, _16, _24;
 #                                                  plumb::c (the C functions, 8 sensors), plumb::c_4, _8, _16, _24
-#   find_package(plumb CONFIG COMPONENTS host)  -> plumb::scenario, plumb::study, plumb::io, plumb::report as well
+#   find_package(plumb CONFIG COMPONENTS paper) -> plumb::paper, the paper's algorithm to compare with (24 sensors)
+#   find_package(plumb CONFIG COMPONENTS host)  -> plumb::paper, scenario, study, io, findings, session, campaign,
+#                                                  verification, render as well
 #   find_package(plumb CONFIG COMPONENTS testing) -> plumb::testing, with RapidCheck and GoogleTest
-#   pkg-config plumb, plumb-4, ...; plumb-c, plumb-c-4, ...   -> the same libraries without CMake
+#   pkg-config plumb, plumb-4, ...; plumb-c, plumb-c-4, ...; plumb-paper   -> the same libraries without CMake
 #   cpack -G DEB                                              -> a Debian package of all of it
 
 include(CMakePackageConfigHelpers)
@@ -17,8 +19,14 @@ install(TARGETS ${core_targets} ${c_targets} EXPORT plumbTargets ARCHIVE DESTINA
 install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
 set(rooms ${PLUMB_CORE_ROOMS} c)
 
+if(TARGET plumb_paper)
+  install(TARGETS plumb_paper EXPORT plumbPaperTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(EXPORT plumbPaperTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
+  list(APPEND rooms paper)
+endif()
+
 set(PLUMB_INSTALLED_HOST FALSE)
-foreach(name IN ITEMS scenario study io report)
+foreach(name IN ITEMS scenario study io findings session campaign verification render)
   if(TARGET plumb_${name})
     install(TARGETS plumb_${name} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     list(APPEND rooms ${name})
@@ -26,13 +34,12 @@ foreach(name IN ITEMS scenario study io report)
   endif()
 endforeach()
 foreach(capacity IN LISTS PLUMB_CAPACITIES)
-  if(TARGET plumb_campaign_${capacity})
-    install(TARGETS plumb_campaign_${capacity} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  endif()
+  foreach(inner IN ITEMS campaign stepper)  # inner loops, one a capacity
+    if(TARGET plumb_${inner}_${capacity})
+      install(TARGETS plumb_${inner}_${capacity} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    endif()
+  endforeach()
 endforeach()
-if(TARGET plumb_report)
-  list(APPEND rooms campaign)  # its headers; the engine is in plumb::report
-endif()
 if(PLUMB_INSTALLED_HOST)
   install(EXPORT plumbHostTargets NAMESPACE plumb:: DESTINATION "${package_dir}")
 endif()
@@ -100,6 +107,10 @@ foreach(capacity IN LISTS PLUMB_CAPACITIES)
       "-DPLUMB_CAPACITY=${capacity}" "-lplumb_c_${capacity} -lplumb_${capacity}")
   endforeach()
 endforeach()
+if(TARGET plumb_paper)
+  plumb_pkg_config("plumb-paper" "The paper's algorithm, to compare plumb with, up to 24 sensors"
+    "-DPLUMB_CAPACITY=24 -ffp-contract=off" "-lplumb_paper -lplumb_24")
+endif()
 
 # --- A Debian package. The libraries are static: what a program needs is in it, and the headers need two packages. ----
 if(PROJECT_IS_TOP_LEVEL)

@@ -6,7 +6,7 @@ option(PLUMB_FIRST_CALIBRATION "The monitor can make its very first calibration 
 set(PLUMB_SCALAR double CACHE STRING "Type of what runs at every sample: double, or float for a processor without double precision")
 set_property(CACHE PLUMB_SCALAR PROPERTY STRINGS double float)
 option(PLUMB_FAST_STEP "Compile what runs at every sample with -O2, for builds at -Os" OFF)
-option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, report)" ${PROJECT_IS_TOP_LEVEL})
+option(PLUMB_BUILD_HOST "Build the host libraries (scenario, io, render)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TOOL "Build the plumb command line tool (needs PLUMB_BUILD_HOST)" ${PROJECT_IS_TOP_LEVEL})
 option(PLUMB_BUILD_TESTS "Build the tests (needs their libraries; the preset tests turns them on)" OFF)
 option(PLUMB_PLANT_DEFECTS "With the tests: link the laws with every planted defect that they must catch" ON)

@@ -5,7 +5,7 @@
 # below belong to it.
 set(PLUMB_BUILD_PYTHON AUTO CACHE STRING "Build the Python module: AUTO (where its packages are found), ON or OFF")
 set_property(CACHE PLUMB_BUILD_PYTHON PROPERTY STRINGS AUTO ON OFF)
-if(NOT TARGET plumb_cli OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # a sanitizer has to be there first
+if(NOT TARGET plumb_session OR NOT TARGET plumb_render OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # a sanitizer has to be there first
   return()
 endif()
 if(NOT PLUMB_BUILD_PYTHON)
@@ -39,6 +39,7 @@ pybind11_add_module(plumb_python MODULE NO_EXTRAS ${python_sources})
 set_target_properties(plumb_python PROPERTIES
   OUTPUT_NAME plumb LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/python")
 plumb_compile_settings(plumb_python)
-target_link_libraries(plumb_python PRIVATE plumb_cli)
+target_compile_definitions(plumb_python PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")
+target_link_libraries(plumb_python PRIVATE plumb_session plumb_render)
 # Nothing of the libraries inside is to be seen beside other modules of a notebook.
 target_link_options(plumb_python PRIVATE -Wl,--exclude-libs,ALL)

@@ -113,7 +113,7 @@ plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LI
     detection/fitted_false_alarm health/forged_fields health/induction numeric/symmetric_eigen
   LONGER Acceptance.* BitFlips.* CFunctions.* ExactSum.* ExtremeNumbers.* FalseAlarm.* FirstCalibration*.* Fit*.*
     ForgedFields.* HalfNormalMeanQuantile.* Induction.* IsolationOracle.* IsolationRates.* LevelMisfit.* *Law.* *Laws.*
-    Outliers.* PaperConvergence.* RequirementIsolation.* Snapshot.* TemperatureUse.* Vibration.*)
+    Outliers.* RequirementIsolation.* Snapshot.* TemperatureUse.* Vibration.*)
 # The sides that a build for eight sensors leaves to larger ones; for scripts/coverage, which builds it by name.
 if(PLUMB_COVERAGE AND TARGET plumb_24)
   plumb_test_executable(plumb_core_24_tests LABEL core PREFIX "24." ROOMS array detection LIBRARIES plumb_24)
@@ -156,12 +156,12 @@ include(PlumbLaws)
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
-    ROOMS scenario study io testing report cli recordings docs
+    ROOMS paper scenario study io findings testing verification render cli recordings docs
     SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* Geometry*.* GravityErrorStudy.*
-      InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* OneAttitudeStudy.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
+      InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
-    LIBRARIES plumb_testing plumb_report plumb_io plumb_study plumb_scenario plumb_24)
+    LIBRARIES plumb_testing plumb_render plumb_findings plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
   if(TARGET plumb_host_tests AND TARGET plumb_tool)
     add_dependencies(plumb_host_tests plumb_tool)
     target_compile_definitions(plumb_host_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
@@ -174,7 +174,7 @@ if(TARGET plumb_tool)
   mark_as_advanced(PLUMB_PYTHON3)
   foreach(name IN ITEMS schema sarif browser)
     if(PLUMB_PYTHON3)
-      add_test(NAME report.${name} COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/report/${name}.py"
+      add_test(NAME report.${name} COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/render/${name}.py"
         "$<TARGET_FILE:plumb_tool>" "${PROJECT_SOURCE_DIR}")
     else()
       add_test(NAME report.${name} COMMAND bash -c "echo 'skipped: no python3'; exit 77")
@@ -199,7 +199,20 @@ if(PLUMB_PYTHON3)
     COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/citations.py" "${PROJECT_SOURCE_DIR}")
   add_test(NAME docs.broken_citations_are_found
     COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/citations.py" --self-test)
-  set_tests_properties(docs.citations_resolve docs.broken_citations_are_found PROPERTIES LABELS trace TIMEOUT 120)
+  # No room includes one that stands above it.
+  if(TARGET plumb_tool)
+    add_test(NAME docs.stable_interface COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/interface.py"
+      "${PROJECT_SOURCE_DIR}" "$<TARGET_FILE:plumb_tool>")
+    set_tests_properties(docs.stable_interface PROPERTIES LABELS "host;trace" TIMEOUT 120)
+  endif()
+  add_test(NAME docs.changed_interface_is_found
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/interface.py" --self-test)
+  set_tests_properties(docs.changed_interface_is_found PROPERTIES LABELS "trace;quick" TIMEOUT 60)
+  add_test(NAME docs.floors_hold
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/floors.py" "${PROJECT_SOURCE_DIR}")
+  add_test(NAME docs.broken_floors_are_found
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/floors.py" --self-test)
+  set_tests_properties(docs.floors_hold docs.broken_floors_are_found docs.citations_resolve docs.broken_citations_are_found PROPERTIES LABELS trace TIMEOUT 120)
 endif()
 
 # The manual page as man reads it, the completion as the shells do, and the guided tour as it is printed.
@@ -216,8 +229,8 @@ if(TARGET plumb_tool)
 endif()
 
 # Campaigns: a program of their own, because it is linked with monitors of several capacities.
-if(TARGET plumb_report AND TARGET plumb_tool)
-  plumb_test_executable(plumb_campaign_tests LABEL host ROOMS campaign LIBRARIES plumb_report plumb_24
+if(TARGET plumb_render AND TARGET plumb_tool)
+  plumb_test_executable(plumb_campaign_tests LABEL host ROOMS campaign LIBRARIES plumb_render plumb_24
     LONGER Campaign*.*)
   if(TARGET plumb_campaign_tests)
     add_dependencies(plumb_campaign_tests plumb_tool)
@@ -241,6 +254,17 @@ if(TARGET plumb_attack_harness)
     "${PROJECT_SOURCE_DIR}/bench/attacks/family.cpp" "${PROJECT_SOURCE_DIR}/bench/attacks/tally.cpp")
   add_test(NAME attacks.quick COMMAND plumb_monitor_attacks --quick)
   set_tests_properties(attacks.quick PROPERTIES LABELS "host;slow" TIMEOUT 900)
+  # Episodes of long runs that once broke a promise: their own snapshot was refused after gravity had been set anew, and a
+  # sensor of a tool noisier than stated was provisionally excluded.
+  foreach(found lies-host:34:16 lies-host:36:1767 b3-noise-1.5:36:346)
+    string(REPLACE ":" ";" found "${found}")
+    list(GET found 0 family)
+    list(GET found 1 seed)
+    list(GET found 2 episode)
+    add_test(NAME attacks.${family}_${seed}_${episode} COMMAND plumb_monitor_attacks --seed ${seed} --family ${family}
+             --episode ${episode})
+    set_tests_properties(attacks.${family}_${seed}_${episode} PROPERTIES LABELS "host" TIMEOUT 60)
+  endforeach()
 endif()
 
 # The corpus by which two commits are compared: the same twice, and what differs is found.
@@ -251,8 +275,8 @@ if(TARGET plumb_replay)
 endif()
 
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
-if(TARGET plumb_cli)
-  plumb_test_executable(plumb_stepper_tests LABEL host ROOMS stepper LIBRARIES plumb_cli
+if(TARGET plumb_tool)
+  plumb_test_executable(plumb_stepper_tests LABEL host ROOMS session LIBRARIES plumb_session plumb_render
     SLOW StepperLaw.*
     LONGER Stepper.*)
   add_dependencies(plumb_stepper_tests plumb_tool)
@@ -291,8 +315,50 @@ add_test(NAME example.monitor_loop_c COMMAND plumb_monitor_loop_c)
 set_tests_properties(example.monitor_loop_c PROPERTIES LABELS core TIMEOUT 60
   PASS_REGULAR_EXPRESSION "suspect -> degraded  cause isolated_fault")
 add_test(NAME example.guide_quotes_it
-  COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/guide.md | grep -Fxv -f examples/embed/monitor_loop.cpp"
+  COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/guide.md | grep -Fxv -f <(cat examples/embed/monitor_loop.cpp examples/ideas/*.cpp)"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+
+# One idea each, at most 25 lines: built without a warning, run, what they print compared with the file beside them.
+add_subdirectory("${PROJECT_SOURCE_DIR}/examples/ideas" examples/ideas)
+get_property(ideas DIRECTORY "${PROJECT_SOURCE_DIR}/examples/ideas" PROPERTY BUILDSYSTEM_TARGETS)
+add_custom_target(plumb_core_ideas)  # those that need none of the host libraries
+foreach(idea IN LISTS ideas)
+  string(REGEX REPLACE "^idea_" "" name "${idea}")
+  if(EXISTS "${PROJECT_SOURCE_DIR}/examples/ideas/${name}.c")
+    target_compile_options(${idea} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)
+  else()
+    plumb_compile_settings(${idea})
+    plumb_optimise_less(${idea})
+  endif()
+  set(arguments)
+  if(name STREQUAL "read_files")
+    set(arguments "${PROJECT_SOURCE_DIR}/examples/paper_tool.toml" "${PROJECT_BINARY_DIR}/ideas/cal.json"
+      "${PROJECT_BINARY_DIR}/ideas/drilling.csv")
+  endif()
+  add_test(NAME idea.${name} COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/prints.sh"
+    "${PROJECT_SOURCE_DIR}/examples/ideas/${name}.out" "$<TARGET_FILE:${idea}>" ${arguments})
+  get_target_property(linked ${idea} LINK_LIBRARIES)
+  if(linked MATCHES "plumb::(plumb|c|scenario)$")
+    set(label core)
+    add_dependencies(plumb_core_ideas ${idea})
+  else()
+    set(label host)
+  endif()
+  set_tests_properties(idea.${name} PROPERTIES LABELS "${label};quick" TIMEOUT 60)
+endforeach()
+if(TARGET plumb_tool AND TARGET idea_read_files)
+  add_test(NAME idea.files COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/files.sh" "${PROJECT_SOURCE_DIR}"
+    "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/ideas")
+  set_tests_properties(idea.files PROPERTIES LABELS "host;quick" FIXTURES_SETUP idea_files TIMEOUT 60)
+  set_tests_properties(idea.read_files PROPERTIES FIXTURES_REQUIRED idea_files)
+endif()
+if(PLUMB_PYTHON3)
+  add_test(NAME idea.pages_quote_them
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/examples/ideas.py" "${PROJECT_SOURCE_DIR}")
+  add_test(NAME idea.broken_quotes_are_found
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/examples/ideas.py" --self-test)
+  set_tests_properties(idea.pages_quote_them idea.broken_quotes_are_found PROPERTIES LABELS "trace;quick" TIMEOUT 60)
+endif()
 
 # In a navigation stack: programs, adapters, and the tests of both.
 add_subdirectory("${PROJECT_SOURCE_DIR}/examples/navigation" examples/navigation)
@@ -325,10 +391,10 @@ set_tests_properties(example.attitude_figure PROPERTIES LABELS core SKIP_RETURN_
 # What the tests with the label core run: the gates of .ci/run that compile floors 1 to 4 again build no more than this.
 add_custom_target(plumb_core_checks)
 add_dependencies(plumb_core_checks plumb_core_tests plumb_monitor_loop plumb_monitor_loop_c plumb_nav_loop
-  plumb_attitude_filter plumb_survey_station plumb_example_tests)
+  plumb_attitude_filter plumb_survey_station plumb_example_tests plumb_core_ideas)
 
 add_test(NAME example.navigation_page_quotes_them
-  COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/navigation.md | grep -Fxv -f <(cat examples/navigation/*.?pp)"
+  COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/navigation.md | grep -Fxv -f <(cat examples/navigation/*.?pp examples/ideas/*.cpp)"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
 
 add_test(NAME example.navigation_files_are_short  # the first below 20 lines, all below 80
@@ -343,6 +409,18 @@ if(TARGET plumb_python)
               "PLUMB_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "${Python_EXECUTABLE}" -B
               "${PROJECT_SOURCE_DIR}/tests/python/test_${name}.py"
       WORKING_DIRECTORY "${PROJECT_BINARY_DIR}/python")
+  endforeach()
+  foreach(name IN ITEMS simulate read_csv)
+    set(arguments)
+    if(name STREQUAL "read_csv")
+      set(arguments examples/paper_tool.toml "${PROJECT_BINARY_DIR}/ideas/cal.json" "${PROJECT_BINARY_DIR}/ideas/drilling.csv")
+    endif()
+    add_test(NAME idea.${name}
+      COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=$<TARGET_FILE_DIR:plumb_python>"
+              bash tests/examples/prints.sh "examples/ideas/${name}.out" "${Python_EXECUTABLE}" -B "examples/ideas/${name}.py"
+              ${arguments}
+      WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    set_tests_properties(idea.${name} PROPERTIES LABELS "host;slow" FIXTURES_REQUIRED idea_files TIMEOUT 60)
   endforeach()
   add_test(NAME python.pip
     COMMAND bash "${PROJECT_SOURCE_DIR}/tests/python/pip.sh" "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}"
@@ -359,9 +437,14 @@ if(TARGET plumb_testing AND TARGET plumb_tool AND PLUMB_INSTALL)
   add_test(NAME example.property_test
     COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DSOURCE=${PROJECT_SOURCE_DIR}/examples/property_test"
             "-DWORK=${PROJECT_BINARY_DIR}/property_test" "-DCXX=${CMAKE_CXX_COMPILER}" "-DFLAGS=${CMAKE_CXX_FLAGS}"
-            "-DGENERATOR=${CMAKE_GENERATOR}" -P "${PROJECT_SOURCE_DIR}/cmake/RunConsumer.cmake")
+            "-DGENERATOR=${CMAKE_GENERATOR}" "-DPROGRAM=cone_test" -P "${PROJECT_SOURCE_DIR}/cmake/RunConsumer.cmake")
   set_tests_properties(example.property_test PROPERTIES LABELS "host;slow" TIMEOUT 900
     ENVIRONMENT "RC_PARAMS=seed=7 max_success=20")
+  add_test(NAME example.ideas
+    COMMAND "${CMAKE_COMMAND}" "-DBUILD=${PROJECT_BINARY_DIR}" "-DSOURCE=${PROJECT_SOURCE_DIR}/examples/ideas"
+            "-DWORK=${PROJECT_BINARY_DIR}/ideas_installed" "-DCXX=${CMAKE_CXX_COMPILER}" "-DFLAGS=${CMAKE_CXX_FLAGS}"
+            "-DGENERATOR=${CMAKE_GENERATOR}" "-DPROGRAM=idea_law" -P "${PROJECT_SOURCE_DIR}/cmake/RunConsumer.cmake")
+  set_tests_properties(example.ideas PROPERTIES LABELS "host;slow" TIMEOUT 900)
 endif()
 
 # The package: packed, unpacked, and used by programs in C++ and C.

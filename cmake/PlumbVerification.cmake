@@ -1,5 +1,5 @@
 # What the verification report has to know of its own build: which requirement is checked by which test, and what exactly was
-# built. Both are part of the tool, so that an installed one needs no source tree. Included where plumb_report is.
+# built. Both are part of the tool, so that an installed one needs no source tree. Included where plumb_render is.
 
 # --- Requirements, hazards, tests, formal items: read by the readers of tests/trace. -----------------------------------
 add_executable(plumb_trace_export "${PROJECT_SOURCE_DIR}/src/trace/export.cpp")
@@ -34,7 +34,7 @@ add_custom_target(plumb_build_identity
           -P "${PROJECT_SOURCE_DIR}/cmake/BuildIdentity.cmake"
   BYPRODUCTS "${PROJECT_BINARY_DIR}/generated/build_identity.hpp" VERBATIM)
 
-target_sources(plumb_report PRIVATE "${traceability}")
-target_include_directories(plumb_report PRIVATE "${PROJECT_BINARY_DIR}/generated")
-target_compile_definitions(plumb_report PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")
-add_dependencies(plumb_report plumb_build_identity)
+target_sources(plumb_render PRIVATE "${traceability}")
+target_include_directories(plumb_render PRIVATE "${PROJECT_BINARY_DIR}/generated")
+target_compile_definitions(plumb_render PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")
+add_dependencies(plumb_render plumb_build_identity)

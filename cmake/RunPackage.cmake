@@ -16,6 +16,19 @@ function(must_watch program)  # both examples play the same fault
   endif()
 endfunction()
 
+# build_against(NAME COMPONENT LIBRARY): ${WORK}/NAME/main.cpp as a project that finds the installed plumb; ${WORK}/NAME/build/program
+function(build_against name component library)
+  file(WRITE "${WORK}/${name}/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
+project(program LANGUAGES CXX)
+find_package(plumb 1 CONFIG REQUIRED COMPONENTS ${component})
+add_executable(program main.cpp)
+target_link_libraries(program PRIVATE ${library})
+")
+  must("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${WORK}/${name}" -B "${WORK}/${name}/build" "-DCMAKE_PREFIX_PATH=${prefix}"
+       "-DCMAKE_CXX_FLAGS=${FLAGS}")
+  must("${CMAKE_COMMAND}" --build "${WORK}/${name}/build")
+endfunction()
+
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")
 find_program(cpack cpack REQUIRED)
@@ -67,7 +80,7 @@ foreach(compiler IN ITEMS "g++;gcc" "clang++;clang")
 endforeach()
 
 # A component that is not there is told by name, with what to do.
-foreach(case IN ITEMS "host;-" "nonsense;there is no component nonsense: there are host and testing")
+foreach(case IN ITEMS "host;-" "paper;-" "nonsense;there is no component nonsense: there are paper, host and testing")
   list(GET case 0 component)
   list(GET case 1 told)
   file(WRITE "${WORK}/${component}/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
@@ -77,17 +90,63 @@ find_package(plumb 1 CONFIG REQUIRED COMPONENTS ${component})
   execute_process(COMMAND "${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${WORK}/${component}" -B "${WORK}/${component}/build" "-DCMAKE_PREFIX_PATH=${prefix}"
     RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   string(REGEX REPLACE "[ \n]+" " " output "${output}")
-  if("${found}" MATCHES "plumbHostTargets" AND component STREQUAL "host")
+  if("${found}" MATCHES "plumb(Host|Paper)Targets" AND component MATCHES "^(host|paper)$")
     set(told "-- Configuring done")
-  elseif(component STREQUAL "host")
-    set(told "component host is not in this installation")
+  elseif(component MATCHES "^(host|paper)$")
+    set(told "component ${component} is not in this installation")
   endif()
   if(NOT output MATCHES "${told}")
     message(FATAL_ERROR "COMPONENTS ${component} (${status}) is not answered by \"${told}\":\n${output}")
   endif()
 endforeach()
 
+# The paper's monitor, for who sets it beside plumb's.
 find_program(pkg_config pkg-config)
+if("${found}" MATCHES "plumbPaperTargets")
+  file(WRITE "${WORK}/with-paper/main.cpp" "#include <plumb/paper/paper_monitor.hpp>
+static plumb::PaperSetup setup;
+static plumb::PaperMonitor monitor;
+int main() { return monitor.configure(setup).error().code == plumb::Errc::wrong_mode ? 0 : 1; }
+")
+  build_against("with-paper" paper plumb::paper)
+  must("${WORK}/with-paper/build/program")
+  math(EXPR count "${count} + 1")
+  if(pkg_config)
+    file(GLOB_RECURSE pc "${prefix}/*/plumb-paper.pc")
+    get_filename_component(pc_dir "${pc}" DIRECTORY)
+    set(ENV{PKG_CONFIG_PATH} "${pc_dir}")
+    must("${pkg_config}" --cflags --libs plumb-paper)
+    separate_arguments(told NATIVE_COMMAND "${output}")
+    separate_arguments(flags NATIVE_COMMAND "${FLAGS}")
+    must(g++ -std=c++17 ${flags} "${WORK}/with-paper/main.cpp" -o "${WORK}/with-paper/by-pkg-config" ${told})
+    must("${WORK}/with-paper/by-pkg-config")
+    math(EXPR count "${count} + 1")
+  endif()
+endif()
+
+# The host libraries: an array file and no log make a calibration that is refused, for a reason with a name.
+if("${found}" MATCHES "plumbHostTargets")
+  file(WRITE "${WORK}/with-session/main.cpp" "#include <plumb/findings/refusal.hpp>
+#include <plumb/session/calibration_pipeline.hpp>
+int main(int, char** argv) {
+  const auto array = plumb::io::read_array_file(argv[1]);
+  if (!array) return 1;
+  const auto run = plumb::session::run_calibration(*array, std::vector<plumb::Sample>{});
+  return plumb::findings::refusal_of(run, *array).front().code == plumb::findings::FindingCode::no_stretch_at_rest ? 0 : 1;
+}
+")
+  build_against("with-session" host plumb::session)
+  must("${WORK}/with-session/build/program" "${SOURCE}/examples/paper_tool.toml")
+  math(EXPR count "${count} + 1")
+  file(WRITE "${WORK}/with-verification/main.cpp" "#include <plumb/verification/verdict.hpp>
+using namespace plumb::verification;
+int main() { return judge(UserLimits{}, Facts{}).fit == Result::not_met ? 0 : 1; }  // of no array nothing is shown
+")
+  build_against("with-verification" host plumb::verification)
+  must("${WORK}/with-verification/build/program")
+  math(EXPR count "${count} + 1")
+endif()
+
 if(pkg_config)
   file(GLOB_RECURSE pc "${prefix}/*/plumb.pc")
   get_filename_component(pc_dir "${pc}" DIRECTORY)

@@ -45,7 +45,8 @@ inline void demand_sound(const plumb::Verdict& v) {
   using plumb::SensorSet;
   demand(v.state <= plumb::HealthState::failed, "a state of the table");
   demand((v.in_service & v.excluded).empty() && (v.in_service & v.absent).empty(), "in service is not out of service");
-  demand((v.in_service | v.set_aside | v.excluded | v.absent) == v.configured, "every sensor is somewhere");
+  demand((v.in_service | v.provisionally_excluded | v.excluded | v.absent) == v.configured,
+         "every sensor is somewhere");
   bool finite = true;
   for (const double x : v.gravity_mps2) finite = finite && x - x == 0.0;
   for (const double x : v.covariance) finite = finite && x - x == 0.0;

@@ -1,7 +1,7 @@
 // Arbitrary bytes for a snapshot, and a true snapshot with arbitrary places overwritten whose check sum is made true
-// again: refused with a cause and unproven, or a monitor that goes on soundly.
+// again: refused with a cause and not yet validated, or a monitor that goes on soundly.
 #include "monitor.hpp"
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace {
 
@@ -19,7 +19,7 @@ void offer(const std::vector<std::uint8_t>& bytes) {
   const Expected<void> taken = monitor->restore(setup, bytes.data(), bytes.size());
   if (!taken) {
     fuzz::demand(taken.error().code != Errc::ok, "a refusal has a cause");
-    fuzz::demand((monitor->verdict().qualifiers & Qualifier::unproven) != 0, "refused: unproven");
+    fuzz::demand((monitor->verdict().qualifiers & Qualifier::not_yet_validated) != 0, "refused: not yet validated");
   }
   double time_s = monitor->verdict().time_s;
   if (!(time_s - time_s == 0.0)) time_s = 0.0;

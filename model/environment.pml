@@ -6,7 +6,7 @@
 
    Verdicts. Any block may be clean, short of clean, alarming, off gravity or no evidence at all (motion, heat, age),
    whatever is wrong: nothing is assumed about detection. Accusations obey the soundness theorem (T5, proofs/coq): at the
-   strict grade nobody healthy throughout the episode is accused; at the parity grade nobody while four are healthy,
+   confirmed grade nobody healthy throughout the episode is accused; at the provisional grade nobody while four are healthy,
    and beyond that anybody may be. MOVING weakens it to "healthy at this block", the wording that a moving fault
    defeats; the model must then find the run that excludes a healthy sensor.
 
@@ -23,7 +23,7 @@ byte kind;
 #define ALARMING    4
 #define OFF_GRAVITY 5
 bit excited;             /* at an attitude that the records have not seen */
-bit shows;               /* the fault shows here; for who is unproven: every prediction has moved */
+bit shows;               /* the fault shows here; for who is not yet validated: every prediction has moved */
 bit vote;
 byte wrong, i, result, among;
 byte regime;             /* how the run goes on for ever, for liveness: */
@@ -142,7 +142,7 @@ inline count_doubt() {
   if :: SUSPECTED > most -> most = SUSPECTED; doubt = 0 :: else fi;
   assert(TO_GO <= to_go);
   if
-  :: (kind == ALARMING && !(result == 1 && EXPECTED(CONTRADICTION, NONE_ALIVE))) || (kind == SOFT && mode == SUSPECT) ->
+  :: (kind == ALARMING && !(result == 1 && EXPECTED(NO_CONSISTENT_HYPOTHESIS, NONE_ALIVE))) || (kind == SOFT && mode == SUSPECT) ->
        if :: doubt < P_STATIONS && excited -> doubt++; assert(TO_GO < to_go) :: else fi
   :: else
   fi;
@@ -157,18 +157,18 @@ inline count_clean() {
        if :: kind != SOFT -> probation = 0; probation_stations = 0 :: else fi
   :: else ->
        if :: clean_run < R_BLOCKS -> clean_run++ :: else fi;
-       if :: unproven && clean_run == R_BLOCKS && shows -> unproven = 0 :: else fi;
+       if :: not_yet_validated && clean_run == R_BLOCKS && shows -> not_yet_validated = 0 :: else fi;
        if
        :: (open || doubt > 0) && excited ->
             if
             :: clean_stations++             /* those set aside agree too */
             :: aside != 0 && regime == FREE
             fi;
-            if :: clean_stations == M_STATIONS -> forget_episode(); ever = 0; exhausted = 0 :: else fi
+            if :: clean_stations == M_STATIONS -> forget_episode(); ever = 0; timed_out = 0 :: else fi
        :: else
        fi;
        if
-       :: !open && !unproven && RECORDS && mode != SUSPECT && regime == FREE && RETURNS ->
+       :: !open && !not_yet_validated && RECORDS && mode != SUSPECT && regime == FREE && RETURNS ->
             pick((out | aside) & ~(readmitted | absent), proven);
             if
             :: probation & proven -> probation = probation & proven
@@ -190,7 +190,7 @@ inline quiet_block() {
   fi;
   if :: kind == ALARMING && RECORDS && !open -> open = 1; onset() :: else fi;
   vote = open && RECORDS && kind != OFF_GRAVITY && !(lost | back);
-  if :: kind == CLEAN && unproven && clean_run + 1 >= R_BLOCKS && excited -> if :: shows = 1 :: regime == FREE -> shows = 0 fi :: else fi;
+  if :: kind == CLEAN && not_yet_validated && clean_run + 1 >= R_BLOCKS && excited -> if :: shows = 1 :: regime == FREE -> shows = 0 fi :: else fi;
   if :: vote -> ballot() :: else fi;
   if
   :: kind == ALARMING && COUNT(POSED) >= 4 && regime != FAULTY && !standing -> if :: result = 1 :: result = 0 fi
@@ -199,7 +199,7 @@ inline quiet_block() {
   if :: RECORDS -> count_doubt() :: else fi;
   count_clean();
   if
-  :: ACCUSES && open && standing && agree >= NEEDED -> culprits = accused; raised = raised | BIT(CULPRIT)
+  :: ACCUSES && open && standing && agree >= NEEDED -> culprits = accused; raised = raised | BIT(EXCLUSION)
   :: else
   fi;
   if
@@ -207,7 +207,7 @@ inline quiet_block() {
      result == 0 && !(lost | back) ->
        among = (SOUND_PARITY -> serving & ever : serving);
        pick(among, to_aside); among = 0;
-       if :: to_aside != 0 && COUNT(serving & ~to_aside) >= 3 -> raised = raised | BIT(SET_ASIDE)
+       if :: to_aside != 0 && COUNT(serving & ~to_aside) >= 3 -> raised = raised | BIT(PROVISIONAL_EXCLUSION)
           :: else -> to_aside = 0
        fi
   :: else
@@ -215,17 +215,17 @@ inline quiet_block() {
   if
   :: kind != OFF_GRAVITY && PATIENCE_ENDS ->
        if :: within = 0 :: regime != VIOLATED -> within = 1 fi;
-       if :: !exhausted || !within -> raised = raised | BIT(PATIENCE_OVER) :: else fi
+       if :: !timed_out || !within -> raised = raised | BIT(ISOLATION_TIMEOUT) :: else fi
   :: else
   fi;
   if
   :: kind == ALARMING && result == 1 ->
-       if :: EXPECTED(CONTRADICTION, NONE_ALIVE) :: else -> raised = raised | BIT(CONTRADICTION) fi
+       if :: EXPECTED(NO_CONSISTENT_HYPOTHESIS, NONE_ALIVE) :: else -> raised = raised | BIT(NO_CONSISTENT_HYPOTHESIS) fi
   :: kind == ALARMING && result == 0 -> raised = raised | BIT(ALARM)
   :: kind == OFF_GRAVITY ->
-       if :: EXPECTED(REFERENCE, OF_GRAVITY) :: else -> raised = raised | BIT(REFERENCE) fi
+       if :: EXPECTED(NORM_MISMATCH, OF_GRAVITY) :: else -> raised = raised | BIT(NORM_MISMATCH) fi
   :: kind == CLEAN ->
-       raised = raised | BIT(CLEAN_BLOCK);
+       raised = raised | BIT(PASSED_BLOCK);
        if :: mode == RECALIBRATING || mode == INITIAL -> fit = 1 :: else fi
   :: else
   fi;
@@ -284,7 +284,7 @@ inline coincidence() {
   fi
 }
 
-#define FREEZABLE (BIT(CULPRIT) | BIT(SET_ASIDE) | BIT(PROBATION_PASSED) | BIT(RECALIBRATE) | BIT(FIT_ACCEPTED))
+#define FREEZABLE (BIT(EXCLUSION) | BIT(PROVISIONAL_EXCLUSION) | BIT(PROBATION_PASSED) | BIT(RECALIBRATE) | BIT(FIT_ACCEPTED))
 
 inline choose() {
   block_kind();
@@ -304,10 +304,10 @@ inline choose() {
        :: skip
        fi
   fi;
-  raised = raised | (pending << CONTRADICTION);
+  raised = raised | (pending << NO_CONSISTENT_HYPOTHESIS);
 #ifndef OLD_PATIENCE  /* patience does not lead past what speaks against the tool; without this S17 falls */
-  if :: mode == RECALIBRATING && (raised & (BIT(CONTRADICTION) | BIT(ALARM) | BIT(REFERENCE))) ->
-       raised = raised & ~BIT(PATIENCE_OVER)
+  if :: mode == RECALIBRATING && (raised & (BIT(NO_CONSISTENT_HYPOTHESIS) | BIT(ALARM) | BIT(NORM_MISMATCH))) ->
+       raised = raised & ~BIT(ISOLATION_TIMEOUT)
      :: else
   fi
 #endif

@@ -36,11 +36,11 @@ bit changed, agreed;
 inline run_code() {
 #ifdef CODE
   c_code {
-    S.unproven = now.unproven; S.exhausted = now.exhausted; S.clean_run = now.clean_run;
+    S.not_yet_validated = now.not_yet_validated; S.timed_out = now.timed_out; S.clean_run = now.clean_run;
     I.raised = now.raised;
     I.culprits = now.culprits; I.accused = now.to_aside; I.lost = now.lost; I.back = now.back;
     I.proven = now.proven; I.reset = now.named;
-    I.protection_within = now.within; I.clean_blocks = R_BLOCKS; I.sensors = SENSORS;
+    I.protection_within = now.within; I.passed_blocks = R_BLOCKS; I.sensors = SENSORS;
     /* What recalibrating was entered from must be read in recalibrating alone: elsewhere another value changes nothing. */
     T = S;
     T.base = NOMINAL;
@@ -59,9 +59,9 @@ inline compare() {
   changed = CHANGED;
   c_code {
     now.agreed = now.agreed && A.event == now.event && A.moved == now.moved && A.changed == now.changed && S.mode == now.mode &&
-                 S.base == now.base && S.in_service == now.serving && S.set_aside == now.aside &&
+                 S.base == now.base && S.in_service == now.serving && S.provisionally_excluded == now.aside &&
                  S.excluded == now.out && S.absent == now.absent && S.readmitted == now.readmitted &&
-                 S.unproven == now.unproven && S.exhausted == now.exhausted &&
+                 S.not_yet_validated == now.not_yet_validated && S.timed_out == now.timed_out &&
                  S.clean_run == now.clean_run && S.calibrated == now.calibrated;
   }
   assert(agreed);
@@ -90,9 +90,9 @@ active proctype tool() {
     fi;
     d_step {
       write_table();
-      serving = ALL; unproven = 1; event = NONE;
+      serving = ALL; not_yet_validated = 1; event = NONE;
 #ifdef CODE
-      c_code { S.mode = now.mode; S.base = now.base; S.in_service = now.serving; S.unproven = 1; S.calibrated = now.calibrated; };
+      c_code { S.mode = now.mode; S.base = now.base; S.in_service = now.serving; S.not_yet_validated = 1; S.calibrated = now.calibrated; };
 #endif
       c_code { plumb_sort(); }
     }

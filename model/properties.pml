@@ -8,16 +8,16 @@ bit alarmed;      /* a block spoke against the tool since the collection of stat
 inline look() {
   m0_ = mode; serving0_ = serving; aside0_ = aside; out0_ = out; absent0_ = absent; posed0_ = POSED;
   readmitted0_ = readmitted; ever0_ = ever; accused0_ = accused; open0_ = open;
-  run0_ = clean_run; unproven0_ = unproven; fit0_ = fit;
+  run0_ = clean_run; unproven0_ = not_yet_validated; fit0_ = fit;
   if
-  :: raised & (BIT(ALARM) | BIT(CONTRADICTION) | BIT(REFERENCE)) -> alarmed = (mode == RECALIBRATING || mode == INITIAL)
+  :: raised & (BIT(ALARM) | BIT(NO_CONSISTENT_HYPOTHESIS) | BIT(NORM_MISMATCH)) -> alarmed = (mode == RECALIBRATING || mode == INITIAL)
   :: else
   fi
 }
 
 #define LEFT_SERVICE (serving0_ & ~serving)
 #define CAME_BACK    (serving & ~serving0_)
-#define DOUBTED (event == ALARM || event == CONTRADICTION || event == REFERENCE || event == SET_ASIDE)
+#define DOUBTED (event == ALARM || event == NO_CONSISTENT_HYPOTHESIS || event == NORM_MISMATCH || event == PROVISIONAL_EXCLUSION)
 #define CHANGED (mode != m0_ || serving != serving0_ || aside != aside0_ || out != out0_ || absent != absent0_)
 
 inline judge() {
@@ -36,18 +36,18 @@ inline judge() {
   /* S1: an exclusion takes nobody who was healthy throughout the episode, and nobody but whom it names; nor does
      setting aside while four are healthy */
   if
-  :: event == CULPRIT ->
+  :: event == EXCLUSION ->
        assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, moved))
-  :: event == SET_ASIDE && COUNT(posed0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
+  :: event == PROVISIONAL_EXCLUSION && COUNT(posed0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
   :: else
   fi;
   /* S6: only the accused, after their stations, and never so that fewer than three are left */
   if
-  :: event == CULPRIT -> assert(moved == accused0_ && moved != 0 && open0_ && COUNT(posed0_ & ~moved) >= 3)
+  :: event == EXCLUSION -> assert(moved == accused0_ && moved != 0 && open0_ && COUNT(posed0_ & ~moved) >= 3)
   :: else
   fi;
   /* S6, S7: nobody leaves the service but by a culprit, a set-aside, a silence */
-  assert(WITHIN(LEFT_SERVICE, (event == CULPRIT || event == SET_ASIDE || event == CHANNEL_LOST -> moved : 0)));
+  assert(WITHIN(LEFT_SERVICE, (event == EXCLUSION || event == PROVISIONAL_EXCLUSION || event == CHANNEL_LOST -> moved : 0)));
   assert(!(kind == NO_EVIDENCE && event == NONE) || !CHANGED);
   /* S8: adopted only what was collected since the last word against the tool, and only on acceptance */
   if
@@ -56,19 +56,19 @@ inline judge() {
   fi;
   /* S9: back by probation, by acquittal of who was only set aside, or by the operator out of failed */
   assert(WITHIN(CAME_BACK, (event == PROBATION_PASSED || (event == RESET && m0_ == FAILED) -> moved :
-                            (event == CULPRIT -> aside0_ : 0))));
+                            (event == EXCLUSION -> aside0_ : 0))));
   assert(event != PROBATION_PASSED || COUNT(CAME_BACK) <= 1);
   /* S10: who has come back by probation once does not do so again, and nobody excluded comes back by an acquittal */
   assert(event != PROBATION_PASSED || WITHIN(CAME_BACK, readmitted & ~readmitted0_));
   assert(event == RESET || WITHIN(CAME_BACK & out0_, readmitted & ~readmitted0_));
   assert(WITHIN(readmitted0_, readmitted));
-  /* S12: patience over is bounded by a protection level, or an explanation is left that the rest corroborates, or failed.
+  /* S12: isolation timeout is bounded by a protection level, or an explanation is left that the rest corroborates, or failed.
      It is over after (n + 1) P stations in doubt at most: each of them takes one from what is left (TO_GO), and nothing
      but the end of the episode gives any back. */
   assert(most <= SENSORS && doubt <= P_STATIONS);
-  assert(event != PATIENCE_OVER || m0_ != SUSPECT || (within -> (mode == SUSPECT && exhausted) : mode == FAILED));
+  assert(event != ISOLATION_TIMEOUT || m0_ != SUSPECT || (within -> (mode == SUSPECT && timed_out) : mode == FAILED));
   /* In failed the qualifier tells a failure by patience from one by what is left. */
-  assert(mode != FAILED || m0_ == FAILED || exhausted == (event == PATIENCE_OVER));
+  assert(mode != FAILED || m0_ == FAILED || timed_out == (event == ISOLATION_TIMEOUT));
   /* S14: within an episode the accused only grow, but for those that are gone, and for a sensor that joined */
   assert(!(open0_ && open) || CAME_BACK & ~posed0_ || WITHIN(accused0_ & POSED, accused));
   /* S15: a step that changes something has an event to record */
@@ -80,15 +80,15 @@ inline judge() {
      is valid within its bound only, of which this model knows nothing but `within` */
   assert(!DOUBTED || !VALID);
   assert(!(kind == NO_EVIDENCE) || !VALID);
-  assert(!unproven || !SHOWS_OUTPUT);
-  assert(!(kind == ALARMING || kind == OFF_GRAVITY) || event == CULPRIT || !VALID || event <= CHANNEL_BACK);
+  assert(!not_yet_validated || !SHOWS_OUTPUT);
+  assert(!(kind == ALARMING || kind == OFF_GRAVITY) || event == EXCLUSION || !VALID || event <= CHANNEL_BACK);
   /* S19 */
   assert(calibrated || mode == INITIAL || mode == FAILED);
-  /* S20: adopted means suspect and unproven, and out of suspect only what has been clean for long enough */
-  assert(!(does & ADOPT_FIT) || (mode == SUSPECT && unproven && clean_run == 0));
-  assert(!(m0_ == SUSPECT && PUBLISHES(mode)) || event == CULPRIT ||
-         (event == CLEAN_BLOCK && run0_ >= R_BLOCKS && !unproven0_));
-  assert(event != RESET || mode == FAILED || (unproven && !PUBLISHES(mode)));
+  /* S20: adopted means suspect and not yet validated, and out of suspect only what has been clean for long enough */
+  assert(!(does & ADOPT_FIT) || (mode == SUSPECT && not_yet_validated && clean_run == 0));
+  assert(!(m0_ == SUSPECT && PUBLISHES(mode)) || event == EXCLUSION ||
+         (event == PASSED_BLOCK && run0_ >= R_BLOCKS && !unproven0_));
+  assert(event != RESET || mode == FAILED || (not_yet_validated && !PUBLISHES(mode)));
   assert(event != RESET || m0_ != FAILED || mode == FAILED || clean_run == 0);
   if :: does & (START_FIT | DISCARD_FIT | RESTART_FIT | ADOPT_FIT) || (mode != RECALIBRATING && mode != INITIAL) -> alarmed = 0
      :: else fi
@@ -97,7 +97,7 @@ inline judge() {
 #ifdef CLAIMS
 #define L1_HOLDS ([] (regime == FAULTY -> <> (WITHIN(broken, out) && mode != FAILED)))
 #define L2_HOLDS ([] (regime == CALM -> <> [] (mode != SUSPECT)))
-#define L3_HOLDS ([] (regime == DOUBTING && mode == SUSPECT -> <> (mode != SUSPECT || exhausted)))
+#define L3_HOLDS ([] (regime == DOUBTING && mode == SUSPECT -> <> (mode != SUSPECT || timed_out)))
 #define L4_HOLDS ([] (regime == CALM -> <> (mode != RECALIBRATING && mode != INITIAL)))
 #define L5_HOLDS ([] (regime == UNSEEN -> <> [] !VALID))
 #define L6_HOLDS ([] (regime == VIOLATED && LEFT == 3 && calibrated -> <> (mode == FAILED)))

@@ -2,7 +2,7 @@
 // must notice.
 #include "shim.h"
 
-#include "plumb/health/decision.hpp"
+#include "plumb/health/detail/decision.hpp"
 
 namespace {
 
@@ -14,13 +14,14 @@ static_assert(static_cast<int>(Mode::nominal) == 0 && static_cast<int>(Mode::iso
               static_cast<int>(Mode::recalibrating) == 4 && static_cast<int>(Mode::initial) == 5 &&
               static_cast<int>(Mode::failed) == 6 && kModeCount == 7);
 static_assert(static_cast<int>(HealthEvent::reset) == 0 && static_cast<int>(HealthEvent::channel_lost) == 1 &&
-              static_cast<int>(HealthEvent::channel_back) == 2 && static_cast<int>(HealthEvent::culprit) == 3 &&
-              static_cast<int>(HealthEvent::set_aside) == 4 && static_cast<int>(HealthEvent::patience_over) == 5 &&
-              static_cast<int>(HealthEvent::contradiction) == 6 && static_cast<int>(HealthEvent::alarm) == 7 &&
-              static_cast<int>(HealthEvent::reference) == 8 && static_cast<int>(HealthEvent::fit_accepted) == 9 &&
-              static_cast<int>(HealthEvent::fit_rejected) == 10 &&
+              static_cast<int>(HealthEvent::channel_back) == 2 && static_cast<int>(HealthEvent::exclusion) == 3 &&
+              static_cast<int>(HealthEvent::provisional_exclusion) == 4 &&
+              static_cast<int>(HealthEvent::isolation_timeout) == 5 &&
+              static_cast<int>(HealthEvent::no_consistent_hypothesis) == 6 &&
+              static_cast<int>(HealthEvent::alarm) == 7 && static_cast<int>(HealthEvent::norm_mismatch) == 8 &&
+              static_cast<int>(HealthEvent::fit_accepted) == 9 && static_cast<int>(HealthEvent::fit_rejected) == 10 &&
               static_cast<int>(HealthEvent::probation_passed) == 11 &&
-              static_cast<int>(HealthEvent::recalibrate) == 12 && static_cast<int>(HealthEvent::clean_block) == 13 &&
+              static_cast<int>(HealthEvent::recalibrate) == 12 && static_cast<int>(HealthEvent::passed_block) == 13 &&
               static_cast<int>(HealthEvent::none) == 14);
 
 #ifdef PLUMB_MODEL_DEFECT
@@ -43,10 +44,10 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   DecisionState s;
   s.mode = static_cast<Mode>(state->mode);
   s.base = static_cast<Mode>(state->base);
-  s.sensors = {SensorSet(state->in_service), SensorSet(state->set_aside), SensorSet(state->excluded),
+  s.sensors = {SensorSet(state->in_service), SensorSet(state->provisionally_excluded), SensorSet(state->excluded),
                SensorSet(state->absent), SensorSet(state->readmitted)};
-  s.unproven = state->unproven != 0;
-  s.exhausted = state->exhausted != 0;
+  s.not_yet_validated = state->not_yet_validated != 0;
+  s.timed_out = state->timed_out != 0;
   s.clean_run = state->clean_run;
 
   DecisionInput in;
@@ -55,7 +56,7 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
               SensorSet(input->back),     SensorSet(input->proven),  SensorSet(input->reset)};
   in.protection_within = input->protection_within != 0;
   in.calibrated = state->calibrated != 0;
-  in.clean_blocks = input->clean_blocks;
+  in.passed_blocks = input->passed_blocks;
   const int n = input->sensors;
   const Decision decision = decide(kTable, s, in, [n](SensorSet set) {
     if (set.size() < 3) return SizeClass::rank_lost;
@@ -67,12 +68,12 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   state->mode = static_cast<unsigned char>(s.mode);
   state->base = static_cast<unsigned char>(s.base);
   state->in_service = byte_of(s.sensors.in_service);
-  state->set_aside = byte_of(s.sensors.set_aside);
+  state->provisionally_excluded = byte_of(s.sensors.provisionally_excluded);
   state->excluded = byte_of(s.sensors.excluded);
   state->absent = byte_of(s.sensors.absent);
   state->readmitted = byte_of(s.sensors.readmitted);
-  state->unproven = s.unproven ? 1 : 0;
-  state->exhausted = s.exhausted ? 1 : 0;
+  state->not_yet_validated = s.not_yet_validated ? 1 : 0;
+  state->timed_out = s.timed_out ? 1 : 0;
   state->clean_run = static_cast<unsigned char>(s.clean_run);
   if (adopted) state->calibrated = 1;
   return {static_cast<unsigned char>(decision.event), byte_of(decision.sensors),

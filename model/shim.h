@@ -10,14 +10,14 @@ extern "C" {
 
 typedef struct {
   unsigned char mode, base;
-  unsigned char in_service, set_aside, excluded, absent, readmitted;
-  unsigned char unproven, exhausted, clean_run, calibrated;
+  unsigned char in_service, provisionally_excluded, excluded, absent, readmitted;
+  unsigned char not_yet_validated, timed_out, clean_run, calibrated;
 } plumb_model_state;
 
 typedef struct {
   unsigned raised; /* one bit per event */
   unsigned char culprits, accused, lost, back, proven, reset;
-  unsigned char protection_within, clean_blocks, sensors;
+  unsigned char protection_within, passed_blocks, sensors;
 } plumb_model_input;
 
 typedef struct {

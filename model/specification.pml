@@ -10,7 +10,7 @@
 #define P_STATIONS 3  /* stations in doubt: patience */
 #define K_STATIONS 2  /* stations of probation */
 #define M_STATIONS 2  /* clean stations that end an episode */
-#define R_BLOCKS   2  /* clean blocks in a row that earn trust */
+#define R_BLOCKS   2  /* passed blocks in a row that earn trust */
 #else
 #define E_STATIONS 1
 #define P_STATIONS 2
@@ -38,17 +38,17 @@
 #define RESET            0
 #define CHANNEL_LOST     1
 #define CHANNEL_BACK     2
-#define CULPRIT          3
-#define SET_ASIDE        4
-#define PATIENCE_OVER    5
-#define CONTRADICTION    6
+#define EXCLUSION          3
+#define PROVISIONAL_EXCLUSION        4
+#define ISOLATION_TIMEOUT    5
+#define NO_CONSISTENT_HYPOTHESIS    6
 #define ALARM            7
-#define REFERENCE        8
+#define NORM_MISMATCH        8
 #define FIT_ACCEPTED     9
 #define FIT_REJECTED     10
 #define PROBATION_PASSED 11
 #define RECALIBRATE      12
-#define CLEAN_BLOCK      13
+#define PASSED_BLOCK      13
 #define NONE             14
 #define EVENTS           14
 #define BIT(e) (1 << (e))
@@ -61,8 +61,8 @@
 /* Where a cell leads. */
 #define STAY                0
 #define BY_SIZE             1
-#define BY_SIZE_IF_PROVEN   2
-#define BY_SIZE_WHEN_EARNED 3
+#define BY_SIZE_IF_VALIDATED   2
+#define BY_SIZE_WHEN_PASSED 3
 #define TO_SUSPECT          4
 #define SUSPECT_OR_FAILED   5
 #define STAY_OR_FAILED      6
@@ -99,107 +99,107 @@ inline write_table() {
   CELL(NOMINAL, RESET,            IGNORED,    STAY,              NOTHING);
   CELL(NOMINAL, CHANNEL_LOST,     TAKEN,      BY_SIZE,           MARK_ABSENT);
   CELL(NOMINAL, CHANNEL_BACK,     TAKEN,      STAY,              MARK_BACK);
-  CELL(NOMINAL, CULPRIT,          TAKEN,      BY_SIZE,           EXCLUDE);
-  CELL(NOMINAL, SET_ASIDE,        TAKEN,      SUSPECT_OR_FAILED, PUT_ASIDE);
-  CELL(NOMINAL, PATIENCE_OVER,    IMPOSSIBLE, TO_FAILED,         NOTHING);
-  CELL(NOMINAL, CONTRADICTION,    TAKEN,      TO_SUSPECT,        NOTHING);
+  CELL(NOMINAL, EXCLUSION,          TAKEN,      BY_SIZE,           EXCLUDE);
+  CELL(NOMINAL, PROVISIONAL_EXCLUSION,        TAKEN,      SUSPECT_OR_FAILED, PUT_ASIDE);
+  CELL(NOMINAL, ISOLATION_TIMEOUT,    IMPOSSIBLE, TO_FAILED,         NOTHING);
+  CELL(NOMINAL, NO_CONSISTENT_HYPOTHESIS,    TAKEN,      TO_SUSPECT,        NOTHING);
   CELL(NOMINAL, ALARM,            TAKEN,      TO_SUSPECT,        NOTHING);
-  CELL(NOMINAL, REFERENCE,        TAKEN,      TO_SUSPECT,        NOTHING);
+  CELL(NOMINAL, NORM_MISMATCH,        TAKEN,      TO_SUSPECT,        NOTHING);
   CELL(NOMINAL, FIT_ACCEPTED,     IMPOSSIBLE, TO_FAILED,         NOTHING);
   CELL(NOMINAL, FIT_REJECTED,     IMPOSSIBLE, TO_FAILED,         NOTHING);
   CELL(NOMINAL, PROBATION_PASSED, TAKEN,      BY_SIZE,           REINSTATE);
   CELL(NOMINAL, RECALIBRATE,      TAKEN,      TO_RECALIBRATING,  START_FIT);
-  CELL(NOMINAL, CLEAN_BLOCK,      TAKEN,      STAY,              COUNT_IT);
+  CELL(NOMINAL, PASSED_BLOCK,      TAKEN,      STAY,              COUNT_IT);
 
   CELL(ISOLATED, RESET,            IGNORED,    STAY,              NOTHING);
   CELL(ISOLATED, CHANNEL_LOST,     TAKEN,      BY_SIZE,           MARK_ABSENT);
   CELL(ISOLATED, CHANNEL_BACK,     TAKEN,      STAY,              MARK_BACK);
-  CELL(ISOLATED, CULPRIT,          TAKEN,      BY_SIZE,           EXCLUDE);
-  CELL(ISOLATED, SET_ASIDE,        TAKEN,      SUSPECT_OR_FAILED, PUT_ASIDE);
-  CELL(ISOLATED, PATIENCE_OVER,    IMPOSSIBLE, TO_FAILED,         NOTHING);
-  CELL(ISOLATED, CONTRADICTION,    TAKEN,      TO_SUSPECT,        NOTHING);
+  CELL(ISOLATED, EXCLUSION,          TAKEN,      BY_SIZE,           EXCLUDE);
+  CELL(ISOLATED, PROVISIONAL_EXCLUSION,        TAKEN,      SUSPECT_OR_FAILED, PUT_ASIDE);
+  CELL(ISOLATED, ISOLATION_TIMEOUT,    IMPOSSIBLE, TO_FAILED,         NOTHING);
+  CELL(ISOLATED, NO_CONSISTENT_HYPOTHESIS,    TAKEN,      TO_SUSPECT,        NOTHING);
   CELL(ISOLATED, ALARM,            TAKEN,      TO_SUSPECT,        NOTHING);
-  CELL(ISOLATED, REFERENCE,        TAKEN,      TO_SUSPECT,        NOTHING);
+  CELL(ISOLATED, NORM_MISMATCH,        TAKEN,      TO_SUSPECT,        NOTHING);
   CELL(ISOLATED, FIT_ACCEPTED,     IMPOSSIBLE, TO_FAILED,         NOTHING);
   CELL(ISOLATED, FIT_REJECTED,     IMPOSSIBLE, TO_FAILED,         NOTHING);
   CELL(ISOLATED, PROBATION_PASSED, TAKEN,      BY_SIZE,           REINSTATE);
   CELL(ISOLATED, RECALIBRATE,      TAKEN,      TO_RECALIBRATING,  START_FIT);
-  CELL(ISOLATED, CLEAN_BLOCK,      TAKEN,      STAY,              COUNT_IT);
+  CELL(ISOLATED, PASSED_BLOCK,      TAKEN,      STAY,              COUNT_IT);
 
   CELL(SUSPECT, RESET,            IGNORED,    STAY,                NOTHING);
   CELL(SUSPECT, CHANNEL_LOST,     TAKEN,      STAY_OR_FAILED,      MARK_ABSENT);
   CELL(SUSPECT, CHANNEL_BACK,     TAKEN,      STAY,                MARK_BACK);
-  CELL(SUSPECT, CULPRIT,          TAKEN,      BY_SIZE_IF_PROVEN,   EXCLUDE);
-  CELL(SUSPECT, SET_ASIDE,        TAKEN,      STAY_OR_FAILED,      PUT_ASIDE);
-  CELL(SUSPECT, PATIENCE_OVER,    TAKEN,      BY_PROTECTION,       EXHAUST);
-  CELL(SUSPECT, CONTRADICTION,    TAKEN,      STAY,                COUNT_IT);
+  CELL(SUSPECT, EXCLUSION,          TAKEN,      BY_SIZE_IF_VALIDATED,   EXCLUDE);
+  CELL(SUSPECT, PROVISIONAL_EXCLUSION,        TAKEN,      STAY_OR_FAILED,      PUT_ASIDE);
+  CELL(SUSPECT, ISOLATION_TIMEOUT,    TAKEN,      BY_PROTECTION,       EXHAUST);
+  CELL(SUSPECT, NO_CONSISTENT_HYPOTHESIS,    TAKEN,      STAY,                COUNT_IT);
   CELL(SUSPECT, ALARM,            TAKEN,      STAY,                COUNT_IT);
-  CELL(SUSPECT, REFERENCE,        TAKEN,      STAY,                COUNT_IT);
+  CELL(SUSPECT, NORM_MISMATCH,        TAKEN,      STAY,                COUNT_IT);
   CELL(SUSPECT, FIT_ACCEPTED,     IMPOSSIBLE, TO_FAILED,           NOTHING);
   CELL(SUSPECT, FIT_REJECTED,     IMPOSSIBLE, TO_FAILED,           NOTHING);
   CELL(SUSPECT, PROBATION_PASSED, HELD,       STAY,                NOTHING);
   CELL(SUSPECT, RECALIBRATE,      TAKEN,      TO_RECALIBRATING,    START_FIT);
-  CELL(SUSPECT, CLEAN_BLOCK,      TAKEN,      BY_SIZE_WHEN_EARNED, COUNT_IT);
+  CELL(SUSPECT, PASSED_BLOCK,      TAKEN,      BY_SIZE_WHEN_PASSED, COUNT_IT);
 
   CELL(DEGRADED, RESET,            IGNORED,    STAY,              NOTHING);
   CELL(DEGRADED, CHANNEL_LOST,     TAKEN,      BY_SIZE,           MARK_ABSENT);
   CELL(DEGRADED, CHANNEL_BACK,     TAKEN,      STAY,              MARK_BACK);
-  CELL(DEGRADED, CULPRIT,          IMPOSSIBLE, TO_FAILED,         NOTHING);
-  CELL(DEGRADED, SET_ASIDE,        IMPOSSIBLE, TO_FAILED,         NOTHING);
-  CELL(DEGRADED, PATIENCE_OVER,    IMPOSSIBLE, TO_FAILED,         NOTHING);
-  CELL(DEGRADED, CONTRADICTION,    TAKEN,      TO_SUSPECT,        NOTHING);
+  CELL(DEGRADED, EXCLUSION,          IMPOSSIBLE, TO_FAILED,         NOTHING);
+  CELL(DEGRADED, PROVISIONAL_EXCLUSION,        IMPOSSIBLE, TO_FAILED,         NOTHING);
+  CELL(DEGRADED, ISOLATION_TIMEOUT,    IMPOSSIBLE, TO_FAILED,         NOTHING);
+  CELL(DEGRADED, NO_CONSISTENT_HYPOTHESIS,    TAKEN,      TO_SUSPECT,        NOTHING);
   CELL(DEGRADED, ALARM,            TAKEN,      TO_SUSPECT,        NOTHING);
-  CELL(DEGRADED, REFERENCE,        TAKEN,      TO_SUSPECT,        NOTHING);
+  CELL(DEGRADED, NORM_MISMATCH,        TAKEN,      TO_SUSPECT,        NOTHING);
   CELL(DEGRADED, FIT_ACCEPTED,     IMPOSSIBLE, TO_FAILED,         NOTHING);
   CELL(DEGRADED, FIT_REJECTED,     IMPOSSIBLE, TO_FAILED,         NOTHING);
   CELL(DEGRADED, PROBATION_PASSED, TAKEN,      BY_SIZE,           REINSTATE);
   CELL(DEGRADED, RECALIBRATE,      TAKEN,      TO_RECALIBRATING,  START_FIT);
-  CELL(DEGRADED, CLEAN_BLOCK,      TAKEN,      STAY,              COUNT_IT);
+  CELL(DEGRADED, PASSED_BLOCK,      TAKEN,      STAY,              COUNT_IT);
 
   CELL(RECALIBRATING, RESET,            IGNORED, STAY,              NOTHING);
   CELL(RECALIBRATING, CHANNEL_LOST,     TAKEN,   SUSPECT_OR_FAILED, MARK_ABSENT | DISCARD_FIT);
   CELL(RECALIBRATING, CHANNEL_BACK,     TAKEN,   STAY,              MARK_BACK);
-  CELL(RECALIBRATING, CULPRIT,          TAKEN,   BY_SIZE_IF_PROVEN, EXCLUDE | DISCARD_FIT);
-  CELL(RECALIBRATING, SET_ASIDE,        TAKEN,   SUSPECT_OR_FAILED, PUT_ASIDE | DISCARD_FIT);
-  CELL(RECALIBRATING, PATIENCE_OVER,    TAKEN,   TO_BASE,           DISCARD_FIT);
-  CELL(RECALIBRATING, CONTRADICTION,    TAKEN,   TO_SUSPECT,        DISCARD_FIT);
+  CELL(RECALIBRATING, EXCLUSION,          TAKEN,   BY_SIZE_IF_VALIDATED, EXCLUDE | DISCARD_FIT);
+  CELL(RECALIBRATING, PROVISIONAL_EXCLUSION,        TAKEN,   SUSPECT_OR_FAILED, PUT_ASIDE | DISCARD_FIT);
+  CELL(RECALIBRATING, ISOLATION_TIMEOUT,    TAKEN,   TO_BASE,           DISCARD_FIT);
+  CELL(RECALIBRATING, NO_CONSISTENT_HYPOTHESIS,    TAKEN,   TO_SUSPECT,        DISCARD_FIT);
   CELL(RECALIBRATING, ALARM,            TAKEN,   TO_SUSPECT,        DISCARD_FIT);
-  CELL(RECALIBRATING, REFERENCE,        TAKEN,   TO_SUSPECT,        DISCARD_FIT);
+  CELL(RECALIBRATING, NORM_MISMATCH,        TAKEN,   TO_SUSPECT,        DISCARD_FIT);
   CELL(RECALIBRATING, FIT_ACCEPTED,     TAKEN,   TO_SUSPECT,        ADOPT_FIT | DISTRUST);
   CELL(RECALIBRATING, FIT_REJECTED,     TAKEN,   TO_BASE,           DISCARD_FIT);
   CELL(RECALIBRATING, PROBATION_PASSED, HELD,    STAY,              NOTHING);
   CELL(RECALIBRATING, RECALIBRATE,      IGNORED, STAY,              NOTHING);
-  CELL(RECALIBRATING, CLEAN_BLOCK,      TAKEN,   STAY,              COUNT_IT);
+  CELL(RECALIBRATING, PASSED_BLOCK,      TAKEN,   STAY,              COUNT_IT);
 
   CELL(INITIAL, RESET,            IGNORED, STAY,           NOTHING);
   CELL(INITIAL, CHANNEL_LOST,     TAKEN,   STAY_OR_FAILED, MARK_ABSENT | RESTART_FIT);
   CELL(INITIAL, CHANNEL_BACK,     TAKEN,   STAY,           MARK_BACK);
-  CELL(INITIAL, CULPRIT,          TAKEN,   STAY_OR_FAILED, EXCLUDE | RESTART_FIT);
-  CELL(INITIAL, SET_ASIDE,        TAKEN,   STAY_OR_FAILED, PUT_ASIDE | RESTART_FIT);
-  CELL(INITIAL, PATIENCE_OVER,    TAKEN,   STAY,           RESTART_FIT);
-  CELL(INITIAL, CONTRADICTION,    TAKEN,   STAY,           RESTART_FIT);
+  CELL(INITIAL, EXCLUSION,          TAKEN,   STAY_OR_FAILED, EXCLUDE | RESTART_FIT);
+  CELL(INITIAL, PROVISIONAL_EXCLUSION,        TAKEN,   STAY_OR_FAILED, PUT_ASIDE | RESTART_FIT);
+  CELL(INITIAL, ISOLATION_TIMEOUT,    TAKEN,   STAY,           RESTART_FIT);
+  CELL(INITIAL, NO_CONSISTENT_HYPOTHESIS,    TAKEN,   STAY,           RESTART_FIT);
   CELL(INITIAL, ALARM,            TAKEN,   STAY,           RESTART_FIT);
-  CELL(INITIAL, REFERENCE,        TAKEN,   STAY,           RESTART_FIT);
+  CELL(INITIAL, NORM_MISMATCH,        TAKEN,   STAY,           RESTART_FIT);
   CELL(INITIAL, FIT_ACCEPTED,     TAKEN,   TO_SUSPECT,     ADOPT_FIT | DISTRUST);
   CELL(INITIAL, FIT_REJECTED,     TAKEN,   STAY,           COUNT_IT);
   CELL(INITIAL, PROBATION_PASSED, HELD,    STAY,           NOTHING);
   CELL(INITIAL, RECALIBRATE,      IGNORED, STAY,           NOTHING);
-  CELL(INITIAL, CLEAN_BLOCK,      TAKEN,   STAY,           COUNT_IT);
+  CELL(INITIAL, PASSED_BLOCK,      TAKEN,   STAY,           COUNT_IT);
 
   CELL(FAILED, RESET,            TAKEN,   BY_RESET, RETURN_NAMED | DISTRUST);
   CELL(FAILED, CHANNEL_LOST,     TAKEN,   STAY,     MARK_ABSENT);
   CELL(FAILED, CHANNEL_BACK,     TAKEN,   STAY,     MARK_BACK);
-  CELL(FAILED, CULPRIT,          IGNORED, STAY,     NOTHING);
-  CELL(FAILED, SET_ASIDE,        IGNORED, STAY,     NOTHING);
-  CELL(FAILED, PATIENCE_OVER,    IGNORED, STAY,     NOTHING);
-  CELL(FAILED, CONTRADICTION,    IGNORED, STAY,     NOTHING);
+  CELL(FAILED, EXCLUSION,          IGNORED, STAY,     NOTHING);
+  CELL(FAILED, PROVISIONAL_EXCLUSION,        IGNORED, STAY,     NOTHING);
+  CELL(FAILED, ISOLATION_TIMEOUT,    IGNORED, STAY,     NOTHING);
+  CELL(FAILED, NO_CONSISTENT_HYPOTHESIS,    IGNORED, STAY,     NOTHING);
   CELL(FAILED, ALARM,            IGNORED, STAY,     NOTHING);
-  CELL(FAILED, REFERENCE,        IGNORED, STAY,     NOTHING);
+  CELL(FAILED, NORM_MISMATCH,        IGNORED, STAY,     NOTHING);
   CELL(FAILED, FIT_ACCEPTED,     IGNORED, STAY,     NOTHING);
   CELL(FAILED, FIT_REJECTED,     IGNORED, STAY,     NOTHING);
   CELL(FAILED, PROBATION_PASSED, IGNORED, STAY,     NOTHING);
   CELL(FAILED, RECALIBRATE,      IGNORED, STAY,     NOTHING);
-  CELL(FAILED, CLEAN_BLOCK,      IGNORED, STAY,     NOTHING);
+  CELL(FAILED, PASSED_BLOCK,      IGNORED, STAY,     NOTHING);
 }
 
 /* --- What the monitor remembers. ------------------------------------------------------------------------------- */
@@ -209,12 +209,12 @@ byte mode = SUSPECT;
 byte base = SUSPECT;     /* what recalibrating was entered from */
 byte serving, aside, out, absent;  /* every sensor stands in one of them (S4) */
 byte readmitted;         /* has come back by probation: once is all */
-bit unproven, exhausted, calibrated;
+bit not_yet_validated, timed_out, calibrated;
 byte clean_run;
 
 /* the evidence on record */
 bit open;                /* an episode: an alarm is on record */
-byte accused;            /* in every live fault set of the strict grade: the complement of what live sets contain */
+byte accused;            /* in every live fault set of the confirmed grade: the complement of what live sets contain */
 bit standing;            /* the survivors are alive together, so the accused are the answer */
 byte agree;              /* stations at which that answer stood */
 byte doubt;              /* stations in doubt */
@@ -231,7 +231,7 @@ bit held;                /* no evidence for good */
 
 #define POSED (serving | aside)
 #define SUSPECTED COUNT((standing -> accused : 0) | aside)
-/* Stations in doubt that an episode has left before patience is over: (n + 1) P at first. */
+/* Stations in doubt that an episode has left before the isolation timeout is over: (n + 1) P at first. */
 #define TO_GO ((SENSORS - most) * P_STATIONS + P_STATIONS - doubt)
 #define PUBLISHES(m) ((m) == NOMINAL || (m) == ISOLATED || (m) == DEGRADED)
 /* Recalibrating is published as the state it came from, the first calibration as nothing. */
@@ -301,7 +301,7 @@ inline move_sensors() {
 
 #define LEFT COUNT(serving)
 #define MODE_OF_SIZE ((LEFT < 3) -> FAILED : ((LEFT == 3) -> DEGRADED : ((serving == ALL) -> NOMINAL : ISOLATED)))
-#define EARNED (clean_run >= R_BLOCKS && !unproven)
+#define EARNED (clean_run >= R_BLOCKS && !not_yet_validated)
 
 inline lead() {
   if
@@ -311,8 +311,8 @@ inline lead() {
   if
   :: left_ == STAY
   :: left_ == BY_SIZE -> mode = MODE_OF_SIZE
-  :: left_ == BY_SIZE_IF_PROVEN -> mode = ((LEFT < 3 || !unproven) -> MODE_OF_SIZE : SUSPECT)
-  :: left_ == BY_SIZE_WHEN_EARNED -> mode = (EARNED -> MODE_OF_SIZE : mode)
+  :: left_ == BY_SIZE_IF_VALIDATED -> mode = ((LEFT < 3 || !not_yet_validated) -> MODE_OF_SIZE : SUSPECT)
+  :: left_ == BY_SIZE_WHEN_PASSED -> mode = (EARNED -> MODE_OF_SIZE : mode)
   :: left_ == TO_SUSPECT -> mode = SUSPECT
   :: left_ == SUSPECT_OR_FAILED -> mode = ((LEFT < 3) -> FAILED : SUSPECT)
   :: left_ == STAY_OR_FAILED -> mode = ((LEFT < 3) -> FAILED : mode)
@@ -331,8 +331,8 @@ inline machine() {
   was_ = mode; in_was_ = serving; posed_was_ = POSED;
   move_sensors();
   if :: does & START_FIT -> base = was_ :: else fi;
-  if :: does & DISTRUST -> unproven = 1 :: else fi;
-  if :: does & (EXCLUDE | RETURN_NAMED | ADOPT_FIT) -> exhausted = 0 :: does & EXHAUST -> exhausted = 1 :: else fi;
+  if :: does & DISTRUST -> not_yet_validated = 1 :: else fi;
+  if :: does & (EXCLUDE | RETURN_NAMED | ADOPT_FIT) -> timed_out = 0 :: does & EXHAUST -> timed_out = 1 :: else fi;
 #ifdef OLD_RESET  /* a reset that brings nobody back kept the clean run: S20 falls */
   if :: serving != in_was_ || (does & ADOPT_FIT) -> clean_run = 0 :: else fi;
 #else
@@ -341,7 +341,7 @@ inline machine() {
   if :: does & ADOPT_FIT -> calibrated = 1 :: else fi;
   lead();
   /* In failed it says that time ran out; a failure of another kind says so, whatever was before. */
-  if :: mode == FAILED && was_ != FAILED && !(does & EXHAUST) -> exhausted = 0 :: else fi
+  if :: mode == FAILED && was_ != FAILED && !(does & EXHAUST) -> timed_out = 0 :: else fi
 }
 
 /* --- What the step means for the evidence on record. ------------------------------------------------------------- */
@@ -372,16 +372,16 @@ inline follow() {
   if :: does & (START_FIT | DISCARD_FIT | RESTART_FIT | ADOPT_FIT) -> fit = 0 :: else fi;
   if :: serving != in_was_ -> fit = 0 :: else fi;
   if
-  :: event == REFERENCE -> suspicion = OF_GRAVITY
-  :: event == CONTRADICTION -> suspicion = NONE_ALIVE
-  :: event == ALARM || event == SET_ASIDE || event == CHANNEL_LOST || event == FIT_ACCEPTED || event == CULPRIT ->
+  :: event == NORM_MISMATCH -> suspicion = OF_GRAVITY
+  :: event == NO_CONSISTENT_HYPOTHESIS -> suspicion = NONE_ALIVE
+  :: event == ALARM || event == PROVISIONAL_EXCLUSION || event == CHANNEL_LOST || event == FIT_ACCEPTED || event == EXCLUSION ->
        suspicion = OTHER
   :: else
   fi;
   if :: mode != SUSPECT && mode != RECALIBRATING -> suspicion = OTHER :: else fi;
   pending = 0;
   if
-  :: event <= CHANNEL_BACK -> pending = (raised & (BIT(CONTRADICTION) | BIT(ALARM) | BIT(REFERENCE))) >> CONTRADICTION
+  :: event <= CHANNEL_BACK -> pending = (raised & (BIT(NO_CONSISTENT_HYPOTHESIS) | BIT(ALARM) | BIT(NORM_MISMATCH))) >> NO_CONSISTENT_HYPOTHESIS
   :: else
   fi
 }
@@ -390,7 +390,7 @@ inline follow() {
 #define EXPECTED(e, s) (mode == RECALIBRATING && base == SUSPECT && suspicion == (s))
 
 #define MAY_RECALIBRATE (aside == 0 && \
-  ((PUBLISHES(mode) && !open && !unproven) || \
+  ((PUBLISHES(mode) && !open && !not_yet_validated) || \
    (mode == SUSPECT && LEFT > 3 && (suspicion == NONE_ALIVE || (suspicion == OF_GRAVITY && !open)))))
 
 #define PATIENCE_ENDS ((mode == SUSPECT || mode == RECALIBRATING) && doubt >= P_STATIONS)

@@ -38,7 +38,7 @@ static void plumb_sort(void) {
   PLUMB_MASKS(PLUMB_PLACE)
 #ifdef CODE
   S.in_service = plumb_place(S.in_service);
-  S.set_aside = plumb_place(S.set_aside);
+  S.provisionally_excluded = plumb_place(S.provisionally_excluded);
   S.excluded = plumb_place(S.excluded);
   S.absent = plumb_place(S.absent);
   S.readmitted = plumb_place(S.readmitted);
@@ -57,11 +57,23 @@ static void plumb_sort(void) {
 
 static const char* plumb_modes[] = {"nominal",       "isolated",          "suspect", "degraded",
                                     "recalibrating", "first calibration", "failed"};
-static const char* plumb_events[] = {"reset",         "channel lost",     "channel back", "culprit",     "set aside",
-                                     "patience over", "contradiction",    "alarm",        "reference",   "fit accepted",
-                                     "fit rejected",  "probation passed", "recalibrate",  "clean block", "none"};
+static const char* plumb_events[] = {"reset",
+                                     "channel lost",
+                                     "channel back",
+                                     "exclusion",
+                                     "provisional exclusion",
+                                     "isolation timeout",
+                                     "no consistent hypothesis",
+                                     "alarm",
+                                     "norm mismatch",
+                                     "fit accepted",
+                                     "fit rejected",
+                                     "probation passed",
+                                     "recalibrate",
+                                     "passed block",
+                                     "none"};
 static const char* plumb_kinds[] = {
-    "a sample", "no evidence", "a clean block", "a block short of clean", "an alarming block", "a block off gravity"};
+    "a sample", "no evidence", "a passed block", "an inconclusive block", "an alarming block", "a block off gravity"};
 
 static void plumb_set(const char* what, unsigned mask) {
   int i;
@@ -88,9 +100,9 @@ static void plumb_tell(void) {
   else
     printf(", stays %s", plumb_modes[now.mode]);
   plumb_set("; in service", now.serving);
-  plumb_set("; set aside", now.aside);
+  plumb_set("; provisionally excluded", now.aside);
   plumb_set("; excluded", now.out);
   plumb_set("; absent", now.absent);
   plumb_set("; has returned once", now.readmitted);
-  printf("%s\n", now.unproven ? "; unproven" : "");
+  printf("%s\n", now.not_yet_validated ? "; not yet validated" : "");
 }

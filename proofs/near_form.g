@@ -1,4 +1,4 @@
-# What the squared length of a triple changes by, near_change of include/plumb/detection/near_lengths.hpp, in binary32, left to
+# What the squared length of a triple changes by, near_change of include/plumb/detection/detail/near_lengths.hpp, in binary32, left to
 # right, from coefficients, slopes and differences that are known exactly and rounded to binary32 first: how far from the exact
 # value? Range: readings that differ from the first of their block by up to 1/8 m/s^2, the coefficients of a triple that votes
 # (as in form.g), and its slopes where the first readings make a length up to 12 m/s^2 (twice 20.03 times 12).

@@ -1,24 +1,23 @@
 // Calibration: numpy columns in, coefficients out, or the refusal in the tool's words.
 #include <pybind11/stl.h>
 
-#include "calibration_age.hpp"
-#include "fit_summary.hpp"
-#include "fit_words.hpp"
 #include "module.hpp"
-#include "temperature_words.hpp"
-#include "tool.hpp"
+#include "plumb/render/fit_report.hpp"
+#include "plumb/session/calibration_pipeline.hpp"
+#include "plumb/session/choice_texts.hpp"
+#include "plumb/session/days_since.hpp"
 
 namespace plumb_python {
 namespace {
 
-plumb::cli::CalibrationChoice choice_of(const std::string& hold_out, const std::string& temperature_order,
-                                        bool keep_outliers) {
-  plumb::cli::CalibrationChoice choice;
+plumb::session::CalibrationChoice choice_of(const std::string& hold_out, const std::string& temperature_order,
+                                            bool keep_outliers) {
+  plumb::session::CalibrationChoice choice;
   if (!hold_out.empty()) {
-    const std::string wrong = plumb::cli::read_hold_out(hold_out, choice.hold_out);
+    const std::string wrong = plumb::session::read_hold_out(hold_out, choice.hold_out);
     if (!wrong.empty()) throw Refused("hold_out: " + wrong);
   }
-  const std::string wrong = plumb::cli::read_temperature_order(temperature_order, choice.temperature.order);
+  const std::string wrong = plumb::session::read_temperature_order(temperature_order, choice.temperature.order);
   if (!wrong.empty()) throw Refused("temperature_order: " + wrong);
   choice.fit.reject_outliers = !keep_outliers;
   return choice;
@@ -27,30 +26,30 @@ plumb::cli::CalibrationChoice choice_of(const std::string& hold_out, const std::
 Calibration calibrate(const Array& array, const Log& log, const std::string& hold_out,
                       const std::string& temperature_order, bool keep_outliers, const std::string& date,
                       const std::string& serial) {
-  const std::string no_date = date.empty() ? "" : plumb::cli::date_refusal(date);
+  const std::string no_date = date.empty() ? "" : plumb::session::date_refusal(date);
   if (!no_date.empty()) throw Refused("date: " + no_date);
-  const plumb::cli::CalibrationChoice choice = choice_of(hold_out, temperature_order, keep_outliers);
+  const plumb::session::CalibrationChoice choice = choice_of(hold_out, temperature_order, keep_outliers);
   const Log::View view(log, *array);
-  plumb::cli::CalibrationRun run;
+  plumb::session::CalibrationRun run;
   {
     const py::gil_scoped_release others_may_run;
     std::vector<plumb::Sample> samples;
     samples.reserve(static_cast<std::size_t>(view.rows()));
     for (py::ssize_t r = 0; r < view.rows(); ++r) samples.push_back(view.at(r));
-    run = plumb::cli::run_calibration(*array, samples, choice);
+    run = plumb::session::run_calibration(*array, samples, choice);
   }
   if (!run.accepted) {
-    const plumb::cli::Refusal refusal = plumb::cli::refusal_of(run, *array);
+    const plumb::render::Refusal refusal = plumb::render::refusal_of(run, *array);
     throw Refused("the calibration was not accepted: " + refusal.reason + ". Remedy: " + refusal.next + ".");
   }
   Calibration out;
   out.array = array;
-  out.report = plumb::cli::fit_json(run, *array);
+  out.report = plumb::render::fit_json(run, *array);
   out.context.log_file = "numpy arrays";
   out.context.date = date;
   out.context.serial = serial;
   out.context.stations = run.report.stations;
-  out.context.plumb_version = plumb::cli::kVersion;
+  out.context.plumb_version = PLUMB_VERSION;
   out.context.gravity = array->gravity;
   out.fit = std::move(run.accepted);
   return out;
@@ -98,7 +97,7 @@ py::array_t<double> apply(const Calibration& calibration, const Log& log) {
 }  // namespace
 
 void bind_calibration(py::module_& module) {
-  py::class_<Calibration>(module, "Calibration", "An accepted calibration: what every sensor really does.")
+  py::class_<Calibration>(module, "Calibration", "An accepted calibration: bias, scale and axis of every sensor.")
       .def_static("read", &read, array_argument(), py::arg("path"),
                   "Read a calibration file. Refuses one that was edited, or made for another array.")
       .def(
@@ -145,22 +144,23 @@ void bind_calibration(py::module_& module) {
           },
           "The report of the fit as `plumb calibrate --json` prints it, as a dict; None where it was read from a file.")
       .def_property_readonly(
-          "date", [](const Calibration& c) { return c.context.date; }, "Of the log, '2026-03-31'; empty: not told.")
+          "date", [](const Calibration& c) { return c.context.date; }, "Date of the log, '2026-03-31'; empty: unknown.")
       .def_property_readonly(
-          "serial", [](const Calibration& c) { return c.context.serial; }, "Of the tool; empty: not told.")
+          "serial", [](const Calibration& c) { return c.context.serial; }, "Serial number of the tool; empty: unknown.")
       .def("apply", &apply, py::arg("log"),
-           "Accelerations along the sensor axes [m/s^2], positive down, (rows, n); NaN where a channel said nothing.");
+           "Accelerations along the sensor axes [m/s^2], positive down, (rows, n); NaN where a channel did not "
+           "deliver.");
 
   module.def(
       "calibrate", &calibrate, array_argument(), py::arg("log"), py::arg("hold_out") = "",
       py::arg("temperature_order") = "auto", py::arg("keep_outliers") = false, py::arg("date") = "",
       py::arg("serial") = "",
-      "Estimate bias, scale and direction of every sensor from a log of quiet attitudes, as `plumb calibrate` does:\n"
+      "Estimate bias, scale and direction of every sensor from a log of attitudes held still, as `plumb calibrate` "
+      "does:\n"
       "it finds the still stretches by itself, or takes rows as stations where the array file says so. Raises Error\n"
       "where the fit is not accepted, with what is wrong and what to do. hold_out: a number of folds, a fraction, "
       "'one'\n"
-      "or 'none'; temperature_order: 'auto' or 0 to 3. date ('2026-03-31') and serial are kept with the "
-      "calibration.");
+      "or 'none'; temperature_order: 'auto' or 0 to 3. date ('2026-03-31') and serial are kept with the calibration.");
 }
 
 }  // namespace plumb_python

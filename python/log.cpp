@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "demo_files.hpp"
 #include "module.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/io/scenario_file.hpp"
-#include "station_mean.hpp"
+#include "plumb/session/played_log.hpp"
+#include "plumb/session/station_mean.hpp"
 
 namespace plumb_python {
 namespace {
@@ -17,13 +17,13 @@ namespace {
 /// The values of a masked array without its mask would count as measured.
 void refuse_mask(const py::handle& from, const char* name) {
   if (py::isinstance<py::array>(from) && py::hasattr(from, "mask"))
-    refuse(std::string(name) + ": is a masked array, and plumb knows no masks",
-           "give numpy.ma.filled(column, numpy.nan), and where a channel said nothing say so in `delivered`");
+    refuse(std::string(name) + ": is a masked array, which plumb does not support",
+           "give numpy.ma.filled(column, numpy.nan), and mark missing values in `delivered`");
 }
 
 [[noreturn]] void refuse_type(const char* name) {
   PyErr_Clear();
-  refuse(std::string(name) + ": is no array of numbers", "give a numpy array");
+  refuse(std::string(name) + ": is not an array of numbers", "give a numpy array");
 }
 
 Doubles doubles(const py::object& from, const char* name) {
@@ -78,7 +78,7 @@ Log read_log(const Array& array, const std::string& path) {
 
 /// Gravity of every row in the frame in which plumb answers, and who was in fault.
 py::dict truth_arrays(const plumb::io::ScenarioFile& file, std::vector<plumb::scenario::Truth>& truth) {
-  plumb::cli::into_frame_of_nominal_axes(file.scenario.tool, truth);
+  plumb::session::into_frame_of_nominal_axes(file.scenario.tool, truth);
   const auto rows = static_cast<py::ssize_t>(truth.size());
   const int n = file.array.array.size();
   py::array_t<double> gravity({rows, py::ssize_t{3}});
@@ -111,12 +111,12 @@ py::tuple simulate(const std::string& text_or_path, std::optional<std::uint64_t>
   const int n = file.array.array.size();
   std::vector<plumb::Sample> samples;
   std::vector<plumb::scenario::Truth> truth;
-  plumb::cli::StationMean station(n);
+  plumb::session::StationMean station(n);
   const auto put_station = [&] {
     if (station.empty()) return;
     samples.push_back(station.mean());
     truth.push_back(station.truth());
-    station = plumb::cli::StationMean(n);
+    station = plumb::session::StationMean(n);
   };
   plumb::Sample sample;
   while (simulator->next(sample)) {
@@ -210,8 +210,8 @@ void bind_log(py::module_& module) {
       module, "Log",
       "Samples as columns. `raw` is (rows, sensors), in the unit of the array file's log; float64 is used\n"
       "where it lies, without a copy, whatever its strides. NaN is a value that is not finite; `delivered`\n"
-      "(rows, sensors) is False where a channel said nothing. `station` is a tag, 0 = none (a label in a\n"
-      "CSV file is its tag less 1). `temperature_degc` is a column or one number.")
+      "(rows, sensors) is False where a channel did not deliver. `station` is a tag, 0 = none (a label in a\n"
+      "CSV file is its tag minus 1). `temperature_degc` is a column or one number.")
       .def(py::init([](const py::object& time_s, const py::object& raw, py::object temperature_degc,
                        py::object delivered, py::object station, py::object count, py::object roll_group) {
              return Log{doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
@@ -246,7 +246,7 @@ void bind_log(py::module_& module) {
       [](const std::string& path, std::optional<std::uint64_t> seed) { return simulate(path, seed, false); },
       py::arg("path"), py::arg("seed") = py::none(),
       "Play a scenario file (TOML or JSON): returns the array and its log, as `plumb simulate` writes it. The same\n"
-      "scenario and seed give the same numbers; log.truth says what was really the case.");
+      "scenario and seed give the same numbers; log.truth holds the true values.");
   module.def(
       "simulate_text",
       [](const std::string& text, std::optional<std::uint64_t> seed) { return simulate(text, seed, true); },

@@ -3,8 +3,6 @@
 
 #include <pybind11/stl.h>
 
-#include "tool.hpp"
-
 namespace plumb_python {
 
 void refuse(const std::string& what, const std::string& remedy) {
@@ -36,14 +34,14 @@ Array shared(plumb::io::ArrayFile file) { return std::make_shared<plumb::io::Arr
 PYBIND11_MODULE(plumb, module) {
   using namespace plumb_python;
   module.doc() =
-      "plumb keeps redundant accelerometers honest: calibrate them from gravity, watch them, say which may be\n"
-      "believed and which way is down. The same library as the C++ one and the tool, with numpy arrays.\n\n"
+      "plumb calibrates and monitors redundant accelerometers: which sensors are valid, and which way is\n"
+      "down. The same library as the C++ one and the tool, with numpy arrays.\n\n"
       "    array = plumb.Array.read('tool.toml')\n"
       "    calibration = plumb.calibrate(array, plumb.read_log(array, 'stations.csv'))\n"
       "    verdicts = plumb.Monitor(array, calibration).run(plumb.read_log(array, 'run.csv'))\n\n"
       "Units are SI: m/s^2, s, rad, degC. Gravity is positive down. Raw values are those of the log.\n"
-      "Whatever is refused raises plumb.Error with the words that the tool prints.";
-  module.attr("__version__") = plumb::cli::kVersion;
+      "A refusal raises plumb.Error with the message that the tool prints.";
+  module.attr("__version__") = PLUMB_VERSION;
   py::register_exception<Refused>(module, "Error", PyExc_ValueError);
 
   py::class_<plumb::io::ArrayFile, Array>(module, "Array",

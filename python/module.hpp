@@ -13,8 +13,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "monitor_pipeline.hpp"
 #include "plumb/io/array_file.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 
 namespace plumb_python {
 

@@ -23,9 +23,9 @@ class Monitor {
  public:
   Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot, double days)
       : array_(std::move(array)),
-        monitor_(taken(
-            snapshot ? plumb::cli::restore_monitor(*array_, made_for(*array_, calibration), *snapshot, "snapshot", days)
-                     : plumb::cli::make_monitor(*array_, made_for(*array_, calibration), days))) {}
+        monitor_(taken(snapshot ? plumb::session::restore_monitor(*array_, made_for(*array_, calibration), *snapshot,
+                                                                  "snapshot", days)
+                                : plumb::session::make_monitor(*array_, made_for(*array_, calibration), days))) {}
 
   py::array_t<VerdictRow> run(const Log& log) {
     const Log::View view(log, *array_);
@@ -82,7 +82,7 @@ plumb::SensorSet set_of(const Array& array, const std::vector<std::string>& ids)
     for (int i = 0; i < array->array.size(); ++i) {
       if (id == array->array.row(i).id.data()) found = i;
     }
-    if (found < 0) refuse("\"" + id + "\" is no sensor of this array", "give ids as in Array.sensors");
+    if (found < 0) refuse("\"" + id + "\" is not a sensor of this array", "give ids as in Array.sensors");
     out = out.with(found);
   }
   return out;
@@ -94,9 +94,9 @@ void bind_monitor(py::module_& module) {
   bind_verdict_row(module);
   py::class_<Monitor>(
       module, "Monitor",
-      "Watches an array. Feed it logs, whole or in parts; it goes on where it was. Starts as suspect: trust is\n"
-      "earned. snapshot: bytes of Monitor.snapshot, under the same array and calibration.\n"
-      "days_since_calibration: for what the array file states to drift per day. For one thread at a time.")
+      "Monitors an array. Feed it logs, whole or in parts; it continues where it was. Starts as suspect until the\n"
+      "sensors are validated. snapshot: bytes of Monitor.snapshot, under the same array and calibration.\n"
+      "days_since_calibration: for the drift per day of the array file. For one thread at a time.")
       .def(py::init<Array, const Calibration&, const std::optional<py::bytes>&, double>(), array_argument(),
            py::arg("calibration"), py::arg("snapshot") = py::none(), py::arg("days_since_calibration") = 0.0)
       .def(
@@ -108,7 +108,7 @@ void bind_monitor(py::module_& module) {
       .def_property_readonly(
           "verdict", [](const Monitor& m) { return py::module_::import("json").attr("loads")(m.verdict_json()); },
           "The last verdict in full, as a dict with the keys of `plumb monitor --verdicts`.")
-      .def("snapshot", &Monitor::snapshot, "All that the monitor remembers, as bytes.")
+      .def("snapshot", &Monitor::snapshot, "The complete state of the monitor, as bytes.")
       .def(
           "reset",
           [](Monitor& m, std::uint64_t key, const std::vector<std::string>& sensors) {
@@ -129,10 +129,10 @@ void bind_monitor(py::module_& module) {
       .def(
           "begin_time_base", [](Monitor& m) { m.idle().begin_time_base(); },
           "The next sample may have any time: a recorded roll test has been run, and the log begins. Nothing is valid\n"
-          "before its first block at rest; validation, exclusions and doubts stay.")
+          "before its first block at rest; validation, exclusions and suspicions are kept.")
       .def(
           "inhibit", [](Monitor& m, bool frozen) { m.idle().inhibit(frozen); }, py::arg("frozen"),
-          "Freeze exclusion and recalibration, or let them go.");
+          "Inhibit exclusion and recalibration, or allow them again.");
 }
 
 }  // namespace plumb_python

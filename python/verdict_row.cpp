@@ -41,18 +41,18 @@ void write_transition(const plumb::TransitionRecord& t, VerdictRow& row) {
 void write_sensors(const plumb::Verdict& v, VerdictRow& row) {
   row.configured = v.configured.bits;
   row.in_service = v.in_service.bits;
-  row.set_aside = v.set_aside.bits;
+  row.provisionally_excluded = v.provisionally_excluded.bits;
   row.excluded = v.excluded.bits;
   row.absent = v.absent.bits;
   row.suspects = v.suspects.bits;
   row.clipped = v.clipped.bits;
-  row.restless = v.restless.bits;
+  row.scattering = v.scattering.bits;
   row.not_finite = v.not_finite.bits;
   row.noisy = v.noisy.bits;
   row.stuck = v.stuck.bits;
   row.contradicted_clip = v.contradicted_clip.bits;
   copy_to(row.sensor_cause, v.sensor_cause);
-  copy_to(row.fewest_faults, v.fewest_faults);
+  copy_to(row.minimum_faults, v.minimum_faults);
   copy_to(row.drift_mps2_per_h, v.drift_mps2_per_h);
 }
 
@@ -62,9 +62,9 @@ void write_tests(const plumb::Verdict& v, VerdictRow& row) {
   row.limit = v.limit;
   row.margin = v.margin;
   row.grade = number(v.grade);
-  row.strict_grade = v.strict_grade;
-  row.parity_grade = v.parity_grade;
-  row.live_hypotheses = v.live_hypotheses;
+  row.confirmed_grade = v.confirmed_grade;
+  row.provisional_grade = v.provisional_grade;
+  row.consistent_hypotheses = v.consistent_hypotheses;
   row.stations_on_record = v.stations_on_record;
   row.block_fill = v.block_fill;
   row.mae_all_mps2 = v.mae_all_mps2;
@@ -85,14 +85,14 @@ void write_tests(const plumb::Verdict& v, VerdictRow& row) {
 void write_findings(const plumb::Verdict& v, const plumb::Mat3& frame, VerdictRow& row) {
   row.reference_mps2 = v.reference_mps2;
   row.reference_sigma_mps2 = v.reference_sigma_mps2;
-  const plumb::ReferenceFinding& r = v.reference;
-  row.reference_kind = number(r.kind);
-  row.reference_attitudes = r.attitudes;
-  row.reference_length_mps2 = r.length_mps2;
-  row.reference_length_bound_mps2 = r.length_bound_mps2;
-  row.reference_widened_mps2 = r.widened_mps2;
-  copy_to(row.reference_bias_mps2, plumb::io::in_frame(frame, r.bias_mps2));
-  row.reference_turn_rad = r.turn_rad;
+  const plumb::NormMismatch& r = v.norm_mismatch;
+  row.norm_mismatch_kind = number(r.kind);
+  row.norm_mismatch_attitudes = r.attitudes;
+  row.norm_mismatch_length_mps2 = r.length_mps2;
+  row.norm_mismatch_length_bound_mps2 = r.length_bound_mps2;
+  row.norm_mismatch_widened_mps2 = r.widened_mps2;
+  copy_to(row.norm_mismatch_bias_mps2, plumb::io::in_frame(frame, r.bias_mps2));
+  row.norm_mismatch_turn_rad = r.turn_rad;
   row.gravity_offset_mps2 = r.configure_mps2 > 0.0 ? r.length_mps2 : 0.0;
   row.gravity_to_configure_mps2 = r.configure_mps2;
   const plumb::CalibrationFinding& c = v.calibration;
@@ -154,7 +154,8 @@ py::tuple names(const std::array<const char*, N>& of) {
 }
 
 std::string error_text(int code) {
-  if (code < 0 || code > static_cast<int>(plumb::kLastErrc)) refuse("there is no such code", "give one of a verdict");
+  if (code < 0 || code > static_cast<int>(plumb::kLastErrc))
+    refuse("unknown error code", "give the code from a verdict");
   return plumb::describe(static_cast<plumb::Errc>(code));
 }
 
@@ -195,8 +196,8 @@ void bind_verdict_row(py::module_& module) {
   module.attr("VALIDITIES") = names(plumb::Validity::valid);
   module.attr("CAUSES") = names(plumb::kLastCause);
   module.attr("EVENTS") = names(plumb::HealthEvent::none);
-  module.attr("GRADES") = names(plumb::Grade::asserted);
-  module.attr("REFERENCE_KINDS") = names(plumb::ReferenceKind::common_bias);
+  module.attr("GRADES") = names(plumb::Grade::assumed);
+  module.attr("NORM_MISMATCH_KINDS") = names(plumb::NormMismatchKind::common_bias);
   module.attr("RECALIBRATION_PHASES") = names(plumb::RecalibrationPhase::accepted);
   module.attr("QUALIFIERS") = names(plumb::io::kQualifierNames);
   module.attr("USABLE") = names(plumb::io::kUsableNames);

@@ -39,23 +39,23 @@ inline constexpr std::size_t kSensors = plumb::kCapacity;
   COLUMN(double, transition_time_s, , "time of the change [s]") \
   COLUMN(double, transition_statistic, , "of the block that decided [standard deviations; m/s^2 for mae]") \
   COLUMN(double, transition_limit, , "its limit, same unit") \
-  COLUMN(std::uint32_t, configured, , "all sensors: in service + set aside + excluded + absent") \
-  COLUMN(std::uint32_t, in_service, , "sensors that the vector comes from") \
-  COLUMN(std::uint32_t, set_aside, , "provisionally excluded") \
+  COLUMN(std::uint32_t, configured, , "all sensors: in service + provisionally excluded + excluded + absent") \
+  COLUMN(std::uint32_t, in_service, , "sensors used for the vector") \
+  COLUMN(std::uint32_t, provisionally_excluded, , "provisionally excluded") \
   COLUMN(std::uint32_t, excluded, , "isolated as faulty") \
   COLUMN(std::uint32_t, absent, , "silent") \
   COLUMN(std::uint32_t, suspects, , "suspected by some consistent explanation; none without an alarm on record") \
   COLUMN(std::uint32_t, clipped, , "at full scale in this block") \
-  COLUMN(std::uint32_t, restless, , "scattered more than their noise in this block") \
+  COLUMN(std::uint32_t, scattering, , "scattered more than their noise in this block") \
   COLUMN(std::uint32_t, not_finite, , "read no number in this block") \
   COLUMN(std::uint32_t, noisy, , "scatter by themselves while the others are at rest") \
   COLUMN(std::uint32_t, stuck, , "repeat one value while the others predict a change") \
   COLUMN(std::uint32_t, contradicted_clip, , "at full scale while the others predict less") \
-  COLUMN(std::uint8_t, sensor_cause, [kSensors], "index into CAUSES for each sensor: why it is out of service or doubted") \
-  COLUMN(std::uint8_t, fewest_faults, [kSensors], "fewest faults that explain the data with the sensor healthy; 255: no explanation") \
-  COLUMN(std::int32_t, strict_grade, , "faults that the sensors not excluded can still isolate") \
-  COLUMN(std::int32_t, parity_grade, , "faults that they can provisionally exclude") \
-  COLUMN(std::int32_t, live_hypotheses, , "test subsets that are still consistent") \
+  COLUMN(std::uint8_t, sensor_cause, [kSensors], "index into CAUSES for each sensor: why it is out of service or suspected") \
+  COLUMN(std::uint8_t, minimum_faults, [kSensors], "fewest faults that explain the data with the sensor healthy; 255: no explanation") \
+  COLUMN(std::int32_t, confirmed_grade, , "faults that the sensors not excluded can still isolate") \
+  COLUMN(std::int32_t, provisional_grade, , "faults that they can provisionally exclude") \
+  COLUMN(std::int32_t, consistent_hypotheses, , "test subsets that are still consistent") \
   COLUMN(std::int32_t, stations_on_record, , "distinct attitudes in doubt, on which the isolation timeout runs") \
   COLUMN(std::int32_t, block_fill, , "samples of the block that is being collected") \
   COLUMN(double, statistic, , "of the test that decided the last block [standard deviations; m/s^2 for mae]") \
@@ -69,23 +69,23 @@ inline constexpr std::size_t kSensors = plumb::kCapacity;
   COLUMN(double, parity, , "parity residual of the last block [standard deviations]") \
   COLUMN(double, parity_limit, , "its limit; 0: three sensors have no parity") \
   COLUMN(double, norm_error_mps2, , "length of the vector minus gravity, last block [m/s^2]") \
-  COLUMN(double, reference_mps2, , "length of gravity that the tests go by [m/s^2]") \
+  COLUMN(double, reference_mps2, , "length of gravity used by the tests [m/s^2]") \
   COLUMN(double, reference_sigma_mps2, , "its standard uncertainty [m/s^2]") \
-  COLUMN(std::uint8_t, reference_kind, , "index into REFERENCE_KINDS: what the length being off means") \
-  COLUMN(std::int32_t, reference_attitudes, , "attitudes that were compared for it") \
-  COLUMN(double, reference_length_mps2, , "off alike at all of them [m/s^2]") \
-  COLUMN(double, reference_length_bound_mps2, , "largest error of that [m/s^2]; 0: none told") \
-  COLUMN(double, reference_widened_mps2, , "by how much three sigma of gravity are wider for it [m/s^2]") \
-  COLUMN(double, reference_bias_mps2, [3], "off along a direction [m/s^2]") \
-  COLUMN(double, reference_turn_rad, , "most that this can turn the direction [rad]; 0: no bound yet") \
-  COLUMN(double, gravity_offset_mps2, , "gravity finding: off by so much alike at many attitudes [m/s^2]; 0: none found") \
+  COLUMN(std::uint8_t, norm_mismatch_kind, , "index into NORM_MISMATCH_KINDS: kind of the norm mismatch") \
+  COLUMN(std::int32_t, norm_mismatch_attitudes, , "attitudes that were compared for it") \
+  COLUMN(double, norm_mismatch_length_mps2, , "error of the length common to all of them [m/s^2]") \
+  COLUMN(double, norm_mismatch_length_bound_mps2, , "largest error of that [m/s^2]; 0: none") \
+  COLUMN(double, norm_mismatch_widened_mps2, , "by how much three sigma of gravity are wider for it [m/s^2]") \
+  COLUMN(double, norm_mismatch_bias_mps2, [3], "error of the length along a direction [m/s^2]") \
+  COLUMN(double, norm_mismatch_turn_rad, , "most that this can turn the direction [rad]; 0: no bound yet") \
+  COLUMN(double, gravity_offset_mps2, , "gravity finding: common offset of the length at many attitudes [m/s^2]; 0: none found") \
   COLUMN(double, gravity_to_configure_mps2, , "gravity finding: the length to configure [m/s^2]; 0: none found") \
   COLUMN(bool, calibration_contradicted, , "calibration finding: the first attitudes contradict its covariance") \
   COLUMN(bool, calibration_refused, , "... by more than any tolerance explains: nothing is valid") \
   COLUMN(std::int32_t, calibration_attitudes, , "... at so many attitudes") \
   COLUMN(double, calibration_ratio, , "... by residuals of so many times what it allows; 0: by none") \
   COLUMN(double, calibration_tolerance_mps2, , "... and every sensor has this tolerance since [m/s^2]") \
-  COLUMN(float, drift_mps2_per_h, [kSensors], "slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0: none told") \
+  COLUMN(float, drift_mps2_per_h, [kSensors], "slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0: none") \
   COLUMN(double, noise_factor, , "noise of all sensors in stated sigmas, as blocks at rest have shown it; 1: as stated") \
   COLUMN(double, noise_correlation, , "samples that are worth one independent one; 1: all are independent") \
   COLUMN(double, temperature_degc, , "last one that was a number [degC]") \

@@ -84,7 +84,7 @@ Adversary::Lie Adversary::candidate(int number) {
 
 double Adversary::worth_of(const Verdict& v) const {
   const SensorSet liars = player_.faulty;
-  const double found = 20.0 * (v.excluded & liars).size() + 5.0 * (v.set_aside & liars).size();
+  const double found = 20.0 * (v.excluded & liars).size() + 5.0 * (v.provisionally_excluded & liars).size();
   switch (aim_) {
     case Aim::error: {
       const bool valid = v.validity == Validity::valid || v.validity == Validity::degraded;
@@ -92,7 +92,7 @@ double Adversary::worth_of(const Verdict& v) const {
       return (valid ? 1.0 + 100.0 * (error_rad - v.protection_level_rad) : 0.0) - found;
     }
     case Aim::accuse:
-      return 1000.0 * (v.excluded - liars).size() + 100.0 * (v.set_aside - liars).size() +
+      return 1000.0 * (v.excluded - liars).size() + 100.0 * (v.provisionally_excluded - liars).size() +
              2.0 * (v.suspects - liars).size() - (v.suspects & liars).size() - found;
     case Aim::fail: break;
   }

@@ -25,7 +25,7 @@ const std::vector<Family>& all() {
       {"v1d-small-turns", "turns of 0.05 to 2 deg between blocks, and then another one somewhat larger", Play::small_turns, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v2-horizontal", "steady horizontal acceleration of 3 to 50 mg at every station; bound stated", Play::steady_push, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v2-thrust", "thrust of 300 mg whose vertical part keeps the length of gravity; bound stated", Play::steady_push, kPromised, kOutside, 4, 8, false, false, 1, 1},
-      {"v3-asserted", "one channel alone in the last row of a block as the tool starts to turn; asserted_faults = 1", Play::truncated_frame, kPromised, kOutside, 5, 8, false, false, 1, 1},
+      {"v3-asserted", "one channel alone in the last row of a block as the tool starts to turn; assumed_faults = 1", Play::truncated_frame, kPromised, kOutside, 5, 8, false, false, 1, 1},
       {"v3-default", "the same in the default configuration", Play::truncated_frame, kPromised, kOutside, 5, 8, false, false, -1, 1},
       {"v4-clock", "time stamps repeated, then up to 70 s of nothing or slow rows, and a power cycle with its own snapshot", Play::clock, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v5a-vertical", "a vertical tetrahedron at rest whose axial sensor reads -G/3", Play::vertical, kPromised, kPromised, 4, 4, false, false, 0, 1},

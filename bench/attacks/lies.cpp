@@ -39,7 +39,7 @@ constexpr std::uint64_t kBatch = 20000;
 std::vector<AttackTool> tools_of(int n, std::uint64_t seed, std::uint64_t batch) {
   std::vector<AttackTool> out;
   const auto keep = [&out](plumb_test::LawTool tool) {
-    const bool names = plumb::strict_grade(tool.tool.array, tool.tool.array.all()) > 0;
+    const bool names = plumb::confirmed_grade(tool.tool.array, tool.tool.array.all()) > 0;
     if (names && worst_error(tool) <= 1.0) out.push_back(attack_tool(std::move(tool)));
   };
   for (plumb_test::LawTool& tool : plumb_test::law_tools(n)) keep(std::move(tool));

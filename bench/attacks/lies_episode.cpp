@@ -17,10 +17,10 @@ constexpr double kGravitySigmas = 3.0 + 1e-6;
 
 Lie lie_of(int lie) { return lie == kNobody ? Lie::constant : kEveryLie[slot(lie)]; }
 
-/// Liars of a tool within the strict grade that the monitor claims for it.
+/// Liars of a tool within the confirmed grade that the monitor claims for it.
 SensorSet draw_liars(const LawTool& tool, int lie, TrialNoise& noise) {
   if (lie == kNobody) return {};
-  return LawCase::some(tool.n(), 1 + noise.below(strict_grade(tool.tool.array, tool.tool.array.all())), noise);
+  return LawCase::some(tool.n(), 1 + noise.below(confirmed_grade(tool.tool.array, tool.tool.array.all())), noise);
 }
 
 double draw_gravity(TrialNoise& noise) { return noise.below(3) == 0 ? 3.0 * noise.sign() : noise.between(-3.0, 3.0); }
@@ -46,8 +46,8 @@ LiesEpisode::LiesEpisode(const AttackTool& tool, Situation situation, int lie, s
       attitudes_(noise_) {
   liars_ = case_.faulty();
   const SensorArray& array = tool.law.tool.array;
-  strict_ = strict_grade(array, array.all());
-  parity_ = parity_grade(array, array.all());
+  strict_ = confirmed_grade(array, array.all());
+  parity_ = provisional_grade(array, array.all());
   case_.draw(noise_);
   plan();
   configure();
@@ -74,10 +74,10 @@ void LiesEpisode::configure() {
   const int kWindows[] = {4, 8, 8, 16};
   config.window = kWindows[noise_.below(4)];
   config.isolation_stations = noise_.below(2) == 0 ? 4 : 1 + noise_.below(3);
-  if (liars_.size() <= 1 && noise_.below(4) == 0) config.asserted_faults = 1;
+  if (liars_.size() <= 1 && noise_.below(4) == 0) config.assumed_faults = 1;
   config.recalibrate_after_exclusion = situation_ == Situation::recalibrate && noise_.below(2) == 0;
   if (noise_.below(4) == 0) setup_.stability.fill({0.1 * kMilligee_mps2, 0.0, 0.0, 0.0});
-  if (noise_.below(4) == 0) config.patience_blocks = 6 + noise_.below(30);
+  if (noise_.below(4) == 0) config.isolation_timeout_blocks = 6 + noise_.below(30);
   if (noise_.below(4) == 0) config.probation_stations = 1 + noise_.below(3);
   if (!monitor_->configure(setup_).has_value()) ++count_.broken;
 }
@@ -270,7 +270,7 @@ void LiesEpisode::judge() {
   if (tell_ && v.transition.sequence != 0) {
     std::printf("  t %.2f %s -> %s, event %s, cause %s, excluded %x, set aside %x, absent %x\n", v.time_s,
                 to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
-                to_string(v.transition.cause), v.excluded.bits, v.set_aside.bits, v.absent.bits);
+                to_string(v.transition.cause), v.excluded.bits, v.provisionally_excluded.bits, v.absent.bits);
   }
   const TransitionRecord& t = v.transition;
   const bool doubts = t.sequence != 0 && t.from == HealthState::nominal && t.to == HealthState::suspect;
@@ -279,16 +279,16 @@ void LiesEpisode::judge() {
   const SensorSet broken = silent_ >= 0 ? liars_.with(silent_) : liars_;
   if (broken.size() <= strict_ && !broken.contains(v.excluded))
     find(count_.excluded_healthy, "a healthy sensor is out");
-  if (broken.size() <= parity_ && !broken.contains(v.set_aside)) {
+  if (broken.size() <= parity_ && !broken.contains(v.provisionally_excluded)) {
     find(count_.set_aside_healthy, "a healthy sensor is set aside");
   }
   if (v.state == HealthState::failed) {
     if (count_.failed == 0) ++count_.failed;
     if (liars_.empty()) find(count_.failed_healthy, std::string("failed by ") + to_string(v.cause));
   }
-  const SensorSet all = v.in_service | v.set_aside | v.excluded | v.absent;
-  const int sum = v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size();
-  if (all != v.configured || sum != v.configured.size()) find(count_.broken, "the sets are no partition");
+  const SensorSet all = v.in_service | v.provisionally_excluded | v.excluded | v.absent;
+  const int sum = v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size();
+  if (all != v.configured || sum != v.configured.size()) find(count_.broken, "the sets do not form a partition");
   if (v.tick) judge_vector();
 }
 
@@ -300,9 +300,9 @@ void LiesEpisode::note_bounds() {
   const double sigmas = gravity_sigmas_ + length / tool_.law.tool.gravity.sigma_mps2;
   if (std::fabs(sigmas) > std::fabs(hidden_sigmas_)) hidden_sigmas_ = sigmas;
   // Motion below the noise of every channel is an error of gravity that nobody can see, and beyond the bound on it.
-  within_bounds_ = within_bounds_ && (!v.restless.empty() || std::fabs(sigmas) <= kGravitySigmas);
+  within_bounds_ = within_bounds_ && (!v.scattering.empty() || std::fabs(sigmas) <= kGravitySigmas);
   if (tell_ && length != 0.0) {
-    std::printf("    quiet block, gravity as if %.3g sigma off, restless %x\n", sigmas, v.restless.bits);
+    std::printf("    quiet block, gravity as if %.3g sigma off, scattering %x\n", sigmas, v.scattering.bits);
   }
 }
 

@@ -150,7 +150,7 @@ void Player::tell_change() const {
   std::printf("  t %.2f %s -> %s, event %s, cause %s, in service%s, excluded%s, set aside%s, absent%s\n", v.time_s,
               to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
               to_string(v.transition.cause), names(v.in_service).c_str(), names(v.excluded).c_str(),
-              names(v.set_aside).c_str(), names(v.absent).c_str());
+              names(v.provisionally_excluded).c_str(), names(v.absent).c_str());
 }
 
 void Player::find(Count what, bool promised, const std::string& how) {
@@ -177,8 +177,8 @@ void Player::judge_sensors() {
   if (!faulty.contains(v.excluded)) {
     find(Count::wrong_exclusion, faulty.size() <= strict_, "excluded" + names(v.excluded - faulty));
   }
-  if (!faulty.contains(v.set_aside)) {
-    find(Count::wrong_aside, faulty.size() <= parity_, "set aside" + names(v.set_aside - faulty));
+  if (!faulty.contains(v.provisionally_excluded)) {
+    find(Count::wrong_aside, faulty.size() <= parity_, "set aside" + names(v.provisionally_excluded - faulty));
   }
   if (v.state == HealthState::failed) {
     tally_[Count::failed] = 1;
@@ -187,9 +187,9 @@ void Player::judge_sensors() {
   const TransitionRecord& t = v.transition;
   const bool doubts = t.sequence != 0 && t.from == HealthState::nominal && t.to == HealthState::suspect;
   if (doubts && faulty.empty()) tally_[Count::false_doubt] = 1;
-  const SensorSet all = v.in_service | v.set_aside | v.excluded | v.absent;
-  const int sum = v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size();
-  if (all != v.configured || sum != v.configured.size()) find(Count::broken, true, "the sets are no partition");
+  const SensorSet all = v.in_service | v.provisionally_excluded | v.excluded | v.absent;
+  const int sum = v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size();
+  if (all != v.configured || sum != v.configured.size()) find(Count::broken, true, "the sets do not form a partition");
   if (!std::isfinite(v.protection_level_rad) || !std::isfinite(norm(v.gravity_mps2))) {
     find(Count::broken, true, "a figure is not finite");
   }

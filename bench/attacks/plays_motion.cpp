@@ -43,7 +43,7 @@ Tally play_steady_push(const Episode& e) {
 Tally play_truncated_frame(const Episode& e) {
   constexpr double kRate_radps = rad_from_deg(400.0);
   MonitorConfig config;
-  if (e.family.number > 0.0) config.asserted_faults = static_cast<int>(e.family.number);
+  if (e.family.number > 0.0) config.assumed_faults = static_cast<int>(e.family.number);
   Player player = trusted(e, config);
   for (int station = 0; station < 12; ++station) {
     player.block(1 + player.noise.below(2));

@@ -188,7 +188,7 @@ FileExpected<Progress> read_state(const std::string& path, std::uint64_t seed) {
   }
   const std::size_t end = text->rfind(kHashLine);
   if (end == std::string::npos || json.value("hash", "") != hex(plumb::io::fnv1a(text->data(), end))) {
-    return refuse("is damaged: its hash does not fit its contents");
+    return refuse("is damaged: its hash does not match its contents");
   }
   if (json.value("plumb_monitor_attacks", 0) != kFormat || json.value("harness", 0) != kHarnessVersion ||
       json.value("library", 0U) != plumb::kLibraryVersion) {

@@ -6,8 +6,8 @@
 #include "fixed_cases.hpp"
 #include "plan.hpp"
 #include "player.hpp"
-#include "plumb/health/paper_monitor.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/paper/paper_monitor.hpp"
 #include "plumb/scenario/library.hpp"
 
 namespace plumb_replay {

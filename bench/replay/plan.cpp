@@ -196,7 +196,7 @@ void draw_settings(Draws& draws, MonitorConfig& config) {
   if (draws.one_in(3)) config.integrity_risk = draws.any_of({1e-3, 1e-9});
   if (draws.one_in(3)) config.fault_prior = draws.any_of({1e-2, 1e-6});
   config.isolation_stations = 1 + draws.below(5);
-  config.clean_blocks = 1 + draws.below(5);
+  config.passed_blocks = 1 + draws.below(5);
   config.forget_blocks = 1 + draws.below(5);
   config.probation_stations = 1 + draws.below(6);
   config.missing_confirm = 1 + draws.below(20);
@@ -211,8 +211,8 @@ void draw_config(Draws& draws, Plan& plan) {
   config.window = kCapacity > 8 && draws.one_in(8) ? 64 : draws.any_of({16, 16, 32, 32, 8, 12});
   if (draws.one_in(6)) config.temperature_min_degc = 0.0;
   if (draws.one_in(6)) config.temperature_max_degc = 50.0;
-  if (draws.one_in(4)) config.patience = 2 + draws.below(8);
-  if (draws.one_in(6)) config.patience_blocks = 8 + draws.below(30);
+  if (draws.one_in(4)) config.isolation_timeout = 2 + draws.below(8);
+  if (draws.one_in(6)) config.isolation_timeout_blocks = 8 + draws.below(30);
   if (draws.one_in(6)) draw_settings(draws, config);
   plan.power_cycles = draws.one_in(5);
 }
@@ -234,8 +234,8 @@ void draw_situation(Draws& draws, Plan& plan) {
   MonitorSetup& setup = plan.setup;
   switch (plan.situation) {
     case Situation::reset:
-      setup.config.patience = 2 + draws.below(3);
-      setup.config.patience_blocks = 6 + draws.below(10);
+      setup.config.isolation_timeout = 2 + draws.below(3);
+      setup.config.isolation_timeout_blocks = 6 + draws.below(10);
       break;
     case Situation::policy: setup.config.recalibrate_after_exclusion = true; break;
     case Situation::bound:
@@ -243,8 +243,8 @@ void draw_situation(Draws& draws, Plan& plan) {
       plan.push_mps2 = draws.vector(0.0, 1.5 * setup.config.acceleration_bound_mps2);
       break;
     case Situation::asserted:
-      setup.config.asserted_faults = draws.below(4);
-      setup.config.patience = 1 + draws.below(6);
+      setup.config.assumed_faults = draws.below(4);
+      setup.config.isolation_timeout = 1 + draws.below(6);
       break;
     case Situation::stability: draw_stability(draws, plan); break;
     case Situation::settings: draw_settings(draws, setup.config); break;

@@ -31,7 +31,8 @@ void Meeting::note(Coverage& coverage, const Verdict& v) {
   if (first_ || v.state != last_.state) coverage.met("state", to_string(v.state));
   if (first_ || v.validity != last_.validity) coverage.met("validity", to_string(v.validity));
   if (first_ || v.cause != last_.cause) coverage.met("cause", to_string(v.cause));
-  if (first_ || v.reference.kind != last_.reference.kind) coverage.met("reference", to_string(v.reference.kind));
+  if (first_ || v.norm_mismatch.kind != last_.norm_mismatch.kind)
+    coverage.met("reference", to_string(v.norm_mismatch.kind));
   if (first_ || v.recalibration.phase != last_.recalibration.phase) {
     coverage.met("recalibration", to_string(v.recalibration.phase));
   }
@@ -145,7 +146,7 @@ void Player::power_cycle(Damage damage) {
     case Damage::flipped:
       if (!bytes.empty()) bytes[middle] ^= 0x10U;
       break;
-    case Damage::foreign: setup->config.patience += setup->config.patience < 24 ? 1 : -1; break;
+    case Damage::foreign: setup->config.isolation_timeout += setup->config.isolation_timeout < 24 ? 1 : -1; break;
     case Damage::empty: bytes.clear(); break;
   }
   monitor_ = std::make_unique<HealthMonitor>();

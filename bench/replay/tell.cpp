@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "plumb/core/fields.hpp"
+#include "plumb/core/detail/fields.hpp"
 
 namespace plumb_replay {
 inline namespace PLUMB_ABI {
@@ -34,7 +34,7 @@ void tell_recalibration(Trace& trace, const RecalibrationProgress& now) {
   trace.number("recalibration.refusal_limit", now.last_refusal.limit);
 }
 
-void tell_findings(Trace& trace, const ReferenceFinding& reference, const CalibrationFinding& calibration) {
+void tell_findings(Trace& trace, const NormMismatch& reference, const CalibrationFinding& calibration) {
   trace.word("reference.kind", to_string(reference.kind));
   trace.number("reference.attitudes", reference.attitudes);
   trace.number("reference.length", reference.length_mps2);
@@ -53,22 +53,22 @@ void tell_findings(Trace& trace, const ReferenceFinding& reference, const Calibr
 void tell_sensors(Trace& trace, const Verdict& v, int sensors) {
   set(trace, "configured", v.configured);
   set(trace, "in_service", v.in_service);
-  set(trace, "set_aside", v.set_aside);
+  set(trace, "provisionally_excluded", v.provisionally_excluded);
   set(trace, "excluded", v.excluded);
   set(trace, "absent", v.absent);
   set(trace, "suspects", v.suspects);
   set(trace, "clipped", v.clipped);
-  set(trace, "restless", v.restless);
+  set(trace, "scattering", v.scattering);
   set(trace, "not_finite", v.not_finite);
   set(trace, "noisy", v.noisy);
   set(trace, "stuck", v.stuck);
   set(trace, "contradicted_clip", v.contradicted_clip);
   for (int i = 0; i < sensors; ++i) trace.word("sensor_cause", to_string(v.sensor_cause[slot(i)]), i);
-  trace.numbers("fewest_faults", v.fewest_faults, sensors);
+  trace.numbers("minimum_faults", v.minimum_faults, sensors);
   trace.word("grade", to_string(v.grade));
-  trace.number("strict_grade", v.strict_grade);
-  trace.number("parity_grade", v.parity_grade);
-  trace.number("live_hypotheses", v.live_hypotheses);
+  trace.number("confirmed_grade", v.confirmed_grade);
+  trace.number("provisional_grade", v.provisional_grade);
+  trace.number("consistent_hypotheses", v.consistent_hypotheses);
   trace.number("stations_on_record", v.stations_on_record);
   trace.integer("wants_rotation", v.wants_rotation ? 1 : 0);
   trace.integer("rotation.wanted", v.rotation.wanted ? 1 : 0);
@@ -182,7 +182,7 @@ void tell_verdict(Trace& trace, const Verdict& v, int sensors) {
   tell_record(trace, v.transition);
   tell_sensors(trace, v, sensors);
   tell_recalibration(trace, v.recalibration);
-  tell_findings(trace, v.reference, v.calibration);
+  tell_findings(trace, v.norm_mismatch, v.calibration);
   tell_figures(trace, v, sensors);
   tell_vector(trace, v);
 }

@@ -32,8 +32,10 @@ inline SurveyStation survey(const plumb::Verdict& v, double pumps_off_s) {
   if (!has(Usable::temperature)) return answer(Go::wait, "temperature outside the calibration");
   if (!has(Usable::reference)) return answer(Go::no_go, "length of gravity is in doubt");
   if (v.validity == plumb::Validity::unconfirmed) {
-    const bool unproven = (v.qualifiers & plumb::Qualifier::unproven) != 0;  // history unknown, nobody accused
-    return answer(Go::no_go, unproven ? "not proven yet: turn the tool" : "sensors disagree: turn the tool");
+    const bool not_yet_validated =
+        (v.qualifiers & plumb::Qualifier::not_yet_validated) != 0;  // history unknown, nobody accused
+    return answer(Go::no_go,
+                  not_yet_validated ? "not validated yet: turn the tool" : "sensors disagree: turn the tool");
   }
   if (v.validity != plumb::Validity::valid || !has(Usable::monitored)) return answer(Go::no_go, "nothing checks them");
   if (v.alert || !has(Usable::protection_level)) return answer(Go::no_go, "tilt is not bounded well enough");

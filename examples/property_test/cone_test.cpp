@@ -31,7 +31,7 @@ TEST(SevenOnACone, SurvivesTheFaultThatWeFearMost) {
   shock.onset = 3;
   shock.magnitude = 0.05 * plumb::kG0_mps2;
   feared.faults = {shock};
-  const plumb::testing::LawResult law = plumb::testing::isolates_what_can_be_told(feared);
+  const plumb::testing::LawResult law = plumb::testing::isolates_what_is_isolable(feared);
   EXPECT_TRUE(law.applies && law.holds) << law.reason << plumb::testing::toml_of(feared);
 }
 

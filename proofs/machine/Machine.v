@@ -1,18 +1,18 @@
 (* The state machine, over the very table that runs in the monitor: Table.v is generated from it at check time. The property
    names are those of the design. Facts that resolve a conditional target (what is left in service, whether trust is
-   earned, ...) are free here: whatever they are, the theorems hold. Only "a calibration was accepted" is tracked. *)
+   enough passed blocks, ...) are free here: whatever they are, the theorems hold. Only "a calibration was accepted" is tracked. *)
 From Coq Require Import List Bool.
 Import ListNotations.
 From Plumb Require Import Table.
 
-Record facts := Facts { size_left : size; unproven : bool; earned : bool; from_suspect : bool; within : bool }.
+Record facts := Facts { size_left : size; not_yet_validated : bool; enough_passed : bool; from_suspect : bool; within : bool }.
 
 Definition kind_of (m : mode) (e : event) : kind := fst (fst (cell m e)).
 Definition target_of (m : mode) (e : event) : target := snd (fst (cell m e)).
 Definition does (m : mode) (e : event) (a : action) : Prop := In a (snd (cell m e)).
 
 Definition goes (m : mode) (e : event) (calibrated : bool) (f : facts) : mode :=
-  match resolution (target_of m e) (size_left f) (unproven f) (earned f) (from_suspect f) (within f) calibrated with
+  match resolution (target_of m e) (size_left f) (not_yet_validated f) (enough_passed f) (from_suspect f) (within f) calibrated with
   | Some there => there
   | None => m
   end.
@@ -52,7 +52,7 @@ Proof. vm_compute. reflexivity. Qed.
 (* S3: when a channel is lost, a culprit excluded or a sensor set aside and the rest no longer spans three directions, the monitor fails, in
    whatever mode it was (in failed it stays). *)
 Theorem S3_rank_loss_fails m e c f :
-  e = E_channel_lost \/ e = E_culprit \/ e = E_set_aside -> size_left f = S_rank_lost -> goes m e c f = M_failed.
+  e = E_channel_lost \/ e = E_exclusion \/ e = E_provisional_exclusion -> size_left f = S_rank_lost -> goes m e c f = M_failed.
 Proof. revert m e. every_cell; destruct H as [H|[H|H]]; settle; every_fact. Qed.
 
 (* S3, the other side: nothing that goes "by size" arrives in service without rank. *)
@@ -61,22 +61,22 @@ Theorem S3_never_in_service_by_size m e c f :
   goes m e c f <> M_nominal /\ goes m e c f <> M_isolated /\ goes m e c f <> M_degraded.
 Proof. revert m e. every_cell; every_fact. Qed.
 
-(* S6, S7: a sensor is excluded by a culprit event only and set aside by a set-aside event only; only a lost channel is
-   marked absent. So no alarm, contradiction, reference, motion or patience takes a sensor out. *)
+(* S6, S7: a sensor is excluded by an exclusion event only and provisionally excluded by a provisional_exclusion event only; only a lost channel is
+   marked absent. So no alarm, no_consistent_hypothesis, norm_mismatch, motion or timeout takes a sensor out. *)
 Theorem S6_S7_who_takes_sensors_out m e :
-  (does m e A_exclude -> e = E_culprit) /\ (does m e A_set_aside -> e = E_set_aside) /\
+  (does m e A_exclude -> e = E_exclusion) /\ (does m e A_exclude_provisionally -> e = E_provisional_exclusion) /\
   (does m e A_mark_absent -> e = E_channel_lost).
 Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
 
-(* S8: a fit is adopted on its acceptance only, out of recalibration only; the monitor is then suspect and unproven. *)
+(* S8: a fit is adopted on its acceptance only, out of recalibration only; the monitor is then suspect and not yet validated. *)
 Theorem S8_adoption m e c f :
   does m e A_adopt_fit ->
-  e = E_fit_accepted /\ state_of m = St_recalibrating /\ does m e A_unproven /\ goes m e c f = M_suspect.
+  e = E_fit_accepted /\ state_of m = St_recalibrating /\ does m e A_not_yet_validated /\ goes m e c f = M_suspect.
 Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
 
 (* S8, S16: while stations are being collected, whatever speaks against the data throws the collection away. *)
 Definition speaks_against (e : event) : Prop :=
-  In e [E_alarm; E_contradiction; E_reference; E_culprit; E_set_aside; E_channel_lost; E_patience_over].
+  In e [E_alarm; E_no_consistent_hypothesis; E_norm_mismatch; E_exclusion; E_provisional_exclusion; E_channel_lost; E_isolation_timeout].
 Theorem S8_S16_nothing_survives_an_alarm m e :
   speaks_against e -> state_of m = St_recalibrating -> does m e A_discard_fit \/ does m e A_restart_collection.
 Proof. unfold speaks_against. revert m e. every_cell. Qed.
@@ -97,10 +97,10 @@ Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
    set aside, the returning channel marked, the accepted fit adopted. (S2 rests on it: what is out stays out.) *)
 Theorem S2_events_do_what_they_say m e :
   kind_of m e = K_taken ->
-  (e = E_channel_lost -> does m e A_mark_absent) /\ (e = E_culprit -> does m e A_exclude) /\
-  (e = E_set_aside -> does m e A_set_aside) /\ (e = E_channel_back -> does m e A_mark_as_back) /\
+  (e = E_channel_lost -> does m e A_mark_absent) /\ (e = E_exclusion -> does m e A_exclude) /\
+  (e = E_provisional_exclusion -> does m e A_exclude_provisionally) /\ (e = E_channel_back -> does m e A_mark_as_back) /\
   (e = E_fit_accepted -> does m e A_adopt_fit) /\ (e = E_recalibrate -> does m e A_start_fit) /\
-  (e = E_reset -> does m e A_return_named_sensors /\ does m e A_unproven).
+  (e = E_reset -> does m e A_return_named_sensors /\ does m e A_not_yet_validated).
 Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
 
 (* They are taken up: no mode overlooks a lost or a returning channel. *)
@@ -123,28 +123,28 @@ Theorem a_request_taken_recalibrates m c f :
   kind_of m E_recalibrate = K_taken -> goes m E_recalibrate c f = M_recalibrating.
 Proof. destruct m; unfold kind_of, goes; simpl; intros; settle. Qed.
 
-(* S17 (its part in the table): alarm, contradiction, reference and a sensor set aside never leave the monitor in a mode
+(* S17 (its part in the table): alarm, no_consistent_hypothesis, norm_mismatch and a provisional exclusion never leave the monitor in a mode
    whose output is published as valid or degraded, nor in recalibration in flight, which publishes as before. *)
 Definition publishes (m : mode) : Prop := m = M_nominal \/ m = M_isolated \/ m = M_degraded.
 Theorem S17_doubt_is_not_published m e c f :
-  e = E_alarm \/ e = E_contradiction \/ e = E_reference \/ (e = E_set_aside /\ kind_of m e = K_taken) ->
+  e = E_alarm \/ e = E_no_consistent_hypothesis \/ e = E_norm_mismatch \/ (e = E_provisional_exclusion /\ kind_of m e = K_taken) ->
   ~ publishes (goes m e c f) /\ goes m e c f <> M_recalibrating.
 Proof. unfold publishes. revert m e. every_cell; every_fact. Qed.
 
-(* Trust is earned: out of suspect the ways into service are clean blocks that earned it, or a culprit taken out. *)
+(* Out of suspect the ways into service are passed blocks, enough in a row, or an exclusion. *)
 Theorem suspect_is_left_by_evidence e c f :
-  publishes (goes M_suspect e c f) -> (e = E_clean_block /\ earned f = true) \/ (e = E_culprit /\ unproven f = false).
+  publishes (goes M_suspect e c f) -> (e = E_passed_block /\ enough_passed f = true) \/ (e = E_exclusion /\ not_yet_validated f = false).
 Proof. unfold publishes. revert e. intros e. destruct e; unfold goes; simpl; intros; settle; every_fact. Qed.
 
-(* S12 (its part in the table): patience over in suspect: bounded, or with an explanation that the rest corroborates
+(* S12 (its part in the table): isolation timeout in suspect: bounded, or with an explanation that the rest corroborates
    ([within]), or failed. *)
 Theorem S12_patience c f :
-  goes M_suspect E_patience_over c f = (if within f then M_suspect else M_failed).
+  goes M_suspect E_isolation_timeout c f = (if within f then M_suspect else M_failed).
 Proof. destruct f as [s u r b w]. destruct w; reflexivity. Qed.
 
-(* L2 (its part in the table): clean blocks that earned trust lead out of suspect. *)
+(* L2 (its part in the table): enough passed blocks in a row lead out of suspect. *)
 Theorem L2_earned_trust_ends_suspect c f :
-  earned f = true -> goes M_suspect E_clean_block c f <> M_suspect.
+  enough_passed f = true -> goes M_suspect E_passed_block c f <> M_suspect.
 Proof. destruct f as [s u r b w]. simpl. intros ->. destruct s; discriminate. Qed.
 
 (* From failed the operator's reset leads to suspect or to a first calibration, never straight
@@ -198,7 +198,7 @@ Qed.
 Theorem no_dead_end m : exists trace, fst (run (m, true) trace) = M_nominal.
 Proof.
   pose (good := Facts S_all_configured false true false true).
-  destruct m; [exists []| exists [(E_probation_passed, good)] | exists [(E_clean_block, good)]
-    | exists [(E_probation_passed, good)] | exists [(E_fit_accepted, good); (E_clean_block, good)]
-    | exists [(E_fit_accepted, good); (E_clean_block, good)] | exists [(E_reset, good); (E_clean_block, good)]]; reflexivity.
+  destruct m; [exists []| exists [(E_probation_passed, good)] | exists [(E_passed_block, good)]
+    | exists [(E_probation_passed, good)] | exists [(E_fit_accepted, good); (E_passed_block, good)]
+    | exists [(E_fit_accepted, good); (E_passed_block, good)] | exists [(E_reset, good); (E_passed_block, good)]]; reflexivity.
 Qed.

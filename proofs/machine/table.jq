@@ -1,5 +1,5 @@
 # The state machine as `plumb model --format json` tells it -> a Coq file. Run by proofs/check_coq.sh; the result is
-# never kept. Names become constructors: "by size (unproven: suspect)" -> T_by_size_unproven_suspect.
+# never kept. Names become constructors: "by size (not yet validated: suspect)" -> T_by_size_not_yet_validated_suspect.
 def name(prefix): prefix + (gsub("[^A-Za-z0-9]+"; "_") | sub("_$"; ""));
 def listed: join(" | ");
 def bool: if . == null then "_" elif . then "true" else "false" end;
@@ -28,10 +28,10 @@ def bool: if . == null then "_" elif . then "true" else "false" end;
   "Definition cell (m : mode) (e : event) : kind * target * list action := match m, e with",
   (.cells[] | "  | \(.mode | name("M_")), \(.event | name("E_")) => (\(.kind | name("K_")), \(.target | name("T_")), [\([.actions[] | name("A_")] | join("; "))])"),
   "  end.",
-  "(* Where a target leads, in the order size, unproven, earned, from suspect, bounded or isolable, calibrated; None: stay. *)",
-  "Definition resolution (t : target) (s : size) (unproven earned from_suspect within calibrated : bool) : option mode :=",
-  "  match t, s, unproven, earned, from_suspect, within, calibrated with",
-  (.targets[] | "  | \(.target | name("T_")), \(if .when.size then (.when.size | name("S_")) else "_" end), \(.when.unproven | bool), \(.when.earned | bool), \(.when["from suspect"] | bool), \(.when["bounded or isolable"] | bool), \(.when.calibrated | bool) => \(if .to == "stay" then "None" else "Some " + (.to | name("M_")) end)"),
+  "(* Where a target leads, in the order size, not_yet_validated, enough_passed, from suspect, bounded or isolable, calibrated; None: stay. *)",
+  "Definition resolution (t : target) (s : size) (not_yet_validated enough_passed from_suspect within calibrated : bool) : option mode :=",
+  "  match t, s, not_yet_validated, enough_passed, from_suspect, within, calibrated with",
+  (.targets[] | "  | \(.target | name("T_")), \(if .when.size then (.when.size | name("S_")) else "_" end), \(.when["not yet validated"] | bool), \(.when["enough blocks passed"] | bool), \(.when["from suspect"] | bool), \(.when["bounded or isolable"] | bool), \(.when.calibrated | bool) => \(if .to == "stay" then "None" else "Some " + (.to | name("M_")) end)"),
   "  end.",
   "Definition leads_to (m : mode) (e : event) : list mode := match m, e with",
   (.cells[] | "  | \(.mode | name("M_")), \(.event | name("E_")) => [\([.leads_to[] | name("M_")] | join("; "))]"),

@@ -184,13 +184,14 @@ def sources(root, arguments):
     sources = {
         "src/health/decision.cpp": None,
         "src/health/serve_event.cpp": None,
-        "src/health/diagnosis.cpp": {"vote", "culprits", "witnesses"},
+        "src/health/diagnosis.cpp": {"vote", "is_vote_due", "accuse", "convicted_by_scatter", "note_accusation",
+                                     "culprits", "witnesses"},
         "src/detection/isolation.cpp": None,
         "src/detection/reference_doubt.cpp": None,
-        "include/plumb/health/decision.hpp": {"decide"},
+        "include/plumb/health/detail/decision.hpp": {"decide"},
         "include/plumb/health/transition_table.hpp": {"bit", "first_taken", "mode_by_size", "resolve"},
         "include/plumb/detection/isolation.hpp": {"is_dead", "kill"},
-        "include/plumb/detection/reference_doubt.hpp": {"index_of", "refuted"},
+        "include/plumb/detection/detail/reference_doubt.hpp": {"index_of", "refuted"},
     }
     out = []
     for file, functions in sources.items():

@@ -4,27 +4,28 @@ import re
 from mutants import Mutant
 
 HEADER = "include/plumb/health/transition_table.hpp"
-TARGETS = ("stay", "by_size", "by_size_if_proven", "by_size_when_earned", "suspect", "suspect_or_failed",
+TARGETS = ("stay", "by_size", "by_size_if_validated", "by_size_when_passed", "suspect", "suspect_or_failed",
            "stay_or_failed", "by_protection", "recalibrating", "base", "rearm", "failed")
-CELL = re.compile(r"(go\(T::(\w+)(?:, ([\w:| ]+))?\)|ignored\(\)|held\(\)|impossible\(\))")
+CELL = re.compile(r"on\(E::\w+\)(\.to\(T::(\w+)\)(?:\.does\(([\w:| ]+)\))?|\.ignored\(\)|\.held\(\)|\.impossible\(\))")
 ROW = re.compile(r"constexpr Row (k\w+) = \{\n(.*?)\n\};", re.S)
 
 
 def others(match):
     """What may stand in the place of a cell."""
     text, target, actions = match.group(1), match.group(2), match.group(3)
+    idle = (".ignored()", ".held()", ".impossible()")
     if target is None:
-        return [t for t in ("ignored()", "held()", "impossible()", "go(T::stay, A::count)", "go(T::suspect)") if t != text]
-    tail = f", {actions}" if actions else ""
-    out = [f"go(T::{t}{tail})" for t in TARGETS if t != target]
-    out += ["ignored()", "held()", "impossible()"]
+        return [t for t in (*idle, ".to(T::stay).does(A::count)", ".to(T::suspect)") if t != text]
+    tail = f".does({actions})" if actions else ""
+    out = [f".to(T::{t}){tail}" for t in TARGETS if t != target]
+    out += idle
     bits = actions.split(" | ") if actions else []
     for bit in bits:
         left = " | ".join(b for b in bits if b != bit)
-        out.append(f"go(T::{target}, {left})" if left else f"go(T::{target})")
-    for bit in ("A::exclude", "A::set_aside", "A::discard_fit", "A::unproven"):
+        out.append(f".to(T::{target}).does({left})" if left else f".to(T::{target})")
+    for bit in ("A::exclude", "A::exclude_provisionally", "A::discard_fit", "A::not_yet_validated"):
         if bit not in bits:
-            out.append(f"go(T::{target}, {' | '.join([*bits, bit])})")
+            out.append(f".to(T::{target}).does({' | '.join([*bits, bit])})")
     return out
 
 
@@ -34,7 +35,7 @@ def cells(root):
     out = []
     for row in ROW.finditer(source):
         for column, match in enumerate(CELL.finditer(row.group(2))):
-            begin = row.start(2) + match.start()
+            begin = row.start(2) + match.start(1)
             number = source.count("\n", 0, begin) + 1
             for new in others(match):
                 out.append(Mutant(HEADER, begin, begin + len(match.group(1)), new, "cell", number,

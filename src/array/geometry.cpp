@@ -283,12 +283,12 @@ int coplanarity(const SensorArray& array, SensorSet used) noexcept {
   return most;
 }
 
-int strict_grade(const SensorArray& array, SensorSet used) noexcept {
-  return strict_grade((used & array.all()).size(), coplanarity(array, used));
+int confirmed_grade(const SensorArray& array, SensorSet used) noexcept {
+  return confirmed_grade((used & array.all()).size(), coplanarity(array, used));
 }
 
-int parity_grade(const SensorArray& array, SensorSet used) noexcept {
-  return parity_grade((used & array.all()).size(), coplanarity(array, used));
+int provisional_grade(const SensorArray& array, SensorSet used) noexcept {
+  return provisional_grade((used & array.all()).size(), coplanarity(array, used));
 }
 
 SensorSet critical_sensors(const SensorArray& array, SensorSet used) noexcept {
@@ -319,8 +319,8 @@ FiguresOfMerit figures_of_merit(const SensorArray& array) noexcept {
   }
   out.common_bias_visibility = common_bias_visibility(array);
   out.coplanarity = coplanarity(array, array.all());
-  out.strict_grade = strict_grade(array.size(), out.coplanarity);
-  out.parity_grade = parity_grade(array.size(), out.coplanarity);
+  out.confirmed_grade = confirmed_grade(array.size(), out.coplanarity);
+  out.provisional_grade = provisional_grade(array.size(), out.coplanarity);
   return out;
 }
 

@@ -120,6 +120,17 @@ bool RowUncertainty::is_zero(int sensors) const noexcept {
          std::all_of(misfit_mps2.begin(), misfit_mps2.begin() + sensors, zero);
 }
 
+SensorSet RowUncertainty::without_variance(int sensors) const noexcept {
+  constexpr double kNone = 1e-18;  // 1e-9 rad, relative, m/s^2, squared: no calibration knows a sensor so well
+  SensorSet out;
+  for (int i = 0; i < sensors; ++i) {
+    const auto variance = [this, i](int p) { return covariance[index((4 * i + p) * (4 * i + p + 1) / 2 + 4 * i + p)]; };
+    const double of_row = variance(0) + variance(1) + variance(2);
+    if (!(of_row > kNone && variance(3) > kNone)) out = out.with(i);
+  }
+  return out;
+}
+
 bool RowUncertainty::is_covariance() const noexcept {
   constexpr double kRounding = 1e-6, kMostVariance = 1e12;
   const auto entry = [this](int a, int b) { return covariance[index(a * (a + 1) / 2 + b)]; };
@@ -148,6 +159,7 @@ Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {
     array.rows_[index(i)].id = canonical(rows[i].id);
   }
   array.derive();
+  array.see_what_is_exact();
   return array;
 }
 
@@ -181,11 +193,16 @@ void SensorArray::derive() noexcept {
 
 void SensorArray::set_uncertainty(const RowUncertainty& u) noexcept {
   uncertainty_ = u;
-  perfectly_known_ = u.is_zero(size_);
+  see_what_is_exact();
+}
+
+void SensorArray::see_what_is_exact() noexcept {
+  perfectly_known_ = uncertainty_.is_zero(size_);
+  taken_for_exact_ = uncertainty_.without_variance(size_);
 }
 
 void SensorArray::rebuild() noexcept {
-  perfectly_known_ = uncertainty_.is_zero(size_);
+  see_what_is_exact();
   if (plausible()) derive();
 }
 

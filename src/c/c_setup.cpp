@@ -19,14 +19,14 @@ std::array<T, N> array_of(const T (&from)[N]) noexcept {
 MonitorConfig settings_of(const plumb_config& c) noexcept {
   MonitorConfig out;
   out.window = c.window;
-  out.asserted_faults = c.asserted_faults;
+  out.assumed_faults = c.assumed_faults;
   out.isolation_stations = c.isolation_stations;
-  out.patience = c.patience;
-  out.clean_blocks = c.clean_blocks;
+  out.isolation_timeout = c.isolation_timeout;
+  out.passed_blocks = c.passed_blocks;
   out.forget_blocks = c.forget_blocks;
   out.probation_stations = c.probation_stations;
   out.missing_confirm = c.missing_confirm;
-  out.patience_blocks = c.patience_blocks;
+  out.isolation_timeout_blocks = c.isolation_timeout_blocks;
   out.recalibrate_after_exclusion = c.recalibrate_after_exclusion != 0;
   out.alarm_form = c.alarm_for_average_tool != 0 ? AlarmForm::average_tool : AlarmForm::every_tool;
   out.reset_key = c.reset_key;
@@ -38,7 +38,7 @@ MonitorConfig settings_of(const plumb_config& c) noexcept {
   out.max_age_s = c.max_age_s;
   out.max_age_samples = c.max_age_samples;
   out.station_angle_rad = c.station_angle_rad;
-  out.excitation_angle_rad = c.excitation_angle_rad;
+  out.distinct_attitude_angle_rad = c.distinct_attitude_angle_rad;
   out.clear_fraction = c.clear_fraction;
   out.alert_limit_rad = c.alert_limit_rad;
   out.integrity_risk = c.integrity_risk;
@@ -169,14 +169,14 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   config->gravity_sigma_mps2 = plumb::GravityReference{}.sigma_mps2;
   for (std::size_t k = 0; k < 9; k += 4) config->output_frame[k] = 1.0;
   config->window = d.window;
-  config->asserted_faults = d.asserted_faults;
+  config->assumed_faults = d.assumed_faults;
   config->isolation_stations = d.isolation_stations;
-  config->patience = d.patience;
-  config->clean_blocks = d.clean_blocks;
+  config->isolation_timeout = d.isolation_timeout;
+  config->passed_blocks = d.passed_blocks;
   config->forget_blocks = d.forget_blocks;
   config->probation_stations = d.probation_stations;
   config->missing_confirm = d.missing_confirm;
-  config->patience_blocks = d.patience_blocks;
+  config->isolation_timeout_blocks = d.isolation_timeout_blocks;
   config->recalibrate_after_exclusion = d.recalibrate_after_exclusion ? 1 : 0;
   config->alarm_for_average_tool = d.alarm_form == plumb::AlarmForm::average_tool ? 1 : 0;
   config->reset_key = d.reset_key;
@@ -188,7 +188,7 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   config->max_age_s = d.max_age_s;
   config->max_age_samples = d.max_age_samples;
   config->station_angle_rad = d.station_angle_rad;
-  config->excitation_angle_rad = d.excitation_angle_rad;
+  config->distinct_attitude_angle_rad = d.distinct_attitude_angle_rad;
   config->clear_fraction = d.clear_fraction;
   config->alert_limit_rad = d.alert_limit_rad;
   config->integrity_risk = d.integrity_risk;

@@ -21,27 +21,27 @@ void copy_to(double (&to)[N], const std::array<double, N>& from) noexcept {
 void write_sets(const Verdict& v, plumb_verdict& out) noexcept {
   out.configured = v.configured.bits;
   out.in_service = v.in_service.bits;
-  out.set_aside = v.set_aside.bits;
+  out.provisionally_excluded = v.provisionally_excluded.bits;
   out.excluded = v.excluded.bits;
   out.absent = v.absent.bits;
   out.suspects = v.suspects.bits;
   out.clipped = v.clipped.bits;
-  out.restless = v.restless.bits;
+  out.scattering = v.scattering.bits;
   out.not_finite = v.not_finite.bits;
   out.noisy = v.noisy.bits;
   out.stuck = v.stuck.bits;
   out.contradicted_clip = v.contradicted_clip.bits;
   for (size_t i = 0; i < static_cast<size_t>(kCapacity); ++i) {
     out.sensor_cause[i] = number(v.sensor_cause[i]);
-    out.fewest_faults[i] = v.fewest_faults[i];
+    out.minimum_faults[i] = v.minimum_faults[i];
     out.drift_mps2_per_h[i] = static_cast<double>(v.drift_mps2_per_h[i]);
   }
 }
 
 void write_figures(const Verdict& v, plumb_verdict& out) noexcept {
-  out.strict_grade = v.strict_grade;
-  out.parity_grade = v.parity_grade;
-  out.live_hypotheses = v.live_hypotheses;
+  out.confirmed_grade = v.confirmed_grade;
+  out.provisional_grade = v.provisional_grade;
+  out.consistent_hypotheses = v.consistent_hypotheses;
   out.stations_on_record = v.stations_on_record;
   out.stations_wanted = v.recalibration.stations_wanted;
   out.block_fill = v.block_fill;
@@ -59,9 +59,9 @@ void write_figures(const Verdict& v, plumb_verdict& out) noexcept {
   out.temperature_degc = v.temperature_degc;
   out.noise_factor = v.noise_factor;
   out.noise_correlation = v.noise_correlation;
-  const bool offset = v.reference.configure_mps2 > 0.0;
-  out.gravity_offset_mps2 = offset ? v.reference.length_mps2 : 0.0;
-  out.gravity_to_configure_mps2 = v.reference.configure_mps2;
+  const bool offset = v.norm_mismatch.configure_mps2 > 0.0;
+  out.gravity_offset_mps2 = offset ? v.norm_mismatch.length_mps2 : 0.0;
+  out.gravity_to_configure_mps2 = v.norm_mismatch.configure_mps2;
   out.calibration_ratio = v.calibration.contradicted ? v.calibration.ratio : 0.0;
   out.calibration_tolerance_mps2 = v.calibration.tolerance_mps2;
   copy_to(out.gravity_mps2, v.gravity_mps2);
@@ -123,6 +123,18 @@ static_assert(static_cast<int>(Validity::invalid) == PLUMB_INVALID && static_cas
               "the validities are numbered alike");
 static_assert(Qualifier::standstill_assumed == PLUMB_STANDSTILL_ASSUMED, "bits alike");
 static_assert(Qualifier::stability_unstated == PLUMB_STABILITY_UNSTATED, "bits alike");
+static_assert(Qualifier::uncertainty_unstated == PLUMB_UNCERTAINTY_UNSTATED, "bits alike");
+static_assert(Qualifier::not_yet_validated == PLUMB_NOT_YET_VALIDATED && Qualifier::moving == PLUMB_MOVING &&
+                  Qualifier::initial_calibration == PLUMB_INITIAL_CALIBRATION &&
+                  Qualifier::provisional == PLUMB_PROVISIONAL && Qualifier::no_redundancy == PLUMB_NO_REDUNDANCY &&
+                  Qualifier::timed_out == PLUMB_TIMED_OUT && Qualifier::three_sensor_fit == PLUMB_THREE_SENSOR_FIT &&
+                  Qualifier::inhibited == PLUMB_INHIBITED,
+              "bits alike");
+static_assert(static_cast<int>(HealthEvent::none) == PLUMB_EVENT_NONE &&
+                  static_cast<int>(HealthEvent::alarm) == PLUMB_EVENT_ALARM,
+              "the events are numbered alike");
+static_assert(static_cast<int>(Grade::assumed) == PLUMB_GRADE_ASSUMED, "the grades are numbered alike");
+static_assert(static_cast<int>(RecalibrationPhase::accepted) == PLUMB_RECALIBRATION_ACCEPTED, "the phases, too");
 static_assert(Usable::reference == PLUMB_USABLE_REFERENCE && Usable::monitored == PLUMB_USABLE_MONITORED, "bits alike");
 
 }  // namespace c_api

@@ -61,7 +61,7 @@ extern "C" {
 const char* plumb_error_text(std::int32_t code) noexcept {
   switch (code) {
     case PLUMB_NULL_POINTER: return "a pointer is null";
-    case PLUMB_WRONG_STRUCT: return "struct_size is not that of the library's header";
+    case PLUMB_WRONG_STRUCT: return "struct_size differs from the size in the library's header";
     case PLUMB_STORAGE_TOO_SMALL: return "the storage is too small";
     case PLUMB_STORAGE_MISALIGNED: return "the storage is not aligned";
     case PLUMB_NOT_INITIALISED: return "there is no monitor in this storage";
@@ -74,14 +74,14 @@ const char* plumb_error_text(std::int32_t code) noexcept {
 
 const char* plumb_error_remedy(std::int32_t code) noexcept {
   switch (code) {
-    case PLUMB_NULL_POINTER: return "pass the argument that `index` counts from 0";
+    case PLUMB_NULL_POINTER: return "pass a pointer for argument number `index`, counted from 0";
     case PLUMB_WRONG_STRUCT: return "call the ..._defaults function, or build against the header of the library";
     case PLUMB_STORAGE_TOO_SMALL:
-      return "give argument `index` the bytes that plumb_monitor_size() or _workspace_size() says";
-    case PLUMB_STORAGE_MISALIGNED: return "align argument `index` as plumb_monitor_align() or _workspace_align() says";
+      return "give argument `index` at least plumb_monitor_size() or _workspace_size() bytes";
+    case PLUMB_STORAGE_MISALIGNED: return "align argument `index` to plumb_monitor_align() or _workspace_align() bytes";
     case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init first";
     case static_cast<std::int32_t>(Errc::buffer_too_small): return "give at least plumb_snapshot_size_max() bytes";
-    case PLUMB_STORAGE_OVERLAPS: return "give each memory of its own; the workspace is free again after the call";
+    case PLUMB_STORAGE_OVERLAPS: return "give each its own memory; the workspace can be reused after the call";
     default: break;
   }
   const bool known = code >= 0 && code <= static_cast<std::int32_t>(kLastErrc);

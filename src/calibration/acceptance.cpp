@@ -35,7 +35,7 @@ const char* to_string(Concern concern) noexcept {
     case Concern::none: return "none";
     case Concern::gravity: return "gravity";
     case Concern::common_scale: return "common_scale";
-    case Concern::odd_sensor: return "odd_sensor";
+    case Concern::inconsistent_sensor: return "inconsistent_sensor";
     case Concern::parity: return "parity";
     case Concern::hold_out: return "hold_out";
     case Concern::hold_out_claim: return "hold_out_claim";
@@ -57,7 +57,7 @@ Judgement judge_odd_sensor(const Datasheet& datasheet, const OddSensor& odd, con
   if (odd.sensor < 0 || odd.sensor >= datasheet.size) return {};
   const double allowed = allowed_of(datasheet.sensor[at(odd.sensor)], limits);
   if (!(odd.with_mps2 > allowed)) return {};
-  return refuse(Concern::odd_sensor, Errc::poor_fit, odd.sensor, odd.with_mps2, allowed);
+  return refuse(Concern::inconsistent_sensor, Errc::poor_fit, odd.sensor, odd.with_mps2, allowed);
 }
 
 Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, const Calibration& calibration,

@@ -115,8 +115,8 @@ Error refused_setting(const Datasheet& datasheet, const FitOptions& options) noe
   const Error scale = refused_scale(datasheet);
   if (scale.code != Errc::ok) return scale;
   if (!unit_axis(options.roll_axis)) return Error{Errc::out_of_range, 0, norm(options.roll_axis), 1.0};
-  if (!(options.roll_wobble_rad >= 0.0) || !std::isfinite(options.roll_wobble_rad)) {
-    return Error{Errc::out_of_range, 2, options.roll_wobble_rad, 0.0};
+  if (!(options.roll_axis_deviation_rad >= 0.0) || !std::isfinite(options.roll_axis_deviation_rad)) {
+    return Error{Errc::out_of_range, 2, options.roll_axis_deviation_rad, 0.0};
   }
   return Error{};
 }
@@ -125,10 +125,10 @@ Error refused_setting(const Datasheet& datasheet, const FitOptions& options) noe
 
 Error refused_stations(const Problem& problem, const FitOptions& options, FitFigures& report) noexcept {
   report.roll_groups = problem.roll.groups;
-  report.lone_rolls = problem.roll.lone;
+  report.single_station_groups = problem.roll.lone;
   if (problem.roll.used) {
     report.roll_axis = problem.roll.axis;
-    report.roll_wobble_rad = problem.roll.wobble_rad;
+    report.roll_axis_deviation_rad = problem.roll.wobble_rad;
   }
   if (problem.roll.groups > kMaxRollGroups) {
     return Error{Errc::out_of_range, 1, static_cast<double>(problem.roll.groups), kMaxRollGroups};

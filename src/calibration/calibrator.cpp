@@ -1,7 +1,7 @@
 /// The iteration: damped Gauss-Newton on the sphere-projected residuals, in prior units.
 #include <cmath>
-#include <type_traits>
 
+#include "fit_limits.hpp"
 #include "plumb/numeric/cholesky.hpp"
 #include "station_solver.hpp"
 
@@ -11,31 +11,12 @@ namespace {
 
 using fit::at;
 
-constexpr int kMaxMisfitRounds = 4;
-/// Chi^2 this near to its degrees of freedom is left alone: its own scatter is far larger.
-constexpr double kMisfitTolerance = 0.01;
-/// A rise of the cost within its own rounding is not a rise.
-constexpr double kCostTolerance = 1e-9;
-/// Rises in a row that are let pass. Where stations are few the optimum lies in a narrow curved valley: a
-/// step along it first rises, the next falls back into the valley further on. Damping would crawl.
-constexpr int kPatience = 4;
+using namespace fit::limits;
+
 /// A frozen parameter that is zero has neither size nor prior to measure its rounding by.
 constexpr double kFrozenFloor = 1e-9;
-constexpr int kPriorTurns = 3;  ///< an iteration
-constexpr double kFirstDamping = 1e-3;
-constexpr double kMaxDamping = 1e9;
 
 bool usual_prior(double sigma) noexcept { return sigma == 0.0 || fit::usual(sigma); }
-
-/// While outliers are looked for a step of this size, in prior sigmas, is the end: the set counts, not the digits.
-constexpr double kLooselySettled = 1e-4;
-constexpr double kMisfitSettled = 0.05;
-constexpr int kHuberSteps = 30;
-constexpr int kTukeySteps = 20;
-/// While Huber still carries what the outliers did to the fit, the median of the residuals is too high.
-constexpr double kFirstShare = 0.49;
-/// Fewer degrees of freedom have no median to speak of.
-constexpr int kScreenFreedom = 6;
 
 }  // namespace
 
@@ -94,7 +75,7 @@ fit::Problem fit::problem_of(const Datasheet& datasheet, double g_mps2, const Fi
                              const StationList& stations) noexcept {
   Problem problem = {datasheet, g_mps2, stations, stations.size(), {}, nullptr};
   problem.roll.axis = options.roll_axis;
-  problem.roll.wobble_rad = options.roll_wobble_rad;
+  problem.roll.wobble_rad = options.roll_axis_deviation_rad;
   find_roll_groups(problem, problem.roll);
   problem.roll.used = problem.roll.used && unit_axis(options.roll_axis);
   return problem;
@@ -187,23 +168,19 @@ void Calibrator::find_start(const Station* stations, int count) noexcept {
 }
 
 /// Sets the weights of one step that looks for outliers. True where they have come to rest.
-template <class Count>
+template <class Axes>
 bool Calibrator::weigh(const fit::Problem& problem, const fit::Parameters& natural) noexcept {
   const double before = misfit_mps2_ * misfit_mps2_;
   const double share = phase_ == Phase::huber ? kFirstShare : 1.0;
-  const double variance = fit::median_misfit<Count>(problem, natural, before, freedom_, share);
+  const double variance = fit::median_misfit<typename Axes::Count>(problem, natural, before, freedom_, share);
   misfit_mps2_ = std::sqrt(variance);
   ++robust_steps_;
   fresh_ = true;  // another cost: nothing to compare with
   return std::fabs(variance - before) <= kMisfitSettled * variance;
 }
 
-/// Whether the axes are free: only then is the whole factor wanted. The stations of held axes are few.
-template <class Count>
-inline constexpr bool kFreeAxes = std::is_same<Count, int>::value;
-
 /// After a step: whether the phase is over, and what comes next. True where the whole fit is.
-template <class Count>
+template <class Axes>
 bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& natural, const fit::Sums& sums,
                          bool weights_settled, [[maybe_unused]] double* factor) noexcept {
   const bool loosely = settled(problem, natural, kLooselySettled);
@@ -225,13 +202,13 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
   if (phase_ == Phase::squares && !looked_ && options_.reject_outliers && loosely && sums.worst > 1.0) {
     looked_ = true;
     freedom_ = sums.rows - 2 * sums.stations - (4 * datasheet_.size - 3);
-    if (freedom_ >= kScreenFreedom && fit::stands_out<Count>(problem, natural, freedom_)) {
+    if (freedom_ >= kScreenFreedom && fit::stands_out<typename Axes::Count>(problem, natural, freedom_)) {
       phase_ = Phase::huber;
       return false;
     }
   }
   if (!settled(problem, natural, options_.stop_relative)) return false;
-  if constexpr (kFreeAxes<Count>) {
+  if constexpr (Axes::kKeepsFactor) {
     return !misfit_changed(sums, factor);
   } else {
     return true;
@@ -239,9 +216,9 @@ bool Calibrator::advance(const fit::Problem& problem, const fit::Parameters& nat
 }
 
 /// Solves the normal equations and moves. Takes the information of the data; leaves the factor of the damped one.
-template <class Matrix>
+template <class Axes>
 bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& natural, const fit::Parameters& rhs,
-                           const double* blocks, const fit::Room& room, const Matrix& normal) noexcept {
+                           const double* blocks, const fit::Room& room, const typename Axes::Matrix& normal) noexcept {
   const int n = datasheet_.size;
   const int n4 = 4 * n;
   const fit::PriorRoots roots = fit::prior_roots(datasheet_);
@@ -251,8 +228,7 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
   for (int k = 0; k < n4; ++k) step_[at(k)] -= theta_[at(k)];
   if (!normal.factor()) return false;
   normal.solve(step_.data());
-  constexpr bool kMayTurn = std::is_same<Matrix, fit::Square>::value;  // half a matrix is for axes that are held
-  if (kMayTurn && fit::all_free(datasheet_)) {
+  if (Axes::kTurnsTogether && fit::all_free(datasheet_)) {
     // A common rotation costs the data nothing, but only as a rotation: taken along its tangent it would stretch. Where
     // the data do not see it, the prior alone has it.
     fit::Parameters change = fit::times_roots(roots, n, step_);
@@ -302,11 +278,12 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
 [[gnu::noinline]] bool Calibrator::step_alone(const fit::Problem& problem, const fit::Parameters& natural,
                                               const fit::Parameters& rhs, const double* blocks) noexcept {
   std::array<double, std::size_t{kFitParameters} * (kFitParameters + 1) / 2> information{};
-  return step_from(problem, natural, rhs, blocks, fit::Room{}, fit::Packed{information.data(), 4 * datasheet_.size});
+  return step_from<fit::HeldAxes>(problem, natural, rhs, blocks, fit::Room{},
+                                  {information.data(), 4 * datasheet_.size});
 }
 
 /// The sums, and the step to which they lead; false where there is none. Nothing happens once the fit is over.
-template <class Count>
+template <class Axes>
 [[gnu::noinline]] bool Calibrator::solve(const fit::Problem& problem, fit::Parameters& natural, fit::Sums& sums,
                                          const fit::Room& room) noexcept {
   fit::Parameters rhs;
@@ -314,24 +291,24 @@ template <class Count>
   sums = accumulate_best(problem, natural, blocks.data(), rhs, room);
   ++iterations_;
   if (done()) return true;
-  if constexpr (kFreeAxes<Count>) {
-    return step_from(problem, natural, rhs, blocks.data(), room, fit::Square{room.factor, 4 * datasheet_.size});
+  if constexpr (Axes::kKeepsFactor) {
+    return step_from<Axes>(problem, natural, rhs, blocks.data(), room, {room.factor, 4 * datasheet_.size});
   } else {
     return step_alone(problem, natural, rhs, blocks.data());
   }
 }
 
-template <class Count>
+template <class Axes>
 void Calibrator::iterate_over(const fit::Problem& problem, const fit::Room& room) noexcept {
   fit::Parameters natural = parameters();
   const bool looking = phase_ == Phase::huber || phase_ == Phase::tukey;
-  const bool weights_settled = !looking || weigh<Count>(problem, natural);
+  const bool weights_settled = !looking || weigh<Axes>(problem, natural);
   fit::Sums sums;
-  const bool moved = solve<Count>(problem, natural, sums, room);
+  const bool moved = solve<Axes>(problem, natural, sums, room);
   if (done()) return;
   if (!moved) {
     stop_ = StopReason::not_finite;
-  } else if (damping_ < 1.0 && advance<Count>(problem, natural, sums, weights_settled, room.factor)) {
+  } else if (damping_ < 1.0 && advance<Axes>(problem, natural, sums, weights_settled, room.factor)) {
     stop_ = StopReason::converged;
   } else if (iterations_ >= options_.max_iterations) {
     stop_ = StopReason::iteration_limit;
@@ -350,7 +327,7 @@ void Calibrator::iterate(const Station* stations, int count) noexcept {
   fit::RollSums roll;
   fit::Screening screening(problem);
   Information factor;
-  iterate_over<int>(problem, {&roll, &screening, factor.data()});
+  iterate_over<fit::FreeAxes>(problem, {&roll, &screening, factor.data()});
 }
 
 void Calibrator::iterate_held(const StationList& stations) noexcept {
@@ -362,7 +339,7 @@ void Calibrator::iterate_held(const StationList& stations) noexcept {
   if (phase_ == Phase::start) phase_ = Phase::squares;  // a held axis has no closed form
   StationList used = stations;
   screen_out(used);
-  iterate_over<std::uint8_t>({datasheet_, gravity_.g_mps2, used, used.size(), {}, nullptr}, fit::Room{});
+  iterate_over<fit::HeldAxes>({datasheet_, gravity_.g_mps2, used, used.size(), {}, nullptr}, fit::Room{});
 }
 
 Expected<Calibration> calibrate(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,

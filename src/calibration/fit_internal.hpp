@@ -1,4 +1,4 @@
-/// The parts of the forward fit. Private to the calibration room.
+/// The parts of the forward fit. Private to the calibration room; src/paper takes its inline arithmetic.
 ///
 /// Two coordinates are used. *Natural*: per sensor W (3) and b [m/s^2], r = W g + b. *Prior units* x:
 /// natural = datasheet + S x with S S' the prior covariance, so that the prior is |x|^2 / 2, information
@@ -191,11 +191,29 @@ struct Packed {
   static constexpr bool keeps(int i, int j) noexcept { return j <= i; }
 };
 
+/// How the iteration treats a fit in which the axes may be free ...
+struct FreeAxes {
+  using Count = int;      ///< counts the stations: any number of them
+  using Matrix = Square;  ///< of the normal equations
+  /// The factor outlives the step, in the room that the caller gives: the misfit is estimated from its inverse.
+  static constexpr bool kKeepsFactor = true;
+  /// A step may turn all axes together, which costs the data nothing.
+  static constexpr bool kTurnsTogether = true;
+};
+/// ... and one in which they are held: what must fit in the small stack of a monitor's step.
+struct HeldAxes {
+  using Count = std::uint8_t;  ///< the stations of a StationList, as many as can be left out
+  using Matrix = Packed;
+  static constexpr bool kKeepsFactor = false;
+  static constexpr bool kTurnsTogether = false;
+};
+/// Stations at most that a fit with held axes counts.
+inline constexpr int kMostCounted = StationList::kMarked;
+
 /// What the noise beyond the datasheet's would have to be for half of the stations to lie below the median that noise
 /// alone would have, from a guess at it; times `share`. `freedom` is that of the whole fit. Robust, and a start only:
 /// it has a tenth of the precision of the moment estimate. [(m/s^2)^2]
-/// `Count` counts the stations: std::uint8_t for those of a StationList that can be left out, int for any number.
-inline constexpr int kMostCounted = StationList::kMarked;
+/// `Count` counts the stations, and must hold their number.
 template <class Count>
 double median_misfit(const Problem& problem, const Parameters& theta, double misfit_variance, int freedom,
                      double share) noexcept;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fit_limits.hpp"
 #include "plumb/numeric/cholesky.hpp"
 
 namespace plumb {
@@ -9,20 +10,8 @@ inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
 
-// As in the fit at one temperature (calibrator.cpp), where the reasons stand.
-constexpr int kMaxMisfitRounds = 4;
-constexpr double kMisfitTolerance = 0.01;
-constexpr double kCostTolerance = 1e-9;
-constexpr int kPatience = 4;
-constexpr int kPriorTurns = 3;
-constexpr double kFirstDamping = 1e-3;
-constexpr double kMaxDamping = 1e9;
-constexpr double kLooselySettled = 1e-4;
-constexpr double kMisfitSettled = 0.05;
-constexpr int kHuberSteps = 30;
-constexpr int kTukeySteps = 20;
-constexpr double kFirstShare = 0.49;
-constexpr int kScreenFreedom = 6;
+using namespace limits;
+
 constexpr int kMostIterations = 10000;
 
 }  // namespace

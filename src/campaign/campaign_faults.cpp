@@ -59,8 +59,10 @@ FaultPlan plan_of(const TomlTable& table, const TomlNode& node, const std::strin
                                        : fault.error().substr(at + 9));
   }
   if (!can_be_drawn(*fault)) {
-    table.fail(node.line, "spec", io::in_quotes(text) + " names another sensor or concerns the link",
-               "campaigns play faults of one channel, turned and ghost axes, shake, gravity and temperature");
+    table.fail(
+        node.line, "spec",
+        io::in_quotes(text) + " cannot be drawn in a campaign: it needs a second sensor or acts on the data link",
+        "use a fault of one channel, or turned, ghost, shake, gravity, temperature");
   }
   plan.whole_log = log;
   plan.kind = static_cast<int>(fault->kind);
@@ -82,8 +84,8 @@ std::vector<const TomlNode*> items_of(const TomlTable& table, const char* key) {
 FaultPlan shift(const TomlTable& table, int line, double least, double most) {
   constexpr double kMost = 1e6;
   if (!(least > 0.0) || !(most >= least) || !(most <= kMost)) {
-    table.fail(line, "bias_mdb", "is not a size above zero",
-               "give multiples of the minimal detectable bias: [0.5, 1, 2, 10], or {from = 0.5, to = 100}");
+    table.fail(line, "bias_mdb", "must be above 0",
+               "give multiples of the minimum detectable bias (MDB): [0.5, 1, 2, 10], or {from = 0.5, to = 100}");
   }
   FaultPlan plan;
   plan.kind = static_cast<int>(scenario::FaultKind::bias_step);
@@ -96,23 +98,29 @@ FaultPlan shift(const TomlTable& table, int line, double least, double most) {
 FaultFamily family_of(const TomlTable& table) {
   FaultFamily out;
   for (const TomlNode* node : items_of(table, "spec")) {
-    const std::string text = table.text_with_unit(*node, "spec", "stuck=0V, bias=50mg0, random=-3V..3V, none");
+    const std::string text = table.text_with_unit(
+        *node, "spec", "write a fault without its sensor: stuck=0V, bias=50mg0, random=-3V..3V, none");
     out.faults.push_back(plan_of(table, *node, text));
   }
   for (const TomlNode* node : items_of(table, "bias_mdb")) {
     if (node->kind == TomlNode::Kind::table) {
       const TomlTable range(*node, table.file(), table.field("bias_mdb"), {"from", "to"});
-      const double from = numbers(range, "from", {0.0}, 0.0, 1e6, "a multiple of the MDB").front();
-      out.faults.push_back(shift(table, node->line, from, numbers(range, "to", {0.0}, 0.0, 1e6, "one above").front()));
+      const double from = numbers(range, "from", {0.0}, 0.0, 1e6,
+                                  "give a multiple of the minimum detectable bias (MDB), for example 0.5")
+                              .front();
+      out.faults.push_back(
+          shift(table, node->line, from,
+                numbers(range, "to", {0.0}, 0.0, 1e6, "give a multiple of the MDB, at least that of `from`").front()));
     } else {
       out.faults.push_back(shift(table, node->line, node->number, node->number));
     }
   }
   if (out.faults.empty()) {
     table.fail(table.line(), "spec", "and bias_mdb are both missing",
-               "say what breaks: spec = [\"stuck=0V\", \"random=-3V..3V\"] or bias_mdb = [0.5, 1, 2, 10]");
+               "state the faults: spec = [\"stuck=0V\", \"random=-3V..3V\"] or bias_mdb = [0.5, 1, 2, 10]");
   }
-  for (const double count : numbers(table, "sensors", {1.0}, 1.0, kMostFaults, "how many at once: [1, 2]")) {
+  for (const double count : numbers(table, "sensors", {1.0}, 1.0, kMostFaults,
+                                    "give the number of sensors that fail at once: sensors = [1, 2]")) {
     out.sensors.push_back(static_cast<int>(count));
   }
   return out;

@@ -6,7 +6,7 @@
 #include "../io/refusal.hpp"
 #include "../io/text_tools.hpp"
 #include "campaign_parts.hpp"
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "plumb/io/hash.hpp"
 #include "plumb/io/output_file.hpp"
 
@@ -25,18 +25,18 @@ constexpr std::int64_t kMostScenarios = 1000000000000000;
 /// Monitors on the plan's time axis must not meet a gap that they take for an interruption.
 void read_run(const TomlTable& top, const MonitorConfig& monitor, Plan& plan) {
   const TomlTable table =
-      section_of(top, "run", {"stations", "samples", "rate", "move", "onset", "start", "trust_stations"});
+      section_of(top, "run", {"stations", "samples", "rate", "move", "onset", "start", "validation_stations"});
   plan.window = monitor.window;
   plan.stations = whole(table, "stations", 8, 1, kMostStations);
   plan.samples = whole(table, "samples", monitor.window, 1, kMostSamples);
   if (plan.samples % plan.window != 0) {
     table.fail(table.line_of("samples"), "samples",
-               "is no multiple of the monitor's window of " + std::to_string(plan.window),
-               "give whole blocks, so that no block spans two stations");
+               "must be a multiple of the monitor's window, " + std::to_string(plan.window),
+               "give a multiple of the window, so that each block lies in one station");
   }
   if (plan.stations * (plan.samples / plan.window) > kMostBlocks) {
     table.fail(table.line_of("samples"), "samples", "makes more than " + std::to_string(kMostBlocks) + " blocks",
-               "fewer stations, or fewer samples at each");
+               "use fewer stations, or fewer samples at each station");
   }
   plan.rate_hz = table.quantity(Quantity::rate, "rate", 100.0);
   plan.move_s = table.quantity(Quantity::time, "move", 1.0);
@@ -44,18 +44,19 @@ void read_run(const TomlTable& top, const MonitorConfig& monitor, Plan& plan) {
     table.fail(table.line_of("rate"), "rate", "is out of range", "give 1e-3 to 1e6 Hz, as in \"100 Hz\"");
   }
   if (!(plan.move_s >= 0.0 && plan.move_s < monitor.max_gap_s)) {
-    table.fail(table.line_of("move"), "move", "is not shorter than the monitor's max_gap",
-               "the time between two stations, as in \"1 s\"");
+    table.fail(table.line_of("move"), "move", "must be shorter than the monitor's max_gap",
+               "give the time between two stations, as in \"1 s\"");
   }
-  const std::string when = "the station, or the first and last station, at which faults begin: onset = [1, 3]";
+  const std::string when =
+      "give the station at which faults begin, or the first and the last such station: onset = [1, 3]";
   const std::vector<double> onset = numbers(table, "onset", {1.0}, 1.0, plan.stations, when);
   plan.first_onset = static_cast<int>(onset.front());
   plan.last_onset = static_cast<int>(onset.back());
   if (onset.size() > 2 || plan.last_onset < plan.first_onset) {
-    table.fail(table.line_of("onset"), "onset", "is not one station or two in order", when);
+    table.fail(table.line_of("onset"), "onset", "must be one station, or two in ascending order", when);
   }
-  plan.start = static_cast<Start>(table.choice("start", {"proven", "power-on"}, 0));
-  plan.trust_stations = whole(table, "trust_stations", 8, 1, kMostStations);
+  plan.start = static_cast<Start>(table.choice("start", {"validated", "power-on"}, 0));
+  plan.validation_stations = whole(table, "validation_stations", 8, 1, kMostStations);
 }
 
 std::vector<double> read_gravity(const TomlTable& top, Plan& plan) {
@@ -68,18 +69,21 @@ std::vector<double> read_gravity(const TomlTable& top, Plan& plan) {
   if (!(plan.gravity_sigma_mps2 >= 0.0 && plan.gravity_sigma_mps2 <= 0.1)) {
     table.fail(table.line_of("sigma"), "sigma", "is out of range", "give 0 to 0.1 m/s^2, as in \"0.1 mg0\"");
   }
-  return numbers(table, "errors", {0.0}, -100.0, 100.0, "true gravity less told, in sigmas: errors = [0, 1, 3]");
+  return numbers(table, "errors", {0.0}, -100.0, 100.0,
+                 "give true gravity minus configured gravity, in sigmas: errors = [0, 1, 3]");
 }
 
 void read_calibration(const TomlTable& top, Plan& plan) {
   const TomlTable table = section_of(top, "calibration", {"left", "days"});
   plan.calibration_mps2 = table.quantity(Quantity::acceleration, "left", 0.0);
   if (!(plan.calibration_mps2 >= 0.0 && plan.calibration_mps2 <= 0.1)) {
-    table.fail(table.line_of("left"), "left", "is out of range", "1 sigma of what calibration left, \"0.03 mg0\"");
+    table.fail(table.line_of("left"), "left", "is out of range",
+               "give the error that calibration left in a reading, 1 sigma, 0 to 0.1 m/s^2: left = \"0.03 mg0\"");
   }
   plan.days_since_calibration = table.quantity(Quantity::ratio, "days", 0.0);
   if (!(plan.days_since_calibration >= 0.0 && plan.days_since_calibration <= kMostDaysSinceCalibration)) {
-    table.fail(table.line_of("days"), "days", "is out of range", "days since the calibration, from 0 up: days = 30");
+    table.fail(table.line_of("days"), "days", "is out of range",
+               "give the days since the calibration, 0 or more: days = 30");
   }
 }
 
@@ -122,13 +126,14 @@ void lay_cells(const TomlTable& top, const std::vector<FaultFamily>& families, c
     }
   }
   if (plan.cells.empty()) {
-    top.fail(top.line_of("fault"), "fault", "leaves no combination: every one asks for more faults than a tool bears",
-             "fewer sensors at once, a tool with more sensors, or within_grade = false");
+    top.fail(top.line_of("fault"), "fault",
+             "leaves no combination: each has more faulty sensors than its tool can isolate",
+             "use fewer faulty sensors at once, a tool with more sensors, or within_grade = \"no\"");
   }
   if (plan.cells.size() > kMostCells) {
     top.fail(0, "",
              "makes " + std::to_string(plan.cells.size()) + " combinations, more than " + std::to_string(kMostCells),
-             "fewer tools, attitudes, faults or gravity errors");
+             "use fewer tools, attitudes, faults or gravity errors");
   }
 }
 
@@ -141,7 +146,7 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   Plan& plan = out.plan;
   const std::string file_name = io::last_part(path);
   plan.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
-  top.need("scenarios", "how many: scenarios = 100000");
+  top.need("scenarios", "give the number of scenarios: scenarios = 100000");
   const std::int64_t scenarios = top.integer("scenarios", 1), seed = top.integer("seed", 1);
   if (scenarios < 1 || scenarios > kMostScenarios) {
     top.fail(top.line_of("scenarios"), "scenarios", "is out of range", "give 1 to 1e15");
@@ -153,7 +158,8 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   const bool within_grade = top.choice("within_grade", {"no", "yes"}, 0) == 1;
   const MonitorConfig monitor = io::read_monitor(root, path);
   if (monitor.mode != MonitorMode::plumb) {
-    top.fail(top.line_of("monitor"), "monitor", "asks for the paper's mode", "campaigns play plumb's monitor only");
+    top.fail(top.line_of("monitor"), "monitor", "has mode = \"paper\", and a campaign runs plumb's own monitor",
+             "set mode = \"plumb\", or remove the key");
   }
   plan.alert_limit_rad = monitor.alert_limit_rad;
   ArchiveWriter counting(nullptr, 0, kCapacity);
@@ -268,7 +274,7 @@ std::uint64_t hash_of(const Plan& plan) {
   hash.add(plan.seed);
   hash.add(plan.scenarios);
   for (const int number : {plan.sweep ? 1 : 0, plan.stations, plan.samples, plan.first_onset, plan.last_onset,
-                           static_cast<int>(plan.start), plan.trust_stations, plan.window}) {
+                           static_cast<int>(plan.start), plan.validation_stations, plan.window}) {
     hash.add(number);
   }
   for (const double number : {plan.rate_hz, plan.move_s, plan.gravity_mps2, plan.gravity_sigma_mps2,

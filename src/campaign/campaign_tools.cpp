@@ -44,11 +44,11 @@ using StabilityOfAll = std::array<Stability, kCapacity>;
 SensorArray array_from(const TomlTable& table, ToolPlan& tool, StabilityOfAll& stability) {
   if (table.has("array")) {
     if (table.has("geometry"))
-      table.fail(table.line_of("geometry"), "geometry", "and array both name axes", "keep one");
+      table.fail(table.line_of("geometry"), "geometry", "and array both name axes", "keep one of the two");
     const io::FileExpected<io::ArrayFile> file = io::read_array_file(table.text("array", ""));
     if (!file) {
       table.fail(table.line_of("array"), "array", "cannot be used: " + file.error().text(),
-                 "name an array file, relative to where plumb runs");
+                 "give the path of an array file, relative to the directory in which plumb runs");
     }
     tool.name = table.text("name", file->name);
     for (size_t i = 0; i < stability.size(); ++i) {
@@ -56,19 +56,20 @@ SensorArray array_from(const TomlTable& table, ToolPlan& tool, StabilityOfAll& s
     }
     return file->array;
   }
-  table.need("geometry", "name the axes: geometry = \"cone\" with sensors = 5, or array = \"my_tool.toml\"");
+  table.need("geometry", "give the axes: geometry = \"cone\" with sensors = 5, or array = \"my_tool.toml\"");
   const int geometry = table.choice("geometry", geometries(), 0);
   const int natural = geometry == 0 ? 4 : geometry == 1 ? 3 : 6;
   const int sensors = whole(table, "sensors", natural, 3, kMostSensors);
   AxisList axes{};
   const int made = axes_of(geometry, sensors, axes);
   if (made != sensors) {
-    table.fail(table.line_of("sensors"), "sensors", "this geometry does not come with " + std::to_string(sensors),
-               "tetrahedron 4, triad 3, cone and cone-with-axis from 4 on, platonic 3, 4, 6 or 10");
+    table.fail(
+        table.line_of("sensors"), "sensors", "this geometry cannot have " + std::to_string(sensors) + " sensors",
+        "give 4 for tetrahedron, 3 for triad, 4 or more for cone and cone-with-axis, 3, 4, 6 or 10 for platonic");
   }
   tool.name = table.text("name", geometries()[static_cast<size_t>(geometry)] + std::to_string(sensors));
-  const double sigma_mps2 =
-      table.need_quantity(Quantity::acceleration, "noise", "the noise of one sample: \"0.2 mg0\"");
+  const double sigma_mps2 = table.need_quantity(Quantity::acceleration, "noise",
+                                                "give the noise of one sample, 1 sigma: noise = \"0.2 mg0\"");
   if (!(sigma_mps2 > 0.0)) table.fail(table.line_of("noise"), "noise", "is not above zero", "give it as \"0.2 mg0\"");
   std::array<SensorRow, kCapacity> rows{};
   for (int i = 0; i < sensors; ++i) {
@@ -120,7 +121,7 @@ std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& moni
     }
     tool.volt_per_mps2 = 3.0 / kG0_mps2;  // the paper's sensors
     tool.resolution_raw = tool.volt_per_mps2 * table.quantity(Quantity::acceleration, "resolution", 0.0);
-    tool.grade = strict_grade(array, array.all());
+    tool.grade = confirmed_grade(array, array.all());
     fill_detectable(array, monitor, tool);
     out.push_back(tool);
   }
@@ -137,7 +138,7 @@ std::vector<AttitudePlan> read_attitudes(const TomlTable& top) {
        tables_of(top, "attitude",
                  {"law", "name", "inclination", "toolface", "build", "turn", "toolface_step", "toolface_jitter"})) {
     AttitudePlan plan;
-    const int law = table.need_choice("law", laws, "one of random, roll-test, drilling-path, fixed");
+    const int law = table.need_choice("law", laws, "give one of random, roll-test, drilling-path, fixed");
     plan.kind = static_cast<AttitudeKind>(law);
     plan.name = table.text("name", laws[static_cast<size_t>(law)]);
     const double usual_deg = plan.kind == AttitudeKind::drilling_path ? 5.0 : 90.0;

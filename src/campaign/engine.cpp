@@ -68,12 +68,15 @@ tl::expected<void, std::string> run(const Plan& plan, const RunOptions& options,
     Tally::Numbers numbers = mine.numbers();
     ranks.unite(numbers);
     Tally all(plan);
-    if (!all.take(numbers)) return tl::unexpected<std::string>("the ranks do not run the same campaign");
+    if (!all.take(numbers))
+      return tl::unexpected<std::string>(
+          "the ranks run different campaigns. Remedy: start every rank with the same file and the same plumb");
     progress.tally.merge(all);
     progress.done += batch;
     std::string refusal = rank == 0 ? report(progress) : std::string();
     if (ranks.any(!refusal.empty())) {
-      return tl::unexpected<std::string>(refusal.empty() ? "the first rank could not go on" : refusal);
+      return tl::unexpected<std::string>(
+          refusal.empty() ? "the first rank could not write the result; its message says why" : refusal);
     }
   }
   return {};

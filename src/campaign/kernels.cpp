@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
-#define PLUMB_DECLARE_KERNEL(ABI)                                                           \
+#include "../session/builds.hpp"
+
+#define PLUMB_DECLARE_KERNEL(ABI, CAPACITY, WINDOW)                                         \
   namespace plumb {                                                                         \
   namespace ABI {                                                                           \
   namespace campaign_kernel {                                                               \
@@ -11,9 +13,7 @@
   }                                                                                         \
   }                                                                                         \
   }
-PLUMB_DECLARE_KERNEL(cap4)
-PLUMB_DECLARE_KERNEL(cap8)
-PLUMB_DECLARE_KERNEL(cap24)
+PLUMB_FOR_EACH_BUILD(PLUMB_DECLARE_KERNEL)
 #undef PLUMB_DECLARE_KERNEL
 
 namespace plumb {
@@ -21,24 +21,12 @@ namespace campaign {
 namespace {
 
 using Make = std::unique_ptr<Kernel> (*)(const Plan& plan, std::string& refusal);
-struct Build {
-  int capacity;
-  int window;  ///< longest window of the monitor (plumb/core/config.hpp)
-  Make make;
-};
+using Build = stepping::Build<Make>;
 
 const std::vector<Build>& builds() {
-  static const std::vector<Build> all = {
-#ifdef PLUMB_KERNEL_4
-      {4, 32, cap4::campaign_kernel::make},
-#endif
-#ifdef PLUMB_KERNEL_8
-      {8, 32, cap8::campaign_kernel::make},
-#endif
-#ifdef PLUMB_KERNEL_24
-      {24, 256, cap24::campaign_kernel::make},
-#endif
-  };
+#define PLUMB_KERNEL(ABI, CAPACITY, WINDOW) {CAPACITY, WINDOW, ABI::campaign_kernel::make},
+  static const std::vector<Build> all = {PLUMB_FOR_EACH_BUILD(PLUMB_KERNEL)};
+#undef PLUMB_KERNEL
   return all;
 }
 
@@ -70,11 +58,7 @@ class Choice final : public Kernel {
 }  // namespace
 
 const std::vector<int>& kernel_capacities() {
-  static const std::vector<int> all = [] {
-    std::vector<int> out;
-    for (const Build& build : builds()) out.push_back(build.capacity);
-    return out;
-  }();
+  static const std::vector<int> all = stepping::capacities_of(builds());
   return all;
 }
 
@@ -82,7 +66,7 @@ tl::expected<std::unique_ptr<Kernel>, std::string> make_kernel(const Plan& plan,
   auto choice = std::make_unique<Choice>(plan.tools.size());
   std::vector<bool> served(plan.tools.size(), false);
   for (const Build& build : builds()) {
-    if (build.capacity < least_capacity || plan.window > build.window) continue;
+    if (!build.holds(least_capacity, plan.window)) continue;
     // A kernel knows its own tools only; the others are left out of its plan by emptying them.
     Plan part = plan;
     std::vector<std::size_t> mine;
@@ -102,9 +86,9 @@ tl::expected<std::unique_ptr<Kernel>, std::string> make_kernel(const Plan& plan,
   }
   for (std::size_t t = 0; t < plan.tools.size(); ++t) {
     if (!served[t]) {
-      return tl::unexpected<std::string>("no monitor of this program is large enough for tool " + plan.tools[t].name +
-                                         " with a window of " + std::to_string(plan.window) +
-                                         " samples. Remedy: at most 24 sensors and 256 samples");
+      return tl::unexpected<std::string>(
+          "no monitor of this program is large enough for tool " + plan.tools[t].name + " with a window of " +
+          std::to_string(plan.window) + " samples. Remedy: use at most 24 sensors and a window of at most 256 samples");
     }
   }
   return choice;

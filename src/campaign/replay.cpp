@@ -124,7 +124,7 @@ bool fails(const Plan& plan, Count what, const Outcome& outcome) noexcept {
     case Count::wrong_exclusion: return outcome.wrong_exclusion();
     case Count::misleading: return outcome.misleading(plan.alert_limit_rad);
     case Count::beyond_protection: return outcome.beyond_protection();
-    case Count::wrong_set_aside: return outcome.wrong_set_aside();
+    case Count::wrong_provisional_exclusion: return outcome.wrong_provisional_exclusion();
     default: return false;
   }
 }
@@ -169,7 +169,7 @@ tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scen
   const auto monitor = std::make_unique<HealthMonitor>();
   const Expected<MonitorSetup> setup = campaign_kernel::setup_of(plan, tool);
   if (!setup || !monitor->configure(*setup)) return tl::unexpected<std::string>("the monitor cannot be configured");
-  if (plan.start == Start::proven) {
+  if (plan.start == Start::validated) {
     const Spec trust = campaign_kernel::trust_spec(plan, tool);
     const auto done = play(*monitor, campaign_kernel::scenario_of(plan, trust, 0.0), step_ns,
                            [](const Verdict&, int, const Vec3&) {});
@@ -193,12 +193,13 @@ std::string sentence_of(const Plan& plan, const Spec& spec) {
   std::string text = std::to_string(context.datasheet.size) + " sensors (" +
                      plan.tools[static_cast<size_t>(spec.tool)].name + "), " + std::to_string(spec.stations) +
                      " stations: ";
-  if (spec.faults == 0) text += "nothing happens";
+  if (spec.faults == 0) text += "no fault";
   for (int k = 0; k < spec.faults; ++k) {
     const scenario::Fault fault = campaign_kernel::fault_of(spec.fault[static_cast<size_t>(k)]);
     text += (k == 0 ? "" : "; ") + scenario::describe(fault, context);
   }
-  if (spec.gravity_sigmas != 0.0) text += "; gravity is off by " + io::shortest(spec.gravity_sigmas) + " sigma";
+  if (spec.gravity_sigmas != 0.0)
+    text += "; true gravity differs from the configured value by " + io::shortest(spec.gravity_sigmas) + " sigma";
   return text + ".";
 }
 

@@ -152,17 +152,17 @@ io::FileExpected<Progress> read_result(const std::string& path, const CampaignFi
   };
   const io::FileExpected<std::string> text = io::read_file(path);
   if (!text) return tl::unexpected<io::FileError>(text.error());
-  const std::string again = "start anew without --resume, or name the result of this campaign";
+  const std::string again = "run without --resume to start again, or name the result file of this campaign";
   const Json json = io::parsed(*text);
-  if (json.is_discarded() || !json.is_object()) return refuse("is no result file: not JSON", again);
+  if (json.is_discarded() || !json.is_object()) return refuse("is not valid JSON, so it is not a result file", again);
   const size_t last = text->rfind("  \"hash\"");
   const std::string hash = json.value("hash", "");
   if (last == std::string::npos || hash != hex(io::fnv1a(text->data(), last))) {
-    return refuse("is damaged: its hash does not fit its contents", again);
+    return refuse("is damaged: its hash does not match its contents", again);
   }
-  if (json.value("format", 0) != kFormat) return refuse("has another format", again);
+  if (json.value("format", 0) != kFormat) return refuse("has a format that this version of plumb cannot read", again);
   if (json.value("plan_hash", "") != hex(hash_of(file.plan))) {
-    return refuse("is the result of another campaign: file, seed or number of scenarios differ", again);
+    return refuse("is the result of another campaign: the file, the seed or the number of scenarios differs", again);
   }
   Progress progress;
   progress.done = json.value("done", std::uint64_t{0});
@@ -173,7 +173,7 @@ io::FileExpected<Progress> read_result(const std::string& path, const CampaignFi
   numbers.maxima = state.value("maxima", std::vector<std::uint64_t>());
   numbers.firsts = state.value("firsts", std::vector<std::uint64_t>());
   if (!progress.tally.take(numbers) || progress.done > file.plan.scenarios || progress.done != trials_of(progress)) {
-    return refuse("does not hold the counts of this campaign", again);
+    return refuse("holds counts that do not match this campaign", again);
   }
   return progress;
 }
@@ -183,11 +183,11 @@ std::string summary_text(const CampaignFile& file, const Progress& progress) {
   const std::uint64_t trials = trials_of(progress);
   std::string out = fmt::format("{}: {} of {} scenarios, {} combinations, seed {}\n", file.plan.name, progress.done,
                                 file.plan.scenarios, file.plan.cells.size(), file.plan.seed);
-  out += fmt::format("{:<24}{:>14}  {:<12}{:<26}{}\n", "", "count", "rate", "95 % Clopper-Pearson", "");
+  out += fmt::format("{:<28}{:>10}  {:<12}{:<26}{}\n", "", "count", "rate", "95 % Clopper-Pearson", "");
   for (int k = 1; k < kCounts; ++k) {
     const auto count = static_cast<Count>(k);
     const study::Proportion p = study::proportion(tally.total(count), trials);
-    out += fmt::format("{:<24}{:>14}  {:<12.4g}{:<26}{}\n", to_string(count), p.count, p.share(),
+    out += fmt::format("{:<28}{:>10}  {:<12.4g}{:<26}{}\n", to_string(count), p.count, p.share(),
                        fmt::format("[{:.3g}, {:.3g}]", p.low, p.high), words_of(count));
   }
   const double block_s = file.plan.window / file.plan.rate_hz;

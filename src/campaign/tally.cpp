@@ -19,19 +19,19 @@ struct Name {
 constexpr std::array<Name, kCounts> kNames = {{
     {"scenarios", "played"},
     {"detected", "an alarm at or after the onset"},
-    {"isolated", "the faulty sensors exactly are excluded at the end"},
-    {"partial", "some of the faulty sensors are excluded, no others"},
-    {"provisional", "faulty sensors alone are set aside, none excluded"},
-    {"ambiguous", "an alarm, and nobody out at the end"},
+    {"isolated", "exactly the faulty sensors are excluded at the end"},
+    {"partial", "some of the faulty sensors are excluded, and no healthy one"},
+    {"provisional", "only faulty sensors are provisionally excluded, none excluded"},
+    {"ambiguous", "an alarm, but no sensor is excluded at the end"},
     {"undetected", "a fault, and no alarm"},
-    {"missed_above_threshold", "no alarm though a lone constant shift was at least 1 MDB"},
-    {"wrong_exclusion", "a sensor that never lied was excluded"},
-    {"wrong_set_aside", "a sensor that never lied was set aside"},
+    {"missed_above_threshold", "no alarm, although one sensor had a constant bias of at least 1 MDB"},
+    {"wrong_exclusion", "a healthy sensor was excluded"},
+    {"wrong_provisional_exclusion", "a healthy sensor was provisionally excluded"},
     {"false_alarm", "an alarm before the onset, or without a fault"},
     {"misleading", "error above the alert limit without an alert"},
     {"beyond_protection", "error above the protection level while usable"},
-    {"unavailable", "an alert stands at the end"},
-    {"failed", "the monitor ended in failed"},
+    {"unavailable", "an alert is active at the end"},
+    {"failed", "the monitor ended in the state failed"},
 }};
 
 std::uint64_t nrad_of(double angle_rad) noexcept {
@@ -112,19 +112,19 @@ void Tally::add(const Plan& plan, const Spec& spec, const Outcome& o) noexcept {
   const auto note = [counts](Count what, bool holds) { counts[static_cast<size_t>(what)] += holds ? 1U : 0U; };
   const bool faulty = o.first_fault_block >= 0;
   const bool lies = faulty && o.faulty != 0;
-  const bool nobody = o.excluded == 0 && o.set_aside == 0;
-  const bool only_faulty = ((o.excluded | o.set_aside) & ~o.faulty) == 0;
+  const bool nobody = o.excluded == 0 && o.provisionally_excluded == 0;
+  const bool only_faulty = ((o.excluded | o.provisionally_excluded) & ~o.faulty) == 0;
   const bool misleading = o.misleading(plan.alert_limit_rad);
   note(Count::scenarios, true);
   note(Count::detected, o.detected());
   note(Count::isolated, lies && o.excluded == o.faulty);
   note(Count::partial, lies && o.excluded != 0 && o.excluded != o.faulty && (o.excluded & ~o.faulty) == 0);
-  note(Count::provisional, lies && o.excluded == 0 && o.set_aside != 0 && only_faulty);
+  note(Count::provisional, lies && o.excluded == 0 && o.provisionally_excluded != 0 && only_faulty);
   note(Count::ambiguous, o.detected() && nobody);
   note(Count::undetected, faulty && !o.detected());
   note(Count::missed_above_threshold, lies && !o.detected() && spec.largest_mdb >= 1.0);
   note(Count::wrong_exclusion, o.wrong_exclusion());
-  note(Count::wrong_set_aside, o.wrong_set_aside());
+  note(Count::wrong_provisional_exclusion, o.wrong_provisional_exclusion());
   note(Count::false_alarm, o.false_alarm());
   note(Count::misleading, misleading);
   note(Count::beyond_protection, o.beyond_protection());

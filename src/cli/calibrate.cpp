@@ -5,12 +5,13 @@
 #include <memory>
 #include <sstream>
 
-#include "calibration_age.hpp"
 #include "fit_pictures.hpp"
-#include "fit_summary.hpp"
-#include "pipeline.hpp"
 #include "plumb/core/units.hpp"
-#include "temperature_words.hpp"
+#include "plumb/render/fit_report.hpp"
+#include "plumb/render/words.hpp"
+#include "plumb/session/calibration_pipeline.hpp"
+#include "plumb/session/choice_texts.hpp"
+#include "plumb/session/days_since.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -20,11 +21,11 @@ namespace {
 
 struct CalibrateOptions {
   std::string array;
-  LogSpec log;
+  session::LogSpec log;
   std::string out;
-  CalibrationChoice choice;
+  session::CalibrationChoice choice;
   std::string plots;
-  CalibrationTag tag;
+  session::CalibrationTag tag;
   bool suggest = false;
   bool json = false;
   bool verbose = false;
@@ -32,7 +33,7 @@ struct CalibrateOptions {
 };
 
 constexpr const char* kCalibrateAbout =
-    "Estimate what every sensor really does (bias, scale, direction) from a log in which the tool is held\n"
+    "Estimate bias, scale and direction of every sensor from a log in which the tool is held\n"
     "still at many attitudes. Gravity is the only reference. plumb finds the still stretches by itself, or\n"
     "takes every row as one where the array file says rows = \"stations\". The calibration file is written\n"
     "only if the fit is accepted: converged, every parameter determined, residuals small, values plausible, and\n"
@@ -65,7 +66,8 @@ std::string read_roll_axis(const std::string& text, std::optional<Vec3>& out) {
   }
   if (parts != 3) return "give three numbers, the direction in the tool frame: 0,0,1";
   const double length = norm(axis);
-  if (!(length > 0.0) || !std::isfinite(length)) return "the three numbers give no direction; the tool axis z is 0,0,1";
+  if (!(length > 0.0) || !std::isfinite(length))
+    return "the three numbers must not all be zero; the tool axis z is 0,0,1";
   out = scaled(axis, 1.0 / length);
   return "";
 }
@@ -74,8 +76,8 @@ std::string read_wobble(const std::string& text, double& wobble_rad) {
   constexpr double kMost_deg = 45.0;
   double value = 0.0;
   const std::string wrong = read_number(text, value);
-  if (!wrong.empty()) return wrong + "; give degrees, 0 or more";
-  if (!(value >= 0.0) || value > kMost_deg) return "\"" + text + "\" deg is no wobble: give 0 to 45";
+  if (!wrong.empty()) return wrong + "; give 0 to 45 deg";
+  if (!(value >= 0.0) || value > kMost_deg) return "\"" + text + "\" deg is out of range: give 0 to 45 deg";
   wobble_rad = rad_from_deg(value);
   return "";
 }
@@ -88,14 +90,14 @@ std::string serial_refusal(const std::string& text) {
 }
 
 /// The pictures, where asked for. Without gnuplot the rest is done all the same.
-io::FileExpected<void> draw_fit(const CalibrateOptions& options, const CalibrationRun& fit,
+io::FileExpected<void> draw_fit(const CalibrateOptions& options, const session::CalibrationRun& fit,
                                 const io::ArrayFile& array) {
   if (options.plots.empty()) return {};
   std::string missing;
-  const io::FileExpected<std::vector<std::string>> names = draw_fit(options.plots, fit, array, missing);
+  const io::FileExpected<std::vector<std::string>> names = cli::draw_fit(options.plots, fit, array, missing);
   if (!names) return tl::unexpected<io::FileError>(names.error());
   if (!missing.empty()) print_error("plumb: " + missing + "\n");
-  if (!options.json) print("written to " + options.plots + ": " + listed(*names) + "\n");
+  if (!options.json) print("written to " + options.plots + ": " + render::listed(*names) + "\n");
   return {};
 }
 
@@ -106,39 +108,42 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   if (options.rolls && array->input.roll_group_column.empty()) {
-    return report(io::FileError{options.array, 0, "input.roll_group",
-                                "is missing: --roll-axis and --roll-wobble-deg are about stations that share an "
-                                "inclination, and nothing says which do",
-                                "name the column of the log that holds the number of the roll group: roll_group = "
-                                "\"group\", or take the options out",
-                                io::ExitCode::usage});
+    return report(
+        io::FileError{options.array, 0, "input.roll_group",
+                      "is missing: --roll-axis and --roll-axis-deviation-deg need groups of stations that share an "
+                      "inclination, and the array file names no column for them",
+                      "name the log column that holds the number of the roll group: roll_group = "
+                      "\"group\", or remove the options",
+                      io::ExitCode::usage});
   }
   watch_interrupts();
-  CalibrationChoice choice = options.choice;
+  session::CalibrationChoice choice = options.choice;
   choice.paper_fits = choice.paper_fits || array->monitor.mode == MonitorMode::paper;
-  const io::FileExpected<CalibrationRun> fit = run_calibration(*array, options.log, choice);
+  const io::FileExpected<session::CalibrationRun> fit = session::run_calibration(*array, options.log, choice);
   if (!fit) return report(fit.error());
-  print(options.json ? fit_json(*fit, *array) : fit_text(*fit, *array, {options.verbose, options.suggest}));
+  print(options.json ? render::fit_json(*fit, *array)
+                     : render::fit_text(*fit, *array, {options.verbose, options.suggest}));
   const io::FileExpected<void> drawn = draw_fit(options, *fit, *array);
   if (!drawn) return report(drawn.error());
   if (!fit->accepted) {
-    const Refusal refusal = refusal_of(*fit, *array);
+    const render::Refusal refusal = render::refusal_of(*fit, *array);
     print_error("plumb: the calibration was not accepted: " + refusal.reason + ". " + options.out +
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
   if (fit->paper_refusal.code != Errc::ok) {
-    const Refusal refusal = paper_refusal_of(*fit, *array);
-    print_error("plumb: the fit by the paper's method is of no use: " + refusal.reason + ". " + options.out +
+    const render::Refusal refusal = render::paper_refusal_of(*fit, *array);
+    print_error("plumb: the fit by the paper's method was not accepted: " + refusal.reason + ". " + options.out +
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
-  const io::FileExpected<void> saved = save_calibration(options.out, *fit, *array, options.log.path, options.tag);
+  const io::FileExpected<void> saved =
+      session::save_calibration(options.out, *fit, *array, options.log.path, options.tag);
   if (!saved) return report(saved.error());
   if (!options.json && options.out != "-") print("written: " + options.out + "\n");
   if (!fit->interrupted) return io::ExitCode::done;
   print_error("plumb: interrupted; the calibration uses the " + std::to_string(fit->stations.size()) +
-              " stations found up to then.\n");
+              " stations found before the interruption.\n");
   return io::ExitCode::other;
 }
 
@@ -146,8 +151,8 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
 
 Command add_calibrate(const Options& tool) {
   auto options = std::make_shared<CalibrateOptions>();
-  const Options command =
-      tool.add_command("calibrate", "find bias, scale and direction of every sensor from a log of quiet attitudes");
+  const Options command = tool.add_command(
+      "calibrate", "find bias, scale and direction of every sensor from a log of attitudes held still");
   command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
       .required()
       .type_name("ARRAY.toml");
@@ -157,9 +162,9 @@ Command add_calibrate(const Options& tool) {
   command.add_option("--out", options->out, "the calibration file to write").required().type_name("CAL.json");
   command
       .add_option("--date", options->tag.date,
-                  "when the log was recorded; kept in the calibration file: what is stated to drift per day "
-                  "(stability_per_day) counts from it")
-      .check(date_refusal)
+                  "when the log was recorded; kept in the calibration file: drift per day (stability_per_day) counts "
+                  "from this date")
+      .check(session::date_refusal)
       .type_name("YYYY-MM-DD");
   command.add_option("--serial", options->tag.serial, "the serial number of the tool; kept in the calibration file")
       .check(serial_refusal)
@@ -168,15 +173,16 @@ Command add_calibrate(const Options& tool) {
   command.add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
   command
       .add_option(
-          "--hold-out", [options](const std::string& text) { return read_hold_out(text, options->choice.hold_out); },
-          "predict stations by fits without them: a number of folds, a fraction (once), `one` at a time, or `none`; by "
-          "default 4 folds, below 16 stations one at a time")
+          "--hold-out",
+          [options](const std::string& text) { return session::read_hold_out(text, options->choice.hold_out); },
+          "check the fit by predicting stations that were held out of it: a number of folds, a fraction (once), "
+          "`one` at a time, or `none`; by default 4 folds, below 16 stations one at a time")
       .type_name("K|FRACTION|one|none");
   command
       .add_option(
           "--temperature-order",
           [options](const std::string& text) {
-            return read_temperature_order(text, options->choice.temperature.order);
+            return session::read_temperature_order(text, options->choice.temperature.order);
           },
           "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
           "support (the default); 0 takes the coefficients of the array file")
@@ -184,13 +190,15 @@ Command add_calibrate(const Options& tool) {
   command
       .add_option(
           "--use-range-degc",
-          [options](const std::string& text) { return read_use_range(text, options->choice.temperature.use_degc); },
+          [options](const std::string& text) {
+            return session::read_use_range(text, options->choice.temperature.use_degc);
+          },
           "temperatures at which the calibration will be used, for the errors to expect there; by default those of the "
           "stations. A negative one needs the form --use-range-degc=-20,60")
       .type_name("LO,HI");
   command.add_flag(
       "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
-      "plain least squares: do not set stations aside whose residuals are not noise");
+      "plain least squares: keep stations whose residuals exceed the noise");
   command
       .add_option(
           "--roll-axis",
@@ -203,18 +211,18 @@ Command add_calibrate(const Options& tool) {
       .type_name("X,Y,Z");
   command
       .add_option(
-          "--roll-wobble-deg",
+          "--roll-axis-deviation-deg",
           [options](const std::string& text) {
             options->rolls = true;
-            return read_wobble(text, options->choice.fit.roll_wobble_rad);
+            return read_wobble(text, options->choice.fit.roll_axis_deviation_rad);
           },
-          "by how much the inclination differed from roll to roll within a group, 1 sigma, deg; 0 by default")
+          "spread of the inclination from roll to roll within a group, 1 sigma, deg; 0 by default")
       .type_name("D");
   command
       .add_option("--plots", options->plots,
                   "draw residuals, parameters, convergence and attitudes into this directory (needs gnuplot)")
       .type_name("DIR");
-  command.add_flag("--suggest", options->suggest, "list the attitudes that would tell most next, also if all is well");
+  command.add_flag("--suggest", options->suggest, "list the attitudes to record next, even if the fit was accepted");
   command.add_flag("--json", options->json, "the report as JSON, for machines");
   command.add_flag("--verbose", options->verbose, "list the stations that were found, with their times and errors");
   command.footer(kCalibrateNotes + exit_codes_help());

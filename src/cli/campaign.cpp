@@ -1,7 +1,7 @@
 // plumb campaign: many scenarios, counted.
 #include <memory>
 
-#include "campaign_run.hpp"
+#include "../command/campaign.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -11,19 +11,18 @@ namespace cli {
 namespace {
 constexpr const char* kCampaignAbout =
     "Play a campaign: as many scenarios as you like - tools, attitudes, faults, sizes, errors of gravity and of\n"
-    "calibration - through the monitor, and count what became of them: detected, isolated, ambiguous, wrongly "
-    "excluded,\n"
-    "misleading, with the interval that each count leaves for its rate.";
+    "calibration - through the monitor, and count the results: detected, isolated,\n"
+    "ambiguous, wrongly excluded, misleading, with a 95 % confidence interval for each rate.";
 }  // namespace
 
 Command add_campaign(const Options& tool) {
-  auto options = std::make_shared<CampaignOptions>();
-  const Options command =
-      tool.add_command("campaign", "many scenarios through the monitor, counted, with their intervals");
-  add_campaign_options(command, *options);
-  return {command, kCampaignAbout, [options] {
+  auto options = std::make_shared<command::CampaignOptions>();
+  const Options own = tool.add_command(
+      "campaign", "run many simulated scenarios through the monitor and count the results, with confidence intervals");
+  command::add_campaign_options(own, *options);
+  return {own, kCampaignAbout, [options] {
             campaign::Ranks alone;
-            return run_campaign(*options, alone);
+            return command::run_campaign(*options, alone);
           }};
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 double inclination_or_nan(const Vec3& gravity_mps2, const Mat3& frame) {
   double inclination_deg = 0.0;
-  return report::inclination_of(gravity_mps2, frame, inclination_deg) ? inclination_deg : std::nan("");
+  return render::inclination_of(gravity_mps2, frame, inclination_deg) ? inclination_deg : std::nan("");
 }
 
 }  // namespace
@@ -33,37 +33,37 @@ Readings ComparisonSink::mean_of_window() const {
 }
 
 void ComparisonSink::note_phase(const Sample& sample, const Verdict& verdict, SensorSet faulty) {
-  report::TimelinePhase now;
+  render::TimelinePhase now;
   now.from_s = sample.time_s;
   now.state = verdict.state;
   now.validity = verdict.validity;
   now.cause = verdict.cause;
   now.moving = (verdict.qualifiers & Qualifier::moving) != 0;
   now.in_service = verdict.in_service;
-  now.set_aside = verdict.set_aside;
+  now.provisionally_excluded = verdict.provisionally_excluded;
   now.excluded = verdict.excluded;
   now.absent = verdict.absent;
   now.faulty = faulty;
   if (!timeline_.phases.empty()) {
-    const report::TimelinePhase& last = timeline_.phases.back();
+    const render::TimelinePhase& last = timeline_.phases.back();
     const bool same = last.state == now.state && last.validity == now.validity && last.cause == now.cause &&
                       last.moving == now.moving && last.in_service == now.in_service &&
-                      last.set_aside == now.set_aside && last.excluded == now.excluded && last.absent == now.absent &&
-                      last.faulty == now.faulty;
+                      last.provisionally_excluded == now.provisionally_excluded && last.excluded == now.excluded &&
+                      last.absent == now.absent && last.faulty == now.faulty;
     if (same) return;
   }
   timeline_.phases.push_back(now);
 }
 
-report::TimelinePoint ComparisonSink::point_of(const Verdict& verdict, const scenario::Truth& truth) const {
+render::TimelinePoint ComparisonSink::point_of(const Verdict& verdict, const scenario::Truth& truth) const {
   const Vec3 plain_mps2 = all_.estimate(mean_of_window());
-  report::TimelinePoint point;
+  render::TimelinePoint point;
   point.time_s = verdict.time_s;
   point.state = verdict.state;
   point.validity = verdict.validity;
   point.cause = verdict.cause;
   point.in_service = verdict.in_service;
-  point.set_aside = verdict.set_aside;
+  point.provisionally_excluded = verdict.provisionally_excluded;
   point.excluded = verdict.excluded;
   point.absent = verdict.absent;
   point.statistic = verdict.statistic;
@@ -80,7 +80,7 @@ report::TimelinePoint ComparisonSink::point_of(const Verdict& verdict, const sce
 io::FileExpected<void> ComparisonSink::take(const Sample& sample, const Verdict& verdict) {
   if (row_ == 0) {
     timeline_.begin_s = sample.time_s;
-    timeline_.rows.push_back(report::power_on_row(sample.time_s, HealthState::suspect));
+    timeline_.rows.push_back(render::power_on_row(sample.time_s, HealthState::suspect));
     for (int i = 0; i < calibration_.array.size(); ++i) {
       timeline_.sensors.emplace_back(calibration_.array.row(i).id.data());
     }
@@ -91,7 +91,7 @@ io::FileExpected<void> ComparisonSink::take(const Sample& sample, const Verdict&
   timeline_.end_s = sample.time_s;
   note_phase(sample, verdict, truth.faulty);
   if (verdict.transition.sequence != 0)
-    timeline_.rows.push_back(report::row_of(verdict, calibration_.array, array_.output_frame));
+    timeline_.rows.push_back(render::row_of(verdict, calibration_.array, array_.output_frame));
   if (verdict.tick) timeline_.points.push_back(point_of(verdict, truth));
   return {};
 }

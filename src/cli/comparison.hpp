@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "monitor_pipeline.hpp"
-#include "plumb/report/timeline.hpp"
+#include "plumb/render/timeline.hpp"
 #include "plumb/scenario/scenario.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,18 +13,18 @@ namespace cli {
 
 /// Records the timeline of a simulated run. "Plain" is least squares over all sensors with the same
 /// calibration, on the same samples: what one would have without plumb.
-class ComparisonSink : public VerdictSink {
+class ComparisonSink : public session::VerdictSink {
  public:
   /// `truth` holds one entry per row of the log. All references must outlive the sink.
   ComparisonSink(const io::ArrayFile& array, const Calibration& calibration, const std::vector<scenario::Truth>& truth);
 
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
-  const report::Timeline& timeline() const noexcept { return timeline_; }
+  const render::Timeline& timeline() const noexcept { return timeline_; }
 
  private:
   Readings mean_of_window() const;
   void note_phase(const Sample& sample, const Verdict& verdict, SensorSet faulty);
-  report::TimelinePoint point_of(const Verdict& verdict, const scenario::Truth& truth) const;
+  render::TimelinePoint point_of(const Verdict& verdict, const scenario::Truth& truth) const;
 
   const io::ArrayFile& array_;
   const Calibration& calibration_;
@@ -32,7 +32,7 @@ class ComparisonSink : public VerdictSink {
   LeastSquares all_;
   std::vector<Readings> window_;  ///< ring of the last block's readings
   std::size_t row_ = 0;
-  report::Timeline timeline_;
+  render::Timeline timeline_;
 };
 
 }  // namespace cli

@@ -70,7 +70,7 @@ io::ExitCode run_convert(const ConvertOptions& options) {
   }
   if (done->rows_bad > 0 && array->input.time_column.empty()) {
     print_error(
-        "plumb: the log has no column of time: the rows behind those skipped have moved up and come earlier now.\n");
+        "plumb: warning: the log has no time column, so the rows after a skipped row now have earlier times.\n");
   }
   if (!interrupted()) return io::ExitCode::done;
   print_error(fmt::format("plumb: interrupted; the rows up to t = {:.3f} s are written.\n", done->last_time_s));

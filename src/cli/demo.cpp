@@ -6,7 +6,7 @@
 
 #include "demo_section.hpp"
 #include "plumb/io/output_file.hpp"
-#include "plumb/report/page.hpp"
+#include "plumb/render/page.hpp"
 #include "plumb/scenario/library.hpp"
 #include "tool.hpp"
 
@@ -26,7 +26,7 @@ constexpr io::FileExpected<DemoSection> (*kSections[])(const DemoContext&) = {
 };
 
 constexpr const char* kDemoAbout =
-    "What plumb does, without any file of yours: simulated tools are calibrated and watched while their\n"
+    "Show what plumb does, without any file of yours: simulated tools are calibrated and monitored while their\n"
     "accelerometers fail. Writes an index page with pictures, and all its data as JSON and CSV.";
 constexpr const char* kDemoNotes =
     "Examples:\n"
@@ -44,9 +44,9 @@ io::FileExpected<void> make_directory(const std::string& path) {
 }
 
 /// Why pictures are missing, or nothing.
-std::string missing_picture(const report::Page& page) {
-  for (const report::Chapter& chapter : page.chapters) {
-    for (const report::Picture& picture : chapter.pictures) {
+std::string missing_picture(const render::Page& page) {
+  for (const render::Chapter& chapter : page.chapters) {
+    for (const render::Picture& picture : chapter.pictures) {
       if (picture.svg.empty()) return picture.missing;
     }
   }
@@ -57,12 +57,11 @@ io::ExitCode run_demo(const DemoOptions& options) {
   const io::FileExpected<void> made = make_directory(options.out);
   if (!made) return report(made.error());
   const DemoContext context{options.out, options.seed, scenario::paper_tool(options.seed)};
-  report::Page page;
+  render::Page page;
   page.title = "plumb demo";
   page.lead =
-      "plumb keeps redundant accelerometers honest: it calibrates them from gravity, watches every combination of "
-      "them, "
-      "takes the faulty ones out, and says at every sample what may still be trusted. All that follows was measured on "
+      "plumb monitors redundant accelerometers: it calibrates them from gravity, tests every combination of them, "
+      "excludes the faulty ones, and states at every sample what is valid. All figures below were measured on "
       "simulated tools, drawn from one seed.";
   page.footer = fmt::format(
       "plumb {}, seed {}: the same seed gives the same bytes. `plumb demo --seed 2` draws other tools, other noise and "
@@ -81,7 +80,7 @@ io::ExitCode run_demo(const DemoOptions& options) {
   }
   const auto path = [&options](const char* name) { return (std::filesystem::path(options.out) / name).string(); };
   io::FileExpected<void> written = io::write_file(path("demo.json"), facts.dump(1) + "\n");
-  if (written) written = io::write_file(path("index.html"), report::page_html(page));
+  if (written) written = io::write_file(path("index.html"), render::page_html(page));
   if (!written) return report(written.error());
   const std::string missing = missing_picture(page);
   if (!missing.empty()) print_error("plumb: " + missing + "\n");

@@ -6,7 +6,7 @@
 
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
-#include "figures.hpp"
+#include "plumb/findings/fit_figures.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/study/calibration_study.hpp"
 
@@ -15,6 +15,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
+using findings::kMilliG0_mps2;
 using study::FitHistory;
 using study::IterationPoint;
 
@@ -172,11 +173,18 @@ std::string cost_script(const FitHistory& history) {
   std::string out = plot_head("fig07_cost", 1000, 420);
   const std::size_t last = std::max(history.paper.size(), history.own.size()) - 1;
   out += fmt::format(
-      "set lmargin at screen 0.095\nset rmargin at screen 0.975\nset tmargin at screen 0.95\nset bmargin at screen "
-      "0.15\n"
-      "set xrange [-0.2:{}.2]\nset xtics 1\nset xlabel 'iteration' offset 0,0.4\nset logscale y\nset format y "
-      "'10^{{%T}}'\n"
-      "set ylabel 'E_g, g0^4' offset 0.5\nset grid ytics lw 0.4 lc rgb '#999999'\nset key top right samplen 2\n",
+      "set lmargin at screen 0.095\n"
+      "set rmargin at screen 0.975\n"
+      "set tmargin at screen 0.95\n"
+      "set bmargin at screen 0.15\n"
+      "set xrange [-0.2:{}.2]\n"
+      "set xtics 1\n"
+      "set xlabel 'iteration' offset 0,0.4\n"
+      "set logscale y\n"
+      "set format y '10^{{%T}}'\n"
+      "set ylabel 'E_g, g0^4' offset 0.5\n"
+      "set grid ytics lw 0.4 lc rgb '#999999'\n"
+      "set key top right samplen 2\n",
       last);
   const auto curve = [&](const char* method, const char* colour, int point, double size, const char* title) {
     return fmt::format(
@@ -187,12 +195,17 @@ std::string cost_script(const FitHistory& history) {
          curve("plumb", kOwnColour, 7, 0.7, "plumb''s fit") + "\n";
 }
 
-report::Table summary_table(const std::vector<FitHistory>& histories) {
-  report::Table out;
+render::Table summary_table(const std::vector<FitHistory>& histories) {
+  render::Table out;
   out.title = "Where the two methods end";
-  out.head = {
-      "sensors",           "method",           "iterations",           "E_g at the start, g0^4", "E_g at the end, g0^4",
-      "bias off, mg0 rms", "scale off, % rms", "misalignment off, rms"};
+  out.head = {"sensors",
+              "method",
+              "iterations",
+              "E_g at the start, g0^4",
+              "E_g at the end, g0^4",
+              "bias error, mg0 rms",
+              "scale error, % rms",
+              "misalignment error, rms"};
   for (const FitHistory& h : histories) {
     const auto row = [&](const char* method, const std::vector<IterationPoint>& points) {
       const study::ParameterError error = study::error_of(h, points.back());
@@ -205,14 +218,13 @@ report::Table summary_table(const std::vector<FitHistory>& histories) {
     row("plumb", h.own);
   }
   out.note =
-      "Off: from what is really the case, in the frame in which the true axes lie nearest to the nominal ones. The "
-      "paper fits every "
-      "triple anew; plumb's triples are read from its one fit.";
+      "Errors are against the true values, in the frame in which the true axes lie nearest to the nominal ones. The "
+      "paper fits every triple separately; plumb's triples come from its one fit.";
   return out;
 }
 
-report::Table parameter_table(const FitHistory& all) {
-  report::Table out;
+render::Table parameter_table(const FitHistory& all) {
+  render::Table out;
   out.title = "Bias and scale factor of the four sensors";
   out.head = {"sensor", "bias true, mg0", "paper", "plumb", "scale true, V/g0", "paper", "plumb"};
   const int n = all.used.size();
@@ -232,14 +244,11 @@ report::Table parameter_table(const FitHistory& all) {
 
 std::string hessian_note(const study::Proportion& ends) {
   return fmt::format(
-      "The paper's cost sees the length of gravity alone, so that 9 of the 20 parameters of four sensors show in it (9 "
-      "of "
-      "the 12 of a triple) and the Hessian of eq (11) is singular. As printed, with its plain inverse, the iteration "
-      "met its stop rule within 100 steps in {} of {} simulated tools ({:.0f} %, 95 % interval {:.1f} to {:.1f} %; "
-      "which "
-      "ones hangs on the rounding of the machine). What is shown as the paper's method takes the smallest step that "
-      "does what the nine visible "
-      "directions ask for, and ends every time.",
+      "The paper's cost uses only the length of gravity, so it determines 9 of the 20 parameters of four sensors (9 "
+      "of the 12 of a triple) and the Hessian of eq (11) is singular. As printed, with its plain inverse, the "
+      "iteration met its stop rule within 100 steps in {} of {} simulated tools ({:.0f} %, 95 % interval {:.1f} to "
+      "{:.1f} %; which ones depends on the rounding of the machine). The paper's method as shown here therefore "
+      "takes the smallest step that satisfies the nine observable directions; it always ends.",
       ends.count, ends.trials, 100.0 * ends.share(), 100.0 * ends.low, 100.0 * ends.high);
 }
 
@@ -277,27 +286,26 @@ struct Figure {
 
 constexpr Figure kFigures[] = {
     {"fig04_bias", 0, Kind::bias, "Fig 4: biases of the four sensors",
-     "Dashed: the true biases. The paper's method settles, but not on them: the length of gravity does not tell the "
-     "four apart. plumb's fit "
-     "also uses that the four readings must agree."},
+     "Dashed: the true biases. The paper's method converges to other values: the length of gravity does not separate "
+     "the four biases. plumb's fit also uses that the four readings must agree."},
     {"fig05_scale", 0, Kind::scale, "Fig 5: scale factors of the four sensors",
      "Dashed: the true scale factors, 3 V/g0 within 2 %."},
     {"fig06_misalignment", 0, Kind::misalignment, "Fig 6: misalignments of the four sensors",
      "Colour: the sensor that is corrected; shape: the sensor whose reading corrects it. Dashed: the true values."},
     {"fig08_bias_123", 1, Kind::bias, "Fig 8: biases of the triple 1-2-3",
-     "Three sensors: their biases do show in the length of gravity, and both methods find them."},
+     "With three sensors the length of gravity determines the biases, and both methods find them."},
     {"fig09_scale_123", 1, Kind::scale, "Fig 9: scale factors of the triple 1-2-3",
-     "The paper's method leaves open how the triple as a whole is turned; that turn goes into scale factors and "
+     "The paper's method leaves the rotation of the triple undetermined; that rotation enters the scale factors and "
      "misalignments."},
     {"fig10_misalignment_123", 1, Kind::misalignment, "Fig 10: misalignments of the triple 1-2-3",
-     "Dashed: the true values. The distance to them is the turn that the paper's method leaves open."},
+     "Dashed: the true values. The distance to them is the rotation that the paper's method leaves undetermined."},
 };
 
 io::FileExpected<void> add_pictures(const DemoContext& context, const std::vector<FitHistory>& histories,
-                                    report::Chapter& chapter) {
+                                    render::Chapter& chapter) {
   const auto add = [&](const char* name, const std::string& script, const char* title,
                        const char* caption) -> io::FileExpected<void> {
-    io::FileExpected<report::Picture> picture = draw(context.out, name, script, title, caption);
+    io::FileExpected<render::Picture> picture = draw(context.out, name, script, title, caption);
     if (!picture) return tl::unexpected<io::FileError>(picture.error());
     chapter.pictures.push_back(*std::move(picture));
     link_drawn(chapter, name, title);
@@ -305,10 +313,10 @@ io::FileExpected<void> add_pictures(const DemoContext& context, const std::vecto
   };
   for (const Figure& f : kFigures) {
     if (f.history == 1 && f.kind == Kind::bias) {
-      const io::FileExpected<void> cost = add(
-          "fig07_cost", cost_script(histories.front()), "Fig 7: error of gravity",
-          "E_g of eq (10) over the 48 stations, of the vectors that each method computes. Both reach the noise: this "
-          "figure alone does not show which parameters are right.");
+      const io::FileExpected<void> cost =
+          add("fig07_cost", cost_script(histories.front()), "Fig 7: error of gravity",
+              "E_g of eq (10) over the 48 stations, of the vectors that each method computes. Both reach the noise, so "
+              "this figure alone does not show which parameters are right.");
       if (!cost) return cost;
     }
     const io::FileExpected<void> drawn =
@@ -323,10 +331,10 @@ std::string console_of(const std::vector<FitHistory>& histories, const study::Pr
   const study::ParameterError paper = study::error_of(all, all.paper.back());
   const study::ParameterError own = study::error_of(all, all.own.back());
   return fmt::format(
-      "2 calibration, four sensors, 48 stations: paper's method {} iterations, E_g {:.1e} to {:.1e} g0^4, biases off "
-      "by {:.3f} mg0 rms\n"
-      "                                          plumb's fit    {} iterations, E_g {:.1e} to {:.1e} g0^4, biases off "
-      "by {:.3f} mg0 rms\n"
+      "2 calibration, four sensors, 48 stations: paper's method {} iterations, E_g {:.1e} to {:.1e} g0^4, bias error "
+      "{:.3f} mg0 rms\n"
+      "                                          plumb's fit    {} iterations, E_g {:.1e} to {:.1e} g0^4, bias error "
+      "{:.3f} mg0 rms\n"
       "  eq (11) with the plain inverse, as printed, ends in {} of {} tools ({:.1f} to {:.1f} %)\n",
       all.paper.size() - 1, all.paper.front().cost_g4, all.paper.back().cost_g4, paper.bias_mps2 / kMilliG0_mps2,
       all.own.size() - 1, all.own.front().cost_g4, all.own.back().cost_g4, own.bias_mps2 / kMilliG0_mps2, ends.count,
@@ -341,16 +349,15 @@ io::FileExpected<DemoSection> demo_calibration(const DemoContext& context) {
   const study::StudyExpected<study::Proportion> ends = study::plain_inverse_ends(context.seed, kPlainInverseTools);
   if (!ends) return study_failed(ends.error());
   DemoSection out;
-  report::Chapter& chapter = out.chapter;
+  render::Chapter& chapter = out.chapter;
   chapter.id = "calibration";
   chapter.title = "2 Calibration: Figs 4 to 10 of the paper";
   chapter.gist = "The paper's method and plumb's fit, iteration by iteration, against the truth.";
   chapter.text = {
-      "The tool is held still at 48 random attitudes of which nobody knows the angles; the length of gravity is all "
-      "that is given. "
-      "From the same 48 station means the paper's method and plumb's fit each estimate biases, scale factors and "
-      "misalignments, starting "
-      "from the datasheet. As this tool is simulated, the true values are known and drawn beside them.",
+      "The tool is held still at 48 random attitudes with unknown angles; only the length of gravity is given. From "
+      "the same 48 station means the paper's method and plumb's fit each estimate biases, scale factors and "
+      "misalignments, starting from the datasheet. As this tool is simulated, the true values are known and drawn "
+      "beside them.",
       hessian_note(*ends)};
   for (const FitHistory& history : study->history) {
     const io::FileExpected<void> written = write_into(context.out, csv_name(history), csv_of(history));

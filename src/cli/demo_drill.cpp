@@ -6,16 +6,17 @@
 #include <optional>
 
 #include "comparison.hpp"
-#include "demo_files.hpp"
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
 #include "demo_story.hpp"
-#include "fit_summary.hpp"
-#include "monitor_pipeline.hpp"
 #include "plumb/io/scenario_file.hpp"
-#include "plumb/report/timeline_plot.hpp"
-#include "plumb/report/words.hpp"
+#include "plumb/render/fit_report.hpp"
+#include "plumb/render/timeline_plot.hpp"
+#include "plumb/render/words.hpp"
 #include "plumb/scenario/library.hpp"
+#include "plumb/session/calibration_pipeline.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
+#include "plumb/session/played_log.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -48,7 +49,7 @@ class DrillSection {
       const io::FileExpected<void> done = (this->*step)();
       if (!done) return passed_on(done);
     }
-    io::FileExpected<report::Picture> picture = draw_timeline();
+    io::FileExpected<render::Picture> picture = draw_timeline();
     if (!picture) return passed_on(picture);
     return section(*std::move(picture));
   }
@@ -83,31 +84,31 @@ class DrillSection {
     written = write_scenario("stand.toml", stand);
     if (written) written = write_scenario("drill.toml", plan_.drill.scenario);
     if (!written) return written;
-    const auto stand_truth = write_log(path("calibration.csv"), *array_, stand);
+    const auto stand_truth = session::write_log(path("calibration.csv"), *array_, stand);
     if (!stand_truth) return passed_on(stand_truth);
-    auto truth = write_log(path("drill.csv"), *array_, plan_.drill.scenario);
+    auto truth = session::write_log(path("drill.csv"), *array_, plan_.drill.scenario);
     if (!truth) return passed_on(truth);
     truth_ = *std::move(truth);
-    into_frame_of_nominal_axes(plan_.tool, truth_);
+    session::into_frame_of_nominal_axes(plan_.tool, truth_);
     return {};
   }
 
   io::FileExpected<void> calibrate_tool() {
-    const LogSpec log{path("calibration.csv"), io::BadRowPolicy::stop};
-    io::FileExpected<CalibrationRun> fit = run_calibration(*array_, log);
+    const session::LogSpec log{path("calibration.csv"), io::BadRowPolicy::stop};
+    io::FileExpected<session::CalibrationRun> fit = session::run_calibration(*array_, log);
     if (!fit) return passed_on(fit);
     if (!fit->accepted) {
-      const Refusal refusal = refusal_of(*fit, *array_);
+      const render::Refusal refusal = render::refusal_of(*fit, *array_);
       return tl::unexpected<io::FileError>(
           io::FileError{log.path, 0, "", refusal.reason, refusal.next, io::ExitCode::not_accepted});
     }
-    return save_calibration(path("calibration.json"), *fit, *array_, log.path);
+    return session::save_calibration(path("calibration.json"), *fit, *array_, log.path);
   }
 
   io::FileExpected<void> monitor_tool() {
     const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(path("calibration.json"), *array_);
     if (!calibration) return passed_on(calibration);
-    const auto monitor = make_monitor(*array_, &calibration->calibration);
+    const auto monitor = session::make_monitor(*array_, &calibration->calibration);
     if (!monitor) return passed_on(monitor);
     io::FileExpected<io::OutputFile> events =
         io::OutputFile::create(path("events.jsonl"), io::OutputFile::Mode::stream);
@@ -115,12 +116,12 @@ class DrillSection {
     io::FileExpected<io::OutputFile> verdicts =
         io::OutputFile::create(path("verdicts.jsonl"), io::OutputFile::Mode::stream);
     if (!verdicts) return passed_on(verdicts);
-    EventsFile events_file(*std::move(events), (*monitor)->array(), false);
-    VerdictsFile verdicts_file(*std::move(verdicts), (*monitor)->array(), array_->output_frame, false, false);
+    session::EventsFile events_file(*std::move(events), (*monitor)->array(), false);
+    session::VerdictsFile verdicts_file(*std::move(verdicts), (*monitor)->array(), array_->output_frame, false, false);
     ComparisonSink comparison(*array_, calibration->calibration, truth_);
     scenario::Host host(plan_.drill.requests);
-    const io::FileExpected<MonitorRun> done =
-        run_monitor(**monitor, *array_, {path("drill.csv")}, {&events_file, &verdicts_file, &comparison}, host);
+    const io::FileExpected<session::MonitorRun> done = session::run_monitor(
+        **monitor, *array_, {path("drill.csv")}, {&events_file, &verdicts_file, &comparison}, host);
     if (!done) return passed_on(done);
     if (done->stopped) return tl::unexpected<io::FileError>(done->stop);
     const io::FileExpected<void> kept = events_file.commit();
@@ -132,17 +133,17 @@ class DrillSection {
     return verdicts_file.commit();
   }
 
-  io::FileExpected<report::Picture> draw_timeline() const {
+  io::FileExpected<render::Picture> draw_timeline() const {
     const io::FileExpected<void> written =
-        io::write_file(path("timeline.csv"), report::timeline_csv(record_->timeline));
+        io::write_file(path("timeline.csv"), render::timeline_csv(record_->timeline));
     if (!written) return passed_on(written);
     return draw(
-        out_.string(), "timeline", report::timeline_script(record_->timeline, "timeline.csv", "timeline.svg"),
+        out_.string(), "timeline", render::timeline_script(record_->timeline, "timeline.csv", "timeline.svg"),
         "The run in one picture",
         "Every dot is one block of samples taken while the tool stands still; the gaps are the moves between "
         "stations. Without plumb: the plain least-squares answer of all sensors with the same calibration. Amber "
-        "dots are answers that plumb itself calls unconfirmed; in failed it gives none. Inclination is that of "
-        "the array's own frame: gravity cannot tell how the array as a whole sits in its housing.");
+        "dots are outputs that plumb publishes as unconfirmed; in the state failed it publishes none. Inclination is "
+        "measured in the frame of the array: gravity does not show how the array is mounted in its housing.");
   }
 
   std::vector<std::string> commands() const {
@@ -159,20 +160,20 @@ class DrillSection {
     return out;
   }
 
-  std::vector<report::FileLink> files() const {
+  std::vector<render::FileLink> files() const {
     const std::string at = plan_.id + "/";
     return {{at + "array.toml", "the array: axes, scales and noise as a datasheet gives them"},
-            {at + "stand.toml", "the calibration stand as a scenario, what the sensors really are included"},
+            {at + "stand.toml", "the calibration stand as a scenario, with the true sensor parameters"},
             {at + "calibration.csv", "its log, in volts"},
-            {at + "calibration.json", "what plumb found out about the sensors"},
+            {at + "calibration.json", "the calibration that plumb estimated"},
             {at + "drill.toml", "the drill as a scenario, the faults included"},
             {at + "drill.csv", "its log, in volts"},
             {at + "events.jsonl", "one line per change of state"},
-            {at + "verdicts.jsonl", "one line per quiet block: state, statistic, limit, sensors, vector, bound"},
-            {at + "timeline.csv", "what the picture shows, the truth included"}};
+            {at + "verdicts.jsonl", "one line per block at rest: state, statistic, limit, sensors, vector, bound"},
+            {at + "timeline.csv", "the data of the picture, with the true values"}};
   }
 
-  DemoSection section(report::Picture picture) const {
+  DemoSection section(render::Picture picture) const {
     DemoSection out;
     out.chapter.id = plan_.id;
     out.chapter.title = plan_.title;
@@ -189,12 +190,13 @@ class DrillSection {
     out.facts["commands"] = out.chapter.commands;
     const DrillFigures f = figures_of(record_->timeline);
     out.console = plan_.title + "\n ";
-    for (const report::TimelineRow& row : record_->timeline.rows) {
+    for (const render::TimelineRow& row : record_->timeline.rows) {
       out.console += fmt::format(" {:.1f} s {}", row.time_s, to_string(row.state));
     }
     out.console += fmt::format(
-        "\n  inclination error: {:.2g} deg where plumb vouched, {:.2g} deg without plumb; bound kept in {} of {} "
-        "blocks\n",
+        "\n"
+        "  inclination error: {:.2g} deg in valid outputs of plumb, {:.2g} deg without plumb; within the bound in {} "
+        "of {} blocks\n",
         f.vouched_deg, f.plain_deg, f.kept, f.bounded);
     return out;
   }
@@ -213,12 +215,12 @@ io::FileExpected<DemoSection> demo_drill_a(const DemoContext& context) {
   DrillPlan plan;
   plan.id = "drill_a";
   plan.title = "5 Drill A: four sensors";
-  plan.gist = "Two of four sensors fail, one after the other; the host resets; what has recovered earns its place.";
+  plan.gist =
+      "Two of four sensors fail, one after the other; the host resets; the recovered sensor is validated again.";
   plan.text = {
       "The paper's tool surveys a well. Two of its four sensors fail on the way, one after the other. With four "
-      "sensors "
-      "the first fault can be named; with the three that are left the second can be seen, but not named, and plumb "
-      "says so. Then the host resets the monitor, once one of the two delivers again."};
+      "sensors the first fault can be isolated. With the three that are left the second fault can be detected but "
+      "not isolated, and plumb reports that. When one of the two sensors works again, the host resets the monitor."};
   plan.tool = context.tool;
   plan.drill = scenario::drill_a(context.tool, context.seed);
   plan.array_text = io::paper_array_text(plan.drill.scenario.gravity_mps2);
@@ -229,15 +231,15 @@ io::FileExpected<DemoSection> demo_drill_b(const DemoContext& context) {
   DrillPlan plan;
   plan.id = "drill_b";
   plan.title = "6 Drill B: six sensors";
-  plan.gist = "A fault, a recalibration in flight, a second fault; the sensor that recovers is taken back.";
+  plan.gist = "A fault, a recalibration in flight, a second fault; the sensor that recovers is reinstated.";
   plan.text = {
-      "A tool of six such sensors, normal to the faces of a dodecahedron, surveys a longer stretch. With sensors to "
-      "spare plumb sets an accused one aside at once, proves the rest and stays usable. A sensor that is sound again "
-      "is "
-      "taken back only after it has agreed with the others for long enough.",
-      "In between the host asks for a recalibration: biases and scales are estimated anew from the survey stations, in "
-      "the shadow of the coefficients in use. Nothing has drifted here, so the fresh ones can at best be as good as "
-      "those from the stand; what is shown is that they must pass their tests, and that trust has to be earned anew."};
+      "A tool of six such sensors, normal to the faces of a dodecahedron, surveys a longer stretch. With this "
+      "redundancy plumb provisionally excludes a suspected sensor at once, tests the others and stays usable. A "
+      "sensor that is healthy again is reinstated only after it has agreed with the others for long enough.",
+      "In between the host asks for a recalibration: biases and scales are estimated again from the survey stations, "
+      "while the present coefficients stay in use. Nothing has drifted here, so the new ones are at best as good as "
+      "those from the stand. The run shows that they must pass their tests, and that the sensors must be validated "
+      "again."};
   plan.tool = scenario::hexad_tool(context.seed);
   plan.drill = scenario::drill_b(plan.tool, context.seed);
   plan.array_text = io::hexad_array_text(plan.drill.scenario.gravity_mps2);

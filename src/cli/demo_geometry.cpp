@@ -21,13 +21,26 @@ constexpr const char* kPrinted[4][3] = {
 std::string script_of(const SensorArray& array) {
   std::string out = plot_head("geometry", 760, 430);
   out +=
-      "set origin 0,0.06\nset view 64,52,2.25,1.0\nset view equal xyz\nunset border\nunset tics\nunset key\nset "
-      "parametric\n"
-      "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\nset xyplane "
-      "at 0\nset urange [0:2*pi]\nset xrange [-1.15:1.15]\nset yrange [-1.15:1.15]\nset zrange [0:1.2]\n"
+      "set origin 0,0.06\n"
+      "set view 64,52,2.25,1.0\n"
+      "set view equal xyz\n"
+      "unset border\n"
+      "unset tics\n"
+      "unset key\n"
+      "set parametric\n"
+      "set lmargin at screen 0\n"
+      "set rmargin at screen 1\n"
+      "set tmargin at screen 1\n"
+      "set bmargin at screen 0\n"
+      "set xyplane at 0\n"
+      "set urange [0:2*pi]\n"
+      "set xrange [-1.15:1.15]\n"
+      "set yrange [-1.15:1.15]\n"
+      "set zrange [0:1.2]\n"
       "set arrow from 0,0,0 to 1.15,0,0 nohead lw 0.8 dt 3 lc rgb '#8a8a8a'\n"
       "set arrow from 0,0,0 to 0,1.15,0 nohead lw 0.8 dt 3 lc rgb '#8a8a8a'\n"
-      "set label 'x' at 1.22,0,0 center tc rgb '#8a8a8a'\nset label 'y' at 0,1.22,0 center tc rgb '#8a8a8a'\n"
+      "set label 'x' at 1.22,0,0 center tc rgb '#8a8a8a'\n"
+      "set label 'y' at 0,1.22,0 center tc rgb '#8a8a8a'\n"
       "set label 'z: the axis of the tool' at 0,0,1.16 left offset 1.2,0 tc rgb '#8a8a8a'\n"
       "set arrow from 0,0,1 to 0,0,1.18 nohead lw 0.8 dt 3 lc rgb '#8a8a8a'\n";
   double radius = 0.0;
@@ -54,8 +67,8 @@ std::string script_of(const SensorArray& array) {
                    radius, height);
 }
 
-report::Table axes_table(const SensorArray& array) {
-  report::Table out;
+render::Table axes_table(const SensorArray& array) {
+  render::Table out;
   out.title = "Axes, eq (16)";
   out.head = {"sensor", "x", "y", "z", "as printed", "angle to z, deg"};
   for (int i = 0; i < array.size(); ++i) {
@@ -68,8 +81,8 @@ report::Table axes_table(const SensorArray& array) {
   return out;
 }
 
-report::Table merit_table(const FiguresOfMerit& f) {
-  report::Table out;
+render::Table merit_table(const FiguresOfMerit& f) {
+  render::Table out;
   out.title = "Figures of merit";
   out.head = {"figure", "value", "meaning"};
   const auto row = [&out](const char* name, const std::string& value, const char* meaning) {
@@ -82,24 +95,24 @@ report::Table merit_table(const FiguresOfMerit& f) {
       "between measurement lines; the larger, the easier to tell sensors apart");
   row("smallest |det| of a triple", fmt::format("{:.4f}", f.min_triple_det), "1: orthogonal, 0: in one plane");
   row("worst condition of a triple", fmt::format("{:.4f}", f.max_triple_condition),
-      "what is lost where one sensor is excluded");
-  row("common bias seen by parity", fmt::format("{:.4f}", f.common_bias_visibility),
-      "0: a bias that all share would go unseen; 1: it shows in full");
-  row("strict grade", fmt::format("{}", f.strict_grade), "faulty sensors that can be excluded for good");
-  row("parity grade", fmt::format("{}", f.parity_grade),
-      "faulty sensors that can be set aside without knowing gravity");
+      "loss of accuracy when one sensor is excluded");
+  row("visibility of a common bias in parity", fmt::format("{:.4f}", f.common_bias_visibility),
+      "0: a bias common to all sensors is invisible; 1: it is fully visible");
+  row("confirmed grade", fmt::format("{}", f.confirmed_grade), "faulty sensors that can be excluded with confirmation");
+  row("provisional grade", fmt::format("{}", f.provisional_grade),
+      "faulty sensors that can be excluded provisionally, without knowing gravity");
   return out;
 }
 
-report::Table triple_table(const SensorArray& array) {
-  report::Table out;
+render::Table triple_table(const SensorArray& array) {
+  render::Table out;
   out.title = "Triples, eqs (18) to (21)";
   out.head = {"sensors", "determinant", "condition"};
   for (int k = 0; k < array.triple_count(); ++k) {
     const Triple& t = array.triple(k);
     out.rows.push_back({study::name_of(t.set()), fmt::format("{:.5f}", t.det), fmt::format("{:.4f}", t.condition)});
   }
-  out.note = "All four are equally good but for a sign: any one sensor may fail.";
+  out.note = "All four have the same quality; only a sign differs. Any one sensor may fail.";
   return out;
 }
 
@@ -110,8 +123,8 @@ nlohmann::ordered_json facts_of(const SensorArray& array, const FiguresOfMerit& 
                                            {"min_triple_det", f.min_triple_det},
                                            {"max_triple_condition", f.max_triple_condition},
                                            {"common_bias_visibility", f.common_bias_visibility},
-                                           {"strict_grade", f.strict_grade},
-                                           {"parity_grade", f.parity_grade}});
+                                           {"confirmed_grade", f.confirmed_grade},
+                                           {"provisional_grade", f.provisional_grade}});
   for (auto& value : out) {
     if (value.is_number_float()) value = std::stod(fmt::format("{:.9g}", value.get<double>()));
   }
@@ -135,16 +148,14 @@ io::FileExpected<DemoSection> demo_geometry(const DemoContext& context) {
   DemoSection out;
   out.chapter.id = "geometry";
   out.chapter.title = "1 The geometry";
-  out.chapter.gist = "Which axes the paper's tool has, and what they can and cannot find.";
+  out.chapter.gist = "The axes of the paper's tool, and which faults they can detect and isolate.";
   out.chapter.text = {
       "Four accelerometers measure along four skewed axes: three on a cone about the axis of the tool, the fourth "
-      "along "
-      "it. Three of them would do for a vector. The fourth gives one check: the readings of a1, a2 and a3 must add up "
-      "to "
-      "that of a4. One check says that a sensor is wrong, not yet which.",
-      "The length of gravity is the second check: of the four triples only the one without the faulty sensor gives it "
-      "at every attitude. That is the paper's idea, and why attitudes matter in all that follows."};
-  io::FileExpected<report::Picture> picture =
+      "along it. Three of them are enough for a vector. The fourth gives one check: the readings of a1, a2 and a3 "
+      "must add up to that of a4. One check detects a fault but does not isolate the sensor.",
+      "The length of gravity is the second check: of the four triples only the one without the faulty sensor gives "
+      "it at every attitude. This is the paper's idea, and the reason why several attitudes are needed below."};
+  io::FileExpected<render::Picture> picture =
       draw(context.out, "geometry", script_of(*array), "Axes of the paper's tool",
            "The four axes in the frame of the tool. Gravity is measured along each of them.");
   if (!picture) return tl::unexpected<io::FileError>(picture.error());

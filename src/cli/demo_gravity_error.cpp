@@ -3,7 +3,7 @@
 
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
-#include "figures.hpp"
+#include "plumb/findings/fit_figures.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/study/gravity_error_study.hpp"
 
@@ -12,6 +12,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
+using findings::kMilliG0_mps2;
 using study::GravityErrors;
 using study::GravityErrorStudy;
 
@@ -47,12 +48,17 @@ std::string csv_of(const GravityErrorStudy& study) {
 std::string script_of(const GravityErrorStudy& study) {
   std::string out = plot_head("fig11_gravity_error", 1000, 520);
   out +=
-      "set lmargin at screen 0.095\nset rmargin at screen 0.975\nset tmargin at screen 0.89\nset bmargin at screen "
-      "0.12\n"
-      "set logscale y\nset yrange [0.002:100]\nset ytics ('0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100)\n"
-      "set ylabel '| |g| error |, mg0' offset 0.5\nset grid ytics lw 0.4 lc rgb '#999999'\n"
-      "set key at graph 0.5, graph 1.02 center bottom horizontal samplen 0.6 textcolor variable\nset xrange "
-      "[-0.5:4.5]\n"
+      "set lmargin at screen 0.095\n"
+      "set rmargin at screen 0.975\n"
+      "set tmargin at screen 0.89\n"
+      "set bmargin at screen 0.12\n"
+      "set logscale y\n"
+      "set yrange [0.002:100]\n"
+      "set ytics ('0.01' 0.01, '0.1' 0.1, '1' 1, '10' 10, '100' 100)\n"
+      "set ylabel '| |g| error |, mg0' offset 0.5\n"
+      "set grid ytics lw 0.4 lc rgb '#999999'\n"
+      "set key at graph 0.5, graph 1.02 center bottom horizontal samplen 0.6 textcolor variable\n"
+      "set xrange [-0.5:4.5]\n"
       "shown(e) = abs(e) > 0.002 ? abs(e) : 0.002\n";
   std::string tics;
   int arrow = 1;
@@ -69,16 +75,15 @@ std::string script_of(const GravityErrorStudy& study) {
   out += "set xtics scale 0 (" + tics + ")\nplot ";
   for (std::size_t m = 0; m < 3; ++m) {
     out += fmt::format(
-        "{}'{}' skip 1 using ($1{:+.2f}+0.2*(($3*0.618)-floor($3*0.618)-0.5)):(shown(${})) with points pt 7 ps 0.32 lc "
-        "rgb "
-        "'{}' title '{}'",
+        "{}'{}' skip 1 using ($1{:+.2f}+0.2*(($3*0.618)-floor($3*0.618)-0.5)):(shown(${})) with points pt 7 ps 0.32 "
+        "lc rgb '{}' title '{}'",
         m == 0 ? "" : ", ", kCsv, 0.28 * (static_cast<double>(m) - 1.0), m + 4, kMethods[m].colour, kMethods[m].name);
   }
   return out + "\n";
 }
 
-report::Table table_of(const GravityErrorStudy& study) {
-  report::Table out;
+render::Table table_of(const GravityErrorStudy& study) {
+  render::Table out;
   out.title = "Error of the length of gravity, mg0";
   out.head = {"sensors",           "datasheet rms", "paper rms",    "plumb rms",
               "datasheet largest", "paper largest", "plumb largest"};
@@ -91,7 +96,7 @@ report::Table table_of(const GravityErrorStudy& study) {
     out.rows.push_back(std::move(row));
   }
   out.note =
-      "One sample at each attitude, white noise of 0.2 mg0 a sensor: what is left after calibration is that noise.";
+      "One sample at each attitude, white noise of 0.2 mg0 a sensor: the error left after calibration is that noise.";
   return out;
 }
 
@@ -120,7 +125,7 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
   if (!study) return study_failed(study.error());
   const io::FileExpected<void> written = write_into(context.out, kCsv, csv_of(*study));
   if (!written) return tl::unexpected<io::FileError>(written.error());
-  io::FileExpected<report::Picture> picture = draw(context.out, "fig11_gravity_error", script_of(*study),
+  io::FileExpected<render::Picture> picture = draw(context.out, "fig11_gravity_error", script_of(*study),
                                                    "Fig 11: error of gravity before and after calibration",
                                                    "A point per attitude, a bar at the rms, on a logarithmic scale. "
                                                    "Before: nominal axes and coefficients. After: the "
@@ -129,11 +134,10 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
   DemoSection out;
   out.chapter.id = "gravity-error";
   out.chapter.title = "3 What calibration leaves: Fig 11 of the paper";
-  out.chapter.gist = "How far off the length of gravity is at fresh attitudes, before and after.";
+  out.chapter.gist = "The error of the length of gravity at new attitudes, before and after calibration.";
   out.chapter.text = {
-      fmt::format("{} fresh attitudes that no fit has seen, one sample at each. How far is the length of the vector "
-                  "off, computed from all four "
-                  "sensors and from every triple?",
+      fmt::format("{} new attitudes that no fit has used, one sample at each: the error of the length of the vector, "
+                  "computed from all four sensors and from every triple.",
                   study->combination.front().own_mps2.size())};
   out.chapter.pictures.push_back(*std::move(picture));
   out.chapter.tables = {table_of(*study)};
@@ -142,7 +146,7 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
   out.facts = facts_of(*study);
   const GravityErrors& all = study->combination.front();
   out.console = fmt::format(
-      "3 error of gravity at {} fresh attitudes, all four, rms: datasheet {:.2f} mg0, paper's fit {:.3f}, plumb's fit "
+      "3 error of gravity at {} new attitudes, all four, rms: datasheet {:.2f} mg0, paper's fit {:.3f}, plumb's fit "
       "{:.3f}\n",
       all.own_mps2.size(), study::rms_of(all.datasheet_mps2) / kMilliG0_mps2,
       study::rms_of(all.paper_mps2) / kMilliG0_mps2, study::rms_of(all.own_mps2) / kMilliG0_mps2);

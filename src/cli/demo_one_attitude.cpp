@@ -23,11 +23,11 @@ struct Look {
 /// In the order of `Answer`.
 constexpr Look kLook[] = {
     {"right", "#2c8f57"},
-    {"alarm, nobody named", "#2f78b7"},
-    {"silent, fault below 0.05 g0", "#9a9a9a"},
-    {"silent, fault of 0.05 g0 or more", "#c98a00"},
-    {"healthy sensor named", "#c53a3a"},
-    {"one of two named, the other trusted", "#8f55c4"},
+    {"alarm, no sensor isolated", "#2f78b7"},
+    {"no alarm, fault below 0.05 g0", "#9a9a9a"},
+    {"no alarm, fault of 0.05 g0 or more", "#c98a00"},
+    {"healthy sensor isolated", "#c53a3a"},
+    {"one of two isolated, the other used", "#8f55c4"},
 };
 static_assert(sizeof(kLook) / sizeof(kLook[0]) == study::kAnswers, "a look for every answer");
 
@@ -70,9 +70,15 @@ std::string csv_of(const std::vector<Line>& lines) {
 std::string script_of(const std::vector<Line>& lines) {
   std::string out = plot_head("one_attitude", 1000, 640);
   out += fmt::format(
-      "set lmargin at screen 0.385\nset rmargin at screen 0.97\nset tmargin at screen 0.99\nset bmargin at screen "
-      "0.25\n"
-      "set xrange [0:100]\nset yrange [{}:0.35]\nunset ytics\nset xtics nomirror\nset border 1\n"
+      "set lmargin at screen 0.385\n"
+      "set rmargin at screen 0.97\n"
+      "set tmargin at screen 0.99\n"
+      "set bmargin at screen 0.25\n"
+      "set xrange [0:100]\n"
+      "set yrange [{}:0.35]\n"
+      "unset ytics\n"
+      "set xtics nomirror\n"
+      "set border 1\n"
       "set xlabel 'share of the blocks, %' offset 0,0.4\n"
       "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 Left reverse samplen 1.2\n",
       -1.45 * static_cast<double>(lines.size()) / 2.0 - 0.1);
@@ -107,9 +113,9 @@ std::string interval(const study::Proportion& p) {
                      100.0 * p.high);
 }
 
-report::Table table_of(const std::vector<Line>& lines) {
-  report::Table out;
-  out.title = "What the two rules say at one attitude";
+render::Table table_of(const std::vector<Line>& lines) {
+  render::Table out;
+  out.title = "Results of the two rules at one attitude";
   out.head = {"faults", "rule"};
   for (const Look& look : kLook) out.head.push_back(look.words);
   out.head.push_back("errors, with 95 % interval");
@@ -120,11 +126,9 @@ report::Table table_of(const std::vector<Line>& lines) {
     out.rows.push_back(std::move(row));
   }
   out.note =
-      "Errors: silent although a reading is off by 0.05 g0 or more, a healthy sensor named, or one of two faulty ones "
-      "declared "
-      "correct. Two faulty sensors: an alarm that names nobody is the right answer. Intervals: Clopper-Pearson, as if "
-      "all blocks "
-      "were independent; experiments share their attitudes.";
+      "Errors: no alarm although a reading is wrong by 0.05 g0 or more, a healthy sensor isolated, or one of two "
+      "faulty sensors declared correct. With two faulty sensors an alarm without isolation is the right result. "
+      "Intervals: Clopper-Pearson, as if all blocks were independent; experiments share their attitudes.";
   return out;
 }
 
@@ -137,10 +141,10 @@ double right_share(const RuleRecord& record) {
 
 std::string unnoticed(const RuleRecord& own) {
   const std::uint64_t count = own.faulty()[Answer::silent_small] + own.faulty()[Answer::silent_large];
-  if (count == 0) return "It noticed every fault.";
+  if (count == 0) return "It detected every fault.";
   return fmt::format(
-      "In {} of these blocks it noticed nothing: the dead sensor happened to stand where a healthy one would, at most "
-      "{:.2f} mg0 off, which turned the vector by at most {:.3f} deg.",
+      "In {} of these blocks it detected no fault: the stuck value was within {:.2f} mg0 of the right reading, which "
+      "turned the vector by at most {:.3f} deg.",
       count, 1e3 * g0_from_mps2(own.largest_silent_mps2), deg_from_rad(own.largest_silent_tilt_rad));
 }
 
@@ -151,22 +155,23 @@ std::vector<std::string> text_of(const study::OneAttitudeStudy& held, const stud
   const auto attitudes = static_cast<std::uint64_t>(held.attitudes);
   return {
       fmt::format(
-          "Table 2 pools many attitudes. A tool that stands still has one, and there a fault may turn the vector "
-          "without changing its length, or leave two triples looking right. The same 23 experiments at each of {} "
-          "single attitudes, one block of {} samples each: the paper's rule errs in {} of the blocks with a fault. At "
-          "{} of the attitudes it errs for at least one sensor at 0, −3 or +3 V. A direction that it let pass was off "
+          "Table 2 pools many attitudes. A tool at rest has one, and there a fault may turn the vector without "
+          "changing its length, or leave two triples consistent. The same 23 experiments at each of {} single "
+          "attitudes, one block of {} samples each: the paper's rule errs in {} of the blocks with a fault. At {} of "
+          "the attitudes it errs for at least one sensor at 0, −3 or +3 V. The direction without an alarm was wrong "
           "by up to {:.0f} deg.",
           held.attitudes, study::kBlock, interval(study::proportion(paper.errors(), paper.trials())),
           interval(study::proportion(held.paper.attitudes_in_error, attitudes)),
           deg_from_rad(held.paper.largest_silent_tilt_rad)),
       fmt::format(
-          "plumb's monitor, which had found the tool healthy before, errs in {} on the same samples. The price: at one "
-          "attitude it names nobody, but withdraws its word and asks for another attitude, where the paper's rule "
-          "names the right sensor in {:.0f} % of the blocks with one faulty sensor. {}",
+          "plumb's monitor, validated before with healthy sensors, errs in {} on the same samples. The price: at one "
+          "attitude it isolates no sensor; it marks the output as unconfirmed and asks for another attitude. The "
+          "paper's rule isolates the right sensor in {:.0f} % of the blocks with one faulty sensor. {}",
           interval(study::proportion(own.errors(), own.trials())), right_share(held.paper), unnoticed(held.own)),
       fmt::format(
-          "A random voltage can be read in two ways: one level for as long as the tool stands (held), or another one "
-          "each sample (anew). Anew, a block holds many faults, and the paper's rule errs in {} with one such sensor.",
+          "A random voltage has two readings: one level for the whole time at rest (held), or a new level at each "
+          "sample (anew). With new levels a block holds many faults, and the paper's rule errs in {} with one such "
+          "sensor.",
           interval(study::proportion(paper_anew.errors(), paper_anew.trials())))};
 }
 
@@ -217,12 +222,12 @@ io::FileExpected<void> add_one_attitude(const DemoContext& context, const study:
   const std::vector<Line> lines = lines_of(studies);
   const io::FileExpected<void> written = write_into(context.out, "one_attitude.csv", csv_of(lines));
   if (!written) return written;
-  io::FileExpected<report::Picture> picture =
+  io::FileExpected<render::Picture> picture =
       draw(context.out, "one_attitude", script_of(lines), "The same experiments at one attitude",
-           fmt::format("Blocks at {} attitudes. Green and blue are honest answers; amber, red and violet are errors.",
+           fmt::format("Blocks at {} attitudes. Green and blue are correct results; amber, red and violet are errors.",
                        studies.front().attitudes));
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
-  report::Chapter& chapter = section.chapter;
+  render::Chapter& chapter = section.chapter;
   for (std::string& line : text_of(studies.front(), studies.back())) chapter.text.push_back(std::move(line));
   chapter.pictures.push_back(*std::move(picture));
   chapter.tables.push_back(table_of(lines));
@@ -233,7 +238,7 @@ io::FileExpected<void> add_one_attitude(const DemoContext& context, const study:
   const AnswerCount own = studies.front().own.faulty();
   section.console += fmt::format(
       "  with one attitude ({} of them), blocks with a fault: the paper's rule errs in {}\n"
-      "  {:>47} plumb errs in {}, names nobody, unnoticed {} (at most {:.2f} mg0)\n",
+      "  {:>47} plumb errs in {}, isolates no sensor, undetected {} (at most {:.2f} mg0)\n",
       studies.front().attitudes, interval(study::proportion(paper.errors(), paper.trials())), "",
       interval(study::proportion(own.errors(), own.trials())), own[Answer::silent_small] + own[Answer::silent_large],
       1e3 * g0_from_mps2(studies.front().own.largest_silent_mps2));

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "plumb/io/output_file.hpp"
-#include "plumb/report/plot.hpp"
+#include "plumb/render/plot.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -27,25 +27,25 @@ std::string plot_head(const std::string& name, int width, int height) {
       name, width, height);
 }
 
-io::FileExpected<report::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
+io::FileExpected<render::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
                                        std::string title, std::string caption) {
-  report::Picture out;
+  render::Picture out;
   out.title = std::move(title);
   out.caption = std::move(caption);
   const io::FileExpected<void> written = write_into(directory, name + ".gp", script);
   if (!written) return tl::unexpected<io::FileError>(written.error());
-  const io::FileExpected<void> drawn = report::run_gnuplot(directory, name + ".gp");
+  const io::FileExpected<void> drawn = render::run_gnuplot(directory, name + ".gp");
   if (!drawn) {
     out.missing = drawn.error().text();
     return out;
   }
   const io::FileExpected<std::string> svg = io::read_file(path_of(directory, name + ".svg"));
   if (!svg) return tl::unexpected<io::FileError>(svg.error());
-  out.svg = report::inline_svg(*svg);
+  out.svg = render::inline_svg(*svg);
   return out;
 }
 
-void link_drawn(report::Chapter& chapter, const std::string& name, const std::string& shows) {
+void link_drawn(render::Chapter& chapter, const std::string& name, const std::string& shows) {
   if (!chapter.pictures.back().svg.empty()) chapter.files.push_back({name + ".svg", shows});
   chapter.files.push_back({name + ".gp", "the gnuplot program that draws it"});
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plumb/io/file_error.hpp"
-#include "plumb/report/chapter.hpp"
+#include "plumb/render/chapter.hpp"
 #include "plumb/study/survey.hpp"
 
 namespace plumb {
@@ -23,12 +23,12 @@ std::string plot_head(const std::string& name, int width, int height);
 
 /// Writes NAME.gp into `directory`, draws it with gnuplot and reads NAME.svg for inlining. Where gnuplot is missing or
 /// fails the picture says so; only a file that cannot be written or read is an error.
-io::FileExpected<report::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
+io::FileExpected<render::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
                                        std::string title, std::string caption);
 
 /// Links the files that `draw` wrote for the chapter's last picture: NAME.svg only where there is one, and NAME.gp.
 /// `name` is relative to the page.
-void link_drawn(report::Chapter& chapter, const std::string& name, const std::string& shows);
+void link_drawn(render::Chapter& chapter, const std::string& name, const std::string& shows);
 
 io::FileExpected<void> write_into(const std::string& directory, const std::string& name, const std::string& text);
 

@@ -8,7 +8,7 @@
 #include "plumb/core/config.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/json_fields.hpp"
-#include "plumb/report/chapter.hpp"
+#include "plumb/render/chapter.hpp"
 #include "plumb/scenario/truth.hpp"
 
 namespace plumb {
@@ -22,7 +22,7 @@ struct DemoContext {
 };
 
 struct DemoSection {
-  report::Chapter chapter;
+  render::Chapter chapter;
   std::string console;           ///< a few lines for the terminal, ending in a newline
   nlohmann::ordered_json facts;  ///< the same figures, in demo.json under the chapter's id
 };

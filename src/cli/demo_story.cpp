@@ -9,7 +9,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/scenario_file.hpp"
-#include "plumb/report/words.hpp"
+#include "plumb/render/words.hpp"
 #include "plumb/scenario/fault_text.hpp"
 
 namespace plumb {
@@ -17,9 +17,9 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-using report::Timeline;
-using report::TimelinePhase;
-using report::TimelineRow;
+using render::Timeline;
+using render::TimelinePhase;
+using render::TimelineRow;
 
 std::string degrees(double deg) { return fmt::format("{:.2g}°", deg); }
 
@@ -51,13 +51,14 @@ std::string after_fault(const DrillRecord& record, const TimelineRow& row) {
 
 std::string is_it_right(const DrillRecord& record, const TimelineRow& row) {
   const SensorSet wronged = row.named - faulty_at(record.timeline, row.time_s);
-  if (wronged.empty()) return row.named.size() == 1 ? "It is really at fault. " : "They are really at fault. ";
-  return fmt::format("That is wrong: {} is sound. ", report::sensor_names(wronged, record.array.array));
+  if (wronged.empty())
+    return row.named.size() == 1 ? "This is correct: it is faulty. " : "This is correct: they are faulty. ";
+  return fmt::format("This is wrong: {} is healthy. ", render::sensor_names(wronged, record.array.array));
 }
 
 std::string exclusion_sentence(const DrillRecord& record, const TimelineRow& row) {
-  std::string why = "only one explanation is left";
-  if (row.grade == Grade::strict) {
+  std::string why = "only one hypothesis is left";
+  if (row.grade == Grade::confirmed) {
     why += fmt::format(", confirmed at {} stations in different directions", record.array.monitor.isolation_stations);
   }
   return fmt::format("{}{}, {}: {} is excluded. {}{}", at_time(row.time_s), after_fault(record, row), why, row.sensors,
@@ -66,7 +67,7 @@ std::string exclusion_sentence(const DrillRecord& record, const TimelineRow& row
 
 std::string trust_sentence(const TimelineRow& row) {
   return fmt::format(
-      "{} trust is earned: block after block agrees within its limits, at attitudes that have moved "
+      "{} validated: the consistency check passed on consecutive blocks, at attitudes that changed the reading of "
       "every sensor in service. {}",
       at_time(row.time_s), state_and_output(row));
 }
@@ -75,40 +76,39 @@ std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
   const std::string when = at_time(row.time_s);
   switch (row.event) {
     case HealthEvent::none:
-      return "At power-on plumb trusts nobody: every sensor must first be seen to follow the tool. " +
+      return "At power-on no sensor is validated: every sensor must first follow the motion of the tool. " +
              state_and_output(row);
-    case HealthEvent::clean_block: return trust_sentence(row);
+    case HealthEvent::passed_block: return trust_sentence(row);
     case HealthEvent::alarm:
-      return fmt::format("{}{}, the alarm: {} (statistic {:.4g}, limit {:.4g}). Nobody is accused yet. {}", when,
+      return fmt::format("{}{}, the alarm: {} (statistic {:.4g}, limit {:.4g}). No sensor is isolated yet. {}", when,
                          after_fault(record, row), row.explanation, row.statistic, row.limit, state_and_output(row));
-    case HealthEvent::set_aside:
+    case HealthEvent::provisional_exclusion:
       return fmt::format(
-          "{}{}, {} is set aside at once: the others agree without it, whatever gravity is. This can "
-          "still be taken back. {}{}",
+          "{}{}, {} is provisionally excluded: the other sensors agree without it, for any value of gravity. The "
+          "exclusion can still be reversed. {}{}",
           when, after_fault(record, row), row.sensors, is_it_right(record, row), state_and_output(row));
-    case HealthEvent::culprit: return exclusion_sentence(record, row);
-    case HealthEvent::patience_over:
+    case HealthEvent::exclusion: return exclusion_sentence(record, row);
+    case HealthEvent::isolation_timeout:
       return fmt::format(
-          "{} patience is over: {} stations in different directions, no answer, and no bound on the "
-          "error. {} Only the host can undo that.",
-          when, record.array.monitor.patience, state_and_output(row));
+          "{} the isolation timeout has expired: after {} stations in different directions the fault is not "
+          "isolated, and the error has no bound. {} Only a reset by the host ends this state.",
+          when, record.array.monitor.isolation_timeout, state_and_output(row));
     case HealthEvent::reset:
-      return fmt::format("{} the monitor starts again with {} back in service; trust must be earned anew. {}", when,
-                         row.sensors, state_and_output(row));
+      return fmt::format("{} the monitor starts again with {} back in service; it validates every sensor anew. {}",
+                         when, row.sensors, state_and_output(row));
     case HealthEvent::recalibrate:
       return fmt::format(
           "{} recalibration begins: stations are collected, while the coefficients in force stay in use. {}", when,
           state_and_output(row));
     case HealthEvent::fit_accepted:
-      return fmt::format("{} the new coefficients are accepted, and must prove themselves. {}", when,
+      return fmt::format("{} the new coefficients are accepted; the sensors must be validated with them. {}", when,
                          state_and_output(row));
     case HealthEvent::fit_rejected:
       return fmt::format("{} the new coefficients are refused; the old ones stay. {}", when, state_and_output(row));
     case HealthEvent::probation_passed:
       return fmt::format(
-          "{} {} has agreed with the others at {} stations in different directions and is back in "
-          "service. {}",
-          when, row.sensors, record.array.monitor.probation_stations, state_and_output(row));
+          "{} {} has agreed with the others at {} stations in different directions and is back in service. {}", when,
+          row.sensors, record.array.monitor.probation_stations, state_and_output(row));
     default: break;
   }
   return fmt::format("{}: {}{}. {}", when, row.explanation, row.named.empty() ? "" : " (" + row.sensors + ")",
@@ -119,7 +119,7 @@ std::string answer_sentence(const DrillRecord& record, const scenario::Host::Ans
   const std::string asked = fmt::format("{} the host asks for {}", at_time(answer.time_s),
                                         scenario::describe(answer.request, record.array.array));
   if (answer.refusal == Errc::ok) return asked + ". The request is granted.";
-  return fmt::format("{}. It is refused: {}. Nothing changes.", asked, describe(answer.refusal));
+  return fmt::format("{}. The request is refused: {}. Nothing changes.", asked, describe(answer.refusal));
 }
 
 /// What motion did, and that it did nothing else.
@@ -137,19 +137,18 @@ std::string motion_sentence(const DrillRecord& record) {
     }
   }
   return fmt::format(
-      "{} times the tool moves on, shaken with {:.2g} g0 rms. Motion is no evidence: the last answer is held, and the "
-      "state {}.",
+      "The tool moves {} times, with {:.2g} g0 rms of vibration. plumb does not test blocks in motion: it holds the "
+      "last output, and the state {}.",
       stretches, record.scenario.vibration_mps2 / kG0_mps2,
-      changes == 0 ? "never changed while it lasted" : fmt::format("changed {} times while it lasted", changes));
+      changes == 0 ? "never changed during motion" : fmt::format("changed {} times during motion", changes));
 }
 
 std::string sum_sentence(const Timeline& timeline) {
   const DrillFigures f = figures_of(timeline);
   return fmt::format(
-      "Over the whole run: in the {} of {} quiet blocks that plumb vouched for, the inclination was within {} of the "
-      "truth; where it said unconfirmed, it was off by up to {}. Without plumb it was off by up to {}, and nothing "
-      "said "
-      "so. The bound that plumb publishes was kept in {} of {} blocks that had one.",
+      "Over the whole run: in the {} of {} blocks at rest that plumb published as valid, the inclination was within "
+      "{} of the truth; in unconfirmed blocks the error was up to {}. Without plumb the error was up to {}, without "
+      "any warning. The error was within the protection level in {} of {} blocks that had one.",
       f.vouched, f.blocks, degrees(f.vouched_deg), degrees(f.unconfirmed_deg), degrees(f.plain_deg), f.kept, f.bounded);
 }
 
@@ -196,26 +195,26 @@ std::vector<FaultRecord> fault_records(const std::vector<scenario::Fault>& fault
   return out;
 }
 
-std::vector<report::TimelineMark> marks_of(const DrillRecord& record) {
+std::vector<render::TimelineMark> marks_of(const DrillRecord& record) {
   const scenario::FaultContext context = io::fault_context(record.array);
-  std::vector<report::TimelineMark> out;
+  std::vector<render::TimelineMark> out;
   for (const FaultRecord& fault : record.faults) {
     out.push_back({fault.begin_s, scenario::describe_effect(fault.fault, context)});
-    const std::string id = report::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
-    if (std::isfinite(fault.end_s)) out.push_back({fault.end_s, id + " is sound again"});
+    const std::string id = render::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
+    if (std::isfinite(fault.end_s)) out.push_back({fault.end_s, id + " is healthy again"});
   }
   for (const scenario::Host::Answer& answer : record.answers) {
     out.push_back(
         {answer.time_s, std::string(to_string(answer.request.kind)) + (answer.refusal == Errc::ok ? "" : " refused")});
   }
   std::stable_sort(out.begin(), out.end(),
-                   [](const report::TimelineMark& a, const report::TimelineMark& b) { return a.time_s < b.time_s; });
+                   [](const render::TimelineMark& a, const render::TimelineMark& b) { return a.time_s < b.time_s; });
   return out;
 }
 
 DrillFigures figures_of(const Timeline& timeline) {
   DrillFigures f;
-  for (const report::TimelinePoint& p : timeline.points) {
+  for (const render::TimelinePoint& p : timeline.points) {
     const double plumb_deg = std::fabs(p.inclination_plumb_deg - p.inclination_true_deg);
     ++f.blocks;
     f.plain_deg = std::max(f.plain_deg, std::fabs(p.inclination_plain_deg - p.inclination_true_deg));
@@ -231,15 +230,15 @@ DrillFigures figures_of(const Timeline& timeline) {
   return f;
 }
 
-std::vector<report::Figure> key_figures(const DrillRecord& record) {
-  std::vector<report::Figure> out;
+std::vector<render::Figure> key_figures(const DrillRecord& record) {
+  std::vector<render::Figure> out;
   const DrillFigures f = figures_of(record.timeline);
   if (!record.faults.empty()) {
     const double fault_s = record.faults.front().begin_s;
     const TimelineRow* alarm = first_row(record.timeline, HealthEvent::alarm, fault_s);
-    const TimelineRow* aside = first_row(record.timeline, HealthEvent::set_aside, fault_s);
+    const TimelineRow* aside = first_row(record.timeline, HealthEvent::provisional_exclusion, fault_s);
     if (alarm == nullptr || (aside != nullptr && aside->time_s < alarm->time_s)) alarm = aside;
-    const TimelineRow* excluded = first_row(record.timeline, HealthEvent::culprit, fault_s);
+    const TimelineRow* excluded = first_row(record.timeline, HealthEvent::exclusion, fault_s);
     const auto after = [fault_s](const TimelineRow* row) {
       return row == nullptr ? std::string("never") : fmt::format("{:.2f} s", row->time_s - fault_s);
     };
@@ -248,7 +247,7 @@ std::vector<report::Figure> key_figures(const DrillRecord& record) {
                                         (excluded == nullptr ? std::string("a sensor") : excluded->sensors)});
   }
   out.push_back({degrees(f.plain_deg), "worst inclination error without plumb"});
-  out.push_back({degrees(f.vouched_deg), "worst error that plumb vouched for"});
+  out.push_back({degrees(f.vouched_deg), "worst error of an output published as valid"});
   return out;
 }
 
@@ -257,12 +256,12 @@ std::vector<std::string> story_of(const DrillRecord& record) {
   const scenario::FaultContext context = io::fault_context(record.array);
   for (const FaultRecord& fault : record.faults) {
     items.emplace_back(fault.begin_s,
-                       fmt::format("{} a sensor fails: {}. plumb is told nothing of it.", at_time(fault.begin_s),
+                       fmt::format("{} a sensor fails: {}. plumb gets no notice of it.", at_time(fault.begin_s),
                                    scenario::describe_effect(fault.fault, context)));
-    const std::string id = report::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
+    const std::string id = render::sensor_names(SensorSet::of(fault.fault.sensor), record.array.array);
     if (std::isfinite(fault.end_s))
-      items.emplace_back(fault.end_s,
-                         fmt::format("{} {} is sound again. plumb is not told that either.", at_time(fault.end_s), id));
+      items.emplace_back(
+          fault.end_s, fmt::format("{} {} is healthy again. plumb is not told that either.", at_time(fault.end_s), id));
   }
   for (const scenario::Host::Answer& answer : record.answers) {
     items.emplace_back(answer.time_s, answer_sentence(record, answer));
@@ -278,8 +277,8 @@ std::vector<std::string> story_of(const DrillRecord& record) {
   return out;
 }
 
-report::Table changes_table(const Timeline& timeline) {
-  report::Table table;
+render::Table changes_table(const Timeline& timeline) {
+  render::Table table;
   table.title = "Every change";
   table.head = {"time, s", "state", "cause", "sensor", "statistic", "limit", "inclination, deg", "output", "in words"};
   table.state_column = 1;
@@ -292,19 +291,19 @@ report::Table changes_table(const Timeline& timeline) {
                           to_string(row.validity), row.explanation});
   }
   table.note =
-      "An alarm is a statistic above its limit; both are in standard deviations of the noise (for cause mae: in m/s²). "
-      "The limit carries the noise and what the calibration and gravity are not sure of.";
+      "An alarm is a statistic above its limit; both are in standard deviations of the noise (for cause mae: in "
+      "m/s²). The limit includes the noise and the uncertainty of calibration and gravity.";
   return table;
 }
 
-report::Table states_table() {
-  report::Table table;
+render::Table states_table() {
+  render::Table table;
   table.title = "What the states mean";
   table.head = {"state", "meaning"};
   table.state_column = 0;
   for (int k = 0; k < kStateCount; ++k) {
     const auto state = static_cast<HealthState>(k);
-    table.rows.push_back({to_string(state), report::meaning(state)});
+    table.rows.push_back({to_string(state), render::meaning(state)});
   }
   return table;
 }

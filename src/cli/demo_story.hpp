@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "plumb/io/array_file.hpp"
-#include "plumb/report/chapter.hpp"
-#include "plumb/report/timeline.hpp"
+#include "plumb/render/chapter.hpp"
+#include "plumb/render/timeline.hpp"
 #include "plumb/scenario/host_request.hpp"
 #include "plumb/scenario/scenario.hpp"
 
@@ -27,14 +27,14 @@ struct DrillRecord {
   scenario::Scenario scenario;
   std::vector<FaultRecord> faults;
   std::vector<scenario::Host::Answer> answers;
-  report::Timeline timeline;
+  render::Timeline timeline;
 };
 
 /// When the faults of the scenario came and went, as the phases of the timeline have it.
-std::vector<FaultRecord> fault_records(const std::vector<scenario::Fault>& faults, const report::Timeline& timeline);
+std::vector<FaultRecord> fault_records(const std::vector<scenario::Fault>& faults, const render::Timeline& timeline);
 
 /// Faults and requests of the host, to be marked in the picture.
-std::vector<report::TimelineMark> marks_of(const DrillRecord& record);
+std::vector<render::TimelineMark> marks_of(const DrillRecord& record);
 
 /// How far off the answers were, and whether the bound was kept. Angles in deg.
 struct DrillFigures {
@@ -46,12 +46,12 @@ struct DrillFigures {
   int bounded = 0;               ///< blocks for which plumb gave a bound
   int kept = 0;                  ///< those in which it was kept
 };
-DrillFigures figures_of(const report::Timeline& timeline);
+DrillFigures figures_of(const render::Timeline& timeline);
 
-std::vector<report::Figure> key_figures(const DrillRecord& record);
+std::vector<render::Figure> key_figures(const DrillRecord& record);
 std::vector<std::string> story_of(const DrillRecord& record);
-report::Table changes_table(const report::Timeline& timeline);
-report::Table states_table();
+render::Table changes_table(const render::Timeline& timeline);
+render::Table states_table();
 nlohmann::ordered_json facts_of(const DrillRecord& record);
 
 }  // namespace cli

@@ -35,8 +35,8 @@ std::string own_words(const Table2Result& r) {
   return to_string(r.state);
 }
 
-report::Table table_of(const Table2Study& study) {
-  report::Table out;
+render::Table table_of(const Table2Study& study) {
+  render::Table out;
   out.title = "Table 2: mean absolute errors, measured / printed, g0";
   out.head = {"no.", "faulty", "voltage", "all four"};
   for (const char* name : kTripleNames) out.head.emplace_back(name);
@@ -55,11 +55,9 @@ report::Table table_of(const Table2Study& study) {
   }
   out.note =
       "The paper's rule: a fault is detected where the error of all four reaches 0.05 g0; the sensors of the triples "
-      "that "
-      "stay below it are correct. Printed figures: Seyed Moosavi et al., Sensors 2018, Table 2, CC BY 4.0. The paper "
-      "does not print its "
-      "attitudes, so that the sizes of the errors differ; the verdicts do not hang on them. Random: one level per "
-      "attitude.";
+      "that stay below it are correct. Printed figures: Seyed Moosavi et al., Sensors 2018, Table 2, CC BY 4.0. The "
+      "paper does not print its attitudes, so that the sizes of the errors differ; the verdicts do not depend on "
+      "them. Random: one level per attitude.";
   return out;
 }
 
@@ -82,23 +80,25 @@ std::string csv_of(const Table2Study& study) {
 
 std::string script_of() {
   return plot_head("table2", 760, 560) +
-         "set lmargin at screen 0.13\nset rmargin at screen 0.96\nset tmargin at screen 0.96\nset bmargin at screen "
-         "0.13\n"
-         "set logscale xy\nset xrange [1e-4:2]\nset yrange [1e-4:2]\nset format '10^{%T}'\n"
-         "set xlabel 'printed, g0' offset 0,0.3\nset ylabel 'measured, g0' offset 0.5\n"
+         "set lmargin at screen 0.13\n"
+         "set rmargin at screen 0.96\n"
+         "set tmargin at screen 0.96\n"
+         "set bmargin at screen 0.13\n"
+         "set logscale xy\n"
+         "set xrange [1e-4:2]\n"
+         "set yrange [1e-4:2]\n"
+         "set format '10^{%T}'\n"
+         "set xlabel 'printed, g0' offset 0,0.3\n"
+         "set ylabel 'measured, g0' offset 0.5\n"
          "set arrow from 0.05,1e-4 to 0.05,2 nohead lw 1.2 dt 2 lc rgb '#c53a3a'\n"
          "set arrow from 1e-4,0.05 to 2,0.05 nohead lw 1.2 dt 2 lc rgb '#c53a3a'\n"
          "set label 'limit 0.05 g0' at 1.3e-4,0.065 left tc rgb '#c53a3a'\n"
          "set label 'both: healthy' at 1.2e-3,0.011 center tc rgb '#8a8a8a'\n"
          "set label 'both: faulty' at 0.35,0.068 center tc rgb '#8a8a8a'\n"
          "set key top left at graph 0.03, graph 0.95 Left reverse samplen 0.6\n"
-         "plot x with lines lw 0.8 dt 3 lc rgb '#8a8a8a' notitle, "
-         "'table2.csv' skip 1 using (strcol(4) eq '1-2-3-4' ? NaN : $6):5 with points pt 6 ps 0.7 lc rgb '#2f78b7' "
-         "title "
-         "'triples', "
-         "'table2.csv' skip 1 using (strcol(4) eq '1-2-3-4' ? $6 : NaN):5 with points pt 7 ps 0.7 lc rgb '#d0553c' "
-         "title "
-         "'all four'\n";
+         "plot x with lines lw 0.8 dt 3 lc rgb '#8a8a8a' notitle, 'table2.csv' skip 1 using (strcol(4) eq '1-2-3-4' "
+         "? NaN : $6):5 with points pt 6 ps 0.7 lc rgb '#2f78b7' title 'triples', 'table2.csv' skip 1 using "
+         "(strcol(4) eq '1-2-3-4' ? $6 : NaN):5 with points pt 7 ps 0.7 lc rgb '#d0553c' title 'all four'\n";
 }
 
 nlohmann::ordered_json facts_of(const Table2Study& study, const study::Proportion& others) {
@@ -159,26 +159,25 @@ io::FileExpected<DemoSection> demo_table2(const DemoContext& context) {
   if (!others) return study_failed(others.error());
   const OwnTally own = tally_of(*study);
   DemoSection out;
-  report::Chapter& chapter = out.chapter;
+  render::Chapter& chapter = out.chapter;
   chapter.id = "table2";
   chapter.title = "4 Faults: Table 2 of the paper";
   chapter.gist = "The paper's fault table, and the same faults at a single attitude.";
   chapter.text = {
       fmt::format(
           "The paper's 23 experiments: no fault, each sensor at 0 V, −3 V, +3 V and at random, and all pairs at "
-          "random; "
-          "{} attitudes of {} samples, pooled, with the paper's calibrations, rule and limit. {} of 23 verdicts are as "
-          "printed. With other tools, noise, attitudes and levels all 23 are as printed in {} of {}.",
+          "random; {} attitudes of {} samples, pooled, with the paper's calibrations, rule and limit. {} of 23 "
+          "verdicts are as printed. With other tools, noise, attitudes and levels all 23 are as printed in {} of {}.",
           study::kTable2Attitudes, study::kBlock, study->same_verdicts(), others->count, others->trials),
       fmt::format(
           "plumb's monitor saw the same samples attitude by attitude. In {} of the 16 experiments with one faulty "
-          "sensor it excluded that one, after at most {} attitudes; it named a healthy sensor in {} of 23. Two faulty "
-          "sensors of four are more than anyone can tell apart: in {} of these 6 it vouched for nothing and ended "
-          "without an output.",
+          "sensor it excluded that one, after at most {} attitudes; it excluded a healthy sensor in {} of 23. Two "
+          "faulty sensors of four cannot be isolated: in {} of these 6 experiments it published nothing as valid and "
+          "ended without an output.",
           own.right, own.most_attitudes, own.wrong, own.pairs_without_output)};
   const io::FileExpected<void> written = write_into(context.out, "table2.csv", csv_of(*study));
   if (!written) return tl::unexpected<io::FileError>(written.error());
-  io::FileExpected<report::Picture> picture =
+  io::FileExpected<render::Picture> picture =
       draw(context.out, "table2", script_of(), "Table 2: measured against printed",
            "All 115 mean absolute errors of the table. A point in the lower left or the upper right quarter leads to "
            "the printed verdict.");
@@ -189,9 +188,8 @@ io::FileExpected<DemoSection> demo_table2(const DemoContext& context) {
   link_drawn(chapter, "table2", "the picture of it");
   out.facts = facts_of(*study, *others);
   out.console = fmt::format(
-      "4 Table 2: {} of 23 verdicts as printed ({} attitudes pooled); all 23 with {} of {} other tools; plumb excludes "
-      "the faulty one in "
-      "{} of 16\n",
+      "4 Table 2: {} of 23 verdicts as printed ({} attitudes pooled); all 23 with {} of {} other tools; plumb "
+      "excludes the faulty one in {} of 16\n",
       study->same_verdicts(), study::kTable2Attitudes, others->count, others->trials, own.right);
   const io::FileExpected<void> added = add_one_attitude(context, *fits, out);
   if (!added) return tl::unexpected<io::FileError>(added.error());

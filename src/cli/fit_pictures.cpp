@@ -2,22 +2,24 @@
 
 #include <cmath>
 
-#include "figures.hpp"
-#include "fit_summary.hpp"
 #include "plot_files.hpp"
 #include "plumb/core/units.hpp"
-#include "plumb/report/fit_plot.hpp"
+#include "plumb/findings/fit_figures.hpp"
+#include "plumb/render/figures.hpp"
+#include "plumb/render/fit_plot.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-report::FitPictures pictures_of(const CalibrationRun& run, const io::ArrayFile& array) {
-  report::FitPictures out;
+using render::in_mg0;
+
+render::FitPictures pictures_of(const session::CalibrationRun& run, const io::ArrayFile& array) {
+  render::FitPictures out;
   for (std::size_t k = 0; k < run.study.attitudes.size(); ++k) {
     if (!(norm(run.study.attitudes[k].direction) > 0.0)) continue;
-    report::FitPictures::Station s;
+    render::FitPictures::Station s;
     s.down = run.study.attitudes[k].direction;
     if (k < run.study.residuals.size()) {
       s.norm_mg0 = in_mg0(run.study.residuals[k].norm_error_mps2);
@@ -26,11 +28,11 @@ report::FitPictures pictures_of(const CalibrationRun& run, const io::ArrayFile& 
     }
     if (k < run.study.predicted.size() && run.study.predicted[k].judged) {
       s.held_out_mg0 = in_mg0(run.study.predicted[k].norm_error_mps2);
-      s.stands_out = run.study.predicted[k].sigmas > kOddStation_sigmas;
+      s.stands_out = run.study.predicted[k].sigmas > findings::kOddStation_sigmas;
     }
     out.stations.push_back(std::move(s));
   }
-  for (const SensorFigures& f : sensor_figures(run, array)) {
+  for (const findings::SensorFigures& f : findings::sensor_figures(run, array)) {
     const DatasheetSensor& nominal = array.datasheet.sensor[out.sensors.size()];
     out.sensors.push_back(
         {f.id,
@@ -45,11 +47,11 @@ report::FitPictures pictures_of(const CalibrationRun& run, const io::ArrayFile& 
 
 }  // namespace
 
-io::FileExpected<std::vector<std::string>> draw_fit(const std::string& directory, const CalibrationRun& run,
+io::FileExpected<std::vector<std::string>> draw_fit(const std::string& directory, const session::CalibrationRun& run,
                                                     const io::ArrayFile& array, std::string& missing) {
-  const report::FitPictures pictures = pictures_of(run, array);
-  return draw_files(directory, report::fit_plot_files(pictures), report::kFitScript,
-                    report::fit_picture_names(pictures), missing);
+  const render::FitPictures pictures = pictures_of(run, array);
+  return draw_files(directory, render::fit_plot_files(pictures), render::kFitScript,
+                    render::fit_picture_names(pictures), missing);
 }
 
 }  // namespace cli

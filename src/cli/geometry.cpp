@@ -8,18 +8,23 @@
 #include <optional>
 
 #include "../io/text_tools.hpp"
-#include "geometry_study.hpp"
 #include "plot_files.hpp"
 #include "plumb/array/named.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/render/geometry_plot.hpp"
+#include "plumb/render/geometry_report.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 #include "tool.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
+
+using findings::GeometryStudy;
+using findings::GeometrySubject;
 
 struct GeometryOptions {
   std::string array;
@@ -47,9 +52,10 @@ constexpr const char* kGeometryNotes =
     "  plumb geometry tool.toml --calibration cal.json --plots pictures\n"
     "  plumb geometry --name cone:5 --noise \"1 mg0\" --json\n\n"
     "Words: det = determinant of three unit axes (1 = orthogonal, 0 = in one plane); near singular = |det| below\n"
-    "0.05, such a triple raises no alarm. Coplanarity c = most axes in one plane. Strict grade = faults that can be\n"
-    "isolated for good; parity grade = faults that can be set aside without knowing gravity. A fault is detected\n"
-    "mostly: missed in at most 0.1 % of blocks; surely: whatever the noise does within its bound. Angles in deg.\n"
+    "0.05, such a triple raises no alarm. Coplanarity c = most axes in one plane. Confirmed grade = faults that can\n"
+    "be excluded; provisional grade = faults that can be excluded provisionally, without knowing gravity. A fault is\n"
+    "detected mostly: missed in at most 0.1 % of blocks; surely: whatever the noise does within its bound. Angles in\n"
+    "deg.\n"
     "docs/guide.md explains every line. --check ends with 6 where there is a warning.\n\n";
 
 const std::vector<std::string> kNames = {"paper-tetrahedron", "triad", "cone", "cone-axis", "platonic"};
@@ -61,8 +67,10 @@ io::FileError usage(std::string what, std::string remedy) {
 io::FileExpected<SensorArray> array_of(const AxisList& axes, int n, const std::string& name, double sigma_mps2) {
   if (n == 0) {
     return tl::unexpected<io::FileError>(
-        usage("\"" + name + "\" does not exist",
-              fmt::format("choose a number that this geometry has, from 3 to {}", kCapacity)));
+        usage("\"" + name + "\" is not a built-in geometry",
+              fmt::format("choose a number of sensors that this geometry has, from 3 to {}: paper-tetrahedron, triad, "
+                          "cone:5, cone-axis:8, platonic:6",
+                          kCapacity)));
   }
   std::array<SensorRow, kCapacity> rows{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
@@ -121,11 +129,11 @@ io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubj
   subject.array = file->array;
   subject.model = file->datasheet.model();
   subject.gravity = file->gravity;
-  subject.settings = settings_of(*file);
+  subject.settings = findings::settings_of(*file);
   if (!options.calibration.empty()) {
     const io::FileExpected<io::CalibrationFile> found = io::read_calibration(options.calibration, *file);
     if (!found) return tl::unexpected<io::FileError>(found.error());
-    subject.array = found->calibration.array;
+    subject.array = session::calibrated_array(*file, found->calibration);
     subject.model = found->calibration.model;
     subject.calibrated = true;
   }
@@ -135,32 +143,27 @@ io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubj
 
 std::optional<io::FileError> misused(const GeometryOptions& options) {
   if (options.array.empty() && options.name.empty())
-    return refused("geometry", "nothing to judge", "give an array file, or --name paper-tetrahedron");
+    return refused("geometry", "no array is given", "give an array file, or --name paper-tetrahedron");
   if (!options.array.empty() && !options.name.empty())
     return refused("geometry", "both a file and --name are given", "give an array file, or --name paper-tetrahedron");
   if (!options.calibration.empty() && options.array.empty())
-    return refused("--calibration", "a built-in geometry has none", "give the array file that it belongs to");
+    return refused("--calibration", "belongs to an array file, and none is given",
+                   "give the array file that was calibrated");
   return std::nullopt;
 }
 
 io::FileExpected<void> draw_geometry(const GeometryOptions& options, const GeometrySubject& subject,
                                      const GeometryStudy& study) {
   if (options.plots.empty()) return {};
-  report::GeometryPictures pictures;
-  pictures.name = subject.name;
-  pictures.samples = static_cast<int>(subject.settings.samples);
-  for (int i = 0; i < subject.array.size(); ++i)
-    pictures.sigma_mg0 = std::max(pictures.sigma_mg0, 1e3 * g0_from_mps2(subject.array.sigma_mps2(i)));
-  pictures.map = study.map;
-  pictures.levels = study.levels;
+  const render::GeometryPictures pictures = render::geometry_pictures(subject, study);
   if (pictures.map.empty() && pictures.levels.empty()) {
-    print_error("plumb: --plots: nothing to draw: no fault of this array can be isolated, at any attitude\n");
+    print_error("plumb: --plots: no picture was drawn: this array cannot isolate a fault at any attitude\n");
     return {};
   }
   std::string missing;
   const io::FileExpected<std::vector<std::string>> names =
-      draw_files(options.plots, report::geometry_plot_files(pictures), report::kGeometryScript,
-                 report::geometry_picture_names(pictures), missing);
+      draw_files(options.plots, render::geometry_plot_files(pictures), render::kGeometryScript,
+                 render::geometry_picture_names(pictures), missing);
   if (!names) return tl::unexpected<io::FileError>(names.error());
   if (!missing.empty()) print_error("plumb: " + missing + "\n");
   if (!options.json) print(fmt::format("\nwritten to {}: {}\n", options.plots, fmt::join(*names, ", ")));
@@ -174,12 +177,15 @@ io::ExitCode run_geometry(const GeometryOptions& options) {
       options.array.empty() ? name_subject(options, subject) : read_subject(options, subject);
   if (!ready) return report(ready.error());
   if (options.samples > 0) subject.settings.samples = options.samples;
-  const GeometryStudy study = study_geometry(subject);
-  print(options.json ? geometry_json(subject, study) : geometry_text(subject, study));
+  const GeometryStudy study = findings::study_geometry(subject);
+  print(options.json ? render::geometry_json(subject, study) : render::geometry_text(subject, study));
   const io::FileExpected<void> drawn = draw_geometry(options, subject, study);
   if (!drawn) return report(drawn.error());
   if (!options.check || study.warnings.empty()) return io::ExitCode::done;
-  for (const Finding& f : study.warnings) print_error(fmt::format("plumb: {}: {}: {}\n", subject.name, f.name, f.text));
+  for (const findings::Finding& f : study.warnings) {
+    print_error(
+        fmt::format("plumb: {}: {}: {}\n", subject.name, to_string(f.code), render::geometry_words(f, subject, study)));
+  }
   return io::ExitCode::verification_failed;
 }
 
@@ -203,10 +209,10 @@ Command add_geometry(const Options& tool) {
   command
       .add_option(
           "--plots", options->plots,
-          "draw what one attitude isolates, over all attitudes, and the protection level against the noise into "
-          "this directory (needs gnuplot)")
+          "draw single-attitude isolation over all attitudes, and the protection level against the noise, into this "
+          "directory (needs gnuplot)")
       .type_name("DIR");
-  command.add_flag("--check", options->check, "refuse a geometry with a warning: exit code 6");
+  command.add_flag("--check", options->check, "exit with code 6 if there is a warning");
   command.add_flag("--json", options->json, "JSON instead of text, for machines");
   command.footer(kGeometryNotes + exit_codes_help());
   return {command, kGeometryAbout, [options] { return run_geometry(*options); }};

@@ -27,14 +27,14 @@ struct InjectOptions {
 };
 
 constexpr const char* kInjectAbout =
-    "Put faults into a recorded log and write the log anew: what would the monitor have said, had this sensor\n"
-    "died at that moment? Rows and times stay as they are but for faults of the whole log (`log:`).";
+    "Put faults into a recorded log and write the log anew: how would the monitor have answered, had this sensor\n"
+    "failed at that moment? Rows and times stay as they are but for faults of the whole log (`log:`).";
 constexpr const char* kInjectNotes =
     "A fault is SENSOR:KIND[=SIZE]@ONSET[+DURATION]:\n"
-    "  a2:stuck=0V@12s          stands at 0 V from t = 12 s on (also 3V, FS, -FS, 12count, 1g0)\n"
-    "  a3:last@5s               stands at its last value; last=0.5LSB dithers about it\n"
+    "  a2:stuck=0V@12s          stays at 0 V from t = 12 s on (also 3V, FS, -FS, 12count, 1g0)\n"
+    "  a3:last@5s               stays at its last value; last=0.5LSB dithers about it\n"
     "  a1:random=-3V..3V@20s    a new random value every row; held= draws one value and keeps it\n"
-    "  a2:bias=50mg0@30s+10s    reads 50 mg0 too much for ten seconds\n"
+    "  a2:bias=50mg0@30s+10s    reads 50 mg0 too high for ten seconds\n"
     "  a1:drift=1mg0/s@10s      the error grows; also per min, per h\n"
     "  a4:scale=1.1@10s         scale factor times 1.1; scale=-1 is a reversed wire\n"
     "  noise=5mg0, spikes=0.5g0*1%, chatter=50mg0*10s, warmup=2mg0*5min, clip=-1V..4V, coarse=16LSB, bit=12,\n"
@@ -59,7 +59,7 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
-  io::FileExpected<io::LogWriter> writer = io::LogWriter::create(options.out, array);
+  io::FileExpected<io::LogWriter> writer = io::LogWriter::create(options.out, array, io::LogWriter::Columns::all);
   if (!writer) return tl::unexpected<io::FileError>(writer.error());
   Sample sample;
   io::LogReader::Next status = reader->next(sample);
@@ -67,7 +67,8 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   const auto deliver = [&delivery, &writer, &rows]() -> io::FileExpected<void> {
     scenario::Delivery::Parcel parcel;
     while (delivery.pop(parcel)) {
-      const io::FileExpected<void> written = writer->write(parcel.sample);
+      const io::FileExpected<void> written =
+          writer->write(parcel.sample, {false, parcel.beside.rotation, parcel.beside.depth_m});
       if (!written) return written;
       ++rows;
     }
@@ -75,7 +76,7 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   };
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     injector.apply(sample);
-    delivery.push(sample, injector.now());
+    delivery.push(sample, injector.now(), {reader->depth_m(), reader->rotation()});
     const io::FileExpected<void> written = deliver();
     if (!written) return tl::unexpected<io::FileError>(written.error());
   }
@@ -136,8 +137,7 @@ io::ExitCode run_inject(const InjectOptions& options) {
 
 Command add_inject(const Options& tool) {
   auto options = std::make_shared<InjectOptions>();
-  const Options command =
-      tool.add_command("inject", "put faults into a recorded log, to see what the monitor makes of them");
+  const Options command = tool.add_command("inject", "put faults into a recorded log, to see how the monitor answers");
   command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
       .required()
       .type_name("ARRAY.toml");
@@ -145,7 +145,7 @@ Command add_inject(const Options& tool) {
   command.add_option("--fault", options->faults, "a fault, as below; may be given several times")
       .required()
       .type_name("FAULT");
-  command.add_option("--seed", options->seed, "of the random kinds of fault, 1 by default")
+  command.add_option("--seed", options->seed, "seed of the random kinds of fault, 1 by default")
       .check(seed_refusal)
       .type_name("N");
   command.add_option("--out", options->out, "the log to write; `-` = standard output")

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "../io/text_tools.hpp"
-#include "campaign_run.hpp"
 #include "manual.hpp"
 #include "tool.hpp"
 
@@ -13,8 +12,8 @@ namespace cli {
 namespace {
 
 constexpr const char* kAbout =
-    "plumb keeps redundant accelerometers honest: it calibrates an array of single-axis accelerometers from\n"
-    "gravity, watches it sample by sample, says which sensors may be believed, and which way is down.";
+    "plumb monitors redundant accelerometers: it calibrates an array of single-axis accelerometers from\n"
+    "gravity, tests it sample by sample, excludes faulty sensors, and gives the direction of gravity with a bound.";
 constexpr const char* kNotes =
     "Start here:\n"
     "  plumb demo                     a tour on simulated tools whose sensors fail; needs no file\n"
@@ -43,12 +42,25 @@ bool unknown_command(const std::string& word, const std::vector<Command>& comman
   return true;
 }
 
+/// What an option was called before: `--stations` is the field's word.
+struct RenamedOption {
+  const char* old_name;
+  const char* new_name;
+};
+constexpr RenamedOption kRenamedOptions[] = {{"--positions", "--stations"},
+                                             {"--roll-wobble-deg", "--roll-axis-deviation-deg"}};
+
 /// What the command line holds beyond what the command knows.
 std::string leftover(const Options& options) {
   const std::vector<std::string> rest = options.left_over();
   if (rest.empty()) return "";
   if (rest.front().empty() || rest.front()[0] != '-')
     return options.name() + ": " + io::in_quotes(rest.front()) + " is not expected here.";
+  for (const RenamedOption& one : kRenamedOptions) {
+    if (rest.front() == one.old_name)
+      return options.name() + ": " + io::in_quotes(one.old_name) + " was renamed to " + io::in_quotes(one.new_name) +
+             ".";
+  }
   std::vector<std::string> known;
   for (const Option& option : options.list()) {
     for (const std::string& name : option.long_names()) known.push_back(name);
@@ -75,7 +87,7 @@ int run(int argc, char** argv) {
   // In the order in which a newcomer meets them.
   std::vector<Command> commands;
   for (const auto add : {add_demo, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_convert,
-                         add_campaign, add_verify, add_model})
+                         add_campaign, add_verify, add_model, add_upgrade})
     commands.push_back(add(tool));
   tool.footer(kNotes + exit_codes_help());
   if (argc < 2) {

@@ -178,9 +178,9 @@ void fish_option(const std::string& begin, const Option& option, std::string& ou
 std::string man_page(const Manual& manual) {
   std::string out =
       ".\\\" Printed by plumb --man from the definitions of the command line.\n.TH PLUMB 1 \"\" \"plumb " +
-      std::string(kVersion) + "\" \"User Commands\"\n.SH NAME\nplumb \\- keeps redundant accelerometers " +
-      "honest\n.SH SYNOPSIS\n.B plumb\n.I COMMAND\n[\n.I OPTIONS\n]\n.SH DESCRIPTION\n" + in_roff(manual.about) +
-      "\n.SH COMMANDS\n";
+      std::string(kVersion) + "\" \"User Commands\"\n.SH NAME\nplumb \\- calibrates and monitors redundant " +
+      "accelerometers\n.SH SYNOPSIS\n.B plumb\n.I COMMAND\n[\n.I OPTIONS\n]\n.SH DESCRIPTION\n" +
+      in_roff(manual.about) + "\n.SH COMMANDS\n";
   for (const Command& command : manual.commands) {
     out +=
         ".TP\n.B \"plumb " + in_roff(command.options.name()) + "\"\n" + in_roff(command.options.description()) + "\n";

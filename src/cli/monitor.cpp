@@ -4,13 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "calibration_age.hpp"
 #include "monitor_options.hpp"
 #include "monitor_outputs.hpp"
-#include "monitor_pipeline.hpp"
-#include "monitor_summary.hpp"
-#include "plumb/report/monitor_limits.hpp"
-#include "roll_test.hpp"
+#include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/monitor_limits.hpp"
+#include "plumb/render/monitor_summary.hpp"
+#include "plumb/render/roll_test_words.hpp"
+#include "plumb/session/days_since.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -19,50 +20,9 @@ namespace cli {
 namespace {
 
 constexpr const char* kMonitorAbout =
-    "Watch an array of accelerometers: read a log (or a live stream) sample by sample, say which sensors may\n"
-    "be believed, which way is down, and within what bound. A table line is printed at every change of state;\n"
+    "Monitor an array of accelerometers: read a log (or a live stream) sample by sample, say which sensors are\n"
+    "valid, which way is down, and within what bound. A table line is printed at every change of state;\n"
     "a summary follows at the end. A sensor is excluded only when no other explanation of the data is left.";
-constexpr const char* kMonitorNotes =
-    "States: nominal (all sensors agree), suspect (a limit was crossed, or trust is not yet earned; output\n"
-    "unconfirmed), isolated (a faulty sensor is out, the rest still check one another), degraded (no sensor\n"
-    "can be spared, usually three are left), failed (too few sensors or no bound: do not use the output).\n"
-    "One attitude rarely tells which sensor is at fault: plumb waits for the tool to turn.\n\n"
-    "Examples:\n"
-    "  plumb monitor --array tool.toml --calibration cal.json --log run.csv --events events.jsonl\n"
-    "  tail -n +1 -f run.csv | plumb monitor --array tool.toml --calibration cal.json --log - --json\n\n"
-    "Units: time in s, inclination in deg (0 = tool axis z points down). `statistic` and `limit` share a unit:\n"
-    "standard deviations for parity and norm, m/s^2 for mae; an alarm is statistic > limit.\n"
-    "With [monitor] mode = \"paper\" in the array file the run follows the paper's algorithm instead, for comparison:\n"
-    "one limit delta_f (0.05 g0) for the length of gravity by all sensors and then by every three of them. No bound "
-    "on\n"
-    "the error. The calibration must hold the paper's own fits (plumb calibrate --paper).\n"
-    "--host plays the host of an instrument: \"61s reset a2,a4 key 0x706c756d62\" asks at t = 61 s for a reset that\n"
-    "returns a2 and a4 to service, with the reset_key of the array file; \"36s recalibrate\" for new biases and\n"
-    "scales. A time before the first row, a negative one too, counts as asked for before that row.\n"
-    "What the monitor refuses is said on standard error.\n"
-    "--snapshot-in goes on where another run ended that wrote --snapshot-out: exclusions, doubts, adopted coefficients "
-    "and\n"
-    "`failed` outlive the end of a log as they outlive a power cycle. The snapshot must be of the same array file and\n"
-    "calibration; both options may name one file.\n"
-    "--roll-test validates beforehand: a recording of the tool at several attitudes, with the columns of [input], "
-    "goes\n"
-    "through the monitor before the log. One line on standard error says which sensors it validated, or which turn is\n"
-    "still missing; the run goes on from there as from a snapshot, by the log's own time. Nothing of the recording is\n"
-    "valid in the run. A doubt, an exclusion or `failed` of the roll test goes along.\n"
-    "--follow waits at the end of the log for what is appended to it, as on standard input, until Ctrl-C; the "
-    "snapshot\n"
-    "and the files are complete then too.\n"
-    "--calibrate-first: nothing is valid until the monitor has seen some 20 still attitudes all round and accepted a "
-    "fit\n"
-    "of its own; the log ends with exit code 4 where it did not come to that. A constant error of a sensor is what a\n"
-    "calibration takes off: only what varies shows.\n"
-    "--report grades every station green, orange or red and answers whether the tool may be surveyed with; it keeps\n"
-    "stations and events, not samples, so that it may end a run of any length. Name the depth column in [input].\n"
-    "--limits reads no log: it says what the monitor would decide by with this array file and calibration, how many\n"
-    "samples a block can use, and what a given delta_f hides.\n"
-    "--json prints one JSON object per change, then one with the key \"summary\".\n"
-    "Ctrl-C ends the run in order: files are complete up to then, the summary is printed, exit code 1.\n\n";
-
 /// What became of --host, where it did not become what was asked for.
 void tell_refusals(const scenario::Host& host, const SensorArray& sensors) {
   for (const scenario::Host::Answer& answer : host.answers()) {
@@ -77,10 +37,25 @@ void tell_refusals(const scenario::Host& host, const SensorArray& sensors) {
 
 io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonitor& monitor) {
   if (snapshot_path.empty()) return {};
-  return save_snapshot(snapshot_path, monitor);
+  return session::save_snapshot(snapshot_path, monitor);
 }
 /// `run` has refused the options: there is nothing to keep.
 io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
+
+/// A run without one block at rest says nothing about any sensor, which is not the same as finding none at fault.
+io::FileError nothing_judged(const MonitorOptions& options, const io::ArrayFile& array,
+                             const session::MonitorRun& run) {
+  return {
+      options.log.path,
+      0,
+      "",
+      fmt::format("nothing was judged: none of its {} samples belong to a block of {} at rest", run.samples,
+                  array.monitor.window),
+      fmt::format("hold the tool still for at least {} samples at each attitude; if it was still, check the unit of "
+                  "[input] and the noise of each [[sensor]] in {}",
+                  array.monitor.window, array.path),
+      io::ExitCode::nothing_judged};
+}
 
 /// What the run goes on from.
 struct Past {
@@ -106,19 +81,20 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
       open_outputs(options, array, sensors, monitor.verdict(), past.told, days, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
-  LogSpec log = options.log;
+  session::LogSpec log = options.log;
   log.hash = !options.report.empty();
-  const io::FileExpected<MonitorRun> done = stepper != nullptr ? run_stepper(*stepper, array, log, outputs.sinks)
-                                                               : run_monitor(monitor, array, log, outputs.sinks, host);
+  const io::FileExpected<session::MonitorRun> done =
+      stepper != nullptr ? session::run_stepper(*stepper, array, log, outputs.sinks)
+                         : session::run_monitor(monitor, array, log, outputs.sinks, host);
   if (!done) return report(done.error());
   io::FileExpected<void> kept = commit(outputs, *done);
   if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
-    print_now(summary_json(*done, sensors, array.output_frame, days, past.roll_test));
+    print_now(render::summary_json(*done, sensors, array.output_frame, days, past.roll_test));
   } else if (outputs.table) {
-    print_now(summary_text(*done, array, sensors, days) + (outputs.report ? outputs.report->summary() : ""));
+    print_now(render::summary_text(*done, array, sensors, days) + (outputs.report ? outputs.report->summary() : ""));
   }
   if (done->stopped) {
     print_error(
@@ -130,9 +106,13 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
     return io::ExitCode::other;
   }
   if (done->last.state == HealthState::failed) return io::ExitCode::monitor_failed;
-  if ((done->last.qualifiers & Qualifier::initial_calibration) == 0) return io::ExitCode::done;
-  print_error("plumb: the log ended before the monitor had calibrated itself: no output was ever valid.\n");
-  return io::ExitCode::not_accepted;
+  if ((done->last.qualifiers & Qualifier::initial_calibration) != 0) {
+    print_error(
+        "plumb: the log ended before the monitor had calibrated itself, so no output was valid. Remedy: give a longer "
+        "log, with about 20 still attitudes in all directions.\n");
+    return io::ExitCode::not_accepted;
+  }
+  return done->blocks > 0 ? io::ExitCode::done : report(nothing_judged(options, array, *done));
 }
 
 std::optional<io::FileError> past_misuse(const MonitorOptions& options, const io::ArrayFile& array) {
@@ -149,40 +129,43 @@ std::unique_ptr<stepping::Stepper> stepper_of(const MonitorOptions& options, con
                                               const Calibration* calibration, double days) {
   const bool kept = !options.snapshot_in.empty() || !options.snapshot_out.empty() || !options.roll_test.empty() ||
                     !options.host.empty();
-  return kept ? nullptr : make_stepper(array, calibration, 0, days);
+  return kept ? nullptr : session::make_stepper(array, calibration, 0, days);
 }
 
 /// --limits: what the monitor would decide by.
 io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& calibrated,
                          double days) {
-  const report::MonitorLimits limits =
-      report::monitor_limits(calibrated, array.gravity, array.monitor, io::tolerance_mps2(array, days));
-  print_now(options.json ? report::limits_json(limits) : report::limits_text(limits));
+  const findings::MonitorLimits limits =
+      findings::monitor_limits(calibrated, array.gravity, array.monitor, io::tolerance_mps2(array, days));
+  print_now(options.json ? render::limits_json(limits) : render::limits_text(limits));
   return io::ExitCode::done;
 }
 
 /// The run after a recorded roll test, from which the monitor goes on as it would from a snapshot.
 io::ExitCode watch_after_roll_test(const MonitorOptions& options, const io::ArrayFile& array, HealthMonitor& monitor,
                                    double days) {
-  const io::FileExpected<RollTest> test = play_roll_test(monitor, array, options);
+  const io::FileExpected<session::RollTest> test =
+      session::play_roll_test(monitor, array, {options.roll_test, options.log.on_bad_row});
   if (!test) return report(test.error());
   if (test->run.interrupted) {
     print_error("plumb: interrupted in the roll test; the log was not read.\n");
     return io::ExitCode::other;
   }
-  print_error(roll_test_text(*test, options.roll_test, monitor, array.output_frame));
-  const io::Json told = options.json ? roll_test_json(*test, monitor, array.output_frame) : io::Json();
+  print_error(render::roll_test_text(*test, options.roll_test, monitor, array.output_frame));
+  const io::Json told = options.json ? render::roll_test_json(*test, monitor, array.output_frame) : io::Json();
   return watch(options, array, monitor, days, Past{"the roll test", told});
 }
 
 /// --calibrate-first: the datasheet in the array file is all that is known.
 io::ExitCode run_without_calibration(const MonitorOptions& options, const io::ArrayFile& array) {
   if (array.monitor.mode == MonitorMode::paper) {
-    return report(io::FileError{"--calibrate-first", 0, "", "the paper's algorithm needs its own fits, made beforehand",
-                                "run plumb calibrate, or set mode = \"plumb\" in " + array.path, io::ExitCode::usage});
+    return report(
+        io::FileError{"--calibrate-first", 0, "", "the paper's algorithm needs a calibration with the paper's fits",
+                      "run plumb calibrate --paper and give --calibration, or set mode = \"plumb\" in " + array.path,
+                      io::ExitCode::usage});
   }
-  const auto monitor =
-      options.snapshot_in.empty() ? make_monitor(array, nullptr) : restore_monitor(array, nullptr, options.snapshot_in);
+  const auto monitor = options.snapshot_in.empty() ? session::make_monitor(array, nullptr)
+                                                   : session::restore_monitor(array, nullptr, options.snapshot_in);
   if (!monitor) return report(monitor.error());
   return watch(options, array, **monitor, 0.0, past_of(options), stepper_of(options, array, nullptr, 0.0).get());
 }
@@ -220,20 +203,23 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   }
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
   if (!calibration) return report(calibration.error());
-  const io::FileExpected<double> days = days_since(*calibration, options.calibration, options.date);
+  const io::FileExpected<double> days = session::days_since(*calibration, options.calibration, options.date);
   if (!days) return report(days.error());
-  print_error(undated_note(*array, *calibration, options.calibration));
+  print_error(
+      render::undated_note(*array, *calibration, options.calibration) +
+      render::exact_note(*calibration, options.calibration) +
+      render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
   if (array->monitor.mode == MonitorMode::paper) {
-    const auto monitor = make_paper_monitor(*array, *calibration, options.calibration);
+    const auto monitor = session::make_paper_monitor(*array, *calibration, options.calibration);
     if (!monitor) return report(monitor.error());
     if (options.limits) return report(limits_of_paper(*array));
     return watch(options, *array, **monitor, *days);
   }
   const auto monitor = options.snapshot_in.empty()
-                           ? make_monitor(*array, &calibration->calibration, *days)
-                           : restore_monitor(*array, &calibration->calibration, options.snapshot_in, *days);
+                           ? session::make_monitor(*array, &calibration->calibration, *days)
+                           : session::restore_monitor(*array, &calibration->calibration, options.snapshot_in, *days);
   if (!monitor) return report(monitor.error());
   if (options.limits) return tell_limits(options, *array, (*monitor)->array(), *days);
   if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days);
@@ -246,47 +232,8 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
 Command add_monitor(const Options& tool) {
   auto options = std::make_shared<MonitorOptions>();
   const Options command =
-      tool.add_command("monitor", "watch a log or a live stream: which sensors may be believed, which way is down");
-  command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
-      .required()
-      .type_name("ARRAY.toml");
-  command.add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
-      .type_name("CAL.json");
-  command.add_flag("--calibrate-first", options->calibrate_first,
-                   "there is no calibration: the monitor makes its own from the log's first stations");
-  command.add_option("--log", options->log.path, "the log, CSV with a header row; `-` (default) reads standard input")
-      .type_name("LOG.csv|-");
-  command.add_flag("--follow", options->log.follow, "at the end of the log wait for the rows that are appended to it");
-  command
-      .add_option("--events", options->events,
-                  "write one JSON line per change; `-` = standard output, instead of the table")
-      .type_name("E.jsonl");
-  command.add_option("--verdicts", options->verdicts, "write one JSON line per block of quiet samples; `-` likewise")
-      .type_name("V.jsonl");
-  command.add_flag("--every-sample", options->every_sample, "with --verdicts: one line per sample instead");
-  command
-      .add_option("--report", options->report,
-                  "write the tool health report: a page, and its data as JSON beside it; docs/health-report.md")
-      .type_name("R.html");
-  command.add_option("--snapshot-in", options->snapshot_in, "go on from this snapshot instead of from power-on")
-      .type_name("S.bin");
-  command
-      .add_option("--roll-test", options->roll_test,
-                  "validate the sensors by this recorded roll test first; its columns are those of the log")
-      .type_name("ROLL.csv");
-  command.add_option("--snapshot-out", options->snapshot_out, "at the end of the run, write what the monitor remembers")
-      .type_name("S.bin");
-  command.add_option("--host", options->host, "what the host asks of the monitor, as below; may be given several times")
-      .type_name("REQUEST");
-  add_bad_row_option(command, options->log.on_bad_row);
-  command
-      .add_option("--date", options->date,
-                  "of the run, for what drifts per day since the calibration (stability_per_day); today by default")
-      .check(date_refusal)
-      .type_name("YYYY-MM-DD");
-  command.add_flag("--limits", options->limits, "print the limits of the tests and what they can see, read no log");
-  command.add_flag("--json", options->json, "JSON lines instead of the table, for machines");
-  command.footer(kMonitorNotes + exit_codes_help());
+      tool.add_command("monitor", "monitor a log or a live stream: which sensors are valid, which way is down");
+  add_monitor_options(command, *options);
   return {command, kMonitorAbout, [options] { return run_monitor(*options); }};
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline.hpp"
+#include "plumb/session/calibration_pipeline.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -16,7 +16,7 @@ struct MonitorOptions {
   std::string array;
   std::string calibration;
   bool calibrate_first = false;
-  LogSpec log{"-", io::BadRowPolicy::stop, false};
+  session::LogSpec log{"-", io::BadRowPolicy::stop, false};
   std::string events;
   std::string verdicts;
   std::string report;
@@ -30,10 +30,15 @@ struct MonitorOptions {
   bool json = false;
 };
 
+/// The options on the command line, and what `--help` says at its end.
+void add_monitor_options(const Options& command, MonitorOptions& options);
+
 std::optional<io::FileError> follow_misuse(const MonitorOptions& options);
 /// One of the two: a calibration, or a monitor that makes its own.
 std::optional<io::FileError> calibration_misuse(const MonitorOptions& options);
 std::optional<io::FileError> snapshot_misuse(const MonitorOptions& options, const io::ArrayFile& array);
+/// What --roll-test cannot be, and what it cannot be combined with.
+std::optional<io::FileError> roll_test_misuse(const MonitorOptions& options, const io::ArrayFile& array);
 /// In paper mode delta_f decides alone, by coefficients of its own for each triple.
 io::FileError limits_of_paper(const io::ArrayFile& array);
 

@@ -1,6 +1,6 @@
 #include "monitor_outputs.hpp"
 
-#include "plumb/report/timeline.hpp"
+#include "plumb/render/timeline.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -10,12 +10,12 @@ namespace cli {
 io::FileExpected<void> TableSink::take(const Sample& sample, const Verdict& verdict) {
   if (!started_) {
     const bool fresh = past_.empty();
-    print_now(report::table_header() +
-              report::table_line(fresh ? report::power_on_row(sample.time_s, now_.state)
-                                       : report::restored_row(sample.time_s, now_, frame_, past_)));
+    print_now(render::table_header() +
+              render::table_line(fresh ? render::power_on_row(sample.time_s, now_.state)
+                                       : render::restored_row(sample.time_s, now_, frame_, past_)));
   }
   started_ = true;
-  if (verdict.transition.sequence != 0) print_now(report::table_line(report::row_of(verdict, array_, frame_)));
+  if (verdict.transition.sequence != 0) print_now(render::table_line(render::row_of(verdict, array_, frame_)));
   return {};
 }
 
@@ -54,7 +54,7 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
   return {};
 }
 
-io::FileExpected<void> commit(Outputs& out, const MonitorRun& run) {
+io::FileExpected<void> commit(Outputs& out, const session::MonitorRun& run) {
   io::FileExpected<void> done;
   if (out.events) done = out.events->commit();
   if (done && out.verdicts) done = out.verdicts->commit();

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "monitor_options.hpp"
-#include "monitor_pipeline.hpp"
 #include "monitor_report.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 
 /// A table line at each change.
-class TableSink : public VerdictSink {
+class TableSink : public session::VerdictSink {
  public:
   /// `now`: what the monitor says before the first sample; `past`: what it goes on from, empty where it was switched
   /// on.
@@ -36,12 +36,12 @@ class TableSink : public VerdictSink {
 
 /// All that `run` opened, in the order in which samples are handed on.
 struct Outputs {
-  std::optional<EventsFile> events;
-  std::optional<VerdictsFile> verdicts;
-  std::optional<EventsFile> json;
+  std::optional<session::EventsFile> events;
+  std::optional<session::VerdictsFile> verdicts;
+  std::optional<session::EventsFile> json;
   std::optional<TableSink> table;
   std::unique_ptr<HealthReport> report;
-  std::vector<VerdictSink*> sinks;
+  std::vector<session::VerdictSink*> sinks;
 };
 
 /// `now`: what the monitor says before the first sample; `past`: see `TableSink`; `days` since the calibration.
@@ -49,7 +49,7 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
                                     const SensorArray& sensors, const Verdict& now, const std::string& past,
                                     double days, Outputs& out);
 /// At the end of the run, however it ended.
-io::FileExpected<void> commit(Outputs& outputs, const MonitorRun& run);
+io::FileExpected<void> commit(Outputs& outputs, const session::MonitorRun& run);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

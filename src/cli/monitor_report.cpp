@@ -1,7 +1,5 @@
 #include "monitor_report.hpp"
 
-#include "calibration_age.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,9 +9,11 @@
 
 #include "plot_files.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/io/file_error.hpp"
 #include "plumb/io/json_fields.hpp"
-#include "plumb/report/health_page.hpp"
-#include "plumb/report/identity.hpp"
+#include "plumb/render/basis_json.hpp"
+#include "plumb/render/health_page.hpp"
+#include "plumb/render/identity.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -21,101 +21,35 @@ namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = report::Json;
-
-/// As a shell takes it for one word.
-std::string word(const std::string& text) {
-  const bool plain =
-      text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=@%+,-") ==
-      std::string::npos;
-  if (plain && !text.empty()) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
+using Json = render::Json;
 
 std::string command_of(const MonitorOptions& o) {
-  std::string out = "plumb monitor --array " + word(o.array);
-  out += o.calibrate_first ? " --calibrate-first" : " --calibration " + word(o.calibration);
-  out += " --log " + word(o.log.path);
+  std::string out = "plumb monitor --array " + io::shell_word(o.array);
+  out += o.calibrate_first ? " --calibrate-first" : " --calibration " + io::shell_word(o.calibration);
+  out += " --log " + io::shell_word(o.log.path);
   if (o.log.on_bad_row == io::BadRowPolicy::skip) out += " --on-bad-row skip";
-  if (!o.snapshot_in.empty()) out += " --snapshot-in " + word(o.snapshot_in);
-  if (!o.roll_test.empty()) out += " --roll-test " + word(o.roll_test);
-  for (const std::string& request : o.host) out += " --host " + word(request);
-  return out + " --report " + word(o.report);
+  if (!o.snapshot_in.empty()) out += " --snapshot-in " + io::shell_word(o.snapshot_in);
+  if (!o.roll_test.empty()) out += " --roll-test " + io::shell_word(o.roll_test);
+  for (const std::string& request : o.host) out += " --host " + io::shell_word(request);
+  return out + " --report " + io::shell_word(o.report);
 }
 
-io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayFile& array, const MonitorRun& run) {
-  Json out = Json::array({report::input_json("array", array.path, array.text)});
+io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayFile& array,
+                                 const session::MonitorRun& run) {
+  Json out = Json::array({render::input_json("array", array.path, array.text)});
   const std::pair<const char*, const std::string&> files[] = {
       {"calibration", options.calibration}, {"snapshot", options.snapshot_in}, {"roll test", options.roll_test}};
   for (const auto& [role, path] : files) {
     if (path.empty()) continue;
     const io::FileExpected<std::string> bytes = io::read_file(path);
     if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
-    out.push_back(report::input_json(role, path, *bytes));
+    out.push_back(render::input_json(role, path, *bytes));
   }
   const std::string& log = options.log.path;
   out.push_back(io::object({{"role", "log"},
                             {"name", log == "-" ? "standard input" : fs::path(log).filename().string()},
                             {"bytes", run.log.bytes},
                             {"fnv1a", fmt::format("{:016x}", run.log.hash)}}));
-  return out;
-}
-
-Json coefficients_of(const Calibration& calibration) {
-  Json out = Json::array();
-  for (int i = 0; i < calibration.array.size(); ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    const SensorCoefficients& c = calibration.model.sensor[a];
-    out.push_back(io::object({{"id", calibration.array.row(i).id.data()},
-                              {"bias_mps2", c.bias},
-                              {"scale_raw_per_mps2", c.scale},
-                              {"reference_degc", c.reference_degc},
-                              {"axis", calibration.array.axis(i)},
-                              {"sigma_mps2", calibration.array.sigma_mps2(i)},
-                              {"e_cal_mps2", calibration.report.e_cal_mps2[a]},
-                              {"residual_rms_mps2", calibration.report.residual_rms_mps2[a]}}));
-  }
-  return out;
-}
-
-/// The drift since the calibration that the limits allow for, of every sensor; 0 where it states no stability.
-Json drift_of(const io::ArrayFile& array, double days) {
-  const bool paper = array.monitor.mode == MonitorMode::paper;  // whose algorithm allows for none
-  const Readings tolerance = io::tolerance_mps2(array, days);
-  Json sensors = Json::array();
-  for (int i = 0; i < array.array.size(); ++i)
-    sensors.push_back(io::object({{"id", array.array.row(i).id.data()},
-                                  {"tolerance_mps2", paper ? 0.0 : tolerance[static_cast<std::size_t>(i)]}}));
-  return io::object({{"days_since_calibration", days},
-                     {"text", paper ? "none allowed for: the paper's algorithm takes none" : drift_words(array, days)},
-                     {"sensors", std::move(sensors)}});
-}
-
-/// What every verdict of the run rests on: the length of gravity, and the calibration as it was read.
-io::FileExpected<Json> basis_of(const MonitorOptions& options, const io::ArrayFile& array, double days) {
-  Json out = io::object({{"gravity", io::object({{"model", to_string(array.gravity.model)},
-                                                 {"g_mps2", array.gravity.g_mps2},
-                                                 {"sigma_mps2", array.gravity.sigma_mps2}})},
-                         {"calibration", Json()},
-                         {"drift", drift_of(array, days)}});
-  if (options.calibration.empty()) return out;  // made in flight: events and snapshot tell of it
-  const io::FileExpected<io::CalibrationFile> file = io::read_calibration(options.calibration, array);
-  if (!file) return tl::unexpected<io::FileError>(file.error());
-  const FitReport& fit = file->calibration.report;
-  out["calibration"] = io::object({{"log", file->context.log_file},
-                                   {"made_by", file->context.plumb_version},
-                                   {"date", file->context.date},
-                                   {"serial", file->context.serial},
-                                   {"g_mps2", file->context.gravity.g_mps2},
-                                   {"stations", fit.stations},
-                                   {"norm_rms_mps2", fit.norm_rms_mps2},
-                                   {"parity_rms_mps2", fit.parity_rms_mps2},
-                                   {"p_value", fit.p_value},
-                                   {"temperature_min_degc", fit.temperature_min_degc},
-                                   {"temperature_max_degc", fit.temperature_max_degc},
-                                   {"sensors", coefficients_of(file->calibration)}});
   return out;
 }
 
@@ -140,21 +74,25 @@ class Scratch {
 };
 
 /// A page without pictures is a page still: what hinders the drawing is said in their place.
-report::PagePictures pictures_of(const Json& report) {
-  const std::vector<std::string> names = report::health_picture_names(report);
-  report::PagePictures out;
+render::PagePictures pictures_of(const Json& report) {
+  const std::vector<std::string> names = render::health_picture_names(report);
+  render::PagePictures out;
   if (names.empty()) return out;
   const Scratch scratch;
-  io::FileError failure{
-      "TMPDIR", 0, "", "no directory can be made in it, so there is no picture", "name another", io::ExitCode::other};
+  io::FileError failure{"TMPDIR",
+                        0,
+                        "",
+                        "cannot create a directory in it, so there are no pictures",
+                        "set TMPDIR to a directory that you may write to",
+                        io::ExitCode::other};
   if (!scratch.path().empty()) {
-    io::FileExpected<report::PagePictures> drawn =
-        draw_pictures(scratch.path(), report::health_plot_files(report), report::kHealthScript, names);
+    io::FileExpected<render::PagePictures> drawn =
+        draw_pictures(scratch.path(), render::health_plot_files(report), render::kHealthScript, names);
     if (drawn) return *std::move(drawn);
     failure = drawn.error();
   }
   print_error("plumb: " + failure.text() + "\n");
-  for (const std::string& name : names) out.emplace(name, report::PagePicture{"", failure.text()});
+  for (const std::string& name : names) out.emplace(name, render::PagePicture{"", failure.text()});
   return out;
 }
 
@@ -168,15 +106,16 @@ std::string health_data_path(const std::string& path) {
 std::optional<io::FileError> report_misuse(const MonitorOptions& options) {
   if (options.report.empty()) return std::nullopt;
   if (options.limits) {
-    return io::FileError{"--report",         0, "", "tells of a run, and --limits makes none", "leave one of them out",
-                         io::ExitCode::usage};
+    return io::FileError{
+        "--report",         0, "", "describes a run, and --limits runs nothing", "leave out one of the two",
+        io::ExitCode::usage};
   }
   if (!health_data_path(options.report).empty()) return std::nullopt;
   return io::FileError{"--report",
                        0,
                        "",
-                       "writes a page and its data beside it, so it needs the name of a page",
-                       "name it FILE.html; the data go to FILE.json",
+                       "needs a file name that ends in .html",
+                       "name it FILE.html; the data are written to FILE.json",
                        io::ExitCode::usage};
 }
 
@@ -209,17 +148,21 @@ io::FileExpected<void> HealthReport::take(const Sample& sample, const Verdict& v
   return {};
 }
 
-io::FileExpected<void> HealthReport::write(const MonitorRun& run) {
-  Json report = report::health_json(health_, sensors_);
+io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
+  Json report = render::health_json(health_, sensors_);
   io::FileExpected<Json> inputs = inputs_of(options_, array_, run);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
-  io::FileExpected<Json> basis = basis_of(options_, array_, days_);
-  if (!basis) return tl::unexpected<io::FileError>(basis.error());
-  report["basis"] = *std::move(basis);
-  const char* const ended = run.stopped ? "in an error" : (run.interrupted ? "by an interruption" : "where it ends");
+  std::optional<io::CalibrationFile> calibration;
+  if (!options_.calibration.empty()) {
+    io::FileExpected<io::CalibrationFile> read = io::read_calibration(options_.calibration, array_);
+    if (!read) return tl::unexpected<io::FileError>(read.error());
+    calibration = *std::move(read);
+  }
+  report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);
+  const char* const ended = run.stopped ? "in an error" : (run.interrupted ? "by an interruption" : "log complete");
   report["identity"] =
       io::object({{"name", array_.name},
-                  {"build", report::build_json()},
+                  {"build", render::build_json()},
                   {"config_hash", fmt::format("{:016x}", run.last.config_hash)},
                   {"inputs", *std::move(inputs)},
                   {"log", io::object({{"rows", run.log.rows}, {"rows_bad", run.log.rows_bad}, {"ended", ended}})},
@@ -233,7 +176,7 @@ io::FileExpected<void> HealthReport::write(const MonitorRun& run) {
   io::FileExpected<void> done = data_.write(report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   if (done) done = data_.commit();
   const std::string data_name = fs::path(health_data_path(options_.report)).filename().string();
-  if (done) done = page_.write(report::health_html(report, pictures_of(report), data_name));
+  if (done) done = page_.write(render::health_html(report, pictures_of(report), data_name));
   if (done) done = page_.commit();
   return done;
 }

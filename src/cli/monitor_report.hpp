@@ -6,9 +6,9 @@
 #include <string>
 
 #include "monitor_options.hpp"
-#include "monitor_pipeline.hpp"
 #include "plumb/io/output_file.hpp"
-#include "plumb/report/tool_health.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
+#include "plumb/verification/tool_health.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -20,7 +20,7 @@ std::string health_data_path(const std::string& path);
 /// What --report cannot be.
 std::optional<io::FileError> report_misuse(const MonitorOptions& options);
 
-class HealthReport : public VerdictSink {
+class HealthReport : public session::VerdictSink {
  public:
   /// Both files are opened now, so that a directory that is not there is told before the run; they appear with
   /// `write`.
@@ -32,7 +32,7 @@ class HealthReport : public VerdictSink {
   void at_depth(double depth_m) override { depth_m_ = depth_m; }
 
   /// At the end of the run, however it ended.
-  io::FileExpected<void> write(const MonitorRun& run);
+  io::FileExpected<void> write(const session::MonitorRun& run);
   /// "usable for survey: yes" and what to do, for the end of a terminal's summary.
   std::string summary() const;
 
@@ -45,7 +45,7 @@ class HealthReport : public VerdictSink {
   const SensorArray& sensors_;
   double days_;  ///< since the calibration
   io::OutputFile page_, data_;
-  report::ToolHealth health_;
+  verification::ToolHealth health_;
   double depth_m_;
 };
 

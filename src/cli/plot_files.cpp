@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "plumb/io/output_file.hpp"
-#include "plumb/report/plot.hpp"
+#include "plumb/render/plot.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -11,23 +11,23 @@ inline namespace PLUMB_ABI {
 namespace cli {
 
 io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
-                                                      const std::vector<report::PlotFile>& files, const char* script,
+                                                      const std::vector<render::PlotFile>& files, const char* script,
                                                       std::vector<std::string> pictures, std::string& missing) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) {
     return tl::unexpected<io::FileError>(io::FileError{directory, 0, "--plots",
                                                        "cannot create the directory: " + error.message(),
-                                                       "choose another directory", io::ExitCode::other});
+                                                       "choose another directory with --plots", io::ExitCode::other});
   }
   std::vector<std::string> written;
-  for (const report::PlotFile& file : files) {
+  for (const render::PlotFile& file : files) {
     const io::FileExpected<void> done =
         io::write_file((std::filesystem::path(directory) / file.name).string(), file.text);
     if (!done) return tl::unexpected<io::FileError>(done.error());
     written.push_back(file.name);
   }
-  const io::FileExpected<void> drawn = report::run_gnuplot(directory, script);
+  const io::FileExpected<void> drawn = render::run_gnuplot(directory, script);
   if (!drawn) {
     missing = drawn.error().text();
     return written;
@@ -35,20 +35,20 @@ io::FileExpected<std::vector<std::string>> draw_files(const std::string& directo
   return pictures;
 }
 
-io::FileExpected<report::PagePictures> draw_pictures(const std::string& directory,
-                                                     const std::vector<report::PlotFile>& files, const char* script,
+io::FileExpected<render::PagePictures> draw_pictures(const std::string& directory,
+                                                     const std::vector<render::PlotFile>& files, const char* script,
                                                      const std::vector<std::string>& names) {
   std::string missing;
   const io::FileExpected<std::vector<std::string>> drawn = draw_files(directory, files, script, names, missing);
   if (!drawn) return tl::unexpected<io::FileError>(drawn.error());
-  report::PagePictures out;
+  render::PagePictures out;
   if (!missing.empty()) print_error("plumb: " + missing + "\n");
   for (const std::string& name : names) {
-    report::PagePicture picture{"", missing};
+    render::PagePicture picture{"", missing};
     if (missing.empty()) {
       const io::FileExpected<std::string> svg = io::read_file((std::filesystem::path(directory) / name).string());
       if (!svg) return tl::unexpected<io::FileError>(svg.error());
-      picture.svg = report::inline_svg(*svg);
+      picture.svg = render::inline_svg(*svg);
     }
     out.emplace(name, std::move(picture));
   }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "plumb/io/file_error.hpp"
-#include "plumb/report/fit_plot.hpp"
-#include "plumb/report/verification_page.hpp"
+#include "plumb/render/fit_plot.hpp"
+#include "plumb/render/verification_page.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -16,12 +16,12 @@ namespace cli {
 /// where gnuplot cannot draw them; the returned names are those of the files that exist then. Error: a file or the
 /// directory cannot be written.
 io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
-                                                      const std::vector<report::PlotFile>& files, const char* script,
+                                                      const std::vector<render::PlotFile>& files, const char* script,
                                                       std::vector<std::string> pictures, std::string& missing);
 
 /// The same, ready to stand in a page. Where gnuplot cannot draw, standard error and each picture say why.
-io::FileExpected<report::PagePictures> draw_pictures(const std::string& directory,
-                                                     const std::vector<report::PlotFile>& files, const char* script,
+io::FileExpected<render::PagePictures> draw_pictures(const std::string& directory,
+                                                     const std::vector<render::PlotFile>& files, const char* script,
                                                      const std::vector<std::string>& names);
 
 }  // namespace cli

@@ -7,10 +7,10 @@
 #include "plot_files.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
-#include "plumb/report/evidence.hpp"
-#include "plumb/report/plot.hpp"
-#include "plumb/report/verification_exports.hpp"
-#include "plumb/report/verification_page.hpp"
+#include "plumb/render/evidence.hpp"
+#include "plumb/render/plot.hpp"
+#include "plumb/render/verification_exports.hpp"
+#include "plumb/render/verification_page.hpp"
 #include "tool.hpp"
 #include "verify_run.hpp"
 
@@ -28,19 +28,19 @@ constexpr const char* kVerifyAbout =
 constexpr const char* kVerifyNotes =
     "Examples:\n"
     "  plumb verify --array examples/paper_tool.toml --scenarios 2000\n"
-    "  plumb verify --array tool.toml --limits limits.toml --positions stand.csv --out report\n"
+    "  plumb verify --array tool.toml --limits limits.toml --stations stand.csv --out report\n"
     "  plumb verify --array tool.toml --calibration cal.json --compare report/report.json --out report2\n\n"
     "A limits file (all keys optional):\n"
     "  [limits]\n"
-    "  alert_limit = \"0.5 deg\"        # largest tilt error that can be borne\n"
-    "  faults = 1                     # sensors at fault at once that have to be isolated\n"
-    "  fault = \"5 mg0\"                # least constant error that has to be detected\n"
+    "  alert_limit = \"0.5 deg\"        # largest tilt error allowed\n"
+    "  faults = 1                     # number of simultaneous sensor faults to isolate\n"
+    "  fault = \"5 mg0\"                # smallest constant error to detect\n"
     "  false_alarm_rate = 1e-3        # per block\n"
     "  misleading_rate = 1e-3         # per scenario, as the next\n"
     "  wrong_exclusion_rate = 1e-3\n"
     "  detect_within = \"2 s\"\n\n"
     "The directory holds report.html to read, report.json with every figure in it, and the campaigns to play again.\n"
-    "Without --calibration or --positions what calibration leaves is predicted from a simulated stand, the verdict\n"
+    "Without --calibration or --stations what calibration leaves is predicted from a simulated stand, the verdict\n"
     "is `open` at best, and the report lists what to record. The same inputs give the same bytes but for the block\n"
     "`run`. docs/verification-report.md explains every section.\n"
     "Exit code 6 where the array is not fit, where that is open, or where a requirement is an orphan.\n\n";
@@ -49,10 +49,11 @@ std::optional<io::FileError> misused(const VerifyOptions& options) {
   const auto refuse = [](const char* option, const char* what, const char* remedy) {
     return io::FileError{option, 0, "", what, remedy, io::ExitCode::usage};
   };
-  if (!options.calibration.empty() && !options.positions.empty())
-    return refuse("--positions", "and --calibration are both given", "give the log or the calibration made from it");
+  if (!options.calibration.empty() && !options.stations.empty())
+    return refuse("--stations", "and --calibration are both given", "give the log or the calibration made from it");
   if (options.scenarios == std::uint64_t{0}) return refuse("--scenarios", "is 0", "give at least 1");
-  if (options.out.empty() || options.out == "-") return refuse("--out", "is no directory", "name one: --out report");
+  if (options.out.empty() || options.out == "-")
+    return refuse("--out", "must name a directory", "give one: --out report");
   const std::vector<NamedFile> to_write = {{"--out", (fs::path(options.out) / "report.json").string()}};
   const std::vector<NamedFile> to_read = {{"--compare", options.compare},
                                           {"--traceability", options.traceability},
@@ -62,17 +63,14 @@ std::optional<io::FileError> misused(const VerifyOptions& options) {
 }
 
 /// What a terminal shows.
-std::string summary(const Json& report, const std::string& out) {
-  const Json& verdict = report["verdict"];
-  std::string text = verdict["sentence"].get<std::string>() + "\n\n";
-  for (const Json& one : verdict["criteria"])
-    text += fmt::format("  {:<8} {:<52} {}\n", one["result"].get<std::string>(), one["name"].get<std::string>(),
-                        one["found"].get<std::string>());
-  const Json& counts = verdict["requirements"];
+std::string summary(const verification::Report& verdict, const std::string& out) {
+  std::string text = verdict.sentence + "\n\n";
+  for (const verification::Criterion& c : verdict.criteria)
+    text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result), entry_of(c.id).title, c.found);
+  const verification::RequirementCounts& n = verdict.requirements;
   text += fmt::format("\nrequirements: {} ({} active): {} verified, {} failed, {} open, {} traced without results\n",
-                      counts["requirements"].get<int>(), counts["active"].get<int>(), counts["verified"].get<int>(),
-                      counts["failed"].get<int>(), counts["open"].get<int>(), counts["traced"].get<int>());
-  for (const Json& orphan : verdict["orphans"]) text += "orphan: " + orphan.get<std::string>() + "\n";
+                      n.requirements, n.active, n.verified, n.failed, n.open, n.traced);
+  for (const std::string& orphan : verdict.orphans) text += "orphan: " + orphan + "\n";
   return text + "written to " + out + "\n";
 }
 
@@ -86,7 +84,7 @@ class Folder {
     if (!error) return {};
     return tl::unexpected<io::FileError>(io::FileError{path_, 0, "--out",
                                                        "cannot create the directory: " + error.message(),
-                                                       "choose another directory", io::ExitCode::other});
+                                                       "choose another directory with --out", io::ExitCode::other});
   }
   void write(const std::string& name, const std::string& text) {
     if (failure_) return;
@@ -117,7 +115,7 @@ void print_pdf(const std::string& out, std::string html) {
   const std::string copy = (fs::path(out) / "report-print.html").string();
   io::FileExpected<void> done = io::write_file(copy, html);
   if (done)
-    done = report::run_program(out, "weasyprint", {"--quiet", "report-print.html", "report.pdf"}, "weasyprint", "PDF");
+    done = render::run_program(out, "weasyprint", {"--quiet", "report-print.html", "report.pdf"}, "weasyprint", "PDF");
   std::error_code ignored;
   if (done) fs::remove(copy, ignored);  // else it stays, to see why
   if (!done) print_error("plumb: " + done.error().text() + "\n");
@@ -140,28 +138,28 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   folder.write(kArrayCopy, found->array.text);
   folder.put(kFaultsFile, found->faults_toml);
   folder.put(kHealthyFile, found->healthy_toml);
-  folder.put("trials-faults.csv", found->faults ? report::trials_csv(*found->faults) : "");
-  folder.put("trials-healthy.csv", found->healthy ? report::trials_csv(*found->healthy) : "");
+  folder.put("trials-faults.csv", found->faults ? verification::trials_csv(*found->faults) : "");
+  folder.put("trials-healthy.csv", found->healthy ? verification::trials_csv(*found->healthy) : "");
   if (folder.failure()) return report(*folder.failure());
-  const io::FileExpected<report::PagePictures> pictures = draw_pictures(
-      (fs::path(options.out) / report::kChartFolder).string(), report::verification_plot_files(found->report),
-      report::kVerificationScript, report::verification_picture_names(found->report));
+  const io::FileExpected<render::PagePictures> pictures =
+      draw_pictures((fs::path(options.out) / render::kChartFolder).string(),
+                    render::verification_plot_files(found->report, found->geometry), render::kVerificationScript,
+                    render::verification_picture_names(found->report, found->geometry));
   if (!pictures) return report(pictures.error());
-  folder.write("report.html", report::verification_html(found->report, *pictures));
-  folder.write("junit.xml", report::junit_xml(found->report));
-  folder.write("needs.json", report::needs_json(found->report));
-  folder.write("requirements.sdoc", report::requirements_sdoc(found->report));
-  folder.write("spdx.json", report::spdx_json(found->report));
-  const bool analysed = found->report["analysis"]["given"].get<bool>();
-  folder.put("analysis.sarif", analysed ? report::sarif_json(found->report["analysis"], PLUMB_VERSION) : "");
-  folder.write("argument.svg", report::argument_svg(found->report));
+  folder.write("report.html", render::verification_html(found->report, *pictures));
+  folder.write("junit.xml", render::junit_xml(found->report));
+  folder.write("needs.json", render::needs_json(found->report));
+  folder.write("requirements.sdoc", render::requirements_sdoc(found->report));
+  folder.write("spdx.json", render::spdx_json(found->report));
+  const bool analysed = found->facts.analysis_findings.has_value();
+  folder.put("analysis.sarif", analysed ? render::sarif_json(found->report["analysis"], PLUMB_VERSION) : "");
+  folder.write("argument.svg", render::argument_svg(found->report));
   if (folder.failure()) return report(*folder.failure());
   folder.leave_out("report.pdf");
-  if (options.pdf) print_pdf(options.out, report::verification_html(found->report, *pictures));
-  print(options.json ? text : summary(found->report, options.out));
-  const Json& verdict = found->report["verdict"];
-  const bool fit = verdict["verdict"] == "fit";
-  if (!fit) print_error("plumb: " + verdict["sentence"].get<std::string>() + "\n");
+  if (options.pdf) print_pdf(options.out, render::verification_html(found->report, *pictures));
+  print(options.json ? text : summary(found->verdict, options.out));
+  const bool fit = found->verdict.fit == verification::Result::met;
+  if (!fit) print_error("plumb: " + found->verdict.sentence + "\n");
   return fit ? io::ExitCode::done : io::ExitCode::verification_failed;
 }
 
@@ -169,19 +167,17 @@ io::ExitCode run_verify(const VerifyOptions& options) {
 
 Command add_verify(const Options& tool) {
   auto options = std::make_shared<VerifyOptions>();
-  const Options command =
-      tool.add_command("verify", "a report on one array: what it can guarantee, and how that is known");
+  const Options command = tool.add_command("verify", "a report on one array: what it can guarantee, with the evidence");
   command.add_option("--array", options->array, "the array file to verify").required().type_name("ARRAY.toml");
-  command.add_option("--limits", options->limits, "what you need it for; see below").type_name("LIMITS.toml");
+  command.add_option("--limits", options->limits, "your limits; see below").type_name("LIMITS.toml");
   command.add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
       .type_name("CAL.json");
   command
-      .add_option(
-          "--days-since-calibration", options->days_since_calibration,
-          "the age at which sizes and bounds are told, for what drifts per day (stability_per_day); 0 by default")
+      .add_option("--days-since-calibration", options->days_since_calibration,
+                  "the age of the calibration for which sizes and bounds are stated (stability_per_day); 0 by default")
       .range(0.0, kMostDaysSinceCalibration)
       .type_name("N");
-  command.add_option("--positions", options->positions, "a log of quiet attitudes, to calibrate from")
+  command.add_option("--stations", options->stations, "a log of attitudes held still, to calibrate from")
       .type_name("LOG.csv");
   command
       .add_option("--scenarios", options->scenarios,
@@ -194,7 +190,7 @@ Command add_verify(const Options& tool) {
       .check(seed_refusal)
       .type_name("S");
   command.add_option("--out", options->out, "the directory to write; `verification` by default").type_name("DIR");
-  command.add_option("--compare", options->compare, "an earlier report.json: what has changed since")
+  command.add_option("--compare", options->compare, "an earlier report.json, to list what has changed since")
       .type_name("REPORT.json");
   command.add_option("--test-results", options->test_results, "results of plumb's own tests, from ctest --output-junit")
       .type_name("JUNIT.xml");
@@ -202,19 +198,22 @@ Command add_verify(const Options& tool) {
       .type_name("RESULTS.json");
   command
       .add_option("--traceability", options->traceability,
-                  "requirements, hazards and tests of your own in the place of plumb's; a report's traceability.json "
-                  "is the pattern")
+                  "your own requirements, hazards and tests in place of plumb's, in the format of a report's "
+                  "traceability.json")
       .type_name("TRACE.json");
   command
       .add_option("--reuse", options->reuse,
                   "the finished result of faults.toml or healthy.toml with more scenarios, from plumb campaign or\n"
                   "plumb-campaign-mpi: its rates are judged; may be given twice")
       .type_name("RESULT.json");
-  command.add_option("--analysis", options->analysis, "what clang-tidy printed; written as SARIF and judged")
+  command.add_option("--analysis", options->analysis, "the output of clang-tidy; written as SARIF and evaluated")
       .type_name("LOG");
-  command.add_option("--resources", options->resources, "what scripts/baremetal measured: build/metal/results.json")
+  command
+      .add_option("--resources", options->resources, "the measurements of scripts/baremetal: build/metal/results.json")
       .type_name("RESULTS.json");
-  command.add_option("--threads", options->threads, "how many; the result is the same; one per processor by default")
+  command
+      .add_option("--threads", options->threads,
+                  "number of threads; the result does not depend on it; one per processor by default")
       .range(1, 1024)
       .type_name("N");
   command.add_flag("--pdf", options->pdf, "print the page to report.pdf too (needs weasyprint; takes half a minute)");

@@ -7,17 +7,19 @@
 #include <chrono>
 #include <thread>
 
-#include "calibration_age.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
-#include "plumb/report/change.hpp"
-#include "plumb/report/evidence.hpp"
-#include "plumb/report/identity.hpp"
-#include "plumb/report/limits.hpp"
-#include "plumb/report/traceability.hpp"
+#include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/change.hpp"
+#include "plumb/render/evidence.hpp"
+#include "plumb/render/identity.hpp"
+#include "plumb/render/report_parts.hpp"
+#include "plumb/render/traceability.hpp"
+#include "plumb/render/trials_json.hpp"
+#include "plumb/render/verdict_section.hpp"
 #include "tool.hpp"
-#include "verify_parts.hpp"
+#include "verify_inputs.hpp"
 #include "verify_reuse.hpp"
 #include "verify_table2.hpp"
 
@@ -56,154 +58,83 @@ class TrialWatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Everything that is read, before anything is computed.
-struct Inputs {
-  report::UserLimits limits;
-  std::optional<report::TestResults> tests;
-  std::optional<report::AssuranceResults> assurance;
-  std::optional<Json> before;
-  Json analysis = report::no_analysis();
-  Json resources =
-      io::object({{"given", false}, {"how", "--resources build/metal/results.json, from scripts/baremetal"}});
-  Json files = Json::array();  ///< what the report rests on, hashed
-};
-
-io::FileExpected<void> note_input(const char* role, const std::string& path, Inputs& inputs) {
-  if (path.empty()) return {};
-  const io::FileExpected<std::string> bytes = io::read_file(path);
-  if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
-  inputs.files.push_back(report::input_json(role, path, *bytes));
-  return {};
+io::FileExpected<render::CalibrationPart> calibration_of(const VerifyOptions& options, const io::ArrayFile& array) {
+  if (!options.calibration.empty()) return render::calibration_of_file(options.calibration, array);
+  if (!options.stations.empty()) return render::calibration_of_stations(options.stations, array);
+  return render::predicted_calibration(array, options.seed);
 }
 
-/// Takes the value of `from`, or keeps its error.
-template <class T, class To>
-bool take(io::FileExpected<T> from, To& to, std::optional<io::FileError>& error) {
-  if (!from) {
-    error = from.error();
-    return false;
-  }
-  to = *std::move(from);
-  return true;
-}
-
-io::FileExpected<Inputs> read_inputs(const VerifyOptions& options, Verification& out) {
-  Inputs inputs;
-  std::optional<io::FileError> error;
-  const auto fail = [&error] { return tl::unexpected<io::FileError>(*error); };
-  if (!take(io::read_array_file(options.array), out.array, error)) return fail();
-  inputs.limits = report::limits_of(out.array);
-  if (!options.limits.empty() && !take(report::read_limits(options.limits, out.array), inputs.limits, error))
-    return fail();
-  inputs.limits.drift = drift_words(out.array, options.days_since_calibration);
-  if (!options.test_results.empty() && !take(report::read_test_results(options.test_results), inputs.tests, error))
-    return fail();
-  if (!options.assurance.empty() && !take(report::read_assurance(options.assurance), inputs.assurance, error))
-    return fail();
-  if (!options.analysis.empty() && !take(report::read_analysis(options.analysis), inputs.analysis, error))
-    return fail();
-  if (!options.resources.empty() && !take(report::read_resources(options.resources), inputs.resources, error))
-    return fail();
-  if (!options.compare.empty() && !take(report::read_report(options.compare), inputs.before, error)) return fail();
-  if (options.traceability.empty()) {
-    if (!take(report::parse_traceability(report::built_in_traceability(), "built in"), out.traceability, error))
-      return fail();
-  } else if (!take(report::read_traceability(options.traceability), out.traceability, error)) {
-    return fail();
-  }
-  for (const auto& [role, path] : {std::pair<const char*, const std::string&>{"array", options.array},
-                                   {"limits", options.limits},
-                                   {"calibration", options.calibration},
-                                   {"positions", options.positions},
-                                   {"test results", options.test_results},
-                                   {"assurance results", options.assurance},
-                                   {"traceability", options.traceability},
-                                   {"static analysis", options.analysis},
-                                   {"resources", options.resources}}) {
-    const io::FileExpected<void> noted = note_input(role, path, inputs);
-    if (!noted) return tl::unexpected<io::FileError>(noted.error());
-  }
-  for (const std::string& path : options.reuse) {
-    const io::FileExpected<void> noted = note_input("campaign result", path, inputs);
-    if (!noted) return tl::unexpected<io::FileError>(noted.error());
-  }
-  return inputs;
-}
-
-io::FileExpected<CalibrationPart> calibration_of(const VerifyOptions& options, const io::ArrayFile& array) {
-  if (!options.calibration.empty()) return calibration_of_file(options.calibration, array);
-  if (!options.positions.empty()) return calibration_of_positions(options.positions, array);
-  return predicted_calibration(array, options.seed);
-}
-
-GeometrySubject subject_of(const io::ArrayFile& array, const CalibrationPart& part, double days_since_calibration) {
-  GeometrySubject out;
-  out.name = array.name;
-  out.array = part.calibration ? part.calibration->array : array.array;
-  out.model = part.calibration ? part.calibration->model : array.datasheet.model();
-  out.calibrated = part.calibration != nullptr;
-  out.gravity = array.gravity;
-  out.settings = settings_of(array, days_since_calibration);
-  out.settings.samples *= part.samples_per_row;
-  out.file = std::make_unique<const io::ArrayFile>(array);
-  return out;
-}
-
-Json not_played(const std::string& reason) { return io::object({{"played", false}, {"reason", reason}}); }
-
-/// One campaign; `section` says why it was not played where it could not be.
-io::FileExpected<std::optional<report::Trials>> play(const std::string& text, const char* what, int threads,
-                                                     Json& section) {
+/// One campaign; `reason` says why it was not played where it could not be.
+io::FileExpected<std::optional<verification::Trials>> play(const std::string& text, const char* what, int threads,
+                                                           std::string& reason) {
   const io::FileExpected<campaign::CampaignFile> file = campaign::parse_campaign_text(text, what);
   if (!file) {
-    section = not_played(file.error().text());
-    return std::optional<report::Trials>();
+    reason = file.error().text();
+    return std::optional<verification::Trials>();
   }
   TrialWatch watch(what, file->plan.scenarios);
-  tl::expected<report::Trials, std::string> trials =
-      report::play_trials(*file, threads, [&watch](std::uint64_t done) { return watch.see(done); });
-  if (trials) return std::optional<report::Trials>(*std::move(trials));
+  tl::expected<verification::Trials, std::string> trials =
+      verification::play_trials(*file, threads, [&watch](std::uint64_t done) { return watch.see(done); });
+  if (trials) return std::optional<verification::Trials>(*std::move(trials));
   if (interrupted()) {
     return tl::unexpected<io::FileError>(io::FileError{"verify", 0, "", "interrupted; nothing was written",
                                                        "run it again, with fewer --scenarios", io::ExitCode::other});
   }
-  section = not_played(trials.error());
-  return std::optional<report::Trials>();
+  reason = trials.error();
+  return std::optional<verification::Trials>();
 }
 
-io::FileExpected<void> play_campaigns(const VerifyOptions& options, const report::TrialSettings& settings, int threads,
-                                      Verification& out, Json& section, std::vector<std::int64_t>& step_ns) {
-  section = io::object({{"healthy", Json()}, {"faults", Json()}});
+/// Plays them into `out`, with what they showed into its facts.
+io::FileExpected<void> play_campaigns(const VerifyOptions& options, const verification::TrialSettings& settings,
+                                      int threads, Verification& out) {
+  verification::Facts& facts = out.facts;
   if (out.array.monitor.mode == MonitorMode::paper) {
-    section["healthy"] = section["faults"] =
-        not_played("the array file asks for the paper's mode; campaigns play plumb's monitor only");
+    facts.healthy.reason = facts.faults.reason =
+        "the array file has mode = \"paper\"; campaigns run plumb's own monitor only";
     return {};
   }
-  out.faults_toml = report::fault_campaign(out.array, kArrayCopy, settings);
-  out.healthy_toml = report::healthy_campaign(out.array, kArrayCopy, settings);
-  auto healthy = play(report::healthy_campaign(out.array, options.array, settings), "campaign without faults", threads,
-                      section["healthy"]);
+  out.faults_toml = verification::fault_campaign(out.array, kArrayCopy, settings);
+  out.healthy_toml = verification::healthy_campaign(out.array, kArrayCopy, settings);
+  auto healthy = play(verification::healthy_campaign(out.array, options.array, settings), "campaign without faults",
+                      threads, facts.healthy.reason);
   if (!healthy) return tl::unexpected<io::FileError>(healthy.error());
-  auto faults = play(report::fault_campaign(out.array, options.array, settings), "campaign of faults", threads,
-                     section["faults"]);
+  auto faults = play(verification::fault_campaign(out.array, options.array, settings), "campaign of faults", threads,
+                     facts.faults.reason);
   if (!faults) return tl::unexpected<io::FileError>(faults.error());
   out.healthy = *std::move(healthy);
   out.faults = *std::move(faults);
-  const std::string replay = "plumb campaign ";
-  if (out.healthy) section["healthy"] = report::healthy_trials_json(*out.healthy, replay + kHealthyFile);
-  if (out.faults) section["faults"] = report::fault_trials_json(*out.faults, replay + kFaultsFile);
-  const io::FileExpected<void> reused = take_reused(options.reuse, out, section);
-  if (!reused) return reused;
-  std::vector<const report::Trials*> played;
-  if (out.healthy) played.push_back(&*out.healthy);
-  if (out.faults) played.push_back(&*out.faults);
+  std::vector<const verification::Trials*> played;
+  if (out.healthy) {
+    facts.healthy = healthy_facts(*out.healthy);
+    played.push_back(&*out.healthy);
+  }
+  if (out.faults) {
+    facts.faults = fault_facts(*out.faults);
+    played.push_back(&*out.faults);
+  }
   if (played.empty()) return {};
-  const auto again = report::replayed_json(played, kReplayed, &step_ns);
+  auto again = verification::replay_first(played, kReplayed);
   if (!again)
     return tl::unexpected<io::FileError>(
         io::FileError{options.array, 0, "", again.error(), "report this", io::ExitCode::other});
-  section["replayed"] = *again;
+  facts.replay = again->counted;
+  out.replayed = *std::move(again);
   return {};
+}
+
+/// The section of the campaigns but for the table of the paper; takes the rates of longer ones into the facts.
+io::FileExpected<Json> campaign_section(const VerifyOptions& options, Verification& out) {
+  const auto not_played = [](const std::string& reason) { return io::object({{"played", false}, {"reason", reason}}); };
+  const std::string replay = "plumb campaign ";
+  Json section = io::object({{"healthy", out.healthy ? render::healthy_trials_json(*out.healthy, replay + kHealthyFile)
+                                                     : not_played(out.facts.healthy.reason)},
+                             {"faults", out.faults ? render::fault_trials_json(*out.faults, replay + kFaultsFile)
+                                                   : not_played(out.facts.faults.reason)}});
+  const io::FileExpected<void> reused = take_reused(options.reuse, out, section);
+  if (!reused) return tl::unexpected<io::FileError>(reused.error());
+  if (out.replayed) section["replayed"] = render::replayed_json(*out.replayed);
+  section["table2"] = table2_section(out.array, options.seed);
+  return section;
 }
 
 /// The work of a scenario grows steeply with the number of sensors.
@@ -220,7 +151,7 @@ std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
   add("--array", options.array);
   add("--limits", options.limits);
   add("--calibration", options.calibration);
-  add("--positions", options.positions);
+  add("--stations", options.stations);
   add("--test-results", options.test_results);
   add("--assurance", options.assurance);
   add("--traceability", options.traceability);
@@ -240,19 +171,34 @@ Json resources_section(const io::ArrayFile& array, const Json& target) {
                      {"target", target}});
 }
 
+/// Completes what is known, and judges it.
+void judge_all(const VerifyInputs& inputs, const render::CalibrationPart& part, verification::ArrayFacts array,
+               const verification::TraceFacts& trace, Verification& out) {
+  verification::Facts& facts = out.facts;
+  facts.name = out.array.name;
+  facts.rows_are_stations = out.array.input.rows == io::RowKind::stations;
+  facts.samples_per_row = part.samples_per_row;
+  facts.array = std::move(array);
+  facts.calibration = part.facts;
+  facts.trace = trace;
+  if (inputs.analysis) facts.analysis_findings = inputs.analysis->findings;
+  if (inputs.resources) facts.target = inputs.resources->items;
+  out.verdict = verification::judge(inputs.limits, facts);
+}
+
 }  // namespace
 
 io::FileExpected<Verification> verify(const VerifyOptions& options) {
   const Clock::time_point start = Clock::now();
   Verification out;
-  const io::FileExpected<Inputs> inputs = read_inputs(options, out);
+  const io::FileExpected<VerifyInputs> inputs = read_inputs(options, out);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
-  const io::FileExpected<CalibrationPart> part = calibration_of(options, out.array);
+  const io::FileExpected<render::CalibrationPart> part = calibration_of(options, out.array);
   if (!part) return tl::unexpected<io::FileError>(part.error());
   const int threads =
       options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::uint64_t scenarios = options.scenarios.value_or(usual_scenarios(out.array.array.size()));
-  report::TrialSettings settings;
+  verification::TrialSettings settings;
   settings.faults = inputs->limits.faults;
   settings.alert_limit_rad = inputs->limits.alert_limit_rad;
   settings.e_cal_mps2 = part->e_cal_mps2;
@@ -260,42 +206,47 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   settings.scenarios = scenarios;
   settings.samples_per_row = part->samples_per_row;
   settings.days_since_calibration = options.days_since_calibration;
-  Json campaigns;
-  std::vector<std::int64_t> step_ns;
-  const io::FileExpected<void> played = play_campaigns(options, settings, threads, out, campaigns, step_ns);
+  const io::FileExpected<void> played = play_campaigns(options, settings, threads, out);
   if (!played) return tl::unexpected<io::FileError>(played.error());
-  campaigns["table2"] = table2_section(out.array, options.seed);
-  const GeometrySubject subject = subject_of(out.array, *part, options.days_since_calibration);
+  io::FileExpected<Json> campaigns = campaign_section(options, out);
+  if (!campaigns) return tl::unexpected<io::FileError>(campaigns.error());
+  const findings::GeometrySubject subject = render::subject_of(out.array, *part, options.days_since_calibration);
+  const findings::GeometryStudy study = study_geometry(subject);
+  out.geometry = render::geometry_pictures(subject, study);
+  const render::Traceability trace = render::traceability_section(out.traceability, inputs->tests, inputs->assurance);
+  judge_all(*inputs, *part, render::array_facts(subject, study), trace.facts, out);
 
   Json& report = out.report;
-  report["schema"] = report::kReportSchema;
-  report["version"] = report::kReportVersion;
+  report["schema"] = render::kReportSchema;
+  report["version"] = render::kReportVersion;
   report["run"] = Json::object();
   report["subject"] = io::object({{"name", out.array.name},
                                   {"sensors", out.array.array.size()},
                                   {"rows", out.array.input.rows == io::RowKind::stations ? "stations" : "samples"},
                                   {"samples_per_row", part->samples_per_row}});
   report["verdict"] = Json();
-  report["array"] = array_section(subject, study_geometry(subject));
+  report["array"] = render::array_section(subject, study);
   report["calibration"] = part->section;
-  report["campaign"] = std::move(campaigns);
-  report["state_machine"] = machine_section(report["campaign"].value("replayed", Json()));
-  report["traceability"] = report::traceability_section(out.traceability, inputs->tests, inputs->assurance);
+  report["campaign"] = *std::move(campaigns);
+  report["state_machine"] = render::machine_section(out.replayed);
+  report["traceability"] = trace.section;
   report["traceability"]["source"] = options.traceability.empty() ? "built in" : "file";
-  report["analysis"] = inputs->analysis;
-  report["resources"] = resources_section(out.array, inputs->resources);
-  report["identity"] = io::object({{"build", report::build_json()},
+  report["analysis"] = inputs->analysis ? inputs->analysis->section : render::no_analysis();
+  report["resources"] =
+      resources_section(out.array, inputs->resources ? inputs->resources->section : render::no_resources());
+  report["identity"] = io::object({{"build", render::build_json()},
                                    {"inputs", inputs->files},
                                    {"seed", options.seed},
                                    {"scenarios", scenarios},
                                    {"command", command_of(options, scenarios)}});
-  report["verdict"] = report::verdict_section(inputs->limits, report);
+  report["verdict"] = render::verdict_section(out.verdict);
   report["change"] = inputs->before
-                         ? report::change_section(*inputs->before, report)
+                         ? render::change_section(*inputs->before, report)
                          : io::object({{"given", false}, {"how", "--compare report.json of an earlier run"}});
-  report["run"] = io::object({{"threads", threads},
-                              {"seconds", seconds_since(start)},
-                              {"monitor_step", report::step_times_json(std::move(step_ns))}});
+  report["run"] = io::object(
+      {{"threads", threads},
+       {"seconds", seconds_since(start)},
+       {"monitor_step", render::step_times_json(out.replayed ? out.replayed->step_ns : std::vector<std::int64_t>())}});
   return out;
 }
 

@@ -8,7 +8,9 @@
 
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/json_fields.hpp"
-#include "plumb/report/trials.hpp"
+#include "plumb/render/geometry_plot.hpp"
+#include "plumb/verification/replayed.hpp"
+#include "plumb/verification/verdict.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -17,8 +19,8 @@ namespace cli {
 using Json = nlohmann::ordered_json;
 
 struct VerifyOptions {
-  std::string array, limits, calibration, positions, out = "verification", compare, test_results, assurance,
-                                                     traceability, analysis, resources;
+  std::string array, limits, calibration, stations, out = "verification", compare, test_results, assurance,
+                                                    traceability, analysis, resources;
   std::vector<std::string> reuse;  ///< finished results of the campaigns, larger than those played here
   std::uint64_t seed = 1;
   std::optional<std::uint64_t>
@@ -37,7 +39,11 @@ struct Verification {
   io::ArrayFile array;
   Json report;
   Json traceability;  ///< as it was read
-  std::optional<report::Trials> healthy, faults;
+  render::GeometryPictures geometry;
+  verification::Facts facts;
+  verification::Report verdict;  ///< on them
+  std::optional<verification::Trials> healthy, faults;
+  std::optional<verification::Replayed> replayed;
   std::string healthy_toml, faults_toml;  ///< to be played in the directory of the report
 };
 

@@ -4,9 +4,9 @@
 
 #include "plumb/array/named.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/render/report_parts.hpp"
 #include "plumb/scenario/library.hpp"
 #include "plumb/study/table2_study.hpp"
-#include "verify_parts.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -28,7 +28,7 @@ std::string difference(const io::ArrayFile& array) {
       return "the array is not the paper's tetrahedron, in the paper's order";
     const double scale = array.datasheet.sensor[static_cast<std::size_t>(i)].coefficients.scale[0];
     if (std::fabs(scale / scenario::kPaperScale_VpMps2 - 1.0) > kSameScale)
-      return "its faults are voltages of sensors with 3 V/g0, and the scale of these is another";
+      return "its faults are voltages of sensors with 3 V/g0, and the scale of this array's sensors differs";
   }
   return "";
 }
@@ -56,7 +56,7 @@ Json rows_of(const study::Table2Study& study) {
                               {"monitor_state", to_string(r.state)},
                               {"monitor_excluded", sensors_json(r.excluded)},
                               {"monitor_after_attitudes", r.named_after},
-                              {"monitor_named_a_healthy_one", (r.ever_named.bits & ~printed.faulty.bits) != 0},
+                              {"monitor_suspected_a_healthy_one", (r.ever_named.bits & ~printed.faulty.bits) != 0},
                               {"monitor_silent_attitudes", r.silent}}));
   }
   return out;
@@ -67,7 +67,7 @@ Json rows_of(const study::Table2Study& study) {
 Json table2_section(const io::ArrayFile& array, std::uint64_t seed) {
   const std::string why = difference(array);
   if (!why.empty()) return not_given(why);
-  const scenario::Tool tool = scenario::draw_tool(array.datasheet, seed, smallest_priors(array.datasheet));
+  const scenario::Tool tool = scenario::draw_tool(array.datasheet, seed, render::smallest_priors(array.datasheet));
   const auto stations = study::calibration_stations(tool, seed);
   if (!stations) return not_given(stations.error());
   const auto fits = study::fit_both(tool.datasheet, *stations);

@@ -1,4 +1,4 @@
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -1,4 +1,4 @@
-#include "plumb/core/storage_map.hpp"
+#include "plumb/core/detail/storage_map.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

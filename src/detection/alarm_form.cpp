@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/detection/estimate_error.hpp"
 #include "plumb/numeric/cholesky.hpp"
 
 namespace plumb {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/numeric/tails.hpp"
 
@@ -44,8 +44,8 @@ constexpr double kCertainRate = 0.05;
 /// share.
 constexpr double kMostSpread = 0.01;
 
-/// So many of the others are doubted at once, at most: all that the parity grade bears of eight; among more sensors the
-/// choices would take too long.
+/// So many of the others are doubted at once, at most: all that the provisional grade bears of eight; among more
+/// sensors the choices would take too long.
 constexpr int most_doubted(int n) noexcept { return n <= 8 ? 4 : 3; }
 
 /// Scatter of the residual of a channel against the estimate of others.
@@ -252,10 +252,10 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
       if (calm.has(i)) record->forget(i, 0.5);
     }
   }
-  if (out.restless.empty()) return;
-  const int grade = std::min(parity_grade(array, calm | out.restless), most_doubted(array.size()));
+  if (out.scattering.empty()) return;
+  const int grade = std::min(provisional_grade(array, calm | out.scattering), most_doubted(array.size()));
   for (int i = 0; i < array.size(); ++i) {
-    if (!out.restless.has(i)) continue;
+    if (!out.scattering.has(i)) continue;
     const ResidualScatter r = residual_scatter(array, block, noise, ls, i);
     bool noisy = r.ratio > factor;
     if (record != nullptr) {
@@ -310,21 +310,21 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   }
   for (int i = 0; i < array.size(); ++i) {
     if (!judged.has(i)) continue;
-    if (!(block.covariance(i, i) <= factor * noise.of(i))) out.restless = out.restless.with(i);
+    if (!(block.covariance(i, i) <= factor * noise.of(i))) out.scattering = out.scattering.with(i);
   }
-  const SensorSet calm = judged - out.restless;
+  const SensorSet calm = judged - out.scattering;
   const bool at_hand = known != nullptr && known->valid && known->used == calm;
   const LeastSquares ls = at_hand ? *known : least_squares(array, calm);
   out.quiet = ls.valid;
   // So few calm ones may all hang at what they last said, in a tool that the others rightly show to move.
-  const bool may_hang =
-      out.restless.size() >= 3 && rank_of(array, out.restless) == 3 && calm.size() <= strict_grade(array, judged);
+  const bool may_hang = out.scattering.size() >= 3 && rank_of(array, out.scattering) == 3 &&
+                        calm.size() <= confirmed_grade(array, judged);
   if (ls.valid && may_hang) {
     out.quiet = false;
   } else if (ls.valid) {
     tell_noise_from_motion(array, block, noise, ls, factor, record, out);
   } else if (rank_of(array, judged) < 3) {
-    out.restless = SensorSet{};  // too few sensors to say anything
+    out.scattering = SensorSet{};  // too few sensors to say anything
   }
   if (out.quiet) {
     out.evidence.spread_mps2_sq = vector_spread(array, block, noise, ls);
@@ -339,7 +339,7 @@ bool moves_together(const SensorArray& array, const BlockAccumulator& block, Sen
   const SensorSet judged = out.evidence.usable & considered;
   if (block.size() < 2 || judged.size() < 4) return false;
   for (int i = 0; i < array.size(); ++i) {
-    if (!out.restless.has(i)) continue;
+    if (!out.scattering.has(i)) continue;
     const LeastSquares others = least_squares(array, judged.without(i));
     if (!others.valid || !(residual_scatter(array, block, noise, others, i).ratio <= factor)) return false;
   }

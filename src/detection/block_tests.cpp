@@ -1,4 +1,4 @@
-#include "plumb/detection/block_tests.hpp"
+#include "plumb/detection/detail/block_tests.hpp"
 
 #include <cmath>
 

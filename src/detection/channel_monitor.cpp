@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "plumb/detection/near_lengths.hpp"
+#include "plumb/detection/detail/near_lengths.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -45,20 +45,6 @@ inline std::int32_t error_of(const SensorArray& array, const Readings& y, int tr
       squared_length(q(0), q(1), q(2), q(3), q(4), q(5), y[index_of(s[0])], y[index_of(s[1])], y[index_of(s[2])]);
   const double kept = square < 0.0 ? 0.0 : square;  // a NaN goes through to the clamp
   return static_cast<std::int32_t>(whole_units(std::sqrt(kept) - g_mps2));
-}
-
-/// As many at a time as `lanes` says, then the rest by fewer. Returns the first triple that is not done.
-inline int replace_side_by_side(Lanes lanes, const SensorArray& array, const double* y_mps2, double g_mps2,
-                                std::int32_t* slots, std::int64_t* sums, int triples, int first) noexcept {
-#if PLUMB_WIDE_LANES
-  if (kTripleCapacity >= 8 && lanes == Lanes::eight)
-    first = replace_eights(array, y_mps2, g_mps2, slots, sums, triples, first);
-  if (lanes >= Lanes::four && first + 4 <= triples)
-    first = replace_fours(array, y_mps2, g_mps2, slots, sums, triples, first);
-#else
-  (void)lanes;
-#endif
-  return first + 2 <= triples ? replace_twos(array, y_mps2, g_mps2, slots, sums, triples, first) : first;
 }
 
 }  // namespace
@@ -112,7 +98,7 @@ PLUMB_APART void CombinationMae::add_from(int first, Lanes lanes, const SensorAr
   std::int32_t* const slots = &ring_[row(head_)];
   while (first < triples_) {
     if (side_by_side) {
-      first = replace_side_by_side(lanes, array, moved.data(), g_mps2, slots, sum_.data(), triples_, first);
+      first = replace_side_by_side(array, moved.data(), g_mps2, slots, sum_.data(), {first, triples_}, lanes);
     }
     const int end = side_by_side && first + kMostAtOnce <= triples_ ? first + kMostAtOnce : triples_;
     for (; first < end; ++first) {
@@ -130,7 +116,7 @@ PLUMB_WITHIN void CombinationMae::add_by(Lanes lanes, const SensorArray& array, 
   if (kPortableLanes != Lanes::one && lanes != Lanes::one && array.size() == kCapacity &&
       usable.contains(SensorSet::first(kCapacity))) {
     std::int32_t* const slots = &ring_[row(head_)];
-    first = replace_side_by_side(lanes, array, y_mps2.data(), g_mps2, slots, sum_.data(), triples_, 0);
+    first = replace_side_by_side(array, y_mps2.data(), g_mps2, slots, sum_.data(), {0, triples_}, lanes);
   }
   if (first < triples_) add_from(first, lanes, array, y_mps2, usable, g_mps2);
   const std::int32_t all = in_service != nullptr ? to_mae_units(norm(*in_service) - g_mps2) : -1;

@@ -1,20 +1,11 @@
 #include "plumb/detection/isolation.hpp"
 
-#include <cmath>
-
 namespace plumb {
 inline namespace PLUMB_ABI {
 
 namespace {
 
 using std::size_t;
-
-/// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
-/// whose less checked members are no better explanation (`vouches_for_norm`).
-constexpr double kMinLeverage = 0.002;
-/// A set doubts gravity from this part of the limit on at which the norm would kill it: what its subsets, which measure
-/// the length less well, are off by is noise on top of the same error, and must not be held against them first.
-constexpr double kDoubtShare = 0.5;
 
 /// Calls f(set, index) for all subsets of {0..universe-1} of the given size, in a fixed order.
 template <class F>
@@ -28,7 +19,7 @@ void for_each_subset(int universe, int size, F&& f) noexcept {
   }
 }
 
-/// Calls f(F) for every subset of `posed` with at most `depth` members (depth <= 3), smallest first.
+/// Calls f(F) for every subset of `posed` with at most `depth` members, and none of more than three, smallest first.
 template <class F>
 void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
   f(SensorSet{});
@@ -50,6 +41,20 @@ void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
       }
     }
   }
+}
+
+/// Whether `f(F)` holds for every one of them; none is asked after one for which it does not.
+template <class F>
+bool all_fault_sets(SensorSet posed, int n, int depth, F&& f) noexcept {
+  bool all = true;
+  for_each_fault_set(posed, n, depth, [&](SensorSet set) { all = all && f(set); });
+  return all;
+}
+
+/// Whether nothing in the block speaks against the set: it agrees with itself and with gravity, or is excused from
+/// that.
+bool may_be_healthy(SensorSet set, const SetTest& t, const TestLimits& limits, const ReferenceDoubt& doubt) noexcept {
+  return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(set));
 }
 
 }  // namespace
@@ -76,8 +81,8 @@ void Isolation::resume(const SensorArray& array, SensorSet posed, int c) noexcep
   voting_size_ = static_cast<std::int8_t>(c + 1);
   const int sensors = (posed & array.all()).size();
   const bool strict_possible = universe_ <= kStrictCapacity;
-  strict_ = static_cast<std::int8_t>(strict_possible ? plumb::strict_grade(sensors, c) : 0);
-  parity_ = static_cast<std::int8_t>(plumb::parity_grade(sensors, c));
+  strict_ = static_cast<std::int8_t>(strict_possible ? plumb::confirmed_grade(sensors, c) : 0);
+  parity_ = static_cast<std::int8_t>(plumb::provisional_grade(sensors, c));
   if (!strict_possible && parity_ > kScanDepth) parity_ = kScanDepth;
   voting_ = 0;
   if (strict_ < 1) return;
@@ -111,50 +116,11 @@ bool Isolation::has_dead_subset(SensorSet set) const noexcept {
   return false;
 }
 
-ReferenceDoubt Isolation::doubt_reference(const BlockTests& tests, ReferenceClaims* record) const noexcept {
-  const GravityReference& gravity = tests.gravity();
-  const TestLimits& limits = tests.limits();
-  const BlockEvidence& block = tests.block();
-  ReferenceDoubt doubt;
-  const SensorSet posed = posed_ & block.usable;
-  bool agrees = false;
-  const auto ask = [&](SensorSet set, int rank) {
-    const SetTest& t = tests.of(set);
-    if (!t.tested || !t.parity_alive(limits)) return;  // four or more: there is parity
-    if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return;
-    const double off = t.norm < 0.0 ? -t.norm : t.norm;
-    const double limit = t.norm_reject_limit(limits);
-    const bool doubts = off > kDoubtShare * limit;
-    agrees = agrees || !doubts;
-    // A claim that leaves one fault alone is believed whatever the set is off by: one fault in a tool that moves
-    // steadily is likelier than several that pass for a healthy set.
-    const int claim = posed_.size() - set.size() >= 2 ? ReferenceClaims::index_of(set, rank, universe_) : -1;
-    if (claim >= 0) {
-      const double unit = t.norm_sigma_mps2 / std::sqrt(block.samples);
-      const double margin = limit * unit - TestLimits::gravity * gravity.sigma_mps2;
-      if (record != nullptr) record->hear(claim, t.norm_error_mps2, margin);
-      if ((record != nullptr ? *record : claims_).refuted(claim)) return;
-    }
-    if (doubts) doubt.add(set);
-  };
-  const auto ask_size = [&](int size) {
-    for_each_subset(universe_, size, [&](SensorSet s, int rank) {
-      if (posed.contains(s)) ask(s, rank);
-    });
-  };
-  const int smallest = coplanarity_ + 2 > 4 ? coplanarity_ + 2 : 4;
-  const bool few = universe_ <= kStrictCapacity;
-  const int deep = posed.size() - (few ? kScanDepth : kScanDepth - 1);
-  for (int size = posed.size(); size >= smallest && size >= deep && !agrees; --size) ask_size(size);
-  if (few && deep > smallest && !agrees) ask_size(smallest);
-  return doubt;
-}
-
 SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnesses) const noexcept {
   const TestLimits& limits = tests.limits();
   // Where a posed sensor did not deliver, the published grade does not hold for the rest: nobody is convicted.
   const SensorSet asked = posed_;
-  const int grade = parity_grade();
+  const int grade = provisional_grade();
   if (grade < 1 || !tests.block().usable.contains(asked)) return {};
   SensorSet cleared;
   const auto hear = [&](SensorSet s) {
@@ -179,13 +145,12 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) no
   const TestLimits& limits = tests.limits();
   IsolationAnswer out;
   out.voting = voting_;
-  const ReferenceDoubt doubt = doubt_reference(tests, witnesses.contains(posed_) ? &claims_ : nullptr);
+  const ReferencePanel panel = panel_of(tests);
+  const ReferenceDoubt doubt =
+      witnesses.contains(posed_) ? hear_doubt(tests, panel, claims_) : recall_doubt(tests, panel, claims_);
   out.norm_void = doubt.any();
   out.parity = convict_by_parity(tests, witnesses);
-  const auto alive_here = [&](SensorSet s) {
-    const SetTest& t = tests.of(s);
-    return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(s));
-  };
+  const auto alive_here = [&](SensorSet s) { return may_be_healthy(s, tests.of(s), limits, doubt); };
   out.full_alive = (!any_dead() || !has_dead_subset(posed_)) && alive_here(posed_);
   if (strict_ < 1) return out;
 
@@ -199,9 +164,9 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) no
       kill(index);
     }
   });
-  out.contradiction = out.live == 0;
+  out.no_consistent_hypothesis = out.live == 0;
   const SensorSet accused = posed_ - innocent;
-  if (!out.contradiction && !accused.empty() && accused.size() <= strict_) {
+  if (!out.no_consistent_hypothesis && !accused.empty() && accused.size() <= strict_) {
     const SensorSet survivors = posed_ - accused;
     const bool tested = tests.of(survivors).tested;
     if (tested && alive_here(survivors)) out.strict = accused;
@@ -211,123 +176,157 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) no
 
 namespace {
 
-/// The protection level under construction: the worst of the explanations by the size of their fault sets.
-struct Levels {
-  std::array<double, kScanDepth + 1> rad{};
-  std::array<bool, kScanDepth + 1> explained{}, unbounded{};
-
-  void note(int size, double level_rad) noexcept {
-    double& worst = rad[static_cast<size_t>(size)];
-    if (level_rad > worst) worst = level_rad;
-    if (!(level_rad < kPi)) unbounded[static_cast<size_t>(size)] = true;
-  }
-  /// Over all fault sets of at most `covered` members.
-  void close(int covered, FaultSetScan& out) const noexcept {
-    out.covered = covered;
-    bool any = false, bounded = covered <= kScanDepth;
-    for (int size = 0; size <= covered && size <= kScanDepth; ++size) {
-      const auto a = static_cast<size_t>(size);
-      any = any || explained[a];
-      bounded = bounded && !unbounded[a];
-      if (rad[a] > out.protection_rad) out.protection_rad = rad[a];
-    }
-    out.protection_available = any && bounded;
-  }
+/// One explanation of a block: `faults` are faulty, and `rest` healthy.
+struct Hypothesis {
+  SensorSet faults, rest;
+  const SetTest& test;    ///< of the rest
+  bool explains = false;  ///< the rest is tested, and nothing speaks against it
 };
 
-/// The faults `f` explain the block, with `rest` healthy.
-void note_explanation(SensorSet f, SensorSet rest, FaultSetScan& out) noexcept {
-  const int size = f.size();
+/// The faults that every explanation of at most `most` of them has. One that leaves others than `witnesses`, or too few
+/// to be tested, stays.
+class CommonFaults {
+ public:
+  CommonFaults(SensorSet posed, int most, SensorSet witnesses) noexcept
+      : common_(posed), witnesses_(witnesses), most_(most) {}
+  void note(const Hypothesis& h) noexcept {
+    if (h.faults.size() <= most_ && (h.explains || !h.test.tested || !witnesses_.contains(h.rest))) {
+      common_ = common_ & h.faults;
+      any_ = true;
+    }
+  }
+  SensorSet found() const noexcept { return any_ ? common_ : SensorSet{}; }
+
+ private:
+  SensorSet common_, witnesses_;
+  int most_;
+  bool any_ = false;
+};
+
+/// How far off the estimate `used` may be: the worst of the explanations by the size of their fault sets. Without a
+/// test of what a fault set leaves it is one of two vectors. Nothing is said of an estimate that is none.
+class Levels {
+ public:
+  Levels(const BlockTests& tests, const SetTest& used, const ProtectionTerms& protect) noexcept
+      : tests_(tests), used_(used), protect_(protect) {}
+  void note(const Hypothesis& h) noexcept {
+    if (!used_.tested) return;
+    const auto size = static_cast<size_t>(h.faults.size());
+    if (!h.test.tested) raise(size, mirror_separation_rad(tests_, used_.x_mps2, h.rest, protect_));
+    if (!h.explains) return;
+    raise(size, separation_rad(tests_, used_.x_mps2, h.rest, h.test, protect_));
+    explained_[size] = true;
+  }
+  /// Over all fault sets of at most `covered` members.
+  double worst_rad(int covered) const noexcept {
+    double worst = 0.0;
+    for (int size = 0; size <= covered && size <= kScanDepth; ++size) {
+      if (rad_[static_cast<size_t>(size)] > worst) worst = rad_[static_cast<size_t>(size)];
+    }
+    return worst;
+  }
+  bool bounds(int covered) const noexcept {
+    bool any = false, bounded = covered <= kScanDepth;
+    for (int size = 0; size <= covered && size <= kScanDepth; ++size) {
+      any = any || explained_[static_cast<size_t>(size)];
+      bounded = bounded && !unbounded_[static_cast<size_t>(size)];
+    }
+    return any && bounded;
+  }
+
+ private:
+  void raise(size_t size, double level_rad) noexcept {
+    if (level_rad > rad_[size]) rad_[size] = level_rad;
+    if (!(level_rad < kPi)) unbounded_[size] = true;
+  }
+
+  const BlockTests& tests_;
+  const SetTest& used_;
+  const ProtectionTerms& protect_;
+  std::array<double, kScanDepth + 1> rad_{};
+  std::array<bool, kScanDepth + 1> explained_{}, unbounded_{};
+};
+
+void note_explanation(const Hypothesis& h, FaultSetScan& out) noexcept {
+  const int size = h.faults.size();
   for (int i = 0; i < kCapacity; ++i) {
-    if (rest.has(i) && size < out.fewest_faults[static_cast<size_t>(i)])
-      out.fewest_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
+    if (h.rest.has(i) && size < out.minimum_faults[static_cast<size_t>(i)])
+      out.minimum_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
   }
   if (size < out.least) {
     out.least = size;
-    out.suspects = f;
+    out.suspects = h.faults;
   } else if (size == out.least) {
-    out.suspects = out.suspects | f;
+    out.suspects = out.suspects | h.faults;
   }
 }
 
 }  // namespace
 
-FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
+Isolation::Grounds Isolation::grounds(const BlockTests& tests) const noexcept {
+  return {recall_doubt(tests, panel_of(tests), claims_), any_dead()};
+}
+
+bool Isolation::explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest,
+                         const SetTest& test) const noexcept {
+  return test.tested && may_be_healthy(rest, test, limits, grounds.doubt) &&
+         (!grounds.deaths || !has_dead_subset(rest));
+}
+
+FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,
                              const ProtectionTerms& protect, SensorSet witnesses) const noexcept {
   const TestLimits& limits = tests.limits();
   FaultSetScan out;
-  out.fewest_faults.fill(255);
+  out.minimum_faults.fill(255);
   const SensorSet posed = posed_ & tests.block().usable;
   const SetTest& used = tests.of(in_service & tests.block().usable);
-  const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
-  const bool deaths = any_dead();
-  bool any_asserted = false;
-  Levels levels;
-  SensorSet common = posed;
-  const auto explains = [&](SensorSet rest, const SetTest& t) {
-    const bool here = t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest));
-    return here && (!deaths || !has_dead_subset(rest));
-  };
-  // What the fault sets of a size leave open of the estimate in use; without a test of what is left, one of two
-  // vectors.
-  const auto cover = [&](int size, SensorSet rest, const SetTest& t, bool explained) {
-    if (!used.tested) return;
-    if (!t.tested) levels.note(size, mirror_separation_rad(tests, used.x_mps2, rest, protect));
-    if (explained) levels.note(size, separation_rad(tests, used.x_mps2, rest, t, protect));
-    if (explained) levels.explained[static_cast<size_t>(size)] = true;
-  };
-  const int most = faults_covered(protect, protect.suspected(strict_grade()), strict_grade());
+  const Grounds by = grounds(tests);
+  Levels levels(tests, used, protect);
+  CommonFaults common(posed, assumed_faults, witnesses);
+  const int most = faults_covered(protect, protect.suspected(confirmed_grade()), confirmed_grade());
   if (depth < most) depth = most;
-  for_each_fault_set(posed, universe_, depth > kScanDepth ? kScanDepth : depth, [&](SensorSet f) {
-    const int size = f.size();
-    const SensorSet rest = posed - f;
-    const SetTest& t = tests.of(rest);
-    const bool explained = t.tested && explains(rest, t);
-    if (size <= asserted_faults && (explained || !t.tested || !witnesses.contains(rest))) {
-      common = common & f;
-      any_asserted = true;
-    }
-    cover(size, rest, t, explained);
-    if (explained) note_explanation(f, rest, out);
-  });
-  // Who is set aside is out of the estimate as if latched out: the next fault is one of those that are left.
+  // Who is set aside is out of the estimate as if latched out: the next fault is also one of those that are left.
   const SensorSet left = posed & in_service;
-  for_each_fault_set(left != posed ? left : SensorSet{}, universe_, protect.faults, [&](SensorSet f) {
-    const SensorSet rest = left - f;
-    const SetTest t = tests.of(rest);
-    cover(f.size(), rest, t, t.tested && explains(rest, t));
-  });
+  for (const bool of_those_left : {false, true}) {
+    const SensorSet all = of_those_left ? left : posed;
+    if (of_those_left && left == posed) break;
+    for_each_fault_set(all, universe_, of_those_left ? protect.faults : depth, [&](SensorSet f) {
+      const SensorSet rest = all - f;
+      const SetTest& test = tests.of(rest);
+      const Hypothesis h = {f, rest, test, explains(limits, by, rest, test)};
+      levels.note(h);
+      if (of_those_left) return;
+      common.note(h);
+      if (h.explains) note_explanation(h, out);
+    });
+  }
   const int suspected = protect.suspected(out.least <= kScanDepth ? out.least : 0);
-  levels.close(faults_covered(protect, suspected, strict_grade()), out);
+  out.covered = faults_covered(protect, suspected, confirmed_grade());
+  out.protection_rad = levels.worst_rad(out.covered);
+  out.protection_available = levels.bounds(out.covered);
   out.bears_more = !protect.doubted || out.covered >= suspected + protect.faults;
-  if (any_asserted && !common.empty()) {
-    const SetTest& rest = tests.of(posed - common);
-    const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubt.excuses(posed - common));
-    if (rest.tested && alive) out.asserted = common;
+  const SensorSet asserted = common.found();
+  if (!asserted.empty()) {
+    const SetTest& rest = tests.of(posed - asserted);
+    if (rest.tested && may_be_healthy(posed - asserted, rest, limits, by.doubt)) out.asserted = asserted;
   }
   return out;
 }
 
 bool Isolation::bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
                                 const ProtectionTerms& protect, double limit_rad) const noexcept {
-  const TestLimits& limits = tests.limits();
   const SensorSet posed = posed_ & tests.block().usable;
   const SetTest unsuspected = tests.of((in_service & tests.block().usable) - scan.suspects);
   const int faults = scan.least > scan.covered ? scan.least : scan.covered;
   if (!unsuspected.tested || faults > kScanDepth) return false;
-  const ReferenceDoubt doubt = doubt_reference(tests, nullptr);
-  bool bounded = true;
-  for_each_fault_set(posed, universe_, faults, [&](SensorSet f) {
-    if (!bounded) return;
+  const Grounds by = grounds(tests);
+  return all_fault_sets(posed, universe_, faults, [&](SensorSet f) {
     const SensorSet rest = posed - f;
     const SetTest& t = tests.of(rest);
-    if (!t.tested) {
-      bounded = mirror_separation_rad(tests, unsuspected.x_mps2, rest, protect) <= limit_rad;
-    } else if (t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(rest)) && !has_dead_subset(rest)) {
-      bounded = separation_rad(tests, unsuspected.x_mps2, rest, t, protect) <= limit_rad;
-    }
+    if (!t.tested) return mirror_separation_rad(tests, unsuspected.x_mps2, rest, protect) <= limit_rad;
+    return !explains(tests.limits(), by, rest, t) ||
+           separation_rad(tests, unsuspected.x_mps2, rest, t, protect) <= limit_rad;
   });
-  return bounded;
 }
 
 }  // namespace PLUMB_ABI

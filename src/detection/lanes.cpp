@@ -1,4 +1,4 @@
-#include "plumb/detection/lanes.hpp"
+#include "plumb/detection/detail/lanes.hpp"
 
 #include <array>
 #include <cmath>
@@ -19,6 +19,14 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 using std::size_t;
+
+#if PLUMB_WIDE_LANES
+#define PLUMB_AVX2 __attribute__((target("avx2")))
+#define PLUMB_AVX512 __attribute__((target("avx512f")))
+#define PLUMB_WITHIN __attribute__((always_inline)) inline
+#else
+#define PLUMB_WITHIN inline
+#endif
 
 namespace {
 
@@ -131,15 +139,13 @@ inline bool replace_two(Two square, double g_mps2, std::int32_t* slots, std::int
   return true;
 }
 
-}  // namespace
-
-/// While the squares of some triples become errors, those of the next are already computed, here and below: one after
-/// the other they are a long chain, of which a processor has too few at work at once.
-int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots, std::int64_t* sums,
-                 int triples, int first) noexcept {
-  const size_t members = members_of(triples), end = static_cast<size_t>(triples);
-  auto k = static_cast<size_t>(first);
-  if (k + 2 > end) return first;
+/// All of the rest that fill a vector, of which there is one at least, here and below: returns the first that is not
+/// done. While the squares of some triples become errors, those of the next are already computed: one after the other
+/// they are a long chain, of which a processor has too few at work at once.
+PLUMB_WITHIN int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                              std::int64_t* sums, TripleRange range) noexcept {
+  const size_t members = members_of(range.end), end = static_cast<size_t>(range.end);
+  auto k = static_cast<size_t>(range.first);
   Two square = squares_of_two(array, y_mps2, members, k);
   if (k + 4 <= end) {
     Two next = squares_of_two(array, y_mps2, members, k + 2);
@@ -156,13 +162,13 @@ int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, 
   return static_cast<int>(replace_two(square, g_mps2, slots + k, sums + k) ? k + 2 : k);
 }
 
+int by_twos(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots, std::int64_t* sums,
+            TripleRange range) noexcept {
+  if (range.first + 2 <= range.end) range.first = replace_twos(array, y_mps2, g_mps2, slots, sums, range);
+  return range.first;
+}
+
 #if PLUMB_WIDE_LANES
-#define PLUMB_AVX2 __attribute__((target("avx2")))
-#define PLUMB_AVX512 __attribute__((target("avx512f")))
-#define PLUMB_WITHIN __attribute__((always_inline)) inline
-
-namespace {
-
 PLUMB_AVX2 PLUMB_WITHIN __m256d four_of(const double* y, const Member* sensors) noexcept {
   return _mm256_setr_pd(y[sensors[0]], y[sensors[1]], y[sensors[2]], y[sensors[3]]);
 }
@@ -245,13 +251,10 @@ PLUMB_AVX512 PLUMB_WITHIN bool replace_eight(__m512d square, double g_mps2, std:
   return true;
 }
 
-}  // namespace
-
-PLUMB_AVX2 int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
-                             std::int64_t* sums, int triples, int first) noexcept {
-  const size_t members = members_of(triples), end = static_cast<size_t>(triples);
-  auto k = static_cast<size_t>(first);
-  if (k + 4 > end) return first;
+PLUMB_AVX2 PLUMB_WITHIN int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2,
+                                          std::int32_t* slots, std::int64_t* sums, TripleRange range) noexcept {
+  const size_t members = members_of(range.end), end = static_cast<size_t>(range.end);
+  auto k = static_cast<size_t>(range.first);
   __m256d square = squares_of_four(array, y_mps2, members, k);
   if (kTripleCapacity >= 8 && k + 8 <= end) {
     __m256d next = squares_of_four(array, y_mps2, members, k + 4);
@@ -268,11 +271,16 @@ PLUMB_AVX2 int replace_fours(const SensorArray& array, const double* y_mps2, dou
   return static_cast<int>(replace_four(square, g_mps2, slots + k, sums + k) ? k + 4 : k);
 }
 
-PLUMB_AVX512 int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
-                                std::int64_t* sums, int triples, int first) noexcept {
-  const size_t members = members_of(triples), end = static_cast<size_t>(triples);
-  auto k = static_cast<size_t>(first);
-  if (k + 8 > end) return first;
+PLUMB_AVX2 int by_fours(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                        std::int64_t* sums, TripleRange range) noexcept {
+  if (range.first + 4 <= range.end) range.first = replace_fours(array, y_mps2, g_mps2, slots, sums, range);
+  return by_twos(array, y_mps2, g_mps2, slots, sums, range);
+}
+
+PLUMB_AVX512 PLUMB_WITHIN int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2,
+                                             std::int32_t* slots, std::int64_t* sums, TripleRange range) noexcept {
+  const size_t members = members_of(range.end), end = static_cast<size_t>(range.end);
+  auto k = static_cast<size_t>(range.first);
   constexpr size_t kSecond = kCapacity > 8 ? 8 : 0, kThird = kCapacity > 16 ? 16 : 0;
   const Eights y = {_mm512_loadu_pd(y_mps2), _mm512_loadu_pd(y_mps2 + kSecond), _mm512_loadu_pd(y_mps2 + kThird)};
   __m512d square = squares_of_eight(array, y, members, k);
@@ -290,7 +298,26 @@ PLUMB_AVX512 int replace_eights(const SensorArray& array, const double* y_mps2, 
   }
   return static_cast<int>(replace_eight(square, g_mps2, slots + k, sums + k) ? k + 8 : k);
 }
+
+PLUMB_AVX512 int by_eights(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                           std::int64_t* sums, TripleRange range) noexcept {
+  if (range.first + 8 <= range.end) range.first = replace_eights(array, y_mps2, g_mps2, slots, sums, range);
+  return by_fours(array, y_mps2, g_mps2, slots, sums, range);
+}
 #endif
+
+}  // namespace
+
+int replace_side_by_side(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
+                         std::int64_t* sums, TripleRange range, Lanes lanes) noexcept {
+#if PLUMB_WIDE_LANES
+  if (kTripleCapacity >= 8 && lanes == Lanes::eight) return by_eights(array, y_mps2, g_mps2, slots, sums, range);
+  if (lanes >= Lanes::four) return by_fours(array, y_mps2, g_mps2, slots, sums, range);
+#else
+  (void)lanes;
+#endif
+  return by_twos(array, y_mps2, g_mps2, slots, sums, range);
+}
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

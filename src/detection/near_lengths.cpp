@@ -1,10 +1,10 @@
-#include "plumb/detection/near_lengths.hpp"
+#include "plumb/detection/detail/near_lengths.hpp"
 
 #if PLUMB_SINGLE
 
 #include <cmath>
 
-#include "plumb/core/storage_map.hpp"
+#include "plumb/core/detail/storage_map.hpp"
 #include "plumb/detection/combination_mae.hpp"
 
 namespace plumb {

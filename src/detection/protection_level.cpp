@@ -1,4 +1,5 @@
 #include "plumb/detection/protection_level.hpp"
+#include "plumb/detection/estimate_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,132 @@
-#include "plumb/detection/reference_doubt.hpp"
+#include "plumb/detection/detail/reference_doubt.hpp"
+
+#include <cmath>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+namespace {
+
+/// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
+/// whose less checked members are no better explanation (`vouches_for_norm`).
+constexpr double kMinLeverage = 0.002;
+/// A set doubts gravity from this part of the limit on at which the norm would kill it: what its subsets, which measure
+/// the length less well, are off by is noise on top of the same error, and must not be held against them first.
+constexpr double kDoubtShare = 0.5;
+
+/// Sensors of the smallest sets that are asked.
+int smallest_asked(int coplanarity) noexcept { return coplanarity + 2 > 4 ? coplanarity + 2 : 4; }
+
+/// The sets that are asked, one after another: large ones first, smaller ones only while none agrees with gravity.
+class Questions {
+ public:
+  explicit Questions(const ReferencePanel& panel) noexcept
+      : asked_(panel.delivered),
+        all_(SensorSet::first(panel.universe)),
+        smallest_(smallest_asked(panel.coplanarity)),
+        few_(panel.universe <= kStrictCapacity),
+        deep_(panel.delivered.size() - (panel.universe <= kStrictCapacity ? kScanDepth : kScanDepth - 1)) {
+    begin(asked_.size() < smallest_ ? 0 : asked_.size());
+    find(false);
+  }
+  bool open() const noexcept { return size_ > 0; }
+  SensorSet set() const noexcept { return set_; }
+  int rank() const noexcept { return rank_; }  ///< its number among all sets of its size
+  void advance(bool agrees) noexcept {
+    step();
+    find(agrees);
+  }
+
+ private:
+  void begin(int size) noexcept {
+    size_ = size;
+    set_ = SensorSet::first(size);
+    rank_ = 0;
+  }
+  void step() noexcept {
+    set_ = next_of_same_size(set_);
+    ++rank_;
+  }
+  int next_size() const noexcept {
+    if (size_ > smallest_ && size_ > deep_) return size_ - 1;
+    return few_ && size_ > smallest_ ? smallest_ : 0;
+  }
+  /// From here on the first that is posed; none where all that are asked have been.
+  void find(bool agrees) noexcept {
+    while (open() && !asked_.contains(set_)) {
+      if (all_.contains(set_)) {
+        step();
+      } else {
+        begin(agrees ? 0 : next_size());
+      }
+    }
+  }
+
+  SensorSet asked_, all_, set_;
+  int smallest_;
+  bool few_;
+  int deep_, size_ = 0, rank_ = 0;
+};
+
+/// What a set of sensors says of gravity.
+struct Testimony {
+  bool heard = false;        ///< it agrees with itself, and its members are checked
+  bool doubts = false;       ///< gravity
+  int claim = -1;            ///< its number on the episode's record, -1 where it is believed without
+  double error_mps2 = 0.0;   ///< what a claim is off gravity by, ...
+  double margin_mps2 = 0.0;  ///< ... known to so much
+};
+
+Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, SensorSet set, int rank) noexcept {
+  const TestLimits& limits = tests.limits();
+  Testimony out;
+  const SetTest& t = tests.of(set);
+  if (!t.tested || !t.parity_alive(limits)) return out;  // four or more: there is parity
+  if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return out;
+  const double off = t.norm < 0.0 ? -t.norm : t.norm;
+  const double limit = t.norm_reject_limit(limits);
+  out.heard = true;
+  out.doubts = off > kDoubtShare * limit;
+  // A claim that leaves one fault alone is believed whatever the set is off by: one fault in a tool that moves
+  // steadily is likelier than several that pass for a healthy set. A sensor that did not deliver counts among those
+  // left.
+  if (panel.posed.size() - set.size() < 2) return out;
+  out.claim = ReferenceClaims::index_of(set, rank, panel.universe);
+  const double unit = t.norm_sigma_mps2 / std::sqrt(tests.block().samples);
+  out.error_mps2 = t.norm_error_mps2;
+  out.margin_mps2 = limit * unit - TestLimits::gravity * tests.gravity().sigma_mps2;
+  return out;
+}
+
+struct Hear {
+  ReferenceClaims& record;
+  bool refutes(const Testimony& t) const noexcept {
+    record.hear(t.claim, t.error_mps2, t.margin_mps2);
+    return record.refuted(t.claim);
+  }
+};
+
+struct Recall {
+  const ReferenceClaims& record;
+  bool refutes(const Testimony& t) const noexcept { return record.refuted(t.claim); }
+};
+
+/// `claims` is what is done with a claim, Hear or Recall.
+template <class Claims>
+ReferenceDoubt doubt_reference(const BlockTests& tests, const ReferencePanel& panel, const Claims& claims) noexcept {
+  ReferenceDoubt doubt;
+  bool agrees = false;
+  for (Questions asked(panel); asked.open(); asked.advance(agrees)) {
+    const Testimony t = testimony_of(tests, panel, asked.set(), asked.rank());
+    if (!t.heard) continue;
+    agrees = agrees || !t.doubts;
+    const bool refuted = t.claim >= 0 && claims.refutes(t);
+    if (t.doubts && !refuted) doubt.add(asked.set());
+  }
+  return doubt;
+}
+
+}  // namespace
 
 void ReferenceDoubt::add(SensorSet set) noexcept {
   if (count_ < kMax) set_[static_cast<std::size_t>(count_)] = set;
@@ -22,6 +147,15 @@ void ReferenceClaims::hear(int index, double error_mps2, double margin_mps2) noe
   if (first || from > low_[slot(index)]) low_[slot(index)] = from;
   if (first || to < high_[slot(index)]) high_[slot(index)] = to;
   heard_[slot(index)] = true;
+}
+
+ReferenceDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept {
+  return doubt_reference(tests, panel, Hear{record});
+}
+
+ReferenceDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
+                            const ReferenceClaims& record) noexcept {
+  return doubt_reference(tests, panel, Recall{record});
 }
 
 }  // namespace PLUMB_ABI

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "plumb/core/angles.hpp"
+#include "reach.hpp"
+
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -96,13 +97,6 @@ struct Systematic {
   double parity = 0.0, norm = 0.0, both = 0.0;
 };
 
-/// Adds u v' to a 3x3 matrix.
-void add_outer(Mat3& m, const Vec3& u, const Vec3& v) noexcept {
-  for (size_t r = 0; r < 3; ++r) {
-    for (size_t q = 0; q < 3; ++q) m[3 * r + q] += u[r] * v[q];
-  }
-}
-
 double trace_of_product(const Mat3& a, const Mat3& b) noexcept {
   double sum = 0.0;
   for (size_t r = 0; r < 3; ++r) {
@@ -175,24 +169,6 @@ Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows
       std::sqrt(largest_eigenvalue_bound(trace + norm_row, square + norm_row * norm_row + 2.0 * cross_term, s - 2));
   return out;
 }
-
-/// How far errors of single readings can move a vector along itself and across.
-struct Reach {
-  double along = 0.0, across = 0.0;
-
-  void add(const Vec3& column, const Vec3& u, double tau) noexcept {
-    const double projection = dot(u, column);
-    along += std::fabs(projection) * tau;
-    across += norm(minus(column, scaled(u, projection))) * tau;
-  }
-  /// What remains of the length at least: the truth is `length` less what lies along it.
-  double least_length(double length) const noexcept { return length > along ? length - along : 0.0; }
-  /// Of the length: what moves across lengthens it by the square over twice the rest, and never by more than itself.
-  double of_length_mps2(double length) const noexcept {
-    const double rest = least_length(length);
-    return along + (rest > across ? across * across / (2.0 * rest) : across);
-  }
-};
 
 /// What errors d with |d_i| <= tau_i, of whatever signs, do to the parity residual and to the norm row, whitened. The
 /// projector P of the parity rows gives |P d| <= |d| <= sqrt(sum tau_i^2), and by its columns, whose lengths are the
@@ -315,102 +291,6 @@ SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, co
   SetTest out;
   test_set(array, &uncertainty, gravity, limits, block, set, out);
   return out;
-}
-
-Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexcept {
-  const double sigma = array.sigma_mps2(i);
-  return scaled(times(test.covariance, array.axis(i)), test.samples / (sigma * sigma));
-}
-
-Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {
-  Mat3 cal{};
-  if (!test.tested || array.perfectly_known()) return cal;
-  const AttitudeProducts attitude(test.x_mps2);
-  std::array<Vec3, kCapacity> column{};
-  for (int i = 0; i < array.size(); ++i) {
-    if (!set.has(i)) continue;
-    Vec3& own = column[static_cast<size_t>(i)];
-    own = estimate_column(array, test, i);
-    Vec3 carried{};
-    for (int j = 0; j < i; ++j) {
-      if (set.has(j))
-        carried = plus(carried, scaled(column[static_cast<size_t>(j)], array.uncertainty().at(i, j, attitude)));
-    }
-    add_outer(cal, own, carried);
-    add_outer(cal, carried, own);
-    add_outer(cal, scaled(own, array.uncertainty().at(i, i, attitude)), own);
-  }
-  return cal;
-}
-
-double calibration_tilt_sigma_rad(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {
-  const double length = norm(test.x_mps2);
-  if (!test.tested) return 0.0;
-  if (!(length > 0.0)) return kPi;
-  if (array.perfectly_known()) return 0.0;
-  const AttitudeProducts attitude(test.x_mps2);
-  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
-  std::array<Vec3, kCapacity> across{};
-  double variance = 0.0;
-  for (int i = 0; i < array.size(); ++i) {
-    if (!set.has(i)) continue;
-    const Vec3 column = estimate_column(array, test, i);
-    Vec3& own = across[static_cast<size_t>(i)];
-    own = minus(column, scaled(u, dot(u, column)));
-    for (int j = 0; j < i; ++j) {
-      if (set.has(j))
-        variance += 2.0 * array.uncertainty().at(i, j, attitude) * dot(own, across[static_cast<size_t>(j)]);
-    }
-    variance += array.uncertainty().at(i, i, attitude) * dot(own, own);
-  }
-  return variance > 0.0 ? std::sqrt(variance) / length : 0.0;
-}
-
-ToleranceBound tolerance_bound(const SensorArray& array, const BlockEvidence& block, SensorSet set,
-                               const SetTest& test) noexcept {
-  ToleranceBound out;
-  const double length = norm(test.x_mps2);
-  if (!test.tested || !(length > 0.0)) return out;
-  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
-  Reach reach;
-  double square = 0.0;
-  for (int i = 0; i < array.size(); ++i) {
-    const auto tau = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(i)]);
-    if (!set.has(i) || !(tau > 0.0)) continue;
-    const double whitened = tau / array.sigma_mps2(i);
-    square += whitened * whitened;
-    reach.add(estimate_column(array, test, i), u, tau);
-  }
-  out.norm_mps2 = reach.of_length_mps2(length);
-  if (test.parity_rows > 0) out.parity = std::sqrt(square * test.samples);
-  return out;
-}
-
-double tolerance_turn_rad(const SensorArray& array, const BlockEvidence& block, SensorSet set,
-                          const SetTest& test) noexcept {
-  const double length = norm(test.x_mps2);
-  if (!test.tested || !(length > 0.0)) return 0.0;
-  const Vec3 u = scaled(test.x_mps2, 1.0 / length);
-  Reach reach;
-  for (int i = 0; i < array.size(); ++i) {
-    const auto tau = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(i)]);
-    if (set.has(i) && tau > 0.0) reach.add(estimate_column(array, test, i), u, tau);
-  }
-  return reach.across > 0.0 ? angle_of(reach.across, reach.least_length(length)) : 0.0;
-}
-
-double acceleration_turn_rad(const GravityReference& gravity, double bound_mps2) noexcept {
-  if (!(bound_mps2 > 0.0)) return 0.0;
-  const double least = gravity.g_mps2 - TestLimits::gravity * gravity.sigma_mps2;
-  return bound_mps2 < least ? angle_with_sine(bound_mps2 / least) : kPi;
-}
-
-double tilt_sigma_rad(const Vec3& x_mps2, const Mat3& covariance) noexcept {
-  const double length = norm(x_mps2);
-  if (!(length > 0.0)) return kPi;
-  const Vec3 u = scaled(x_mps2, 1.0 / length);
-  const double across = covariance[0] + covariance[4] + covariance[8] - dot(u, times(covariance, u));
-  return across > 0.0 ? std::sqrt(across) / length : 0.0;
 }
 
 }  // namespace PLUMB_ABI

@@ -6,6 +6,7 @@
 #include "largest_eigenvalue.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/detection/detectable.hpp"
+#include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/numeric/tails.hpp"
 
@@ -58,11 +59,11 @@ double binomial(int n, int k) noexcept {
   return out;
 }
 
-/// What the parity grade's own vote takes: every set with sensor i that it hears must be dead.
+/// What the provisional grade's own vote takes: every set with sensor i that it hears must be dead.
 class SetAside {
  public:
   SetAside(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget) noexcept
-      : array_(array), settings_(settings), budget_(budget), grade_(parity_grade(array, array.all())) {
+      : array_(array), settings_(settings), budget_(budget), grade_(provisional_grade(array, array.all())) {
     if (array.size() > kStrictCapacity && grade_ > kScanDepth) grade_ = kScanDepth;
     for (int m = 0; m <= grade_; ++m) sets_ += hears(m) ? binomial(array.size() - 1, m) : 0.0;
   }
@@ -209,10 +210,10 @@ Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravi
   }
   out.sure = fault_bounds(array, slack);
   find_detectable(array, settings, budget, out.sensor);
-  const SetAside set_aside(array, settings, budget);
+  const SetAside provisionally_excluded(array, settings, budget);
   for (int i = 0; i < n; ++i) {
-    out.sensor[index(i)].set_aside_mps2 = set_aside.of(i);
-    out.sensor[index(i)].sure_detection_mps2 = out.sure.fault[1][index(i)];
+    out.sensor[index(i)].provisional_exclusion_mps2 = provisionally_excluded.of(i);
+    out.sensor[index(i)].guaranteed_detection_mps2 = out.sure.fault[1][index(i)];
   }
   out.protection_rad = protection_level(array, gravity, settings, budget, out.sensor);
   return out;

@@ -1,4 +1,4 @@
-#include "plumb/health/block_report.hpp"
+#include "plumb/health/detail/block_report.hpp"
 
 #include <cmath>
 #include <limits>
@@ -81,11 +81,11 @@ void decide_clean(const JudgeTerms& terms, BlockReport& report) noexcept {
   const bool norm_clean = std::fabs(t.norm) <= f * norm_noise + t.norm_systematic;
   const Kind kind = parity_clean && norm_clean && report.mae_clean && !terms.partial ? Kind::clean : Kind::soft;
   if (worst == report.parity_ratio && has_parity) {
-    decided(report, kind, Cause::clean, Cause::parity, t.parity, t.parity_alarm_limit(limits));
+    decided(report, kind, Cause::passed_block, Cause::parity, t.parity, t.parity_alarm_limit(limits));
   } else if (worst == report.mae_ratio) {
-    decided(report, kind, Cause::clean, Cause::mae, report.mae_worst_mps2, report.mae_limit_mps2);
+    decided(report, kind, Cause::passed_block, Cause::mae, report.mae_worst_mps2, report.mae_limit_mps2);
   } else {
-    decided(report, kind, Cause::clean, Cause::norm, std::fabs(t.norm), t.norm_alarm_limit(limits));
+    decided(report, kind, Cause::passed_block, Cause::norm, std::fabs(t.norm), t.norm_alarm_limit(limits));
   }
 }
 
@@ -110,7 +110,7 @@ BlockReport judge(const BlockTests& tests, const JudgeTerms& terms) noexcept {
     decided(report, Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits));
   } else if (!(report.norm_ratio <= 1.0)) {
     const bool vouched = tests.vouches_for_norm(used, t);
-    decided(report, vouched ? Kind::reference : Kind::alarm, vouched ? Cause::reference : Cause::norm, Cause::norm,
+    decided(report, vouched ? Kind::reference : Kind::alarm, vouched ? Cause::norm_mismatch : Cause::norm, Cause::norm,
             std::fabs(t.norm), t.norm_alarm_limit(limits));
   } else if (report.mae_ratio > 1.0) {
     decided(report, Kind::alarm, Cause::mae, Cause::mae, report.mae_worst_mps2, report.mae_limit_mps2);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plumb/core/angles.hpp"
+#include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/health/reference_study.hpp"
 
@@ -24,6 +25,8 @@ constexpr double kVouching = 4.0;
 constexpr double kVouchingFew = 2.5;
 /// Arrays of up to so many sensors are searched for every fault set of their grade.
 constexpr int kSearched = 8;
+/// Sets tested at an attitude in one block of the search: less work than a vote of eight sensors.
+constexpr int kTestsPerBlock = 150;
 /// Degrees of freedom below which chance decides.
 constexpr int kLeastDegrees = 6;
 /// Attitudes below which nobody is convicted, however many degrees of freedom they have: of many sensors there are many
@@ -35,10 +38,40 @@ constexpr double kLearnedFactor = 2.0;
 constexpr double kFinestTolerance_mps2 = 6.25e-5 * kG0_mps2;
 constexpr int kMostDoublings = 8;
 
+/// Of right calibrations one in a hundred agrees worse, and waits for `CalibrationCheck::kLeast` attitudes before all
+/// rests on it: fewer attitudes agree by chance, the better the seldomer. In standard deviations of a normal number.
+constexpr double kWellSigmas = 2.326;
+/// Of a right calibration one attitude in 1e5 is held back: as seldom as a false alarm by default.
+constexpr double kDoubtSigmas = 4.265;
+
+/// Sensors that agree by chance where all are off convict one in so many: ln(1e-4).
+constexpr double kLnMostChance = -9.21;
+
 constexpr size_t at(int i) noexcept { return static_cast<size_t>(i); }
 
 double square(double x) noexcept { return x * x; }
 double beyond(double x, double bound) noexcept { return std::fmax(0.0, x - bound); }
+
+/// chi^2 over its degrees of freedom that is exceeded as often as a normal number exceeds `sigmas` (Wilson and
+/// Hilferty: at most 12 % too much).
+double mean_square_beyond(double sigmas, double degrees) noexcept {
+  const double spread = 2.0 / (9.0 * degrees);
+  const double root = 1.0 - spread + sigmas * std::sqrt(spread);
+  return root * root * root;
+}
+
+/// ln of a bound of the probability that chi^2 over its degrees of freedom is `ratio` at most (first term of the series
+/// of the incomplete gamma function, Stirling's lower bound for the gamma function in it).
+double ln_chance(double ratio, double degrees) noexcept {
+  return 0.5 * degrees * (1.0 + std::log(ratio)) - 0.5 * std::log(kPi * degrees);
+}
+
+/// ln of the number of fault sets of `size` among `sensors`: each may be innocent by chance.
+double ln_sets(int sensors, int size) noexcept {
+  double sets = 1.0;
+  for (int k = 1; k <= size; ++k) sets *= static_cast<double>(sensors - size + k) / k;
+  return std::log(sets);
+}
 
 }  // namespace
 
@@ -46,11 +79,15 @@ bool CalibrationCheck::Fit::within(double mean_square) const noexcept { return s
 
 bool CalibrationCheck::add(const Vec3& direction, const BlockEvidence& block, double apart_rad) noexcept {
   const double length = norm(direction);
-  if (size_ == kMost || !(length > 0.0) || !(block.samples > 0.0)) return false;
+  if (!(length > 0.0) || !(block.samples > 0.0)) return false;
   for (int k = 0; k < size_; ++k) {
     const auto& u = entry_[at(k)].u;
     const Vec3 before = {static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
     if (!(angle_between_rad(before, direction) >= apart_rad)) return false;
+  }
+  if (size_ == kMost) {
+    for (int k = 1; k < kMost; ++k) entry_[at(k - 1)] = entry_[at(k)];
+    --size_;
   }
   Entry& e = entry_[at(size_)];
   e = Entry{};
@@ -68,8 +105,12 @@ bool CalibrationCheck::add(const Vec3& direction, const BlockEvidence& block, do
 
 /// Residuals of the set over the attitudes on record. Hard bounds - stability, tolerance, motion, acceleration - are
 /// taken off each residual; one length that is off alike at all attitudes is gravity's matter and taken off, too.
-CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, double tolerance_mps2) const noexcept {
+CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, double tolerance_mps2,
+                                            double most) const noexcept {
   Fit out;
+  int usable = 0;
+  for (int k = 0; k < size_; ++k) usable += entry_[at(k)].usable.contains(set) ? 1 : 0;
+  const int most_degrees = usable * (set.size() - 2) - 1;
   GravityReference gravity = terms.gravity;
   gravity.sigma_mps2 = 0.0;
   TestLimits limits = terms.limits;
@@ -84,6 +125,7 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
     block.usable = e.usable;
     block.samples = static_cast<double>(e.samples);
     for (int i = 0; i < kCapacity; ++i) block.mean_mps2[at(i)] = static_cast<double>(e.mean_mps2[at(i)]);
+    ++out.tests;
     const SetTest t = test_set(terms.array, gravity, limits, block, set);
     if (!t.tested) continue;
     block.tolerance_mps2.fill(e.tolerance_mps2 + static_cast<float>(tolerance_mps2));
@@ -91,6 +133,10 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
     const double parity_variance = 1.0 + square(t.parity_systematic / limits.calibration);
     out.sum += square(beyond(t.parity, bound.parity)) / parity_variance;
     out.degrees += t.parity_rows;
+    if (out.sum > most * most_degrees) {
+      out.degrees = most_degrees;
+      return out;
+    }
     const size_t n = at(lengths++);
     const double norm_variance = 1.0 + square(t.norm_systematic / limits.calibration);
     off[n] = t.norm_error_mps2;
@@ -109,14 +155,57 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
   return out;
 }
 
-bool CalibrationCheck::vouches(const Terms& terms, SensorSet set) const noexcept {
-  const Fit found = fit(terms, set, 0.0);
-  return found.attitudes >= kLeastVouching && found.degrees >= kLeastDegrees && found.within(kVouching);
+bool CalibrationCheck::vouches(const Terms& terms, SensorSet posed, SensorSet culprits) const noexcept {
+  const SensorSet set = posed - culprits;
+  const Fit rest = fit(terms, set, 0.0);
+  // A calibration that has been corroborated is believed until there is enough on record to say otherwise.
+  if (rest.degrees < kLeastDegrees) return corroborated_;
+  if ((!corroborated_ && rest.attitudes < kLeastVouching) || !rest.within(kVouching)) return false;
+  // Were all sensors off by what they are together, and the rest of them by chance no more than this?
+  const Fit all = fit(terms, posed, 0.0);
+  const double ratio = std::fmax(rest.sum / rest.degrees, 1.0) / std::fmax(all.sum / all.degrees, 1.0);
+  return ln_chance(ratio, independent(rest, set)) + ln_sets(posed.size(), culprits.size()) <= kLnMostChance;
 }
 
-void CalibrationCheck::corroborate(const Terms& terms, SensorSet posed) noexcept {
-  const Fit found = fit(terms, posed, 0.0);
-  corroborated_ = found.degrees >= kLeastDegrees && found.within(kConsistent);
+/// An error of bias and axis, alike in size, makes at two attitudes u and v errors of a sensor correlated by
+/// (1 + u.v) / 2, and of the length by (1 + u.v) u.v / 2. K attitudes so correlated are worth tr(G)^2 / tr(G^2)
+/// independent ones (Satterthwaite). One length is taken off.
+double CalibrationCheck::independent(const Fit& found, SensorSet set) const noexcept {
+  double parity = 0.0, length = 0.0;
+  int count = 0;
+  for (int j = 0; j < size_; ++j) {
+    if (!entry_[at(j)].usable.contains(set)) continue;
+    ++count;
+    for (int k = 0; k < size_; ++k) {
+      if (!entry_[at(k)].usable.contains(set)) continue;
+      const auto &u = entry_[at(j)].u, &v = entry_[at(k)].u;
+      const auto cosine = static_cast<double>(u[0] * v[0] + u[1] * v[1] + u[2] * v[2]);
+      parity += square(0.5 * (1.0 + cosine));
+      length += square(0.5 * (1.0 + cosine) * cosine);
+    }
+  }
+  if (count == 0) return 1.0;
+  const double rows = std::fmax(0.0, static_cast<double>(found.degrees + 1 - count) / count);
+  const double attitudes = square(count);
+  return std::fmax(1.0, rows * attitudes / parity + attitudes / length - 1.0);
+}
+
+void CalibrationCheck::weigh(const Terms& terms, SensorSet posed, SensorSet in_service, bool episode) noexcept {
+  const Fit all = fit(terms, posed, 0.0);
+  if (!episode && all.degrees >= kLeastDegrees && all.within(kConsistent)) {
+    corroborated_ = Flag(true);
+    const bool well = all.within(mean_square_beyond(kWellSigmas, independent(all, posed)));
+    closed_ = Flag(well || all.attitudes >= kLeast);
+  }
+  forget_doubt();
+  if (!corroborated_) {
+    const Fit serving = in_service == posed ? all : fit(terms, in_service, 0.0);
+    const double most = mean_square_beyond(kDoubtSigmas, independent(serving, in_service));
+    doubted_ = Flag(serving.degrees > 0 && !serving.within(most));
+  }
+  if (!open() || size_ < kLeast || all.within(kConsistent)) return;
+  next_ = SensorSet::first(1);
+  searched_ = posed;
 }
 
 double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept {
@@ -129,23 +218,44 @@ double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet pose
   return 0.0;
 }
 
-bool CalibrationCheck::contradict(const Terms& terms, SensorSet posed, int grade) noexcept {
-  if (size_ < kLeast || refused()) return false;
-  const Fit all = fit(terms, posed, 0.0);
-  if (all.within(kConsistent)) return false;
-  // Contradicted once, it is likelier to be so again than for a sensor to have failed meanwhile.
+bool CalibrationCheck::explained_without(const Terms& terms, SensorSet posed, SensorSet faulty,
+                                         int& tests) const noexcept {
+  const double most = faulty.size() > kScanDepth ? kVouchingFew : kVouching;
+  const Fit rest = fit(terms, posed - faulty, 0.0, most);
+  tests += rest.tests;
+  // Too few attitudes at which the rest delivered refute nothing.
+  return rest.degrees < kLeastDegrees || rest.within(most);
+}
+
+bool CalibrationCheck::search(const Terms& terms, SensorSet posed, int grade) noexcept {
+  // Of others than those among whom it began it tells nothing: the next attitude begins anew.
+  const SensorSet first = searched_ == posed ? next_ : SensorSet{};
+  next_ = SensorSet{};
+  if (first.empty() || refused()) return false;
+  // Contradicted once, it is likelier to be so again than for a sensor to have failed meanwhile. And on a full record
+  // four faults at once are no explanation any more.
   const int most = finding_.contradicted ? 0 : grade;
-  const bool all_sizes = most < kScanDepth || terms.array.size() <= kSearched;
+  const bool all_sizes = most < kScanDepth || (terms.array.size() <= kSearched && size_ < kMost);
   const int depth = all_sizes ? most : kScanDepth;
   const SensorSet every = terms.array.all();
-  for (int size = 1; size <= depth; ++size) {
-    for (SensorSet f = SensorSet::first(size); every.contains(f); f = next_of_same_size(f)) {
+  SensorSet f = first;
+  int tests = 0;
+  for (int size = first.size(); size <= depth; f = SensorSet::first(++size)) {
+    for (; every.contains(f); f = next_of_same_size(f)) {
       if (!posed.contains(f)) continue;
-      const Fit rest = fit(terms, posed - f, 0.0);
-      // Too few attitudes at which the rest delivered refute nothing.
-      if (rest.degrees < kLeastDegrees || rest.within(size > kScanDepth ? kVouchingFew : kVouching)) return false;
+      if (tests >= kTestsPerBlock) {
+        next_ = f;
+        return false;
+      }
+      if (explained_without(terms, posed, f, tests)) return false;
     }
   }
+  contradict(terms, posed);
+  return true;
+}
+
+void CalibrationCheck::contradict(const Terms& terms, SensorSet posed) noexcept {
+  const Fit all = fit(terms, posed, 0.0);
   finding_.contradicted = true;
   finding_.attitudes = size_;
   finding_.ratio = std::sqrt(all.sum / all.degrees);
@@ -153,8 +263,9 @@ bool CalibrationCheck::contradict(const Terms& terms, SensorSet posed, int grade
   finding_.tolerance_mps2 += learned_mps2;
   finding_.refused = !(learned_mps2 > 0.0) || finding_.tolerance_mps2 > kMostLearnedTolerance_mps2;
   if (finding_.refused) finding_.tolerance_mps2 = 0.0;
-  size_ = 0;
-  return true;
+  corroborated_ = Flag();
+  forget_readings();
+  forget_doubt();
 }
 
 }  // namespace PLUMB_ABI

@@ -1,4 +1,4 @@
-#include "plumb/health/channel_facts.hpp"
+#include "plumb/health/detail/channel_facts.hpp"
 
 #include <algorithm>
 #include <cmath>

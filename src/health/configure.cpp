@@ -114,7 +114,7 @@ void HealthMonitor::power_on(const MonitorSetup& setup) noexcept {
   s.window.power_on(array.triple_count(), config.window);
   s.facts.clear();
   s.last = LastBlock{};
-  s.diagnosis.clear(s.in_force, array.all(), config.asserted_faults);
+  s.diagnosis.clear(s.in_force, array.all(), config.assumed_faults);
   s.studies.clear();
   s.requests = Requests{};
   s.freshness = Freshness{};

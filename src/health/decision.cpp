@@ -1,4 +1,4 @@
-#include "plumb/health/decision.hpp"
+#include "plumb/health/detail/decision.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -11,18 +11,18 @@ SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLe
     // The survivors were just found alive together, those set aside before among them: they serve again, however often
     // they were set aside. Setting aside is no conviction: beyond its own grade it may meet a healthy sensor time and
     // again, and only the grade that convicts may take a sensor out for good.
-    s.in_service = (s.in_service | s.set_aside) - moved;
-    s.set_aside = SensorSet{};
+    s.in_service = (s.in_service | s.provisionally_excluded) - moved;
+    s.provisionally_excluded = SensorSet{};
   }
-  if ((actions & Action::set_aside) != 0) {
+  if ((actions & Action::exclude_provisionally) != 0) {
     moved = named.accused & s.in_service;
     s.in_service = s.in_service - moved;
-    s.set_aside = s.set_aside | moved;
+    s.provisionally_excluded = s.provisionally_excluded | moved;
   }
   if ((actions & Action::mark_absent) != 0) {
     moved = named.lost - s.absent;
     s.in_service = s.in_service - moved;
-    s.set_aside = s.set_aside - moved;
+    s.provisionally_excluded = s.provisionally_excluded - moved;
     s.excluded = s.excluded - moved;
     s.absent = s.absent | moved;
   }
@@ -33,11 +33,12 @@ SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLe
   }
   if ((actions & (Action::reinstate | Action::rearm)) != 0) {
     const bool reinstates = (actions & Action::reinstate) != 0;
-    moved =
-        reinstates ? SensorSet::of(((named.proven & (s.excluded | s.set_aside)) - s.readmitted).lowest()) : named.reset;
+    moved = reinstates
+                ? SensorSet::of(((named.proven & (s.excluded | s.provisionally_excluded)) - s.readmitted).lowest())
+                : named.reset;
     if (reinstates) s.readmitted = s.readmitted | moved;
     s.excluded = s.excluded - moved;
-    s.set_aside = s.set_aside - moved;
+    s.provisionally_excluded = s.provisionally_excluded - moved;
     s.absent = s.absent - moved;
     s.in_service = s.in_service | moved;
   }

@@ -1,4 +1,5 @@
-#include "plumb/health/diagnosis.hpp"
+#include "plumb/health/detail/diagnosis.hpp"
+#include "plumb/detection/estimate_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,14 @@ constexpr int kLastVoteBlock = 16;
 
 }  // namespace
 
-Vec3 known_direction(const SetTest& test, double excitation_angle_rad) noexcept {
+Vec3 known_direction(const SetTest& test, double distinct_attitude_angle_rad) noexcept {
   const double sigma_rad = tilt_sigma_rad(test.x_mps2, test.covariance);
-  return kDirectionSigmas * sigma_rad <= 0.5 * excitation_angle_rad ? test.x_mps2 : Vec3{};
+  return kDirectionSigmas * sigma_rad <= 0.5 * distinct_attitude_angle_rad ? test.x_mps2 : Vec3{};
 }
 
-void Diagnosis::clear(const InForce& in_force, SensorSet in_service, int asserted_faults) noexcept {
+void Diagnosis::clear(const InForce& in_force, SensorSet in_service, int assumed_faults) noexcept {
   *this = Diagnosis{};
-  asserted_left_ = asserted_faults;
+  asserted_left_ = assumed_faults;
   isolation_.pose(in_force.array, in_service);
   live_ = isolation_.live();
 }
@@ -90,7 +91,7 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
                                std::uint32_t tag) noexcept {
   const BlockEvidence& evidence = tests.block();
   const SensorLedger& sensors = terms.machine.sensors;
-  const SensorSet posed = sensors.in_service | sensors.set_aside;
+  const SensorSet posed = sensors.in_service | sensors.provisionally_excluded;
   const SensorSet voters = episode_.candidate.empty() ? sensors.in_service : posed - episode_.candidate;
   const SetTest& clear = tests.of(voters & evidence.usable);
   const SetTest& pose = clear.tested ? clear : report.used;
@@ -103,7 +104,7 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
     leave_station();
     station_.open = true;
     station_.tag = tag;
-    station_.direction = known_direction(pose, config.excitation_angle_rad);
+    station_.direction = known_direction(pose, config.distinct_attitude_angle_rad);
     station_.last = direction;
     station_.samples = static_cast<float>(evidence.samples);
     station_.delivered = evidence.usable;
@@ -114,55 +115,71 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
   if (station_.blocks < StationTrack::kMostBlocks) ++station_.blocks;
 }
 
-/// What scatters may be all that shows of a movement: the strict grade bears so many faulty ones that hang that the
+/// What scatters may be all that shows of a movement: the confirmed grade bears so many faulty ones that hang that the
 /// calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing. But a
 /// sensor that alone scatters, whichever others are doubted, while these agree, is the answer of this station by that.
-bool Diagnosis::answers_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
+SensorSet Diagnosis::convicted_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
   const SensorSet noisy = terms.facts.noisy();
-  if (noisy.size() != 1 || isolation_.strict_grade() < 1) return false;
-  const bool checked = isolation_.parity_grade() >= 1;
-  if (checked && !terms.facts.noisy_for_certain().contains(noisy)) return false;
+  if (noisy.size() != 1 || isolation_.confirmed_grade() < 1) return {};
+  const bool checked = isolation_.provisional_grade() >= 1;
+  if (checked && !terms.facts.noisy_for_certain().contains(noisy)) return {};
   const SensorSet others = isolation_.posed() - noisy;
   const TestLimits& limits = terms.settings.limits;
   const SetTest& rest = tests.of(others & tests.block().usable);
-  return terms.last.calm.contains(others) && rest.tested && rest.alive(limits) && rest.parity_alive(limits);
+  const bool agree = terms.last.calm.contains(others) && rest.tested && rest.alive(limits) && rest.parity_alive(limits);
+  return agree ? noisy : SensorSet{};
+}
+
+/// By the vote where that names anyone, else by scatter.
+Diagnosis::Accusation Diagnosis::accuse(const Terms& terms, const BlockTests& tests,
+                                        const IsolationAnswer& voted) const noexcept {
+  if (!voted.strict.empty()) return {voted.strict, false};
+  const SensorSet scatters = convicted_by_scatter(terms, tests);
+  return {scatters, !scatters.empty()};
+}
+
+bool Diagnosis::is_vote_due(const BlockTests& tests) const noexcept {
+  const int blocks = station_.blocks;
+  // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
+  const bool testable = tests.block().usable.contains(isolation_.posed());
+  return testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
 }
 
 void Diagnosis::vote(const Terms& terms, const BlockTests& tests) noexcept {
-  const BlockEvidence& evidence = tests.block();
-  const int blocks = station_.blocks;
-  // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
-  const bool testable = evidence.usable.contains(isolation_.posed());
-  const bool due = testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
-  if (!due) return;
+  if (!is_vote_due(tests)) return;
   answer_ = isolation_.vote(tests, terms.last.calm);
   station_.asked = true;
-  const SensorSet posed = isolation_.posed();
-  const bool by_scatter = answer_.strict.empty() && answers_by_scatter(terms, tests);
-  if (by_scatter) answer_.strict = terms.facts.noisy();
+  const Accusation accused = accuse(terms, tests, answer_);
+  answer_.strict = accused.culprits;
+  note_accusation(terms, tests, accused);
+}
+
+/// What the accusation of one station makes of the candidate that the stations before it have named.
+void Diagnosis::note_accusation(const Terms& terms, const BlockTests& tests, const Accusation& accused) noexcept {
+  const SensorSet posed = isolation_.posed(), usable = tests.block().usable;
   const TestLimits& limits = terms.settings.limits;
-  const SetTest& full = tests.of(posed & evidence.usable);
+  const SetTest& full = tests.of(posed & usable);
   const bool visible = !full.alive(limits) || !full.parity_alive(limits);
   // A fault may come and go within a station: a block without it neither confirms nor takes back.
-  if (answer_.strict.empty() && !visible) return;
-  if (answer_.strict != episode_.candidate) {
+  if (accused.culprits.empty() && !visible) return;
+  if (accused.culprits != episode_.candidate) {
     episode_.take_back();
-    episode_.candidate = answer_.strict;
-    episode_.by_scatter = by_scatter;
+    episode_.candidate = accused.culprits;
+    episode_.by_scatter = accused.by_scatter;
   }
-  station_.answered = !answer_.strict.empty();
+  station_.answered = !accused.culprits.empty();
   // A station at which the fault cannot be seen confirms nothing.
-  if (answer_.strict.empty() || !visible) return;
-  episode_.by_scatter = episode_.by_scatter && by_scatter;
-  const SetTest& survivors = tests.of((posed - answer_.strict) & evidence.usable);
-  const double apart_rad = terms.settings.config.excitation_angle_rad;
+  if (accused.culprits.empty() || !visible) return;
+  episode_.by_scatter = episode_.by_scatter && accused.by_scatter;
+  const SetTest& survivors = tests.of((posed - accused.culprits) & usable);
+  const double apart_rad = terms.settings.config.distinct_attitude_angle_rad;
   if (survivors.tested) episode_.agreeing.add(known_direction(survivors, apart_rad), apart_rad);
 }
 
 SensorSet Diagnosis::noise_confirmed(const ChannelFacts& facts) const noexcept {
   const SensorSet out = facts.noisy_long_enough();
   const bool at_stations = episode_.by_scatter && episode_.agreeing.size() >= ChannelFacts::kConfirm;
-  return at_stations && isolation_.parity_grade() >= 1 ? out | episode_.candidate : out;
+  return at_stations && isolation_.provisional_grade() >= 1 ? out | episode_.candidate : out;
 }
 
 /// Until the calibration is believed a sensor is convicted only if the others agree at every attitude on record; once
@@ -170,7 +187,7 @@ SensorSet Diagnosis::noise_confirmed(const ChannelFacts& facts) const noexcept {
 bool Diagnosis::may_convict(const Terms& terms, SensorSet culprits) const noexcept {
   if (!terms.check.open()) return true;
   const CalibrationCheck::Terms by{terms.in_force.array, terms.in_force.gravity, terms.settings.limits};
-  return !terms.check.finding().contradicted && terms.check.vouches(by, isolation_.posed() - culprits);
+  return !terms.check.finding().contradicted && terms.check.vouches(by, isolation_.posed(), culprits);
 }
 
 SensorSet Diagnosis::culprits(const Terms& terms) const noexcept {
@@ -178,27 +195,30 @@ SensorSet Diagnosis::culprits(const Terms& terms) const noexcept {
   if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_ &&
       may_convict(terms, scan_.asserted))
     return scan_.asserted;
-  if (isolation_.strict_grade() < 1 || episode_.candidate.empty()) return {};
+  if (isolation_.confirmed_grade() < 1 || episode_.candidate.empty()) return {};
   const int survivors = (posed - episode_.candidate).size();
   int needed = terms.settings.config.isolation_stations;
   if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
-  if (episode_.by_scatter && isolation_.parity_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
-  if (episode_.by_scatter && needed < 2) needed = 2;                     // at one station its scatter may be a push
+  if (episode_.by_scatter && isolation_.provisional_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
+  if (episode_.by_scatter && needed < 2) needed = 2;  // at one station its scatter may be a push
   const bool agreed = episode_.agreeing.size() >= needed && may_convict(terms, episode_.candidate);
   return agreed ? episode_.candidate : SensorSet{};
 }
 
-Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, bool noise_known) noexcept {
+Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, NoiseKnowledge noise) noexcept {
   using Kind = BlockReport::Kind;
   Conclusion out;
   out.refuted = report.kind == Kind::alarm && asserted_left_ == 0 && !terms.in_force.owes_calibration();
   if (may_accuse(terms.machine.mode)) {
     out.culprits = episode_.open ? culprits(terms) : SensorSet{};
     if (!out.culprits.empty())
-      last_grade_ = asserted_left_ > 0 && out.culprits == scan_.asserted ? Grade::asserted : Grade::strict;
-    const bool by_parity = episode_.open && noise_known && report.kind == Kind::alarm && report.cause == Cause::parity;
+      last_grade_ = asserted_left_ > 0 && out.culprits == scan_.asserted ? Grade::assumed : Grade::confirmed;
+    const bool by_parity =
+        episode_.open && noise.learned && report.kind == Kind::alarm && report.cause == Cause::parity;
     const SensorSet odd = by_parity && may_convict(terms, answer_.parity) ? answer_.parity : SensorSet{};
-    out.aside = aside_ = (odd | noise_confirmed(terms.facts)) & terms.machine.sensors.in_service;
+    // Where all sensors may be noisier than stated, the scatter of one may be its share of that.
+    const SensorSet scatters = noise.learned || noise.others_as_stated ? noise_confirmed(terms.facts) : SensorSet{};
+    out.aside = aside_ = (odd | scatters) & terms.machine.sensors.in_service;
   }
   if (out.refuted) asserted_left_ = -1;
   return out;
@@ -208,7 +228,7 @@ Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, bo
 /// many others hang.
 SensorSet Diagnosis::witnesses(const Terms& terms) const noexcept {
   const SensorSet in_service = terms.machine.sensors.in_service;
-  if (asserted_left_ > parity_grade(terms.in_force.array, in_service & terms.last.usable)) return terms.last.calm;
+  if (asserted_left_ > provisional_grade(terms.in_force.array, in_service & terms.last.usable)) return terms.last.calm;
   return terms.last.calm | terms.facts.noisy_for_certain();
 }
 
@@ -218,11 +238,11 @@ void Diagnosis::rescan(const Terms& terms, const BlockTests& tests, double turn_
   if (!terms.last.known) return;
   const int priors = terms.settings.protection_faults;
   int depth = std::max(priors, asserted_left_);
-  if (episode_.open && isolation_.strict_grade() > depth) depth = isolation_.strict_grade();
+  if (episode_.open && isolation_.confirmed_grade() > depth) depth = isolation_.confirmed_grade();
   const SensorLedger& sensors = terms.machine.sensors;
-  const int aside = (sensors.set_aside & terms.last.evidence.usable).size();
+  const int aside = (sensors.provisionally_excluded & terms.last.evidence.usable).size();
   scan_ = isolation_.scan(tests, sensors.in_service, depth, asserted_left_,
-                          {priors, terms.settings.k_integrity, aside, episode_.open, terms.machine.unproven},
+                          {priors, terms.settings.k_integrity, aside, episode_.open, terms.machine.not_yet_validated},
                           witnesses(terms));
   scan_.protection_rad += turn_rad;
   scan_.protection_rad += reference_turn_rad;

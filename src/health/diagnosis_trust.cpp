@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/health/diagnosis.hpp"
+#include "plumb/health/detail/diagnosis.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -26,30 +26,30 @@ double proving_change_mps2(const InForce& in_force, int sensor, double samples) 
 bool Diagnosis::expected(HealthEvent event, const DecisionState& machine) const noexcept {
   return machine.mode == Mode::recalibrating && machine.base == Mode::suspect &&
          suspicion_ == cause_of(event, Cause::none) &&
-         (event == HealthEvent::reference || event == HealthEvent::contradiction);
+         (event == HealthEvent::norm_mismatch || event == HealthEvent::no_consistent_hypothesis);
 }
 
 /// The timeout counts doubt, not alarms alone: a block between the limit to leave suspect and the one to enter it would
 /// else hold the monitor there for ever. It rests at a reference error, of which nobody in service is accused.
 void Diagnosis::count_doubt(const Terms& terms, const BlockReport& report) noexcept {
   // The contradiction for which the host had a fit made is no news, and the fit needs more stations than patience has.
-  const bool known = answer_.contradiction && expected(HealthEvent::contradiction, terms.machine);
-  episode_.note_suspected((episode_.candidate | terms.machine.sensors.set_aside).size());
+  const bool known = answer_.no_consistent_hypothesis && expected(HealthEvent::no_consistent_hypothesis, terms.machine);
+  episode_.note_suspected((episode_.candidate | terms.machine.sensors.provisionally_excluded).size());
   if (!report.doubtful(terms.machine.mode) || known || terms.in_force.owes_calibration()) return;
   const MonitorConfig& config = terms.settings.config;
-  episode_.stations.add(station_.direction, config.excitation_angle_rad);
-  if (episode_.doubtful_blocks < config.patience_blocks) ++episode_.doubtful_blocks;
+  episode_.stations.add(station_.direction, config.distinct_attitude_angle_rad);
+  if (episode_.doubtful_blocks < config.isolation_timeout_blocks) ++episode_.doubtful_blocks;
 }
 
 /// Of attitudes in doubt, which do not count while those to come may speak against the calibration; of blocks in doubt
 /// where they are counted.
 bool Diagnosis::is_out_of_stations(const Terms& terms) const noexcept {
-  const bool gathers = terms.check.gathers() && isolation_.strict_grade() >= 1;
-  return !gathers && episode_.stations.size() >= terms.settings.config.patience;
+  const bool gathers = terms.check.gathers() && isolation_.confirmed_grade() >= 1;
+  return !gathers && episode_.stations.size() >= terms.settings.config.isolation_timeout;
 }
 bool Diagnosis::is_out_of_blocks(const Terms& terms) const noexcept {
   const MonitorConfig& config = terms.settings.config;
-  return config.patience_blocks > 0 && episode_.doubtful_blocks >= config.patience_blocks;
+  return config.isolation_timeout_blocks > 0 && episode_.doubtful_blocks >= config.isolation_timeout_blocks;
 }
 
 bool Diagnosis::patience_is_over(const Terms& terms) const noexcept {
@@ -57,14 +57,14 @@ bool Diagnosis::patience_is_over(const Terms& terms) const noexcept {
   if (mode != Mode::suspect && mode != Mode::recalibrating) return false;
   if (terms.check.refused()) return false;  // nobody is accused of it
   return (is_out_of_stations(terms) || is_out_of_blocks(terms)) &&
-         (!terms.machine.exhausted || unbounded_run_ >= terms.settings.config.clean_blocks);
+         (!terms.machine.timed_out || unbounded_run_ >= terms.settings.config.passed_blocks);
 }
 
 /// Whether the block is explained by no more faults than the grade bears, with enough sensors left to check one
 /// another. Another attitude may then single that explanation out; and where none does, because two of them are images
 /// of each other, no attitude speaks against the tool.
 bool Diagnosis::is_isolable(const BlockEvidence& evidence) const noexcept {
-  const int grade = std::max(isolation_.strict_grade(), isolation_.parity_grade());
+  const int grade = std::max(isolation_.confirmed_grade(), isolation_.provisional_grade());
   return scan_.least <= grade && (isolation_.posed() & evidence.usable).size() - scan_.least >= 4;
 }
 
@@ -83,7 +83,7 @@ void Diagnosis::count_unbounded(const Terms& terms, const BlockTests& tests, con
   }
   if (within) {
     unbounded_run_ = 0;
-  } else if (report.kind != BlockReport::Kind::reference && unbounded_run_ < config.clean_blocks) {
+  } else if (report.kind != BlockReport::Kind::reference && unbounded_run_ < config.passed_blocks) {
     ++unbounded_run_;
   }
 }
@@ -118,36 +118,36 @@ void Diagnosis::count_clean(const Terms& terms, const BlockTests& tests, const B
     }
     return;
   }
-  if (machine.clean_run < config.clean_blocks) ++machine.clean_run;
-  if (machine.unproven && !terms.in_force.owes_calibration()) {
+  if (machine.clean_run < config.passed_blocks) ++machine.clean_run;
+  if (machine.not_yet_validated && !terms.in_force.owes_calibration()) {
     const bool moved = note_predictions(terms, report.used.x_mps2);
-    const bool believed = isolation_.strict_grade() < 1 || terms.check.believed();
-    if (moved && believed && machine.clean_run >= config.clean_blocks) machine.unproven = false;
+    const bool believed = isolation_.confirmed_grade() < 1 || terms.check.believed();
+    if (moved && believed && machine.clean_run >= config.passed_blocks) machine.not_yet_validated = false;
   }
   // While a sensor is set aside the episode ends only when it, too, agrees again.
   const SensorSet posed = isolation_.posed() & tests.block().usable;
   const SetTest& all = tests.of(posed);
   if (!(all.alive(terms.settings.limits) && all.parity_alive(terms.settings.limits))) return;
-  const double apart_rad = config.excitation_angle_rad;
+  const double apart_rad = config.distinct_attitude_angle_rad;
   episode_.clean.add(known_direction(report.used, apart_rad), apart_rad);
   const bool on_record = episode_.open || episode_.stations.size() > 0;
   if (on_record && episode_.clean.size() >= config.forget_blocks) {
     forget_episode();
-    machine.exhausted = false;
+    machine.timed_out = false;
   }
 }
 
 void Diagnosis::examine_probation(const Terms& terms, const BlockTests& tests, const BlockReport& report) noexcept {
   const DecisionState& machine = terms.machine;
-  if (report.kind != BlockReport::Kind::clean || episode_.open || machine.unproven || machine.mode == Mode::failed ||
-      machine.mode == Mode::suspect)
+  if (report.kind != BlockReport::Kind::clean || episode_.open || machine.not_yet_validated ||
+      machine.mode == Mode::failed || machine.mode == Mode::suspect)
     return;
   const BlockEvidence& evidence = tests.block();
   const SensorLedger& s = machine.sensors;
   const TestLimits& limits = terms.settings.limits;
   const MonitorConfig& config = terms.settings.config;
-  const SensorSet asked = ((s.excluded | s.set_aside) - (s.readmitted | s.absent)) & evidence.usable & terms.last.calm &
-                          terms.in_force.calibrated;
+  const SensorSet asked = ((s.excluded | s.provisionally_excluded) - (s.readmitted | s.absent)) & evidence.usable &
+                          terms.last.calm & terms.in_force.calibrated;
   SensorSet fine;
   for (int i = 0; i < terms.in_force.array.size(); ++i) {
     if (!asked.has(i)) continue;
@@ -158,7 +158,7 @@ void Diagnosis::examine_probation(const Terms& terms, const BlockTests& tests, c
   const SensorSet still = on_probation_ & fine;
   if (still.empty()) probation_.clear();
   on_probation_ = still.empty() ? fine : still;
-  const double apart_rad = config.excitation_angle_rad;
+  const double apart_rad = config.distinct_attitude_angle_rad;
   if (!on_probation_.empty()) probation_.add(known_direction(report.used, apart_rad), apart_rad);
 }
 

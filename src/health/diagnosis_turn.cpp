@@ -1,7 +1,7 @@
 // What the host could do about doubt: which turn would validate the sensors, or tell the explanations apart.
 #include <cmath>
 
-#include "plumb/health/diagnosis.hpp"
+#include "plumb/health/detail/diagnosis.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -12,7 +12,7 @@ using std::size_t;
 RotationRequest Diagnosis::validating_turn(const Terms& terms) const noexcept {
   RotationRequest out;
   out.wanted = true;
-  out.angle_rad = terms.settings.config.excitation_angle_rad;
+  out.angle_rad = terms.settings.config.distinct_attitude_angle_rad;
   if (!terms.last.known) return out;
   const SensorArray& array = terms.in_force.array;
   double worst = 0.0;
@@ -34,7 +34,7 @@ RotationRequest Diagnosis::validating_turn(const Terms& terms) const noexcept {
 RotationRequest Diagnosis::resolving_turn(const Terms& terms) const noexcept {
   RotationRequest out;
   out.wanted = true;
-  out.angle_rad = terms.settings.config.excitation_angle_rad;
+  out.angle_rad = terms.settings.config.distinct_attitude_angle_rad;
   if (scan_.least != 1 || !terms.last.known) return out;
   const SensorArray& array = terms.in_force.array;
   const GravityReference& gravity = terms.in_force.gravity;
@@ -69,8 +69,8 @@ RotationRequest Diagnosis::resolving_turn(const Terms& terms) const noexcept {
 RotationRequest Diagnosis::rotation_request(const Terms& terms) const noexcept {
   if (terms.machine.mode != Mode::suspect) return {};
   // No turn explains what nothing explains.
-  if (episode_.open) return answer_.contradiction ? RotationRequest{} : resolving_turn(terms);
-  return terms.machine.unproven ? validating_turn(terms) : RotationRequest{};
+  if (episode_.open) return answer_.no_consistent_hypothesis ? RotationRequest{} : resolving_turn(terms);
+  return terms.machine.not_yet_validated ? validating_turn(terms) : RotationRequest{};
 }
 
 }  // namespace PLUMB_ABI

@@ -1,4 +1,4 @@
-#include "plumb/health/freshness.hpp"
+#include "plumb/health/detail/freshness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +22,11 @@ constexpr std::uint16_t one_more(std::uint16_t run) noexcept {
 }  // namespace
 
 void Freshness::measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& expected,
-                        double independent, const std::array<float, kCapacity>& resolution_mps2, bool moved) noexcept {
+                        double independent, const std::array<float, kCapacity>& resolution_mps2,
+                        SensorSet noisy) noexcept {
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
-    const double variance = moved ? expected.of(i) : std::fmax(expected.of(i), block.covariance(i, i));
+    const double variance = noisy.has(i) ? std::fmax(expected.of(i), block.covariance(i, i)) : expected.of(i);
     const double noise = kDepartureSigmas * std::sqrt(variance * (1.0 + 1.0 / independent));
     tolerance_mps2_[a] = static_cast<float>(noise + static_cast<double>(resolution_mps2[a]));
   }

@@ -1,4 +1,5 @@
-#include "plumb/health/gravity_finding.hpp"
+#include "plumb/health/detail/gravity_finding.hpp"
+#include "plumb/detection/estimate_error.hpp"
 
 #include <cmath>
 
@@ -16,7 +17,7 @@ bool GravityFinding::withdraw() noexcept {
   study_.clear();
   if (!(widened_mps2_ > 0.0)) return false;
   widened_mps2_ = turn_rad_ = 0.0;
-  told_ = ReferenceKind::none;
+  told_ = NormMismatchKind::none;
   return true;
 }
 
@@ -28,7 +29,7 @@ bool GravityFinding::learn(const Terms& terms, const BlockReport& report) noexce
   const TestLimits& limits = terms.settings.limits;
   const MonitorConfig& config = terms.settings.config;
   const bool off = report.kind == Kind::reference;
-  bool news = !terms.trusted || told_ != ReferenceKind::none;
+  bool news = !terms.trusted || told_ != NormMismatchKind::none;
   if (report.kind == Kind::alarm || report.used.parity_rows < 1) {
     study_.clear();
   } else if (terms.trusted || off || !study_.empty()) {
@@ -41,10 +42,10 @@ bool GravityFinding::learn(const Terms& terms, const BlockReport& report) noexce
     // it.
     if (config.alarm_form == AlarmForm::average_tool) bound += limits.acceleration_mps2;
     const bool one_length = study_.agrees(report.used.norm_error_mps2, bound);
-    if (!one_length && (terms.trusted || told_ == ReferenceKind::none)) study_.clear();
+    if (!one_length && (terms.trusted || told_ == NormMismatchKind::none)) study_.clear();
     const bool whole = terms.evidence.usable.contains(terms.in_service);
     if (whole && study_.add(report.used.x_mps2, report.used.norm_error_mps2, bound,
-                            kStudyAngles * config.excitation_angle_rad, limits.reject[1] * sigma)) {
+                            kStudyAngles * config.distinct_attitude_angle_rad, limits.reject[1] * sigma)) {
       news = true;
     }
   }
@@ -65,20 +66,20 @@ GravityFinding::News GravityFinding::tell(const Terms& terms) noexcept {
   // An acceleration that was allowed for turns the direction whatever the length says.
   const double turn_rad = acceleration_turn_rad(gravity, acceleration_mps2);
   const double stated_mps2 = TestLimits::gravity * gravity.sigma_mps2;
-  ReferenceFinding found = study_.find(gravity.g_mps2, stated_mps2, terms.settings.config.alert_limit_rad - turn_rad);
+  NormMismatch found = study_.find(gravity.g_mps2, stated_mps2, terms.settings.config.alert_limit_rad - turn_rad);
   // Within its limit the length is not in doubt: only what lies beyond the stated gravity for certain is told.
   const bool beyond = std::fabs(found.length_mps2) > stated_mps2 + found.length_bound_mps2;
-  if (terms.trusted && !(found.kind == ReferenceKind::common_scale && beyond)) found = ReferenceFinding{};
+  if (terms.trusted && !(found.kind == NormMismatchKind::common_scale && beyond)) found = NormMismatch{};
   if (found.turn_rad > 0.0) found.turn_rad += turn_rad;
   News news;
   news.told = true;
-  const bool certain = found.kind == ReferenceKind::common_scale || found.kind == ReferenceKind::common_bias;
+  const bool certain = found.kind == NormMismatchKind::common_scale || found.kind == NormMismatchKind::common_bias;
   news.noticed = certain && found.kind != told_;
   told_ = found.kind;
   turn_rad_ = found.turn_rad;
   found.bias_mps2 = times(terms.settings.frame, found.bias_mps2);
   const double most_mps2 = std::fabs(found.length_mps2) + found.length_bound_mps2;
-  if (found.kind == ReferenceKind::common_scale && terms.vouched && !(acceleration_mps2 > 0.0) &&
+  if (found.kind == NormMismatchKind::common_scale && terms.vouched && !(acceleration_mps2 > 0.0) &&
       most_mps2 <= kMostGravityOffset_mps2) {
     widened_mps2_ = std::fabs(found.length_mps2) + std::fmax(0.0, found.length_bound_mps2 - stated_mps2);
     news.widen_mps2 = found.widened_mps2 = widened_mps2_;

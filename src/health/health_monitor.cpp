@@ -17,8 +17,9 @@ namespace {
 /// Patience that ends recalibration leads back to where that began, but not past what speaks against the tool at the
 /// same time (S17; the model in model/ found it).
 EventMask allowed(const MonitorState& s, EventMask raised) noexcept {
-  if (s.machine.mode == Mode::recalibrating && (raised & kKeptEvents) != 0) raised &= ~bit(HealthEvent::patience_over);
-  constexpr EventMask kFrozen = bit(HealthEvent::culprit) | bit(HealthEvent::set_aside) |
+  if (s.machine.mode == Mode::recalibrating && (raised & kKeptEvents) != 0)
+    raised &= ~bit(HealthEvent::isolation_timeout);
+  constexpr EventMask kFrozen = bit(HealthEvent::exclusion) | bit(HealthEvent::provisional_exclusion) |
                                 bit(HealthEvent::probation_passed) | bit(HealthEvent::recalibrate) |
                                 bit(HealthEvent::fit_accepted);
   return s.requests.inhibited ? raised & ~kFrozen : raised;

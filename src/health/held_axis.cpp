@@ -1,4 +1,4 @@
-#include "plumb/health/held_axis.hpp"
+#include "plumb/health/detail/held_axis.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include "plumb/health/intake.hpp"
+#include "plumb/health/detail/intake.hpp"
 
 #include <cmath>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -1,7 +1,7 @@
 // Storage that changed though nobody wrote to it: a flipped bit, a stray write. The state, the masks and what a host
 // steers by are compared in every step; calibration, configuration and memory before anything is decided from them or
 // written to them, and so at every block; what every sample changes is held by sums of its own.
-#include "plumb/core/storage_map.hpp"
+#include "plumb/core/detail/storage_map.hpp"
 #include "plumb/health/health_monitor.hpp"
 
 namespace plumb {
@@ -55,7 +55,7 @@ const Verdict& HealthMonitor::lose_memory(const Sample& sample) noexcept {
   verdict_.time_s = sample.time_s;
   verdict_.sample = state_.counters.samples;
   verdict_.state = HealthState::failed;
-  verdict_.qualifiers = Qualifier::unproven;
+  verdict_.qualifiers = Qualifier::not_yet_validated;
   verdict_.cause = Cause::memory;
   verdict_.transition = record;
   return verdict_;

@@ -1,4 +1,5 @@
-#include "plumb/health/monitor_state.hpp"
+#include "plumb/health/detail/monitor_state.hpp"
+#include "plumb/detection/estimate_error.hpp"
 
 #include <cmath>
 
@@ -12,16 +13,16 @@ SizeClass MonitorState::classify(SensorSet set) const noexcept {
 }
 
 bool MonitorState::may_recalibrate() const noexcept {
-  if (!kRecalibrates || !machine.sensors.set_aside.empty()) return false;
+  if (!kRecalibrates || !machine.sensors.provisionally_excluded.empty()) return false;
   switch (machine.mode) {
     case Mode::nominal:
     case Mode::isolated:
-    case Mode::degraded: return !diagnosis.episode().open && !machine.unproven;
+    case Mode::degraded: return !diagnosis.episode().open && !machine.not_yet_validated;
     case Mode::suspect:
       // A fit of three sensors never clears an alarm: nothing but the fit itself would vouch for it.
       if (service.size == SizeClass::critical) return false;
-      return diagnosis.suspicion() == Cause::contradiction ||
-             (diagnosis.suspicion() == Cause::reference && !diagnosis.episode().open);
+      return diagnosis.suspicion() == Cause::no_consistent_hypothesis ||
+             (diagnosis.suspicion() == Cause::norm_mismatch && !diagnosis.episode().open);
     case Mode::recalibrating:
     case Mode::initial:
     case Mode::failed: return false;

@@ -1,4 +1,4 @@
-#include "plumb/health/motion_bound.hpp"
+#include "plumb/health/detail/motion_bound.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "plumb/health/noise_study.hpp"
+#include "plumb/health/detail/noise_study.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "plumb/health/plausible.hpp"
+#include "plausible.hpp"
 
 #include <cmath>
 
-#include "plumb/health/publish.hpp"
+#include "plumb/health/detail/publish.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -65,7 +65,7 @@ bool calibration_is_plausible(const MonitorState& s, const MonitorSetup& setup) 
   const bool own = !setup.calibrated && !now.owes_calibration();
   if (own) {
     if (rank_of(now.array, now.calibrated) < 3 || !now.array.uncertainty().is_covariance()) return false;
-    const SensorModel commissioned = s.recalibration.commissioned(now.model);
+    const SensorModel commissioned = s.recalibration.bounds().commissioned(now.model);
     const Error off = Recalibration::off_datasheet(setup.model, setup.array, commissioned, now.array, now.array.all());
     return off.code == Errc::ok && (changed || (same_coefficients(now.model, commissioned)));
   }
@@ -73,7 +73,7 @@ bool calibration_is_plausible(const MonitorState& s, const MonitorSetup& setup) 
   if (now.temperature_min_degc != config.temperature_min_degc ||
       now.temperature_max_degc != config.temperature_max_degc)
     return false;
-  if (!same_rows(now.array, setup.array) || !s.recalibration.commissioned_as(setup.model)) return false;
+  if (!same_rows(now.array, setup.array) || !s.recalibration.bounds().commissioned_as(setup.model)) return false;
   // Where nobody has changed the calibration it is not another one.
   return changed || (!now.three_sensor_fit && same_coefficients(now.model, setup.model) &&
                      same_uncertainty(now.array.uncertainty(), setup.array.uncertainty(), now.array.size()));
@@ -82,7 +82,7 @@ bool calibration_is_plausible(const MonitorState& s, const MonitorSetup& setup) 
 bool sets_are_plausible(const MonitorState& s) noexcept {
   const SensorLedger& l = s.machine.sensors;
   SensorSet seen;
-  for (const SensorSet set : {l.in_service, l.set_aside, l.excluded, l.absent}) {
+  for (const SensorSet set : {l.in_service, l.provisionally_excluded, l.excluded, l.absent}) {
     if (!(seen & set).empty()) return false;
     seen = seen | set;
   }
@@ -100,10 +100,11 @@ bool mode_is_plausible(const MonitorState& s) noexcept {
   switch (machine.mode) {
     case Mode::nominal:
     case Mode::isolated:
-    case Mode::degraded: return machine.mode == mode_by_size(s.service.size) && !machine.unproven;
+    case Mode::degraded: return machine.mode == mode_by_size(s.service.size) && !machine.not_yet_validated;
     case Mode::suspect: return !rank_lost;
     case Mode::recalibrating: return kRecalibrates && !rank_lost && s.recalibration.under_way();
-    case Mode::initial: return !rank_lost && owes && machine.unproven && s.recalibration.collects(s.in_service());
+    case Mode::initial:
+      return !rank_lost && owes && machine.not_yet_validated && s.recalibration.collects(s.in_service());
     case Mode::failed: return true;
   }
   return false;
@@ -113,7 +114,8 @@ bool verdict_is_plausible(const MonitorState& s, const Verdict& v) noexcept {
   const SensorLedger& sensors = s.machine.sensors;
   const FaultSetScan& scan = s.diagnosis.scan();
   const bool masks = v.configured == s.in_force.array.all() && v.in_service == sensors.in_service &&
-                     v.set_aside == sensors.set_aside && v.excluded == sensors.excluded && v.absent == sensors.absent;
+                     v.provisionally_excluded == sensors.provisionally_excluded && v.excluded == sensors.excluded &&
+                     v.absent == sensors.absent;
   if (!masks || v.state != state_of(s.machine.mode)) return false;
   if (v.cause != s.last.cause || v.gravity_mps2 != s.last.gravity_mps2 || v.covariance != s.last.covariance)
     return false;

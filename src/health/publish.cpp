@@ -1,4 +1,4 @@
-#include "plumb/health/publish.hpp"
+#include "plumb/health/detail/publish.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -32,40 +32,48 @@ bool has_variances(const Mat3& covariance) noexcept {
 std::uint16_t qualifiers_of(const MonitorState& s) noexcept {
   const auto when = [](bool holds, std::uint16_t which) { return holds ? static_cast<unsigned>(which) : 0U; };
   return static_cast<std::uint16_t>(
-      when(s.machine.unproven, Qualifier::unproven) | when(s.last.moving, Qualifier::moving) |
+      when(s.machine.not_yet_validated, Qualifier::not_yet_validated) | when(s.last.moving, Qualifier::moving) |
       when(s.machine.mode == Mode::initial, Qualifier::initial_calibration) |
-      when(!s.machine.sensors.set_aside.empty(), Qualifier::provisional) |
-      when(s.machine.exhausted, Qualifier::exhausted) |
+      when(!s.machine.sensors.provisionally_excluded.empty(), Qualifier::provisional) |
+      when(s.machine.timed_out, Qualifier::timed_out) |
       when(s.service.size == SizeClass::critical, Qualifier::no_redundancy) |
       when(s.in_force.three_sensor_fit, Qualifier::three_sensor_fit) |
       when(s.requests.inhibited, Qualifier::inhibited) |
       when(!(s.settings.config.acceleration_bound_mps2 > 0.0), Qualifier::standstill_assumed) |
-      when(!s.settings.stability_stated, Qualifier::stability_unstated));
+      when(!s.settings.stability_stated, Qualifier::stability_unstated) |
+      when(!s.in_force.array.taken_for_exact().empty(), Qualifier::uncertainty_unstated));
 }
 
 void publish_sensors(const MonitorState& s, Verdict& v) noexcept {
   const SensorLedger& sensors = s.machine.sensors;
   v.configured = s.in_force.array.all();
   v.in_service = sensors.in_service;
-  v.set_aside = sensors.set_aside;
+  v.provisionally_excluded = sensors.provisionally_excluded;
   v.excluded = sensors.excluded;
   v.absent = sensors.absent;
   v.noisy = s.facts.noisy() & sensors.in_service;
   v.stuck = s.facts.stuck() & sensors.in_service;
   v.contradicted_clip = s.facts.full_scale() & sensors.in_service;
-  v.restless = s.last.restless;
+  v.scattering = s.last.scattering;
   v.sensor_cause = s.facts.causes();
 }
 
 void publish_diagnosis(const MonitorState& s, Verdict& v) noexcept {
   const Diagnosis& d = s.diagnosis;
   v.suspects = d.episode().open ? d.scan().suspects : SensorSet{};
-  v.fewest_faults = d.scan().fewest_faults;
+  v.minimum_faults = d.scan().minimum_faults;
   v.grade = d.last_grade();
-  v.strict_grade = d.isolation().strict_grade();
-  v.parity_grade = d.isolation().parity_grade();
-  v.live_hypotheses = d.live();
+  v.confirmed_grade = d.isolation().confirmed_grade();
+  v.provisional_grade = d.isolation().provisional_grade();
+  v.consistent_hypotheses = d.live();
   v.stations_on_record = d.episode().stations.size();
+}
+
+/// Bounds rest on the calibration: it is refused, has not been corroborated yet, or contradicts itself so far.
+bool is_calibration_in_doubt(const MonitorState& s) noexcept {
+  const CalibrationCheck& check = s.studies.check;
+  if (!s.diagnosis.episode().open) return check.doubted();
+  return check.refused() || (!check.believed() && s.diagnosis.isolation().confirmed_grade() >= 1);
 }
 
 }  // namespace
@@ -82,11 +90,8 @@ Validity validity_of(const MonitorState& s) noexcept {
   if (s.service.size == SizeClass::critical && s.in_force.three_sensor_fit) return Validity::unconfirmed;
   if (mode == Mode::degraded) return Validity::degraded;
   // The length itself is in doubt: by it, and by nothing else, some explanations are taken for inconsistent.
-  if (mode == Mode::suspect && s.diagnosis.suspicion() == Cause::reference) return Validity::unconfirmed;
-  // Bounds rest on the calibration, and that has not been borne out yet.
-  const CalibrationCheck& check = s.studies.check;
-  const bool believed = s.diagnosis.isolation().strict_grade() < 1 || check.believed();
-  if (check.refused() || (s.diagnosis.episode().open && !believed)) return Validity::unconfirmed;
+  if (mode == Mode::suspect && s.diagnosis.suspicion() == Cause::norm_mismatch) return Validity::unconfirmed;
+  if (is_calibration_in_doubt(s)) return Validity::unconfirmed;
   // An array that cannot bear another fault beside the suspected one has to have been at rest since before.
   if (!s.diagnosis.scan().bears_more && !s.diagnosis.rested()) return Validity::unconfirmed;
   return bounded ? Validity::valid : Validity::unconfirmed;
@@ -101,7 +106,8 @@ std::uint16_t usable_bits(const MonitorState& s, Validity validity) noexcept {
   const bool vector = validity == Validity::valid || validity == Validity::degraded;
   const Vec3& g = s.last.gravity_mps2;
   const bool toolface = across_tool(g) >= std::sin(kLeastInclination_rad) * norm(g);
-  const bool reference = s.studies.gravity.told() == ReferenceKind::none && s.diagnosis.suspicion() != Cause::reference;
+  const bool reference =
+      s.studies.gravity.told() == NormMismatchKind::none && s.diagnosis.suspicion() != Cause::norm_mismatch;
   const bool monitored = s.service.size == SizeClass::all_configured || s.service.size == SizeClass::reduced;
   const auto when = [](bool holds, std::uint16_t which) { return holds ? static_cast<unsigned>(which) : 0U; };
   return static_cast<std::uint16_t>(
@@ -141,12 +147,13 @@ void publish_report(const MonitorState& s, const BlockReport& report, Verdict& v
   v.triples_tested = report.triples_tested;
   v.triples_passed = report.triples_passed;
   const SensorArray& array = s.in_force.array;
+  const double sense = s.in_force.model.reads == Reads::gravity ? 1.0 : -1.0;  // inside, readings count as gravity does
   const SensorSet in_service = s.in_service(), usable = s.last.evidence.usable;
   const LeastSquares map = usable.contains(in_service) ? s.service.map : least_squares(array, in_service & usable);
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
     const double check = in_service.has(i) ? 1.0 - dot(array.axis(i), map.column[a]) : 0.0;
-    v.drift_mps2_per_h[a] = static_cast<float>(s.studies.trend.rate_mps2_per_h(i, check));
+    v.drift_mps2_per_h[a] = static_cast<float>(sense * s.studies.trend.rate_mps2_per_h(i, check));
   }
 }
 

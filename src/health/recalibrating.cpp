@@ -23,7 +23,7 @@ EventMask HealthMonitor::advance_recalibration(double time_s) noexcept {
     }
   }
   const bool due = s.requests.recalibration_due && s.machine.mode == Mode::isolated &&
-                   s.machine.clean_run >= s.settings.config.clean_blocks;
+                   s.machine.clean_run >= s.settings.config.passed_blocks;
   if ((s.requests.recalibration_asked || due) && configured_ && s.may_recalibrate())
     raised |= bit(HealthEvent::recalibrate);
   return raised;
@@ -99,12 +99,12 @@ void HealthMonitor::follow_suspicion(HealthEvent event, Mode from) noexcept {
   const Mode mode = s.machine.mode;
   switch (event) {
     case HealthEvent::alarm:
-    case HealthEvent::contradiction:
-    case HealthEvent::reference:
-    case HealthEvent::set_aside:
+    case HealthEvent::no_consistent_hypothesis:
+    case HealthEvent::norm_mismatch:
+    case HealthEvent::provisional_exclusion:
     case HealthEvent::channel_lost:
     case HealthEvent::fit_accepted: s.diagnosis.suspect_for(cause_of(event, s.last.cause)); break;
-    case HealthEvent::culprit:
+    case HealthEvent::exclusion:
       s.diagnosis.suspect_for(Cause::none);
       s.requests.recalibration_due = s.settings.config.recalibrate_after_exclusion;
       break;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "recalibration_kinds.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
@@ -19,17 +21,6 @@ constexpr int kSpareStations = 4;
 
 }  // namespace
 
-FitOptions Recalibration::options() const noexcept {
-  FitOptions out;
-  out.estimate_misfit = false;      // what the fit cannot explain is a reason to refuse it
-  out.require_full_rank = first();  // in flight nothing is asked of the axes
-  if (first()) {
-    out.max_outlier_share = 0.0;  // a station unlike the others is a tool that has changed
-    out.max_bias_sigmas = kFirstSigmas;
-  }
-  return out;
-}
-
 const char* to_string(RecalibrationPhase phase) noexcept {
   switch (phase) {
     case RecalibrationPhase::idle: return "idle";
@@ -43,26 +34,14 @@ const char* to_string(RecalibrationPhase phase) noexcept {
 void Recalibration::configure(const SensorModel& commissioning, const std::array<DriftSigmas, kCapacity>& drift,
                               double same_attitude_rad, bool first) noexcept {
   store_ = StationStore(same_attitude_rad);
-  drift_ = drift;
-  commission(commissioning);
-  length_.fill(0.0);
-  shift_mps2_.fill(0.0);
+  bounds_.begin(commissioning, drift);
+  change_ = CoefficientChange{};
   inflation_ = 1.0;
   sensors_ = SensorSet{};
-  adopted_ = false;
   first_ = first;
-  adopted_s_ = 0.0;
   iterations_ = 0;
   refusal_ = Error{};
-  offered_s_ = 0.0;
   stop();
-}
-
-void Recalibration::commission(const SensorModel& model) noexcept {
-  for (int i = 0; i < kCapacity; ++i) {
-    commissioned_scale_[at(i)] = model.sensor[at(i)].scale[0];
-    commissioned_bias_mps2_[at(i)] = model.sensor[at(i)].bias[0];
-  }
 }
 
 void Recalibration::add_block(const StationMean& block, bool station_begins) noexcept {
@@ -92,7 +71,7 @@ void Recalibration::start(SensorSet sensors) noexcept {
 void Recalibration::stop() noexcept {
   forget();
   phase_ = RecalibrationPhase::idle;
-  offered_sensors_ = 0;
+  offer_.clear();
 }
 
 int Recalibration::stations_needed(int n) noexcept {
@@ -104,9 +83,61 @@ int Recalibration::stations_needed(int n) noexcept {
   return needed;
 }
 
+int Recalibration::stations_due() const noexcept {
+  return by_kind([this](auto kind) { return kind.stations_due(*this); });
+}
+
+StationList Recalibration::fit_stations() const noexcept {
+  return {store_.data(), store_.size(), sensors_, StationStore::kHeldOutStride};
+}
+
+/// 1 sigma of a station's reading that the fit cannot explain: noise and misfit, drawn anew at every station, and what
+/// a held axis leaves. All stations weigh as the shortest: more noise is feigned than there is, at the others.
+Recalibration::ReadingError Recalibration::reading_error(const SensorArray& array, const GravityReference& gravity,
+                                                         int i) const noexcept {
+  double samples = 0.0;
+  for (int k = 0; k < store_.size(); ++k) {
+    const double n = store_.station(k).samples;
+    if (samples == 0.0 || n < samples) samples = n;
+  }
+  const Vec3& h = array.axis(i);
+  const RowUncertainty& u = array.uncertainty();
+  double across = 0.0;  // trace of (1 - hh') C (1 - hh')
+  for (int p = 0; p < 3; ++p) {
+    for (int q = 0; q < 3; ++q) {
+      const int a = 4 * i + (p > q ? p : q), b = 4 * i + (p > q ? q : p);
+      across += ((p == q ? 1.0 : 0.0) - h[at(p)] * h[at(q)]) * u.covariance[at(a * (a + 1) / 2 + b)];
+    }
+  }
+  const double misfit = u.misfit_mps2[at(i)];
+  const double sigma = array.sigma_mps2(i);
+  const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of gravity over the sphere
+  const bool held = by_parameters([](auto kind) { return decltype(kind)::kHoldsAxes; });
+  ReadingError out;
+  out.noise_mps2_sq = sigma * sigma / std::fmax(samples, 1.0) + misfit * misfit;
+  out.total_mps2_sq = out.noise_mps2_sq + (held ? std::fmax(across, 0.0) * mean_square : 0.0);
+  return out;
+}
+
+/// The fit knows the fitted sensors only, in the order of the array; the noise of a row of its datasheet is that of a
+/// station.
+Datasheet Recalibration::datasheet(const InForce& in_force) const noexcept {
+  Datasheet out;
+  out.reads = in_force.model.reads;
+  for (int i = 0; i < in_force.array.size(); ++i) {
+    if (!sensors_.has(i)) continue;
+    DatasheetSensor& sensor = out.sensor[at(out.size++)];
+    sensor.row = in_force.array.row(i);
+    sensor.row.sigma_mps2 = std::sqrt(reading_error(in_force.array, in_force.gravity, i).total_mps2_sq);
+    sensor.coefficients = in_force.model.sensor[at(i)];
+    sensor.prior = by_parameters([&](auto kind) { return kind.prior(*this, in_force.array, i); });
+  }
+  return out;
+}
+
 /// Not inlined, like all that needs much room: what is on the stack of one would be under the others too.
-[[gnu::noinline]] void Recalibration::begin_fit(const InForce& in_force) noexcept {
-  calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options());
+[[gnu::noinline]] void Recalibration::begin_fit(const InForce& in_force, const FitOptions& options) noexcept {
+  calibrator_ = Calibrator(datasheet(in_force), in_force.gravity, options);
   phase_ = RecalibrationPhase::fitting;
 }
 
@@ -117,62 +148,82 @@ Recalibration::Outcome Recalibration::step(const InForce& in_force, double time_
     case RecalibrationPhase::idle: return refusal_.code == Errc::ok ? Outcome::none : Outcome::rejected;
     case RecalibrationPhase::accepted: return Outcome::accepted;
     case RecalibrationPhase::collecting:
-      if (offered()) return examine_offer(in_force, time_s);
-      if (untried_ && store_.size() >= stations_due() && ready(in_force)) {
-        begin_fit(in_force);
-      }
-      return Outcome::none;
+      return by_kind([&](auto kind) { return kind.collect(*this, in_force, time_s); });
     case RecalibrationPhase::fitting: break;
   }
-  if (calibrator_.done()) return judge(in_force, time_s);
-  if (first()) {
-    iterate_first();
-  } else {
-    calibrator_.iterate_held(fit_stations());
-  }
+  if (calibrator_.done()) return by_kind([&](auto kind) { return kind.judge(*this, in_force, time_s); });
+  by_kind([&](auto kind) { kind.iterate(*this); });
   ++iterations_;
   return Outcome::none;
 }
 
-[[gnu::noinline]] void Recalibration::doubt_change(const SensorArray& array, bool whole,
-                                                   RowUncertainty& uncertainty) const noexcept {
-  const Change change = whole_change(array);
-  add_change(array, whole ? change : unseen_by_parity(array, change), uncertainty);
+Recalibration::Outcome Recalibration::accept() noexcept {
+  phase_ = RecalibrationPhase::accepted;
+  return Outcome::accepted;
+}
+
+Recalibration::Outcome Recalibration::reject(const Error& why) noexcept {
+  stop();  // nor are its stations tried again
+  refusal_ = why;
+  return Outcome::rejected;
+}
+
+[[gnu::noinline]] Error Recalibration::try_change(const InForce& in_force,
+                                                  const RowUncertainty& uncertainty) const noexcept {
+  SensorModel model = in_force.model;
+  change_.write(sensors_, model);
+  return check_stations({model, in_force.array, in_force.gravity, in_force.limits}, uncertainty);
+}
+
+/// Every station against the new calibration, by the tests and limits of the monitor: those of the fit, and those
+/// that were held out of it (property S20).
+Error Recalibration::check_stations(const InForce& candidate, const RowUncertainty& uncertainty) const noexcept {
+  int proofs = 0;
+  for (int k = 0; k < store_.size(); ++k) {
+    const StationMean& station = store_.station(k);
+    BlockEvidence evidence;
+    evidence.mean_mps2 = candidate.model.apply(station.raw, station.temperature_degc, sensors_);
+    evidence.usable = sensors_;
+    evidence.samples = station.samples;
+    const SetTest test =
+        test_set(candidate.array, uncertainty, candidate.gravity, candidate.limits, evidence, sensors_);
+    const bool proof = by_kind([k](auto kind) { return kind.proves(k); });
+    const Errc code = proof ? Errc::not_confirmed : Errc::poor_fit;
+    if (!test.tested) return Error{code, k};
+    const double parity_limit = test.parity_rows > 0 ? test.parity_alarm_limit(candidate.limits) : 0.0;
+    if (!(test.parity <= parity_limit)) return Error{code, k, test.parity, parity_limit};
+    const double norm_limit = test.norm_alarm_limit(candidate.limits);
+    if (!(std::fabs(test.norm) <= norm_limit)) return Error{code, k, std::fabs(test.norm), norm_limit};
+    if (proof) ++proofs;
+  }
+  // Whatever is collected elsewhere: no fit is accepted on its own stations alone.
+  if (proofs < kHeldOutNeeded) return Error{Errc::too_few_stations, -1, 1.0 * proofs, 1.0 * kHeldOutNeeded};
+  return Error{};
 }
 
 void Recalibration::apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,
                           bool doubted) noexcept {
   if (!kRecalibrates || phase_ != RecalibrationPhase::accepted) return;
-  if (first()) return apply_first(model, array, time_s);
-  RowUncertainty uncertainty;
-  if (!uncertainty_after(array, gravity, uncertainty)) uncertainty = array.uncertainty();
-  if (doubted || offered()) doubt_change(array, doubted, uncertainty);
-  array.set_uncertainty(uncertainty);
-  write_coefficients(model);
-  adopted_ = true;
-  adopted_s_ = time_s;
+  const Adoption into = {model, array, gravity, time_s, doubted};
+  by_kind([&](auto kind) { kind.apply(*this, into); });
+}
+
+void Recalibration::adopt_change(const Adoption& into, const RowUncertainty& uncertainty) noexcept {
+  into.array.set_uncertainty(uncertainty);
+  change_.write(sensors_, into.model);
+  bounds_.note_adoption(into.time_s, true);
   stop();
 }
 
+bool Recalibration::change_is_sound(const SensorModel& model) const noexcept {
+  const double any_time_s = std::numeric_limits<double>::infinity();
+  return check_bounds(model, any_time_s).code == Errc::ok && std::isfinite(inflation_) && inflation_ >= 1.0;
+}
+
 bool Recalibration::resume(const InForce& in_force) noexcept {
-  if (first()) return resume_first(in_force);
-  if (first_ || !coefficients_are_plausible(in_force.model)) return false;
-  if (!kRecalibrates) return phase_ == RecalibrationPhase::idle && offered_sensors_ == 0;
-  if (offered() && !offer_is_plausible(in_force)) return false;
-  switch (phase_) {
-    case RecalibrationPhase::idle:
-    case RecalibrationPhase::collecting: return true;
-    case RecalibrationPhase::fitting:
-    case RecalibrationPhase::accepted: break;
-  }
-  if (sensors_.size() < 3 || store_.size() < stations_due()) return false;
-  if (phase_ == RecalibrationPhase::accepted) {
-    const double any_time_s = std::numeric_limits<double>::infinity();
-    return check_bounds(in_force.model, any_time_s).code == Errc::ok && std::isfinite(inflation_) && inflation_ >= 1.0;
-  }
-  // Gravity may have been set since the fit began.
-  calibrator_.resume(datasheet({in_force.model, in_force.array, calibrator_.gravity(), in_force.limits}), options());
-  return true;
+  if (!first() && (first_ || !bounds_.allow(in_force.model))) return false;
+  if (!kRecalibrates) return phase_ == RecalibrationPhase::idle && !offer_.any();
+  return by_kind([&](auto kind) { return kind.resume(*this, in_force); });
 }
 
 /// The attitude that is farthest from all on record, among those along the axes in question and the faces,

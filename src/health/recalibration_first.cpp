@@ -5,7 +5,7 @@
 
 #include "plumb/calibration/acceptance.hpp"
 #include "plumb/calibration/observability.hpp"
-#include "plumb/health/recalibration.hpp"
+#include "recalibration_kinds.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -25,6 +25,16 @@ constexpr double kLeastDataShare = 0.75;
 /// How seldom the residuals of a good fit may be so large.
 constexpr double kLeastProbability = 1e-4;
 
+/// Nothing is held, and a station unlike the others is a tool that has changed.
+[[gnu::noinline]] FitOptions free_axes() noexcept {
+  FitOptions out;
+  out.estimate_misfit = false;
+  out.require_full_rank = true;
+  out.max_outlier_share = 0.0;
+  out.max_bias_sigmas = Recalibration::kFirstSigmas;
+  return out;
+}
+
 /// The k-th of a set; -1 where it has none.
 int member(SensorSet set, int k) noexcept {
   for (; k > 0; --k) set = set.without(set.lowest());
@@ -41,25 +51,25 @@ int Recalibration::first_stations_needed(int n) noexcept {
 }
 
 /// Do the directions of the fit tell the parameters apart? If not, which sensors ask for others.
-bool Recalibration::attitudes_suffice(const SensorArray& array) noexcept {
+bool Recalibration::First::attitudes_suffice(Recalibration& r, const SensorArray& array) noexcept {
   std::array<Vec3, StationStore::kMax> direction{};
   int count = 0;
-  for (int k = 0; k < store_.size(); ++k) {
-    if (!StationStore::held_out(k)) direction[at(count++)] = store_.station(k).direction;
+  for (int k = 0; k < r.store_.size(); ++k) {
+    if (!StationStore::held_out(k)) direction[at(count++)] = r.store_.station(k).direction;
   }
-  lacking_ = SensorSet{};
+  r.lacking_ = SensorSet{};
   if (excitation_of(direction.data(), count) >= kFirstExcitation) return true;
   for (int i = 0; i < array.size(); ++i) {
-    if (!sensors_.has(i)) continue;
+    if (!r.sensors_.has(i)) continue;
     double low = 1.0, high = -1.0;
     for (int k = 0; k < count; ++k) {
       const double along = dot(array.axis(i), direction[at(k)]);
       low = std::fmin(low, along);
       high = std::fmax(high, along);
     }
-    if (!(high - low >= kLeastSpan)) lacking_ = lacking_.with(i);
+    if (!(high - low >= kLeastSpan)) r.lacking_ = r.lacking_.with(i);
   }
-  if (lacking_.empty()) lacking_ = sensors_;
+  if (r.lacking_.empty()) r.lacking_ = r.sensors_;
   return false;
 }
 
@@ -81,80 +91,50 @@ Error Recalibration::off_datasheet(const SensorModel& datasheet, const SensorArr
 }
 
 /// What the report alone tells: does every parameter stand on the stations, are the residuals noise?
-Error Recalibration::check_figures(const FitReport& report) noexcept {
+Error Recalibration::First::check_figures(Recalibration& r, const FitReport& report) noexcept {
   double least = 1.0;
-  for (int p = 0; p < 4 * sensors_.size(); ++p) {
+  for (int p = 0; p < 4 * r.sensors_.size(); ++p) {
     const double share = report.data_share[at(p)];
-    if (!(share >= kLeastDataShare)) lacking_ = lacking_.with(member(sensors_, p / 4));
+    if (!(share >= kLeastDataShare)) r.lacking_ = r.lacking_.with(member(r.sensors_, p / 4));
     least = std::fmin(least, share);
   }
-  if (!lacking_.empty()) return Error{Errc::unobservable, lacking_.lowest(), least, kLeastDataShare};
+  if (!r.lacking_.empty()) return Error{Errc::unobservable, r.lacking_.lowest(), least, kLeastDataShare};
   if (!(report.p_value >= kLeastProbability)) return Error{Errc::poor_fit, -1, report.p_value, kLeastProbability};
   return Error{};
 }
 
-int Recalibration::copy_stations(Stations& out) const noexcept {
-  const StationList list = fit_stations();
+int Recalibration::First::copy_stations(const Recalibration& r, Stations& out) noexcept {
+  const StationList list = r.fit_stations();
   for (int k = 0; k < list.size(); ++k) out[at(k)] = list[k];
   return list.size();
 }
 
+[[gnu::noinline]] Recalibration::Outcome Recalibration::First::collect(Recalibration& r, const InForce& in_force,
+                                                                       double) noexcept {
+  if (!r.untried_ || r.store_.size() < stations_due(r)) return Outcome::none;
+  r.untried_ = false;
+  r.inflation_ = 1.0;
+  if (attitudes_suffice(r, in_force.array)) r.begin_fit(in_force, free_axes());
+  return Outcome::none;
+}
+
 /// Axes that are free need room that held ones do not.
-[[gnu::noinline]] void Recalibration::iterate_first() noexcept {
+[[gnu::noinline]] void Recalibration::First::iterate(Recalibration& r) noexcept {
   Stations stations;
-  calibrator_.iterate(stations.data(), copy_stations(stations));
+  r.calibrator_.iterate(stations.data(), copy_stations(r, stations));
 }
 
 /// The stations are needed until there is a fit, and no longer.
-[[gnu::noinline]] Expected<Calibration> Recalibration::finish_first() const noexcept {
+[[gnu::noinline]] Expected<Calibration> Recalibration::First::finish(const Recalibration& r) noexcept {
   Stations stations;
-  const int count = copy_stations(stations);
-  return calibrator_.finish(stations.data(), count);
+  const int count = copy_stations(r, stations);
+  return r.calibrator_.finish(stations.data(), count);
 }
 
-[[gnu::noinline]] Error Recalibration::try_first(const InForce& in_force, const Calibration& fit) const noexcept {
-  SensorModel model = in_force.model;
-  SensorArray array = in_force.array;
-  if (!install(fit, model, array)) return Error{Errc::diverged, -1};
-  const Error error = off_datasheet(in_force.model, in_force.array, model, array, sensors_);
-  if (error.code != Errc::ok) return error;
-  return check_stations({model, array, in_force.gravity, in_force.limits}, array.uncertainty());
-}
+namespace {
 
-[[gnu::noinline]] Error Recalibration::check_first(const InForce& in_force) noexcept {
-  lacking_ = SensorSet{};
-  const Expected<Calibration> fit = finish_first();
-  if (!fit) {
-    Error error = fit.error();
-    const bool names_sensor = error.code == Errc::implausible || error.code == Errc::poor_fit;
-    error.index = names_sensor && error.index >= 0 ? member(sensors_, error.index) : -1;
-    return error;
-  }
-  Error error = check_figures(fit->report);
-  if (error.code != Errc::ok) return error;
-  // A wrong length of gravity goes into all scales alike.
-  error = plumb::judge(datasheet(in_force), in_force.gravity, *fit, HoldOut{}, OddSensor{}).error;
-  return error.code != Errc::ok ? error : try_first(in_force, *fit);
-}
-
-Recalibration::Outcome Recalibration::judge_first(const InForce& in_force) noexcept {
-  const Error error = check_first(in_force);
-  if (error.code == Errc::ok) {
-    refusal_ = Error{};
-    phase_ = RecalibrationPhase::accepted;
-    return Outcome::accepted;
-  }
-  refusal_ = error;
-  phase_ = RecalibrationPhase::collecting;
-  untried_ = false;
-  const bool more_would_help = error.code == Errc::unobservable;
-  if (more_would_help && lacking_.empty()) lacking_ = sensors_;
-  if (!more_would_help) forget();  // one of its stations, or all, may hold what is wrong
-  return Outcome::rejected;
-}
-
-/// Writes a full fit over `sensors_` into model and array; false, and nothing is written, where its axes are none.
-bool Recalibration::install(const Calibration& fit, SensorModel& model, SensorArray& array) const noexcept {
+/// Writes a full fit over `sensors` into model and array; false, and nothing is written, where its axes are none.
+bool install(const Calibration& fit, SensorSet sensors, SensorModel& model, SensorArray& array) noexcept {
   std::array<SensorRow, kCapacity> rows{};
   std::array<int, kCapacity> fitted{};
   std::array<double, kCapacity> length{};
@@ -163,7 +143,7 @@ bool Recalibration::install(const Calibration& fit, SensorModel& model, SensorAr
   for (int i = 0; i < array.size(); ++i) {
     rows[at(i)] = array.row(i);
     length[at(i)] = 1.0;
-    if (!sensors_.has(i)) continue;
+    if (!sensors.has(i)) continue;
     fitted[at(i)] = count++;
     const int k = fitted[at(i)];
     length[at(i)] = fit.model.sensor[at(k)].scale[0] / model.sensor[at(i)].scale[0];
@@ -193,22 +173,63 @@ bool Recalibration::install(const Calibration& fit, SensorModel& model, SensorAr
   return true;
 }
 
-[[gnu::noinline]] void Recalibration::apply_first(SensorModel& model, SensorArray& array, double time_s) noexcept {
-  const Expected<Calibration> fit = finish_first();
-  first_ = !(fit && install(*fit, model, array));
-  if (!first_) {
-    commission(model);
-    adopted_s_ = time_s;
-  }
-  stop();
+}  // namespace
+
+[[gnu::noinline]] Error Recalibration::First::try_fit(const Recalibration& r, const InForce& in_force,
+                                                      const Calibration& fit) noexcept {
+  SensorModel model = in_force.model;
+  SensorArray array = in_force.array;
+  if (!install(fit, r.sensors_, model, array)) return Error{Errc::diverged, -1};
+  const Error error = off_datasheet(in_force.model, in_force.array, model, array, r.sensors_);
+  if (error.code != Errc::ok) return error;
+  return r.check_stations({model, array, in_force.gravity, in_force.limits}, array.uncertainty());
 }
 
-bool Recalibration::resume_first(const InForce& in_force) noexcept {
-  if (offered() || adopted_) return false;
-  if (phase_ == RecalibrationPhase::idle || phase_ == RecalibrationPhase::collecting) return true;
-  if (sensors_.size() < 3 || store_.size() < stations_due()) return false;
-  calibrator_.resume(datasheet(in_force), options());
-  return phase_ == RecalibrationPhase::fitting || check_first(in_force).code == Errc::ok;
+[[gnu::noinline]] Error Recalibration::First::check(Recalibration& r, const InForce& in_force) noexcept {
+  r.lacking_ = SensorSet{};
+  const Expected<Calibration> fit = finish(r);
+  if (!fit) {
+    Error error = fit.error();
+    const bool names_sensor = error.code == Errc::implausible || error.code == Errc::poor_fit;
+    error.index = names_sensor && error.index >= 0 ? member(r.sensors_, error.index) : -1;
+    return error;
+  }
+  Error error = check_figures(r, fit->report);
+  if (error.code != Errc::ok) return error;
+  // A wrong length of gravity goes into all scales alike.
+  error = plumb::judge(r.datasheet(in_force), in_force.gravity, *fit, HoldOut{}, OddSensor{}).error;
+  return error.code != Errc::ok ? error : try_fit(r, in_force, *fit);
+}
+
+[[gnu::noinline]] Recalibration::Outcome Recalibration::First::judge(Recalibration& r, const InForce& in_force,
+                                                                     double) noexcept {
+  const Error error = check(r, in_force);
+  r.refusal_ = error;
+  if (error.code == Errc::ok) return r.accept();
+  r.phase_ = RecalibrationPhase::collecting;
+  r.untried_ = false;
+  const bool more_would_help = error.code == Errc::unobservable;
+  if (more_would_help && r.lacking_.empty()) r.lacking_ = r.sensors_;
+  if (!more_would_help) r.forget();  // one of its stations, or all, may hold what is wrong
+  return Outcome::rejected;
+}
+
+[[gnu::noinline]] void Recalibration::First::apply(Recalibration& r, const Adoption& into) noexcept {
+  const Expected<Calibration> fit = finish(r);
+  r.first_ = !(fit && install(*fit, r.sensors_, into.model, into.array));
+  if (!r.first_) {
+    r.bounds_.commission(into.model);
+    r.bounds_.note_adoption(into.time_s, false);
+  }
+  r.stop();
+}
+
+[[gnu::noinline]] bool Recalibration::First::resume(Recalibration& r, const InForce& in_force) noexcept {
+  if (r.offered() || r.adopted()) return false;
+  if (r.phase_ == RecalibrationPhase::idle || r.phase_ == RecalibrationPhase::collecting) return true;
+  if (!r.stations_suffice()) return false;
+  r.calibrator_.resume(r.datasheet(in_force), free_axes());
+  return r.phase_ == RecalibrationPhase::fitting || check(r, in_force).code == Errc::ok;
 }
 
 }  // namespace PLUMB_ABI

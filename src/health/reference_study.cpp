@@ -16,12 +16,12 @@ constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-const char* to_string(ReferenceKind kind) noexcept {
+const char* to_string(NormMismatchKind kind) noexcept {
   switch (kind) {
-    case ReferenceKind::none: return "none";
-    case ReferenceKind::undecided: return "undecided";
-    case ReferenceKind::common_scale: return "common_scale";
-    case ReferenceKind::common_bias: return "common_bias";
+    case NormMismatchKind::none: return "none";
+    case NormMismatchKind::undecided: return "undecided";
+    case NormMismatchKind::common_scale: return "common_scale";
+    case NormMismatchKind::common_bias: return "common_bias";
   }
   return "?";
 }
@@ -77,10 +77,10 @@ bool ReferenceStudy::agrees(double length_error_mps2, double bound_mps2) const n
   return true;
 }
 
-ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept {
-  ReferenceFinding out;
+NormMismatch ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept {
+  NormMismatch out;
   out.attitudes = size_;
-  out.kind = size_ > 0 ? ReferenceKind::undecided : ReferenceKind::none;
+  out.kind = size_ > 0 ? NormMismatchKind::undecided : NormMismatchKind::none;
   if (size_ < kLeast) return out;
 
   // Least squares with rows (1, u), weighted by the bounds.
@@ -129,11 +129,11 @@ ReferenceFinding ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, 
   const bool one_length = low <= high;
   const bool off = low > 0.0 || high < 0.0;
   if (one_length && off && out.turn_rad <= usable_rad) {
-    out.kind = ReferenceKind::common_scale;
+    out.kind = NormMismatchKind::common_scale;
     out.length_bound_mps2 = std::fmin(bend[0], hard_mps2 + std::sqrt(noise_square));
     out.configure_mps2 = g_mps2 + p[0];
   } else if (!one_length && bias.least > 0.0 && std::fabs(p[0]) <= gravity_bound_mps2 + bend[0]) {
-    out.kind = ReferenceKind::common_bias;
+    out.kind = NormMismatchKind::common_bias;
   }
   return out;
 }

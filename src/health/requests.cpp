@@ -21,7 +21,7 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   if (!whole()) return fail(Errc::not_calibrated);
   MonitorState& s = state_;
   s.in_force.gravity = gravity;
-  if (s.studies.gravity.withdraw()) verdict_.reference = ReferenceFinding{};
+  if (s.studies.gravity.withdraw()) verdict_.norm_mismatch = NormMismatch{};
   s.window.forget_near();
   // Stations under one gravity and stations under another do not make one fit.
   if (!(std::fabs(gravity.g_mps2 - s.in_force.store_g_mps2) <= gravity.sigma_mps2)) {
@@ -30,6 +30,9 @@ Expected<void> HealthMonitor::set_gravity(const GravityReference& gravity) noexc
   }
   s.diagnosis.forget_votes();
   s.studies.check.forget_readings();
+  // What rested on the former gravity is not claimed until the next sample.
+  const bool claims = verdict_.validity != Validity::invalid && verdict_.validity != Validity::held;
+  if (claims) publish_claims(s, validity_of(s), verdict_);
   seal();
   return {};
 }

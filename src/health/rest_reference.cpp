@@ -1,4 +1,4 @@
-#include "plumb/health/rest_reference.hpp"
+#include "plumb/health/detail/rest_reference.hpp"
 
 #include <cmath>
 

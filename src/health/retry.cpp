@@ -48,7 +48,7 @@ RetryRecord RetryAfterTimeout::offer(const Verdict& verdict, HealthMonitor& moni
   }
   if (phase_ == Phase::closed || key_refused_) return out;
   // Too few may be left only since: channels fall silent in failed, too.
-  const bool timed_out = (verdict.qualifiers & Qualifier::exhausted) != 0;
+  const bool timed_out = (verdict.qualifiers & Qualifier::timed_out) != 0;
   if (!timed_out || rank_of(monitor.array(), verdict.in_service) < 3) {
     phase_ = Phase::closed;
     out.action = RetryAction::too_few;

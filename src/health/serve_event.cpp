@@ -42,22 +42,27 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const SensorLedger&
     d.spend_asserted(named.size());
     d.forget_episode();
   }
-  if ((actions & Action::set_aside) != 0) d.grade_by_parity();
+  if ((actions & Action::exclude_provisionally) != 0) d.grade_by_parity();
   if ((actions & Action::mark_absent) != 0) d.forget_probation_of(named);
   if ((actions & (Action::mark_back | Action::rearm)) != 0) s.intake.gate.welcome(named);
   if ((actions & Action::reinstate) != 0) d.forget_probation();
+  if ((actions & (Action::reinstate | Action::rearm)) != 0) {
+    s.studies.check.forget_readings();  // of when the sensors were at fault
+    s.studies.check.forget_doubt();
+  }
   if ((actions & Action::rearm) != 0) d.forget_episode();
   if ((actions & (Action::start_fit | Action::discard_fit | Action::restart_fit | Action::adopt_fit)) != 0) {
     const SensorSet fitted = serve_fit(actions);
     if (named.empty()) named = fitted;
   }
-  if ((actions & Action::unproven) != 0) d.forget_predictions();
+  if ((actions & Action::not_yet_validated) != 0) d.forget_predictions();
   const bool serve_others = before.in_service != s.in_service();
   if (serve_others) {
+    s.studies.check.forget_doubt();
     s.recalibration.forget();  // its stations were those of other sensors
     if (s.recalibration.offered()) drop_request();
   }
-  const bool posed_others = (before.in_service | before.set_aside) != s.posed();
+  const bool posed_others = (before.in_service | before.provisionally_excluded) != s.posed();
   if (posed_others) d.withdraw_answer();
   if (serve_others || posed_others) sets_changed();
   return named;
@@ -76,17 +81,17 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
                  s.intake.gate.back(),
                  d.on_probation(),
                  (s.requests.reset_sensors - lost) & (calibrated ? s.in_force.calibrated : all)};
-  input.protection_within = d.unbounded_run() < s.settings.config.clean_blocks;
+  input.protection_within = d.unbounded_run() < s.settings.config.passed_blocks;
   input.calibrated = calibrated;
-  input.clean_blocks = s.settings.config.clean_blocks;
+  input.passed_blocks = s.settings.config.passed_blocks;
   const SensorLedger before = s.machine.sensors;
   const Mode from = s.machine.mode;
   const Decision decision = plumb::decide(kTransitionTable, s.machine, input, [&s, before](SensorSet set) {
     return set == before.in_service ? s.service.size : s.classify(set);
   });
   const HealthEvent event = decision.event;
-  const bool by_noise = event == HealthEvent::set_aside && d.noise_confirmed(s.facts).contains(d.aside());
-  const bool refused = event == HealthEvent::contradiction && s.studies.check.refused();
+  const bool by_noise = event == HealthEvent::provisional_exclusion && d.noise_confirmed(s.facts).contains(d.aside());
+  const bool refused = event == HealthEvent::no_consistent_hypothesis && s.studies.check.refused();
   const SensorSet named = carry_out(decision, before);
   s.requests.reset_sensors = s.requests.reset_pending ? SensorSet{} : s.requests.reset_sensors;
   s.requests.reset_pending = false;
@@ -108,7 +113,7 @@ void HealthMonitor::record(HealthEvent event, Mode from, Cause cause, SensorSet 
   MonitorState& s = state_;
   s.facts.name_causes(named - s.in_service(), cause, s.in_service());
   s.last.cause = cause;
-  const bool graded = event == HealthEvent::culprit || event == HealthEvent::set_aside;
+  const bool graded = event == HealthEvent::exclusion || event == HealthEvent::provisional_exclusion;
   TransitionRecord& out = verdict_.transition;
   out.sequence = ++s.requests.sequence;
   out.time_s = time_s;
@@ -136,9 +141,9 @@ void HealthMonitor::give_notice(double time_s) noexcept {
   } else if (asked.calibration_notice) {
     cause = Cause::calibration_contradicted;
     asked.calibration_notice = false;
-  } else if (asked.reference_notice != ReferenceKind::none) {
-    cause = asked.reference_notice == ReferenceKind::common_scale ? Cause::common_scale : Cause::common_bias;
-    asked.reference_notice = ReferenceKind::none;
+  } else if (asked.reference_notice != NormMismatchKind::none) {
+    cause = asked.reference_notice == NormMismatchKind::common_scale ? Cause::common_scale : Cause::common_bias;
+    asked.reference_notice = NormMismatchKind::none;
   }
   if (cause == Cause::none) return;
   TransitionRecord& out = verdict_.transition;

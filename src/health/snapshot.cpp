@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "plumb/core/archive.hpp"
+#include "plausible.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "plumb/core/version.hpp"
 #include "plumb/health/health_monitor.hpp"
-#include "plumb/health/plausible.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -1,7 +1,5 @@
 #include "plumb/health/state.hpp"
 
-#include "plumb/health/transition_table.hpp"
-
 namespace plumb {
 inline namespace PLUMB_ABI {
 
@@ -22,17 +20,17 @@ const char* to_string(HealthEvent event) noexcept {
     case HealthEvent::reset: return "reset";
     case HealthEvent::channel_lost: return "channel_lost";
     case HealthEvent::channel_back: return "channel_back";
-    case HealthEvent::culprit: return "culprit";
-    case HealthEvent::set_aside: return "set_aside";
-    case HealthEvent::patience_over: return "patience_over";
-    case HealthEvent::contradiction: return "contradiction";
+    case HealthEvent::exclusion: return "exclusion";
+    case HealthEvent::provisional_exclusion: return "provisional_exclusion";
+    case HealthEvent::isolation_timeout: return "isolation_timeout";
+    case HealthEvent::no_consistent_hypothesis: return "no_consistent_hypothesis";
     case HealthEvent::alarm: return "alarm";
-    case HealthEvent::reference: return "reference";
+    case HealthEvent::norm_mismatch: return "norm_mismatch";
     case HealthEvent::fit_accepted: return "fit_accepted";
     case HealthEvent::fit_rejected: return "fit_rejected";
     case HealthEvent::probation_passed: return "probation_passed";
     case HealthEvent::recalibrate: return "recalibrate";
-    case HealthEvent::clean_block: return "clean_block";
+    case HealthEvent::passed_block: return "passed_block";
     case HealthEvent::none: return "none";
   }
   return "?";
@@ -45,20 +43,20 @@ const char* to_string(Cause cause) noexcept {
     case Cause::parity: return "parity";
     case Cause::norm: return "norm";
     case Cause::mae: return "mae";
-    case Cause::reference: return "reference";
+    case Cause::norm_mismatch: return "norm_mismatch";
     case Cause::moving: return "moving";
     case Cause::isolated_fault: return "isolated_fault";
-    case Cause::contradiction: return "contradiction";
+    case Cause::no_consistent_hypothesis: return "no_consistent_hypothesis";
     case Cause::channel_lost: return "channel_lost";
     case Cause::channel_back: return "channel_back";
     case Cause::temperature: return "temperature";
-    case Cause::patience: return "patience";
+    case Cause::isolation_timeout: return "isolation_timeout";
     case Cause::calibration: return "calibration";
     case Cause::probation: return "probation";
     case Cause::host_request: return "host_request";
     case Cause::time_fault: return "time_fault";
     case Cause::gap: return "gap";
-    case Cause::clean: return "clean";
+    case Cause::passed_block: return "passed_block";
     case Cause::noisy: return "noisy";
     case Cause::stuck: return "stuck";
     case Cause::clipped: return "clipped";
@@ -79,17 +77,17 @@ Cause cause_of(HealthEvent event, Cause of_block) noexcept {
     case HealthEvent::reset: return Cause::host_request;
     case HealthEvent::channel_lost: return Cause::channel_lost;
     case HealthEvent::channel_back: return Cause::channel_back;
-    case HealthEvent::culprit:
-    case HealthEvent::set_aside: return Cause::isolated_fault;
-    case HealthEvent::patience_over: return Cause::patience;
-    case HealthEvent::contradiction: return Cause::contradiction;
+    case HealthEvent::exclusion:
+    case HealthEvent::provisional_exclusion: return Cause::isolated_fault;
+    case HealthEvent::isolation_timeout: return Cause::isolation_timeout;
+    case HealthEvent::no_consistent_hypothesis: return Cause::no_consistent_hypothesis;
     case HealthEvent::alarm: return of_block;
-    case HealthEvent::reference: return Cause::reference;
+    case HealthEvent::norm_mismatch: return Cause::norm_mismatch;
     case HealthEvent::recalibrate:
     case HealthEvent::fit_accepted:
     case HealthEvent::fit_rejected: return Cause::calibration;
     case HealthEvent::probation_passed: return Cause::probation;
-    case HealthEvent::clean_block: return Cause::clean;
+    case HealthEvent::passed_block: return Cause::passed_block;
     case HealthEvent::none: return Cause::none;
   }
   return Cause::none;
@@ -109,61 +107,11 @@ const char* to_string(Validity validity) noexcept {
 const char* to_string(Grade grade) noexcept {
   switch (grade) {
     case Grade::none: return "none";
-    case Grade::parity: return "parity";
-    case Grade::strict: return "strict";
-    case Grade::asserted: return "asserted";
+    case Grade::provisional: return "provisional";
+    case Grade::confirmed: return "confirmed";
+    case Grade::assumed: return "assumed";
   }
   return "?";
-}
-
-const char* to_string(Mode mode) noexcept {
-  switch (mode) {
-    case Mode::nominal: return "nominal";
-    case Mode::isolated: return "isolated";
-    case Mode::suspect: return "suspect";
-    case Mode::degraded: return "degraded";
-    case Mode::recalibrating: return "recalibrating";
-    case Mode::initial: return "recalibrating (initial)";
-    case Mode::failed: return "failed";
-  }
-  return "?";
-}
-
-const char* to_string(Target target) noexcept {
-  switch (target) {
-    case Target::stay: return "stay";
-    case Target::by_size: return "by size";
-    case Target::by_size_if_proven: return "by size (unproven: suspect)";
-    case Target::by_size_when_earned: return "by size when earned";
-    case Target::suspect: return "suspect";
-    case Target::suspect_or_failed: return "suspect (rank < 3: failed)";
-    case Target::stay_or_failed: return "stay (rank < 3: failed)";
-    case Target::by_protection: return "stay while bounded or isolable, else failed";
-    case Target::recalibrating: return "recalibrating";
-    case Target::base: return "by size; from suspect: suspect";
-    case Target::rearm: return "suspect (rank < 3: stay; no calibration: recalibrating (initial))";
-    case Target::failed: return "failed";
-  }
-  return "?";
-}
-
-const char* action_name(Action::Bits one) noexcept {
-  switch (one) {
-    case Action::exclude: return "exclude";
-    case Action::set_aside: return "set aside";
-    case Action::mark_absent: return "mark absent";
-    case Action::mark_back: return "mark as back";
-    case Action::discard_fit: return "discard fit";
-    case Action::restart_fit: return "restart collection";
-    case Action::adopt_fit: return "adopt fit";
-    case Action::start_fit: return "start fit";
-    case Action::reinstate: return "reinstate";
-    case Action::rearm: return "return named sensors";
-    case Action::exhausted: return "exhausted";
-    case Action::unproven: return "unproven";
-    case Action::count: return "count";
-    default: return "?";
-  }
 }
 
 }  // namespace PLUMB_ABI

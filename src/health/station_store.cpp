@@ -1,9 +1,9 @@
-#include "plumb/health/station_store.hpp"
+#include "plumb/health/detail/station_store.hpp"
 
 #include <cmath>
 #include <type_traits>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -1,4 +1,4 @@
-#include "plumb/health/tolerance.hpp"
+#include "plumb/health/detail/tolerance.hpp"
 
 #include <cmath>
 

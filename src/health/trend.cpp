@@ -1,4 +1,4 @@
-#include "plumb/health/trend.hpp"
+#include "plumb/health/detail/trend.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "plumb/health/window.hpp"
+#include "plumb/health/detail/window.hpp"
 
 #include <cmath>
 

@@ -38,14 +38,14 @@ void read_time(const TomlTable& table, InputSpec& input) {
     const std::string text = table.text_with_unit(value, "time_unit", accepted_units(Quantity::time));
     input.time_unit_s = table.checked(parse_quantity(Quantity::time, "1 " + text), "time_unit", value);
     if (input.time_column.empty())
-      table.fail(value.line, "time_unit", "has no time column to belong to", "add time = \"<column>\", or take it out");
+      table.fail(value.line, "time_unit", "needs a time column", "add time = \"<column>\", or remove this key");
   }
   if (has_rate && !input.time_column.empty()) {
-    table.fail(table.line_of("rate"), "rate", "and time both give the time", "keep one of them");
+    table.fail(table.line_of("rate"), "rate", "and time are both given", "keep one of them");
   }
   if (has_rate && input.rows == RowKind::stations) {
-    table.fail(table.line_of("rate"), "rate", "has no meaning where every row is a station",
-               "take it out; the row number is the time then");
+    table.fail(table.line_of("rate"), "rate", "cannot be used with rows = \"stations\"",
+               "remove this key; the row number is then the time");
   }
   if (has_rate) {
     input.rate_hz = table.need_quantity(Quantity::rate, "rate", "");
@@ -65,7 +65,7 @@ void read_rotation(const TomlTable& table, InputSpec& input) {
     table.fail(list->line, "rotation_radps", "must be a list of three columns", form);
   for (const TomlNode& item : list->items) {
     if (item.kind != TomlNode::Kind::text || item.text.empty())
-      table.fail(list->line, "rotation_radps", "holds something that is not the name of a column", form);
+      table.fail(list->line, "rotation_radps", "holds an entry that is not a column name", form);
     input.rotation_columns.push_back(item.text);
   }
 }
@@ -77,14 +77,13 @@ void read_depth(const TomlTable& table, InputSpec& input) {
   const std::string text = table.text_with_unit(value, "depth_unit", accepted_units(Quantity::length));
   input.depth_unit_m = table.checked(parse_quantity(Quantity::length, "1 " + text), "depth_unit", value);
   if (input.depth_column.empty())
-    table.fail(value.line, "depth_unit", "has no depth column to belong to",
-               "add depth = \"<column>\", or take it out");
+    table.fail(value.line, "depth_unit", "needs a depth column", "add depth = \"<column>\", or remove this key");
 }
 
 void read_where(const TomlTable& table, InputSpec& input) {
   const TomlNode* where = table.find("where");
   if (where == nullptr) return;
-  const std::string form = "write where = {exp = 1}: a column and the value of the rows to be read";
+  const std::string form = "write where = {exp = 1}: a column and the value that selects a row";
   if (where->kind != TomlNode::Kind::table)
     table.fail(where->line, "where", std::string("is ") + where->kind_name() + ", must be a table", form);
   for (const auto& [column, value] : where->members) {
@@ -114,7 +113,7 @@ Mat3 read_frame(const TomlNode& root, const std::string& file) {
   const TomlNode* frame = table.find("frame");
   if (frame == nullptr) return kIdentity3;
   const std::string form =
-      "write frame = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], rows of unit length at right angles, signs as you need them";
+      "write frame = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], rows of unit length at right angles; signs are free";
   if (frame->kind != TomlNode::Kind::array || frame->items.size() != 3)
     table.fail(frame->line, "frame", "must be three rows of three numbers", form);
   Mat3 out{};
@@ -126,7 +125,7 @@ Mat3 read_frame(const TomlNode& root, const std::string& file) {
       const TomlNode& item = row.items[c];
       const bool number = item.kind == TomlNode::Kind::integer || item.kind == TomlNode::Kind::number;
       if (!number || !std::isfinite(item.number))
-        table.fail(frame->line, "frame", "holds something that is not a finite number", form);
+        table.fail(frame->line, "frame", "holds an entry that is not a finite number", form);
       out[3 * r + c] = item.number;
     }
   }
@@ -181,18 +180,17 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   const TomlNode* node = root.find("input");
   if (node == nullptr) {
     throw Refusal(FileError{file, 0, "input", "is missing",
-                            "add [input] with reads, unit and time (or rate): how the log is to be read"});
+                            "add [input] with reads, unit and time (or rate): plumb needs them to read the log"});
   }
   const TomlTable table(*node, file, "input", known_input_keys());
   InputSpec input;
   input.rows = table.choice("rows", {"samples", "stations"}, 0) == 1 ? RowKind::stations : RowKind::samples;
   const std::string about_reads =
-      "say which way the sensors count: reads = \"specific-force\" where a sensor pointing up reads +1 g0 at rest "
-      "(most "
-      "MEMS parts), reads = \"gravity\" where one pointing down does";
+      "state the sign convention of the sensors: reads = \"specific-force\" where a sensor pointing up reads +1 g0 "
+      "at rest (most MEMS parts), reads = \"gravity\" where one pointing down does";
   reads = table.need_choice("reads", {"specific-force", "gravity"}, about_reads) == 1 ? Reads::gravity
                                                                                       : Reads::specific_force;
-  const std::string about_unit = "say what unit the log is in, one of: " + accepted_raw_units();
+  const std::string about_unit = "state the unit of the log, one of: " + accepted_raw_units();
   const std::string unit = table.need_text("unit", about_unit);
   input.unit = table.checked(parse_raw_unit(unit), "unit", table.need("unit", about_unit));
   read_time(table, input);

@@ -29,7 +29,7 @@ void refuse_unused(const TomlTable& table, const std::string& model, const std::
     for (const std::string& key : used) known = known || key == member.first;
     if (!known) {
       table.fail(member.second.line, member.first, "is not used by model \"" + model + "\"",
-                 "take it out, or choose another model; this one uses: " + joined(used) + ", sigma");
+                 "remove it, or choose another model; this model uses: " + joined(used) + ", sigma");
     }
   }
 }
@@ -63,7 +63,7 @@ GravityReference normal(const TomlTable& table, double sigma_mps2) {
     if (layers->kind != TomlNode::Kind::array) table.fail(layers->line, "layers", "must be a list of tables", form);
     if (layers->items.size() > in.layers.size()) {
       table.fail(layers->line, "layers", "has more than " + std::to_string(in.layers.size()) + " layers",
-                 "join neighbours of like density");
+                 "join neighbouring layers of similar density");
     }
     for (const TomlNode& item : layers->items) {
       const std::string path = "gravity.layers[" + std::to_string(in.layer_count + 1) + "]";
@@ -83,7 +83,7 @@ constexpr double kMostOff = 0.003;
 GravityReference compared(const TomlTable& table, const char* key, const GravityReference& given) {
   for (const char* about : {"elevation", "depth"}) {
     if (table.has(about) && !table.has("latitude") && table.has("value"))
-      table.fail(table.line_of(about), about, "says nothing without latitude", "add latitude, or take it out");
+      table.fail(table.line_of(about), about, "has no effect without latitude", "add latitude, or remove this key");
   }
   if (!table.has("latitude")) return given;
   NormalGravityInput in;
@@ -94,9 +94,11 @@ GravityReference compared(const TomlTable& table, const char* key, const Gravity
   const double off = given.g_mps2 / expected.g_mps2 - 1.0;
   if (std::fabs(off) <= kMostOff) return given;
   table.fail(table.line_of(key), key,
-             "gravity reference off by " + brief(100.0 * std::fabs(off), 2) + " %: it gives " + brief(given.g_mps2) +
-                 " m/s^2, and normal gravity at this latitude is " + brief(expected.g_mps2) + " m/s^2",
-             "correct the length or the latitude (and elevation); every scale factor would take the error");
+             "gravity value is wrong by " + brief(100.0 * std::fabs(off), 2) + " %: the file gives " +
+                 brief(given.g_mps2) + " m/s^2, and normal gravity at this latitude is " + brief(expected.g_mps2) +
+                 " m/s^2",
+             "correct the gravity value or the latitude (and elevation); otherwise every scale factor takes up this "
+             "error");
 }
 
 GravityReference paper(const TomlTable& table, double sigma_mps2) {
@@ -122,7 +124,7 @@ GravityReference from_table(const TomlTable& table, double sigma_mps2) {
     depth_m.push_back(row.need_quantity(Quantity::length, "depth", form));
     g_mps2.push_back(row.need_quantity(Quantity::acceleration, "g", form));
     if (depth_m.size() > 1 && !(depth_m.back() > depth_m[depth_m.size() - 2])) {
-      row.fail(row.line(), "depth", "does not increase from row to row", "sort the table by depth, each depth once");
+      row.fail(row.line(), "depth", "must increase from row to row", "sort the table by depth, with each depth once");
     }
   }
   const double at_m = table.quantity(Quantity::length, "depth", 0.0);

@@ -1,7 +1,7 @@
 #include <vector>
 
 #include "array_parts.hpp"
-#include "plumb/health/paper_rule.hpp"
+#include "plumb/paper/paper_rule.hpp"
 #include "text_tools.hpp"
 #include "toml_table.hpp"
 
@@ -18,10 +18,10 @@ const std::vector<std::string>& known_keys() {
                                                                      "delta_f",
                                                                      "false_alarm_rate",
                                                                      "rejection_rate",
-                                                                     "asserted_faults",
+                                                                     "assumed_faults",
                                                                      "isolation_stations",
-                                                                     "patience",
-                                                                     "clean_blocks",
+                                                                     "isolation_timeout",
+                                                                     "passed_blocks",
                                                                      "forget_blocks",
                                                                      "probation_stations",
                                                                      "missing_confirm",
@@ -29,7 +29,7 @@ const std::vector<std::string>& known_keys() {
                                                                      "max_gap",
                                                                      "max_age",
                                                                      "station_angle",
-                                                                     "excitation_angle",
+                                                                     "distinct_attitude_angle",
                                                                      "clear_fraction",
                                                                      "alert_limit",
                                                                      "integrity_risk",
@@ -37,7 +37,7 @@ const std::vector<std::string>& known_keys() {
                                                                      "reset_key",
                                                                      "temperature_min",
                                                                      "temperature_max",
-                                                                     "patience_blocks",
+                                                                     "isolation_timeout_blocks",
                                                                      "alarm_form",
                                                                      "recalibrate",
                                                                      "acceleration_bound",
@@ -62,10 +62,10 @@ MonitorConfig filled(const TomlTable& table) {
       table.quantity(Quantity::acceleration, "delta_f", config.mode == MonitorMode::paper ? kPaperDeltaF_mps2 : 0.0);
   config.false_alarm_rate = table.quantity(Quantity::ratio, "false_alarm_rate", config.false_alarm_rate);
   config.rejection_rate = table.quantity(Quantity::ratio, "rejection_rate", config.rejection_rate);
-  config.asserted_faults = whole(table, "asserted_faults", config.asserted_faults);
+  config.assumed_faults = whole(table, "assumed_faults", config.assumed_faults);
   config.isolation_stations = whole(table, "isolation_stations", config.isolation_stations);
-  config.patience = whole(table, "patience", config.patience);
-  config.clean_blocks = whole(table, "clean_blocks", config.clean_blocks);
+  config.isolation_timeout = whole(table, "isolation_timeout", config.isolation_timeout);
+  config.passed_blocks = whole(table, "passed_blocks", config.passed_blocks);
   config.forget_blocks = whole(table, "forget_blocks", config.forget_blocks);
   config.probation_stations = whole(table, "probation_stations", config.probation_stations);
   config.missing_confirm = whole(table, "missing_confirm", config.missing_confirm);
@@ -73,7 +73,8 @@ MonitorConfig filled(const TomlTable& table) {
   config.max_age_s = table.quantity(Quantity::time, "max_age", config.max_age_s);
   config.max_age_samples = whole(table, "max_age_samples", config.max_age_samples);
   config.station_angle_rad = table.quantity(Quantity::angle, "station_angle", config.station_angle_rad);
-  config.excitation_angle_rad = table.quantity(Quantity::angle, "excitation_angle", config.excitation_angle_rad);
+  config.distinct_attitude_angle_rad =
+      table.quantity(Quantity::angle, "distinct_attitude_angle", config.distinct_attitude_angle_rad);
   config.clear_fraction = table.quantity(Quantity::ratio, "clear_fraction", config.clear_fraction);
   config.alert_limit_rad = table.quantity(Quantity::angle, "alert_limit", config.alert_limit_rad);
   config.integrity_risk = table.quantity(Quantity::ratio, "integrity_risk", config.integrity_risk);
@@ -81,12 +82,12 @@ MonitorConfig filled(const TomlTable& table) {
   const std::int64_t key = table.integer("reset_key", static_cast<std::int64_t>(config.reset_key));
   if (key < 0)
     table.fail(table.line_of("reset_key"), "reset_key", "is negative",
-               "give a whole number from 0 up, 0x706c756d62 for example");
+               "give a whole number, 0 or more, for example 0x706c756d62");
   config.reset_key = static_cast<std::uint64_t>(key);
   config.temperature_min_degc = table.quantity(Quantity::temperature, "temperature_min", config.temperature_min_degc);
   config.temperature_max_degc = table.quantity(Quantity::temperature, "temperature_max", config.temperature_max_degc);
   config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
-  config.patience_blocks = whole(table, "patience_blocks", config.patience_blocks);
+  config.isolation_timeout_blocks = whole(table, "isolation_timeout_blocks", config.isolation_timeout_blocks);
   config.acceleration_bound_mps2 =
       table.quantity(Quantity::acceleration, "acceleration_bound", config.acceleration_bound_mps2);
   const bool average = table.choice("alarm_form", {"every-tool", "average-tool"}, 0) == 1;
@@ -100,7 +101,7 @@ MonitorConfig filled(const TomlTable& table) {
 const char* unit_of(const std::string& key) noexcept {
   if (key == "delta_f" || key == "acceleration_bound") return " m/s^2";
   if (key == "max_gap" || key == "max_age") return " s";
-  if (key == "station_angle" || key == "excitation_angle" || key == "alert_limit") return " rad";
+  if (key == "station_angle" || key == "distinct_attitude_angle" || key == "alert_limit") return " rad";
   if (key == "temperature_min" || key == "temperature_max") return " degC";
   return "";
 }
@@ -126,7 +127,6 @@ TomlNode no_table() {
 /// Of the node of the file, or of `nothing`, which must outlive it.
 TomlTable monitor_table(const TomlNode& root, const TomlNode& nothing, const std::string& file) {
   const TomlNode* node = root.find("monitor");
-  if (node != nullptr) refuse_gone_keys(*node, file);
   return {node == nullptr ? nothing : *node, file, "monitor", known_keys()};
 }
 

@@ -19,8 +19,6 @@ Stability read_usual_stability(const TomlNode& root, const std::string& file);
 std::vector<std::string> with_stability_keys(std::vector<std::string> names);
 /// A figure that the table leaves out is that of `fallback`.
 Stability read_stability(const TomlTable& table, const Stability& fallback);
-/// Keys of [monitor] that version 1.0 had.
-void refuse_gone_keys(const TomlNode& monitor, const std::string& file);
 /// All of [input] but the columns of the sensors.
 InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);
 /// Fills `out.datasheet`, `out.array` and the columns; `out.input` and `out.gravity` must be set.

@@ -72,7 +72,7 @@ void read_prior_slopes(const TomlTable& table, const char* key, Quantity quantit
   std::array<double, 4> terms = {0.0, out[0], out[1], out[2]};
   read_slopes(table, key, quantity, 1.0, terms);
   for (std::size_t k = 0; k < out.size(); ++k) {
-    refuse_unless_positive(table, key, terms[k + 1], "give 1-sigma tolerances, or leave the term out");
+    refuse_unless_positive(table, key, terms[k + 1], "give 1-sigma tolerances, or remove the term");
     out[k] = terms[k + 1];
   }
 }
@@ -116,7 +116,7 @@ void check_range(const TomlTable& table, const DatasheetSensor& sensor, double g
       table.line_of("full_scale"), "full_scale",
       "reaches " + brief(reach_mps2) + " m/s^2 beside the bias, below gravity plus a margin of 5 % (" +
           brief(needed_mps2) + " m/s^2)",
-      "such a sensor clips when it points along gravity: check full_scale, scale and bias, or leave the sensor out");
+      "such a sensor clips when it points along gravity: check full_scale, scale and bias, or remove the sensor");
 }
 
 double read_scale(const TomlTable& table, const RawUnit& unit) {
@@ -180,20 +180,20 @@ void refuse_twins(const std::vector<TomlTable>& tables, const std::vector<std::s
 const TomlNode& sensor_list(const TomlNode& root, const std::string& file) {
   const TomlNode* list = root.find("sensor");
   const std::string form = "add one [[sensor]] section for each accelerometer, three at least";
-  if (list == nullptr) throw Refusal(FileError{file, 0, "sensor", "no sensor is described", form});
+  if (list == nullptr) throw Refusal(FileError{file, 0, "sensor", "the file describes no sensor", form});
   if (list->kind != TomlNode::Kind::array)
     throw Refusal(FileError{file, list->line, "sensor", "is " + std::string(list->kind_name()) + ", must be a list",
                             "write [[sensor]] with two brackets"});
   const std::size_t n = list->items.size();
   if (n < 3)
-    throw Refusal(FileError{file, list->line, "sensor",
-                            "an array of " + std::to_string(n) + " sensors cannot determine a vector, 3 are needed",
-                            form});
+    throw Refusal(FileError{
+        file, list->line, "sensor",
+        "an array of " + std::to_string(n) + " sensors cannot determine a vector; at least 3 are needed", form});
   if (n > static_cast<std::size_t>(kCapacity)) {
     throw Refusal(FileError{
         file, list->items[static_cast<std::size_t>(kCapacity)].line, path_of(static_cast<std::size_t>(kCapacity)),
         std::to_string(n) + " sensors are more than this build holds (" + std::to_string(kCapacity) + ")",
-        "leave sensors out, or build plumb with a larger PLUMB_CAPACITY (24 at most)"});
+        "remove sensors, or build plumb with a larger PLUMB_CAPACITY (24 at most)"});
   }
   return *list;
 }
@@ -208,8 +208,9 @@ SensorArray built_array(const std::vector<TomlTable>& tables, const Datasheet& s
   if (error.code == Errc::axes_rank_deficient) {
     tables.front().fail(tables.front().line_of("axis"), "axis",
                         "the axes of all sensors lie in one plane (smallest singular value " + brief(error.value) +
-                            "): they cannot see across it",
-                        "check the axes for copies and signs; at least one must point out of the plane of the others");
+                            "), so they cannot measure across it",
+                        "check the axes for copies and wrong signs; at least one must point out of the plane of the "
+                        "others");
   }
   const std::size_t i = error.index >= 0 && error.index < sheet.size ? static_cast<std::size_t>(error.index) : 0;
   const FileError words = from_error(error);
@@ -222,11 +223,11 @@ std::vector<Vec3> read_lever_arms(const std::vector<TomlTable>& tables) {
   std::vector<Vec3> out;
   if (std::none_of(tables.begin(), tables.end(), given)) return out;
   const std::string form =
-      "give every sensor its place from the axis of rotation in m: lever_arm_m = [0.02, 0.0, 0.35]";
+      "give every sensor its position relative to the axis of rotation in m: lever_arm_m = [0.02, 0.0, 0.35]";
   for (const TomlTable& table : tables) {
     out.push_back(table.need_vec3("lever_arm_m", form));
     const bool sound = norm(out.back()) <= kLongestArm_m;
-    if (!sound) table.fail(table.line_of("lever_arm_m"), "lever_arm_m", "is longer than 100 m, or no number", form);
+    if (!sound) table.fail(table.line_of("lever_arm_m"), "lever_arm_m", "is longer than 100 m, or not a number", form);
   }
   return out;
 }
@@ -238,7 +239,7 @@ void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& s
     const char* key = tables[i].has("bias_t") ? "bias_t" : "scale_t";
     if (tables[i].has(key)) {
       tables[i].fail(tables[i].line_of(key), key, "needs the temperature, but [input] names no temperature column",
-                     "add temperature = \"<column>\" to [input], or take " + std::string(key) + " out");
+                     "add temperature = \"<column>\" to [input], or remove " + std::string(key));
     }
   }
   input.default_temperature_degc = sheet.sensor[0].coefficients.reference_degc;
@@ -260,9 +261,8 @@ void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out)
     columns.push_back(tables.back().text("column", ids.back()));
   }
   out.datasheet.size = static_cast<int>(tables.size());
-  refuse_twins(tables, ids, "id",
-               "give every sensor a name of its own (parallel axes are allowed, equal names are not)");
-  refuse_twins(tables, columns, "column", "two sensors that read one column are one sensor: name the column of each");
+  refuse_twins(tables, ids, "id", "give every sensor its own id (parallel axes are allowed, equal ids are not)");
+  refuse_twins(tables, columns, "column", "give every sensor its own column of the log");
   out.array = built_array(tables, out.datasheet);
   settle_temperature(tables, out.datasheet, out.input);
   out.lever_arm_m = read_lever_arms(tables);

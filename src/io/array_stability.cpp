@@ -1,8 +1,5 @@
 // How far a sensor may drift after its calibration: the same keys in [monitor], for all, and in [[sensor]].
-#include <algorithm>
-
 #include "array_parts.hpp"
-#include "refusal.hpp"
 #include "text_tools.hpp"
 #include "toml_table.hpp"
 
@@ -33,7 +30,7 @@ double read_figure(const TomlTable& table, const StabilityKey& key, double fallb
   const double mps2 = table.checked(parse_quantity(Quantity::acceleration, text), key.key, *value);
   if (mps2 >= 0.0 && mps2 <= kMostStability_mps2) return mps2;
   table.fail(value->line, key.key, "is " + brief(mps2) + " m/s^2" + per + ", out of range",
-             "give 1 sigma of what a reading may be off by, from 0 up, below " + brief(kMostStability_mps2) +
+             "give the possible error of a reading, 1 sigma, from 0 to " + brief(kMostStability_mps2) +
                  " m/s^2: " + key.key + " = \"0.2 mg" + per + "\"");
 }
 
@@ -48,18 +45,6 @@ Stability read_stability(const TomlTable& table, const Stability& fallback) {
   Stability out = fallback;
   for (const StabilityKey& key : kKeys) out.*key.figure = read_figure(table, key, fallback.*key.figure);
   return out;
-}
-
-void refuse_gone_keys(const TomlNode& monitor, const std::string& file) {
-  for (const char* key : {"drift_bias", "drift_scale", "common_drift"}) {
-    const TomlNode* value = monitor.find(key);
-    if (value == nullptr) continue;
-    throw Refusal(FileError{file, value->line, std::string("monitor.") + key,
-                            "is gone since 1.1: one statement of drift stands behind limits, protection level and "
-                            "recalibration now",
-                            "state stability = \"0.2 mg\" in its place, 1 sigma of what a reading may be off by since "
-                            "the calibration, bias and scale together"});
-  }
 }
 
 std::string stability_toml(const Stability& stability) {

@@ -81,8 +81,8 @@ void check_report(const Check& check, const FitReport& report, int n) {
 
 void check_roll(const Check& check, const FitReport& report) {
   check.within("groups", report.roll_groups, 0.0, kMaxRollGroups);
-  check.within("lone", report.lone_rolls, 0.0, report.roll_groups);
-  check.within("wobble_rad", report.roll_wobble_rad, 0.0, kPi);
+  check.within("single_station_groups", report.single_station_groups, 0.0, report.roll_groups);
+  check.within("axis_deviation_rad", report.roll_axis_deviation_rad, 0.0, kPi);
   check.within("inclination_sigma_rad", report.inclination_sigma_rad, 0.0, kMostNumber);
   check.within("common_turn_rad", report.common_turn.rad, 0.0, kPi);
   check.within("common_turn_sigma_rad", report.common_turn.sigma_rad, 0.0, kMostNumber);
@@ -98,7 +98,7 @@ void check_sensor(const Check& check, const Calibration& calibration, int i) {
   check.within("misfit_mps2", calibration.array.uncertainty().misfit_mps2[a], 0.0, kMostAcceleration_mps2);
   check.within("e_cal_mps2", calibration.report.e_cal_mps2[a], 0.0, kMostAcceleration_mps2);
   check.within("residual_rms_mps2", calibration.report.residual_rms_mps2[a], 0.0, kMostAcceleration_mps2);
-  if (c.scale[0] == 0.0) check.refuse("scale", "is 0: such a sensor says nothing");
+  if (c.scale[0] == 0.0) check.refuse("scale", "is 0, and a scale factor cannot be 0");
   for (const double value : c.scale) check.within("scale", value, -kMostNumber, kMostNumber);
   for (const double value : c.bias) check.within("bias_mps2", value, -kMostNumber, kMostNumber);
   check.within("reference_degc", c.reference_degc, kColdest_degc, kHottest_degc);
@@ -118,14 +118,14 @@ void check_covariance(const Source& source, const Calibration& calibration, std:
     const double variance = entry[at(a, a)];
     if (variance >= 0.0 && variance <= largest) continue;
     source.fail(line, "covariance[" + std::to_string(a + 1) + "][" + std::to_string(a + 1) + "]",
-                "is " + shortest(variance) + ", a variance is from 0 to " + brief(largest), kMakeAnew);
+                "is " + shortest(variance) + ", but a variance must be from 0 to " + brief(largest), kMakeAnew);
   }
   for (std::size_t a = 0; a < 4 * n; ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       const double most = (1.0 + kRounding) * std::sqrt(entry[at(a, a)] * entry[at(b, b)]);
       if (std::fabs(entry[at(a, b)]) <= most) continue;
       source.fail(line, "covariance[" + std::to_string(a + 1) + "][" + std::to_string(b + 1) + "]",
-                  "is " + shortest(entry[at(a, b)]) + ", its variances allow at most " + brief(most), kMakeAnew);
+                  "is " + shortest(entry[at(a, b)]) + ", but the variances allow at most " + brief(most), kMakeAnew);
     }
   }
 }

@@ -58,9 +58,9 @@ Json from_sensors(const Calibration& calibration) {
 /// Only where stations had roll groups: a file without is as it was before there were any.
 Json from_roll(const FitReport& report) {
   return object({{"groups", report.roll_groups},
-                 {"lone", report.lone_rolls},
+                 {"single_station_groups", report.single_station_groups},
                  {"axis", from_array(report.roll_axis, 3)},
-                 {"wobble_rad", from_double(report.roll_wobble_rad)},
+                 {"axis_deviation_rad", from_double(report.roll_axis_deviation_rad)},
                  {"inclination_sigma_rad", from_double(report.inclination_sigma_rad)},
                  {"common_turn_rad", from_double(report.common_turn.rad)},
                  {"common_turn_sigma_rad", from_double(report.common_turn.sigma_rad)}});

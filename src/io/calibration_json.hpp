@@ -6,9 +6,9 @@
 #include <string>
 
 #include "plumb/calibration/calibration.hpp"
-#include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/core/config.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

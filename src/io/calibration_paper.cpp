@@ -19,12 +19,6 @@ std::vector<int> members(SensorSet set) {
   return out;
 }
 
-Json ids_of(SensorSet set, const SensorArray& array) {
-  Json out = Json::array();
-  for (const int i : members(set)) out.push_back(array.row(i).id.data());
-  return out;
-}
-
 /// What the fit changed; sensors that it does not use stand in the array file.
 Json from_fit(const PaperFit& fit, const SensorArray& array) {
   Json scale = Json::array(), bias = Json::array(), misalignment = Json::array();
@@ -61,7 +55,7 @@ PaperFit fit_from(const Source& source, const Json& object, const std::string& n
   fit.used = expected;
   fit.model = array.datasheet.model();
   const Json& converged = source.member(object, "converged");
-  if (!converged.is_boolean()) source.fail(0, name + ".converged", "is neither true nor false", kMakeAnew);
+  if (!converged.is_boolean()) source.fail(0, name + ".converged", "must be true or false", kMakeAnew);
   fit.converged = converged.get<bool>();
   fit.stop = enum_from(source, object, "stop",
                        {StopReason::none, StopReason::converged, StopReason::iteration_limit, StopReason::no_descent,
@@ -129,14 +123,15 @@ void check_fit(const Source& source, const std::string& name, const PaperFit& fi
   // Written so that a NaN is refused too.
   if (!(std::sqrt(square) <= kMostLength)) {
     source.fail(line, name,
-                "contradicts the calibration beside it: gravity comes out " + brief(100.0 * std::sqrt(square), 3) +
-                    " % off (rms over all directions, " + brief(100.0 * kMostLength) + " % allowed)",
+                "contradicts the calibration in the same file: gravity differs by " +
+                    brief(100.0 * std::sqrt(square), 3) + " % (rms over all directions, " + brief(100.0 * kMostLength) +
+                    " % allowed)",
                 remedy);
   }
   if (!(most_rad <= kMostTurn_rad)) {
     source.fail(line, name,
-                "contradicts the calibration beside it: down comes out " + brief(deg_from_rad(most_rad), 3) +
-                    " deg off (" + brief(deg_from_rad(kMostTurn_rad)) + " deg allowed)",
+                "contradicts the calibration in the same file: the direction of gravity differs by " +
+                    brief(deg_from_rad(most_rad), 3) + " deg (" + brief(deg_from_rad(kMostTurn_rad)) + " deg allowed)",
                 remedy);
   }
 }
@@ -172,8 +167,8 @@ std::shared_ptr<const PaperCalibration> read_paper(const Source& source, const J
   }
   if (array.array.size() > kPaperCapacity) {
     source.fail(source.line_of("paper", "\"version\""), "paper",
-                "stands beside " + std::to_string(array.array.size()) + " sensors; the paper's fit is for up to " +
-                    std::to_string(kPaperCapacity),
+                "belongs to an array of " + std::to_string(array.array.size()) +
+                    " sensors, but the paper's fit supports at most " + std::to_string(kPaperCapacity),
                 kMakeAnew);
   }
   auto out = std::make_shared<PaperCalibration>();

@@ -1,7 +1,7 @@
 // The parameters of plumb's fit in the form of eqs (1)-(3), derived from the rest of the calibration file.
 #include "calibration_json.hpp"
-#include "plumb/calibration/paper_parameters.hpp"
 #include "plumb/io/file_error.hpp"
+#include "plumb/paper/paper_parameters.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

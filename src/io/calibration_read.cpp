@@ -7,6 +7,7 @@
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/date.hpp"
 #include "plumb/io/output_file.hpp"
+#include "renamed_keys.hpp"
 #include "text_tools.hpp"
 
 namespace plumb {
@@ -21,7 +22,7 @@ Json parsed(const Source& source) {
     source.fail(0, "", "the file is empty", kMakeAnew);
   }
   const auto shallow = [&source](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) source.fail(0, "", "is nested too deeply for a calibration file", kMakeAnew);
+    if (depth > kDeepest) source.fail(0, "", "is nested too deeply", kMakeAnew);
     return true;
   };
   try {
@@ -29,8 +30,7 @@ Json parsed(const Source& source) {
   } catch (const Json::parse_error& error) {
     const std::size_t last = source.text.find_last_not_of(" \t\r\n");
     const bool cut = error.byte > last + 1;
-    source.fail(source.line_at(error.byte), "",
-                cut ? "the file ends in the middle: it is truncated" : "is not valid JSON", kMakeAnew);
+    source.fail(source.line_at(error.byte), "", cut ? "the file is truncated" : "is not valid JSON", kMakeAnew);
   } catch (const Json::exception&) {
     source.fail(0, "", "is not valid JSON: a number is out of range", kMakeAnew);
   }
@@ -54,7 +54,7 @@ void check_envelope(const Source& source, const Json& root) {
   const std::string actual = checksum_of(root);
   if (stated != actual) {
     source.fail(source.line_of("checksum", "checksum"), "checksum",
-                "is " + stated + ", the content gives " + actual + ": the file was edited or damaged",
+                "is " + stated + ", but the content gives " + actual + ": the file was edited or damaged",
                 std::string("do not edit calibration files; ") + kMakeAnew);
   }
 }
@@ -85,8 +85,8 @@ void compare_sensor(const Source& source, const ArrayFile& array, const Json& th
   const std::string other = source.text_of(there, "id");
   if (other != id)
     refuse_array(source, array, other, field + "id",
-                 "sensor " + std::to_string(i + 1) + " is " + in_quotes(other) + " there and " + in_quotes(id) +
-                     " in the array file");
+                 "sensor " + std::to_string(i + 1) + " is " + in_quotes(other) + " in the calibration and " +
+                     in_quotes(id) + " in the array file");
   Vec3 axis{};
   source.numbers_of(there, "axis", axis.data(), 3);
   if (axis != here.row.axis) {
@@ -107,7 +107,7 @@ void compare_sensor(const Source& source, const ArrayFile& array, const Json& th
     refuse_array(source, array, id, field + cubic.words,
                  std::string("the nominal ") + cubic.words +
                      (k > 0 ? " (temperature term " + std::to_string(k) + ")" : "") + " of " + id + " is " +
-                     shortest(found) + " there and " + shortest(cubic.values[k]) + " in the array file");
+                     shortest(found) + " in the calibration and " + shortest(cubic.values[k]) + " in the array file");
   }
   if (source.number_of(there, "reference_degc") != here.coefficients.reference_degc) {
     refuse_array(source, array, id, field + "t_ref", "the reference temperature of " + id + " differs");
@@ -120,24 +120,31 @@ void check_array(const Source& source, const Json& root, const ArrayFile& array)
   const Json& nominal = source.member(there, "nominal");
   if (!nominal.is_array() || nominal.size() != n) {
     refuse_array(source, array, "", "nominal",
-                 "it has " + std::to_string(nominal.size()) + " sensors, the array file has " + std::to_string(n));
+                 "the calibration has " + std::to_string(nominal.size()) + " sensors and the array file has " +
+                     std::to_string(n));
   }
   for (std::size_t i = 0; i < n; ++i) compare_sensor(source, array, nominal[i], i);
   const std::string reads = source.text_of(there, "reads");
   if (reads != reads_word(array.datasheet.reads)) {
-    refuse_array(source, array, "", "reads",
-                 "its sensors read " + reads + ", those of the array file " + reads_word(array.datasheet.reads));
+    refuse_array(
+        source, array, "", "reads",
+        "its sensors have reads = " + reads + ", those of the array file reads = " + reads_word(array.datasheet.reads));
   }
   if (source.text_of(there, "fingerprint") != hex(array.fingerprint)) {
-    refuse_array(source, array, "", "fingerprint", "the fingerprints differ");
+    refuse_array(source, array, "", "fingerprint", "the fingerprints of the two arrays differ");
   }
 }
 
 void read_roll(const Source& source, const Json& object, FitReport& report) {
+  for (const auto& [key, value] : object.items()) {
+    if (const RenamedKey* old = renamed_key("roll", key))
+      source.fail(source.line_of("roll", '"' + key + '"'), "report.roll." + key, what_of(*old),
+                  remedy_of(*old, source.path));
+  }
   report.roll_groups = source.whole_of<int>(object, "groups");
-  report.lone_rolls = source.whole_of<int>(object, "lone");
+  report.single_station_groups = source.whole_of<int>(object, "single_station_groups");
   source.numbers_of(object, "axis", report.roll_axis.data(), 3);
-  report.roll_wobble_rad = source.number_of(object, "wobble_rad");
+  report.roll_axis_deviation_rad = source.number_of(object, "axis_deviation_rad");
   report.inclination_sigma_rad = source.number_of(object, "inclination_sigma_rad");
   if (!object.contains("common_turn_rad")) return;  // a file from before it was judged
   report.common_turn.rad = source.number_of(object, "common_turn_rad");

@@ -10,9 +10,9 @@
 #include <type_traits>
 
 #include "calibration_json.hpp"
-#include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 #include "refusal.hpp"
 #include "text_tools.hpp"
 
@@ -20,7 +20,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
-inline constexpr const char* kMakeAnew = "run plumb calibrate again, or fetch the file again from where it came";
+inline constexpr const char* kMakeAnew = "run plumb calibrate again, or copy the original file again";
 
 /// The text with what it takes to say where something is wrong; its functions throw Refusal.
 struct Source {

@@ -1,5 +1,7 @@
 #include "plumb/io/json_fields.hpp"
 
+#include <cmath>
+
 template nlohmann::basic_json<nlohmann::ordered_map>::basic_json(const nlohmann::basic_json<nlohmann::ordered_map>&);
 template nlohmann::basic_json<nlohmann::ordered_map>::basic_json(
     std::initializer_list<nlohmann::detail::json_ref<nlohmann::ordered_json>>, bool, nlohmann::detail::value_t);
@@ -31,7 +33,17 @@ Json texts(std::initializer_list<const char*> items) {
   return out;
 }
 
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
 Json parsed(const std::string& text) { return Json::parse(text, nullptr, false); }
+
+Json ids_of(SensorSet set, const SensorArray& array) {
+  Json out = Json::array();
+  for (int i = 0; i < array.size(); ++i) {
+    if (set.has(i)) out.push_back(array.row(i).id.data());
+  }
+  return out;
+}
 
 }  // namespace io
 }  // namespace PLUMB_ABI

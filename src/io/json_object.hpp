@@ -72,11 +72,11 @@ class Object {
     out_ += ']';
   }
   /// s_i in the order of the array; null where no hypothesis keeps the sensor healthy.
-  void fewest_faults(const char* key, const Verdict& verdict, int size) {
+  void minimum_faults(const char* key, const Verdict& verdict, int size) {
     name(key);
     out_ += '[';
     for (int i = 0; i < size; ++i) {
-      const std::uint8_t value = verdict.fewest_faults[static_cast<std::size_t>(i)];
+      const std::uint8_t value = verdict.minimum_faults[static_cast<std::size_t>(i)];
       if (i > 0) out_ += ',';
       if (value == kNoHypothesis) {
         out_ += "null";

@@ -8,7 +8,7 @@ inline namespace PLUMB_ABI {
 namespace io {
 namespace {
 
-const char* const kCopyAgain = "copy or record the log again, or run with --on-bad-row skip to go without these rows";
+const char* const kCopyAgain = "copy or record the log again, or run with --on-bad-row skip to skip these rows";
 
 /// Two names of one unit, such as mg and mg0, are the same.
 bool same_raw_unit(const std::string& name, const RawUnit& wanted) {
@@ -38,8 +38,9 @@ FileExpected<void> LogReader::State::check_unit(std::size_t column, const std::s
   if (found.constant || found.text.empty() || found.text == wanted) return {};
   return tl::unexpected<FileError>(
       FileError{path, 0, found.name,
-                "is in " + in_quotes(found.text) + " by the log and in " + in_quotes(wanted) + " by the array file",
-                std::string("correct ") + key + " in the array file, or have the recorder say the right unit"});
+                "is in " + in_quotes(found.text) + " according to the log and in " + in_quotes(wanted) +
+                    " according to the array file",
+                std::string("correct ") + key + " in the array file, or correct the unit in the recorder"});
 }
 
 FileExpected<void> LogReader::State::check_binary() const {
@@ -54,10 +55,10 @@ FileExpected<void> LogReader::State::check_binary() const {
   if (!done) return done;
   const double rate_hz = binary->header().rate_hz;
   if (input.rate_hz > 0.0 && rate_hz > 0.0 && rate_hz != input.rate_hz) {
-    return tl::unexpected<FileError>(
-        FileError{path, 0, "rate",
-                  "is " + shortest(rate_hz) + " Hz by the log and " + shortest(input.rate_hz) + " Hz by the array file",
-                  "correct [input] rate in the array file, or have the recorder say the right rate"});
+    return tl::unexpected<FileError>(FileError{path, 0, "rate",
+                                               "is " + shortest(rate_hz) + " Hz according to the log and " +
+                                                   shortest(input.rate_hz) + " Hz according to the array file",
+                                               "correct [input] rate in the array file, or the rate in the recorder"});
   }
   for (std::size_t k = 0; k < filters.size(); ++k) {
     if (input.where[k].numeric || number_place[filters[k]] == kNoColumn) continue;
@@ -102,7 +103,7 @@ LogReader::State::Got LogReader::State::next_block() {
 
 LogReader::State::Got LogReader::State::refuse_marks() {
   ++index;
-  refuse(kNoColumn, "marks values in more columns than the header names");
+  refuse(kNoColumn, "marks values in more columns than the header has");
   return note_bad(1, bad_row());
 }
 

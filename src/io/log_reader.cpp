@@ -62,9 +62,9 @@ FileExpected<void> LogReader::State::read_header() {
     header.emplace_back(bare_cell(cell));
   }
   if (numbers) {
-    return tl::unexpected<FileError>(
-        FileError{path, line, "", "the first row holds numbers, it must name the columns",
-                  "put a header row in front, for example: t_s," + joined(input.sensor_columns)});
+    return tl::unexpected<FileError>(FileError{path, line, "",
+                                               "the first row holds numbers; it must hold the column names",
+                                               "add a header row, for example: t_s," + joined(input.sensor_columns)});
   }
   return {};
 }
@@ -77,8 +77,8 @@ FileExpected<std::size_t> LogReader::State::column_of(const std::string& name, c
       remedy = "separate the cells by commas (this file seems to use " +
                std::string(header[0].find(';') != std::string::npos ? "semicolons" : "tabs") + ")";
     }
-    return tl::unexpected<FileError>(
-        FileError{path, line, name, "the column is missing, it is " + role + " in the array file", remedy});
+    return tl::unexpected<FileError>(FileError{
+        path, line, name, "the column is missing in the log; " + role + " in the array file names it", remedy});
   }
   if (std::find(found + 1, header.end(), name) != header.end()) {
     return tl::unexpected<FileError>(
@@ -130,11 +130,11 @@ FileError LogReader::State::bad_row() const {
   out.line = line;
   if (bad_column < header.size()) out.field = header[bad_column] + " (column " + std::to_string(bad_column + 1) + ")";
   out.what = bad_what;
-  out.remedy = "mend the row, or run with --on-bad-row skip";
+  out.remedy = "correct the row, or run with --on-bad-row skip";
   if (!binary) return out;
   out.line = 0;
   out.field = "row " + std::to_string(binary->row()) + (out.field.empty() ? "" : ", ") + out.field;
-  out.remedy = "have the recorder write it anew, or run with --on-bad-row skip";
+  out.remedy = "record or copy the log again, or run with --on-bad-row skip";
   return out;
 }
 
@@ -150,14 +150,14 @@ FileError LogReader::State::nothing_usable() const {
   FileError out;
   out.file = path;
   out.line = line;
-  out.what = "the log has a header, but no row that can be used (" + std::to_string(statistics.rows_bad) + " bad, " +
+  out.what = "the log has a header but no usable row (" + std::to_string(statistics.rows_bad) + " bad, " +
              std::to_string(statistics.rows_filtered) + " not selected by [input] where)";
-  out.remedy = statistics.rows_bad > 0 ? "mend the rows, the first: " +
+  out.remedy = statistics.rows_bad > 0 ? "correct the bad rows; the first is " +
                                              (binary ? statistics.bad_rows.front().field
                                                      : "line " + std::to_string(statistics.bad_rows.front().line)) +
                                              ", " + statistics.bad_rows.front().what
                : statistics.rows_filtered > 0 ? "check [input] where in the array file against the log"
-                                              : "give a log with rows";
+                                              : "give a log with data rows";
   return out;
 }
 
@@ -204,7 +204,7 @@ LogReader::State::Got LogReader::State::next_cells() {
   if (found == cells.size()) return Got::row;
   ++index;
   refuse(kNoColumn,
-         "the row has " + std::to_string(found) + " cells, the header names " + std::to_string(cells.size()));
+         "the row has " + std::to_string(found) + " cells, but the header has " + std::to_string(cells.size()));
   return note_bad(1, bad_row());
 }
 

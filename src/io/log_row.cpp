@@ -27,7 +27,7 @@ bool LogReader::State::refuse_cell(std::size_t column, const char* what) {
   return refuse(column, shown(column) + what);
 }
 bool LogReader::State::refuse_tag(std::size_t column, const char* what) {
-  return refuse(column, shown(column) + " is not " + what + " (a whole number from 0 up, -1 or empty for none)");
+  return refuse(column, shown(column) + " is not " + what + " (a whole number, 0 or more; -1 or empty for none)");
 }
 bool LogReader::State::refuse_time(double time_s) {
   return refuse(time, "time " + shortest(time_s) + " s does not increase (the row before has " +
@@ -94,7 +94,7 @@ inline bool LogReader::State::fill_tags(Sample& sample) {
   if (count != kNoColumn) {
     std::int64_t value = 0;
     const bool fits = whole_in<kBinary>(count, value) == CellKind::number && value >= 1 && value <= kLargestCount;
-    if (!fits) return refuse_cell(count, " is not a number of samples (a whole number from 1 up)");
+    if (!fits) return refuse_cell(count, " is not a number of samples (a whole number, 1 or more)");
     sample.count = static_cast<std::uint32_t>(value);
   }
   return true;
@@ -111,7 +111,7 @@ inline bool LogReader::State::fill_temperature(Sample& sample) {
     last_temperature_degc = value;
     has_temperature = true;
   } else if (!has_temperature) {
-    return refuse(temperature, "there is no temperature yet in this row or before it");
+    return refuse(temperature, "neither this row nor a row before it has a temperature");
   } else {
     ++statistics.temperature_held;
   }
@@ -127,7 +127,7 @@ inline bool LogReader::State::fill_rotation() {
   for (std::size_t k = 0; k < rates.size(); ++k) {
     double value = 0.0;
     const CellKind kind = number_in<kBinary>(rates[k], value);
-    if (kind == CellKind::text) return refuse_cell(rates[k], " is not a rate of turn");
+    if (kind == CellKind::text) return refuse_cell(rates[k], " is not a rate of rotation");
     if (kind != CellKind::number || !std::isfinite(value)) {
       rotation = Rotation{true, false, {}};
       return true;

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "text_tools.hpp"
@@ -16,6 +17,8 @@ namespace io {
 namespace {
 
 constexpr std::size_t kBuffer = 1U << 16U;
+/// No file that is read as a whole comes near it; a device like /dev/zero never ends.
+constexpr std::size_t kLargestWhole = 256U << 20U;
 
 std::string remedy_for(int error_number) {
   switch (error_number) {
@@ -24,12 +27,20 @@ std::string remedy_for(int error_number) {
     case EPERM:
     case EROFS: return "choose a directory that you may write to";
     case EISDIR: return "name a file, not a directory";
-    case ENOTDIR: return "a part of the path is a file; choose another path";
+    case ENOTDIR: return "choose another path: a part of this one is a file, not a directory";
     case ENOSPC:
     case EDQUOT: return "free space on the disk, or choose another disk";
-    case EPIPE: return "the reader of the pipe has gone; run again without it";
-    default: return "choose another path, or mend what the system reports";
+    case EPIPE: return "the reader of the pipe has closed it; run again";
+    default: return "choose another path, or correct what the system reports";
   }
+}
+
+/// Where a path leads through links; the path itself where the system cannot say.
+std::string real_path(const std::string& path) {
+  char* const found = ::realpath(path.c_str(), nullptr);
+  std::string out = found != nullptr ? found : path;
+  std::free(found);  // NOLINT(*-no-malloc,*-owning-memory) realpath allocates it
+  return out;
 }
 
 }  // namespace
@@ -55,16 +66,28 @@ FileExpected<OutputFile> OutputFile::create(const std::string& path, Mode mode) 
   if (exists && S_ISDIR(status.st_mode)) return tl::unexpected<FileError>(file.failure("write", EISDIR));
   // A device or pipe (/dev/stdout, a fifo) cannot be replaced by renaming: it is written in place.
   const bool replaceable = !exists || S_ISREG(status.st_mode);
-  std::string target = path;
-  if (mode == Mode::whole && replaceable) target = path + ".part" + std::to_string(::getpid());
-  file.descriptor_ = ::open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);  // NOLINT(*-vararg)
-  if (file.descriptor_ < 0) return tl::unexpected<FileError>(file.failure("write", errno));
-  if (target != path) file.temporary_ = target;
+  file.place_ = path;
+  if (mode == Mode::whole && replaceable) {
+    if (exists) file.place_ = real_path(path);  // a link stays a link
+    file.temporary_ = file.place_ + ".part" + std::to_string(::getpid());
+    (void)::unlink(file.temporary_.c_str());  // of a process that had the same number and was killed
+  }
+  const bool beside = !file.temporary_.empty();
+  const std::string& target = beside ? file.temporary_ : file.place_;
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (beside ? O_EXCL : O_TRUNC);
+  file.descriptor_ = ::open(target.c_str(), flags, 0666);  // NOLINT(*-vararg)
+  if (file.descriptor_ < 0) {
+    const int error_number = errno;
+    file.temporary_.clear();  // it is not ours
+    return tl::unexpected<FileError>(file.failure("write", error_number));
+  }
+  if (beside && exists) (void)::fchmod(file.descriptor_, status.st_mode & 07777U);  // who may read it stays the same
   return file;
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
+      place_(std::move(other.place_)),
       temporary_(std::exchange(other.temporary_, {})),
       buffer_(std::exchange(other.buffer_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -73,6 +96,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   if (this != &other) {
     close_quietly();
     path_ = std::move(other.path_);
+    place_ = std::move(other.place_);
     temporary_ = std::exchange(other.temporary_, {});
     buffer_ = std::exchange(other.buffer_, {});
     descriptor_ = std::exchange(other.descriptor_, -1);
@@ -129,10 +153,10 @@ FileExpected<void> OutputFile::commit() {
     return tl::unexpected<FileError>(failure("close", error_number));
   }
   if (!temporary_.empty()) {
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    if (std::rename(temporary_.c_str(), place_.c_str()) != 0) {
       const int error_number = errno;
       (void)::unlink(temporary_.c_str());
-      return tl::unexpected<FileError>(failure("put in place", error_number));
+      return tl::unexpected<FileError>(failure("rename", error_number));
     }
     temporary_.clear();
   }
@@ -152,7 +176,7 @@ FileExpected<std::string> read_file(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT(*-vararg)
   int error_number = descriptor < 0 ? errno : 0;
   std::string text;
-  while (error_number == 0) {
+  while (error_number == 0 && text.size() <= kLargestWhole) {
     const std::size_t before = text.size();
     text.resize(before + kBuffer);
     const ssize_t count = ::read(descriptor, &text[before], kBuffer);
@@ -161,6 +185,11 @@ FileExpected<std::string> read_file(const std::string& path) {
     if (count < 0 && errno != EINTR) error_number = errno;
   }
   if (descriptor >= 0) (void)::close(descriptor);
+  if (text.size() > kLargestWhole) {
+    error.what = "is larger than 256 MiB, the most that is read as a whole";
+    error.remedy = "check the path: array, calibration, scenario, campaign and result files and snapshots are smaller";
+    return tl::unexpected<FileError>(std::move(error));
+  }
   if (error_number == 0) return text;
   error.what = std::string("cannot be read: ") + system_message(error_number);
   error.remedy = error_number == EISDIR ? "name a file, not a directory" : "check the path and the permissions";

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kPaperHead =
     R"(# The paper's tool: three accelerometers on a cone about the tool axis z, the fourth along z.
-# Only what a datasheet says. What the sensors really do is found by `plumb calibrate`.
+# Datasheet values only. `plumb calibrate` estimates the true parameters of the sensors.
 #   plumb geometry examples/paper_tool.toml
 #   plumb simulate examples/stand.toml --out stand.csv
 #   plumb calibrate --array examples/paper_tool.toml --log stand.csv --out cal.json
@@ -33,7 +33,7 @@ model = "value"          # or "normal" with latitude, elevation and depth
 value = ")";
 
 constexpr const char* kInput = R"( m/s^2"
-sigma = "0.15 mg"        # how far it may be off, 1 sigma
+sigma = "0.15 mg"        # its uncertainty, 1 sigma
 
 [input]
 reads = "gravity"        # a sensor that points down reads +1 g0

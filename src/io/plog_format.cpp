@@ -91,12 +91,12 @@ std::string plog_depth_unit(double unit_m) { return unit_of_size(Quantity::lengt
 std::string plog_misfit(const PlogHeader& header) {
   const std::size_t columns = header.columns.size();
   if (columns > kPlogColumns) {
-    return "a binary log has at most " + std::to_string(kPlogColumns) + " columns, the array file names " +
+    return "a binary log has at most " + std::to_string(kPlogColumns) + " columns, but the array file needs " +
            std::to_string(columns);
   }
   std::size_t size = kPlogFixedSize + kCrcSize;
   for (const PlogColumn& column : header.columns) size += kColumnHead + column.name.size() + column.text.size();
-  return size <= kPlogLongestHeader ? "" : "the names of the columns are too long for the header of a binary log";
+  return size <= kPlogLongestHeader ? "" : "the column names are too long for the header of a binary log";
 }
 
 std::string plog_header_bytes(const PlogHeader& header) {
@@ -126,27 +126,28 @@ std::string plog_header_bytes(const PlogHeader& header) {
 FileExpected<std::size_t> plog_header_size(std::string_view fixed, const std::string& path) {
   const unsigned char* const at = bytes_of(fixed);
   if (fixed.substr(0, 5) != kPlogMagic.substr(0, 5)) {
-    return refuse(path, "begins with the byte 0x89 of a binary log and is none", "name a CSV or a binary log");
+    return refuse(path, "begins with the byte 0x89 of a binary log, but its header is wrong",
+                  "name a CSV or a binary log");
   }
   if (fixed.substr(0, kPlogMagic.size()) != kPlogMagic) {
     return refuse(path, "begins like a binary log, but its line ends were changed: it was copied as text", kCopyAgain);
   }
   const std::uint32_t order = u32_at(at + 8);
   if (order == 0x04030201U) {
-    return refuse(path, "the log is big-endian, a binary log is little-endian whatever the machine",
-                  "have the recorder write every number with its lowest byte first");
+    return refuse(path, "the log is big-endian; a binary log must be little-endian on every machine",
+                  "let the recorder write every number with its lowest byte first");
   }
-  if (order != kPlogByteOrder) return refuse(path, "the mark of the byte order (bytes 8 to 11) is damaged", kCopyAgain);
+  if (order != kPlogByteOrder) return refuse(path, "the byte-order mark (bytes 8 to 11) is damaged", kCopyAgain);
   const std::uint32_t version = u32_at(at + 12);
   if (version != kPlogVersion) {
     return refuse(
         path, "is of version " + std::to_string(version) + ", this plumb reads version " + std::to_string(kPlogVersion),
-        "read it with the plumb that wrote it, and convert it to CSV there (plumb convert)");
+        "convert it to CSV with the version of plumb that wrote it (plumb convert)");
   }
   const std::size_t size = u32_at(at + 16);
   if (size >= kPlogFixedSize + kCrcSize && size <= kPlogLongestHeader) return size;
   return refuse(path,
-                "says that it is " + std::to_string(size) + " bytes long, possible are " +
+                "states a length of " + std::to_string(size) + " bytes long, but the range is " +
                     std::to_string(kPlogFixedSize + kCrcSize) + " to " + std::to_string(kPlogLongestHeader),
                 kCopyAgain);
 }
@@ -154,34 +155,34 @@ FileExpected<std::size_t> plog_header_size(std::string_view fixed, const std::st
 FileExpected<PlogHeader> plog_header_of(std::string_view bytes, const std::string& path) {
   const std::size_t table_end = bytes.size() - kCrcSize;
   if (crc32_of(bytes.data(), table_end) != u32_at(bytes_of(bytes) + table_end)) {
-    return refuse(path, "its check sum is wrong: a byte of it was changed", kCopyAgain);
+    return refuse(path, "its check sum is wrong: the header is damaged", kCopyAgain);
   }
   PlogHeader header;
   const std::size_t columns = u32_at(bytes_of(bytes) + 20);
   header.block_rows = u32_at(bytes_of(bytes) + 24);
   header.rate_hz = double_at(bytes_of(bytes) + 32);
   if (columns < 1 || columns > kPlogColumns) {
-    return refuse(path,
-                  "names " + std::to_string(columns) + " columns, possible are 1 to " + std::to_string(kPlogColumns),
-                  "leave out what the array file does not name");
+    return refuse(
+        path, "names " + std::to_string(columns) + " columns, but the range is 1 to " + std::to_string(kPlogColumns),
+        "record only the columns that the array file names");
   }
   if (header.block_rows < 1 || header.block_rows > kPlogBlockRows) {
     return refuse(path,
-                  "allows " + std::to_string(header.block_rows) + " rows in a block, possible are 1 to " +
+                  "allows " + std::to_string(header.block_rows) + " rows in a block, but the range is 1 to " +
                       std::to_string(kPlogBlockRows),
-                  "have the recorder write shorter blocks");
+                  "let the recorder write shorter blocks");
   }
   if (!std::isfinite(header.rate_hz) || header.rate_hz < 0.0 || u32_at(bytes_of(bytes) + 28) != 0) {
-    return refuse(path, "its rate is not a number of 0 or more, or a reserved field is not 0",
-                  "have the recorder write it as docs/array-file.md says");
+    return refuse(path, "its rate is negative or not a number, or a reserved field is not 0",
+                  "let the recorder write the format of docs/array-file.md");
   }
   const std::string_view table = bytes.substr(kPlogFixedSize, table_end - kPlogFixedSize);
   std::size_t at = 0;
   bool fits = true;
   for (std::size_t k = 0; k < columns && fits; ++k) fits = read_column(table, at, header.columns.emplace_back());
   if (fits && at == table.size()) return header;
-  return refuse(path, "column " + std::to_string(header.columns.size()) + " does not fit the table of columns",
-                "have the recorder write it as docs/array-file.md says");
+  return refuse(path, "column " + std::to_string(header.columns.size()) + " does not match the table of columns",
+                "let the recorder write the format of docs/array-file.md");
 }
 
 PlogBlockHead plog_block_head(const unsigned char* at) noexcept {

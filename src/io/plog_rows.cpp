@@ -14,8 +14,7 @@ std::string_view text_of(const unsigned char* bytes, std::size_t count) noexcept
 }
 
 FileError short_header(const std::string& path) {
-  return FileError{path, 0, "header", "the log ends within its header",
-                   "copy the file again, the copy is not complete"};
+  return FileError{path, 0, "header", "the log ends within its header", "copy the file again: the copy is incomplete"};
 }
 
 }  // namespace
@@ -79,13 +78,13 @@ PlogRows::Status PlogRows::end_mark(const unsigned char* at) {
     return lose("the check sum of the end mark at byte " + std::to_string(offset_) + " is wrong");
   }
   if (head.first_row != row_number_) {
-    return lose("the end mark says that the log has " + std::to_string(head.first_row) + " rows, it has " +
+    return lose("the end mark states " + std::to_string(head.first_row) + " rows, but the log has " +
                 std::to_string(row_number_));
   }
   consume(at, kPlogBlockHead);
   if (!source_->following() && peek(1) != nullptr) {
     return lose("bytes follow the end mark at byte " + std::to_string(offset_ - kPlogBlockHead) +
-                ": is this two logs in one file?");
+                "; the file may hold two logs");
   }
   ended_ = true;
   return Status::end;
@@ -98,8 +97,8 @@ PlogRows::Status PlogRows::next_block() {
   const PlogBlockHead head = plog_block_head(at);
   if (head.rows == 0) return end_mark(at);
   if (head.rows > header_.block_rows) {
-    return lose("the block at byte " + std::to_string(offset_) + " says that it holds " + std::to_string(head.rows) +
-                " rows, the header allows " + std::to_string(header_.block_rows));
+    return lose("the block at byte " + std::to_string(offset_) + " states " + std::to_string(head.rows) +
+                " rows, but the header allows " + std::to_string(header_.block_rows));
   }
   const std::size_t size = kPlogBlockHead + head.rows * row_bytes_;
   at = peek(size);
@@ -114,7 +113,7 @@ PlogRows::Status PlogRows::next_block() {
   }
   if (head.first_row != row_number_) {
     return lose("the block at byte " + std::to_string(offset_) + " begins with row " +
-                std::to_string(head.first_row + 1) + ", row " + std::to_string(row_number_ + 1) + " comes next");
+                std::to_string(head.first_row + 1) + ", row " + std::to_string(row_number_ + 1) + " is expected");
   }
   consume(at, size);
   row_ = at + kPlogBlockHead;

@@ -40,18 +40,18 @@ std::size_t utf8_length(std::string_view text, std::size_t i) noexcept {
 void append_masks(Object& object, const Verdict& v, const SensorArray& array) {
   object.sensors("configured", v.configured, array);
   object.sensors("in_service", v.in_service, array);
-  object.sensors("set_aside", v.set_aside, array);
+  object.sensors("provisionally_excluded", v.provisionally_excluded, array);
   object.sensors("excluded", v.excluded, array);
   object.sensors("absent", v.absent, array);
   object.sensors("suspects", v.suspects, array);
   object.sensors("clipped", v.clipped, array);
-  object.sensors("restless", v.restless, array);
+  object.sensors("scattering", v.scattering, array);
   object.sensors("not_finite", v.not_finite, array);
   object.sensors("noisy", v.noisy, array);
   object.sensors("stuck", v.stuck, array);
   object.sensors("contradicted_clip", v.contradicted_clip, array);
   object.causes("sensor_cause", v, array.size());
-  object.fewest_faults("fewest_faults", v, array.size());
+  object.minimum_faults("minimum_faults", v, array.size());
 }
 
 /// null where no turn is asked for; `along` null where any does.
@@ -73,19 +73,19 @@ void append_rotation(Object& object, const Verdict& v, const Mat3& frame) {
 
 /// null unless the length has been off.
 void append_reference(Object& object, const Verdict& v, const Mat3& frame) {
-  if (v.reference.kind == ReferenceKind::none) {
-    object.nothing("reference");
+  if (v.norm_mismatch.kind == NormMismatchKind::none) {
+    object.nothing("norm_mismatch");
     return;
   }
-  Object inner = object.object("reference");
-  inner.word("kind", to_string(v.reference.kind));
-  inner.whole("attitudes", v.reference.attitudes);
-  inner.number("length_mps2", v.reference.length_mps2);
-  inner.number_if(v.reference.length_bound_mps2 > 0.0, "length_bound_mps2", v.reference.length_bound_mps2);
-  inner.number_if(v.reference.configure_mps2 > 0.0, "configure_mps2", v.reference.configure_mps2);
-  inner.number_if(v.reference.widened_mps2 > 0.0, "widened_mps2", v.reference.widened_mps2);
-  inner.numbers("bias_mps2", in_frame(frame, v.reference.bias_mps2));
-  inner.number_if(v.reference.turn_rad > 0.0, "turn_deg", deg_from_rad(v.reference.turn_rad));
+  Object inner = object.object("norm_mismatch");
+  inner.word("kind", to_string(v.norm_mismatch.kind));
+  inner.whole("attitudes", v.norm_mismatch.attitudes);
+  inner.number("length_mps2", v.norm_mismatch.length_mps2);
+  inner.number_if(v.norm_mismatch.length_bound_mps2 > 0.0, "length_bound_mps2", v.norm_mismatch.length_bound_mps2);
+  inner.number_if(v.norm_mismatch.configure_mps2 > 0.0, "configure_mps2", v.norm_mismatch.configure_mps2);
+  inner.number_if(v.norm_mismatch.widened_mps2 > 0.0, "widened_mps2", v.norm_mismatch.widened_mps2);
+  inner.numbers("bias_mps2", in_frame(frame, v.norm_mismatch.bias_mps2));
+  inner.number_if(v.norm_mismatch.turn_rad > 0.0, "turn_deg", deg_from_rad(v.norm_mismatch.turn_rad));
   inner.close();
 }
 
@@ -222,9 +222,9 @@ void append_verdict_json(std::string& out, const Verdict& v, const SensorArray& 
   object.number("margin", v.margin);
   append_masks(object, v, array);
   object.word("grade", to_string(v.grade));
-  object.whole("strict_grade", v.strict_grade);
-  object.whole("parity_grade", v.parity_grade);
-  object.whole("live_hypotheses", v.live_hypotheses);
+  object.whole("confirmed_grade", v.confirmed_grade);
+  object.whole("provisional_grade", v.provisional_grade);
+  object.whole("consistent_hypotheses", v.consistent_hypotheses);
   object.whole("stations_on_record", v.stations_on_record);
   object.flag("wants_rotation", v.wants_rotation);
   append_rotation(object, v, frame);

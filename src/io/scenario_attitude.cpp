@@ -80,7 +80,7 @@ scenario::DirectionList read_list(const TomlTable& table) {
   const std::string form = "write directions = [[0, 0, 1], {inclination = \"30 deg\", toolface = \"90 deg\"}, ...]";
   const TomlNode& list = table.need("directions", form);
   if (list.kind != TomlNode::Kind::array || list.items.empty()) {
-    table.fail(list.line, "directions", "must be a list of one direction or more", form);
+    table.fail(list.line, "directions", "must be a list of at least one direction", form);
   }
   scenario::DirectionList law;
   for (std::size_t k = 0; k < list.items.size(); ++k) {
@@ -99,10 +99,10 @@ int read_stations(const TomlTable& table, int fallback) {
 AttitudeLaw read_law(const TomlTable& table, std::size_t index) {
   const auto angle = [&table](const char* key, double fallback) {
     return within(table, key, table.quantity(Quantity::angle, key, fallback), -1e6, 1e6,
-                  "give an angle of ordinary size, as in \"90 deg\"");
+                  "give a smaller angle, as in \"90 deg\"");
   };
   if (index == 0) {
-    const TomlNode& direction = table.need("direction", "say where gravity points: direction = [0, 0, 1]");
+    const TomlNode& direction = table.need("direction", "give the direction of gravity: direction = [0, 0, 1]");
     return scenario::FixedAttitude{direction_from(table, "direction", direction)};
   }
   if (index == 1) return read_list(table);
@@ -130,13 +130,13 @@ AttitudeLaw read_law(const TomlTable& table, std::size_t index) {
 
 void read_attitude(const ScenarioSource& source, scenario::Scenario& out) {
   if (source.root.find("attitude") == nullptr) {
-    throw Refusal(FileError{
-        source.file, 0, "attitude", "is missing",
-        "add [attitude] with law = \"drilling-path\" (or one of: " + joined(laws()) + "): where the tool points"});
+    throw Refusal(FileError{source.file, 0, "attitude", "is missing",
+                            "add [attitude] with law = \"drilling-path\" (or one of: " + joined(laws()) +
+                                ") to state the attitude of the tool"});
   }
   const TomlTable table = section_of(source, "attitude", all_keys());
   const auto law = static_cast<std::size_t>(
-      table.need_choice("law", laws(), "say where the tool points, law = one of: " + joined(laws())));
+      table.need_choice("law", laws(), "state the attitude of the tool: law = one of: " + joined(laws())));
   refuse_unused(table, laws()[law], keys_of(law));
   out.attitudes = read_law(table, law);
   out.dwell_s = within(table, "dwell", table.quantity(Quantity::time, "dwell", out.dwell_s), 0.0, kLongest_s,

@@ -60,7 +60,7 @@ ArrayFile inline_array(const TomlTable& top, const TomlNode& node) {
 ArrayFile read_tool(const TomlTable& top) {
   const TomlNode* array = top.find("array");
   if (array != nullptr && top.has("tool"))
-    top.fail(top.line_of("tool"), "tool", "and array both name the sensors", "keep one");
+    top.fail(top.line_of("tool"), "tool", "and array both name the sensors", "keep one of the two");
   if (array != nullptr) return array->kind == TomlNode::Kind::table ? inline_array(top, *array) : named_array(top);
   if (top.has("tool")) return paper_array(top);
   top.fail(0, "array", "is missing",
@@ -71,7 +71,7 @@ std::vector<scenario::Fault> read_faults(const ScenarioSource& source, const Arr
   std::vector<scenario::Fault> faults;
   const scenario::FaultContext context = fault_context(array);
   for (const TomlTable& table : tables_of(source, "fault", {"spec"})) {
-    const std::string text = table.need_text("spec", "write what breaks and when: spec = \"a2:stuck=0V@12s\"");
+    const std::string text = table.need_text("spec", "write the fault and its onset: spec = \"a2:stuck=0V@12s\"");
     const tl::expected<std::vector<scenario::Fault>, std::string> named = scenario::parse_faults(text, context);
     if (!named) {
       const auto [what, remedy] = without_remedy(named.error());
@@ -90,23 +90,23 @@ void refuse_what_the_log_cannot_hold(const TomlTable& top, const ScenarioSource&
     top.fail(value == nullptr ? 0 : value->line, std::string("attitude.") + key, what, remedy);
   };
   if (scenario.tag_stations && array.input.station_column.empty()) {
-    refuse("tag_stations", "is true, but the log has no column for it",
-           "add station = \"station\" to [input] of the array file, or take tag_stations out");
+    refuse("tag_stations", "is true, but the array file names no station column",
+           "add station = \"station\" to [input] of the array file, or remove tag_stations");
   }
   if (!array.input.time_column.empty() || array.input.rows == RowKind::stations) return;
-  const std::string remedy = "add time = \"t_s\" to [input] of the array file in the place of rate, or ";
+  const std::string remedy = "add time = \"t_s\" to [input] of the array file instead of rate, or ";
   if (scenario.rate_hz != array.input.rate_hz) {
     top.fail(top.line_of("rate"), "rate",
              "is " + brief(scenario.rate_hz) + " Hz, but a log of this array has no time column and is read at " +
                  brief(array.input.rate_hz) + " Hz",
-             remedy + "take rate out here");
+             remedy + "remove rate here");
   }
   if (scenario.start_s != 0.0) {
-    top.fail(top.line_of("start"), "start", "but a log of this array has no time column", remedy + "take start out");
+    top.fail(top.line_of("start"), "start", "but a log of this array has no time column", remedy + "remove start");
   }
   if (!scenario.record_motion) {
     refuse("record_motion", "is false, but a log of this array has no time column to show the gaps",
-           remedy + "take record_motion out");
+           remedy + "remove record_motion");
   }
 }
 
@@ -154,7 +154,8 @@ FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const st
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     return tl::unexpected<FileError>(
         FileError{path, 0, "", "the file is empty",
-                  "say what is simulated: array = \"my_tool.toml\" (or tool = \"paper\") and [attitude] with its law"});
+                  "name the array to simulate: array = \"my_tool.toml\" (or tool = \"paper\") and [attitude] with "
+                  "its law"});
   }
   try {
     const bool json = text[text.find_first_not_of(" \t\r\n")] == '{';

@@ -56,10 +56,10 @@ scenario::NoiseLaw read_noise(const ScenarioSource& source) {
   scenario::InstabilityLaw& wander = noise.instability;
   wander.sigma_mps2 =
       within(table, "instability", table.quantity(Quantity::acceleration, "instability", wander.sigma_mps2), 0.0, 1e6,
-             "give 1 sigma of the slow wander of every bias, as in \"20 ug0\"");
+             "give the bias instability of every sensor, 1 sigma, as in \"20 ug0\"");
   wander.correlation_s =
       within(table, "correlation", table.quantity(Quantity::time, "correlation", wander.correlation_s), 1e-9, 1e12,
-             "give the time over which the wander forgets itself, as in \"100 s\"");
+             "give the correlation time of the bias wander, as in \"100 s\"");
   wander.walk_mps2 = within(table, "walk", table.quantity(Quantity::acceleration, "walk", wander.walk_mps2), 0.0, 1e6,
                             "give 1 sigma of the random walk after one second, as in \"1 ug0\"");
   return noise;
@@ -72,7 +72,7 @@ scenario::Turning read_rotation(const ScenarioSource& source) {
   turning.rate_radps =
       within(table, "rate",
              read_quotient(table, "rate", Quantity::angle, Quantity::time, "write it as in rate = \"60 deg/s\""), -1e5,
-             1e5, "give a rate of ordinary size, as in \"60 deg/s\"");
+             1e5, "give a smaller rate, as in \"60 deg/s\"");
   if (table.has("axis")) {
     const std::string form = "give the axis in the tool frame, of unit length: axis = [0, 0, 1]";
     turning.axis = table.need_vec3("axis", form);
@@ -81,7 +81,7 @@ scenario::Turning read_rotation(const ScenarioSource& source) {
                  form);
     }
   }
-  const std::string times = "give a time on the axis of the log, as in \"12 s\", until not before from";
+  const std::string times = "give a time of the log, as in \"12 s\"; `until` must not be before `from`";
   turning.from_s = within(table, "from", table.quantity(Quantity::time, "from", 0.0), -1e12, 1e12, times);
   turning.until_s = table.quantity(Quantity::time, "until", std::numeric_limits<double>::infinity());
   if (!(turning.until_s >= turning.from_s)) table.fail(table.line_of("until"), "until", "is before from", times);
@@ -89,24 +89,25 @@ scenario::Turning read_rotation(const ScenarioSource& source) {
 }
 
 scenario::DepthLaw read_depth(const ScenarioSource& source) {
-  const TomlTable table = section_of(source, "depth", {"stand", "gravity", "heat"});
+  const TomlTable table = section_of(source, "depth", {"station_spacing", "gravity", "heat"});
   scenario::DepthLaw depth;
   if (source.root.find("depth") == nullptr) return depth;
-  depth.stand_m = within(
-      table, "stand",
-      table.need_quantity(Quantity::length, "stand", "say how far it is between two stations, as in stand = \"28 m\""),
-      -1e6, 1e6, "give a length of ordinary size, as in \"28 m\"");
+  depth.station_spacing_m =
+      within(table, "station_spacing",
+             table.need_quantity(Quantity::length, "station_spacing",
+                                 "give the distance between two stations, as in station_spacing = \"28 m\""),
+             -1e6, 1e6, "give a smaller length, as in \"28 m\"");
   if (table.has("gravity")) {
     depth.gravity_per_s2 = within(table, "gravity",
                                   read_quotient(table, "gravity", Quantity::acceleration, Quantity::length,
                                                 "write it as in gravity = \"0.084 mGal/m\""),
-                                  -1.0, 1.0, "give the growth per metre, as in \"0.084 mGal/m\"");
+                                  -1.0, 1.0, "give the change per metre, as in \"0.084 mGal/m\"");
   }
   if (table.has("heat")) {
     depth.heat_degc_per_m = within(
         table, "heat",
         read_quotient(table, "heat", Quantity::temperature, Quantity::length, "write it as in heat = \"0.03 degC/m\""),
-        -1e3, 1e3, "give the growth per metre, as in \"0.03 degC/m\"");
+        -1e3, 1e3, "give the change per metre, as in \"0.03 degC/m\"");
   }
   return depth;
 }

@@ -39,8 +39,8 @@ std::vector<TomlTable> tables_of(const ScenarioSource& source, const char* name,
 void refuse_unused(const TomlTable& table, const std::string& law, const std::vector<std::string>& used) {
   for (const auto& [key, value] : table.node().members) {
     if (std::find(used.begin(), used.end(), key) != used.end()) continue;
-    table.fail(value.line, key, "has no meaning with law = " + in_quotes(law),
-               "take it out, or choose another law; keys of this one: " + joined(used));
+    table.fail(value.line, key, "cannot be used with law = " + in_quotes(law),
+               "remove it, or choose another law; keys of this law: " + joined(used));
   }
 }
 
@@ -76,7 +76,7 @@ std::uint64_t read_seed(const TomlTable& table, const char* key, std::uint64_t f
     if (status == std::errc() && stop == end) return seed;
   }
   table.fail(value->line, key, "is not a seed",
-             "write a whole number from 0 up without a unit, as in " + std::string(key) +
+             "write a whole number, 0 or more, without a unit, as in " + std::string(key) +
                  " = 1 (from 2^63 - 1 to 2^64 - 1 "
                  "in quotes)");
 }
@@ -84,7 +84,7 @@ std::uint64_t read_seed(const TomlTable& table, const char* key, std::uint64_t f
 std::pair<std::string, std::string> without_remedy(const std::string& text) {
   static const std::string mark = ". Remedy: ";
   const std::size_t at = text.find(mark);
-  if (at == std::string::npos) return {text, "mend the value"};
+  if (at == std::string::npos) return {text, "correct the value"};
   return {text.substr(0, at), text.substr(at + mark.size())};
 }
 

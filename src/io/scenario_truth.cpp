@@ -38,7 +38,7 @@ Tool drawn(const TomlTable& table, const Datasheet& datasheet) {
   spans.shape = law == 1 ? TruthSpans::Shape::normal : TruthSpans::Shape::uniform;
   const auto span = [&table](const char* key, Quantity quantity, double fallback, double high, const char* example) {
     return within(table, key, table.quantity(quantity, key, fallback), 0.0, high,
-                  std::string("give how far it may lie from the datasheet, 0 or more, as in \"") + example + "\"");
+                  std::string("give the deviation from the datasheet, 0 or more, as in \"") + example + "\"");
   };
   spans.bias_mps2 = span("bias", Quantity::acceleration, spans.bias_mps2, 1e3, "20 mg0");
   spans.scale = span("scale", Quantity::ratio, spans.scale, 0.5, "2 %");
@@ -94,7 +94,7 @@ void read_slopes(const TomlTable& table, const RawUnit& unit, SensorCoefficients
 }
 
 Vec3 read_axis(const TomlTable& table) {
-  const std::string form = "give the direction that the sensor really measures: axis = [0.0, 0.0, 1.0]";
+  const std::string form = "give the true direction of the sensor: axis = [0.0, 0.0, 1.0]";
   const Vec3 axis = table.need_vec3("axis", form);
   const double length = norm(axis);
   if (std::abs(length - 1.0) <= kAxisLengthTolerance) return axis;
@@ -114,7 +114,7 @@ void read_cross(const TomlTable& table, int sensor, SensorModel& model) {
     const TomlNode& item = list->items[k];
     const bool number = item.kind == TomlNode::Kind::number || item.kind == TomlNode::Kind::integer;
     if (!number || !(std::abs(item.number) <= 1.0))
-      table.fail(list->line, "cross", "holds something that is not a number from -1 to 1", form);
+      table.fail(list->line, "cross", "holds an entry that is not a number from -1 to 1", form);
     model.misalignment[static_cast<std::size_t>(sensor) * kCapacity + k] = item.number;
   }
 }
@@ -122,15 +122,15 @@ void read_cross(const TomlTable& table, int sensor, SensorModel& model) {
 /// Three lengths with their units.
 Vec3 read_lever_arm(const TomlTable& table) {
   const std::string form =
-      "write where the sensor sits beside the axis of rotation: lever_arm = [\"0.012 m\", \"0 m\", \"0 m\"]";
-  const TomlNode* list = list_at(table, "lever_arm", 3, 3, "three lengths", form);
+      "give the position of the sensor relative to the axis of rotation: lever_arm = [\"0.012 m\", \"0 m\", \"0 m\"]";
+  const TomlNode* list = list_at(table, "lever_arm", 3, 3, "a list of three lengths", form);
   Vec3 arm{};
   for (std::size_t k = 0; list != nullptr && k < 3; ++k) {
     const TomlNode& item = list->items[k];
     const std::string name = "lever_arm[" + std::to_string(k + 1) + "]";
     const std::string text = table.text_with_unit(item, name.c_str(), accepted_units(Quantity::length));
     arm[k] = table.checked(parse_quantity(Quantity::length, text), name.c_str(), *list);
-    if (!(std::abs(arm[k]) <= 1e3)) table.fail(list->line, name, "is beyond 1 km", form);
+    if (!(std::abs(arm[k]) <= 1e3)) table.fail(list->line, name, "is longer than 1 km", form);
   }
   return arm;
 }
@@ -169,15 +169,14 @@ Tool read_truth(const ScenarioSource& source, const ArrayFile& array) {
   for (int i = 0; i < array.array.size(); ++i) ids.emplace_back(array.array.row(i).id.data());
   std::vector<std::string> seen;
   for (const TomlTable& table : tables_of(source, "sensor_truth", sensor_keys())) {
-    const std::string id = table.need_text("id", "name the sensor whose truth this is, one of: " + joined(ids));
+    const std::string id = table.need_text("id", "name the sensor that this table describes, one of: " + joined(ids));
     const auto at = std::find(ids.begin(), ids.end(), id);
     if (at == ids.end()) {
       table.fail(table.line_of("id"), "id", "the array has no sensor " + in_quotes(id),
                  did_you_mean(id, ids) + "sensors: " + joined(ids));
     }
     if (std::find(seen.begin(), seen.end(), id) != seen.end()) {
-      table.fail(table.line_of("id"), "id", in_quotes(id) + " has a [[sensor_truth]] already",
-                 "keep one of them, with all its keys");
+      table.fail(table.line_of("id"), "id", in_quotes(id) + " has two [[sensor_truth]] tables", "join them into one");
     }
     seen.push_back(id);
     read_sensor(table, static_cast<int>(at - ids.begin()), array.input.unit, tool);

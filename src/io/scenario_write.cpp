@@ -138,8 +138,8 @@ std::string surroundings(const scenario::Scenario& s) {
     if (std::isfinite(turning.until_s)) out += line("until", seconds(turning.until_s));
   }
   const scenario::DepthLaw& depth = s.depth;
-  if (depth.stand_m != 0.0) {
-    out += "\n[depth]\n" + line("stand", metres(depth.stand_m));
+  if (depth.station_spacing_m != 0.0) {
+    out += "\n[depth]\n" + line("station_spacing", metres(depth.station_spacing_m));
     if (depth.gravity_per_s2 != 0.0) out += line("gravity", "\"" + shortest(depth.gravity_per_s2) + " m/s^2/m\"");
     if (depth.heat_degc_per_m != 0.0) out += line("heat", "\"" + shortest(depth.heat_degc_per_m) + " degC/m\"");
   }

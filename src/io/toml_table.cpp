@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "refusal.hpp"
+#include "renamed_keys.hpp"
 #include "text_tools.hpp"
 
 namespace plumb {
@@ -18,6 +19,8 @@ TomlTable::TomlTable(const TomlNode& node, std::string file, std::string path, c
   }
   for (const auto& member : node.members) {
     if (std::find(known.begin(), known.end(), member.first) != known.end()) continue;
+    if (const RenamedKey* old = renamed_key(path_, member.first))
+      fail(member.second.line, member.first, what_of(*old), remedy_of(*old, file_));
     fail(member.second.line, member.first, "is not a known key",
          did_you_mean(member.first, known) + "known keys here: " + joined(known));
   }
@@ -56,7 +59,7 @@ std::string TomlTable::need_text(const char* key, const std::string& remedy) con
   const TomlNode& value = need(key, remedy);
   if (value.kind != TomlNode::Kind::text) wrong_kind(value, key, "a string", "put it in double quotes");
   if (trimmed(value.text).empty())
-    fail(value.line, key, "is empty", remedy.empty() ? "give it a value, or leave the key out" : remedy);
+    fail(value.line, key, "is empty", remedy.empty() ? "give it a value, or remove the key" : remedy);
   return value.text;
 }
 
@@ -68,6 +71,9 @@ int TomlTable::need_choice(const char* key, const std::vector<std::string>& choi
   const std::string given = need_text(key, remedy);
   const auto found = std::find(choices.begin(), choices.end(), given);
   if (found == choices.end()) {
+    if (const RenamedWord* old = renamed_word(path_, key, given))
+      fail(line_of(key), key, "is " + in_quotes(given) + ", renamed " + in_quotes(old->new_word),
+           upgrade_remedy(file_));
     fail(line_of(key), key, "is " + in_quotes(given) + ", which is not known",
          did_you_mean(given, choices) + "use one of: " + joined(choices));
   }

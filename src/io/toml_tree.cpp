@@ -87,7 +87,7 @@ FileError syntax(const std::string& path, int line, std::string what) {
   error.file = path;
   error.line = line;
   error.what = "is not valid TOML: " + std::move(what);
-  error.remedy = "mend the line: text in double quotes, key = value, one [section] or [[sensor]] a line";
+  error.remedy = "correct the line: text in double quotes, key = value, one [section] or [[sensor]] per line";
   return error;
 }
 

@@ -46,7 +46,7 @@ TomlNode converted(const Json& json, int depth) {  // NOLINT(misc-no-recursion) 
     node.kind = Kind::table;
     for (const auto& [key, value] : json.items()) node.members.emplace_back(key, converted(value, depth + 1));
   } else {
-    throw Strange{"null has no meaning here"};
+    throw Strange{"null is not allowed here"};
   }
   return node;
 }
@@ -132,7 +132,7 @@ FileExpected<TomlNode> parse_json_tree(const std::string& text, const std::strin
     FileError error;
     error.file = path;
     error.what = "is not valid JSON: " + what;
-    error.remedy = "mend it, or write TOML; keys and tables are the same";
+    error.remedy = "correct it, or write TOML; keys and tables are the same";
     return tl::unexpected<FileError>(std::move(error));
   };
   try {

@@ -88,7 +88,7 @@ tl::unexpected<FileError> refuse_unit(std::string_view text, std::string_view un
   if (unit.empty())
     return refuse(in_quotes(text) + ": the unit is missing",
                   "write the unit after the number, one of: " + joined(names));
-  return refuse(in_quotes(text) + ": unit " + in_quotes(unit) + " is unknown here",
+  return refuse(in_quotes(text) + ": unit " + in_quotes(unit) + " is not a known unit here",
                 did_you_mean(unit, names) + "accepted: " + joined(names));
 }
 
@@ -147,7 +147,7 @@ std::vector<std::string> raw_names() {
 
 tl::unexpected<FileError> refuse_kind(std::string_view text, const RawUnit& given, const RawUnit& log_unit) {
   return refuse(in_quotes(text) + " is in " + given.name + ", but the log is in " + log_unit.name,
-                "give it in a unit that converts to " + log_unit.name + ", or mend [input] unit");
+                "give it in a unit that converts to " + log_unit.name + ", or correct [input] unit");
 }
 
 }  // namespace
@@ -198,12 +198,12 @@ FileExpected<double> parse_scale(std::string_view text, const RawUnit& log_unit)
   const FileExpected<Split> parts = split(text);
   if (!parts) return tl::unexpected<FileError>(parts.error());
   if (parts->number == 0.0)
-    return refuse(in_quotes(text) + ": a scale of zero measures nothing", "give the scale of the data sheet");
+    return refuse(in_quotes(text) + ": the scale must not be zero", "give the scale of the datasheet");
   const std::string_view unit = parts->unit;
   if (unit.empty()) {
     if (log_unit.kind == RawUnit::Kind::acceleration) return parts->number / log_unit.base_per_unit;
     return refuse(in_quotes(text) + ": the unit is missing",
-                  "write what one g0 or one m/s^2 reads as, for example \"3 V/g0\" or \"415 count/(m/s^2)\"");
+                  "give the output per g0 or per m/s^2, for example \"3 V/g0\" or \"415 count/(m/s^2)\"");
   }
   // Brackets may be left out ("415 count/m/s^2"): the slash that has a known unit on both sides divides.
   for (std::size_t at = unit.find('/'); at != std::string_view::npos; at = unit.find('/', at + 1)) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "../cli/campaign_run.hpp"
-#include "../cli/tool.hpp"
+#include "../command/campaign.hpp"
+#include "../command/output.hpp"
 
 namespace {
 
@@ -18,7 +18,7 @@ using plumb::campaign::Tally;
 constexpr const char* kAbout =
     "plumb campaign, spread over the ranks of an MPI job:\n"
     "  mpirun -n 4 plumb-campaign-mpi examples/guaranteed.toml --out result.json --resume\n"
-    "Options and result are those of plumb campaign. Where a rank is lost MPI ends the job; --resume goes on from the\n"
+    "Options and result are those of plumb campaign. If a rank is lost, MPI ends the job; --resume continues from the\n"
     "last result that was written, with any number of ranks.";
 
 class MpiRanks final : public plumb::campaign::Ranks {
@@ -64,22 +64,22 @@ class MpiRanks final : public plumb::campaign::Ranks {
 
 int run(int argc, char** argv) {
   MpiRanks ranks;
-  const plumb::cli::CommandLine line(kAbout, "plumb-campaign-mpi", std::string("plumb ") + plumb::cli::kVersion);
-  plumb::cli::CampaignOptions options;
-  plumb::cli::add_campaign_options(line.options(), options);
-  const plumb::cli::Reading reading = line.read(argc, argv);
-  if (reading.end == plumb::cli::Reading::End::answered) {
-    if (ranks.rank() == 0) plumb::cli::print(reading.text);
+  const plumb::command::CommandLine line(kAbout, "plumb-campaign-mpi", std::string("plumb ") + PLUMB_VERSION);
+  plumb::command::CampaignOptions options;
+  plumb::command::add_campaign_options(line.options(), options);
+  const plumb::command::Reading reading = line.read(argc, argv);
+  if (reading.end == plumb::command::Reading::End::answered) {
+    if (ranks.rank() == 0) plumb::command::print(reading.text);
     return 0;
   }
-  if (reading.end == plumb::cli::Reading::End::refused) {
+  if (reading.end == plumb::command::Reading::End::refused) {
     if (ranks.rank() == 0) {
-      plumb::cli::print_error("plumb: " + reading.text + ".\nTry: plumb-campaign-mpi --help\n");
+      plumb::command::print_error("plumb: " + reading.text + ".\nTry: plumb-campaign-mpi --help\n");
     }
     return plumb::io::to_int(plumb::io::ExitCode::usage);
   }
-  const plumb::io::ExitCode code = plumb::cli::run_campaign(options, ranks);
-  return plumb::cli::output_is_sound() ? plumb::io::to_int(code) : plumb::io::to_int(plumb::io::ExitCode::other);
+  const plumb::io::ExitCode code = plumb::command::run_campaign(options, ranks);
+  return plumb::command::output_is_sound() ? plumb::io::to_int(code) : plumb::io::to_int(plumb::io::ExitCode::other);
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   try {
     code = run(argc, argv);
   } catch (const std::exception& error) {
-    plumb::cli::print_error(std::string("plumb: unexpected: ") + error.what() + ". Please report this.\n");
+    plumb::command::print_error(std::string("plumb: unexpected: ") + error.what() + ". Please report this.\n");
     MPI_Abort(MPI_COMM_WORLD, code);
   }
   // mpirun reports the code of one rank or another; all say the same.

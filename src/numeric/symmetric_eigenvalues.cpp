@@ -11,8 +11,11 @@ inline namespace PLUMB_ABI {
 namespace {
 
 constexpr int kMaxSteps = 60;  // for one eigenvalue; fewer than two are usual
-template <int kMaxSize>
-using Column = std::array<double, std::size_t{kMaxSize} + 4>;
+
+/// Four columns of work, each longer by three than the matrix.
+struct Columns {
+  double *diagonal, *off_diagonal_sq, *u, *p;
+};
 
 constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -44,80 +47,76 @@ void add_row(double* to, const double* from, double factor, int i, int fours) no
 }
 
 /// Reflects row and column i of the leading block to (0, .., 0, e). Returns e.
-template <int kMaxSize>
-double reflect(double* a, int i, int stride) noexcept {
+double reflect(double* a, int i, int stride, double* u, double* p) noexcept {
   const double* given = a + at(i * stride);
   double square = 0.0;
   for (int k = 0; k + 1 < i; ++k) square += given[k] * given[k];
   const double last = given[i - 1];
   if (square == 0.0) return last;
   const double e = -std::copysign(std::sqrt(square + last * last), last);
-  Column<kMaxSize> u, p;
   for (int k = 0; k < i + 3; ++k) {
-    u[at(k)] = k < i ? given[k] : 0.0;
-    p[at(k)] = 0.0;
+    u[k] = k < i ? given[k] : 0.0;
+    p[k] = 0.0;
   }
-  u[at(i - 1)] = last - e;
+  u[i - 1] = last - e;
   const double h = 1.0 / (e * (e - last));  // 2 / u'u
   // A - u q' - q u' with p = A u h, q = p - u (u'p h / 2): by rows, so that nothing waits for a sum.
   const int fours = padded(i, stride);
-  for (int k = 0; k < i; ++k) add_row(p.data(), a + at(k * stride), u[at(k)] * h, i, fours);
+  for (int k = 0; k < i; ++k) add_row(p, a + at(k * stride), u[k] * h, i, fours);
   double along = 0.0;
-  for (int j = 0; j < i; ++j) along += u[at(j)] * p[at(j)];
-  add_row(p.data(), u.data(), -0.5 * h * along, i, padded(i, kMaxSize));
+  for (int j = 0; j < i; ++j) along += u[j] * p[j];
+  add_row(p, u, -0.5 * h * along, i, fours);
   for (int k = 0; k < i; ++k) {
     double* row = a + at(k * stride);
-    add_row(row, p.data(), -u[at(k)], i, fours);
-    add_row(row, u.data(), -p[at(k)], i, fours);
+    add_row(row, p, -u[k], i, fours);
+    add_row(row, u, -p[k], i, fours);
   }
   return e;
 }
 
 /// One QL step with shift on d[l..m] and the squared off-diagonals e2[l..m-1]; `shift` collects what was taken from the
 /// diagonal. `tiny` replaces a vanishing pivot.
-template <class Line>
-void ql_step(Line& d, Line& e2, int n, int l, int m, double tiny, double& shift) noexcept {
-  const double s0 = std::sqrt(e2[at(l)]);
-  const double g0 = d[at(l)];
-  const double p0 = (d[at(l + 1)] - g0) / (2.0 * s0);
-  d[at(l)] = s0 / (p0 + std::copysign(std::sqrt(p0 * p0 + 1.0), p0));
-  const double taken = g0 - d[at(l)];
-  for (int i = l + 1; i < n; ++i) d[at(i)] -= taken;
+void ql_step(double* d, double* e2, int n, int l, int m, double tiny, double& shift) noexcept {
+  const double s0 = std::sqrt(e2[l]);
+  const double g0 = d[l];
+  const double p0 = (d[l + 1] - g0) / (2.0 * s0);
+  d[l] = s0 / (p0 + std::copysign(std::sqrt(p0 * p0 + 1.0), p0));
+  const double taken = g0 - d[l];
+  for (int i = l + 1; i < n; ++i) d[i] -= taken;
   shift += taken;
-  double g = d[at(m)] == 0.0 ? tiny : d[at(m)];
+  double g = d[m] == 0.0 ? tiny : d[m];
   double h = g, s = 0.0;
   for (int i = m - 1; i >= l; --i) {
     const double p = g * h;
-    const double r = p + e2[at(i)];
+    const double r = p + e2[i];
     const double inverse = 1.0 / r;
-    e2[at(i + 1)] = s * r;
-    s = e2[at(i)] * inverse;
-    d[at(i + 1)] = h + s * (h + d[at(i)]);
-    g = d[at(i)] - e2[at(i)] / g;
+    e2[i + 1] = s * r;
+    s = e2[i] * inverse;
+    d[i + 1] = h + s * (h + d[i]);
+    g = d[i] - e2[i] / g;
     if (g == 0.0) g = tiny;
     h = g * (p * inverse);
   }
-  e2[at(l)] = s * g * h;
-  d[at(l)] = h;
+  e2[l] = s * g * h;
+  d[l] = h;
 }
 
 /// Eigenvalues of the tridiagonal matrix into `values`, ascending.
-template <class Line>
-bool solve_tridiagonal(Line& d, Line& e2, int n, double* values) noexcept {
+bool solve_tridiagonal(double* d, double* e2, int n, double* values) noexcept {
   double shift = 0.0, scale = 0.0;
-  e2[at(n - 1)] = 0.0;
+  e2[n - 1] = 0.0;
   for (int l = 0; l < n; ++l) {
-    scale = std::fmax(scale, std::fabs(d[at(l)]) + std::sqrt(e2[at(l)]));
+    scale = std::fmax(scale, std::fabs(d[l]) + std::sqrt(e2[l]));
     const double tiny = std::numeric_limits<double>::epsilon() * scale;
     const double negligible = tiny * tiny;
     int step = 0;
     for (; step < kMaxSteps; ++step) {
       int m = l;
-      while (e2[at(m)] > negligible) ++m;  // ends at n - 1, where it is zero
+      while (e2[m] > negligible) ++m;  // ends at n - 1, where it is zero
       if (m == l) break;
       ql_step(d, e2, n, l, m, tiny, shift);
     }
-    const double value = d[at(l)] + shift;
+    const double value = d[l] + shift;
     if (step == kMaxSteps || !std::isfinite(value)) return false;
     int k = l;
     for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
@@ -126,9 +125,7 @@ bool solve_tridiagonal(Line& d, Line& e2, int n, double* values) noexcept {
   return true;
 }
 
-template <int kMaxSize>
-bool eigenvalues(double* a, int n, int stride, double* values) noexcept {
-  if (a == nullptr || values == nullptr || n < 1 || n > kMaxSize || stride < n) return false;
+bool eigenvalues(double* a, int n, int stride, double* values, const Columns& work) noexcept {
   const double largest = largest_of(a, n, stride);
   if (!std::isfinite(largest)) return false;
   // Where squares might leave the range of a double: a power of two changes no digit.
@@ -141,11 +138,11 @@ bool eigenvalues(double* a, int n, int stride, double* values) noexcept {
       for (int j = 0; j < n; ++j) a[i * stride + j] *= down;
     }
   }
-  Column<kMaxSize> d, e2;
+  double *d = work.diagonal, *e2 = work.off_diagonal_sq;
   for (int i = n - 1; i > 0; --i) {
-    const double e = i > 1 ? reflect<kMaxSize>(a, i, stride) : a[stride];
-    e2[at(i - 1)] = e * e;
-    d[at(i)] = a[i * stride + i];
+    const double e = i > 1 ? reflect(a, i, stride, work.u, work.p) : a[stride];
+    e2[i - 1] = e * e;
+    d[i] = a[i * stride + i];
   }
   d[0] = a[0];
   if (!solve_tridiagonal(d, e2, n, values)) return false;
@@ -153,14 +150,22 @@ bool eigenvalues(double* a, int n, int stride, double* values) noexcept {
   return std::isfinite(values[0]) && std::isfinite(values[n - 1]);
 }
 
+/// So much work lies on the stack as a matrix of that size needs.
+template <int kMaxSize>
+bool eigenvalues_of(double* a, int n, int stride, double* values) noexcept {
+  if (a == nullptr || values == nullptr || n < 1 || n > kMaxSize || stride < n) return false;
+  std::array<std::array<double, std::size_t{kMaxSize} + 4>, 4> column{};
+  return eigenvalues(a, n, stride, values, {column[0].data(), column[1].data(), column[2].data(), column[3].data()});
+}
+
 }  // namespace
 
 bool symmetric_eigenvalues(double* a, int n, int stride, double* values) noexcept {
-  return eigenvalues<kMaxEigenSize>(a, n, stride, values);
+  return eigenvalues_of<kMaxEigenSize>(a, n, stride, values);
 }
 
 bool symmetric_eigenvalues_of_few(double* a, int n, int stride, double* values) noexcept {
-  return eigenvalues<2 * kCapacity>(a, n, stride, values);
+  return eigenvalues_of<2 * kCapacity>(a, n, stride, values);
 }
 
 }  // namespace PLUMB_ABI

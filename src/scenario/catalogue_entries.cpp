@@ -35,7 +35,7 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        isolated_by(2 * kStation, kDegraded),
        isolated_by(2 * kStation, kIsolated),
-       "At an attitude where the level happens to be the right reading nothing is wrong; another attitude tells."},
+       "At an attitude where the level equals the right reading the fault has no effect; another attitude shows it."},
       {"F02",
        "stuck-last",
        "Stuck at the last value",
@@ -45,7 +45,7 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        isolated_by(3 * kStation, kDegraded),
        isolated_by(3 * kStation, kIsolated),
-       "Until attitude or temperature changes the reading is right."},
+       "The reading stays right until attitude or temperature changes."},
       {"F03",
        "random",
        "Random values in range",
@@ -60,12 +60,12 @@ std::vector<CatalogueEntry> one_sensor() {
        "bias-step",
        "Bias step",
        "shock, charge on a spring, solder joint",
-       {{"size", "acceleration", "50mg0", "0.5 to 100 times the detectable shift, both signs"}},
+       {{"size", "acceleration", "50mg0", "0.5 to 100 times the minimum detectable bias, both signs"}},
        {{"bias=50mg0"}},
        false,
        isolated_by(kStation, kDegraded),
        isolated_by(kStation, kIsolated),
-       "Below the detectable shift it stays in, bounded by the protection level."},
+       "A bias below the minimum detectable bias stays in the output; the protection level bounds it."},
       {"F05",
        "drift",
        "Drift",
@@ -85,7 +85,7 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        isolated_by(3 * kStation, kDegraded),
        isolated_by(3 * kStation, kIsolated),
-       "An attitude at which the sensor reads nothing does not tell."},
+       "An attitude at which the sensor reads zero does not show it."},
       {"F07",
        "sign",
        "Sign reversed",
@@ -95,7 +95,7 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        isolated_by(2 * kStation, kDegraded),
        isolated_by(2 * kStation, kIsolated),
-       "On a triad it is a mirror and cannot be told."},
+       "On a triad it is a mirror fault and cannot be detected."},
       {"F08",
        "permutation",
        "Two channels exchanged",
@@ -105,9 +105,9 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        {0, 0, kNominal | kSuspect | kFailed, AllowedMask::only_faulty, kPi},
        {0, kStation, kSuspect | kFailed, AllowedMask::only_faulty, rad_from_deg(1.0)},
-       "Known limit with four sensors: channels 1 to 3 of the paper's tool can be exchanged without any test of "
-       "the sensors noticing. The state stays nominal and the tilt is wrong by 60 deg, hence the bound of 180 "
-       "deg. An exchange with the fourth is seen. A commissioning attitude of known toolface tells, and `plumb "
+       "Known limit with four sensors: no test of the sensors detects an exchange among channels 1 to 3 of the "
+       "paper's tool. The state stays nominal and the tilt is wrong by 60 deg, so the bound is 180 deg. An exchange "
+       "with the fourth channel is detected. A commissioning attitude of known toolface shows the error, and `plumb "
        "geometry` lists such pairs."},
       {"F09",
        "mount-shift",
@@ -148,7 +148,7 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        {0, 1, kDegraded, AllowedMask::nobody},
        {0, 1, kIsolated, AllowedMask::nobody},
-       "A channel that is late is wrong only while the attitude changes."},
+       "A late channel is wrong only while the attitude changes."},
       {"F13",
        "patterns",
        "Not a number",
@@ -179,7 +179,7 @@ std::vector<CatalogueEntry> one_sensor() {
        false,
        isolated_by(2 * kStation, kDegraded),
        isolated_by(2 * kStation, kIsolated),
-       "Low bits equal noise and are not told."},
+       "An error in the low bits looks like noise and is not detected."},
       {"F16",
        "cross-talk",
        "Cross-talk",
@@ -207,14 +207,15 @@ std::vector<CatalogueEntry> tool_wide() {
   return {
       {"F17",
        "temperature",
-       "Temperature told wrong",
+       "Wrong temperature",
        "thermometer stuck or far from the sensors",
        {{"error", "degC", "40degC", "5degC to 50degC"}},
        {{"temperature=40degC", Victim::log}},
        false,
        {0, 2, kNominal | kSuspect, AllowedMask::nobody},
        {0, 2, kNominal | kSuspect, AllowedMask::nobody},
-       "Within the calibrated span a wrong temperature is a common error of all sensors and shows in the norm alone."},
+       "Within the calibrated span a wrong temperature is a common error of all sensors; only the norm test detects "
+       "it."},
       {"F19",
        "time",
        "Times out of order",
@@ -234,8 +235,9 @@ std::vector<CatalogueEntry> tool_wide() {
        false,
        {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
        {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
-       "Parity does not see a common scale: only the length of gravity does, and it cannot name anybody. After six "
-       "attitudes the offset is told as one of gravity, allowed for, and the output is valid again."},
+       "Parity does not detect a common scale error. The norm test detects it, but cannot isolate a sensor. After "
+       "six attitudes the monitor reports the offset as an error of the gravity value and allows for it, and the "
+       "output is valid again."},
       {"F24",
        "colluding",
        "All show one false gravity",
@@ -245,8 +247,8 @@ std::vector<CatalogueEntry> tool_wide() {
        false,
        {0, 0, kNominal, AllowedMask::nobody, rad_from_deg(2.2)},
        {0, 0, kNominal, AllowedMask::nobody, rad_from_deg(2.2)},
-       "Known limit: all sensors agree on a vector of the right length. Nothing that looks at these sensors alone can "
-       "tell; the expected verdict is that it is missed."},
+       "Known limit: all sensors agree on a vector of the right length. No test on these sensors alone can detect "
+       "it; the expected result is a missed fault."},
       {"F26",
        "motion",
        "Vibration, no sensor fault",
@@ -259,15 +261,15 @@ std::vector<CatalogueEntry> tool_wide() {
        ""},
       {"F27",
        "wrong-gravity",
-       "Gravity told wrong",
+       "Wrong gravity value",
        "depth, latitude of the wrong sign, g0 for g98, feet for metres",
        {{"error", "acceleration", "3mg0", "0.2mg0 to 5mg0"}},
        {{"gravity=3mg0", Victim::log}},
        false,
        {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
        {0, kStation, kSuspect | kNominal, AllowedMask::nobody},
-       "After six attitudes the offset is told with the value to configure, allowed for, and the output is valid "
-       "again."},
+       "After six attitudes the monitor reports the offset with the value to configure and allows for it, and the "
+       "output is valid again."},
   };
 }
 
@@ -282,7 +284,7 @@ std::vector<CatalogueEntry> several() {
        false,
        {0, kStation, kSuspect | kFailed, AllowedMask::only_faulty},
        isolated_by(kStation, kIsolated),
-       "With four sensors two faults leave two: nobody can be named."},
+       "With four sensors two faults leave two healthy sensors: no sensor can be isolated."},
       {"F22",
        "sequential",
        "One fault, then another",
@@ -292,7 +294,7 @@ std::vector<CatalogueEntry> several() {
        false,
        {0, kStation, kSuspect | kFailed, AllowedMask::only_faulty},
        isolated_by(kStation, kIsolated),
-       "The second fault of four meets three sensors, which have nobody to spare."},
+       "With four sensors the second fault meets three sensors without redundancy."},
       {"F23",
        "double",
        "Two faults at once",
@@ -305,7 +307,7 @@ std::vector<CatalogueEntry> several() {
        ""},
       {"F25",
        "blind-direction",
-       "A bias that the norm cannot see",
+       "A bias that the norm test cannot detect",
        "worst case of a bias: the vector keeps its length",
        {{"size", "acceleration", "-2.667g0", "exact, and 1 deg beside"}},
        {{"bias=-2.667g0"}},
@@ -322,8 +324,8 @@ std::vector<CatalogueEntry> several() {
        true,
        isolated_by(kStation, kDegraded),
        isolated_by(kStation, kIsolated),
-       "What is wrong from the start is told from a fault by nothing; the file's checksum and the residuals of the fit "
-       "guard the way in."},
+       "No test separates an error that exists from the start from a fault; the checksum of the file and the "
+       "residuals of the fit protect against it."},
       {"F29",
        "recovery",
        "A fault that comes and goes",

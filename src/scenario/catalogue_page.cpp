@@ -18,17 +18,17 @@ std::string states_text(StateMask states) {
 }
 
 std::string when_text(const Outcome& outcome) {
-  if (outcome.latest_block == 0) return "may stay untold";
+  if (outcome.latest_block == 0) return "may stay undetected";
   return "block " + std::to_string(outcome.earliest_block) + " to " + std::to_string(outcome.latest_block);
 }
 
 const char* mask_text(AllowedMask mask) {
   switch (mask) {
-    case AllowedMask::nobody: return "nobody";
-    case AllowedMask::only_faulty: return "none but faulty ones";
+    case AllowedMask::nobody: return "no sensor";
+    case AllowedMask::only_faulty: return "only faulty ones";
     case AllowedMask::the_faulty: break;
   }
-  return "the faulty ones exactly";
+  return "exactly the faulty ones";
 }
 
 std::string outcome_row(const char* sensors, const Outcome& outcome) {
@@ -58,7 +58,10 @@ std::string entry_text(const CatalogueEntry& entry) {
   for (const CatalogueParameter& p : entry.parameters) {
     text += std::string("| ") + p.name + " | " + p.unit + " | " + p.standard + " | " + p.sweep + " |\n";
   }
-  text += "\n| sensors | told | state at the end | may be out | tilt error while valid |\n|---|---|---|---|---|\n";
+  text +=
+      "\n"
+      "| sensors | detected | state at the end | may be excluded | tilt error while valid |\n"
+      "|---|---|---|---|---|\n";
   text += outcome_row("4", entry.four) + outcome_row("6", entry.six);
   if (*entry.known_limit != '\0') text += std::string("\nLimit: ") + entry.known_limit + "\n";
   return text;
@@ -67,9 +70,9 @@ std::string entry_text(const CatalogueEntry& entry) {
 constexpr const char* kHead =
     R"(# The fault catalogue
 
-What can go wrong with redundant accelerometers, where it comes from, how to inject it, and what the monitor is expected
-to make of it. This page is printed from the table that the tests run (`plumb/scenario/catalogue.hpp`): every entry, on
-every sensor of the paper's four and of the six of the dodecahedron.
+What can go wrong with redundant accelerometers, its physical cause, how to inject it, and how the monitor is expected to
+respond. This page is printed from the table that the tests run (`plumb/scenario/catalogue.hpp`): every entry, on every
+sensor of the paper's four and of the six of the dodecahedron.
 
 ```
 plumb inject --array tool.toml --log run.csv --fault "a2:F04@12s" --out faulty.csv
@@ -77,15 +80,15 @@ plumb inject --array tool.toml --log run.csv --fault "a2:bias-step=20mg0@station
 plumb inject --array tool.toml --log run.csv --fault "a2:garbage@12s" --out faulty.csv
 ```
 
-An entry is called by its id, its name, or where there is one by the word of PX4's failure injection; a size behind `=`
-takes the place of the first default. Entries that strike more than one sensor take those behind the named one. In C++:
-`find_entry("F04")` and `faults_of(entry, options, context)`. The parts of an entry are written in the words of
+Select an entry by its id, its name, or the word of PX4's failure injection where there is one. A size behind `=` replaces
+the first default. Entries that act on more than one sensor take the sensors behind the named one. In C++:
+`find_entry("F04")` and `faults_of(entry, options, context)`. The parts of an entry are written as faults of
 [`plumb inject`](guide.md#8-test-your-own-log), which take every parameter.
 
 **The course.** Expectations hold on one standard run: exact calibration, noise 0.2 mg0, 28 random attitudes of four
-blocks of 32 samples, the fault from station 8 on (F28 from power-on), default configuration. "Told" is the block, counted
-from the onset, from which on the output was no longer plainly valid with all sensors in use. "Out" means excluded or set
-aside for cause; a channel that falls silent is absent, which accuses nobody.
+blocks of 32 samples, the fault from station 8 on (F28 from power-on), default configuration. "Detected" is the block,
+counted from the onset, from which the output was no longer valid with all sensors in use. "May be excluded" includes
+provisional exclusions. A channel that stops delivering becomes absent; it is not excluded.
 
 )";
 

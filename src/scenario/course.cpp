@@ -114,9 +114,9 @@ tl::expected<CourseResult, std::string> run(const Course& course) {
     for (int i = 0; i < course.setup.array.size(); ++i) {
       const Cause cause = verdict.sensor_cause[static_cast<std::size_t>(i)];
       const bool lost = cause == Cause::channel_lost || cause == Cause::channel_back;
-      if ((verdict.excluded | verdict.set_aside).has(i) && !lost) result.out = result.out.with(i);
+      if ((verdict.excluded | verdict.provisionally_excluded).has(i) && !lost) result.out = result.out.with(i);
     }
-    result.excluded = verdict.excluded | verdict.set_aside;
+    result.excluded = verdict.excluded | verdict.provisionally_excluded;
     result.state = verdict.state;
   }
   result.refused = monitor->counters().time_refused;
@@ -129,16 +129,17 @@ std::string judge(const CourseResult& result, const Outcome& outcome) {
   const auto said = [&](const std::string& what) { return what + "; "; };
   std::string wrong;
   const int first = result.first_doubt_block;
-  if (first >= 0 && first < outcome.earliest_block) wrong += said("told already in block " + std::to_string(first));
+  if (first >= 0 && first < outcome.earliest_block)
+    wrong += said("detected too early, in block " + std::to_string(first));
   if (outcome.latest_block > 0 && (first < 0 || first > outcome.latest_block)) {
-    wrong += said(first < 0 ? std::string("never told") : "told in block " + std::to_string(first) + " only");
+    wrong += said(first < 0 ? std::string("not detected") : "detected in block " + std::to_string(first) + " only");
   }
   if ((outcome.states & state_bit(result.state)) == 0) wrong += said(std::string("ends ") + to_string(result.state));
   const SensorSet allowed = outcome.mask == AllowedMask::nobody ? SensorSet() : result.faulty;
   if (!allowed.contains(result.out))
-    wrong += said("blamed " + names(all, result.out) + ", allowed " + names(all, allowed));
+    wrong += said("excluded or provisionally excluded " + names(all, result.out) + ", allowed " + names(all, allowed));
   if (outcome.mask == AllowedMask::the_faulty && result.excluded != result.faulty) {
-    wrong += said("out at the end " + names(all, result.excluded) + ", faulty " + names(all, result.faulty));
+    wrong += said("excluded at the end " + names(all, result.excluded) + ", faulty " + names(all, result.faulty));
   }
   if (!(result.worst_tilt_rad <= outcome.tilt_bound_rad)) {
     wrong += said("tilt wrong by " + std::to_string(deg_from_rad(result.worst_tilt_rad)) + " deg while valid");

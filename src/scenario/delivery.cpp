@@ -12,8 +12,8 @@ Delivery::Delivery(std::vector<Fault> faults, std::uint64_t seed)
   for (const Fault& fault : faults_) any_ = any_ || is_delivery(fault.kind, fault.sensor);
 }
 
-void Delivery::push(const Sample& sample, const Moment& now) {
-  Parcel parcel{sample, now.row};
+void Delivery::push(const Sample& sample, const Moment& now, const Beside& beside) {
+  Parcel parcel{sample, now.row, beside};
   std::uint64_t wait = 0;
   int copies = 1;
   for (std::size_t k = 0; k < faults_.size(); ++k) {

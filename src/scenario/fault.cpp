@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fault_kinds.hpp"
 #include "plumb/scenario/noise.hpp"
 #include "plumb/scenario/portable_math.hpp"
 
@@ -29,63 +30,6 @@ bool whole(double value) noexcept { return value >= 1.0 && value <= kMaxCount &&
 
 tl::unexpected<std::string> refuse(const char* why) { return tl::unexpected<std::string>(why); }
 
-/// What the numbers of a kind must be. Empty where they are.
-const char* size_wrong(const Fault& fault, int sensors) noexcept {
-  const auto index = [sensors](double value) { return value >= 0.0 && value < sensors && std::floor(value) == value; };
-  const double first = fault.magnitude;
-  const double second = fault.upper;
-  switch (fault.kind) {
-    case FaultKind::random_range:
-    case FaultKind::random_level:
-      return first < second ? ""
-                            : "the range of the random value is empty. Remedy: give the lower end first, as in -3V..3V";
-    case FaultKind::clip:
-      return first < second ? "" : "nothing lies between the limits. Remedy: give the lower one first, as in -1V..4V";
-    case FaultKind::stuck_last:
-      return first >= 0.0 ? "" : "the dither is negative. Remedy: give its half width, or leave it out";
-    case FaultKind::scale_change:
-      return first != 1.0 ? "" : "a scale factor times 1 is no fault. Remedy: give another factor, as in scale=1.1";
-    case FaultKind::noise:
-    case FaultKind::shake:
-    case FaultKind::coarse: return first > 0.0 ? "" : "the size is not above zero. Remedy: give one that is";
-    case FaultKind::spikes:
-      return second > 0.0 && second <= 1.0
-                 ? ""
-                 : "the chance of a spike is not above 0 and at most 100 %. Remedy: write spikes=0.5g0*1%";
-    case FaultKind::chatter:
-    case FaultKind::warm_up:
-      return second > 0.0 ? "" : "the time is not above zero. Remedy: write chatter=50mg0*10s or warmup=2mg0*5min";
-    case FaultKind::missing:
-    case FaultKind::drop:
-      return first > 0.0 && first <= 1.0
-                 ? ""
-                 : "the share is not above 0 and at most 100 %. Remedy: write 30%, or leave it out for all";
-    case FaultKind::late:
-    case FaultKind::slow:
-      return whole(first) && first <= kMostRowsLate
-                 ? ""
-                 : "the number of rows is not from 1 to 100. Remedy: write it as in late=5";
-    case FaultKind::bit_flip:
-      return first >= 0.0 && first <= 40.0 && std::floor(first) == first
-                 ? ""
-                 : "no such bit. Remedy: give its number from 0, the lowest, to 40";
-    case FaultKind::pattern:
-      return first >= 0.0 && first < kBitPatterns && std::floor(first) == first
-                 ? ""
-                 : "no such pattern. Remedy: give nan, inf, -inf, huge, denormal or -0";
-    case FaultKind::exchange:
-    case FaultKind::cross_talk:
-      return index(first) && static_cast<int>(first) != fault.sensor
-                 ? ""
-                 : "the other sensor is not another one of the array. Remedy: name one, as in exchange=a3";
-    case FaultKind::mirror:
-      return index(first) && index(second) && first != second
-                 ? ""
-                 : "the mirror needs two sensors. Remedy: name two of the array, as in mirror=a1*a3";
-    default: return "";
-  }
-}
-
 }  // namespace
 
 const char* to_string(BitPattern pattern) noexcept {
@@ -106,32 +50,16 @@ double value_of(BitPattern pattern) noexcept {
   return -0.0;
 }
 
-const char* to_string(FaultKind kind) noexcept {
-  static constexpr const char* kWords[kFaultKinds] = {
-      "stuck",  "last",  "random", "held",  "bias",    "drift",       "scale", "noise",  "spikes",   "chatter",
-      "warmup", "clip",  "coarse", "bit",   "pattern", "missing",     "late",  "slow",   "exchange", "cross",
-      "turned", "ghost", "mirror", "shake", "gravity", "temperature", "drop",  "repeat", "swap",     "back"};
-  const auto k = static_cast<std::size_t>(kind);
-  return k < kFaultKinds ? kWords[k] : "unknown";
-}
-
-bool needs_whole_log(FaultKind kind) noexcept { return kind >= FaultKind::shake; }
-
-bool is_delivery(FaultKind kind, int sensor) noexcept {
-  return kind >= FaultKind::drop || (kind == FaultKind::late && sensor == kWholeLog);
-}
-
 tl::expected<void, std::string> check(const Fault& fault, int sensors) {
   const bool log = fault.sensor == kWholeLog;
   if (needs_whole_log(fault.kind) && !log) {
-    return refuse(
-        "this kind of fault is of the whole log, not of one sensor. Remedy: write log in the place of the sensor");
+    return refuse("this kind of fault acts on the whole log. Remedy: write log in place of the sensor");
   }
-  if (log && !needs_whole_log(fault.kind) && fault.kind != FaultKind::late) {
-    return refuse("this kind of fault is of one sensor. Remedy: name the sensor in the place of log");
+  if (log && row_of(fault.kind).strikes == Strikes::channel) {
+    return refuse("this kind of fault acts on one sensor. Remedy: write the sensor in place of log");
   }
   if (!log && (fault.sensor < 0 || fault.sensor >= sensors)) {
-    return refuse("the fault names a sensor that the array does not have. Remedy: name one of the array");
+    return refuse("the fault names a sensor that the array does not have. Remedy: name a sensor of the array");
   }
   if (!std::isfinite(fault.magnitude) || !std::isfinite(fault.upper)) {
     return refuse("the size of the fault is not a finite number. Remedy: give a finite number with its unit");
@@ -150,8 +78,8 @@ tl::expected<void, std::string> check(const Fault& fault, int sensors) {
   if (!endless && (counted ? !whole(fault.duration) : !(fault.duration > 0.0))) {
     return refuse("the duration is not positive. Remedy: leave it out for a fault that lasts, or give it as in +10s");
   }
-  const char* wrong = size_wrong(fault, sensors);
-  if (*wrong != '\0') return refuse(wrong);
+  const SizeRule& rule = row_of(fault.kind).rule;
+  if (!rule.holds(fault, sensors)) return refuse(rule.otherwise);
   return {};
 }
 

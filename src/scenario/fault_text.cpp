@@ -49,7 +49,7 @@ Result<int> find_sensor(const FaultContext& context, Text text) {
   }
   std::string known;
   for (int i = 0; i < context.datasheet.size; ++i) known += (i == 0 ? "" : ", ") + id_of(context, i);
-  return refuse("no sensor " + quoted(trimmed(text)) + ". Remedy: name one of " + known + ", or log for all of it");
+  return refuse("no sensor " + quoted(trimmed(text)) + ". Remedy: name one of " + known + ", or log for the whole log");
 }
 
 /// A level: in raw units, as full scale, or as the acceleration that the sensor would seem to read by its
@@ -132,7 +132,7 @@ template <class First, class Second>
 Result<Fault> read_pair(Fault fault, Text text, const char* example, First read_first, Second read_second) {
   const std::size_t star = text.find('*');
   if (star == Text::npos) {
-    return refuse(quoted(text) + " is one number, two are needed. Remedy: write them as in " + example);
+    return refuse(quoted(text) + " is one number, but two are needed. Remedy: write them as in " + example);
   }
   const Result<double> first = read_first(trimmed(text.substr(0, star)));
   if (!first) return tl::unexpected<std::string>(first.error());
@@ -149,7 +149,7 @@ Result<Fault> read_two(const FaultContext& context, Fault fault, Text text) {
   const auto time = [](Text t) { return read_quantity(t, time_units(), "time"); };
   const auto angle = [](Text t) { return read_quantity(t, angle_units(), "angle"); };
   const auto other = [&context](Text t) { return read_other(context, t); };
-  switch (form_of(fault.kind)) {
+  switch (row_of(fault.kind).form) {
     case SizeForm::acceleration_share: return read_pair(fault, text, "spikes=0.5g0*1%", acceleration, share);
     case SizeForm::acceleration_time: return read_pair(fault, text, "chatter=50mg0*10s", acceleration, time);
     case SizeForm::sensor_share: return read_pair(fault, text, "cross=a3*1%", other, share);
@@ -164,7 +164,7 @@ Result<Fault> read_two(const FaultContext& context, Fault fault, Text text) {
 }
 
 Result<double> read_one(const FaultContext& context, const Fault& fault, Text text) {
-  switch (form_of(fault.kind)) {
+  switch (row_of(fault.kind).form) {
     case SizeForm::level: return read_level(context, fault.sensor, text);
     case SizeForm::dither: return read_dither(context, fault.sensor, text);
     case SizeForm::step: return read_step(context, fault.sensor, text);
@@ -186,20 +186,21 @@ bool may_lack_size(SizeForm form) {
 
 /// Reads what stands behind the '='.
 Result<Fault> read_size(const FaultContext& context, Fault fault, bool given, Text text) {
-  const SizeForm form = form_of(fault.kind);
+  const SizeForm form = row_of(fault.kind).form;
   if (form == SizeForm::share) fault.magnitude = 1.0;
   if (may_lack_size(form) && !given) return fault;
   if (form == SizeForm::none) {
-    return refuse("a fault of kind " + quoted(to_string(fault.kind)) + " has no size. Remedy: leave '=' and size out");
+    return refuse("a fault of kind " + quoted(to_string(fault.kind)) +
+                  " takes no size. Remedy: leave out '=' and the size");
   }
   if (text.empty()) {
     return refuse("a fault of kind " + quoted(to_string(fault.kind)) +
                   " needs a size. Remedy: write it as in stuck=0V, random=-3V..3V, bias=50mg0, drift=1mg0/s or "
                   "scale=1.1");
   }
-  if (fault.sensor == kWholeLog && !needs_whole_log(fault.kind) && fault.kind != FaultKind::late) {
+  if (fault.sensor == kWholeLog && row_of(fault.kind).strikes == Strikes::channel) {
     return refuse("a fault of kind " + quoted(to_string(fault.kind)) +
-                  " is one sensor's. Remedy: name the sensor in the place of log");
+                  " acts on one sensor. Remedy: write the sensor in place of log");
   }
   if (form == SizeForm::range) return read_range(context, fault, text);
   if (form >= SizeForm::acceleration_share) return read_two(context, fault, text);
@@ -262,10 +263,11 @@ struct Pieces {
 
 Result<Pieces> pieces_of(Text text) {
   const std::size_t at = text.rfind('@');
-  if (at == Text::npos) return refuse("no onset. Remedy: say when the fault begins, as in a2:stuck=0V@12s");
+  if (at == Text::npos)
+    return refuse("the onset is missing. Remedy: give the begin of the fault, as in a2:stuck=0V@12s");
   const Text head = text.substr(0, at);
   const std::size_t colon = head.rfind(':');
-  if (colon == Text::npos) return refuse("no sensor. Remedy: begin with it, as in a2:stuck=0V@12s");
+  if (colon == Text::npos) return refuse("the sensor is missing. Remedy: begin with the sensor, as in a2:stuck=0V@12s");
   const Text body = head.substr(colon + 1);
   const std::size_t equals = body.find('=');
   Pieces pieces;
@@ -281,7 +283,7 @@ Result<Pieces> pieces_of(Text text) {
 bool is_kind(Text word, bool sized) {
   for (int k = 0; k < kFaultKinds; ++k) {
     const auto kind = static_cast<FaultKind>(k);
-    if (word == to_string(kind)) return sized || may_lack_size(form_of(kind));
+    if (word == to_string(kind)) return sized || may_lack_size(row_of(kind).form);
   }
   return false;
 }

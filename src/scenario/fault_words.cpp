@@ -8,42 +8,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace scenario {
 
-SizeForm form_of(FaultKind kind) noexcept {
-  switch (kind) {
-    case FaultKind::stuck_level: return SizeForm::level;
-    case FaultKind::stuck_last: return SizeForm::dither;
-    case FaultKind::coarse: return SizeForm::step;
-    case FaultKind::random_range:
-    case FaultKind::random_level:
-    case FaultKind::clip: return SizeForm::range;
-    case FaultKind::bias_step:
-    case FaultKind::noise:
-    case FaultKind::shake:
-    case FaultKind::gravity: return SizeForm::acceleration;
-    case FaultKind::drift: return SizeForm::drift;
-    case FaultKind::scale_change: return SizeForm::factor;
-    case FaultKind::missing:
-    case FaultKind::drop: return SizeForm::share;
-    case FaultKind::bit_flip:
-    case FaultKind::late:
-    case FaultKind::slow: return SizeForm::count;
-    case FaultKind::pattern: return SizeForm::pattern;
-    case FaultKind::exchange: return SizeForm::sensor;
-    case FaultKind::temperature: return SizeForm::temperature;
-    case FaultKind::back: return SizeForm::time;
-    case FaultKind::spikes: return SizeForm::acceleration_share;
-    case FaultKind::chatter:
-    case FaultKind::warm_up: return SizeForm::acceleration_time;
-    case FaultKind::cross_talk: return SizeForm::sensor_share;
-    case FaultKind::turned:
-    case FaultKind::ghost: return SizeForm::angle_angle;
-    case FaultKind::mirror: return SizeForm::sensor_sensor;
-    case FaultKind::repeat:
-    case FaultKind::swap: break;
-  }
-  return SizeForm::none;
-}
-
 std::string id_of(const FaultContext& context, int sensor) {
   if (sensor == kWholeLog) return "log";
   std::string id;
@@ -97,7 +61,7 @@ std::string size_text(const Fault& fault, const FaultContext& context, const cha
   const auto other = [&](double index) { return id_of(context, static_cast<int>(index)); };
   const double first = fault.magnitude;
   const double second = fault.upper;
-  switch (form_of(fault.kind)) {
+  switch (row_of(fault.kind).form) {
     case SizeForm::none: return {};
     case SizeForm::dither: return first > 0.0 ? level(first) : std::string();
     case SizeForm::level:
@@ -125,46 +89,39 @@ std::string size_text(const Fault& fault, const FaultContext& context, const cha
   return shortest_text(first);
 }
 
+/// Puts the sizes into the sentence of a kind: `FaultKindRow::sentence` says how.
+std::string filled(const std::string& sentence, const std::string& size) {
+  const std::size_t star = size.find('*');
+  const std::string first = size.substr(0, star);
+  const std::string second = star == std::string::npos ? std::string() : size.substr(star + 1);
+  std::string out, option;
+  bool empty = false;  // what stands in the brackets at hand
+  std::string* to = &out;
+  for (std::size_t i = 0; i < sentence.size(); ++i) {
+    if (sentence[i] == '[') {
+      to = &option;
+      empty = false;
+    } else if (sentence[i] == ']') {
+      if (!empty) out += option;
+      option.clear();
+      to = &out;
+    } else if (sentence[i] == '{') {
+      const std::size_t end = sentence.find('}', i);
+      const std::string name = sentence.substr(i + 1, end - i - 1);
+      const std::string& part = name == "1" ? first : name == "2" ? second : size;
+      *to += name == "all" && part.empty() ? "all" : part;
+      empty = empty || part.empty();
+      i = end;
+    } else {
+      *to += sentence[i];
+    }
+  }
+  return out;
+}
+
 /// What a channel does, in words that follow its id.
 std::string happening(const Fault& fault, const FaultContext& context) {
-  const std::string size = size_text(fault, context, " ", " to ");
-  const std::string first = size.substr(0, size.find('*'));
-  const std::string second = size.find('*') == std::string::npos ? std::string() : size.substr(size.find('*') + 1);
-  const std::string share = size.empty() ? std::string("all") : size;
-  switch (fault.kind) {
-    case FaultKind::stuck_level: return "stands at " + size;
-    case FaultKind::stuck_last:
-      return "stands at its last value" + (fault.magnitude > 0.0 ? " with a dither of +-" + size : std::string());
-    case FaultKind::random_range: return "delivers random values from " + size + ", new in every row";
-    case FaultKind::random_level: return "stands at a random value from " + size;
-    case FaultKind::bias_step: return "reads " + size + " too much";
-    case FaultKind::drift: return "drifts by " + size;
-    case FaultKind::noise: return "has " + size + " rms of noise more";
-    case FaultKind::spikes: return "has spikes of +-" + first + " in " + second + " of its rows";
-    case FaultKind::chatter: return "reads " + first + " too much in every other stretch of " + second;
-    case FaultKind::warm_up: return "reads " + first + " too much, dying away with " + second;
-    case FaultKind::clip: return "is clipped outside " + size;
-    case FaultKind::coarse: return "comes in steps of " + size;
-    case FaultKind::bit_flip: return "has bit " + size + " inverted";
-    case FaultKind::pattern: return "delivers " + size;
-    case FaultKind::missing: return "does not deliver " + share + " of its rows";
-    case FaultKind::late: return "comes " + size + " rows late";
-    case FaultKind::slow: return "has a new value every " + size + " rows only";
-    case FaultKind::exchange: return "and " + size + " have changed places";
-    case FaultKind::cross_talk: return "picks up " + second + " of " + first;
-    case FaultKind::turned: return "is turned by " + first + (second.empty() ? "" : " towards " + second);
-    case FaultKind::ghost: return "shows gravity turned by " + first + (second.empty() ? "" : " about " + second);
-    case FaultKind::mirror: return "shows gravity mirrored between " + first + " and " + second;
-    case FaultKind::shake: return "shakes with " + size + " rms per axis";
-    case FaultKind::gravity: return "is under a gravity longer by " + size + " than told";
-    case FaultKind::temperature: return "has its temperature told wrong by " + size;
-    case FaultKind::drop: return "loses " + share + " of its rows";
-    case FaultKind::repeat: return "has every row twice";
-    case FaultKind::swap: return "has its rows in the wrong order, two by two";
-    case FaultKind::back: return "has its time behind by " + size;
-    case FaultKind::scale_change: break;
-  }
-  return "has its scale factor multiplied by " + size;
+  return filled(row_of(fault.kind).sentence, size_text(fault, context, " ", " to "));
 }
 
 }  // namespace

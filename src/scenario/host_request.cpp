@@ -54,7 +54,7 @@ tl::expected<std::uint64_t, std::string> read_key(Text text) {
   std::uint64_t key = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), key, hex ? 16 : 10);
   if (error == std::errc() && end == digits.data() + digits.size()) return key;
-  return refuse(quoted(text) + " is no key. Remedy: give a whole number below 2^64");
+  return refuse(quoted(text) + " is not a key. Remedy: give a whole number below 2^64");
 }
 
 /// SENSORS key KEY
@@ -62,7 +62,8 @@ tl::expected<void, std::string> read_reset(Text& text, const SensorArray& array,
   const auto sensors = read_sensors(take_word(text), array);
   if (!sensors) return tl::unexpected<std::string>(sensors.error());
   out.sensors = *sensors;
-  if (take_word(text) != "key") return refuse("a reset needs its key. Remedy: end with key and the number");
+  if (take_word(text) != "key")
+    return refuse("a reset needs a key. Remedy: end with `key` and the reset_key of the array file");
   const auto key = read_key(take_word(text));
   if (!key) return tl::unexpected<std::string>(key.error());
   out.key = *key;
@@ -91,10 +92,10 @@ tl::expected<HostRequest, std::string> parse_host_request(Text text, const Senso
   } else if (verb == "recalibrate") {
     request.kind = HostRequest::Kind::recalibrate;
   } else {
-    return refuse("a host cannot ask for " + quoted(verb) + ". Remedy: write reset or recalibrate");
+    return refuse("unknown request " + quoted(verb) + ". Remedy: write reset or recalibrate");
   }
   const Text rest = take_word(text);
-  if (!rest.empty()) return refuse(quoted(rest) + " is too much. Remedy: leave it out");
+  if (!rest.empty()) return refuse(quoted(rest) + " is not expected here. Remedy: remove it");
   return request;
 }
 
@@ -123,27 +124,6 @@ std::string describe(const HostRequest& request, const SensorArray& array) {
 Host::Host(std::vector<HostRequest> requests) : requests_(std::move(requests)) {
   std::stable_sort(requests_.begin(), requests_.end(),
                    [](const HostRequest& a, const HostRequest& b) { return a.time_s < b.time_s; });
-}
-
-template <class Monitor, class Recalibrate>
-void Host::make_due(double time_s, Monitor& monitor, Recalibrate recalibrate) {
-  while (waiting() > 0 && requests_[answers_.size()].time_s <= time_s) {
-    const HostRequest& request = requests_[answers_.size()];
-    const bool reset = request.kind == HostRequest::Kind::reset;
-    const Expected<void> done = reset ? monitor.reset(request.key, request.sensors) : recalibrate();
-    Errc refusal = done ? Errc::ok : done.error().code;
-    // The monitor ignores such a reset without a word; whoever asked for it is told.
-    if (reset && done && monitor.verdict().state != HealthState::failed) refusal = Errc::wrong_state;
-    answers_.push_back({time_s, request, refusal});
-  }
-}
-
-void Host::before(double time_s, HealthMonitor& monitor) {
-  make_due(time_s, monitor, [&monitor] { return monitor.request_recalibration(); });
-}
-
-void Host::before(double time_s, PaperMonitor& monitor) {
-  make_due(time_s, monitor, []() -> Expected<void> { return fail(Errc::wrong_mode); });
 }
 
 }  // namespace scenario

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "plumb/array/named.hpp"
+#include "plumb/health/monitor_config.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -41,7 +41,7 @@ std::string surroundings_wrong(const Scenario& s) {
   if (!within(norm(turning.axis), 1.0 - 1e-6, 1.0 + 1e-6)) {
     return "the axis of rotation is not of unit length. Remedy: divide it by its length";
   }
-  if (!within(s.depth.stand_m, -1e6, 1e6) || !within(s.depth.gravity_per_s2, -1.0, 1.0) ||
+  if (!within(s.depth.station_spacing_m, -1e6, 1e6) || !within(s.depth.gravity_per_s2, -1.0, 1.0) ||
       !within(s.depth.heat_degc_per_m, -1e3, 1e3)) {
     return "the depth is not usable. Remedy: give the stand in m, gravity in m/s^2 and heat in degC per m";
   }
@@ -53,7 +53,8 @@ std::string numbers_wrong(const Scenario& s) {
   if (!within(s.dwell_s, 0.0, 1e9) || !within(s.move_s, 0.0, 1e9)) {
     return "dwell or motion time is negative or not finite. Remedy: give both in seconds";
   }
-  if (s.dwell_s * s.rate_hz < 0.5) return "a dwell holds no sample. Remedy: raise the dwell time or the sample rate";
+  if (s.dwell_s * s.rate_hz < 0.5)
+    return "the dwell time is shorter than one sample. Remedy: raise the dwell time or the sample rate";
   if ((s.dwell_s + s.move_s) * s.rate_hz > kMaxRows) return "too many samples. Remedy: lower the times or the rate";
   if (!within(s.gravity_mps2, 0.0, 1e3)) return "gravity is not usable. Remedy: give it in m/s^2, as in 9.81";
   if (!within(s.vibration_mps2, 0.0, 1e6)) return "the vibration is not usable. Remedy: give its rms in m/s^2";
@@ -228,7 +229,7 @@ Truth Simulator::truth_at(const Place& place) const noexcept {
     down = seen_from_turned(down, turning.axis, turning.angle_rad(place.moment.time_s));
     if (turning.at_work(place.moment.time_s)) truth.rate_radps = scaled(turning.axis, turning.rate_radps);
   }
-  truth.depth_m = scenario_.depth.stand_m * (static_cast<double>(station) + place.part);
+  truth.depth_m = scenario_.depth.station_spacing_m * (static_cast<double>(station) + place.part);
   truth.gravity_mps2 = scaled(down, scenario_.gravity_mps2 + scenario_.depth.gravity_per_s2 * truth.depth_m);
   truth.station = static_cast<std::uint32_t>(place.moment.station);
   truth.moving = place.moving;

@@ -38,7 +38,7 @@ StudyExpected<std::vector<Station>> calibration_stations(const scenario::Tool& t
 StudyExpected<Fits> fit_both(const Datasheet& datasheet, const std::vector<Station>& stations,
                              std::vector<PaperTrace>* traces) {
   if (datasheet.size != kSensors) {
-    return tl::unexpected<std::string>("the study is of four sensors, the datasheet has " +
+    return tl::unexpected<std::string>("the study needs four sensors, but the datasheet has " +
                                        std::to_string(datasheet.size) + ". Remedy: give it the paper's tool");
   }
   const plumb::Expected<SensorArray> nominal = datasheet.array();

@@ -105,7 +105,7 @@ Finding ask_monitor(HealthMonitor& monitor, const std::vector<Sample>& samples) 
   Finding out;
   for (const Sample& s : samples) {
     const Verdict& verdict = monitor.step(s);
-    out.named = out.named | verdict.excluded | verdict.set_aside;
+    out.named = out.named | verdict.excluded | verdict.provisionally_excluded;
   }
   out.alarm = monitor.verdict().state != HealthState::nominal || monitor.verdict().validity != Validity::valid;
   return out;

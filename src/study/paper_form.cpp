@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "plumb/calibration/paper_parameters.hpp"
+#include "plumb/paper/paper_parameters.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -13,7 +13,7 @@ constexpr int kProvingAttitudes = 40;
 /// Between two attitudes: longer than a sample, shorter than the gap that empties the windows.
 constexpr double kMove_s = 1.0;
 
-SensorSet named(const Verdict& verdict) noexcept { return verdict.excluded | verdict.set_aside; }
+SensorSet named(const Verdict& verdict) noexcept { return verdict.excluded | verdict.provisionally_excluded; }
 
 }  // namespace
 
@@ -58,7 +58,8 @@ StudyExpected<ProvenMonitor> proven_monitor(const Fits& fits, const scenario::To
     out.last_station = samples.back().station;
     if (out.monitor->verdict().state == HealthState::nominal) return out;
   }
-  return tl::unexpected<std::string>("the monitor does not come to trust a healthy tool. Remedy: report this");
+  return tl::unexpected<std::string>(
+      "the monitor did not validate a healthy tool. Remedy: report this as a defect of plumb");
 }
 
 StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& tool, std::uint64_t seed, RandomLaw law,

@@ -118,7 +118,7 @@ std::string sentence_of(const Case& c) {
   context.raw = scenario::FaultContext::Raw::acceleration;
   context.raw_unit = "m/s^2";
   std::string text = std::to_string(c.array.size()) + " sensors, " + std::to_string(kTrustStations) +
-                     " stations to earn trust and " + std::to_string(c.stations) + " more";
+                     " stations for validation and " + std::to_string(c.stations) + " more";
   if (c.walk != Walk::random) {
     char where[60];
     std::snprintf(where, sizeof where, ", %s inclination %g deg",
@@ -126,7 +126,7 @@ std::string sentence_of(const Case& c) {
     text += where;
   }
   text += ": ";
-  if (c.faults.empty()) return text + "nothing happens.";
+  if (c.faults.empty()) return text + "no fault.";
   for (std::size_t k = 0; k < c.faults.size(); ++k) {
     text += (k == 0 ? "" : "; ") + scenario::describe(placed(c.faults[k]), context);
   }

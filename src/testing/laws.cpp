@@ -39,9 +39,9 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 /// All that a user acts on.
 bool same(const Verdict& a, const Verdict& b) {
   return a.state == b.state && a.qualifiers == b.qualifiers && a.validity == b.validity && a.cause == b.cause &&
-         a.in_service == b.in_service && a.set_aside == b.set_aside && a.excluded == b.excluded &&
-         a.absent == b.absent && a.suspects == b.suspects && a.usable == b.usable && a.alert == b.alert &&
-         same_bits(a.statistic, b.statistic) && same_bits(a.limit, b.limit) &&
+         a.in_service == b.in_service && a.provisionally_excluded == b.provisionally_excluded &&
+         a.excluded == b.excluded && a.absent == b.absent && a.suspects == b.suspects && a.usable == b.usable &&
+         a.alert == b.alert && same_bits(a.statistic, b.statistic) && same_bits(a.limit, b.limit) &&
          same_bits(a.gravity_mps2, b.gravity_mps2) && same_bits(a.covariance, b.covariance) &&
          same_bits(a.protection_level_rad, b.protection_level_rad) && same_bits(a.mae_all_mps2, b.mae_all_mps2);
 }
@@ -72,8 +72,8 @@ struct StationSpan {
 };
 
 /// Where everything must have been told apart: behind the last onset, early enough for the answer to stand over the
-/// stations that a conviction takes, before patience is over and the run ends. Every station from the first onset
-/// on may have cost patience already.
+/// stations that a conviction takes, before the isolation timeout is over and the run ends. Every station from the
+/// first onset on may have cost patience already.
 StationSpan stations_to_tell(const Case& c) {
   double first = c.faults.front().onset;
   double last = first;
@@ -81,10 +81,11 @@ StationSpan stations_to_tell(const Case& c) {
     first = std::min(first, fault.onset);
     last = std::max(last, fault.onset);
   }
-  int patience = c.config.patience;
-  if (c.config.patience_blocks > 0) patience = std::min(patience, c.config.patience_blocks / kStationBlocks);
+  int isolation_timeout = c.config.isolation_timeout;
+  if (c.config.isolation_timeout_blocks > 0)
+    isolation_timeout = std::min(isolation_timeout, c.config.isolation_timeout_blocks / kStationBlocks);
   const int from = static_cast<int>(last);
-  const int within_patience = static_cast<int>(first) + patience - kConvictingStations;
+  const int within_patience = static_cast<int>(first) + isolation_timeout - kConvictingStations;
   return {from, std::min(within_patience, c.stations - kConvictingStations - 2)};
 }
 
@@ -98,28 +99,29 @@ bool all_finite(const Verdict& v) {
 
 }  // namespace
 
-LawResult never_blames_the_innocent(const Case& c) {
+LawResult never_excludes_a_healthy_sensor(const Case& c) {
   const SensorSet faulty = faulty_of(c);
   int strict = -1;
   int parity = -1;
   auto result = play(c, [&](const HealthMonitor&, const Verdict& v, const Sample&, const scenario::Truth&) {
     if (strict < 0) {
-      strict = v.strict_grade;
-      parity = v.parity_grade;
+      strict = v.confirmed_grade;
+      parity = v.provisional_grade;
     }
     if (faulty.size() <= strict && !faulty.contains(v.excluded)) {
-      return "excluded " + names(c.array, v.excluded) + " though only " + names(c.array, faulty) + " lied";
+      return "excluded " + names(c.array, v.excluded) + " though only " + names(c.array, faulty) + " are faulty";
     }
-    if (faulty.size() <= parity && !faulty.contains(v.set_aside)) {
-      return "set aside " + names(c.array, v.set_aside) + " though only " + names(c.array, faulty) + " lied";
+    if (faulty.size() <= parity && !faulty.contains(v.provisionally_excluded)) {
+      return "provisionally excluded " + names(c.array, v.provisionally_excluded) + " though only " +
+             names(c.array, faulty) + " are faulty";
     }
     return std::string();
   });
-  if (result.holds && faulty.size() > strict) return silent("more faults than any grade bears");
+  if (result.holds && faulty.size() > strict) return silent("more faults than any grade covers");
   return result;
 }
 
-LawResult isolates_what_can_be_told(const Case& given) {
+LawResult isolates_what_is_isolable(const Case& given) {
   Case c = given;
   c.calibration_mps2 = 0.0;
   c.gravity_error = 0.0;
@@ -127,21 +129,22 @@ LawResult isolates_what_can_be_told(const Case& given) {
   const auto passing = [](const scenario::Fault& f) { return !constant(f.kind) || !std::isinf(f.duration); };
   c.faults.erase(std::remove_if(c.faults.begin(), c.faults.end(), passing), c.faults.end());
   const SensorSet faulty = faulty_of(c);
-  if (faulty.empty() || faulty.size() > c.array.size() - 3) return silent("no constant fault, or more than n - 3");
+  if (faulty.empty() || faulty.size() > c.array.size() - 3)
+    return silent("no constant fault, or more than n - 3 faults");
   const StationSpan span = stations_to_tell(c);
-  if (span.until < span.from) return silent("patience may be over before the answer has stood long enough");
-  if (!told_apart(c, faulty, span.from, span.until)) return silent("stations that do not tell apart");
+  if (span.until < span.from) return silent("the isolation timeout may expire before the isolation is confirmed");
+  if (!told_apart(c, faulty, span.from, span.until)) return silent("the stations do not separate the hypotheses");
   SensorSet out;
   const auto result = play(c, [&](const HealthMonitor&, const Verdict& v, const Sample&, const scenario::Truth&) {
-    out = v.excluded | v.set_aside;
+    out = v.excluded | v.provisionally_excluded;
     return std::string();
   });
   if (!result.holds || out == faulty) return result;
-  return broken("out at the end: " + names(c.array, out) + ", faulty: " + names(c.array, faulty));
+  return broken("excluded at the end: " + names(c.array, out) + ", faulty: " + names(c.array, faulty));
 }
 
 LawResult detects_above_the_threshold(const Case& c) {
-  if (c.faults.size() != 1 || c.array.size() < 4) return silent("not one fault, or nobody to spare");
+  if (c.faults.size() != 1 || c.array.size() < 4) return silent("more or fewer than one fault, or no redundancy");
   const scenario::Fault& fault = c.faults.front();
   if (fault.kind != scenario::FaultKind::bias_step) return silent("not a constant shift");
   if (parity_shift(c, fault.sensor, fault.magnitude) < kFarShift) return silent("below the threshold");
@@ -163,9 +166,9 @@ LawResult detects_above_the_threshold(const Case& c) {
 
 LawResult sets_are_a_partition(const Case& c) {
   return play(c, [&](const HealthMonitor&, const Verdict& v, const Sample&, const scenario::Truth&) {
-    const int sum = v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size();
-    const bool all = (v.in_service | v.set_aside | v.excluded | v.absent) == v.configured;
-    return all && sum == v.configured.size() ? std::string() : std::string("the sets are no partition");
+    const int sum = v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size();
+    const bool all = (v.in_service | v.provisionally_excluded | v.excluded | v.absent) == v.configured;
+    return all && sum == v.configured.size() ? std::string() : std::string("the sets do not form a partition");
   });
 }
 
@@ -189,9 +192,9 @@ LawResult excluded_bytes_do_not_matter(const Case& c) {
       other.raw[static_cast<std::size_t>(i)] = -5e3 - static_cast<double>(row % 7);
     }
     const Verdict& a = one->step(sample);
-    if (!same(a, two->step(other))) return broken("what an excluded sensor said shows" + at(a));
+    if (!same(a, two->step(other))) return broken("the readings of an excluded sensor change the verdict" + at(a));
   }
-  return any ? LawResult() : silent("nobody was excluded");
+  return any ? LawResult() : silent("no sensor was excluded");
 }
 
 LawResult failed_is_latched(const Case& c) {
@@ -217,10 +220,10 @@ LawResult snapshot_is_transparent(const Case& c) {
   Sample sample;
   for (std::uint64_t row = 0; simulator->next(sample); ++row) {
     const Verdict& a = one->step(sample);
-    if (!same(a, two->step(sample))) return broken("the continued monitor answers otherwise" + at(a));
+    if (!same(a, two->step(sample))) return broken("the restored monitor gives another verdict" + at(a));
     if (row != cut) continue;
     const Expected<std::size_t> size = two->snapshot(bytes.data(), bytes.size());
-    if (!size) return broken("no snapshot" + at(a));
+    if (!size) return broken("the snapshot cannot be written" + at(a));
     if (!two->restore(setup, bytes.data(), *size)) return broken("the snapshot is refused" + at(a));
   }
   return {};
@@ -237,7 +240,7 @@ LawResult replay_is_exact(const Case& c) {
   return play(c, [&](const HealthMonitor&, const Verdict& v, const Sample&, const scenario::Truth&) {
     const bool differs = v.tick && (k >= first.size() || !same(first[k], v));
     if (v.tick) ++k;
-    return differs ? std::string("the second run answers otherwise") : std::string();
+    return differs ? std::string("the second run gives another verdict") : std::string();
   });
 }
 
@@ -271,14 +274,14 @@ LawResult verdict_agrees_with_itself(const Case& c) {
     constexpr double kAnotherAttitude_rad = rad_from_deg(5.0);
     const bool newest = v.accepted && v.transition.sequence == 0 && delivers_all(sample, v.in_service);
     if (usable && newest && angle_between_rad(v.gravity_mps2, v.latest_mps2) > kAnotherAttitude_rad)
-      return std::string("usable, but the newest sample has another attitude");
+      return std::string("usable, but the newest sample has a different attitude");
     if (v.transition.sequence != 0 && v.transition.sequence != sequence + 1) return std::string("a record is missing");
     if (v.transition.sequence != 0) sequence = v.transition.sequence;
     return std::string();
   });
 }
 
-LawResult motion_blames_nobody(const Case& c) {
+LawResult motion_excludes_no_sensor(const Case& c) {
   Case moving = c;
   scenario::Fault shake;
   shake.kind = scenario::FaultKind::shake;
@@ -289,15 +292,15 @@ LawResult motion_blames_nobody(const Case& c) {
   shake.magnitude = 1e-4 * kG0_mps2 * std::pow(10.0, static_cast<double>(c.seed % 41) / 10.0);
   moving.faults = {shake};
   return play(moving, [&](const HealthMonitor&, const Verdict& v, const Sample&, const scenario::Truth&) {
-    const SensorSet out = v.excluded | v.set_aside | v.absent;
-    if (!out.empty()) return "blamed " + names(c.array, out) + " for motion";
+    const SensorSet out = v.excluded | v.provisionally_excluded | v.absent;
+    if (!out.empty()) return "excluded or lost " + names(c.array, out) + " for motion";
     return v.state == HealthState::failed ? std::string("failed for motion") : std::string();
   });
 }
 
 const std::vector<Law>& laws() {
-  static const std::vector<Law> all = {{"never blames the innocent", never_blames_the_innocent},
-                                       {"isolates what can be told", isolates_what_can_be_told},
+  static const std::vector<Law> all = {{"never excludes a healthy sensor", never_excludes_a_healthy_sensor},
+                                       {"isolates what is isolable", isolates_what_is_isolable},
                                        {"detects above the threshold", detects_above_the_threshold},
                                        {"sets are a partition", sets_are_a_partition},
                                        {"excluded bytes do not matter", excluded_bytes_do_not_matter},
@@ -305,7 +308,7 @@ const std::vector<Law>& laws() {
                                        {"snapshot is transparent", snapshot_is_transparent},
                                        {"replay is exact", replay_is_exact},
                                        {"verdict agrees with itself", verdict_agrees_with_itself},
-                                       {"motion blames nobody", motion_blames_nobody}};
+                                       {"motion excludes no sensor", motion_excludes_no_sensor}};
   return all;
 }
 

@@ -112,8 +112,8 @@ Json assurance_json(const std::string& page) {
 std::string source_of(const std::string& text) {
   constexpr std::size_t kPiece = 8000;
   std::string out =
-      "// Written by the build: see src/trace/export.cpp.\n#include \"plumb/report/traceability.hpp\"\n\n"
-      "namespace plumb {\ninline namespace PLUMB_ABI {\nnamespace report {\n\n"
+      "// Written by the build: see src/trace/export.cpp.\n#include \"plumb/render/traceability.hpp\"\n\n"
+      "namespace plumb {\ninline namespace PLUMB_ABI {\nnamespace render {\n\n"
       "const char* built_in_traceability() noexcept {\n  return\n";
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = std::min(at + kPiece, text.size());
@@ -122,7 +122,7 @@ std::string source_of(const std::string& text) {
     out += "R\"trace(" + text.substr(at, end - at) + ")trace\"\n";
     at = end;
   }
-  return out + "  ;\n}\n\n}  // namespace report\n}  // namespace PLUMB_ABI\n}  // namespace plumb\n";
+  return out + "  ;\n}\n\n}  // namespace render\n}  // namespace PLUMB_ABI\n}  // namespace plumb\n";
 }
 
 int run(const std::string& root, const std::string& target) {

@@ -1,5 +1,6 @@
 // The judge of the attacks: what it counts where the truth is another than the monitor is shown, and who copies whom.
 #include "player.hpp"
+#include "plumb/detection/estimate_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ Player trusted(MonitorConfig config = {}) {
   return player;
 }
 
-TEST(AttackPlayer, AnHonestToolIsValidAndNothingIsFound) {
+TEST(AttackPlayer, AHealthyToolIsValidAndNothingIsFound) {
   Player player = trusted();
   for (int k = 0; k < 10; ++k) {
     player.direction = player.noise.direction();
@@ -70,7 +71,7 @@ TEST(AttackPlayer, ASmallErrorIsBeyondTheLevelAndNotHazardous) {
   EXPECT_EQ(t[Count::hazardous], 0U);
 }
 
-TEST(AttackPlayer, ASensorThatIsBlamedCountsAsWrongWhereItIsHealthy) {
+TEST(AttackPlayer, AnExcludedSensorCountsAsWrongIfItIsHealthy) {
   for (const bool faulty : {false, true}) {
     Player player = trusted();
     player.shift_mps2[2] = 0.3 * kG0_mps2;

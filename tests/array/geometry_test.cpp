@@ -123,8 +123,8 @@ TEST(Merit, Mikoff5HasTwoNearSingularTriplesAndStrictGradeOne) {
     const FiguresOfMerit m = figures_of_merit(array);
     EXPECT_EQ(m.near_singular_triples, 2);
     EXPECT_EQ(m.coplanarity, 3);
-    EXPECT_EQ(m.strict_grade, 1);
-    EXPECT_EQ(m.parity_grade, 0);
+    EXPECT_EQ(m.confirmed_grade, 1);
+    EXPECT_EQ(m.provisional_grade, 0);
     EXPECT_TRUE(critical_sensors(array, array.all()).empty());
   }
 }
@@ -138,15 +138,15 @@ TEST(Merit, Tetrahedron) {
   EXPECT_NEAR(m.max_triple_condition, 2.0, 1e-14);
   EXPECT_NEAR(m.common_bias_visibility, 0.5, 1e-15);
   EXPECT_EQ(m.coplanarity, 2);
-  EXPECT_EQ(m.strict_grade, 1);
-  EXPECT_EQ(m.parity_grade, 0);
+  EXPECT_EQ(m.confirmed_grade, 1);
+  EXPECT_EQ(m.provisional_grade, 0);
   EXPECT_EQ(m.near_singular_triples, 0);
 }
 
 TEST(Merit, AnEmptyArrayHasNone) {
   const FiguresOfMerit m = figures_of_merit(SensorArray());
   EXPECT_EQ(m.gdop, 0.0);
-  EXPECT_EQ(m.strict_grade, 0);
+  EXPECT_EQ(m.confirmed_grade, 0);
 }
 
 TEST(Merit, MinimumDeterminantsOfTheNote) {
@@ -186,8 +186,8 @@ TEST(Coplanarity, OfKTriadsIsTwoK) {
       for (int i = 0; i < 3 * k; ++i) axes[at(i)][at(i % 3)] = 1.0;
       const SensorArray array = built(axes.data(), 3 * k);
       EXPECT_EQ(coplanarity(array, array.all()), 2 * k);
-      EXPECT_EQ(strict_grade(array, array.all()), k - 1);
-      EXPECT_EQ(parity_grade(array, array.all()), k >= 2 ? k - 2 : 0);
+      EXPECT_EQ(confirmed_grade(array, array.all()), k - 1);
+      EXPECT_EQ(provisional_grade(array, array.all()), k >= 2 ? k - 2 : 0);
     }
   }
 }
@@ -207,8 +207,8 @@ TEST(Coplanarity, CountsAnAxisWithinTheToleranceOnly) {
 TEST(Coplanarity, IsTheSizeWhereRankIsLost) {
   EXPECT_EQ(coplanarity(tetrahedron(), SensorSet(0b0011U)), 2);
   EXPECT_EQ(coplanarity(tetrahedron(), SensorSet()), 0);
-  EXPECT_EQ(strict_grade(tetrahedron(), SensorSet(0b0011U)), 0);
-  EXPECT_EQ(strict_grade(tetrahedron(), SensorSet(0b0111U)), 0);
+  EXPECT_EQ(confirmed_grade(tetrahedron(), SensorSet(0b0011U)), 0);
+  EXPECT_EQ(confirmed_grade(tetrahedron(), SensorSet(0b0111U)), 0);
 }
 
 TEST(Critical, EverySensorOfThreeAndNoneOfTheTetrahedron) {
@@ -326,8 +326,8 @@ RC_GTEST_PROP(GeometryLaw, FewerSensorsNeverShowAHigherGradeOrALargerPlane, ()) 
   const SensorSet rest = array.all().without(lost);
   RC_ASSERT(coplanarity(array, rest) <= coplanarity(array, array.all()));
   RC_ASSERT(coplanarity(array, rest) + 1 >= coplanarity(array, array.all()));
-  RC_ASSERT(strict_grade(array, rest) <= strict_grade(array, array.all()));
-  RC_ASSERT(parity_grade(array, array.all()) <= strict_grade(array, array.all()));
+  RC_ASSERT(confirmed_grade(array, rest) <= confirmed_grade(array, array.all()));
+  RC_ASSERT(provisional_grade(array, array.all()) <= confirmed_grade(array, array.all()));
 }
 
 RC_GTEST_PROP(GeometryLaw, CriticalSensorsAreThoseWithoutWhichEveryRestIsFlat, ()) {

@@ -110,19 +110,19 @@ inline std::string difference(const plumb_verdict& c, const plumb::Verdict& v) {
   PLUMB_SAME(transition.limit)
   PLUMB_SAME(configured)
   PLUMB_SAME(in_service)
-  PLUMB_SAME(set_aside)
+  PLUMB_SAME(provisionally_excluded)
   PLUMB_SAME(excluded)
   PLUMB_SAME(absent)
   PLUMB_SAME(suspects)
   PLUMB_SAME(clipped)
-  PLUMB_SAME(restless)
+  PLUMB_SAME(scattering)
   PLUMB_SAME(not_finite)
   PLUMB_SAME(noisy)
   PLUMB_SAME(stuck)
   PLUMB_SAME(contradicted_clip)
-  PLUMB_SAME(strict_grade)
-  PLUMB_SAME(parity_grade)
-  PLUMB_SAME(live_hypotheses)
+  PLUMB_SAME(confirmed_grade)
+  PLUMB_SAME(provisional_grade)
+  PLUMB_SAME(consistent_hypotheses)
   PLUMB_SAME(stations_on_record)
   PLUMB_SAME(block_fill)
   PLUMB_SAME(statistic)
@@ -153,7 +153,7 @@ inline std::string difference(const plumb_verdict& c, const plumb::Verdict& v) {
   if (!same(c.turn_angle_rad, v.rotation.angle_rad)) return "turn_angle_rad";
   for (std::size_t i = 0; i < static_cast<std::size_t>(plumb::kCapacity); ++i) {
     if (!same(c.sensor_cause[i], v.sensor_cause[i])) return "sensor_cause";
-    if (c.fewest_faults[i] != v.fewest_faults[i]) return "fewest_faults";
+    if (c.minimum_faults[i] != v.minimum_faults[i]) return "minimum_faults";
     if (c.drift_mps2_per_h[i] != static_cast<double>(v.drift_mps2_per_h[i])) return "drift_mps2_per_h";
   }
   return {};

@@ -138,7 +138,7 @@ TEST(Acceptance, ASensorThatChangesDuringTheRecordingIsNamed) {
     Bench step;
     step.add_to(sensor, 20, 0.2);
     const plumb::Judgement j = step.run();
-    EXPECT_EQ(j.concern, Concern::odd_sensor) << sensor;
+    EXPECT_EQ(j.concern, Concern::inconsistent_sensor) << sensor;
     EXPECT_EQ(j.error.code, Errc::poor_fit);
     EXPECT_EQ(j.error.index, sensor);
     EXPECT_LT(step.odd.without_mps2, 0.1 * step.odd.with_mps2);
@@ -146,11 +146,11 @@ TEST(Acceptance, ASensorThatChangesDuringTheRecordingIsNamed) {
     for (plumb::Station& s : wild.stations) s.mean[at(sensor)] = wild.noise.within(3.0);
     wild.run();
     EXPECT_EQ(wild.odd.sensor, sensor);
-    EXPECT_EQ(plumb::judge_odd_sensor(wild.sheet, wild.odd).concern, Concern::odd_sensor);
+    EXPECT_EQ(plumb::judge_odd_sensor(wild.sheet, wild.odd).concern, Concern::inconsistent_sensor);
   }
 }
 
-TEST(Acceptance, ADeadSensorNeverAccusesAHealthyOne) {
+TEST(Acceptance, ADeadSensorNeverCausesTheSuspicionOfAHealthyOne) {
   // Without a healthy sensor the dead one can be bent to fit the rest: that is no explanation.
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     for (int sensor = 0; sensor < 4; ++sensor) {
@@ -256,8 +256,8 @@ TEST(CrossCheck, TakesNothingForAnAnswer) {
   plumb::Station two = b.stations[0];
   two.delivered = plumb::SensorSet(3U);
   EXPECT_FALSE(plumb::predict(*fit, b.gravity, two).judged);
-  for (const Concern c : {Concern::none, Concern::gravity, Concern::common_scale, Concern::odd_sensor, Concern::parity,
-                          Concern::hold_out, Concern::hold_out_claim})
+  for (const Concern c : {Concern::none, Concern::gravity, Concern::common_scale, Concern::inconsistent_sensor,
+                          Concern::parity, Concern::hold_out, Concern::hold_out_claim})
     EXPECT_STRNE(plumb::to_string(c), "unknown");
   EXPECT_STREQ(plumb::to_string(static_cast<Concern>(99)), "unknown");
 }
@@ -273,7 +273,7 @@ TEST(Acceptance, AnIndexBeyondTheDatasheetSuspectsNobody) {
   odd.sensor = 3;
   EXPECT_EQ(judge_odd_sensor(b.sheet, odd).error.index, 3);
   const Judgement whole = judge(b.sheet, b.gravity, *fit, HoldOut{}, odd);
-  EXPECT_EQ(whole.concern, Concern::odd_sensor);
+  EXPECT_EQ(whole.concern, Concern::inconsistent_sensor);
   Calibration bent = *fit;
   bent.report.level_misfit.sensor = 4;
   bent.report.level_misfit.mean_mps2 = 1.0;

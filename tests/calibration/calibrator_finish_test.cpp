@@ -19,7 +19,7 @@ Calibrator converged(const Bench& b) {
   return out;
 }
 
-TEST(CalibratorFinish, WithoutAScreenNoStationIsSetAside) {
+TEST(CalibratorFinish, WithoutAScreenNoStationIsAnOutlier) {
   Bench b;
   const Calibrator c = converged(b);
   Station far = b.stations[0];

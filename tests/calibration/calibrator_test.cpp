@@ -387,7 +387,7 @@ TEST(Calibrator, PriorOfZeroFreezesTheAxes) {
   }
 }
 
-TEST(StationResidual, VanishesForTheTruthAndNamesTheLiar) {
+TEST(StationResidual, VanishesForTheTruthAndShowsTheFaultySensor) {
   Noise noise(23);
   const plumb::Datasheet d = paper_tool(kSigma);
   const Truth truth = draw_truth(d, noise);

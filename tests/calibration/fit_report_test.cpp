@@ -163,7 +163,7 @@ TEST(FitReport, ATurnThatIsNotAllOfItIsToldBySensor) {
   EXPECT_GE(own.index, 0) << "a bias that no turn takes away";
 }
 
-TEST(FitReport, AFewStationsSetAsideOfThreeSensorsAreDoubtful) {
+TEST(FitReport, AFewOutlierStationsOfThreeSensorsAreReported) {
   const Scene s;
   FitFigures figures;
   figures.outliers = 1;

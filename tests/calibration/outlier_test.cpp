@@ -186,7 +186,7 @@ TEST(Outliers, AreListedInOrderWithTheirSensor) {
   }
 }
 
-TEST(Outliers, MoreThanAReportListsAreSetAsideAllTheSame) {
+TEST(Outliers, MoreOutliersThanAReportListsAreExcluded) {
   Noise noise(12);
   const plumb::Datasheet d = tool_of(4);
   const Truth truth = draw_truth(d, noise);

@@ -24,7 +24,7 @@ plumb::FitOptions options_of(const RollSet& set) {
   plumb::FitOptions o;
   o.require_full_rank = false;
   o.estimate_misfit = false;
-  o.roll_wobble_rad = plumb::rad_from_deg(set.wobble_deg);
+  o.roll_axis_deviation_rad = plumb::rad_from_deg(set.wobble_deg);
   return o;
 }
 
@@ -137,7 +137,7 @@ TEST(RollRows, AWobbleThatIsToldCostsLittle) {
     const std::vector<plumb::Station> stations = stations_of(set, d, truth, noise);
     const auto c = fit(d, stations, options_of(set));
     plumb::FitOptions sure = options_of(set);
-    sure.roll_wobble_rad = 0.0;
+    sure.roll_axis_deviation_rad = 0.0;
     const auto u = fit(d, stations, sure);
     ASSERT_TRUE(c.has_value() && u.has_value());
     told += inclination_error(set, d, truth, *c) / kRuns;
@@ -241,7 +241,7 @@ TEST(RollRows, GroupsOfOneAreCounted) {
   const auto c = fit(d, stations, options_of(set));
   ASSERT_TRUE(c.has_value());
   EXPECT_EQ(c->report.roll_groups, 4);
-  EXPECT_EQ(c->report.lone_rolls, 1);
+  EXPECT_EQ(c->report.single_station_groups, 1);
   EXPECT_EQ(c->report.rank, 15);
 }
 
@@ -253,7 +253,7 @@ TEST(RollRows, RefusesAWobbleThatIsNone) {
   const std::vector<plumb::Station> stations = stations_of(set, d, truth, noise);
   for (const double wobble : {-0.001, std::nan(""), std::numeric_limits<double>::infinity()}) {
     plumb::FitOptions o = options_of(set);
-    o.roll_wobble_rad = wobble;
+    o.roll_axis_deviation_rad = wobble;
     const auto c = fit(d, stations, o);
     ASSERT_FALSE(c.has_value());
     EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::out_of_range, 2, 0.0, 0.0}));

@@ -1,4 +1,4 @@
-#include "plumb/calibration/station_list.hpp"
+#include "plumb/calibration/detail/station_list.hpp"
 
 #include <gtest/gtest.h>
 

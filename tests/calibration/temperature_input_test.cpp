@@ -191,7 +191,7 @@ TEST(TemperatureInput, StationsWithoutSamplesAreNoOutliers) {
   EXPECT_EQ(f.figures.stations, s.count() - 5);
 }
 
-TEST(TemperatureInput, OfAFewStationsNoneIsSetAsideAndNoMisfitIsEstimated) {
+TEST(TemperatureInput, WithFewStationsNoneIsAnOutlierAndNoMisfitIsEstimated) {
   for (const int few : {3, 4, 8, 9, 10}) {
     Scene s;
     std::vector<plumb::Station> stations;

@@ -42,7 +42,7 @@ Watched watch(const Truth& truth, const plumb::Calibration& calibration, const s
       sample.temperature_degc = degc[k];
       sample.station = static_cast<std::uint32_t>(k + 1);
       const plumb::Verdict& v = monitor->step(sample);
-      out.blamed = out.blamed | v.excluded | v.set_aside;
+      out.blamed = out.blamed | v.excluded | v.provisionally_excluded;
       if (!v.tick || k < 4) continue;
       ++out.blocks;
       out.unconfirmed += v.validity != plumb::Validity::valid ? 1 : 0;
@@ -59,7 +59,7 @@ std::vector<double> swept(double from, double to, int count) {
   return out;
 }
 
-TEST(TemperatureUse, HealthySensorsAreNotBlamedAtAnyTemperatureOfTheSpan) {
+TEST(TemperatureUse, NoHealthySensorIsExcludedAtAnyTemperatureOfTheSpan) {
   const plumb::Datasheet d = paper_sheet();
   int alarms_without = 0;
   for (std::uint64_t run = 0; run < 12; ++run) {
@@ -83,7 +83,7 @@ TEST(TemperatureUse, HealthySensorsAreNotBlamedAtAnyTemperatureOfTheSpan) {
   EXPECT_EQ(alarms_without, 12);
 }
 
-TEST(TemperatureUse, BeyondTheSpanNothingIsConfirmedAndNobodyBlamed) {
+TEST(TemperatureUse, BeyondTheSpanNothingIsConfirmedAndNoSensorIsExcluded) {
   const plumb::Datasheet d = paper_sheet();
   Noise noise(9100);
   const Truth truth = temperature_test::draw_truth(d, noise);

@@ -42,9 +42,9 @@ inline void expect_same(const plumb::campaign::Outcome& a, const plumb::campaign
   EXPECT_EQ(a.isolated_block, b.isolated_block) << what;
   EXPECT_EQ(a.faulty, b.faulty) << what;
   EXPECT_EQ(a.excluded, b.excluded) << what;
-  EXPECT_EQ(a.set_aside, b.set_aside) << what;
+  EXPECT_EQ(a.provisionally_excluded, b.provisionally_excluded) << what;
   EXPECT_EQ(a.ever_excluded, b.ever_excluded) << what;
-  EXPECT_EQ(a.ever_set_aside, b.ever_set_aside) << what;
+  EXPECT_EQ(a.ever_provisionally_excluded, b.ever_provisionally_excluded) << what;
   EXPECT_EQ(a.failed, b.failed) << what;
   for (int k = 0; k < a.blocks; ++k) {
     const auto& one = a.block[static_cast<std::size_t>(k)];

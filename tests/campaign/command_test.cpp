@@ -70,7 +70,7 @@ TEST(CampaignCommand, MistakesAreAnsweredWithAWayOut) {
 TEST(CampaignCommand, AFailingScenarioIsSavedAndItsCommandFailsAgain) {
   const Directory where;
   write_text(where / "claim.toml",
-             "scenarios = 3000\nseed = 3\n[monitor]\nasserted_faults = 1\n[[tool]]\ngeometry = \"cone\"\nsensors = 5\n"
+             "scenarios = 3000\nseed = 3\n[monitor]\nassumed_faults = 1\n[[tool]]\ngeometry = \"cone\"\nsensors = 5\n"
              "noise = \"0.2 mg0\"\n[[fault]]\nbias_mdb = {from = 5, to = 300}\nsensors = [2, 3]\n"
              "[expect]\nwrong_exclusion = 0\n");
   EXPECT_EQ(tool(where, "campaign claim.toml --out r.json"), 6);

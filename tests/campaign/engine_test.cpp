@@ -125,7 +125,7 @@ TEST(Campaign, InterruptedAndGoneOnWithItEndsWithTheSameBytes) {
   std::string forged = good;
   forged.replace(forged.find("\"done\": 300"), 11, "\"done\": 301");
   EXPECT_NE(refused(forged, file).find("damaged"), std::string::npos);
-  EXPECT_NE(refused("{", file).find("not JSON"), std::string::npos);
+  EXPECT_NE(refused("{", file).find("not valid JSON"), std::string::npos);
   EXPECT_NE(refused("{}", file).find("damaged"), std::string::npos);
   std::filesystem::remove(path);
 }
@@ -182,7 +182,7 @@ name = "claim"
 scenarios = 20000
 seed = 3
 [monitor]
-asserted_faults = 1
+assumed_faults = 1
 [[tool]]
 geometry = "cone"
 sensors = 5
@@ -242,16 +242,16 @@ TEST(CampaignFile, SaysWhatIsWrongWhereAndHowToMendIt) {
       {"geometry = \"tetrahedron\"", "geometry = \"tetrahedrom\"", {"tool[1].geometry", "tetrahedron", "Remedy: "}},
       {"sensors = 5\n", "sensors = 2\n", {"tool[2].sensors", "3 to 24", "Remedy: "}},
       {"noise = \"0.2 mg0\"", "noise = 0.2", {"tool[1].noise", "unit is missing", "Remedy: "}},
-      {"onset = [1, 3]", "onset = [3, 1]", {"run.onset", "not one station or two in order", "Remedy: "}},
+      {"onset = [1, 3]", "onset = [3, 1]", {"run.onset", "must be one station, or two in ascending order", "Remedy: "}},
       {"onset = [1, 3]", "onset = [1, 9]", {"run.onset", "out of range", "Remedy: "}},
-      {"onset = [1, 3]", "samples = 33", {"run.samples", "window of 32", "Remedy: "}},
+      {"onset = [1, 3]", "samples = 33", {"run.samples", "window, 32", "Remedy: "}},
       {"onset = [1, 3]", "move = \"6 s\"", {"run.move", "max_gap", "Remedy: "}},
       {"errors = [0, 1]", "errors = [\"a\"]", {"gravity.errors", "not a number", "Remedy: "}},
       {"law = \"random\"", "law = \"randomly\"", {"attitude[1].law", "random", "Remedy: "}},
       {"\"stuck=0V\"", "\"stucc=0V\"", {"fault[2].spec", "stucc=0V", "Remedy: "}},
       {"\"stuck=0V\"", "\"exchange=a3\"", {"fault[2].spec", "Remedy: ", "exchange"}},
-      {"bias_mdb = [0.5,", "bias_mdb = [-0.5,", {"fault[3].bias_mdb", "above zero", "Remedy: "}},
-      {"{from = 0.5, to = 100}", "{from = 5, to = 1}", {"fault[3].bias_mdb", "above zero", "Remedy: "}},
+      {"bias_mdb = [0.5,", "bias_mdb = [-0.5,", {"fault[3].bias_mdb", "above 0", "Remedy: "}},
+      {"{from = 0.5, to = 100}", "{from = 5, to = 1}", {"fault[3].bias_mdb", "above 0", "Remedy: "}},
   }};
   for (const Bad& bad : all) {
     std::string text = small_text();

@@ -75,10 +75,10 @@ TEST(Tally, EveryOutcomeIsCountedUnderItsName) {
   EXPECT_EQ(counted(out, Count::isolated), 0U);
   EXPECT_EQ(counted(out, Count::partial), 1U);
   Outcome aside = seen;
-  aside.set_aside = aside.ever_set_aside = 0b0010;
+  aside.provisionally_excluded = aside.ever_provisionally_excluded = 0b0010;
   EXPECT_EQ(counted(aside, Count::provisional), 1U);
-  aside.ever_set_aside |= 0b1000;
-  EXPECT_EQ(counted(aside, Count::wrong_set_aside), 1U);
+  aside.ever_provisionally_excluded |= 0b1000;
+  EXPECT_EQ(counted(aside, Count::wrong_provisional_exclusion), 1U);
   EXPECT_EQ(counted(aside, Count::wrong_exclusion), 0U);
   Outcome early = fault;
   early.alarm_block = 1;

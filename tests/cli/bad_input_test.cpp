@@ -31,7 +31,7 @@ TEST(BadArrayFile, EmptyFileIsRefused) {
 
 TEST(BadArrayFile, UnitMissing) {
   refused(geometry_of(with(good_array(), "unit = \"V\"", "")), 3,
-          {"array.toml:", "input.unit", "Remedy: say what unit"});
+          {"array.toml:", "input.unit", "Remedy: state the unit"});
 }
 
 TEST(BadArrayFile, UnitUnknown) {
@@ -243,9 +243,9 @@ TEST(BadCommandLine, IsAnsweredWithTheNearestName) {
       {{"monitr"}, {"\"monitr\"", "Did you mean \"monitor\"?"}},
       {{"monitor", "--aray", "x"}, {"\"--aray\"", "Did you mean \"--array\"?", "plumb monitor --help"}},
       {{"monitor"}, {"--array is required"}},
-      {{"geometry"}, {"nothing to judge", "Remedy"}},
+      {{"geometry"}, {"no array is given", "Remedy"}},
       {{"geometry", "--name", "con:5"}, {"con:5", "did you mean \"cone\"?"}},
-      {{"geometry", "--name", "cone:2"}, {"cone:2", "does not exist"}},
+      {{"geometry", "--name", "cone:2"}, {"cone:2", "is not a built-in geometry"}},
       {{"model", "--format", "pdf"}, {"--format"}},
       {{}, {"Usage: plumb", "demo"}},
   };

@@ -161,7 +161,7 @@ TEST(BadRecording, ReadingsThatNoSensorGives) {
     EXPECT_TRUE(says(outcome.out, {"at full scale", "1 readings of a3, not used"}));
     forget(where, {"full_scale"});
     refused(where.calibrate(),
-            {"station 7 holds a reading that no sensor gives (a3 reads", "e+308 V)", "mend the row"});
+            {"station 7 holds a reading that no sensor gives (a3 reads", "e+308 V)", "correct or remove the row"});
   }
   for (const char* cell : {"nan", "inf", "-inf"}) {
     StationBench where;
@@ -217,7 +217,7 @@ TEST(BadRecording, TheFaultySensorIsNamedByParityAndByOutliers) {
   for (std::size_t k = 0; k < spikes.rows.size(); k += 12) spikes.rows[k][1] += 0.3;
   const Outcome outcome = spikes.calibrate();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"set aside", "station 1 (", "of it by a2", "station 37 ("}));
+  EXPECT_TRUE(says(outcome.out, {"set aside", "station 1 (", "of it from a2", "station 37 ("}));
 }
 
 TEST(BadRecording, MoreOutliersThanAreListedAreLeftOutOfEverything) {

@@ -186,7 +186,7 @@ TEST(CalibrateRefuses, AllScalesOffTogether) {
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 4);
   EXPECT_TRUE(says(outcome.err,
-                   {"gravity reference or common scale off by", "all scale factors moved together by -", "`unit`"}));
+                   {"gravity reference or common scale off by", "all scale factors changed together by -", "`unit`"}));
 }
 
 TEST(CalibrateReport, SaysHowFarAllScalesMovedTogether) {
@@ -194,7 +194,8 @@ TEST(CalibrateReport, SaysHowFarAllScalesMovedTogether) {
   scale_log(where, 0.985);
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"all scale factors moved together by -", "gravity reference or common scale off by"}));
+  EXPECT_TRUE(
+      says(outcome.out, {"all scale factors changed together by -", "gravity reference or common scale off by"}));
 }
 
 TEST(CalibrateRefuses, TheFaultySensorByName) {
@@ -219,12 +220,12 @@ TEST(CalibrateRefuses, ASensorThatStandsOutALittleAgainstTheOthers) {
   EXPECT_TRUE(says(outcome.err, {"the residuals of a3 are", "times those of the other sensors (allowed 3.0)"}));
 }
 
-TEST(CalibrateReport, NamesTheStationThatItSetsAside) {
+TEST(CalibrateReport, NamesTheOutlierStation) {
   const Workshop where;
   inject(where, "a2:bias=50mg0@60s+10s");
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"set aside", "station ", "of it by a2", "the values come from the other stations"}));
+  EXPECT_TRUE(says(outcome.out, {"set aside", "station ", "of it from a2", "the values come from the other stations"}));
   const nlohmann::json json = report_of(where, {"--paper"});
   EXPECT_TRUE(json["paper"][0]["sound"]) << "the paper's fits get the same stations";
   const auto count = json["outliers"]["count"].get<std::size_t>();
@@ -250,20 +251,21 @@ TEST(KeepOutliersOption, LetsThemSpoilTheFit) {
 TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {
   const Workshop noise;
   noise.put("array.toml", with(noise.text("array.toml"), "noise = \"200 ug0\"", "noise = \"20 ug0\""));
-  EXPECT_TRUE(says(calibrate(noise).err, {"no still stretch", "`noise`", "a1", "times the"}));
+  EXPECT_TRUE(says(calibrate(noise).err, {"no stretch at rest", "`noise`", "a1", "times the"}));
   const Workshop unit;
   scale_log(unit, 1000.0);
   const std::string named = calibrate(unit).err;
-  EXPECT_TRUE(says(named, {"no still stretch", "`unit` and `scale`", "times as long as gravity", "they look like mV"}));
+  EXPECT_TRUE(
+      says(named, {"no stretch at rest", "`unit` and `scale`", "times as long as gravity", "they look like mV"}));
   EXPECT_EQ(named.find("`noise`"), std::string::npos) << "in another unit it is no noise to declare: " << named;
   const Workshop time;
   time.put("array.toml", with(time.text("array.toml"), "[input]\n", "[monitor]\nmax_gap = \"1 ms\"\n\n[input]\n"));
-  EXPECT_TRUE(says(calibrate(time).err, {"no still stretch", "`time`", "max_gap"}));
+  EXPECT_TRUE(says(calibrate(time).err, {"no stretch at rest", "`time`", "max_gap"}));
   const Workshop brief;
   const std::string log = brief.text("calibration.csv");
   brief.put("calibration.csv", log.substr(0, log.find('\n', 2000) + 1));
-  EXPECT_TRUE(
-      says(calibrate(brief).err, {"no still stretch", "a station needs at least 128 at rest", "rows = \"stations\""}));
+  EXPECT_TRUE(says(calibrate(brief).err,
+                   {"no stretch at rest", "a station needs at least 128 at rest", "rows = \"stations\""}));
   const Outcome none = calibrate(noise);
   EXPECT_EQ(none.code, 4);
   EXPECT_EQ(none.out.find(" 0.000 "), std::string::npos) << "what is not known is a dash:\n" << none.out;

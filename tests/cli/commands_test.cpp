@@ -48,9 +48,9 @@ TEST(Geometry, JsonSaysTheSameAsTheText) {
   const auto json = nlohmann::json::parse(run(where, {"geometry", "--name", "cone:5", "--json"}).out);
   EXPECT_EQ(json["sensors"].size(), 5U);
   EXPECT_EQ(json["triples"].size(), 10U);
-  EXPECT_EQ(json["figures_of_merit"]["strict_grade"], 2);
+  EXPECT_EQ(json["figures_of_merit"]["confirmed_grade"], 2);
   const Outcome text = run(where, {"geometry", "--name", "cone:5"});
-  EXPECT_TRUE(says(text.out, {"strict", " 2 "}));
+  EXPECT_TRUE(says(text.out, {"with confirmation", " 2 "}));
 }
 
 TEST(Geometry, BuiltInNamesAllWork) {
@@ -168,7 +168,17 @@ TEST(Monitor, TwoFaultsAmongFourEndInFailedWithCodeFive) {
             0);
   const Outcome outcome = run(where, kMonitor + std::vector<std::string>{"--log", "two.csv"});
   EXPECT_EQ(outcome.code, 5) << outcome.out << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"failed", "patience", "state       failed", "none may be used"}));
+  EXPECT_TRUE(says(outcome.out, {"failed", "isolation_timeout", "state       failed", "in service  none"}));
+}
+
+// Negative: REQ-175
+TEST(Monitor, ARunWithoutABlockAtRestEndsWithCodeSeven) {
+  const Workshop where;
+  const std::string log = where.text("drilling.csv");
+  where.put("drilling.csv", log.substr(0, log.find(line_of(log, 22))));
+  const Outcome outcome = run(where, kMonitor + std::vector<std::string>{"--log", "drilling.csv"});
+  EXPECT_EQ(outcome.code, 7) << outcome.out << outcome.err;
+  EXPECT_TRUE(says(outcome.err, {"drilling.csv", "nothing was judged", "20 samples", "Remedy"}));
 }
 
 TEST(Monitor, BadRowKeepsWhatCameBefore) {
@@ -199,7 +209,7 @@ TEST(Monitor, InterruptKeepsTheResults) {
     ASSERT_GT(count, 0);
     sent += static_cast<std::size_t>(count);
   }
-  ASSERT_TRUE(process.says("contradict")) << "the alarm is printed while the stream is open";
+  ASSERT_TRUE(process.says("disagree")) << "the alarm is printed while the stream is open";
   process.interrupt();
   const Outcome outcome = process.wait();
   ::close(ends[1]);
@@ -220,7 +230,7 @@ TEST(Monitor, FollowsALogThatGrows) {
     std::ofstream more(where / "growing.csv", std::ios::app);
     more << log.substr(row, part - row);
   }
-  ASSERT_TRUE(process.says("contradict")) << "what was appended is monitored";
+  ASSERT_TRUE(process.says("disagree")) << "what was appended is monitored";
   process.interrupt();
   const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.code, 1);
@@ -259,7 +269,7 @@ TEST(Calibrate, InterruptFitsTheStationsFoundSoFar) {
   ::close(ends[1]);
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(says(outcome.out, {"interrupted: the fit uses the stations up to then", "accepted"}));
-  EXPECT_TRUE(says(outcome.err, {"interrupted", "stations found up to then"}));
+  EXPECT_TRUE(says(outcome.err, {"interrupted", "stations found before the interruption."}));
   EXPECT_TRUE(std::filesystem::exists(where / "new.json"));
 }
 
@@ -276,6 +286,23 @@ TEST(Inject, ChangesOnlyTheNamedChannelFromTheOnsetOn) {
   EXPECT_EQ(changed.substr(8), line_of(before, 1202).substr(line_of(before, 1202).find(',', 6) + 1));
 }
 
+TEST(Inject, DepthAndRatesOfTurnTravelWithTheirRow) {
+  const Workshop where;
+  where.put("array.toml", with(where.text("array.toml"), "[input]\n",
+                               "[input]\ndepth = \"md\"\ndepth_unit = \"ft\"\n"
+                               "rotation_radps = [\"wx\", \"wy\", \"wz\"]\n"));
+  where.put("log.csv",
+            "t_s,station,md,wx,wy,wz,a1,a2,a3,a4\n"
+            "0,-1,40505.12,0,0,0,1,1,1,3\n0.01,-1,,0,0,0.5,1,1,1,3\n0.02,-1,40505.25,0,0,0,1,1,1,3\n");
+  const std::vector<std::string> inject = {"inject", "--array", "array.toml",  "--log",   "log.csv",       "--out",
+                                           "-",      "--fault", "log:swap@#1", "--fault", "a1:stuck=0V@0s"};
+  const Outcome outcome = run(where, inject);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {",40505.12,0,0,0,0,1,1,3"})) << "in whatever order the rows come";
+  EXPECT_TRUE(says(outcome.out, {"0.01,-1,,0,0,0.5,0,1,1,3"}));
+  EXPECT_TRUE(says(outcome.out, {",40505.25,0,0,0,0,1,1,3"}));
+}
+
 TEST(Inject, SaysSoWhereAFaultNeverBegan) {
   const Workshop where;
   const Outcome outcome = run(where, {"inject", "--array", "array.toml", "--log", "drilling.csv", "--fault",
@@ -289,7 +316,7 @@ TEST(Model, ThreeFormatsOfOneTable) {
   const Directory where;
   const Outcome markdown = run(where, {"model"});
   EXPECT_TRUE(says(markdown.out, {"| event (rank order) | nominal, isolated | suspect | degraded |", "| reset |",
-                                  "| culprit | exclude; by size |", "| clean_block |"}));
+                                  "| exclusion | exclude; by size |", "| passed_block |"}));
   const Outcome dot = run(where, {"model", "--format", "dot"});
   EXPECT_TRUE(says(dot.out, {"digraph plumb {", "\"nominal\" -> \"suspect\"", "}"}));
   EXPECT_EQ(dot.out.find("\"failed\" -> \"nominal\""), std::string::npos);
@@ -333,13 +360,13 @@ TEST(Model, EveryTargetSaysWhatItDependsOn) {
   const auto json = nlohmann::json::parse(run(where, {"model", "--format", "json"}).out);
   std::map<std::string, std::vector<nlohmann::json>> rows;
   for (const auto& row : json["targets"]) rows[row["target"]].push_back(row);
-  const auto& patience = rows["stay while bounded or isolable, else failed"];
-  ASSERT_EQ(patience.size(), 2U);
-  EXPECT_EQ(patience[0]["when"], nlohmann::json({{"bounded or isolable", false}}));
-  EXPECT_EQ(patience[0]["to"], "failed");
-  EXPECT_EQ(patience[1]["to"], "stay");
+  const auto& isolation_timeout = rows["stay while bounded or isolable, else failed"];
+  ASSERT_EQ(isolation_timeout.size(), 2U);
+  EXPECT_EQ(isolation_timeout[0]["when"], nlohmann::json({{"bounded or isolable", false}}));
+  EXPECT_EQ(isolation_timeout[0]["to"], "failed");
+  EXPECT_EQ(isolation_timeout[1]["to"], "stay");
   EXPECT_EQ(rows["by size"].size(), 4U);
-  EXPECT_EQ(rows["by size when earned"].size(), 8U);
+  EXPECT_EQ(rows["by size when enough blocks passed"].size(), 8U);
   for (const auto& cell : json["cells"]) EXPECT_TRUE(rows.count(cell["target"]) == 1) << cell;
 }
 

@@ -79,7 +79,8 @@ TEST(Convert, ACutOffLogKeepsWhatCameBefore) {
   EXPECT_NE(skipped.code, 3);
   // A file that begins like a binary log and is another one.
   where.put("other.plog", "\x89PNG and more than forty bytes of something else");
-  EXPECT_TRUE(says(run(where, monitor("other.plog")).err, {"other.plog: header: ", "is none", "Remedy:"}));
+  EXPECT_TRUE(
+      says(run(where, monitor("other.plog")).err, {"other.plog: header: ", "but its header is wrong", "Remedy:"}));
 }
 
 }  // namespace

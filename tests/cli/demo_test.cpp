@@ -134,12 +134,13 @@ void page_tells_what_happened(const std::string& page) {
     EXPECT_NE(page.find("href=\"#" + id + "\""), std::string::npos) << id;
     EXPECT_NE(page.find("<section id=\"" + id + "\""), std::string::npos) << id;
   }
-  EXPECT_TRUE(says(page, {"At 15.00 s a sensor fails: a2 stands at 0 V",
-                          "the alarm: the sensors contradict one another", "a2 is excluded. It is really at fault.",
-                          "a3 stands at 3 V", "patience is over", "It is refused: the reset key does not match",
-                          "The request is granted", "a3 is excluded", "kept in", "plumb simulate stand.toml"}));
-  EXPECT_TRUE(says(page, {"id=\"drill_b\"", "a2 reads 50 mg0 too much", "a2 is set aside at once", "a2 is excluded",
-                          "recalibration begins", "new coefficients are accepted", "a5 is excluded",
+  EXPECT_TRUE(says(
+      page, {"At 15.00 s a sensor fails: a2 is stuck at 0 V", "the alarm: the sensors disagree with one another",
+             "a2 is excluded. This is correct: it is faulty.", "a3 is stuck at 3 V", "isolation timeout has expired",
+             "The request is refused: the reset key does not match", "The request is granted", "a3 is excluded",
+             "within the protection level in", "plumb simulate stand.toml"}));
+  EXPECT_TRUE(says(page, {"id=\"drill_b\"", "a2 reads 50 mg0 too high", "a2 is provisionally excluded",
+                          "a2 is excluded", "recalibration begins", "new coefficients are accepted", "a5 is excluded",
                           "a2 has agreed with the others"}));
 }
 
@@ -156,8 +157,10 @@ void page_has_every_id_once(const std::string& page) {
 
 void every_file_is_linked_and_every_link_leads_to_a_file(const Directory& where, const std::string& page) {
   std::set<std::string> linked;
-  for (std::size_t at = page.find("href=\""); at != std::string::npos; at = page.find("href=\"", at + 6)) {
-    const std::string name = page.substr(at + 6, page.find('"', at + 6) - at - 6);
+  const std::string link = "<a href=\"";
+  for (std::size_t at = page.find(link); at != std::string::npos; at = page.find(link, at + 1)) {
+    const std::size_t begin = at + link.size();
+    const std::string name = page.substr(begin, page.find('"', begin) - begin);
     if (name[0] != '#') linked.insert(name);
   }
   for (const auto& [name, text] : files_below(where.path())) {

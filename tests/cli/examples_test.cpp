@@ -30,9 +30,9 @@ std::string play(const Directory& where, const char* stand, const char* drill) {
 TEST(Examples, DrillAEndsWithWhatHasRecovered) {
   const Directory where;
   const std::string out = play(where, "stand.toml", "drill_a.toml");
-  EXPECT_TRUE(says(out, {"nominal", "suspect", "parity", "degraded", "a2", "suspect", "norm", "failed", "patience",
-                         "suspect", "host_request", "a2", "suspect", "isolated_fault", "a3", "degraded", "clean",
-                         "in service  a1, a2, a4", "excluded    a3"}));
+  EXPECT_TRUE(says(out, {"nominal", "suspect", "parity", "degraded", "a2", "suspect", "norm", "failed",
+                         "isolation_timeout", "suspect", "host_request", "a2", "suspect", "isolated_fault", "a3",
+                         "degraded", "passed_block", "in service  a1, a2, a4", "excluded    a3"}));
   EXPECT_TRUE(says(read_text(where / "err"), {"--host \"63.5s reset a2 key 0x1\" was refused", "Remedy: "}));
 }
 
@@ -40,7 +40,7 @@ TEST(Examples, DrillBTakesBackWhatHasRecovered) {
   const Directory where;
   const std::string out = play(where, "hexad_stand.toml", "drill_b.toml");
   EXPECT_TRUE(says(out, {"nominal", "suspect", "a2", "isolated", "recalibrating", "host_request", "suspect",
-                         "calibration", "isolated", "clean", "suspect", "a5", "isolated", "probation", "a2",
+                         "calibration", "isolated", "passed_block", "suspect", "a5", "isolated", "probation", "a2",
                          "in service  a1, a2, a3, a4, a6", "excluded    a5"}));
   EXPECT_EQ(read_text(where / "err"), "");
 }

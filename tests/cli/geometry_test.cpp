@@ -70,16 +70,17 @@ TEST(GeometryCommand, HasTheFiguresOfTheTetrahedron) {
   EXPECT_NEAR(out["worst_case"][0]["vector_error_e"].get<double>(), 6.0, 1e-9);
   const double mg0 = 9.80665e-3;
   EXPECT_NEAR(out["sensors"][1]["thresholds_mps2"]["detectable"].get<double>() / mg0, 15.0, 0.1);
-  EXPECT_TRUE(out["sensors"][1]["thresholds_mps2"]["set_aside"].is_null());
+  EXPECT_TRUE(out["sensors"][1]["thresholds_mps2"]["provisional_exclusion"].is_null());
   EXPECT_NEAR(out["protection_level_deg"].get<double>(), 0.89, 0.02);
-  EXPECT_EQ(out["figures_of_merit"]["collusion_grade"], 0);
+  EXPECT_EQ(out["figures_of_merit"]["correlated_grade"], 0);
   EXPECT_EQ(out["common_bias"]["reverse"], json::array({"a4"}));
   EXPECT_NEAR(out["common_bias"]["with_these_reversed"]["visibility"].get<double>(), 1.0, 1e-12);
-  EXPECT_EQ(out["hidden_wiring"].size(), 8U) << "3 exchanges and 2 turns of the cone, 3 reversed exchanges with a4";
+  EXPECT_EQ(out["unobservable_permutations"].size(), 8U)
+      << "3 exchanges and 2 turns of the cone, 3 reversed exchanges with a4";
   EXPECT_TRUE(out["warnings"].empty());
   EXPECT_TRUE(named(out["known_limits"], "gravity_needed"));
-  EXPECT_TRUE(named(out["known_limits"], "hidden_wiring"));
-  EXPECT_FALSE(named(out["known_limits"], "common_bias_unseen"));
+  EXPECT_TRUE(named(out["known_limits"], "unobservable_permutations"));
+  EXPECT_FALSE(named(out["known_limits"], "common_bias_unobservable"));
 }
 
 TEST(GeometryCommand, TextAndJsonAgree) {
@@ -88,8 +89,9 @@ TEST(GeometryCommand, TextAndJsonAgree) {
   const Outcome text = run(where, {"geometry", "--name", "cone:5"});
   char level[32];
   std::snprintf(level, sizeof level, "%.4f deg", out["protection_level_deg"].get<double>());
-  EXPECT_TRUE(says(text.out, {"strict", " 2 ", "parity alone", " 1 ", "collude", " 1 ", "worst case", "10.47 e",
-                              "protection level of this array", level, "known limits", "common_bias_unseen"}));
+  EXPECT_TRUE(
+      says(text.out, {"with confirmation", " 2 ", "parity alone", " 1 ", "correlated faults", " 1 ", "worst case",
+                      "10.47 e", "protection level of this array", level, "known limits", "common_bias_unobservable"}));
 }
 
 TEST(GeometryCommand, MoreSamplesFindLess) {
@@ -148,7 +150,7 @@ TEST(GeometryCommand, ATriadPromisesNothing) {
   EXPECT_TRUE(named(out["known_limits"], "critical_sensors"));
   const Outcome drawn = run(where, {"geometry", "--name", "triad", "--plots", "pictures"});
   EXPECT_EQ(drawn.code, 0);
-  EXPECT_TRUE(says(drawn.err, {"--plots", "nothing to draw"}));
+  EXPECT_TRUE(says(drawn.err, {"--plots", "no picture was drawn"}));
 }
 
 TEST(GeometryCommand, DrawsItsPictures) {
@@ -156,7 +158,7 @@ TEST(GeometryCommand, DrawsItsPictures) {
   const Outcome outcome = run(where, {"geometry", "--name", "cone:5", "--plots", "pictures"});
   ASSERT_EQ(outcome.code, 0);
   EXPECT_EQ(line_of(read_text(where.path() / "pictures/geometry-attitudes.csv"), 1),
-            "inclination_deg,toolface_deg,clear_from_g0,nearest_mirror_g0,blind_sensors");
+            "inclination_deg,toolface_deg,guaranteed_above_g0,nearest_mirror_g0,not_guaranteed_sensors");
   if (outcome.err.find("not installed") != std::string::npos) GTEST_SKIP() << outcome.err;
   EXPECT_TRUE(says(outcome.out, {"written to pictures: geometry-attitudes.svg, geometry-protection.svg"}));
   EXPECT_TRUE(outcome.err.empty()) << outcome.err;

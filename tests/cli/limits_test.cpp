@@ -15,7 +15,7 @@ TEST(MonitorLimitsCommand, SaysThemWithoutALog) {
       run(where, {"monitor", "--array", "array.toml", "--calibration", "calibration.json", "--limits"});
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_TRUE(says(text.out, {"4 sensors", "parity", "length of the vector", "triple, the widest",
-                              "left by calibration", "buy nothing at one attitude"}));
+                              "left by calibration", "bring no gain at one attitude"}));
   const Outcome json =
       run(where, {"monitor", "--array", "array.toml", "--calibration", "calibration.json", "--limits", "--json"});
   const auto limits = nlohmann::json::parse(json.out)["limits"];
@@ -30,7 +30,7 @@ TEST(MonitorLimitsCommand, SaysWhatDeltaFHides) {
   const Outcome outcome =
       run(where, {"monitor", "--array", "given.toml", "--calibration", "calibration.json", "--limits"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"delta_f = 50 mg blinds the triples", "deg", "parity still sees"}));
+  EXPECT_TRUE(says(outcome.out, {"delta_f = 50 mg the triples miss", "deg", "parity still detects"}));
 }
 
 // Negative: REQ-178

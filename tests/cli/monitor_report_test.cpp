@@ -86,7 +86,7 @@ TEST(MonitorReport, AFaultIsRedThenOrangeAndNoTripContinuesUnwarned) {
   for (const Json& e : report["events"])
     excluded = excluded || (e["cause"] == "isolated_fault" && e["sensors"] == Json::array({"a2"}));
   EXPECT_TRUE(excluded) << report["events"].dump(1);
-  EXPECT_TRUE(says(read_text(shop / "r.html"), {"orientation only", "the sensors contradict one another"}));
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"orientation only", "the sensors disagree with one another"}));
 }
 
 // Verifies: REQ-179
@@ -114,12 +114,12 @@ TEST(MonitorReport, WithoutAStationTheAnswerIsNo) {
   for (int k = 2; k < 12; ++k) few += line_of(log, k) + "\n";
   shop.put("few.csv", few);
   const Outcome outcome = run(shop, reported("few.csv"));
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_TRUE(says(outcome.out, {"Usable for survey: no", "no still stretch", "hold the tool still"}));
+  EXPECT_EQ(outcome.code, 7);
+  EXPECT_TRUE(says(outcome.out, {"Usable for survey: no", "no stretch at rest", "hold the tool still"}));
   const Json report = report_of(shop);
   EXPECT_EQ(report["extremes"]["samples"], 10);
   EXPECT_TRUE(report["stations"].empty());
-  EXPECT_TRUE(says(read_text(shop / "r.html"), {"no still stretch of a whole block", "No station has a toolface"}));
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"no complete block at rest", "No station has a toolface"}));
 }
 
 TEST(MonitorReport, TakesDepthFromTheLog) {
@@ -142,13 +142,14 @@ TEST(MonitorReport, TakesDepthFromTheLog) {
   const Outcome bad = run(shop, reported("bad.csv"));
   EXPECT_EQ(bad.code, 3);
   EXPECT_TRUE(says(bad.err, {"MD", "\"deep\" is not a depth"}));
-  // What a log cannot say is not made up.
+  // A log with a fault keeps its depths.
   ASSERT_EQ(run(shop, {"inject", "--array", "array.toml", "--log", "deep.csv", "--fault", "a1:bias=1mg0@30s", "--out",
                        "injected.csv"})
                 .code,
             0);
   EXPECT_EQ(run(shop, reported("injected.csv")).code, 0);
-  EXPECT_TRUE(report_of(shop)["stations"][0]["depth_m"].is_null());
+  EXPECT_EQ(report_of(shop)["stations"][0]["depth_m"], report["stations"][0]["depth_m"]);
+  EXPECT_TRUE(report["stations"][0]["depth_m"].is_number());
 }
 
 TEST(MonitorReport, StandsBesideTheOtherOutputsAndRepeats) {
@@ -199,9 +200,9 @@ TEST(MonitorReport, WrongUseIsAnsweredWithWhatAndHow) {
     EXPECT_EQ(outcome.code, code) << outcome.err;
     EXPECT_TRUE(says(outcome.err, words));
   };
-  answered("-", {}, 2, {"--report", "name of a page", "FILE.html"});
+  answered("-", {}, 2, {"--report", "needs a file name that ends in .html", "FILE.html"});
   answered("report.pdf", {}, 2, {"--report", "FILE.html"});
-  answered("r.html", {"--limits"}, 2, {"--report", "--limits", "leave one"});
+  answered("r.html", {"--limits"}, 2, {"--report", "--limits", "leave out one"});
   answered("r.html", {"--events", "r.json"}, 2, {"r.json", "--events"});
   answered("calibration.html", {}, 2, {"calibration.json", "overwritten"});
   answered("nowhere/r.html", {}, 1, {"nowhere"});

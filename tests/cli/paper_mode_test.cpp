@@ -82,10 +82,10 @@ TEST(CalibratePaper, RefusesMoreThanEightSensorsBeforeItReads) {
   const Outcome outcome =
       run(where, {"calibrate", "--array", "nine.toml", "--log", "no.csv", "--out", "c.json", "--paper"});
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_TRUE(says(outcome.err, {"nine.toml", "up to 8 sensors", "has 9", "Remedy", "--paper"}));
+  EXPECT_TRUE(says(outcome.err, {"nine.toml", "at most 8 sensors", "has 9", "Remedy", "--paper"}));
 }
 
-/// Readings that contradict one another by 1 mg0 from station to station: plumb's fit carries that as misfit; in the
+/// Readings that sensors disagree by 1 mg0 from station to station: plumb's fit carries that as misfit; in the
 /// paper's equations it looks like directions that the length of gravity does not show.
 TEST(CalibratePaper, EquationsThatTheDisagreementFillsUpAreOfNoUse) {
   const Workshop where;
@@ -113,8 +113,8 @@ TEST(CalibratePaper, EquationsThatTheDisagreementFillsUpAreOfNoUse) {
   paper.emplace_back("--paper");
   const Outcome outcome = run(where, paper);
   EXPECT_EQ(outcome.code, 4);
-  EXPECT_TRUE(says(outcome.err, {"the paper's method is of no use", "its equations have rank 12",
-                                 "the length of gravity shows 9 directions", "contradict one another by", "mg0 rms",
+  EXPECT_TRUE(says(outcome.err, {"plumb: the fit by the paper's method was not accepted:", "its equations have rank 12",
+                                 "the length of gravity shows 9 directions", "disagreement of the sensors", "mg0 rms",
                                  "Remedy", "chi^2", "without --paper"}));
   EXPECT_FALSE(std::filesystem::exists(where / "rough.json"));
 }
@@ -133,19 +133,19 @@ TEST(MonitorPaper, ADeadSensorIsIsolatedAndAPipeSaysTheSame) {
   ASSERT_EQ(where.calibrate().code, 0);
   const Outcome file = where.monitor({"--log", "drilling.csv", "--events", "events.jsonl"});
   EXPECT_EQ(file.code, 0) << file.err;
-  EXPECT_TRUE(says(file.out, {"suspect", "power_on", "nominal", "clean", "suspect", "mae", "0.4903", "degraded",
+  EXPECT_TRUE(says(file.out, {"suspect", "power_on", "nominal", "passed_block", "suspect", "mae", "0.4903", "degraded",
                               "isolated_fault", "a2", "4100 samples", "in service  a1, a3, a4", "excluded    a2",
                               "no bound on the error can be given"}));
   EXPECT_TRUE(file.err.empty()) << file.err;
   EXPECT_EQ(where.monitor({"--log", "-"}, "drilling.csv").out, file.out);
   const auto events = lines_of(where.text("events.jsonl"));
   ASSERT_GE(events.size(), 3U);
-  EXPECT_EQ(events.back()["event"], "culprit");
+  EXPECT_EQ(events.back()["event"], "exclusion");
   EXPECT_EQ(events.back()["sensors"], nlohmann::json({"a2"}));
   EXPECT_EQ(events.back()["to"], "degraded");
   for (const auto& event : events) {
     const bool alarm = event["event"] == "alarm";
-    EXPECT_EQ(event["statistic"] > event["limit"], alarm || event["event"] == "culprit") << event;
+    EXPECT_EQ(event["statistic"] > event["limit"], alarm || event["event"] == "exclusion") << event;
   }
 }
 
@@ -154,12 +154,12 @@ TEST(MonitorPaper, OneAttitudeDecidesWhereAskedFor) {
   ASSERT_EQ(where.calibrate().code, 0);
   const auto lines = lines_of(where.monitor({"--log", "drilling.csv", "--json"}).out);
   ASSERT_GE(lines.size(), 3U);
-  EXPECT_EQ(lines[1]["event"], "culprit") << "without a suspicion before it";
+  EXPECT_EQ(lines[1]["event"], "exclusion") << "without a suspicion before it";
   EXPECT_EQ(lines[1]["from"], "nominal");
   EXPECT_EQ(lines.back()["summary"]["state"], "degraded");
 }
 
-TEST(MonitorPaper, TwoDeadSensorsOfFourAreNotBlamedAndEndInCodeFive) {
+TEST(MonitorPaper, TwoDeadSensorsOfFourAreNotIsolatedAndEndInCodeFive) {
   const PaperWorkshop where;
   ASSERT_EQ(where.calibrate().code, 0);
   ASSERT_EQ(run(where, {"inject", "--array", "paper.toml", "--log", "drilling.csv", "--fault", "a1:stuck=-3V@4s",
@@ -168,7 +168,7 @@ TEST(MonitorPaper, TwoDeadSensorsOfFourAreNotBlamedAndEndInCodeFive) {
             0);
   const Outcome outcome = where.monitor({"--log", "two.csv"});
   EXPECT_EQ(outcome.code, 5) << outcome.out << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"suspect", "mae", "failed", "patience", "state       failed"}));
+  EXPECT_TRUE(says(outcome.out, {"suspect", "mae", "failed", "isolation_timeout", "state       failed"}));
   EXPECT_EQ(outcome.out.find("isolated_fault"), std::string::npos) << outcome.out;
 }
 

@@ -1,4 +1,5 @@
-// Stations that share an inclination, from the log to the report: [input] roll_group, --roll-axis, --roll-wobble-deg.
+// Stations that share an inclination, from the log to the report: [input] roll_group, --roll-axis,
+// --roll-axis-deviation-deg.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -83,10 +84,10 @@ TEST(RollGroups, GiveTheInclinationItself) {
 
 TEST(RollGroups, StandInTheReportAndInTheFile) {
   const RollBench where;
-  const Outcome outcome = where.calibrate({"--roll-wobble-deg", "0.05"});
+  const Outcome outcome = where.calibrate({"--roll-axis-deviation-deg", "0.05"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, {"15 of 16 parameters", "about the roll axis", "roll groups", "3 in the log",
-                                 "(0, 0, 1) within 0.05 deg", "inclination", "in itself, by the stations that share"}));
+                                 "(0, 0, 1) within 0.05 deg", "inclination", "by the stations that share"}));
   const Json file = Json::parse(where.text("new.json"));
   EXPECT_EQ(file["version"], 1);
   EXPECT_EQ(file["report"]["roll"]["groups"], 3);
@@ -97,7 +98,7 @@ TEST(RollGroups, StandInTheReportAndInTheFile) {
       << "reads it back";
   const Outcome plain =
       run(where, {"calibrate", "--array", "array.toml", "--log", "calibration.csv", "--out", "x.json"});
-  EXPECT_EQ(Json::parse(where.text("x.json"))["report"]["roll"]["wobble_rad"], 0.0) << plain.err;
+  EXPECT_EQ(Json::parse(where.text("x.json"))["report"]["roll"]["axis_deviation_rad"], 0.0) << plain.err;
 }
 
 TEST(RollGroups, TheAxisIsTheOneThatInclinationIsCountedFrom) {
@@ -115,7 +116,7 @@ TEST(RollGroups, AWrongAxisIsNamedWithTheRightOne) {
   for (const char* axis : {"1,0,0", "0,1,0"}) {
     const Outcome outcome = where.calibrate({"--roll-axis", axis});
     EXPECT_EQ(outcome.code, 4);
-    EXPECT_TRUE(says(outcome.err, {"rolled about 0,0,1 all would be well", "give --roll-axis 0,0,1"}));
+    EXPECT_TRUE(says(outcome.err, {"rolled about 0,0,1 the fit would be accepted", "give --roll-axis 0,0,1"}));
   }
   EXPECT_EQ(where.report({"--roll-axis", "1,0,0"})["refusal"]["would_settle"]["roll_axis"], Json({0.0, 0.0, 1.0}));
 }
@@ -125,16 +126,16 @@ TEST(RollGroups, AnAxisThatIsOffIsToldAndThenRefused) {
   const RollBench where;
   const Outcome right = where.calibrate();
   EXPECT_TRUE(says(right.out, {"roll axis", "turned together by", "sigma", "accepted"}));
-  EXPECT_EQ(right.out.find("Is the roll axis the one stated"), std::string::npos) << right.out;
+  EXPECT_EQ(right.out.find("Check the roll axis"), std::string::npos) << right.out;
   const Outcome asked = where.calibrate({"--roll-axis", "0.0872,0,0.9962"});
   EXPECT_EQ(asked.code, 0) << asked.err;
-  EXPECT_TRUE(says(asked.out, {"roll axis", "turned together by 3.", "Is the roll axis the one stated", "accepted"}));
+  EXPECT_TRUE(says(asked.out, {"roll axis", "turned together by 3.", "Check the roll axis", "accepted"}));
   const Json told = Json::parse(where.text("new.json"))["report"]["roll"];
   EXPECT_GT(told["common_turn_rad"], 2.0 * told["common_turn_sigma_rad"].get<double>());
   const Outcome refused = where.calibrate({"--roll-axis", "0.1736,0,0.9848"});
   EXPECT_EQ(refused.code, 4);
   EXPECT_TRUE(says(refused.err, {"roll axis (0.174, 0, 0.985) is likely not the one", "turned together by 8.",
-                                 "allowed", "rolled about 0,0,1 all would be well", "give --roll-axis 0,0,1"}));
+                                 "allowed", "rolled about 0,0,1 the fit would be accepted", "give --roll-axis 0,0,1"}));
   const Json json = where.report({"--roll-axis", "0.1736,0,0.9848"});
   EXPECT_EQ(json["refusal"]["concern"], "roll_axis");
   EXPECT_EQ(json["refusal"]["would_settle"]["roll_axis"], Json({0.0, 0.0, 1.0}));
@@ -164,7 +165,7 @@ TEST(RollGroups, AnAxisThatIsNoneOfTheFrameIsNotReplacedByOne) {
   const Outcome refused = where.calibrate();
   EXPECT_EQ(refused.code, 4);
   EXPECT_TRUE(says(refused.err, {"roll axis (0, 0, 1) is likely not the one", "widen `prior`"}));
-  EXPECT_EQ(refused.err.find("all would be well"), std::string::npos) << refused.err;
+  EXPECT_EQ(refused.err.find("the fit would be accepted"), std::string::npos) << refused.err;
   EXPECT_TRUE(where.report()["refusal"]["would_settle"].is_null());
   EXPECT_EQ(where.calibrate({"--roll-axis", "0.1736,0,0.9848"}).code, 0) << "the axis in that frame";
 }
@@ -178,7 +179,7 @@ TEST(RollGroups, AStationInTheWrongGroupIsFoundByItsGroup) {
   where.put("calibration.csv", log);
   const Outcome outcome = where.calibrate();
   EXPECT_EQ(outcome.code, 4) << outcome.out;
-  EXPECT_TRUE(says(outcome.err, {"without roll group 0 all would be well", "column `ring`"}));
+  EXPECT_TRUE(says(outcome.err, {"without roll group 0 the fit would be accepted", "column `ring`"}));
   EXPECT_EQ(where.report()["refusal"]["would_settle"]["without_roll_group"], Json::array({0}));
 }
 
@@ -193,7 +194,7 @@ TEST(RollGroups, AnEmptyColumnIsTold) {
   where.put("calibration.csv", log);
   const Outcome outcome = where.calibrate();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"`ring` (roll_group) is empty or -1 at all", "share"}));
+  EXPECT_TRUE(says(outcome.out, {"`ring` (roll_group) is empty or -1 at all", "common inclination"}));
   const Json json = where.report();
   ASSERT_EQ(json["columns"].size(), 1U);
   EXPECT_EQ(json["columns"][0]["of"], "roll_group");
@@ -209,8 +210,8 @@ TEST(RollGroups, OfOneStationAreTold) {
   where.put("calibration.csv", log);
   const Outcome outcome = where.calibrate();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"4 in the log", "one has a single station, which says nothing"}));
-  EXPECT_EQ(where.report()["fit"]["roll_groups_of_one"], 1);
+  EXPECT_TRUE(says(outcome.out, {"4 in the log", "one has a single station, which carries no"}));
+  EXPECT_EQ(where.report()["fit"]["single_station_roll_groups"], 1);
 }
 
 TEST(RollGroups, WithoutTwoStationsInAnyTheFitIsThePlainOne) {
@@ -226,7 +227,7 @@ TEST(RollGroups, WithoutTwoStationsInAnyTheFitIsThePlainOne) {
   where.put("calibration.csv", log);
   const Json json = where.report();
   EXPECT_EQ(json["fit"]["roll_groups"], 12);
-  EXPECT_EQ(json["fit"]["roll_groups_of_one"], 12);
+  EXPECT_EQ(json["fit"]["single_station_roll_groups"], 12);
   EXPECT_EQ(json["fit"]["gauge"], 3);
   EXPECT_TRUE(json["fit"]["roll_axis"].is_null());
 }
@@ -263,9 +264,9 @@ TEST(RollGroups, OptionsThatMeanNothingAreRefused) {
     EXPECT_TRUE(says(outcome.err, {"--roll-axis"})) << axis;
   }
   for (const char* wobble : {"-0.1", "nan", "inf", "half", "", "60"}) {
-    const Outcome outcome = where.calibrate({std::string("--roll-wobble-deg=") + wobble});
+    const Outcome outcome = where.calibrate({std::string("--roll-axis-deviation-deg=") + wobble});
     EXPECT_EQ(outcome.code, 2) << wobble;
-    EXPECT_TRUE(says(outcome.err, {"--roll-wobble-deg"})) << wobble;
+    EXPECT_TRUE(says(outcome.err, {"--roll-axis-deviation-deg"})) << wobble;
   }
   where.put("array.toml", with(where.text("array.toml"), "roll_group = \"ring\"\n", ""));
   const Outcome outcome = where.calibrate({"--roll-axis", "0,0,1"});

@@ -81,7 +81,7 @@ std::string first_lines(const std::string& text, int count) {
 
 bool is_unproven(const Json& verdict) {
   const Json& all = verdict["qualifiers"];
-  return std::find(all.begin(), all.end(), "unproven") != all.end();
+  return std::find(all.begin(), all.end(), "not_yet_validated") != all.end();
 }
 
 // Verifies: REQ-172
@@ -132,7 +132,7 @@ TEST(RollTest, TheTurnThatIsMissingIsNamed) {
   EXPECT_TRUE(says(brief.err, {"not validated: no block was at rest: hold the tool still for 32 rows"}));
   // The rest of it in the run: what the roll test has shown of the others counts.
   const Outcome both = where.monitor({"--roll-test", "rolled.csv"}, "turned.csv");
-  EXPECT_TRUE(says(both.out, {"nominal", "clean"}));
+  EXPECT_TRUE(says(both.out, {"nominal", "passed_block"}));
 }
 
 // Verifies: REQ-172
@@ -157,8 +157,8 @@ TEST(RollTest, AnExclusionADoubtAndAFailureGoAlong) {
   EXPECT_TRUE(says(excluded.err, {"a2 excluded", "validated: a1, a3, a4", "the run begins in degraded"}));
   EXPECT_TRUE(says(excluded.out, {"0.000  degraded", "goes on from the roll test"}));
   const Outcome doubt = monitor("doubt.csv", {});
-  EXPECT_TRUE(says(doubt.err, {"ended in doubt (parity: ", "suspected are a", "what would help is a turn",
-                               "the run begins in suspect"}));
+  EXPECT_TRUE(says(doubt.err,
+                   {"ended in suspect (parity: ", "suspected are a", "remedy: a turn", "the run begins in suspect"}));
   EXPECT_TRUE(says(doubt.out, {"0.000  suspect"}));
   const Outcome failed = monitor("drill_a.csv", {});
   EXPECT_EQ(failed.code, 5);
@@ -183,7 +183,7 @@ TEST(RollTest, ARecordingThatCannotBeReadEndsTheRunBeforeItBegins) {
     return says(outcome.err, words);
   };
   EXPECT_TRUE(refused("", {"bad.csv", "empty"}));
-  EXPECT_TRUE(refused(line_of(good, 1) + "\n", {"bad.csv", "no row"}));
+  EXPECT_TRUE(refused(line_of(good, 1) + "\n", {"bad.csv", "no usable row"}));
   EXPECT_TRUE(refused(with(good, ",a3", ",b3"), {"bad.csv", "a3"}));
   const std::string torn = good + "7.5,-1,two,1,1,1\n";
   EXPECT_TRUE(refused(torn, {"bad.csv:702", "Remedy", "of --roll-test; the log was not read"}));

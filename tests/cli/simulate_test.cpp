@@ -95,7 +95,7 @@ TEST(Simulate, ToFileTellsWhatWasPlayed) {
   const Directory& where = bench();
   const Outcome outcome = run(where, {"simulate", "drilling.toml", "--out", "d.csv", "--truth", "t.csv"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"a2 stands at 0 V from station 6 on",
+  EXPECT_TRUE(says(outcome.out, {"a2 is stuck at 0 V from station 6 on",
                                  "written: d.csv (4100 rows, 14 stations, t = 0.000 to 40.990 s)", "written: t.csv"}));
   EXPECT_EQ(read_text(where / "d.csv"), run(where, {"simulate", "drilling.toml"}).out);
 }
@@ -135,6 +135,24 @@ TEST(Simulate, ArrayOutIsTheFileThatTheLogNeeds) {
       run(where, {"inject", "--array", "array.toml", "--log", "log.csv", "--fault", "a1:stuck=0V@5s", "--out", "-"})
           .code,
       0);
+}
+
+TEST(Simulate, TheDepthColumnHoldsTheDepthBelowTheFirstStation) {
+  const Directory where;
+  write_text(where / "tool.toml",
+             with(read_text(kExamples + "paper_tool.toml"), "[input]\n", "[input]\ndepth = \"md\"\n"));
+  write_text(where / "run.toml",
+             "array = \"tool.toml\"\n[attitude]\nlaw = \"drilling-path\"\n[depth]\nstation_spacing = \"28.5 m\"\n");
+  const Outcome outcome = run(where, {"simulate", "run.toml", "--out", "run.csv"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<std::string> lines = lines_of(read_text(where / "run.csv"));
+  const std::vector<std::string> names = cells_of(lines[0]), first = cells_of(lines[1]), last = cells_of(lines.back());
+  const auto column = static_cast<std::size_t>(std::find(names.begin(), names.end(), "md") - names.begin());
+  ASSERT_LT(column, names.size()) << lines[0];
+  EXPECT_EQ(first[column], "0");
+  const double stands = std::stod(last[column]) / 28.5;
+  EXPECT_GE(stands, 1.0);
+  EXPECT_NEAR(stands, std::round(stands), 1e-9);
 }
 
 TEST(Simulate, OneRowPerStationWhereTheArrayFileSaysSo) {
@@ -180,8 +198,10 @@ TEST(Simulate, BadInputIsExplained) {
       {{"simulate", "nowhere.toml"}, 3, {"nowhere.toml", "No such file", "Remedy: "}},
       {{"simulate", "bad.toml"}, 3, {"bad.toml:4: attitude.dwel", "did you mean \"dwell\"?"}},
       {{"simulate", "named.toml", "--array-out", "a.toml"}, 2, {"--array-out", "paper_tool.toml", "Remedy: use that"}},
-      {{"simulate", "good.toml", "--truth", "-"}, 2, {"--truth", "same place", "Remedy: "}},
-      {{"simulate", "good.toml", "--out", "x", "--array-out", "x"}, 2, {"--array-out", "same place", "Remedy: "}},
+      {{"simulate", "good.toml", "--truth", "-"}, 2, {"--truth", "names the same file as another output", "Remedy: "}},
+      {{"simulate", "good.toml", "--out", "x", "--array-out", "x"},
+       2,
+       {"--array-out", "names the same file as the log", "Remedy: "}},
       {{"simulate", "good.toml", "--out", "no/such.csv"}, 1, {"no/such.csv", "cannot write", "Remedy: "}},
       {{"simulate", "good.toml", "--truth", "no/t.csv"}, 1, {"no/t.csv", "cannot write"}},
       {{"simulate", "good.toml", "--array-out", "no/a.toml"}, 1, {"no/a.toml", "cannot write"}},

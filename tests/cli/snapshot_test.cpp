@@ -64,9 +64,10 @@ TEST(MonitorSnapshot, WhatCannotBeBelievedIsRefusedByName) {
   damaged[300] = static_cast<char>(damaged[300] ^ 4);
   EXPECT_TRUE(refused(damaged, {"state.bin", "damaged", "leave out --snapshot-in"}));
   EXPECT_TRUE(refused(good.substr(0, good.size() / 2), {"state.bin", "ends too early"}));
+  EXPECT_TRUE(refused(good + "garbage", {"state.bin", "7 bytes behind the end", "leave out --snapshot-in"}));
   EXPECT_TRUE(refused("", {"state.bin", "ends too early"}));
-  EXPECT_TRUE(refused(where.text("drilling.csv"), {"state.bin", "no snapshot at all"}));
-  where.put("array.toml", where.text("array.toml") + "\n[monitor]\nclean_blocks = 4\n");
+  EXPECT_TRUE(refused(where.text("drilling.csv"), {"state.bin", "not a snapshot"}));
+  where.put("array.toml", where.text("array.toml") + "\n[monitor]\npassed_blocks = 4\n");
   EXPECT_TRUE(refused(good, {"state.bin", "another configuration"}));
   std::filesystem::remove(where / "state.bin");
   const Outcome missing = run(where, monitor("drilling.csv", {"--snapshot-in", "state.bin"}));

@@ -1,5 +1,5 @@
 // plumb verify as a user meets it: what it writes, how it ends, what it says when something is wrong.
-#include "report/verify_support.hpp"
+#include "render/verify_support.hpp"
 
 namespace verify_test {
 namespace {
@@ -78,8 +78,8 @@ TEST(VerifyCommand, ALimitThatTheArrayCannotMeetIsNamed) {
   write_text(where / "limits.toml", "[limits]\nalert_limit = \"0.01 deg\"\nfaults = 2\n");
   const Outcome outcome = verify(where, {"--array", "tool.toml", "--limits", "limits.toml", "--out", "r"});
   EXPECT_EQ(outcome.code, 6);
-  EXPECT_TRUE(
-      says(outcome.err, {"not fit", "isolates 1 faulty sensor for good, 2 are asked for", "alert limit is 0.01 deg"}));
+  EXPECT_TRUE(says(outcome.err, {"not fit", "isolates 1 faulty sensor with confirmation, 2 are required",
+                                 "alert limit is 0.01 deg"}));
   EXPECT_EQ(report_in(where / "r")["verdict"]["verdict"], "not fit");
   EXPECT_NE(read_text(where / "r" / "report.html").find("notice bad"), std::string::npos);
 }
@@ -113,12 +113,12 @@ TEST(VerifyCommand, AnOrphanEndsWithSix) {
 TEST(VerifyCommand, TheCalibrationThatIsGivenIsTheOneThatIsJudged) {
   const Workshop shop;
   const Outcome file = verify(shop, {"--array", "array.toml", "--calibration", "calibration.json", "--out", "a"});
-  const Outcome log = verify(shop, {"--array", "array.toml", "--positions", "calibration.csv", "--out", "b"});
+  const Outcome log = verify(shop, {"--array", "array.toml", "--stations", "calibration.csv", "--out", "b"});
   ASSERT_EQ(file.code, 0) << file.err;
   ASSERT_EQ(log.code, 0) << log.err;
   const Json a = report_in(shop / "a"), b = report_in(shop / "b");
   EXPECT_EQ(a["calibration"]["mode"], "calibration file");
-  EXPECT_EQ(b["calibration"]["mode"], "positions");
+  EXPECT_EQ(b["calibration"]["mode"], "stations");
   EXPECT_EQ(a["calibration"]["sensors"], b["calibration"]["sensors"]);  // of the same log
   EXPECT_EQ(a["array"]["sensors"], b["array"]["sensors"]);
   EXPECT_EQ(a["campaign"], b["campaign"]);
@@ -138,7 +138,7 @@ Directory& with_means(Directory& where, const std::string& input) {
 }
 
 Json verified_means(const Directory& where) {
-  const Outcome outcome = verify(where, {"--array", "tool.toml", "--positions", "stand.csv", "--out", "r"});
+  const Outcome outcome = verify(where, {"--array", "tool.toml", "--stations", "stand.csv", "--out", "r"});
   EXPECT_TRUE(outcome.code == 0 || outcome.code == 6) << outcome.err;
   return report_in(where / "r");
 }
@@ -170,7 +170,7 @@ TEST(VerifyCommand, TheScarcestRowDecidesAndSecondsAreNotInvented) {
   EXPECT_EQ(verified_means(where)["subject"]["samples_per_row"], 50);
   write_text(where / "limits.toml", "[limits]\ndetect_within = \"1 h\"\n");
   const Outcome outcome =
-      verify(where, {"--array", "tool.toml", "--positions", "stand.csv", "--limits", "limits.toml", "--out", "r"});
+      verify(where, {"--array", "tool.toml", "--stations", "stand.csv", "--limits", "limits.toml", "--out", "r"});
   EXPECT_EQ(outcome.code, 6);
   EXPECT_NE(outcome.out.find("not in seconds"), std::string::npos) << outcome.out;
 }
@@ -182,7 +182,7 @@ TEST(VerifyCommand, TheStepsOfTheMonitorAreTimedOnThisHost) {
   EXPECT_LE(step["p999_ns"], step["high_water_ns"]);
   EXPECT_FALSE(paper_report()["run"]["machine"].get<std::string>().empty());
   const std::string page = read_text(verified_paper_tool() / "report" / "report.html");
-  EXPECT_TRUE(says(page, {"<p id=\"run\">", "high-water mark", "no worst-case time"}));
+  EXPECT_TRUE(says(page, {"<p id=\"run\">", "measured maximum", "not a worst-case time"}));
 }
 
 TEST(VerifyCommand, ComparesWithAnEarlierReport) {
@@ -210,12 +210,13 @@ TEST(VerifyCommand, WrongUseIsAnsweredWithWhatAndHow) {
   };
   answered({}, 2, {"--array", "Try: plumb verify --help"});
   answered({"--array", "none.toml"}, 3, {"none.toml"});
-  answered({"--array", "tool.toml", "--calibration", "a", "--positions", "b"}, 2, {"--positions", "Remedy"});
+  answered({"--array", "tool.toml", "--calibration", "a", "--stations", "b"}, 2, {"--stations", "Remedy"});
   answered({"--array", "tool.toml", "--limits", "none.toml"}, 3, {"none.toml"});
-  answered({"--array", "tool.toml", "--compare", "tool.toml"}, 3, {"tool.toml", "is no report", "report.json"});
+  answered({"--array", "tool.toml", "--compare", "tool.toml"}, 3,
+           {"tool.toml", "is not a report of plumb verify", "report.json"});
   answered({"--array", "tool.toml", "--test-results", "tool.toml"}, 3, {"tool.toml", "not XML", "--output-junit"});
   answered({"--array", "tool.toml", "--assurance", "tool.toml"}, 3, {"scripts/assure"});
-  answered({"--array", "tool.toml", "--out", "-"}, 2, {"--out", "is no directory"});
+  answered({"--array", "tool.toml", "--out", "-"}, 2, {"--out", "must name a directory"});
   answered({"--array", "tool.toml", "--out", "tool.toml"}, 1, {"tool.toml", "--out", "Remedy"});
   answered({"--array", "tool.toml", "--limit", "x"}, 2, {"--limits"});
   EXPECT_EQ(run(where, {"verify", "--array", "tool.toml", "--scenarios", "0"}).code, 2);
@@ -242,7 +243,7 @@ TEST(VerifyCommand, ARefusedCalibrationFlattersNothing) {
   Directory where;
   with_tool(where);
   write_text(where / "few.csv", "t_s,station,a1,a2,a3,a4\n0.0,1,0.5,0.5,0.5,-0.5\n0.01,1,0.5,0.5,0.5,-0.5\n");
-  const Outcome outcome = verify(where, {"--array", "tool.toml", "--positions", "few.csv", "--out", "r"});
+  const Outcome outcome = verify(where, {"--array", "tool.toml", "--stations", "few.csv", "--out", "r"});
   EXPECT_EQ(outcome.code, 6);
   EXPECT_TRUE(says(outcome.err, {"the calibration was refused"}));
   EXPECT_EQ(outcome.err.find("gnuplot"), std::string::npos) << outcome.err;
@@ -255,7 +256,7 @@ TEST(VerifyCommand, ARefusedCalibrationFlattersNothing) {
   ASSERT_NE(level, criteria.end());
   EXPECT_EQ((*level)["result"], "open");
   const std::string html = read_text(where / "r" / "report.html");
-  EXPECT_NE(html.find("take axes, scales and biases of the array file for exact"), std::string::npos);
+  EXPECT_NE(html.find("treat axes, scales and biases of the array file as exact"), std::string::npos);
   EXPECT_EQ(html.find("There is no picture"), std::string::npos);
 }
 
@@ -308,7 +309,8 @@ TEST(VerifyCommand, ALongerCampaignIsTakenIn) {
   };
   refused({"--array", "tool.toml", "--reuse", "faults.json", "--seed", "2", "--out", "t"},
           {"faults.json", "another campaign"});
-  refused({"--array", "tool.toml", "--reuse", "tool.toml", "--out", "t"}, {"tool.toml", "no result of a campaign"});
+  refused({"--array", "tool.toml", "--reuse", "tool.toml", "--out", "t"},
+          {"tool.toml", "is not the result of a campaign"});
 }
 
 TEST(VerifyCommand, TheStaticAnalysisBecomesSarifAndTheTargetIsTold) {
@@ -334,7 +336,7 @@ TEST(VerifyCommand, TableTwoIsPlayedWithThePapersTetrahedronAlone) {
   const Json& table = paper_report()["campaign"]["table2"];
   ASSERT_EQ(table["given"], true);
   EXPECT_EQ(table["as_printed"], 23);
-  for (const Json& row : table["rows"]) EXPECT_EQ(row["monitor_named_a_healthy_one"], false) << row;
+  for (const Json& row : table["rows"]) EXPECT_EQ(row["monitor_suspected_a_healthy_one"], false) << row;
   Directory where;
   with_tool(where, read_text(PLUMB_SOURCE_DIR "/examples/cone5.toml"));
   ASSERT_EQ(verify(where, {"--array", "tool.toml", "--out", "r"}).code, 6);

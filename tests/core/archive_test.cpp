@@ -1,4 +1,4 @@
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "plumb/detection/block_tests.hpp"
+#include "plumb/detection/detail/block_tests.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "array/array_test_support.hpp"
+#include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/mae_test.hpp"
 #include "support/simulated_tool.hpp"
 

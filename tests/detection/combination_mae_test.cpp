@@ -181,12 +181,9 @@ TEST(CombinationMae, FewerTriplesThanLanesAreLeftAsTheyAre) {
   std::array<std::int64_t, kTripleCapacity> sums{};
   slots.fill(5);
   sums.fill(5);
-  EXPECT_EQ(replace_twos(array, y.data(), kG0_mps2, slots.data(), sums.data(), 4, 3), 3);
-#if PLUMB_WIDE_LANES
-  if (most_lanes() >= Lanes::four) {
-    EXPECT_EQ(replace_fours(array, y.data(), kG0_mps2, slots.data(), sums.data(), 4, 1), 1);
+  for (const Lanes lanes : lanes_here()) {
+    EXPECT_EQ(replace_side_by_side(array, y.data(), kG0_mps2, slots.data(), sums.data(), {3, 4}, lanes), 3);
   }
-#endif
   for (const std::int32_t slot : slots) EXPECT_EQ(slot, 5);
   for (const std::int64_t sum : sums) EXPECT_EQ(sum, 5);
 }

@@ -27,7 +27,7 @@ TEST(IsolationDamage, WithAnyByteLostASoundBlockIsolatesNobody) {
   const BlockTests tests(array, gravity, limits, block);
   Isolation sound;
   sound.pose(array, array.all());
-  ASSERT_GE(sound.strict_grade(), 1);
+  ASSERT_GE(sound.confirmed_grade(), 1);
   const int all = sound.live();
   ASSERT_GT(all, 0);
   for (std::size_t byte = 0; byte < sizeof(Isolation); ++byte) {
@@ -71,8 +71,8 @@ TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreIsolatedThanTheGradeSays) {
     unsigned char* const at = reinterpret_cast<unsigned char*>(&damaged) + byte;
     if (*at <= 1) continue;
     *at = 1;
-    lowered += damaged.strict_grade() < sound.strict_grade() ? 1 : 0;
-    const int grade = damaged.strict_grade();
+    lowered += damaged.confirmed_grade() < sound.confirmed_grade() ? 1 : 0;
+    const int grade = damaged.confirmed_grade();
     EXPECT_LE(most_isolated(damaged), grade) << byte;
   }
   EXPECT_GT(lowered, 0);

@@ -15,7 +15,7 @@ constexpr double kSigma = 2e-4 * kG0_mps2;
 /// One sensor is far off, another by a little more and more: those that agree in fours need not agree in fives, and
 /// where they do not, nobody is set aside.
 // Negative: REQ-070
-TEST(IsolationDoubt, WhoAgreesInPartsButNotTogetherAccusesNobody) {
+TEST(IsolationDoubt, SensorsThatAgreeInPartsButNotTogetherSuspectNoSensor) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const GravityReference gravity{kG0_mps2, 1e-4, GravityModel::value};
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
@@ -42,7 +42,7 @@ TEST(IsolationDoubt, WhoAgreesInPartsButNotTogetherAccusesNobody) {
 /// A sensor so quiet that the others hardly check it, off by so much that they deny what it makes of the length, though
 /// all agree within their limit: none of the healthy ones pays for it.
 // Negative: REQ-070
-TEST(IsolationDoubt, WhoIsHardlyCheckedConvictsNobodyElse) {
+TEST(IsolationDoubt, AWeaklyCheckedSensorIsolatesNoOther) {
   SensorArray array = plumb_test::cone_array(5, kSigma);
   std::array<SensorRow, 5> rows{};
   for (int i = 0; i < 5; ++i) rows[static_cast<std::size_t>(i)] = array.row(i);

@@ -81,11 +81,11 @@ struct Asked {
 void expect_kept_to_grades(const Isolation& isolation, const IsolationAnswer& answer) {
   const SensorSet posed = isolation.posed();
   ASSERT_TRUE(posed.contains(answer.strict | answer.parity));
-  ASSERT_LE(answer.strict.size(), isolation.strict_grade());
-  ASSERT_LE(answer.parity.size(), isolation.parity_grade());
+  ASSERT_LE(answer.strict.size(), isolation.confirmed_grade());
+  ASSERT_LE(answer.parity.size(), isolation.provisional_grade());
   ASSERT_GE(answer.live, 0);
   ASSERT_LE(answer.live, answer.voting);
-  ASSERT_FALSE(answer.contradiction && !answer.strict.empty());
+  ASSERT_FALSE(answer.no_consistent_hypothesis && !answer.strict.empty());
 }
 
 void run(const SensorArray& array, std::uint64_t seed, int rounds) {

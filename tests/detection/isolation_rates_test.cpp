@@ -119,7 +119,7 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
 /// One fault in a tool of five to eight, and a reference that is off by far more than its sigma: by a constant
 /// (gravity), or by something else at every station (steady acceleration).
 // Verifies: REQ-061
-TEST(ReferenceDoubt, OneFaultAndAWrongReferenceBlameNobodyHealthy) {
+TEST(ReferenceDoubt, OneFaultAndAWrongGravityExcludeNoHealthySensor) {
   for (int n = 5; n <= kCapacity; ++n) {
     const TrialTool tool = exact_tool(n);
     for (const bool steady : {true, false}) {

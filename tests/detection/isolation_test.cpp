@@ -44,17 +44,17 @@ struct Case {
 // Verifies: REQ-006
 TEST(Isolation, GradesOfNamedArrays) {
   Case tetra(plumb_test::tetrahedron(), 1);
-  EXPECT_EQ(tetra.isolation.strict_grade(), 1);
-  EXPECT_EQ(tetra.isolation.parity_grade(), 0);
+  EXPECT_EQ(tetra.isolation.confirmed_grade(), 1);
+  EXPECT_EQ(tetra.isolation.provisional_grade(), 0);
   EXPECT_EQ(tetra.isolation.voting(), 4);
   Case cone(plumb_test::cone_array(7), 1);
-  EXPECT_EQ(cone.isolation.strict_grade(), 4);
-  EXPECT_EQ(cone.isolation.parity_grade(), 3);
+  EXPECT_EQ(cone.isolation.confirmed_grade(), 4);
+  EXPECT_EQ(cone.isolation.provisional_grade(), 3);
   EXPECT_EQ(cone.isolation.voting(), 35);
 }
 
 // Verifies: REQ-072
-TEST(Isolation, OneStationConvictsTheFaultOfAFiveSensorConeByParityAlone) {
+TEST(Isolation, OneStationIsolatesTheFaultOfAFiveSensorConeByParityAlone) {
   Case c(plumb_test::cone_array(5, kSigma), 7);
   std::array<double, kCapacity> fault{};
   fault[3] = 0.5;
@@ -64,7 +64,7 @@ TEST(Isolation, OneStationConvictsTheFaultOfAFiveSensorConeByParityAlone) {
 }
 
 // Negative: REQ-070
-TEST(Isolation, MirrorAtEveryStationNeverConvictsTheInnocentAtTheStrictGrade) {
+TEST(Isolation, AMirrorAtEveryStationNeverIsolatesAHealthySensorAtTheConfirmedGrade) {
   Case c(plumb_test::tetrahedron(kSigma), 11);
   const Mat3 map = triple_map(c.array, c.array.triple_index(0, 1, 3));
   const Vec3 w = {map[0], map[3], map[6]};
@@ -95,7 +95,7 @@ TEST(Isolation, MoreStationsAtOneAttitudeDoNotResolveAnotherAttitudeDoes) {
 }
 
 // Verifies: REQ-061
-TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
+TEST(Isolation, AWrongGravityVoidsTheNormAndIsolatesNoSensor) {
   for (int n = 5; n <= kCapacity; ++n) {
     Case c(plumb_test::cone_array(n, kSigma), 17);
     const GravityReference wrong{kG0_mps2 * 1.01, 1e-4, GravityModel::value};
@@ -106,7 +106,7 @@ TEST(Isolation, AWrongGravityVoidsTheNormAndConvictsNobody) {
       EXPECT_TRUE(answer.norm_void);
       EXPECT_TRUE(answer.strict.empty());
       EXPECT_TRUE(answer.parity.empty());
-      EXPECT_FALSE(answer.contradiction);
+      EXPECT_FALSE(answer.no_consistent_hypothesis);
     }
   }
 }
@@ -147,7 +147,7 @@ TEST(Isolation, AnAccelerationThatTheOthersShowTooIsNoFaultOfAWeaklyCheckedMembe
 /// One sensor is set aside, and the next fault is among those that are left: the level covers it as it does once the
 /// first is latched out.
 // Negative: REQ-121
-TEST(Isolation, TheNextFaultBehindASetAsideSensorIsWithinTheProtectionLevel) {
+TEST(Isolation, TheNextFaultAfterAProvisionalExclusionIsWithinTheProtectionLevel) {
   int judged = 0;
   for (int n = 5; n <= std::min(7, kCapacity); ++n) {
     Case c(plumb_test::cone_array(n), 31);
@@ -216,7 +216,7 @@ TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
   for (std::size_t i = 0; i < 5; ++i) axes[i] = scaled(raw[i], 1.0 / norm(raw[i]));
   Case c(plumb_test::make_array(axes, 5, kSigma), 19);
   EXPECT_EQ(c.isolation.coplanarity(), 3);
-  EXPECT_EQ(c.isolation.strict_grade(), 1);
+  EXPECT_EQ(c.isolation.confirmed_grade(), 1);
   std::array<double, kCapacity> fault{};
   fault[1] = 0.1;
   const Vec3 u = plumb_test::direction_at(50, 290);
@@ -236,13 +236,13 @@ TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
 /// T5: with at most m_strict faulty sensors, whatever they read, no healthy one is convicted, at any
 /// station of the episode; gravity error within three sigmas included.
 // Verifies: REQ-070, REQ-074
-RC_GTEST_PROP(IsolationLaw, NeverConvictsASensorHealthyThroughout, ()) {
+RC_GTEST_PROP(IsolationLaw, NeverIsolatesASensorHealthyThroughout, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const bool axial = *rc::gen::arbitrary<bool>();
   AxisList axes{};
   const int made = axial ? cone_with_axis(axes, n) : cone(axes, n);
   Case c(plumb_test::make_array(axes, made, kSigma), *rc::gen::arbitrary<std::uint64_t>());
-  const int m = *rc::gen::inRange(1, c.isolation.strict_grade() + 1);
+  const int m = *rc::gen::inRange(1, c.isolation.confirmed_grade() + 1);
   SensorSet faulty;
   while (faulty.size() < m) faulty = faulty.with(static_cast<int>(c.noise.uniform() * n));
   const int kind = *rc::gen::inRange(0, 4);
@@ -263,8 +263,8 @@ RC_GTEST_PROP(IsolationLaw, NeverConvictsASensorHealthyThroughout, ()) {
     }
     const auto answer = c.isolation.vote({c.array, kGravity, c.limits, c.block(u, fault)});
     RC_ASSERT(faulty.contains(answer.strict));
-    // The parity grade is lower: it promises nothing beyond its own m.
-    if (m <= c.isolation.parity_grade()) RC_ASSERT(faulty.contains(answer.parity));
+    // The provisional grade is lower: it promises nothing beyond its own m.
+    if (m <= c.isolation.provisional_grade()) RC_ASSERT(faulty.contains(answer.parity));
   }
 }
 
@@ -294,8 +294,8 @@ TEST(Isolation, ScanNamesTheFewestFaults) {
   EXPECT_EQ(scan.least, 1);
   EXPECT_EQ(scan.suspects, SensorSet::of(2));
   EXPECT_EQ(scan.asserted, SensorSet::of(2));
-  EXPECT_GT(scan.fewest_faults[2], 1);
-  for (int i : {0, 1, 3, 4, 5}) EXPECT_EQ(scan.fewest_faults[static_cast<std::size_t>(i)], 1);
+  EXPECT_GT(scan.minimum_faults[2], 1);
+  for (int i : {0, 1, 3, 4, 5}) EXPECT_EQ(scan.minimum_faults[static_cast<std::size_t>(i)], 1);
   ASSERT_TRUE(scan.protection_available);
   // The level covers the true tilt error of the estimate that still holds the faulty sensor.
   const SetTest used = test_set(c.array, kGravity, c.limits, block, c.array.all());

@@ -72,7 +72,7 @@ TEST(MirrorAttitudes, TriplesPassWhereTheProofSaysAndNowhereElse) {
   }
 }
 
-TEST(MirrorAttitudes, ParitySeesEveryOneAndNobodyIsBlamedThere) {
+TEST(MirrorAttitudes, ParityDetectsEveryOneAndIsolatesNoSensorThere) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
   for (const Point& point : kPoints) {
@@ -101,7 +101,7 @@ TEST(MirrorAttitudes, AFaultThatMovesDefeatsTheStrictRuleAsProved) {
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
   Isolation isolation;
   isolation.pose(array, array.all());
-  ASSERT_EQ(isolation.strict_grade(), 1);
+  ASSERT_EQ(isolation.confirmed_grade(), 1);
 
   const std::array<Vec3, 2> gravity = {{{-4, -2, 1}, {3, -5, 5}}};
   const std::array<double, 2> fault = {702.0 / 73, 806.0 / 83};  // on a1, then on a2, in the units of `raw`

@@ -1,7 +1,10 @@
 // Which sets may doubt gravity, and for how many of them there is room.
-#include "plumb/detection/reference_doubt.hpp"
+#include "plumb/detection/detail/reference_doubt.hpp"
 
 #include <gtest/gtest.h>
+
+#include "detection/still_block.hpp"
+#include "support/simulated_tool.hpp"
 
 // Serves: REQ-061
 
@@ -55,6 +58,27 @@ TEST(ReferenceClaims, AreRefutedWhereNoOneGravityExplainsThem) {
   EXPECT_FALSE(claims.refuted(told));
   claims.hear(told, 1.25, 0.25);
   EXPECT_FALSE(claims.refuted(told));
+}
+
+/// Gravity is off upward at one block and downward at the next: no one gravity explains both. That counts once the
+/// second has been heard, and not while it is only held against the record.
+// Verifies: REQ-061
+TEST(ReferenceClaims, AreHeardAtAVoteAndOnlyRecalledAtOtherQuestions) {
+  const SensorArray array = plumb_test::cone_array(6, 2e-4 * kG0_mps2);
+  const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
+  const BlockEvidence block = plumb_test::block_at(array, plumb_test::direction_at(60, 30));
+  const GravityReference low{0.99 * kG0_mps2, 1e-4, GravityModel::value};
+  const GravityReference high{1.01 * kG0_mps2, 1e-4, GravityModel::value};
+  const BlockTests above(array, low, limits, block), below(array, high, limits, block);
+  const ReferencePanel panel = {array.all(), array.all(), array.size(), coplanarity(array, array.all())};
+  const int told = static_cast<int>(kTold.bits);
+  ReferenceClaims record;
+  EXPECT_TRUE(hear_doubt(above, panel, record).excuses(array.all()));
+  EXPECT_FALSE(record.refuted(told));
+  EXPECT_TRUE(recall_doubt(below, panel, record).excuses(array.all()));
+  EXPECT_FALSE(record.refuted(told));
+  EXPECT_TRUE(hear_doubt(below, panel, record).excuses(array.all()));
+  EXPECT_TRUE(record.refuted(told));
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST(RequirementLeastFault, IsHardlyEverMissedAtAnyAttitude) { EXPECT_LE(missed(
 TEST(RequirementLeastFault, HalfOfItIsMissedOften) { EXPECT_GT(missed(0.5), 12000); }
 
 // Verifies: REQ-070
-TEST(RequirementConviction, SetsThatCouldNotBeTestedStayAlive) {
+TEST(RequirementConviction, SetsThatCouldNotBeTestedStayConsistent) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
@@ -117,7 +117,7 @@ TEST(RequirementConviction, SetsThatCouldNotBeTestedStayAlive) {
 }
 
 // Verifies: REQ-077
-TEST(RequirementContradiction, WhenNothingIsAliveItSaysSoAndConvictsNobody) {
+TEST(RequirementContradiction, WithoutAConsistentHypothesisItReportsSoAndExcludesNoSensor) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
@@ -130,10 +130,10 @@ TEST(RequirementContradiction, WhenNothingIsAliveItSaysSoAndConvictsNobody) {
     block.mean_mps2[0] = 20.0 * (noise.uniform() - 0.5);
     block.mean_mps2[1] = 20.0 * (noise.uniform() - 0.5);
     answer = isolation.vote({array, gravity, limits, block});
-    EXPECT_EQ(answer.contradiction, answer.live == 0);
+    EXPECT_EQ(answer.no_consistent_hypothesis, answer.live == 0);
     EXPECT_TRUE(answer.strict.empty() && answer.parity.empty());
   }
-  EXPECT_TRUE(answer.contradiction);
+  EXPECT_TRUE(answer.no_consistent_hypothesis);
 }
 
 // Negative: REQ-075

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plumb/detection/alarm_form.hpp"
+#include "plumb/detection/estimate_error.hpp"
 #include "plumb/numeric/tails.hpp"
 #include "support/simulated_tool.hpp"
 
@@ -108,7 +109,7 @@ TEST(SetTest, APerfectlyKnownArrayIsTestedAsWithZerosWrittenOut) {
 
 /// docs/theory.md, section 3.5: an error of the gravity reference within three of its sigmas kills nothing.
 // Verifies: REQ-022
-RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {
+RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundRejectsNoSet, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   const SensorArray array = plumb_test::cone_array(n);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
@@ -125,7 +126,7 @@ RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundKillsNoSet, ()) {
 
 /// ... and an error of the calibration within k_c of its covariance kills nothing either.
 // Verifies: REQ-056
-RC_GTEST_PROP(SetTestLaw, CalibrationErrorWithinItsBoundKillsNoSet, ()) {
+RC_GTEST_PROP(SetTestLaw, CalibrationErrorWithinItsBoundRejectsNoSet, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   SensorArray array = plumb_test::cone_array(n);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());

@@ -42,7 +42,7 @@ TEST(Stationarity, QuietIsQuiet) {
   for (int k = 0; k < 2000; ++k) {
     const BlockJudgement j = judge_block(array, fill(array, noise, {0, 0, 0}), array.all(), factor, kG0_mps2);
     EXPECT_TRUE(j.quiet);
-    EXPECT_TRUE(j.restless.empty());
+    EXPECT_TRUE(j.scattering.empty());
   }
 }
 
@@ -162,7 +162,7 @@ TEST(Stationarity, AnExcludedChannelCannotStopTheEvidence) {
   const BlockJudgement j =
       judge_block(array, fill(array, noise, {0, 0, 0}, 2, 50.0), array.all().without(2), factor, kG0_mps2);
   EXPECT_TRUE(j.quiet);
-  EXPECT_TRUE(j.restless.empty());
+  EXPECT_TRUE(j.scattering.empty());
 }
 
 // Negative: REQ-058

@@ -41,7 +41,7 @@ TEST(ThresholdsOf, TheTetrahedronHasTheNotesFigures) {
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_NEAR(t.sensor[i].detectable_mps2 / kMilli, row.bias_mg, 0.02 * row.bias_mg);
       EXPECT_NEAR(t.sensor[i].gain, 0.75, 1e-12);
-      EXPECT_TRUE(std::isinf(t.sensor[i].set_aside_mps2)) << "parity of four accuses nobody";
+      EXPECT_TRUE(std::isinf(t.sensor[i].provisional_exclusion_mps2)) << "parity of four accuses nobody";
     }
     EXPECT_NEAR(deg_from_rad(t.protection_rad), row.level_deg, 0.02 * row.level_deg);
   }
@@ -81,8 +81,9 @@ TEST(ThresholdsOf, DriftIsInThemAsTheLimitsHaveIt) {
     EXPECT_DOUBLE_EQ(budget.systematic_mps2[i], settings.tolerance_mps2[i]);
     // Drift may hide the fault, and the limit is wider by the same: twice the tolerance of its own sensor at least.
     EXPECT_GT(drifted.sensor[i].detectable_mps2, still.sensor[i].detectable_mps2 + 2.0 * settings.tolerance_mps2[i]);
-    EXPECT_GT(drifted.sensor[i].set_aside_mps2, still.sensor[i].set_aside_mps2 + 2.0 * settings.tolerance_mps2[i]);
-    EXPECT_GT(drifted.sensor[i].sure_detection_mps2, still.sensor[i].sure_detection_mps2);
+    EXPECT_GT(drifted.sensor[i].provisional_exclusion_mps2,
+              still.sensor[i].provisional_exclusion_mps2 + 2.0 * settings.tolerance_mps2[i]);
+    EXPECT_GT(drifted.sensor[i].guaranteed_detection_mps2, still.sensor[i].guaranteed_detection_mps2);
     turned += drifted.sensor[i].gain * settings.tolerance_mps2[i];
   }
   EXPECT_GT(drifted.protection_rad, still.protection_rad + turned / kG0_mps2);
@@ -94,7 +95,7 @@ TEST(ThresholdsOf, WithoutRedundancyNothingIsPromised) {
   const Thresholds t = thresholds_of(make_array(axes, orthogonal_triad(axes), kMilli), kGravity, TestSettings{});
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(std::isinf(t.sensor[i].detectable_mps2));
-    EXPECT_TRUE(std::isinf(t.sensor[i].sure_detection_mps2));
+    EXPECT_TRUE(std::isinf(t.sensor[i].guaranteed_detection_mps2));
   }
   EXPECT_EQ(t.protection_rad, kPi);
   EXPECT_EQ(thresholds_of(SensorArray(), kGravity, TestSettings{}).sensor[0].gain, 0.0);
@@ -109,8 +110,8 @@ TEST(ThresholdsOf, CalibrationErrorsWidenEveryOne) {
   const Thresholds t = thresholds_of(array, kGravity, TestSettings{});
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_GT(t.sensor[i].detectable_mps2, 1.5 * ideal.sensor[i].detectable_mps2);
-    EXPECT_GT(t.sensor[i].set_aside_mps2, 1.5 * ideal.sensor[i].set_aside_mps2);
-    EXPECT_GT(t.sensor[i].sure_detection_mps2, 1.5 * ideal.sensor[i].sure_detection_mps2);
+    EXPECT_GT(t.sensor[i].provisional_exclusion_mps2, 1.5 * ideal.sensor[i].provisional_exclusion_mps2);
+    EXPECT_GT(t.sensor[i].guaranteed_detection_mps2, 1.5 * ideal.sensor[i].guaranteed_detection_mps2);
   }
   EXPECT_GT(t.protection_rad, 1.5 * ideal.protection_rad);
 }
@@ -155,17 +156,17 @@ TEST(DetectableBias, IsMissedOnceInAThousandOnEveryGeometry) {
   }
 }
 
-/// The parity grade sets a fault of that size aside with its first block; three quarters of it is not enough
+/// The provisional grade sets a fault of that size aside with its first block; three quarters of it is not enough
 /// everywhere.
-TEST(SetAsideBias, IsConvictedByTheVoteOnEveryGeometry) {
+TEST(SetAsideBias, IsIsolatedByTheVoteOnEveryGeometry) {
   Noise noise(6);
   for (const SensorArray& array : sample_arrays(2e-4 * kG0_mps2)) {
     const Thresholds t = thresholds_of(array, kExact, TestSettings{});
     const TestLimits limits = TestLimits::from_rates(array.size(), 1e-5, 1e-6);
     Isolation isolation;
     isolation.pose(array, array.all());
-    if (isolation.parity_grade() < 1) {
-      EXPECT_TRUE(std::isinf(t.sensor[0].set_aside_mps2));
+    if (isolation.provisional_grade() < 1) {
+      EXPECT_TRUE(std::isinf(t.sensor[0].provisional_exclusion_mps2));
       continue;
     }
     int missed = 0, wrong = 0;
@@ -174,7 +175,7 @@ TEST(SetAsideBias, IsConvictedByTheVoteOnEveryGeometry) {
       const int i = k % array.size();
       const Vec3 down = random_direction(noise);
       BlockEvidence block = noisy_block(array, down, noise, 32.0);
-      block.mean_mps2[static_cast<std::size_t>(i)] += t.sensor[static_cast<std::size_t>(i)].set_aside_mps2;
+      block.mean_mps2[static_cast<std::size_t>(i)] += t.sensor[static_cast<std::size_t>(i)].provisional_exclusion_mps2;
       isolation.clear();
       isolation.pose(array, array.all());
       const SensorSet convicted = isolation.vote({array, kExact, limits, block}).parity;
@@ -213,7 +214,7 @@ TEST(ProtectionLevel, BoundsTheTiltWhileNothingAlarms) {
 
 /// T7 in force: whatever the noise below k_e sigmas and the other faulty sensors do, at any attitude.
 // Verifies: REQ-016
-RC_GTEST_PROP(SureFaultLaw, IsDetectedAndAccusedByEveryExplanation, ()) {
+RC_GTEST_PROP(SureFaultLaw, IsDetectedAndFaultyInEveryConsistentHypothesis, ()) {
   const SensorArray array = drawn_array();
   const int n = array.size();
   const int c = coplanarity(array, array.all());

@@ -189,7 +189,7 @@ TEST(FprimeComponent, tellsAFailureOnceAndSendsNoVectorWhileItDoubts) {
     component->sampleIn(body.next());
   }
   ASSERT_EQ(component->events.size(), 3U);
-  EXPECT_EQ(component->events[0], "healthy nominal clean");
+  EXPECT_EQ(component->events[0], "healthy nominal passed_block");
   EXPECT_EQ(component->events[1], "doubt suspect parity");
   EXPECT_EQ(component->events[2], "lost degraded isolated_fault 2");
   EXPECT_GT(vectors_at_30, 40U);

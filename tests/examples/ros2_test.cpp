@@ -165,7 +165,7 @@ TEST(Ros2Status, aValidVectorOfFewerSensorsWarnsAndNamesTheOneThatIsOut) {
   v.sensor_cause[1] = plumb::Cause::isolated_fault;
   const Status status = status_of(v);
   EXPECT_EQ(status.level, static_cast<unsigned char>(Status::WARN));
-  EXPECT_EQ(status.message, "isolated: clean");
+  EXPECT_EQ(status.message, "isolated: passed_block");
   ASSERT_EQ(status.values.size(), 4U);
   EXPECT_EQ(status.values.back().key, "a2");
   EXPECT_EQ(status.values.back().value, "isolated_fault");

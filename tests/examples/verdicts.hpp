@@ -28,7 +28,7 @@ inline plumb::Verdict good() {
   v.age_s = 0.0;
   v.state = plumb::HealthState::nominal;
   v.validity = plumb::Validity::valid;
-  v.cause = plumb::Cause::clean;
+  v.cause = plumb::Cause::passed_block;
   v.tick = true;
   v.configured = v.in_service = plumb::SensorSet::first(4);
   v.gravity_mps2 = {0.1, -0.2, 9.8};

@@ -2,6 +2,7 @@
 // of the limits of the length, of the protection level and of the alert; where none is stated, every verdict says so.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include "plumb/detection/estimate_error.hpp"
 
 #include <cmath>
 
@@ -126,7 +127,8 @@ RC_GTEST_PROP(AccelerationBoundLaw, EverySteadyAccelerationWithinItIsCovered, ()
     RC_ASSERT((v.qualifiers & Qualifier::standstill_assumed) == 0);
     RC_ASSERT(v.margin >= 0.0);
     RC_ASSERT(v.state != HealthState::failed);
-    RC_ASSERT(v.reference.kind != ReferenceKind::common_scale && v.reference.kind != ReferenceKind::common_bias);
+    RC_ASSERT(v.norm_mismatch.kind != NormMismatchKind::common_scale &&
+              v.norm_mismatch.kind != NormMismatchKind::common_bias);
     if (!bounded(v)) continue;
     ++told;
     RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_rad);
@@ -148,7 +150,7 @@ TEST(AccelerationBound, AlongGravityALittleMoreThanStatedIsReference) {
     const Vec3 u = direction_at(40, 200);
     const Verdict& v = pushed(rig, u, scaled(u, share * kThirtyMg_mps2), 3);
     EXPECT_EQ(v.validity, share < 1.0 ? Validity::valid : Validity::unconfirmed) << share;
-    EXPECT_EQ(v.cause, share < 1.0 ? Cause::clean : Cause::reference) << share;
+    EXPECT_EQ(v.cause, share < 1.0 ? Cause::passed_block : Cause::norm_mismatch) << share;
     EXPECT_TRUE(rig.ever_blamed.empty());
   }
 }
@@ -168,8 +170,8 @@ TEST(AccelerationBound, WhatTheLengthMeansIsToldBeyondItAlone) {
         const Vec3 u = random_direction(noise);
         pushed(rig, u, plus(scaled(u, 0.02 * kG0_mps2), scaled(random_direction(noise), 5e-3 * kG0_mps2)));
       }
-      const ReferenceFinding& found = rig.monitor.verdict().reference;
-      EXPECT_EQ(found.kind, alert_deg > 1.0 ? ReferenceKind::common_scale : ReferenceKind::undecided);
+      const NormMismatch& found = rig.monitor.verdict().norm_mismatch;
+      EXPECT_EQ(found.kind, alert_deg > 1.0 ? NormMismatchKind::common_scale : NormMismatchKind::undecided);
       EXPECT_NEAR(found.length_mps2, 0.02 * kG0_mps2, 5e-3 * kG0_mps2);
       EXPECT_GT(found.turn_rad, std::asin(5e-3));
       EXPECT_TRUE(rig.ever_blamed.empty());
@@ -180,7 +182,7 @@ TEST(AccelerationBound, WhatTheLengthMeansIsToldBeyondItAlone) {
 /// From one block to the next the length may change by twice the bound, and a healthy set must not be refuted by that
 /// where another sensor is at fault and the norm decides.
 // Verifies: REQ-129
-TEST(AccelerationBound, AccelerationsThatChangeBlameNobodyHealthyBesideAFault) {
+TEST(AccelerationBound, AccelerationsThatChangeExcludeNoHealthySensorBesideAFault) {
   int told = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const int n = 4 + static_cast<int>(seed % 4);

@@ -72,7 +72,8 @@ inline FlipResult play_flip(plumb::HealthMonitor& hurt, const Predicament& at) {
     const int step = static_cast<int>(k) + 1;
     if (v.cause == plumb::Cause::memory && v.state == HealthState::failed && v.validity == plumb::Validity::invalid)
       return {step <= kFlipSteps ? FlipOutcome::reported : FlipOutcome::late, step};
-    const plumb::SensorSet blamed = (v.excluded | v.set_aside) - (w.excluded | w.set_aside | w.absent | truth.faulty);
+    const plumb::SensorSet blamed =
+        (v.excluded | v.provisionally_excluded) - (w.excluded | w.provisionally_excluded | w.absent | truth.faulty);
     if (!blamed.empty()) return {FlipOutcome::wrong_exclusion, step};
     const double alert_limit_rad = plumb::MonitorConfig{}.alert_limit_rad;
     if (is_beyond_bound(v, truth, alert_limit_rad) && !is_beyond_bound(w, truth, alert_limit_rad))
@@ -80,7 +81,7 @@ inline FlipResult play_flip(plumb::HealthMonitor& hurt, const Predicament& at) {
     same = same && v.state == w.state && v.validity == w.validity && v.in_service == w.in_service &&
            v.gravity_mps2 == w.gravity_mps2 && v.statistic == w.statistic && v.qualifiers == w.qualifiers;
     const bool less_trusted = (v.state == HealthState::failed && w.state != HealthState::failed) ||
-                              ((v.qualifiers & ~w.qualifiers) & Qualifier::unproven) != 0;
+                              ((v.qualifiers & ~w.qualifiers) & Qualifier::not_yet_validated) != 0;
     distrusted = distrusted || (step <= kFlipSteps && less_trusted);
   }
   return {distrusted ? FlipOutcome::distrusted : same ? FlipOutcome::same : FlipOutcome::harmless, 0};
@@ -136,7 +137,7 @@ inline Predicament in_state(const std::string& name, int n) {
   const auto visit = [&](int stations) {
     for (int k = 0; k < stations; ++k) rig.stay(here = random_direction(tool->directions), 2);
   };
-  if (name != "unproven") rig.prove();
+  if (name != "not_yet_validated") rig.prove();
   if (name == "suspect" || name == "excluded") {
     broken = 0;
     faulty = plumb::SensorSet::of(0);
@@ -177,7 +178,7 @@ inline Predicament in_state(const std::string& name, int n) {
 
 /// Another life for each: 4 sensors lose their redundancy with an exclusion (degraded), more do not (isolated).
 inline std::vector<std::string> flipped_states() {
-  return {"unproven", "nominal", "suspect", "excluded", "recalibrating", "fitting", "failed", "initial"};
+  return {"not_yet_validated", "nominal", "suspect", "excluded", "recalibrating", "fitting", "failed", "initial"};
 }
 
 /// A monitor that makes its own calibration, some stations into it.

@@ -148,7 +148,7 @@ TEST(BitFlips, AReportIsTheEndUntilTheMonitorIsConfiguredAnew) {
   EXPECT_EQ(v.state, HealthState::failed);
   EXPECT_EQ(v.cause, Cause::memory);
   EXPECT_EQ(v.validity, Validity::invalid);
-  EXPECT_TRUE(v.qualifiers & Qualifier::unproven);
+  EXPECT_TRUE(v.qualifiers & Qualifier::not_yet_validated);
   EXPECT_TRUE(v.alert);
   EXPECT_EQ(v.usable, 0);
   EXPECT_FALSE(v.protection_available);

@@ -30,7 +30,7 @@ bool until_excluded(Rig& rig, SensorSet whom, std::uint64_t seed) {
 TEST(Changes, TheStepThatExcludesSpeaksOfTheSurvivors) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   MonitorConfig config;
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   Rig rig(plumb_test::cone_array(6), config);
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 4.0 : r; };
@@ -43,7 +43,7 @@ TEST(Changes, TheStepThatExcludesSpeaksOfTheSurvivors) {
 }
 
 // Verifies: REQ-101
-TEST(Changes, TheRecordHoldsTheLimitAndAGradeOnlyWhereSomebodyWasConvicted) {
+TEST(Changes, TheRecordHoldsTheLimitAndAGradeOnlyForAnExclusion) {
   if (kCapacity < 5) GTEST_SKIP() << "five sensors";
   Rig rig(plumb_test::cone_array(5));
   rig.prove();
@@ -54,7 +54,7 @@ TEST(Changes, TheRecordHoldsTheLimitAndAGradeOnlyWhereSomebodyWasConvicted) {
   rig.stay(direction_at(20, 40), 8);
   int convicted = 0, others = 0;
   for (const TransitionRecord& record : rig.records) {
-    const bool convicts = record.event == HealthEvent::culprit || record.event == HealthEvent::set_aside;
+    const bool convicts = record.event == HealthEvent::exclusion || record.event == HealthEvent::provisional_exclusion;
     EXPECT_EQ(record.grade != Grade::none, convicts) << to_string(record.event);
     if (record.event == HealthEvent::alarm || convicts) {
       EXPECT_GT(record.limit, 0.0) << to_string(record.event);
@@ -69,10 +69,10 @@ TEST(Changes, TheRecordHoldsTheLimitAndAGradeOnlyWhereSomebodyWasConvicted) {
 
 /// "At most two are faulty": the first that is convicted uses up one of them, and the second is believed as quickly.
 // Verifies: REQ-073
-TEST(Changes, OneConvictedOfTwoAssertedLeavesOneToAssert) {
+TEST(Changes, OneExcludedOfTwoAssumedFaultsLeavesOne) {
   if (kCapacity < 7) GTEST_SKIP() << "seven sensors";
   MonitorConfig config;
-  config.asserted_faults = 2;
+  config.assumed_faults = 2;
   Rig rig(plumb_test::cone_array(7), config);
   rig.prove();
   SensorSet lying;
@@ -82,7 +82,7 @@ TEST(Changes, OneConvictedOfTwoAssertedLeavesOneToAssert) {
     lying = lying.with(next);
     const Vec3 direction = plumb_test::random_direction(noise);
     EXPECT_EQ(rig.stay(direction).excluded, lying);
-    EXPECT_EQ(rig.records.back().grade, Grade::asserted);
+    EXPECT_EQ(rig.records.back().grade, Grade::assumed);
     for (int k = 0; k < 6; ++k) rig.stay(plumb_test::random_direction(noise));
   }
 }
@@ -139,7 +139,7 @@ TEST(Changes, AnOfferedCalibrationIsDroppedWithALostChannel) {
   FAIL() << "the channel was not missed";
 }
 
-/// Both were learnt from all six: what the length being off means, and which way a sensor goes.
+/// Both were learnt from all six: the kind of the norm mismatch, and which way a sensor goes.
 // Verifies: REQ-062
 TEST(Changes, WhatWasLearntOfTheReferenceAndOfADriftEndsWithALostChannel) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
@@ -153,7 +153,7 @@ TEST(Changes, WhatWasLearntOfTheReferenceAndOfADriftEndsWithALostChannel) {
     Noise noise(8);
     const double g_mps2 = drifts ? kG0_mps2 : 1.02 * kG0_mps2;  // farther off than gravity is widened for
     for (int k = 0; k < (drifts ? 120 : 12); ++k) rig.stay(plumb_test::random_direction(noise), 1, g_mps2);
-    const auto attitudes = [&rig] { return rig.monitor.verdict().reference.attitudes; };
+    const auto attitudes = [&rig] { return rig.monitor.verdict().norm_mismatch.attitudes; };
     const auto drift = [&rig] { return rig.monitor.verdict().drift_mps2_per_h[2]; };
     if (drifts) {
       ASSERT_GT(drift(), 0.0F);

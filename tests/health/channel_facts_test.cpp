@@ -55,7 +55,7 @@ TEST(ChannelFacts, TwoSigmasOfNoiseAreToldByTheResidualWithinAFewBlocks) {
 }
 
 // Verifies: REQ-143
-TEST(ChannelFacts, WhereTheOthersCheckOneAnotherANoisyChannelIsSetAsideWithItsReason) {
+TEST(ChannelFacts, WhereTheOthersCheckOneAnotherANoisyChannelIsProvisionallyExcludedWithItsCause) {
   for (const int n : {5, 6, 7}) {
     Rig rig(plumb_test::cone_array(n));
     rig.prove();
@@ -63,13 +63,13 @@ TEST(ChannelFacts, WhereTheOthersCheckOneAnotherANoisyChannelIsSetAsideWithItsRe
     rig.distort = noise_of(1, 6.0, own);
     rig.stay(direction_at(45, 200), 12);
     const Verdict& v = rig.monitor.verdict();
-    EXPECT_EQ(v.set_aside, SensorSet::of(1)) << n;
+    EXPECT_EQ(v.provisionally_excluded, SensorSet::of(1)) << n;
     EXPECT_EQ(v.sensor_cause[1], Cause::noisy);
     EXPECT_EQ(v.validity, n == 5 ? v.validity : Validity::valid);
-    EXPECT_EQ(v.grade, Grade::parity);
+    EXPECT_EQ(v.grade, Grade::provisional);
     bool recorded = false;
     for (const TransitionRecord& r : rig.records)
-      recorded = recorded || (r.event == HealthEvent::set_aside && r.cause == Cause::noisy);
+      recorded = recorded || (r.event == HealthEvent::provisional_exclusion && r.cause == Cause::noisy);
     EXPECT_TRUE(recorded);
     // Calm again, it returns by probation, as any sensor does.
     rig.distort = [](int, double r, int) { return r; };
@@ -82,7 +82,7 @@ TEST(ChannelFacts, WhereTheOthersCheckOneAnotherANoisyChannelIsSetAsideWithItsRe
 
 /// A frozen sensor does not feel the vibration that the healthy ones feel: it must not make one of them look noisy.
 // Negative: REQ-143
-RC_GTEST_PROP(ChannelFactsLaw, AFrozenSensorNeverGetsAHealthyOneSetAsideForItsNoise, ()) {
+RC_GTEST_PROP(ChannelFactsLaw, AFrozenSensorNeverCausesTheProvisionalExclusionOfAHealthyOne, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   Noise noise(seed);
@@ -268,7 +268,7 @@ TEST(ChannelFacts, NoisyAndAtFullScaleIsNamedByFullScale) {
   rig.distort = [](int i, double r, int k) { return i == 2 ? 1.05 * kG0_mps2 - (k % 2) * 0.02 : r; };
   for (int k = 0; k < 8; ++k) rig.stay(direction_at(30 + 15 * k, 50 * k));
   const Verdict& v = rig.monitor.verdict();
-  ASSERT_TRUE((v.excluded | v.set_aside).has(2));
+  ASSERT_TRUE((v.excluded | v.provisionally_excluded).has(2));
   EXPECT_EQ(v.sensor_cause[2], Cause::clipped) << to_string(v.sensor_cause[2]);
 }
 

@@ -1,6 +1,6 @@
 // The decision layer by itself: where every action puts a sensor and whom it names, and what a step remembers. Said
 // sensor by sensor and event by event, without the table's actions.
-#include "plumb/health/decision.hpp"
+#include "plumb/health/detail/decision.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,13 +23,13 @@ bool is_one_of(HealthEvent event, std::initializer_list<HealthEvent> events) {
 enum Place { kServes, kAside, kOut, kSilent };
 
 Place place_of(const SensorLedger& s, int i) {
-  return s.in_service.has(i) ? kServes : s.set_aside.has(i) ? kAside : s.excluded.has(i) ? kOut : kSilent;
+  return s.in_service.has(i) ? kServes : s.provisionally_excluded.has(i) ? kAside : s.excluded.has(i) ? kOut : kSilent;
 }
 
 SensorLedger ledger_of(int places, SensorSet readmitted) {
   SensorLedger s;
   for (int i = 0; i < kSensors; ++i, places /= 4) {
-    SensorSet* sets[] = {&s.in_service, &s.set_aside, &s.excluded, &s.absent};
+    SensorSet* sets[] = {&s.in_service, &s.provisionally_excluded, &s.excluded, &s.absent};
     *sets[places % 4] = sets[places % 4]->with(i);
   }
   s.readmitted = readmitted;
@@ -41,7 +41,7 @@ SensorLedger ledger_of(int places, SensorSet readmitted) {
 Place moved_to(Action::Bits action, Place from, bool asked, bool chosen) {
   switch (action) {
     case Action::exclude: return asked ? kOut : from == kAside ? kServes : from;
-    case Action::set_aside: return asked && from == kServes ? kAside : from;
+    case Action::exclude_provisionally: return asked && from == kServes ? kAside : from;
     case Action::mark_absent: return asked ? kSilent : from;
     case Action::mark_back: return asked && from == kSilent ? kOut : from;
     case Action::reinstate: return chosen ? kServes : from;
@@ -54,12 +54,12 @@ Place moved_to(Action::Bits action, Place from, bool asked, bool chosen) {
 NamedSensors naming(Action::Bits action, SensorSet asked) {
   const SensorSet all = SensorSet::first(kSensors);
   NamedSensors named{all, all, all, all, all, all};
-  (action == Action::exclude       ? named.culprits
-   : action == Action::set_aside   ? named.accused
-   : action == Action::mark_absent ? named.lost
-   : action == Action::mark_back   ? named.back
-   : action == Action::reinstate   ? named.proven
-                                   : named.reset) = asked;
+  (action == Action::exclude                 ? named.culprits
+   : action == Action::exclude_provisionally ? named.accused
+   : action == Action::mark_absent           ? named.lost
+   : action == Action::mark_back             ? named.back
+   : action == Action::reinstate             ? named.proven
+                                             : named.reset) = asked;
   return named;
 }
 
@@ -91,8 +91,8 @@ void expect_moves(Action::Bits action, const SensorLedger& before, SensorSet ask
 
 // Verifies: REQ-101, REQ-099
 TEST(Decision, EveryActionPutsEverySensorWhereItBelongsAndNamesThoseMoved) {
-  for (const Action::Bits action :
-       {Action::exclude, Action::set_aside, Action::mark_absent, Action::mark_back, Action::reinstate, Action::rearm}) {
+  for (const Action::Bits action : {Action::exclude, Action::exclude_provisionally, Action::mark_absent,
+                                    Action::mark_back, Action::reinstate, Action::rearm}) {
     for (int places = 0; places < 4 * 4 * 4; ++places) {
       for (unsigned readmitted = 0; readmitted < 8; ++readmitted) {
         for (unsigned asked = 0; asked < 8; ++asked)
@@ -103,12 +103,12 @@ TEST(Decision, EveryActionPutsEverySensorWhereItBelongsAndNamesThoseMoved) {
 }
 
 /// One step with nobody named: whatever changes does so by the event alone.
-DecisionState stepped(Mode mode, HealthEvent event, bool exhausted, int clean_run) {
+DecisionState stepped(Mode mode, HealthEvent event, bool timed_out, int clean_run) {
   DecisionState state;
   state.mode = mode;
   state.base = Mode::degraded;
   state.sensors.in_service = SensorSet::first(kSensors);
-  state.exhausted = exhausted;
+  state.timed_out = timed_out;
   state.clean_run = clean_run;
   DecisionInput input;
   input.raised = bit(event);
@@ -131,16 +131,16 @@ void for_every_event_taken(Law&& law) {
 // Verifies: REQ-098
 TEST(Decision, ExhaustionStandsUntilSomethingIsDecided) {
   for_every_event_taken([](Mode mode, HealthEvent event) {
-    const bool ends = is_one_of(event, {HealthEvent::culprit, HealthEvent::fit_accepted, HealthEvent::reset});
-    const bool begins = event == HealthEvent::patience_over && mode == Mode::suspect;
-    for (const bool exhausted : {false, true}) {
-      EXPECT_EQ(stepped(mode, event, exhausted, 2).exhausted, begins || (exhausted && !ends))
+    const bool ends = is_one_of(event, {HealthEvent::exclusion, HealthEvent::fit_accepted, HealthEvent::reset});
+    const bool begins = event == HealthEvent::isolation_timeout && mode == Mode::suspect;
+    for (const bool timed_out : {false, true}) {
+      EXPECT_EQ(stepped(mode, event, timed_out, 2).timed_out, begins || (timed_out && !ends))
           << to_string(mode) << ", " << to_string(event);
     }
   });
 }
 
-/// Clean blocks are counted anew where other coefficients or the key make the past void, and by who serves (below).
+/// Passed blocks are counted anew where other coefficients or the key make the past void, and by who serves (below).
 // Verifies: REQ-097
 TEST(Decision, CleanBlocksCountAnewAfterAFitAndAfterTheKey) {
   for_every_event_taken([](Mode mode, HealthEvent event) {
@@ -153,11 +153,11 @@ TEST(Decision, CleanBlocksCountAnewAfterAFitAndAfterTheKey) {
 TEST(Decision, CleanBlocksCountAnewForOtherSensors) {
   DecisionState state;
   state.mode = Mode::nominal;
-  state.unproven = false;
+  state.not_yet_validated = false;
   state.sensors.in_service = SensorSet::first(kSensors);
   state.clean_run = 2;
   DecisionInput input;
-  input.raised = bit(HealthEvent::set_aside);
+  input.raised = bit(HealthEvent::provisional_exclusion);
   input.named.accused = SensorSet::of(1);
   const Decision d = decide(kTransitionTable, state, input, [](SensorSet) { return SizeClass::critical; });
   EXPECT_EQ(state.clean_run, 0);

@@ -1,5 +1,5 @@
 /// Records of directions: what counts as another attitude.
-#include "plumb/health/episode.hpp"
+#include "plumb/health/detail/episode.hpp"
 
 #include <gtest/gtest.h>
 

@@ -112,7 +112,7 @@ TEST(FaultsCovered, AToolThatOnlyYawsIsValid) {
     Rig rig(n == 4 ? tetrahedron() : cone_array(n), {}, static_cast<std::uint64_t>(n));
     const Verdict& v = rig.stay(direction_at(4.0, 77.0), 10);
     EXPECT_EQ(v.validity, Validity::valid) << n;
-    EXPECT_NE(v.qualifiers & Qualifier::unproven, 0);
+    EXPECT_NE(v.qualifiers & Qualifier::not_yet_validated, 0);
     EXPECT_FALSE(v.alert);
   }
 }
@@ -180,10 +180,10 @@ TEST(FaultsCovered, TwoColludersOfFiveNeverTurnTheAlertOff) {
     };
     for (int k = 0; k < 6; ++k) {
       const Verdict& v = rig.stay(u);
-      provisional += v.set_aside == SensorSet::of(4) ? 1 : 0;
+      provisional += v.provisionally_excluded == SensorSet::of(4) ? 1 : 0;
       const double error = angle_between_rad(v.gravity_mps2, u);
       EXPECT_TRUE(v.alert || error <= rig.setup.config.alert_limit_rad) << seed << " off by " << deg_from_rad(error);
-      if (v.set_aside.empty()) continue;
+      if (v.provisionally_excluded.empty()) continue;
       EXPECT_EQ(v.faults_covered, v.protection_available ? 2 : 0);
       if (v.protection_available) {
         EXPECT_LE(error, v.protection_level_rad);

@@ -29,7 +29,7 @@ RC_GTEST_PROP(FirstCalibrationLaw, EndsAcceptedAndItsTiltIsWithinItsProtectionLe
   for (int k = 0; k < 12; ++k) {
     const Vec3 u = random_direction(tool.noise);
     const Verdict& v = tool.stay(u, 2);
-    RC_ASSERT(v.excluded.empty() && v.set_aside.empty());
+    RC_ASSERT(v.excluded.empty() && v.provisionally_excluded.empty());
     if (!v.protection_available) continue;
     RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <= v.protection_level_rad);
   }
@@ -54,7 +54,7 @@ RC_GTEST_PROP(FirstCalibrationLaw, AWrongLengthOfGravityIsTheScalesAndDoesNotTur
   for (int k = 0; k < 8; ++k) {
     const Vec3 u = random_direction(tool.noise);
     const Verdict& v = tool.stay(u, 2);
-    RC_ASSERT(v.excluded.empty() && v.set_aside.empty() && v.suspects.empty());
+    RC_ASSERT(v.excluded.empty() && v.provisionally_excluded.empty() && v.suspects.empty());
     bounded += v.protection_available ? 1 : 0;
     if (v.protection_available)
       RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <= v.protection_level_rad);

@@ -69,7 +69,7 @@ TEST(FirstCalibrationRefusal, AttitudesInOnePlaneAskNothingOfASilentSensor) {
 // Negative: REQ-136
 TEST(FirstCalibrationRefusal, AnAlarmByTheDatasheetRefutesNoAssertion) {
   MonitorConfig config;
-  config.asserted_faults = 0;
+  config.assumed_faults = 0;
   UncalibratedTool tool(5, 37, 1.0, config);
   tool.start();
   for (int k = 0; k < 10; ++k) tool.stay(random_direction(tool.noise));
@@ -79,7 +79,7 @@ TEST(FirstCalibrationRefusal, AnAlarmByTheDatasheetRefutesNoAssertion) {
   EXPECT_EQ(tool.monitor.verdict().cause, Cause::parity);
   tool.distort = [](int, double r, int) { return r; };
   EXPECT_LT(tool.follow(60), 60);
-  EXPECT_EQ(tool.count(HealthEvent::contradiction), 0);
+  EXPECT_EQ(tool.count(HealthEvent::no_consistent_hypothesis), 0);
 }
 
 /// By hand, with the truth of the datasheet.

@@ -155,7 +155,7 @@ TEST(FirstCalibrationSnapshot, WithASmallerSetInItNobodyServesUncalibrated) {
       if (!plumb_test::is_taken_up(*victim, tool.setup, bytes)) continue;
       ++taken;
       const Verdict& v = victim->verdict();
-      EXPECT_TRUE(victim->calibrated().contains(v.in_service | v.set_aside)) << p.at;
+      EXPECT_TRUE(victim->calibrated().contains(v.in_service | v.provisionally_excluded)) << p.at;
     }
   }
   EXPECT_GT(sets, taken);

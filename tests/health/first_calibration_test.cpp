@@ -50,7 +50,7 @@ TEST(FirstCalibration, WhereItAsksToBeTakenIsEnough) {
     EXPECT_EQ(record.to, HealthState::suspect);
     EXPECT_EQ(record.cause, Cause::calibration);
     EXPECT_EQ(record.sensors, SensorSet::first(n));
-    EXPECT_NE(tool.monitor.verdict().qualifiers & Qualifier::unproven, 0);
+    EXPECT_NE(tool.monitor.verdict().qualifiers & Qualifier::not_yet_validated, 0);
     EXPECT_EQ(tool.monitor.verdict().qualifiers & Qualifier::initial_calibration, 0);
     EXPECT_EQ(tool.monitor.verdict().validity, Validity::invalid) << "no block through the new coefficients yet";
     EXPECT_EQ(tool.monitor.calibrated(), SensorSet::first(n));
@@ -283,7 +283,7 @@ TEST(FirstCalibration, LaterFitsAreBoundedByWhatWasAdopted) {
   ASSERT_TRUE(tool.calibrated());
   tool.wander(8);
   ASSERT_EQ(tool.state(), HealthState::nominal);
-  EXPECT_TRUE(tool.monitor.recalibration().commissioned_as(tool.monitor.model()));
+  EXPECT_TRUE(tool.monitor.recalibration().bounds().commissioned_as(tool.monitor.model()));
   EXPECT_FALSE(tool.monitor.recalibration().adopted());
   ASSERT_TRUE(tool.monitor.request_recalibration().has_value());
   for (int k = 0; k < 30 && tool.count(HealthEvent::fit_accepted) < 2; ++k) tool.wander(1);

@@ -70,8 +70,8 @@ struct Tally {
 };
 
 void expect_sane(const Verdict& v, int n) {
-  EXPECT_EQ(v.in_service | v.set_aside | v.excluded | v.absent, v.configured);
-  EXPECT_EQ(v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size(), n);
+  EXPECT_EQ(v.in_service | v.provisionally_excluded | v.excluded | v.absent, v.configured);
+  EXPECT_EQ(v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size(), n);
   if (v.state == HealthState::failed) {
     EXPECT_EQ(v.validity, Validity::invalid);
   }
@@ -89,7 +89,7 @@ void restore_forged(HealthMonitor& victim, const MonitorSetup& setup, const Byte
     ++tally.refused;
     ASSERT_EQ(taken.error().code, Errc::snapshot_implausible);
     ASSERT_EQ(victim.verdict().snapshot_refusal, Errc::snapshot_implausible);
-    ASSERT_NE(victim.verdict().qualifiers & Qualifier::unproven, 0);
+    ASSERT_NE(victim.verdict().qualifiers & Qualifier::not_yet_validated, 0);
     return;
   }
   ++tally.taken;
@@ -196,7 +196,7 @@ TEST(ForgedFields, OfARecalibrationInEachPhase) {
 }
 
 /// Of a snapshot of that monitor, the bytes of its recalibration's lengths: they follow upon the commissioning
-/// calibration, scales first, and are about 1. 0 where they are not found, or not once.
+/// calibration, scales first, and upon when one was adopted, and are about 1. 0 where they are not found, or not once.
 std::size_t place_of_lengths(const HealthMonitor& monitor, const SensorModel& commissioned, const Bytes& bytes) {
   const auto n = static_cast<std::size_t>(monitor.array().size());
   std::vector<double> before(2 * n);
@@ -204,15 +204,16 @@ std::size_t place_of_lengths(const HealthMonitor& monitor, const SensorModel& co
     before[i] = commissioned.sensor[i].scale[0];
     before[n + i] = commissioned.sensor[i].bias[0];
   }
+  const std::size_t adoption = sizeof(double) + 1;  // when, and whether
   const std::size_t width = before.size() * sizeof(double);
   std::size_t found = 0;
   int times = 0;
-  for (std::size_t k = 0; k + width + n * sizeof(double) <= bytes.size(); ++k) {
+  for (std::size_t k = 0; k + width + adoption + n * sizeof(double) <= bytes.size(); ++k) {
     if (std::memcmp(bytes.data() + k, before.data(), width) != 0) continue;
     std::vector<double> length(n);
-    std::memcpy(length.data(), bytes.data() + k + width, n * sizeof(double));
+    std::memcpy(length.data(), bytes.data() + k + width + adoption, n * sizeof(double));
     if (std::any_of(length.begin(), length.end(), [](double l) { return !(std::fabs(l - 1.0) < 0.01); })) continue;
-    found = k + width;
+    found = k + width + adoption;
     ++times;
   }
   return times == 1 ? found : 0;

@@ -80,7 +80,7 @@ TEST(ForgedRecalibration, NoFigureLeadsBackToWhereACalibratedMonitorCannotBe) {
   std::vector<Sample> samples;
   for (int k = 0; k < 2 * tool.rig.setup.config.window; ++k) {
     samples.push_back(tool.rig.sample(plumb_test::direction_at(33, 71), kG0_mps2));
-    samples.back().time_s += 2.0 * Recalibration::kOfferLife_s;
+    samples.back().time_s += 2.0 * OfferedCalibration::kLife_s;
   }
   const int taken = taken_up_with_any_small_figure(*before, tool.rig.setup,
                                                    [&samples](HealthMonitor& victim, const std::string& forged) {

@@ -21,12 +21,12 @@ SensorArray triad() {
 }
 
 // Verifies: REQ-093
-TEST(HealthMonitor, PowersOnUnprovenAndEarnsTrustOnlyByChangingAttitude) {
+TEST(HealthMonitor, StartsUnvalidatedAndIsValidatedOnlyByAChangeOfAttitude) {
   Rig rig(plumb_test::tetrahedron());
   EXPECT_EQ(rig.stay(direction_at(40, 30), 20).state, HealthState::suspect)
       << "one attitude proves nothing (stuck at power-on)";
   EXPECT_EQ(rig.monitor.verdict().validity, Validity::valid) << "within the bound over every fault of one sensor";
-  EXPECT_TRUE(rig.monitor.verdict().qualifiers & Qualifier::unproven);
+  EXPECT_TRUE(rig.monitor.verdict().qualifiers & Qualifier::not_yet_validated);
   const Verdict& v = rig.prove();
   EXPECT_EQ(v.state, HealthState::nominal);
   EXPECT_EQ(v.validity, Validity::valid);
@@ -75,35 +75,35 @@ TEST(HealthMonitor, SevenSensorsSetTheFaultAsideAtOnceAndStayUsable) {
   rig.distort = [](int i, double r, int) { return i == 5 ? r + 0.3 : r; };
   const Verdict& first = rig.stay(direction_at(45, 200));
   EXPECT_EQ(first.state, HealthState::suspect);
-  EXPECT_EQ(first.set_aside, SensorSet::of(5));
+  EXPECT_EQ(first.provisionally_excluded, SensorSet::of(5));
   EXPECT_LT(angle_between_rad(first.gravity_mps2, direction_at(45, 200)), 1e-3) << "the vector is already without it";
   const Verdict& v = rig.stay(direction_at(45, 200), 3);
   EXPECT_EQ(v.state, HealthState::isolated);
   EXPECT_EQ(v.validity, Validity::valid);
   EXPECT_TRUE(v.qualifiers & Qualifier::provisional);
-  // Over four attitudes the strict grade confirms it and it is latched.
+  // Over four attitudes the confirmed grade confirms it and it is latched.
   rig.stay(direction_at(55, 260));
   rig.stay(direction_at(65, 310));
   const Verdict& latched = rig.stay(direction_at(75, 10), 1);
   EXPECT_EQ(latched.excluded, SensorSet::of(5));
-  EXPECT_EQ(latched.grade, Grade::strict);
+  EXPECT_EQ(latched.grade, Grade::confirmed);
   EXPECT_EQ(rig.ever_blamed, SensorSet::of(5));
 }
 
 // Verifies: REQ-073
 TEST(HealthMonitor, AnAssertedSingleFaultIsLatchedAtOneStation) {
   MonitorConfig config;
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   Rig rig(plumb_test::tetrahedron(), config);
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 1 ? r + 1.0 : r; };
   const Verdict& v = rig.stay(direction_at(55, 77));
   EXPECT_EQ(v.excluded, SensorSet::of(1));
-  EXPECT_EQ(v.grade, Grade::asserted);
+  EXPECT_EQ(v.grade, Grade::assumed);
 }
 
 // Verifies: REQ-059
-TEST(HealthMonitor, MotionIsHeldAndBlamesNobody) {
+TEST(HealthMonitor, MotionHoldsTheOutputAndExcludesNoSensor) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   for (int k = 0; k < 50; ++k) {
@@ -117,13 +117,13 @@ TEST(HealthMonitor, MotionIsHeldAndBlamesNobody) {
 }
 
 // Verifies: REQ-060
-TEST(HealthMonitor, WrongGravityIsReferenceAndNeverABlameNorAFailure) {
+TEST(HealthMonitor, WrongGravityIsANormMismatchAndNeverAnExclusionOrAFailure) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   plumb_test::Noise noise(4);
   for (int k = 0; k < 40; ++k) rig.stay(plumb_test::random_direction(noise), 1, kG0_mps2 * 1.02);
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::suspect);
-  EXPECT_EQ(rig.monitor.verdict().cause, Cause::reference);
+  EXPECT_EQ(rig.monitor.verdict().cause, Cause::norm_mismatch);
   EXPECT_TRUE(rig.ever_blamed.empty());
 }
 
@@ -144,7 +144,7 @@ TEST(HealthMonitor, ALostChannelIsAbsentAndTwoOfFourFail) {
 }
 
 // Verifies: REQ-095
-TEST(HealthMonitor, OnlyTheKeyLeavesFailedAndTrustIsEarnedAgain) {
+TEST(HealthMonitor, OnlyTheKeyLeavesFailedAndTheSensorsAreValidatedAgain) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i <= 1 ? std::numeric_limits<double>::infinity() : r; };
@@ -158,14 +158,14 @@ TEST(HealthMonitor, OnlyTheKeyLeavesFailedAndTrustIsEarnedAgain) {
   ASSERT_TRUE(rig.monitor.reset(rig.setup.config.reset_key, SensorSet::first(4)).has_value());
   const Verdict& v = rig.stay(direction_at(60, 10));
   EXPECT_EQ(v.state, HealthState::suspect);
-  EXPECT_TRUE(v.qualifiers & Qualifier::unproven);
+  EXPECT_TRUE(v.qualifiers & Qualifier::not_yet_validated);
   EXPECT_EQ(v.in_service, SensorSet::first(4));
   EXPECT_EQ(rig.prove().state, HealthState::nominal);
 }
 
 // Verifies: REQ-098
 // Negative: REQ-060
-TEST(HealthMonitor, ThreeSensorsWithAPersistentNormViolationFailAfterPatience) {
+TEST(HealthMonitor, ThreeSensorsWithAPersistentNormViolationFailAfterTheTimeout) {
   AxisList axes{};
   Rig rig(plumb_test::make_array(axes, orthogonal_triad(axes), 2e-4 * kG0_mps2));
   rig.prove();
@@ -287,7 +287,7 @@ TEST(HealthMonitor, AChannelGivenUpForItsGapsComesBack) {
 }
 
 // Verifies: REQ-064
-TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndKillsNothing) {
+TEST(HealthMonitor, TemperatureBeyondTheSpanIsUnconfirmedAndRejectsNoHypothesis) {
   MonitorConfig config;
   config.temperature_min_degc = 0.0;
   config.temperature_max_degc = 100.0;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "plumb/health/decision.hpp"
+#include "plumb/health/detail/decision.hpp"
 #include "support/long_run.hpp"
 
 namespace induction_test {
@@ -71,14 +71,15 @@ class Induction {
   const char* broken(const Machine& m) const {
     const SensorLedger& s = m.state.sensors;
     const Mode mode = m.state.mode;
-    const int members = s.in_service.size() + s.set_aside.size() + s.excluded.size() + s.absent.size();
-    if ((s.in_service | s.set_aside | s.excluded | s.absent) != all_ || members != n_) return "S4: no partition";
+    const int members = s.in_service.size() + s.provisionally_excluded.size() + s.excluded.size() + s.absent.size();
+    if ((s.in_service | s.provisionally_excluded | s.excluded | s.absent) != all_ || members != n_)
+      return "S4: no partition";
     if (mode != Mode::failed && left(s.in_service) == SizeClass::rank_lost) return "S3: rank < 3 and not failed";
     if (!fits(mode, s.in_service)) return "the state is not that of its size";
     if (mode == Mode::recalibrating && !fits(m.state.base, s.in_service)) return "the base is not that of its size";
     if (!m.calibrated && mode != Mode::initial && mode != Mode::failed) return "S19: in use without a calibration";
     if (m.calibrated && mode == Mode::initial) return "first calibration although there is one";
-    if (m.state.unproven && publishes(m)) return "S17: published although unproven";
+    if (m.state.not_yet_validated && publishes(m)) return "S17: published although not yet validated";
     return nullptr;
   }
   bool fits(Mode mode, SensorSet in_service) const {
@@ -95,7 +96,7 @@ class Induction {
   void place(int i, SensorLedger& s) {
     if (!violation_.empty()) return;
     if (i == n_) return with_modes(s);
-    for (SensorSet* set : {&s.in_service, &s.set_aside, &s.excluded, &s.absent}) {
+    for (SensorSet* set : {&s.in_service, &s.provisionally_excluded, &s.excluded, &s.absent}) {
       *set = set->with(i);
       place(i + 1, s);
       if (s.readmitted.size() < histories_) {
@@ -115,7 +116,7 @@ class Induction {
           m.state.mode = static_cast<Mode>(mode);
           m.state.base = recalibrates ? static_cast<Mode>(base) : Mode::suspect;
           m.state.sensors = s;
-          m.state.unproven = (flags & 1) != 0;
+          m.state.not_yet_validated = (flags & 1) != 0;
           m.state.clean_run = (flags & 2) != 0 ? 3 : 0;
           m.calibrated = (flags & 4) == 0;
           if (broken(m) != nullptr) continue;
@@ -142,36 +143,37 @@ class Induction {
   /// Names for the events that are not raised: whoever could be named, is. None of it may matter.
   NamedSensors everyone(const Machine& m) const {
     const SensorLedger& s = m.state.sensors;
-    return {s.in_service | s.set_aside, s.in_service, all_ - s.absent, s.absent, s.excluded | s.set_aside, all_};
+    return {s.in_service | s.provisionally_excluded, s.in_service, all_ - s.absent, s.absent,
+            s.excluded | s.provisionally_excluded,   all_};
   }
   void every_input(const Machine& m) {
     const SensorLedger& s = m.state.sensors;
     const Mode mode = m.state.mode;
     const auto any = [](SensorSet) { return true; };
-    const SensorSet posed = s.in_service | s.set_aside;
+    const SensorSet posed = s.in_service | s.provisionally_excluded;
     const bool accuses = mode != Mode::degraded && mode != Mode::failed;
     if (accuses) {
       // Nobody is convicted unless the others still make a vector, and set-asides are acquitted by a conviction.
-      subsets_of(posed, m, HealthEvent::culprit, &NamedSensors::culprits,
+      subsets_of(posed, m, HealthEvent::exclusion, &NamedSensors::culprits,
                  [&](SensorSet z) { return left(posed - z) != SizeClass::rank_lost; });
-      subsets_of(s.in_service, m, HealthEvent::set_aside, &NamedSensors::accused, any);
+      subsets_of(s.in_service, m, HealthEvent::provisional_exclusion, &NamedSensors::accused, any);
     }
     subsets_of(all_ - s.absent, m, HealthEvent::channel_lost, &NamedSensors::lost, any);
     subsets_of(s.absent, m, HealthEvent::channel_back, &NamedSensors::back, any);
-    subsets_of(s.excluded | s.set_aside, m, HealthEvent::probation_passed, &NamedSensors::proven, any);
+    subsets_of(s.excluded | s.provisionally_excluded, m, HealthEvent::probation_passed, &NamedSensors::proven, any);
     subsets_of(all_, m, HealthEvent::reset, &NamedSensors::reset, any);
-    for (const HealthEvent event : {HealthEvent::contradiction, HealthEvent::alarm, HealthEvent::reference,
-                                    HealthEvent::clean_block, HealthEvent::none}) {
+    for (const HealthEvent event : {HealthEvent::no_consistent_hypothesis, HealthEvent::alarm,
+                                    HealthEvent::norm_mismatch, HealthEvent::passed_block, HealthEvent::none}) {
       plain(m, event);
     }
     if (mode == Mode::suspect || mode == Mode::recalibrating || mode == Mode::initial)
-      plain(m, HealthEvent::patience_over);
+      plain(m, HealthEvent::isolation_timeout);
     if (mode == Mode::recalibrating || mode == Mode::initial) {
       plain(m, HealthEvent::fit_accepted);
       plain(m, HealthEvent::fit_rejected);
     }
     const bool in_suspect = mode == Mode::suspect && left(s.in_service) != SizeClass::critical;
-    if (s.set_aside.empty() && (in_suspect || publishes(m))) plain(m, HealthEvent::recalibrate);
+    if (s.provisionally_excluded.empty() && (in_suspect || publishes(m))) plain(m, HealthEvent::recalibrate);
   }
   void plain(const Machine& m, HealthEvent event) {
     DecisionInput input;
@@ -200,17 +202,17 @@ class Induction {
     const SensorLedger &s = before.state.sensors, &t = after.state.sensors;
     const HealthEvent event = d.event;
     const Mode from = before.state.mode, to = after.state.mode;
-    const bool moved =
-        s.in_service != t.in_service || s.set_aside != t.set_aside || s.excluded != t.excluded || s.absent != t.absent;
+    const bool moved = s.in_service != t.in_service || s.provisionally_excluded != t.provisionally_excluded ||
+                       s.excluded != t.excluded || s.absent != t.absent;
     if (d.changed != (moved || from != to)) return "S15: a change without a record, or a record of none";
     if (from == Mode::failed && to != Mode::failed && event != HealthEvent::reset) return "S5: failed was left";
 
     const SensorSet out = s.in_service - t.in_service, in = t.in_service - s.in_service;
     SensorSet may_leave, may_return;
-    if (event == HealthEvent::culprit) may_leave = input.named.culprits;
-    if (event == HealthEvent::set_aside) may_leave = input.named.accused;
+    if (event == HealthEvent::exclusion) may_leave = input.named.culprits;
+    if (event == HealthEvent::provisional_exclusion) may_leave = input.named.accused;
     if (event == HealthEvent::channel_lost) may_leave = input.named.lost;
-    if (event == HealthEvent::culprit) may_return = s.set_aside;
+    if (event == HealthEvent::exclusion) may_return = s.provisionally_excluded;
     if (event == HealthEvent::probation_passed) may_return = input.named.proven;
     if (event == HealthEvent::reset && from == Mode::failed) may_return = input.named.reset;
     if (!may_leave.contains(out)) return "S6, S7: a sensor was taken out without cause";
@@ -220,19 +222,20 @@ class Induction {
       return "S10: a return that is not counted";
     if (event == HealthEvent::probation_passed && !(in & s.readmitted).empty())
       return "S10: a second return by probation";
-    if (event == HealthEvent::culprit && (t.excluded - s.excluded) != input.named.culprits)
+    if (event == HealthEvent::exclusion && (t.excluded - s.excluded) != input.named.culprits)
       return "S1: a conviction latches out whom it does not name";
-    if (event == HealthEvent::culprit && !t.in_service.contains(s.set_aside - input.named.culprits))
+    if (event == HealthEvent::exclusion && !t.in_service.contains(s.provisionally_excluded - input.named.culprits))
       return "S1: who was only set aside is not acquitted";
-    const bool done = (event != HealthEvent::channel_lost || t.absent.contains(input.named.lost)) &&
-                      (event != HealthEvent::channel_back || t.excluded.contains(input.named.back)) &&
-                      (event != HealthEvent::culprit || t.excluded.contains(input.named.culprits)) &&
-                      (event != HealthEvent::set_aside || t.set_aside.contains(input.named.accused));
+    const bool done =
+        (event != HealthEvent::channel_lost || t.absent.contains(input.named.lost)) &&
+        (event != HealthEvent::channel_back || t.excluded.contains(input.named.back)) &&
+        (event != HealthEvent::exclusion || t.excluded.contains(input.named.culprits)) &&
+        (event != HealthEvent::provisional_exclusion || t.provisionally_excluded.contains(input.named.accused));
     if (!done) return "S2: the event was taken and not carried out";
     if (!t.readmitted.contains(s.readmitted)) return "S10: a record was forgotten";
 
-    const bool doubt = event == HealthEvent::alarm || event == HealthEvent::contradiction ||
-                       event == HealthEvent::reference || event == HealthEvent::set_aside;
+    const bool doubt = event == HealthEvent::alarm || event == HealthEvent::no_consistent_hypothesis ||
+                       event == HealthEvent::norm_mismatch || event == HealthEvent::provisional_exclusion;
     if (doubt && publishes(after)) return "S17: published in doubt";
     if (doubt && state_of(from) == HealthState::recalibrating &&
         (d.actions & (Action::discard_fit | Action::restart_fit)) == 0)
@@ -241,16 +244,16 @@ class Induction {
         (event != HealthEvent::recalibrate || (d.actions & Action::start_fit) == 0))
       return "recalibration without a request";
     if (((d.actions & Action::adopt_fit) != 0) != (event == HealthEvent::fit_accepted)) return "S8: adopted unasked";
-    if (event == HealthEvent::fit_accepted && (to != Mode::suspect || !after.state.unproven))
+    if (event == HealthEvent::fit_accepted && (to != Mode::suspect || !after.state.not_yet_validated))
       return "S20: trusted at once";
-    if (event == HealthEvent::patience_over && from == Mode::suspect &&
-        !(input.protection_within ? after.state.exhausted && to == from : to == Mode::failed))
-      return "S12: patience over, and neither bounded nor failed";
-    if (from == Mode::suspect && publishes(after) && event != HealthEvent::culprit &&
-        !(event == HealthEvent::clean_block && before.state.clean_run >= input.clean_blocks))
+    if (event == HealthEvent::isolation_timeout && from == Mode::suspect &&
+        !(input.protection_within ? after.state.timed_out && to == from : to == Mode::failed))
+      return "S12: isolation timeout, and neither bounded nor failed";
+    if (from == Mode::suspect && publishes(after) && event != HealthEvent::exclusion &&
+        !(event == HealthEvent::passed_block && before.state.clean_run >= input.passed_blocks))
       return "suspect was left without evidence";
-    if (event == HealthEvent::clean_block && from == Mode::suspect && !before.state.unproven &&
-        before.state.clean_run >= input.clean_blocks && to == from)
+    if (event == HealthEvent::passed_block && from == Mode::suspect && !before.state.not_yet_validated &&
+        before.state.clean_run >= input.passed_blocks && to == from)
       return "L2: earned, and still suspect";
     if (event == HealthEvent::fit_rejected && from == Mode::recalibrating && to != before.state.base)
       return "L4: a refused fit does not lead back";
@@ -262,8 +265,9 @@ class Induction {
     const auto show = [&text](const Machine& m) {
       const SensorLedger& s = m.state.sensors;
       text << to_string(m.state.mode) << " (base " << to_string(m.state.base) << ") in " << s.in_service.bits
-           << " aside " << s.set_aside.bits << " out " << s.excluded.bits << " absent " << s.absent.bits << " returned "
-           << s.readmitted.bits << (m.state.unproven ? " unproven" : "") << (m.calibrated ? "" : " uncalibrated");
+           << " aside " << s.provisionally_excluded.bits << " out " << s.excluded.bits << " absent " << s.absent.bits
+           << " returned " << s.readmitted.bits << (m.state.not_yet_validated ? " not yet validated" : "")
+           << (m.calibrated ? "" : " uncalibrated");
     };
     text << what << "\n  n = " << n_ << ", event " << to_string(first_taken(table_, before.state.mode, input.raised))
          << " of mask " << input.raised << "\n  before: ";
@@ -309,39 +313,45 @@ struct Defect {
 
 // Negative: REQ-090, REQ-092, REQ-101
 TEST(Induction, EveryPlantedDefectIsFound) {
-  using table_detail::go;
+  const auto go = [](Target target, Action::Bits actions = Action::none) {
+    return Cell{CellKind::taken, target, actions};
+  };
   using A = Action;
   using T = Target;
   const Defect defects[] = {
-      {"failed is left by a clean block", Mode::failed, HealthEvent::clean_block, go(T::suspect)},
+      {"failed is left by a passed block", Mode::failed, HealthEvent::passed_block, go(T::suspect)},
       {"a lost channel leaves suspect where it is", Mode::suspect, HealthEvent::channel_lost,
        go(T::stay, A::mark_absent)},
       {"a lost channel is not marked", Mode::nominal, HealthEvent::channel_lost, go(T::stay, A::count)},
-      {"a culprit leaves nominal nominal", Mode::nominal, HealthEvent::culprit, go(T::stay, A::exclude)},
-      {"a culprit is named and kept", Mode::suspect, HealthEvent::culprit, go(T::by_size, A::count)},
-      {"an unproven suspect is trusted after a conviction", Mode::suspect, HealthEvent::culprit,
+      {"an exclusion leaves nominal nominal", Mode::nominal, HealthEvent::exclusion, go(T::stay, A::exclude)},
+      {"an exclusion takes nobody out", Mode::suspect, HealthEvent::exclusion, go(T::by_size, A::count)},
+      {"an not yet validated suspect is trusted after a conviction", Mode::suspect, HealthEvent::exclusion,
        go(T::by_size, A::exclude)},
-      {"a contradiction excludes", Mode::nominal, HealthEvent::contradiction, go(T::failed, A::exclude)},
+      {"no consistent hypothesis excludes", Mode::nominal, HealthEvent::no_consistent_hypothesis,
+       go(T::failed, A::exclude)},
       {"an alarm is only counted", Mode::isolated, HealthEvent::alarm, go(T::stay, A::count)},
-      {"reference is only counted", Mode::degraded, HealthEvent::reference, go(T::stay, A::count)},
+      {"reference is only counted", Mode::degraded, HealthEvent::norm_mismatch, go(T::stay, A::count)},
       {"an alarm does not stop a fit", Mode::recalibrating, HealthEvent::alarm, go(T::stay, A::count)},
       {"an alarm leaves the fit running", Mode::recalibrating, HealthEvent::alarm, go(T::suspect)},
       {"a refused fit makes nominal", Mode::recalibrating, HealthEvent::fit_rejected, go(T::by_size, A::discard_fit)},
       {"an accepted fit is trusted at once", Mode::recalibrating, HealthEvent::fit_accepted,
        go(T::by_size, A::adopt_fit)},
       {"a first fit refused goes by size", Mode::initial, HealthEvent::fit_rejected, go(T::by_size, A::count)},
-      {"patience without a first calibration goes by size", Mode::initial, HealthEvent::patience_over, go(T::by_size)},
-      {"patience is endless", Mode::suspect, HealthEvent::patience_over, go(T::stay, A::exhausted)},
-      {"patience fails whatever the bound", Mode::suspect, HealthEvent::patience_over, go(T::failed, A::exhausted)},
-      {"clean blocks never end suspicion", Mode::suspect, HealthEvent::clean_block, go(T::stay, A::count)},
-      {"one clean block ends suspicion", Mode::suspect, HealthEvent::clean_block, go(T::by_size, A::count)},
+      {"the timeout without a first calibration goes by size", Mode::initial, HealthEvent::isolation_timeout,
+       go(T::by_size)},
+      {"the timeout is endless", Mode::suspect, HealthEvent::isolation_timeout, go(T::stay, A::timed_out)},
+      {"the timeout fails whatever the bound", Mode::suspect, HealthEvent::isolation_timeout,
+       go(T::failed, A::timed_out)},
+      {"passed blocks never end suspicion", Mode::suspect, HealthEvent::passed_block, go(T::stay, A::count)},
+      {"one passed block ends suspicion", Mode::suspect, HealthEvent::passed_block, go(T::by_size, A::count)},
       {"a channel that is back serves", Mode::isolated, HealthEvent::channel_back,
        go(T::by_size, A::mark_back | A::rearm)},
       {"probation returns and suspect stays suspect", Mode::isolated, HealthEvent::probation_passed,
        go(T::stay, A::reinstate)},
       {"reset trusts at once", Mode::failed, HealthEvent::reset, go(T::by_size, A::rearm)},
       {"a request starts no fit", Mode::nominal, HealthEvent::recalibrate, go(T::recalibrating)},
-      {"setting aside keeps the state", Mode::isolated, HealthEvent::set_aside, go(T::stay, A::set_aside)},
+      {"setting aside keeps the state", Mode::isolated, HealthEvent::provisional_exclusion,
+       go(T::stay, A::exclude_provisionally)},
   };
   for (const Defect& defect : defects) {
     TransitionTable table = kTransitionTable;
@@ -356,13 +366,13 @@ TEST(Induction, EveryPlantedDefectIsFound) {
 /// Found by the induction: a culprit found while recalibrating went by size, also where recalibration had been entered
 /// from a suspect that had not earned its trust.
 // Negative: REQ-092
-TEST(Induction, FoundThatAConvictionWhileRecalibratingSkippedTheProof) {
+TEST(Induction, FoundThatAnExclusionWhileRecalibratingSkippedTheProof) {
   DecisionState state;
   state.mode = Mode::recalibrating;
   state.base = Mode::suspect;
   state.sensors.in_service = SensorSet::first(5);
   DecisionInput input;
-  input.raised = bit(HealthEvent::culprit);
+  input.raised = bit(HealthEvent::exclusion);
   input.named.culprits = SensorSet::of(2);
   decide(kTransitionTable, state, input, [](SensorSet set) { return general_position(set, 5); });
   EXPECT_EQ(state.mode, Mode::suspect);
@@ -372,20 +382,20 @@ TEST(Induction, FoundThatAConvictionWhileRecalibratingSkippedTheProof) {
 /// Found by an attack: who was set aside after a return was to stay out, and the next conviction of others latched it
 /// out with them. Setting aside is no conviction, and a healthy sensor may meet it twice.
 // Negative: REQ-099
-TEST(Induction, FoundThatAConvictionLatchedOutWhoWasSetAsideTwice) {
+TEST(Induction, FoundThatAnExclusionLatchedOutASensorProvisionallyExcludedTwice) {
   DecisionState state;
   state.mode = Mode::suspect;
-  state.unproven = false;
+  state.not_yet_validated = false;
   state.sensors.in_service = SensorSet(0b111011);
-  state.sensors.set_aside = SensorSet(0b000100);
+  state.sensors.provisionally_excluded = SensorSet(0b000100);
   state.sensors.readmitted = SensorSet(0b000110);
   const auto size_of = [](SensorSet set) { return general_position(set, 6); };
   DecisionInput input;
-  input.raised = bit(HealthEvent::set_aside);
+  input.raised = bit(HealthEvent::provisional_exclusion);
   input.named.accused = SensorSet::of(1);
   decide(kTransitionTable, state, input, size_of);
-  EXPECT_EQ(state.sensors.set_aside, SensorSet(0b000110));
-  input.raised = bit(HealthEvent::culprit);
+  EXPECT_EQ(state.sensors.provisionally_excluded, SensorSet(0b000110));
+  input.raised = bit(HealthEvent::exclusion);
   input.named.culprits = SensorSet::of(5);
   decide(kTransitionTable, state, input, size_of);
   EXPECT_EQ(state.sensors.in_service, SensorSet(0b011111));
@@ -398,9 +408,9 @@ TEST(Induction, FoundThatAConvictionLatchedOutWhoWasSetAsideTwice) {
 TEST(Induction, ProbationBringsNobodyBackTwice) {
   DecisionState state;
   state.mode = Mode::isolated;
-  state.unproven = false;
+  state.not_yet_validated = false;
   state.sensors.in_service = SensorSet(0b001111);
-  state.sensors.set_aside = SensorSet(0b010000);
+  state.sensors.provisionally_excluded = SensorSet(0b010000);
   state.sensors.excluded = SensorSet(0b100000);
   state.sensors.readmitted = SensorSet(0b110000);
   DecisionInput input;
@@ -431,21 +441,21 @@ TEST(Induction, EveryPairOfEventsIsTakenInRankOrder) {
 /// Patience that is used up stays so until somebody is convicted, the key turned or a fit adopted.
 // Verifies: REQ-098
 /// In failed it tells a failure by patience from every other.
-TEST(Induction, ExhaustedEndsByAConvictionTheKeyAFitOrAFailureOfAnotherKind) {
+TEST(Induction, TheTimeoutEndsByAnExclusionTheKeyAFitOrAFailureOfAnotherKind) {
   for (int m = 0; m < kModeCount; ++m) {
     for (int e = 0; e < kEventCount; ++e) {
       for (const bool before : {false, true}) {
         DecisionState state;
         state.mode = static_cast<Mode>(m);
         state.sensors.in_service = SensorSet::first(5);
-        state.exhausted = before;
+        state.timed_out = before;
         DecisionInput input;
         input.raised = bit(static_cast<HealthEvent>(e));
         const Decision d = decide(kTransitionTable, state, input, [](SensorSet) { return SizeClass::reduced; });
         const bool convicts = (d.actions & Action::exclude) != 0, turned = (d.actions & Action::rearm) != 0;
-        const bool adopts = (d.actions & Action::adopt_fit) != 0, sets = (d.actions & Action::exhausted) != 0;
+        const bool adopts = (d.actions & Action::adopt_fit) != 0, sets = (d.actions & Action::timed_out) != 0;
         const bool fails = state.mode == Mode::failed && static_cast<Mode>(m) != Mode::failed && !sets;
-        EXPECT_EQ(state.exhausted, sets || (before && !convicts && !turned && !adopts && !fails)) << m << " " << e;
+        EXPECT_EQ(state.timed_out, sets || (before && !convicts && !turned && !adopts && !fails)) << m << " " << e;
       }
     }
   }

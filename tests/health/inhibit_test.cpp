@@ -26,14 +26,14 @@ TEST(Inhibit, HoldsExclusionUntilReleasedAndIsOnRecord) {
     rig.distort = [](int i, double r, int) { return i == 2 ? r + 1.5 : r; };
     for (int k = 0; k < 5; ++k) {
       const Verdict& v = rig.stay(direction_at(45 + 10 * k, 200 + 60 * k));
-      EXPECT_TRUE((v.excluded | v.set_aside).empty());
+      EXPECT_TRUE((v.excluded | v.provisionally_excluded).empty());
       EXPECT_EQ(v.state, HealthState::suspect) << "doubt is not held back";
       EXPECT_TRUE(v.qualifiers & Qualifier::inhibited);
     }
     rig.monitor.inhibit(false);
     rig.stay(direction_at(100, 150));
     rig.stay(direction_at(110, 220));
-    EXPECT_TRUE((rig.monitor.verdict().excluded | rig.monitor.verdict().set_aside).has(2));
+    EXPECT_TRUE((rig.monitor.verdict().excluded | rig.monitor.verdict().provisionally_excluded).has(2));
     int on = 0, off = 0;
     for (const TransitionRecord& r : rig.records) {
       on += r.cause == Cause::inhibited ? 1 : 0;
@@ -71,7 +71,7 @@ TEST(Inhibit, DoesNotHoldBackLostChannelsOrFailed) {
 /// Frozen, the monitor may not take the faulty sensor out; where its bound is beyond what the user can bear, patience
 /// still ends in failed, and where it is not, in a doubt that says so.
 // Negative: REQ-107
-TEST(Inhibit, DoesNotHoldBackPatience) {
+TEST(Inhibit, DoesNotHoldBackTheIsolationTimeout) {
   for (const double limit_rad : {1e-5, 0.5}) {
     MonitorConfig config;
     config.alert_limit_rad = limit_rad;
@@ -84,10 +84,10 @@ TEST(Inhibit, DoesNotHoldBackPatience) {
     EXPECT_TRUE(v.excluded.empty());
     if (limit_rad < 0.1) {
       EXPECT_EQ(v.state, HealthState::failed);
-      EXPECT_EQ(rig.records.back().event, HealthEvent::patience_over);
+      EXPECT_EQ(rig.records.back().event, HealthEvent::isolation_timeout);
     } else {
       EXPECT_EQ(v.state, HealthState::suspect);
-      EXPECT_TRUE(v.qualifiers & Qualifier::exhausted);
+      EXPECT_TRUE(v.qualifiers & Qualifier::timed_out);
     }
   }
 }
@@ -201,7 +201,7 @@ TEST(RotationRequest, TheTurnThatIsAskedForResolvesTheMirror) {
     if (std::fabs(mirror) < 0.5) continue;
     rig.distort = [mirror](int i, double r, int) { return i == 1 ? r + mirror : r; };
     const Verdict v = rig.stay(u);
-    if (v.live_hypotheses != 2) continue;
+    if (v.consistent_hypotheses != 2) continue;
     ++asked;
     ASSERT_TRUE(v.rotation.wanted);
     ASSERT_GT(v.rotation.change_mps2, 0.0);
@@ -215,7 +215,7 @@ TEST(RotationRequest, TheTurnThatIsAskedForResolvesTheMirror) {
                                scaled(k, dot(k, u) * (1.0 - std::cos(a))));
       if (std::fabs(dot(turned, v.rotation.along) - dot(u, v.rotation.along)) * kG0_mps2 < 1.5 * v.rotation.change_mps2)
         continue;
-      resolved += rig.stay(turned).live_hypotheses == 1 ? 1 : 0;
+      resolved += rig.stay(turned).consistent_hypotheses == 1 ? 1 : 0;
       break;
     }
   }
@@ -241,7 +241,7 @@ TEST(RotationRequest, NothingIsAskedForWhereNoTurnHelps) {
   rig.distort = [](int i, double r, int) { return i < 2 ? r + 0.7 * (i + 1) : r; };
   Noise noise(3);
   for (int k = 0; k < 3; ++k) rig.stay(random_direction(noise));
-  ASSERT_EQ(rig.monitor.verdict().live_hypotheses, 0);
+  ASSERT_EQ(rig.monitor.verdict().consistent_hypotheses, 0);
   EXPECT_FALSE(rig.monitor.verdict().rotation.wanted);
 }
 
@@ -259,6 +259,20 @@ TEST(Trend, ADriftBelowTheLimitIsToldWithItsSignAndRate) {
   const Verdict& v = rig.monitor.verdict();
   EXPECT_NEAR(v.drift_mps2_per_h[3], -per_h, 0.3 * per_h);
   EXPECT_TRUE(rig.ever_blamed.empty()) << "it decides nothing";
+}
+
+// Verifies: REQ-127
+TEST(Trend, ADriftHasTheSignOfTheSensorsOwnReadingWhereItCountsSpecificForce) {
+  Rig rig(plumb_test::cone_array(6));
+  rig.setup.model.reads = Reads::specific_force;
+  rig.restart();
+  rig.distort = [](int, double r, int) { return -r; };
+  rig.prove();
+  const double per_h = 20e-3;
+  rig.distort = [per_h](int i, double r, int k) { return i == 3 ? -r + per_h * k * 0.01 / 3600.0 : -r; };
+  Noise noise(8);
+  for (int k = 0; k < 500; ++k) rig.stay(k % 50 == 0 ? random_direction(noise) : direction_at(40, 30));
+  EXPECT_NEAR(rig.monitor.verdict().drift_mps2_per_h[3], per_h, 0.3 * per_h);
 }
 
 // Negative: REQ-127
@@ -301,7 +315,7 @@ TEST(VerdictFields, NearVerticalTheToolfaceIsNotUsable) {
 // Verifies: REQ-124
 TEST(VerdictFields, AfterAnExclusionTheMarginIsThatOfTheSurvivors) {
   MonitorConfig config;
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   Rig rig(plumb_test::cone_array(5), config);
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 1 ? r + 1.0 : r; };

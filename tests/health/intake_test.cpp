@@ -1,5 +1,5 @@
 /// Time, readings and silence: what happens to a sample before any evidence.
-#include "plumb/health/intake.hpp"
+#include "plumb/health/detail/intake.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@ using plumb_test::Rig;
 
 MonitorConfig one_fault_asserted() {
   MonitorConfig config;
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   return config;
 }
 
@@ -50,7 +50,7 @@ TEST(MirrorFault, StuckInAVerticalToolIsAmbiguousAtEveryToolfaceAndIsolatedByFiv
     EXPECT_TRUE(v.wants_rotation);
   }
   EXPECT_EQ(rig.stay(direction_at(5, 40)).excluded, SensorSet::of(0));
-  EXPECT_EQ(rig.monitor.verdict().grade, Grade::asserted);
+  EXPECT_EQ(rig.monitor.verdict().grade, Grade::assumed);
   EXPECT_EQ(rig.ever_blamed, SensorSet::of(0));
 }
 
@@ -63,7 +63,7 @@ TEST(MirrorFault, WithoutAnAssertionTheStuckSensorTakesFourStations) {
     EXPECT_TRUE(rig.stay(direction_at(6 + 6 * k, 40)).excluded.empty()) << "station " << k + 1 << " off the mirror";
   }
   EXPECT_EQ(rig.stay(direction_at(24, 40)).excluded, SensorSet::of(0));
-  EXPECT_EQ(rig.monitor.verdict().grade, Grade::strict);
+  EXPECT_EQ(rig.monitor.verdict().grade, Grade::confirmed);
 }
 
 // Verifies: REQ-073
@@ -88,7 +88,7 @@ TEST(MirrorFault, WithoutAnAssertionTheMirrorBiasTakesFourStations) {
   }
   for (int k = 4; k < 6; ++k) rig.stay(direction_at(20, 45 + 20 * k));
   EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(0));
-  EXPECT_EQ(rig.monitor.verdict().grade, Grade::strict);
+  EXPECT_EQ(rig.monitor.verdict().grade, Grade::confirmed);
 }
 
 }  // namespace

@@ -73,8 +73,8 @@ RC_GTEST_PROP(MonitorLaw, IsTotalAndPartitionsTheSensorsOverAnyInput, ()) {
   HealthState before = HealthState::suspect;
   for (int k = 0; k < 600; ++k) {
     const Verdict& v = rig.monitor.step(wild_sample(noise, rig.setup.array, time_s));
-    RC_ASSERT((v.in_service | v.set_aside | v.excluded | v.absent) == v.configured);
-    RC_ASSERT(v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size() == n);
+    RC_ASSERT((v.in_service | v.provisionally_excluded | v.excluded | v.absent) == v.configured);
+    RC_ASSERT(v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size() == n);
     RC_ASSERT(finite(v));
     if (v.validity == Validity::valid) RC_ASSERT(v.protection_available && !v.alert);
     if (v.validity == Validity::valid) RC_ASSERT(v.protection_level_rad <= rig.setup.config.alert_limit_rad);
@@ -113,7 +113,7 @@ RC_GTEST_PROP(MonitorLaw, ReplayIsBitIdenticalAndASnapshotIsTransparent, ()) {
 
 /// S1 for one faulty sensor of any kind, S2 afterwards: what the excluded one says no longer matters.
 // Verifies: REQ-074, REQ-121, REQ-126
-RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
+RC_GTEST_PROP(MonitorLaw, ExcludesOnlyTheFaultySensorAndThenIgnoresIt, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
   Rig rig(any_array(noise, n), {}, *rc::gen::arbitrary<std::uint64_t>());
@@ -150,7 +150,7 @@ RC_GTEST_PROP(MonitorLaw, BlamesOnlyTheFaultyAndThenIgnoresIt, ()) {
   // trusted.
   if (kind <= 2 && !excluded) {
     const Verdict& v = rig.monitor.verdict();
-    RC_ASSERT(v.validity != Validity::valid || (kind == 2 && v.set_aside == SensorSet::of(faulty)));
+    RC_ASSERT(v.validity != Validity::valid || (kind == 2 && v.provisionally_excluded == SensorSet::of(faulty)));
   }
   RC_PRE(excluded);
   auto twin = std::make_unique<HealthMonitor>(rig.monitor);

@@ -1,5 +1,5 @@
 // By how much a tool may have turned unseen: what some sensor feels at least, and what noise hides.
-#include "plumb/health/motion_bound.hpp"
+#include "plumb/health/detail/motion_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Noise above the stated sigma, and noise that each sample shares with the one before, are learned at rest: of the
 // sensors together, never of one that would be judged by wider limits for it.
-#include "plumb/health/noise_study.hpp"
+#include "plumb/health/detail/noise_study.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "support/simulated_tool.hpp"
 
 namespace noise_study_test {

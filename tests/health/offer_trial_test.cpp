@@ -81,7 +81,7 @@ TEST(OfferTrial, OneOfAnotherArrayIsRefused) {
 /// the clock goes.
 // Negative: REQ-135
 TEST(OfferTrial, StationsAlikeTryNothingAndItsTimeRunsOut) {
-  for (const double later_s : {2.0 * Recalibration::kOfferLife_s, -1.0}) {
+  for (const double later_s : {2.0 * OfferedCalibration::kLife_s, -1.0}) {
     Shadow shadow(4, 13);
     const Recalibration::InForce in_force = {shadow.model, shadow.array, shadow.gravity, shadow.limits};
     SensorArray array = shadow.array;

@@ -233,9 +233,9 @@ TEST(OfferedCalibration, WaitsAsAShadowForADayAtMost) {
   EXPECT_TRUE(tool.rig.monitor.verdict().wants_rotation);
   const double start_s = tool.rig.monitor.verdict().time_s;
   Sample late = tool.rig.sample(direction_at(50, 50), kG0_mps2);
-  late.time_s = start_s + Recalibration::kOfferLife_s - 100.0;
+  late.time_s = start_s + OfferedCalibration::kLife_s - 100.0;
   EXPECT_EQ(tool.rig.step(late).state, HealthState::recalibrating);
-  late.time_s = start_s + Recalibration::kOfferLife_s + 100.0;
+  late.time_s = start_s + OfferedCalibration::kLife_s + 100.0;
   EXPECT_EQ(tool.rig.step(late).state, HealthState::nominal);
   EXPECT_EQ(tool.rig.records.back().event, HealthEvent::fit_rejected);
   EXPECT_EQ(tool.rig.monitor.verdict().recalibration.last_refusal.code, Errc::too_few_stations);
@@ -260,7 +260,7 @@ TEST(OfferedCalibration, AnAlarmEndsTheTrial) {
 TEST(OfferedCalibration, MayBeOfferedWhereAFitMayBeAskedFor) {
   EXPECT_EQ(HealthMonitor().offer_calibration({}, {}).error().code, Errc::wrong_state) << "not configured";
   Tool tool(4);
-  EXPECT_EQ(Offer(tool).to(tool).error().code, Errc::wrong_state) << "unproven";
+  EXPECT_EQ(Offer(tool).to(tool).error().code, Errc::wrong_state) << "not_yet_validated";
   Drifted twice(4);
   ASSERT_TRUE(Offer(twice).to(twice).has_value());
   twice.visit(1);

@@ -42,7 +42,7 @@ TEST(Recalibrating, ReplayIsExactThroughFitAndAdoption) {
 }
 
 /// S1, S13, S17 with drift, faults and recalibration all at once.
-RC_GTEST_PROP(RecalibratingLaw, NobodyHealthyIsBlamedAndValidOutputIsWithinItsBound, ()) {
+RC_GTEST_PROP(RecalibratingLaw, NoHealthySensorIsExcludedAndValidOutputIsWithinItsBound, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   const bool faulty = *rc::gen::arbitrary<bool>();

@@ -22,7 +22,7 @@ using plumb_test::Tool;
 TEST(Recalibrating, WhoMayAskAndWhen) {
   EXPECT_EQ(HealthMonitor().request_recalibration().error().code, Errc::wrong_state) << "not configured";
   Tool tool(4);
-  EXPECT_EQ(tool.rig.monitor.request_recalibration().error().code, Errc::wrong_state) << "unproven";
+  EXPECT_EQ(tool.rig.monitor.request_recalibration().error().code, Errc::wrong_state) << "not_yet_validated";
   tool.rig.prove();
   EXPECT_TRUE(tool.rig.monitor.request_recalibration().has_value()) << "nominal";
   Tool accused(4);
@@ -44,7 +44,7 @@ TEST(Recalibrating, WhoMayAskAndWhen) {
   EXPECT_EQ(lost.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
 }
 
-TEST(Recalibrating, RefusedWhileAnAlarmIsOnRecordOrASensorSetAside) {
+TEST(Recalibrating, RefusedDuringAnAlarmOrAProvisionalExclusion) {
   Tool spike(4);
   spike.rig.prove();
   spike.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
@@ -60,13 +60,13 @@ TEST(Recalibrating, RefusedWhileAnAlarmIsOnRecordOrASensorSetAside) {
   aside.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
   aside.rig.stay(direction_at(45, 200), 5);
   ASSERT_EQ(aside.state(), HealthState::isolated);
-  ASSERT_EQ(aside.rig.monitor.verdict().set_aside, SensorSet::of(2));
+  ASSERT_EQ(aside.rig.monitor.verdict().provisionally_excluded, SensorSet::of(2));
   EXPECT_EQ(aside.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
 }
 
 TEST(Recalibrating, ThreeSensorsUnderSuspicionMayNotClearThemselves) {
   MonitorConfig config;
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   Tool tool(4, config);
   tool.rig.prove();
   tool.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
@@ -75,7 +75,7 @@ TEST(Recalibrating, ThreeSensorsUnderSuspicionMayNotClearThemselves) {
   tool.fault = [](int, double r, int) { return 1.02 * r; };  // a second fault refutes the claim of one
   tool.rig.stay(direction_at(45, 200));
   ASSERT_EQ(tool.state(), HealthState::suspect);
-  ASSERT_EQ(tool.rig.records.back().cause, Cause::contradiction);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::no_consistent_hypothesis);
   EXPECT_EQ(tool.rig.monitor.request_recalibration().error().code, Errc::wrong_state);
 }
 
@@ -122,7 +122,7 @@ TEST(Recalibrating, CommonDriftIsMendedOnRequestAndUnconfirmedMeanwhile) {
   tool.bias.fill(2.5e-2);
   for (int k = 0; k < 10 && tool.state() == HealthState::nominal; ++k) tool.visit(1);
   ASSERT_EQ(tool.state(), HealthState::suspect);
-  ASSERT_EQ(tool.rig.records.back().cause, Cause::reference);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::norm_mismatch);
   ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
   for (int k = 0; k < 30 && tool.count(HealthEvent::fit_accepted) == 0; ++k) {
     tool.visit(1);
@@ -139,7 +139,7 @@ TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
   Tool tool(6, {}, 4);
   tool.rig.prove();
   for (int k = 0; k < 10 && tool.state() == HealthState::nominal; ++k) tool.visit(1, kG0_mps2 * 1.003);
-  ASSERT_EQ(tool.rig.records.back().cause, Cause::reference);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::norm_mismatch);
   ASSERT_TRUE(tool.rig.monitor.request_recalibration().has_value());
   tool.visit(30, kG0_mps2 * 1.003);
   EXPECT_EQ(tool.count(HealthEvent::fit_accepted), 0);
@@ -201,7 +201,7 @@ TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
     const Verdict& v = tool.rig.monitor.verdict();
     EXPECT_TRUE(v.protection_available || v.validity != Validity::valid);
   }
-  EXPECT_LE(farthest, Recalibration::kCommissioningSigmas * kStability_mps2);
+  EXPECT_LE(farthest, DriftBounds::kCommissioningSigmas * kStability_mps2);
   EXPECT_GT(tool.count(HealthEvent::fit_accepted) + tool.count(HealthEvent::fit_rejected), 0);
   EXPECT_EQ(tool.rig.ever_blamed, SensorSet::of(2)) << "in the end it is convicted, and it alone";
 }

@@ -24,7 +24,7 @@ struct Drifted : Tool {
 TEST(RecalibratingSuspect, AFitForAContradictionIsMadeAndAdoptedThoughTheContradictionGoesOn) {
   Drifted tool;
   ASSERT_EQ(tool.state(), HealthState::suspect);
-  ASSERT_EQ(tool.rig.monitor.verdict().live_hypotheses, 0);
+  ASSERT_EQ(tool.rig.monitor.verdict().consistent_hypotheses, 0);
   tool.visit(1);
   ASSERT_EQ(tool.state(), HealthState::recalibrating);
   const int before = tool.rig.monitor.verdict().stations_on_record;
@@ -40,9 +40,9 @@ TEST(RecalibratingSuspect, AFitForAContradictionIsMadeAndAdoptedThoughTheContrad
   EXPECT_TRUE(tool.rig.ever_blamed.empty());
 }
 
-TEST(RecalibratingSuspect, PatienceGivesWayToTheAlarmAndTheFitIsDiscarded) {
+TEST(RecalibratingSuspect, TheTimeoutGivesWayToTheAlarmAndTheFitIsDiscarded) {
   MonitorConfig config;
-  config.patience = Drifted().rig.monitor.verdict().stations_on_record + 1;
+  config.isolation_timeout = Drifted().rig.monitor.verdict().stations_on_record + 1;
   Drifted tool(config);
   tool.visit(1);
   ASSERT_EQ(tool.state(), HealthState::recalibrating);
@@ -55,7 +55,7 @@ TEST(RecalibratingSuspect, PatienceGivesWayToTheAlarmAndTheFitIsDiscarded) {
     tool.rig.stay(plumb_test::random_direction(tool.directions));
   }
   EXPECT_EQ(tool.rig.records.back().from, HealthState::recalibrating);
-  EXPECT_EQ(tool.rig.records.back().event, HealthEvent::alarm) << "though patience is over as well";
+  EXPECT_EQ(tool.rig.records.back().event, HealthEvent::alarm) << "though the isolation timeout is over as well";
   EXPECT_EQ(tool.state(), HealthState::suspect);
   EXPECT_EQ(tool.rig.monitor.recalibration().store().size(), 0);
   EXPECT_TRUE(tool.calibration_untouched());

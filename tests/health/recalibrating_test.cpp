@@ -49,12 +49,12 @@ TEST(Recalibrating, AfterAnExclusionTheSurvivorsAreCalibratedAnew) {
 
 TEST(Recalibrating, TheSurvivorsMustBeTrustedFirst) {
   MonitorConfig config = after_exclusion();
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   Tool tool(6, config);
   tool.rig.prove();
   tool.fault = [](int i, double r, int) { return i == 4 ? r + 0.4 : r; };
   ASSERT_EQ(tool.rig.stay(direction_at(40, 300)).state, HealthState::isolated) << "excluded at once";
-  EXPECT_EQ(tool.rig.stay(direction_at(40, 300), config.clean_blocks - 1).state, HealthState::isolated);
+  EXPECT_EQ(tool.rig.stay(direction_at(40, 300), config.passed_blocks - 1).state, HealthState::isolated);
   EXPECT_EQ(tool.rig.stay(direction_at(40, 300), 2).state, HealthState::recalibrating);
 }
 
@@ -81,7 +81,7 @@ TEST(Recalibrating, DriftAloneStartsNothing) {
 }
 
 // Verifies: REQ-133
-TEST(Recalibrating, AdoptionMustBeEarnedAnew) {
+TEST(Recalibrating, AdoptionNeedsANewValidation) {
   Tool tool(6);
   tool.drift(2e-3);
   tool.begin();
@@ -92,7 +92,7 @@ TEST(Recalibrating, AdoptionMustBeEarnedAnew) {
       if (v.transition.event != HealthEvent::fit_accepted) continue;
       EXPECT_EQ(v.state, HealthState::suspect);
       EXPECT_EQ(v.validity, Validity::invalid) << "no block has been seen through the new coefficients";
-      EXPECT_TRUE(v.qualifiers & Qualifier::unproven);
+      EXPECT_TRUE(v.qualifiers & Qualifier::not_yet_validated);
       EXPECT_EQ(v.mae_all_mps2, 0.0);
       EXPECT_EQ(v.transition.sensors, SensorSet::first(6));
     }
@@ -194,12 +194,12 @@ TEST(Recalibrating, EveryOtherEventOfTheTableDoesWhatItSays) {
   }
   {  // culprit: excluded, by size
     MonitorConfig config;
-    config.asserted_faults = 1;
+    config.assumed_faults = 1;
     Tool tool(6, config);
     tool.begin();
     tool.fault = [](int i, double r, int) { return i == 4 ? r + 0.4 : r; };
     tool.rig.stay(direction_at(40, 300));
-    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::culprit);
+    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::exclusion);
     EXPECT_EQ(tool.state(), HealthState::isolated);
     EXPECT_TRUE(tool.calibration_untouched());
   }
@@ -208,25 +208,25 @@ TEST(Recalibrating, EveryOtherEventOfTheTableDoesWhatItSays) {
     tool.begin();
     tool.fault = [](int i, double r, int) { return i == 4 ? r + 0.4 : r; };
     tool.rig.stay(direction_at(40, 300));
-    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::set_aside);
+    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::provisional_exclusion);
     EXPECT_EQ(tool.state(), HealthState::suspect);
     EXPECT_EQ(tool.rig.monitor.verdict().recalibration.phase, RecalibrationPhase::idle);
   }
   {  // contradiction: suspect ("never more than no fault", and here is one)
     MonitorConfig config;
-    config.asserted_faults = 0;
+    config.assumed_faults = 0;
     Tool tool(4, config);
     tool.begin();
     tool.fault = [](int i, double r, int) { return i == 1 ? r + 0.4 : r; };
     tool.rig.stay(direction_at(40, 300));
-    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::contradiction);
+    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::no_consistent_hypothesis);
     EXPECT_EQ(tool.state(), HealthState::suspect);
   }
   {  // reference: suspect
     Tool tool(6);
     tool.begin();
     tool.rig.stay(direction_at(40, 300), 1, kG0_mps2 * 1.005);
-    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::reference);
+    EXPECT_EQ(tool.rig.records.back().event, HealthEvent::norm_mismatch);
     EXPECT_EQ(tool.state(), HealthState::suspect);
     EXPECT_EQ(tool.rig.monitor.verdict().recalibration.phase, RecalibrationPhase::idle);
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "first_calibration_support.hpp"
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "recalibration_support.hpp"
 
 // Serves: REQ-163

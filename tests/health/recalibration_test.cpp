@@ -114,7 +114,7 @@ TEST(Recalibration, BoundsHoldAgainstTheCalibrationInForce) {
   EXPECT_EQ(refusal.code, Errc::implausible);
   EXPECT_EQ(refusal.index, 2);
   EXPECT_NEAR(refusal.value, 3.5, 0.2);
-  EXPECT_EQ(refusal.limit, Recalibration::kLastSigmas);
+  EXPECT_EQ(refusal.limit, DriftBounds::kLastSigmas);
 }
 
 TEST(Recalibration, ManySmallStepsDoNotAddUpBeyondTheBoundAgainstCommissioning) {
@@ -133,7 +133,7 @@ TEST(Recalibration, ManySmallStepsDoNotAddUpBeyondTheBoundAgainstCommissioning) 
     farthest = std::fmax(farthest, std::fabs(s.model.sensor[1].bias[0]));
   }
   EXPECT_TRUE(refused);
-  EXPECT_LE(farthest, Recalibration::kCommissioningSigmas * s.drift_sigmas.bias_mps2);
+  EXPECT_LE(farthest, DriftBounds::kCommissioningSigmas * s.drift_sigmas.bias_mps2);
   EXPECT_GT(farthest, 3.0 * s.drift_sigmas.bias_mps2) << "steps within the bounds were taken";
 }
 

@@ -21,8 +21,8 @@ TEST(ReferenceStudy, AWrongGravityIsToldAndTheDirectionStaysUsable) {
   rig.prove();
   Noise noise(4);
   for (int k = 0; k < 14; ++k) rig.stay(random_direction(noise), 1, 1.005 * kG0_mps2);
-  const ReferenceFinding& found = rig.monitor.verdict().reference;
-  EXPECT_EQ(found.kind, ReferenceKind::common_scale);
+  const NormMismatch& found = rig.monitor.verdict().norm_mismatch;
+  EXPECT_EQ(found.kind, NormMismatchKind::common_scale);
   EXPECT_NEAR(found.length_mps2, 0.005 * kG0_mps2, 1e-3);
   EXPECT_LT(found.turn_rad, rad_from_deg(1.0));
   bool noticed = false;
@@ -39,8 +39,8 @@ TEST(ReferenceStudy, ASharedBiasOfAConeIsToldWithItsDirection) {
   rig.distort = [](int, double r, int) { return r + 0.03 * kG0_mps2; };  // no parity: it is in the range of the axes
   Noise noise(4);
   for (int k = 0; k < 16; ++k) rig.stay(random_direction(noise));
-  const ReferenceFinding& found = rig.monitor.verdict().reference;
-  ASSERT_EQ(found.kind, ReferenceKind::common_bias);
+  const NormMismatch& found = rig.monitor.verdict().norm_mismatch;
+  ASSERT_EQ(found.kind, NormMismatchKind::common_bias);
   EXPECT_NEAR(found.bias_mps2[2], 0.03 * kG0_mps2 * std::sqrt(3.0), 0.02);
   EXPECT_NEAR(std::hypot(found.bias_mps2[0], found.bias_mps2[1]), 0.0, 0.02);
   EXPECT_TRUE(rig.ever_blamed.empty());
@@ -53,8 +53,8 @@ TEST(ReferenceStudy, OneCircleOfRollsCannotTellAndSaysSo) {
     rig.prove();
     if (scale == 1.0) rig.distort = [](int, double r, int) { return r + 0.03 * kG0_mps2; };
     for (int k = 0; k < 20; ++k) rig.stay(direction_at(40, 18.0 * k), 1, scale * kG0_mps2);
-    EXPECT_EQ(rig.monitor.verdict().reference.kind, ReferenceKind::undecided);
-    EXPECT_GE(rig.monitor.verdict().reference.attitudes, ReferenceStudy::kLeast);
+    EXPECT_EQ(rig.monitor.verdict().norm_mismatch.kind, NormMismatchKind::undecided);
+    EXPECT_GE(rig.monitor.verdict().norm_mismatch.attitudes, ReferenceStudy::kLeast);
   }
 }
 
@@ -65,7 +65,7 @@ TEST(ReferenceStudy, ABoundWhoseSquareVanishesTellsNothing) {
   Noise noise(4);
   for (int k = 0; k < 12; ++k) study.add(random_direction(noise), 0.05, 1e-200, 0.0);
   ASSERT_GE(study.find(kG0_mps2, 1e-3, 0.01).attitudes, ReferenceStudy::kLeast);
-  EXPECT_EQ(study.find(kG0_mps2, 1e-3, 0.01).kind, ReferenceKind::undecided);
+  EXPECT_EQ(study.find(kG0_mps2, 1e-3, 0.01).kind, NormMismatchKind::undecided);
 }
 
 enum class Truth { scale, bias, both, no_rule };
@@ -74,7 +74,7 @@ struct Case {
   Truth truth = Truth::scale;
   Vec3 bias{};
   double usable_rad = rad_from_deg(1.0);
-  ReferenceFinding found;
+  NormMismatch found;
 };
 
 /// Lengths of gravity that are off by a common scale, a bias, both or by no rule, with errors within the bound.
@@ -111,8 +111,8 @@ RC_GTEST_PROP(ReferenceStudyLaw, NoConfidentAnswerIsWrong, ()) {
   const int attitudes = *rc::gen::inRange(3, ReferenceStudy::kMax + 1);
   const bool narrow = *rc::gen::arbitrary<bool>();
   const Case c = studied(noise, truth, attitudes, narrow);
-  const bool says_scale = c.found.kind == ReferenceKind::common_scale,
-             says_bias = c.found.kind == ReferenceKind::common_bias;
+  const bool says_scale = c.found.kind == NormMismatchKind::common_scale,
+             says_bias = c.found.kind == NormMismatchKind::common_bias;
   RC_CLASSIFY(says_scale, "scale");
   RC_CLASSIFY(says_bias, "bias");
   const bool within = std::asin(norm(c.bias) / kG0_mps2) <= c.found.turn_rad && c.found.turn_rad <= c.usable_rad;
@@ -128,12 +128,12 @@ TEST(ReferenceStudy, ConfidentAnswersAreGivenWhereTheyAreRight) {
   int scales = 0, biases = 0;
   Noise noise(8);
   for (int k = 0; k < 100; ++k) {
-    const ReferenceKind of_scale = studied(noise, Truth::scale, 12, false).found.kind;
-    EXPECT_NE(of_scale, ReferenceKind::common_bias) << k;
-    scales += of_scale == ReferenceKind::common_scale ? 1 : 0;
+    const NormMismatchKind of_scale = studied(noise, Truth::scale, 12, false).found.kind;
+    EXPECT_NE(of_scale, NormMismatchKind::common_bias) << k;
+    scales += of_scale == NormMismatchKind::common_scale ? 1 : 0;
     const Case c = studied(noise, Truth::bias, 12, false);
-    biases += c.found.kind == ReferenceKind::common_bias ? 1 : 0;
-    if (c.found.kind == ReferenceKind::common_scale) {
+    biases += c.found.kind == NormMismatchKind::common_bias ? 1 : 0;
+    if (c.found.kind == NormMismatchKind::common_scale) {
       EXPECT_LE(std::asin(norm(c.bias) / kG0_mps2), c.found.turn_rad) << k;
     }
   }
@@ -161,9 +161,9 @@ TEST(ReferenceStudy, AShortLengthIsACommonScaleToo) {
     for (int k = 0; k < 100; ++k) study.add(plumb_test::random_direction(noise), off_mps2, 1e-3, 0.2);
     return study.find(kG0_mps2, 1e-3, rad_from_deg(2.0)).kind;
   };
-  EXPECT_EQ(found(0.05), ReferenceKind::common_scale);
-  EXPECT_EQ(found(-0.05), ReferenceKind::common_scale);
-  EXPECT_EQ(found(0.0), ReferenceKind::undecided);
+  EXPECT_EQ(found(0.05), NormMismatchKind::common_scale);
+  EXPECT_EQ(found(-0.05), NormMismatchKind::common_scale);
+  EXPECT_EQ(found(0.0), NormMismatchKind::undecided);
 }
 
 }  // namespace

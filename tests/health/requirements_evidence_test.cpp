@@ -102,7 +102,7 @@ Rig steady_parity(double share, Vec3& direction) {
 }
 
 // Verifies: REQ-097
-TEST(RequirementClean, BelowSevenTenthsOfTheLimitTrustIsEarned) {
+TEST(RequirementClean, BelowSevenTenthsOfTheLimitABlockCountsForValidation) {
   Vec3 u{};
   Rig rig = steady_parity(0.6, u);
   Noise noise(3);
@@ -133,12 +133,12 @@ TEST(RequirementClean, ABlockThatIsNotCleanStartsTheCountAnew) {
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.3 : r; };
   ASSERT_EQ(rig.stay(direction_at(100, 340)).state, HealthState::suspect);
-  // Two clean blocks and one with the fault, again and again: never three in a row.
+  // Two passed blocks and one with the fault, again and again: never three in a row.
   int clean = 0;
   for (int round = 0; round < 8; ++round) {
     rig.distort = [](int, double r, int) { return r; };
     for (int k = 0; k < 2; ++k) {
-      clean += rig.stay(direction_at(100, 340)).cause == Cause::clean ? 1 : 0;
+      clean += rig.stay(direction_at(100, 340)).cause == Cause::passed_block ? 1 : 0;
       EXPECT_EQ(rig.monitor.verdict().state, HealthState::suspect);
     }
     rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.3 : r; };
@@ -157,15 +157,15 @@ TEST(RequirementVotes, AreTakenAtBlocks1And2And4And8And16Only) {
     rig.distort = [&](int i, double r, int) { return i == 2 ? r + 2.0 * rig.setup.array.sigma_mps2(i) : r; };
     Noise noise(seed);
     const Vec3 u = plumb_test::random_direction(noise);
-    int before = rig.monitor.verdict().live_hypotheses;
+    int before = rig.monitor.verdict().consistent_hypotheses;
     int block = 0;
     for (int k = 0; k < 40; ++k) {
       const Verdict& v = rig.stay(u);
       if (block > 0 || v.state != HealthState::nominal) ++block;  // counted from the alarm
-      if (v.live_hypotheses == before) continue;
+      if (v.consistent_hypotheses == before) continue;
       EXPECT_TRUE(block == 1 || block == 2 || block == 4 || block == 8 || block == 16) << seed << ", block " << block;
       changes += block > 1 ? 1 : 0;
-      before = v.live_hypotheses;
+      before = v.consistent_hypotheses;
     }
   }
   EXPECT_GT(changes, 10) << "else the test shows nothing";
@@ -186,14 +186,14 @@ TEST(RequirementGravityBetweenSteps, TheNewLengthCountsAndTheDeadLiveAgain) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.5 : r; };
-  const int live = rig.stay(direction_at(45, 200), 2).live_hypotheses;
+  const int live = rig.stay(direction_at(45, 200), 2).consistent_hypotheses;
   ASSERT_LT(live, 4);
   GravityReference deeper = rig.setup.gravity;
   deeper.g_mps2 *= 1.002;
   ASSERT_TRUE(rig.monitor.set_gravity(deeper).has_value());
   rig.distort = [](int, double r, int) { return r; };
   const Verdict& v = rig.stay(direction_at(100, 340), 1, deeper.g_mps2);
-  EXPECT_EQ(v.live_hypotheses, 4);
+  EXPECT_EQ(v.consistent_hypotheses, 4);
   EXPECT_LT(std::fabs(v.norm_error_mps2), 1e-3);
 }
 

@@ -22,10 +22,10 @@ TEST(RequirementStrict, TheAnswerMustHoldAtFourStations) {
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 1.5 : r; };
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(rig.stay(direction_at(45 + 10 * k, 200 + 60 * k), 3).excluded.empty()) << "station " << k + 1;
-    EXPECT_EQ(rig.monitor.verdict().live_hypotheses, 1) << "although the answer is unique";
+    EXPECT_EQ(rig.monitor.verdict().consistent_hypotheses, 1) << "although the answer is unique";
   }
   EXPECT_EQ(rig.stay(direction_at(75, 20)).excluded, SensorSet::of(2));
-  EXPECT_EQ(rig.monitor.verdict().grade, Grade::strict);
+  EXPECT_EQ(rig.monitor.verdict().grade, Grade::confirmed);
 }
 
 // Negative: REQ-071
@@ -54,27 +54,27 @@ TEST(RequirementParityGrade, FourSensorsHaveNoneAndSetNobodyAside) {
     Noise noise(5);
     for (int k = 0; k < 10; ++k) {
       const Verdict& v = rig.stay(plumb_test::random_direction(noise));
-      EXPECT_EQ(v.parity_grade, 0);
-      EXPECT_TRUE(v.set_aside.empty());
+      EXPECT_EQ(v.provisional_grade, 0);
+      EXPECT_TRUE(v.provisionally_excluded.empty());
       EXPECT_FALSE(v.qualifiers & Qualifier::provisional);
     }
-    EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1)) << "by the strict grade: " << fault;
+    EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1)) << "by the confirmed grade: " << fault;
   }
 }
 
 // Negative: REQ-073
-TEST(RequirementAssertedFaults, AnAlarmWithNoneLeftIsAContradictionAndConvictsNobody) {
+TEST(RequirementAssertedFaults, AnAlarmWithNoneLeftHasNoConsistentHypothesisAndExcludesNoSensor) {
   MonitorConfig config;
-  config.asserted_faults = 0;
+  config.assumed_faults = 0;
   Rig rig(plumb_test::tetrahedron(), config);
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 1 ? r + 1.0 : r; };
   const Verdict& v = rig.stay(direction_at(55, 77));
   EXPECT_EQ(v.state, HealthState::suspect);
-  EXPECT_EQ(rig.records.back().event, HealthEvent::contradiction);
+  EXPECT_EQ(rig.records.back().event, HealthEvent::no_consistent_hypothesis);
   EXPECT_TRUE(rig.ever_blamed.empty());
   rig.stay(direction_at(75, 177));
-  EXPECT_TRUE(rig.ever_blamed.empty()) << "from here on the strict grade holds, over four stations";
+  EXPECT_TRUE(rig.ever_blamed.empty()) << "from here on the confirmed grade holds, over four stations";
 }
 
 // Verifies: REQ-103
@@ -104,8 +104,8 @@ TEST(RequirementIsolation, OneFaultIsExcludedWithinEightStations) {
 }
 
 // Negative: REQ-099
-TEST(RequirementProbation, WhoIsConvictedAfterAReturnStaysOut) {
-  for (const int n : {4, 6}) {  // by the strict grade, and by the parity grade
+TEST(RequirementProbation, ASensorExcludedAfterAReturnStaysExcluded) {
+  for (const int n : {4, 6}) {  // by the confirmed grade, and by the provisional grade
     Rig rig(n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n));
     rig.prove();
     bool broken = true;
@@ -163,22 +163,22 @@ TEST(RequirementEpisode, EndsAfterCleanStationsAtThreeAttitudes) {
   for (int k = 0; k < 6; ++k) rig.stay(direction_at(30 + 15 * k, 60 * k));
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal);
   EXPECT_EQ(rig.monitor.verdict().stations_on_record, 0);
-  EXPECT_EQ(rig.monitor.verdict().live_hypotheses, 4);
+  EXPECT_EQ(rig.monitor.verdict().consistent_hypotheses, 4);
 }
 
 // Negative: REQ-104
 TEST(RequirementEpisode, DoesNotEndByCleanBlocksAtOneAttitude) {
   Rig rig = four_after_an_alarm();
-  const int live = rig.monitor.verdict().live_hypotheses;
+  const int live = rig.monitor.verdict().consistent_hypotheses;
   ASSERT_LT(live, 4);
   rig.stay(direction_at(30, 60), 40);
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal) << "the state is by size again";
   EXPECT_EQ(rig.monitor.verdict().stations_on_record, 1) << "and the record stays";
-  EXPECT_LE(rig.monitor.verdict().live_hypotheses, live);
+  EXPECT_LE(rig.monitor.verdict().consistent_hypotheses, live);
 }
 
 // Negative: REQ-077
-TEST(RequirementContradiction, TwoRandomFaultsAmongFourBlameNobody) {
+TEST(RequirementContradiction, TwoRandomFaultsAmongFourExcludeNoSensor) {
   int contradictions = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Rig rig(plumb_test::tetrahedron(), {}, seed);
@@ -192,7 +192,7 @@ TEST(RequirementContradiction, TwoRandomFaultsAmongFourBlameNobody) {
       EXPECT_TRUE(rig.ever_blamed.empty());
       EXPECT_EQ(rig.monitor.verdict().state, HealthState::suspect);
     }
-    contradictions += rig.monitor.verdict().live_hypotheses == 0 ? 1 : 0;
+    contradictions += rig.monitor.verdict().consistent_hypotheses == 0 ? 1 : 0;
   }
   EXPECT_GE(contradictions, 8) << "else the test shows nothing";
 }

@@ -36,11 +36,12 @@ TEST(RequirementRank, EventsStandInTheOrderOfTheHandWrittenTable) {
 }
 
 // Verifies: REQ-077
-TEST(RequirementContradiction, NoCellExcludesSetsAsideOrFails) {
+TEST(RequirementContradiction, NoCellExcludesOrProvisionallyExcludesOrFails) {
   for (int m = 0; m < kModeCount; ++m) {
     const auto mode = static_cast<Mode>(m);
-    const Cell& cell = cell_of(mode, HealthEvent::contradiction);
-    EXPECT_EQ(cell.actions & (Action::exclude | Action::set_aside | Action::mark_absent), 0) << to_string(mode);
+    const Cell& cell = cell_of(mode, HealthEvent::no_consistent_hypothesis);
+    EXPECT_EQ(cell.actions & (Action::exclude | Action::exclude_provisionally | Action::mark_absent), 0)
+        << to_string(mode);
     for (const SizeClass size : {SizeClass::critical, SizeClass::all_configured, SizeClass::reduced}) {
       TargetFacts facts;
       facts.size = size;
@@ -56,7 +57,7 @@ TEST(RequirementTrust, ASensorWhosePredictionNeverMovedIsNotProven) {
   for (int k = 0; k < 24; ++k) {
     const Verdict& v = rig.stay(direction_at(40, 15.0 * k));
     EXPECT_EQ(v.state, HealthState::suspect);
-    EXPECT_TRUE(v.qualifiers & Qualifier::unproven);
+    EXPECT_TRUE(v.qualifiers & Qualifier::not_yet_validated);
     EXPECT_EQ(v.validity, Validity::valid) << "the bound holds a fault of any one sensor, this one too";
     EXPECT_EQ(v.faults_covered, 1);
   }
@@ -71,7 +72,7 @@ TEST(RequirementRecords, TheyChainWithoutHolesAndNothingChangesWithoutOne) {
     for (int k = 0; k < blocks * rig.setup.config.window; ++k) {
       const Verdict v = rig.step(rig.sample(direction_at(40 + toolface / 6, toolface), kG0_mps2));
       const bool changed = v.state != before.state || v.in_service != before.in_service ||
-                           v.set_aside != before.set_aside || v.excluded != before.excluded ||
+                           v.provisionally_excluded != before.provisionally_excluded || v.excluded != before.excluded ||
                            v.absent != before.absent;
       EXPECT_EQ(changed, v.transition.sequence != 0);
       if (v.transition.sequence != 0) {
@@ -80,7 +81,7 @@ TEST(RequirementRecords, TheyChainWithoutHolesAndNothingChangesWithoutOne) {
         EXPECT_EQ(v.transition.to, v.state);
         EXPECT_EQ(v.transition.time_s, v.time_s);
       }
-      const SensorSet sets[] = {v.in_service, v.set_aside, v.excluded, v.absent};
+      const SensorSet sets[] = {v.in_service, v.provisionally_excluded, v.excluded, v.absent};
       int members = 0;
       for (const SensorSet s : sets) members += s.size();
       EXPECT_EQ(members, 7) << "nobody stands in two sets";
@@ -97,28 +98,29 @@ TEST(RequirementRecords, TheyChainWithoutHolesAndNothingChangesWithoutOne) {
   for (int k = 0; k < 3; ++k) play(1, 25.0 + 50.0 * k);
   EXPECT_EQ(before.excluded, SensorSet::of(5));
   EXPECT_EQ(before.absent, SensorSet::of(2));
-  EXPECT_TRUE((before.set_aside | before.in_service).has(0));
+  EXPECT_TRUE((before.provisionally_excluded | before.in_service).has(0));
   EXPECT_GE(sequence, 4U) << "else the test shows nothing";
 }
 
 // Verifies: REQ-101
-TEST(RequirementRecords, AConvictionTellsItsGradeAndNothingElseHasOne) {
+TEST(RequirementRecords, OnlyTheRecordOfAnExclusionHasAGrade) {
   Rig rig(plumb_test::cone_array(7));
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 5 ? r + 0.3 : r; };
   for (int k = 0; k < 8; ++k) rig.stay(direction_at(40 + 10 * k, 50.0 * k));
   int aside = 0, out = 0;
   for (const TransitionRecord& record : rig.records) {
-    const bool set_aside = record.event == HealthEvent::set_aside, culprit = record.event == HealthEvent::culprit;
-    EXPECT_EQ(record.grade, set_aside ? Grade::parity
-                            : culprit ? Grade::strict
-                                      : Grade::none)
+    const bool provisionally_excluded = record.event == HealthEvent::provisional_exclusion,
+               exclusion = record.event == HealthEvent::exclusion;
+    EXPECT_EQ(record.grade, provisionally_excluded ? Grade::provisional
+                            : exclusion            ? Grade::confirmed
+                                                   : Grade::none)
         << to_string(record.event);
-    if (set_aside || culprit) {
+    if (provisionally_excluded || exclusion) {
       EXPECT_EQ(record.sensors, SensorSet::of(5));
     }
-    aside += set_aside ? 1 : 0;
-    out += culprit ? 1 : 0;
+    aside += provisionally_excluded ? 1 : 0;
+    out += exclusion ? 1 : 0;
   }
   EXPECT_EQ(aside, 1);
   EXPECT_EQ(out, 1);
@@ -199,7 +201,7 @@ TEST(RequirementGap, AShorterPauseDoesNot) {
 }
 
 // Negative: REQ-144
-TEST(RequirementStuck, AToolAtRestRepeatsItsCodesAndNobodyIsBlamed) {
+TEST(RequirementStuck, AToolAtRestRepeatsItsCodesAndNoSensorIsExcluded) {
   Rig rig(plumb_test::cone_array(5));
   rig.prove();
   const SensorArray array = rig.setup.array;

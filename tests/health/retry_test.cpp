@@ -57,7 +57,7 @@ struct Failing {
 RetryPolicy policy(double pause_s = 2.0, int most = 2) { return {pause_s, most, MonitorConfig{}.reset_key}; }
 
 // Verifies: REQ-167
-TEST(RetryAfterTimeout, AsksAfterThePauseAndTheToolEarnsItsTrustAnew) {
+TEST(RetryAfterTimeout, AsksAfterThePauseAndTheToolIsValidatedAgain) {
   Failing tool(policy());
   tool.fail();
   ASSERT_EQ(tool.told.size(), 1U);
@@ -74,7 +74,7 @@ TEST(RetryAfterTimeout, AsksAfterThePauseAndTheToolEarnsItsTrustAnew) {
   EXPECT_GE(tool.told[1].time_s - failed_s, 2.0);
   EXPECT_LE(tool.told[1].time_s - failed_s, 2.02) << "no later than the next sample";
   EXPECT_EQ(tool.state(), HealthState::suspect);
-  EXPECT_TRUE(tool.rig.monitor.verdict().qualifiers & Qualifier::unproven);
+  EXPECT_TRUE(tool.rig.monitor.verdict().qualifiers & Qualifier::not_yet_validated);
   EXPECT_EQ(tool.rig.records.back().event, HealthEvent::reset) << "failed is left by the keyed reset (S5)";
   EXPECT_EQ(tool.rig.prove().state, HealthState::degraded_3_sensor);
 }
@@ -107,7 +107,7 @@ TEST(RetryAfterTimeout, TooFewSensorsAreNeverTriedAgain) {
   EXPECT_EQ(told, 1);
   EXPECT_EQ(helper.retries(), 0);
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::failed);
-  EXPECT_FALSE(rig.monitor.verdict().qualifiers & Qualifier::exhausted);
+  EXPECT_FALSE(rig.monitor.verdict().qualifiers & Qualifier::timed_out);
 }
 
 // Negative: REQ-167

@@ -1,6 +1,6 @@
 // A tool that turns or shakes slowly has a vector, whose bound holds what it moves by until the next; nobody is accused
 // by such a block and nobody cleared.
-#include "plumb/health/slow_motion.hpp"
+#include "plumb/health/detail/slow_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -219,19 +219,19 @@ TEST(SlowMotion, AShakenToolIsValid) {
 
 /// A tool that turns for the first time after power-on earns no trust by it, though block after block agrees.
 // Negative: REQ-068
-TEST(SlowMotion, NoTrustIsEarnedInMotion) {
+TEST(SlowMotion, NoSensorIsValidatedInMotion) {
   Rig rig(plumb_test::cone_array(6), {}, 9);
   Turn turn;
   for (int k = 0; k < 300 * rig.setup.config.window; ++k) rig.step(rig.sample(turn.on(0.5), kG0_mps2));
   EXPECT_GT(turn.inclination_deg, 70.0);
-  EXPECT_NE(rig.monitor.verdict().qualifiers & Qualifier::unproven, 0);
+  EXPECT_NE(rig.monitor.verdict().qualifiers & Qualifier::not_yet_validated, 0);
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::suspect);
 }
 
 /// A liar is doubted at once, and named when the tool rests: in motion nobody is excluded, for good or for a while.
 // Verifies: REQ-068
 // Negative: REQ-068
-TEST(SlowMotion, ALiarIsDoubtedInMotionAndNamedAtRest) {
+TEST(SlowMotion, AFaultySensorIsSuspectedInMotionAndIsolatedAtRest) {
   for (const int n : {4, 6, 8}) {
     Rig rig = trusted(n, 11);
     Turn turn;
@@ -321,7 +321,7 @@ TEST(SlowMotion, AChannelThatMovesByItselfIsNoMotionOfTheTool) {
 
 /// The turn quickens, and one sensor pulls the vector back to where it would have been: the others show it, row by row.
 // Negative: REQ-068
-TEST(SlowMotion, ALiarThatPullsTheVectorBackIsNotFollowed) {
+TEST(SlowMotion, AFaultySensorThatPullsTheVectorBackIsNotFollowed) {
   for (int n = 4; n <= kCapacity; ++n) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       Rig rig = trusted(n, seed);

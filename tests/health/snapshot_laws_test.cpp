@@ -95,7 +95,7 @@ RC_GTEST_PROP(SnapshotLaw, AnyDamageIsSeenAndLeavesTheMonitorUnproven, ()) {
   RC_ASSERT(taken.error().code == Errc::snapshot_damaged ||
             (in_size && taken.error().code == Errc::snapshot_truncated));
   RC_ASSERT(is_fresh_but_for(monitor, life.tool.rig.setup, taken.error().code));
-  RC_ASSERT((monitor.verdict().qualifiers & Qualifier::unproven) != 0);
+  RC_ASSERT((monitor.verdict().qualifiers & Qualifier::not_yet_validated) != 0);
 }
 
 // Negative: REQ-163
@@ -120,8 +120,8 @@ TEST(Snapshot, EverySingleBitAndEveryLengthIsCovered) {
   auto monitor = std::make_unique<HealthMonitor>();
   const auto answer = [&](const Bytes& given, std::size_t size) {
     const Expected<void> taken = monitor->restore(life.tool.rig.setup, given.data(), size);
-    const bool unproven = (monitor->verdict().qualifiers & Qualifier::unproven) != 0;
-    return taken.has_value() || !unproven ? Errc::ok : taken.error().code;
+    const bool not_yet_validated = (monitor->verdict().qualifiers & Qualifier::not_yet_validated) != 0;
+    return taken.has_value() || !not_yet_validated ? Errc::ok : taken.error().code;
   };
   Bytes hurt = bytes;
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -190,8 +190,9 @@ RC_GTEST_PROP(SnapshotLaw, AbsurdContentsDoNoHarm, ()) {
     ++accepted;
     for (int k = 0; k < 100; ++k) {
       const Verdict& v = victim->step(life.next({victim.get()}));
-      RC_ASSERT((v.in_service | v.set_aside | v.excluded | v.absent) == v.configured);
-      RC_ASSERT(v.in_service.size() + v.set_aside.size() + v.excluded.size() + v.absent.size() == setup.array.size());
+      RC_ASSERT((v.in_service | v.provisionally_excluded | v.excluded | v.absent) == v.configured);
+      RC_ASSERT(v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size() ==
+                setup.array.size());
       if (v.state == HealthState::failed) RC_ASSERT(v.validity == Validity::invalid);
       if (v.validity == Validity::valid) RC_ASSERT(v.protection_available && !v.alert);
     }

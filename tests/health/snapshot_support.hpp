@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "plumb/health/snapshot.hpp"
 #include "recalibration_support.hpp"
 

@@ -191,7 +191,7 @@ void expect_refused(Isolated& tool, const Bytes& bytes, Errc cause) {
   EXPECT_EQ(v.snapshot_refusal, cause);
   EXPECT_EQ(v.cause, Cause::snapshot_refused);
   EXPECT_EQ(v.state, HealthState::suspect);
-  EXPECT_NE(v.qualifiers & Qualifier::unproven, 0);
+  EXPECT_NE(v.qualifiers & Qualifier::not_yet_validated, 0);
   EXPECT_TRUE(v.excluded.empty());
   // It goes on as any monitor that was just switched on, and keeps the reason in its verdict.
   const Verdict& next = tool.after.step(tool.rig.sample(direction_at(50, 50), kG0_mps2));
@@ -259,7 +259,7 @@ TEST(Snapshot, IsBoundToEverySetting) {
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.reset_key ^= 1U; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.recalibrate_after_exclusion = true; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.stability[2].mps2 = 1e-3; }));
-  EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.patience_blocks = 100; }));
+  EXPECT_TRUE(refused([](MonitorSetup& s) { s.config.isolation_timeout_blocks = 100; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.stability[2].per_degc_mps2 = 1e-5; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.lever_arm_m[5][1] = 0.01; }));
   EXPECT_TRUE(refused([](MonitorSetup& s) { s.lever_arms_known = true; }));

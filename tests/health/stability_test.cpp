@@ -1,5 +1,6 @@
 // Drift since the calibration: what is stated of it is in every limit, in isolation and in the protection level.
 #include "plumb/health/stability.hpp"
+#include "plumb/detection/estimate_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +53,7 @@ Outcome run(double stated_mps2, double drift_mps2, bool shared, int tools) {
 }
 
 // Verifies: REQ-123
-TEST(Stability, DriftWithinWhatIsStatedBlamesNobodyAndStaysWithinTheProtectionLevel) {
+TEST(Stability, DriftWithinTheStatedStabilityExcludesNoSensorAndStaysWithinTheProtectionLevel) {
   for (const bool shared : {false, true}) {
     const Outcome out = run(0.5 * kMilligee_mps2, 0.5 * kMilligee_mps2, shared, 100);
     EXPECT_EQ(out.blamed, 0) << "shared " << shared;
@@ -162,6 +163,30 @@ TEST(Stability, RefusesWhatIsNoStability) {
   EXPECT_EQ(refused({0.0, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}, 0.0).code, Errc::not_finite);
   EXPECT_EQ(refused({}, -1.0).code, Errc::out_of_range);
   EXPECT_EQ(refused({}, 40000.0).limit, kMostDaysSinceCalibration);
+}
+
+// Verifies: REQ-123
+TEST(Stability, AVerdictSaysWhereACalibrationStatesNoUncertainty) {
+  RowUncertainty left;
+  for (std::size_t a = 0; a < 16; ++a) left.covariance[a * (a + 1) / 2 + a] = 1e-8;
+  const auto unstated = [](const RowUncertainty& uncertainty) {
+    SensorArray array = plumb_test::tetrahedron();
+    array.set_uncertainty(uncertainty);
+    Rig rig(array);
+    rig.stay(plumb_test::direction_at(20, 10));
+    return (rig.monitor.verdict().qualifiers & Qualifier::uncertainty_unstated) != 0;
+  };
+  EXPECT_FALSE(unstated(left));
+  EXPECT_TRUE(unstated(RowUncertainty{}));
+  for (std::size_t a = 4; a < 8; ++a) left.covariance[a * (a + 1) / 2 + a] = 0.0;
+  EXPECT_TRUE(unstated(left)) << "of one sensor";
+  left.covariance[7 * 8 / 2 + 7] = 1e-8;
+  EXPECT_TRUE(unstated(left)) << "its bias alone is uncertain, scale and axis are not";
+  left.covariance[7 * 8 / 2 + 7] = 0.0;
+  left.covariance[4 * 5 / 2 + 4] = 1e-8;
+  EXPECT_TRUE(unstated(left)) << "its scale and axis are uncertain, its bias is not";
+  left.misfit_mps2[1] = 1e-4;
+  EXPECT_TRUE(unstated(left)) << "a misfit is noise at an attitude, and says nothing of bias and axis";
 }
 
 // Verifies: REQ-123

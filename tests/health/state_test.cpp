@@ -33,11 +33,11 @@ TEST(StateWords, EveryValueHasAWordOfItsOwn) {
   expect_words(HealthEvent::none);
   expect_words(kLastCause);
   expect_words(Validity::valid);
-  expect_words(Grade::asserted);
+  expect_words(Grade::assumed);
   expect_words(Mode::failed);
   expect_words(Target::failed);
   expect_words(RecalibrationPhase::accepted);
-  expect_words(ReferenceKind::common_bias);
+  expect_words(NormMismatchKind::common_bias);
 }
 
 // Verifies: REQ-101
@@ -62,7 +62,7 @@ TEST(StateWords, WhatIsNoValueTrustsNothing) {
   const auto target = static_cast<Target>(static_cast<int>(Target::failed) + 1);
   TargetFacts best;
   best.size = SizeClass::all_configured;
-  best.earned = best.protection_within = best.calibrated = true;
+  best.enough_passed = best.protection_within = best.calibrated = true;
   EXPECT_EQ(resolve(Mode::nominal, target, best), Mode::failed);
   EXPECT_EQ(resolve(Mode::nominal, Target::failed, best), Mode::failed);
 }

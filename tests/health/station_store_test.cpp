@@ -1,4 +1,4 @@
-#include "plumb/health/station_store.hpp"
+#include "plumb/health/detail/station_store.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

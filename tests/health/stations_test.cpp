@@ -103,7 +103,7 @@ struct Settling {
       }
     }
     const Verdict& v = rig.monitor.verdict();
-    excluded += (v.excluded | v.set_aside) == SensorSet::of(liar) ? 1 : 0;
+    excluded += (v.excluded | v.provisionally_excluded) == SensorSet::of(liar) ? 1 : 0;
     failed += v.state == HealthState::failed ? 1 : 0;
     wrong += SensorSet::of(liar).contains(rig.ever_blamed) ? 0 : 1;
   }

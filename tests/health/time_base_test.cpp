@@ -22,7 +22,7 @@ using plumb_test::Rig;
 using plumb_test::snapshot_of;
 using plumb_test::tetrahedron;
 
-bool unproven(const Verdict& v) { return (v.qualifiers & Qualifier::unproven) != 0; }
+bool not_yet_validated(const Verdict& v) { return (v.qualifiers & Qualifier::not_yet_validated) != 0; }
 
 /// A row of that tool at rest, of a log that begins at 0.
 Sample row_at(Rig& rig, const Vec3& direction, int k) {
@@ -47,7 +47,7 @@ TEST(TimeBase, TheRowAfterItIsTakenWhateverItsTimeAndOldEvidenceIsNoneOfNow) {
       sample.time_s = begin_s + 0.01 * k;
       const Verdict& v = rig.monitor.step(sample);
       EXPECT_TRUE(v.accepted) << k;
-      EXPECT_FALSE(unproven(v));
+      EXPECT_FALSE(not_yet_validated(v));
       EXPECT_EQ(v.state, HealthState::nominal);
       EXPECT_EQ(v.validity, k < 31 ? Validity::invalid : Validity::valid) << begin_s << " " << k;
     }
@@ -125,8 +125,8 @@ TEST(TimeBase, WhatRecordedRowsValidatedIsValidatedFromTheFirstRowOfTheRunOn) {
     Noise noise(1000U + static_cast<std::uint64_t>(number));
     const int n = 4 + number % 5;
     Rig rig(n == 4 ? tetrahedron() : cone_array(n), {}, static_cast<std::uint64_t>(number) + 1);
-    for (int k = 0; k < 12 && unproven(rig.monitor.verdict()); ++k) rig.stay(random_direction(noise), 2);
-    ASSERT_FALSE(unproven(rig.monitor.verdict())) << number;
+    for (int k = 0; k < 12 && not_yet_validated(rig.monitor.verdict()); ++k) rig.stay(random_direction(noise), 2);
+    ASSERT_FALSE(not_yet_validated(rig.monitor.verdict())) << number;
     rig.stay(random_direction(noise));
     const Bytes bytes = snapshot_of(rig.monitor);
     auto restored = std::make_unique<HealthMonitor>();
@@ -140,9 +140,9 @@ TEST(TimeBase, WhatRecordedRowsValidatedIsValidatedFromTheFirstRowOfTheRunOn) {
     for (int k = 0; k < 20 * 32; ++k) {
       const Sample sample = row_at(rig, still, k);
       const Verdict& v = restored->step(sample);
-      ASSERT_FALSE(unproven(v)) << number << " " << k;
+      ASSERT_FALSE(not_yet_validated(v)) << number << " " << k;
       ASSERT_EQ(bits_of(v), bits_of(rig.monitor.step(sample)));
-      ASSERT_TRUE(unproven(alone->step(sample)));
+      ASSERT_TRUE(not_yet_validated(alone->step(sample)));
       ASSERT_EQ(alone->verdict().state, HealthState::suspect);
       ASSERT_TRUE(v.validity != Validity::valid || k >= 31) << "nothing of the roll test is valid now";
       valid = valid || v.validity == Validity::valid;
@@ -161,10 +161,10 @@ TEST(TimeBase, RowsThatLeaveASensorWhereItIsValidateNobody) {
   EXPECT_EQ(asked.along, rig.setup.array.axis(3));
   EXPECT_NEAR(asked.change_mps2, 0.02 * kG0_mps2, 0.02);
   rig.monitor.begin_time_base();
-  for (int k = 0; k < 320; ++k) EXPECT_TRUE(unproven(rig.monitor.step(row_at(rig, direction_at(40, 70), k))));
+  for (int k = 0; k < 320; ++k) EXPECT_TRUE(not_yet_validated(rig.monitor.step(row_at(rig, direction_at(40, 70), k))));
   // The turn that was asked for, in the run: what the roll test has shown of the others counts.
   for (int k = 320; k < 480; ++k) rig.monitor.step(row_at(rig, direction_at(60, 70), k));
-  EXPECT_FALSE(unproven(rig.monitor.verdict()));
+  EXPECT_FALSE(not_yet_validated(rig.monitor.verdict()));
 }
 
 /// Whatever happened before, and at whichever step of a block the word is given: nothing is usable before a block of

@@ -1,5 +1,5 @@
 // How far the mean of a block may be off for what does not average out: drift since the calibration, steps.
-#include "plumb/health/tolerance.hpp"
+#include "plumb/health/detail/tolerance.hpp"
 
 #include <gtest/gtest.h>
 

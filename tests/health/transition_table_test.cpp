@@ -29,7 +29,7 @@ TEST(TransitionTable, WhereNothingHappenedNothingIsDone) {
 TEST(TransitionTable, FailedIsLeftByResetAlone) {
   TargetFacts best;
   best.size = SizeClass::all_configured;
-  best.earned = best.protection_within = best.calibrated = true;
+  best.enough_passed = best.protection_within = best.calibrated = true;
   for (int e = 0; e < kEventCount; ++e) {
     const auto event = static_cast<HealthEvent>(e);
     const Mode to = resolve(Mode::failed, cell_of(Mode::failed, event).target, best);
@@ -59,10 +59,10 @@ TEST(TransitionTable, BySizeFollowsTheDesign) {
 }
 
 // Negative: REQ-098
-TEST(TransitionTable, PatienceFailsOnlyBeyondTheAlertLimit) {
+TEST(TransitionTable, TheTimeoutFailsOnlyBeyondTheAlertLimit) {
   TargetFacts facts;
   facts.size = SizeClass::all_configured;
-  const Target target = cell_of(Mode::suspect, HealthEvent::patience_over).target;
+  const Target target = cell_of(Mode::suspect, HealthEvent::isolation_timeout).target;
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::failed);
   facts.protection_within = true;
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::suspect);
@@ -72,13 +72,13 @@ TEST(TransitionTable, PatienceFailsOnlyBeyondTheAlertLimit) {
 TEST(TransitionTable, UnprovenSuspectExcludesButStays) {
   TargetFacts facts;
   facts.size = SizeClass::reduced;
-  facts.unproven = true;
-  const Target target = cell_of(Mode::suspect, HealthEvent::culprit).target;
+  facts.not_yet_validated = true;
+  const Target target = cell_of(Mode::suspect, HealthEvent::exclusion).target;
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::suspect);
-  facts.unproven = false;
+  facts.not_yet_validated = false;
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::isolated);
   facts.size = SizeClass::rank_lost;
-  facts.unproven = true;
+  facts.not_yet_validated = true;
   EXPECT_EQ(resolve(Mode::suspect, target, facts), Mode::failed);
 }
 

@@ -1,4 +1,4 @@
-#include "plumb/health/trend.hpp"
+#include "plumb/health/detail/trend.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "support/simulated_tool.hpp"
 
 // Serves: REQ-127

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plumb/health/temperature_rate.hpp"
+#include "plumb/health/detail/temperature_rate.hpp"
 #include "support/simulated_tool.hpp"
 
 // Serves: REQ-124
@@ -104,7 +104,7 @@ TEST(VerdictFields, EveryVerdictNamesItsConfiguration) {
   const std::uint64_t hash = rig.monitor.verdict().config_hash;
   EXPECT_NE(hash, 0U);
   EXPECT_EQ(same.stay(direction_at(20, 10)).config_hash, hash);
-  rig.setup.config.patience = 7;
+  rig.setup.config.isolation_timeout = 7;
   rig.restart();
   const std::uint64_t other = rig.monitor.verdict().config_hash;
   EXPECT_NE(other, hash);

@@ -39,13 +39,13 @@ TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
   for (const int n : {5, 6}) {
     for (const int asserted : {1, 2, 3}) {
       for (const int lies : {0, 1}) {
-        config.asserted_faults = asserted;
+        config.assumed_faults = asserted;
         Rig rig(plumb_test::cone_array(n), config);
         rig.prove();
         Noise noise(4);
         rig.distort = [&](int i, double r, int) { return i == lies ? r + 3.0 + 0.3 * noise.normal() : r; };
         const Verdict& v = rig.stay(direction_at(55, 77));
-        const bool within = asserted <= parity_grade(rig.setup.array, rig.setup.array.all());
+        const bool within = asserted <= provisional_grade(rig.setup.array, rig.setup.array.all());
         EXPECT_EQ(v.excluded, within ? SensorSet::of(lies) : SensorSet{}) << asserted << " of " << n;
       }
     }
@@ -54,10 +54,10 @@ TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
 
 /// Two convicted where one was asserted: the claim is used up, and the next alarm contradicts it.
 // Negative: REQ-073
-TEST(Votes, MoreConvictedThanAssertedLeaveNoneToAssert) {
+TEST(Votes, MoreExclusionsThanAssumedFaultsLeaveNone) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   MonitorConfig config;
-  config.asserted_faults = 1;
+  config.assumed_faults = 1;
   Rig rig(plumb_test::cone_array(6), config);
   rig.prove();
   bool third = false;
@@ -69,15 +69,15 @@ TEST(Votes, MoreConvictedThanAssertedLeaveNoneToAssert) {
   for (int k = 0; k < 10 && rig.monitor.verdict().excluded.empty(); ++k) rig.stay(plumb_test::random_direction(noise));
   ASSERT_EQ(rig.monitor.verdict().excluded, SensorSet::of(1).with(4));
   third = true;
-  for (int k = 0; k < 3 && rig.records.back().event != HealthEvent::contradiction; ++k)
+  for (int k = 0; k < 3 && rig.records.back().event != HealthEvent::no_consistent_hypothesis; ++k)
     rig.stay(plumb_test::random_direction(noise));
-  EXPECT_EQ(rig.records.back().event, HealthEvent::contradiction);
+  EXPECT_EQ(rig.records.back().event, HealthEvent::no_consistent_hypothesis);
 }
 
 /// Where parity has a grade, who scatters is set aside and comes back: no number of stations convicts it by its
 /// scatter.
 // Negative: REQ-143
-TEST(Votes, WhereParityHasAGradeScatterAloneConvictsNobody) {
+TEST(Votes, WhereParityHasAGradeScatterAloneExcludesNoSensor) {
   MonitorConfig config;
   config.isolation_stations = 1;
   for (int n = 5; n <= std::min(7, kCapacity); ++n) {
@@ -87,14 +87,14 @@ TEST(Votes, WhereParityHasAGradeScatterAloneConvictsNobody) {
     rig.distort = [&noise](int i, double r, int) { return i == 1 ? r + 0.02 * kG0_mps2 * noise.normal() : r; };
     for (int k = 0; k < 20; ++k) rig.stay(plumb_test::random_direction(directions));
     EXPECT_EQ(rig.ever_blamed, SensorSet::of(1));
-    EXPECT_EQ(rig.monitor.verdict().set_aside, SensorSet::of(1)) << n;
+    EXPECT_EQ(rig.monitor.verdict().provisionally_excluded, SensorSet::of(1)) << n;
     EXPECT_TRUE(rig.monitor.verdict().excluded.empty()) << n;
   }
 }
 
 /// Two come back: the second earns its return from the start once the first has it.
 // Negative: REQ-099
-TEST(Votes, TheSecondOfTwoOnProbationEarnsItsReturnAnew) {
+TEST(Votes, TheSecondOfTwoOnProbationStartsItsProbationAgain) {
   if (kCapacity < 7) GTEST_SKIP() << "seven sensors";
   Rig rig(plumb_test::cone_array(7));
   rig.prove();
@@ -141,7 +141,7 @@ TEST(Votes, TheRecordOfADroppedFitNamesTheFaultyOne) {
   tool.fault = [](int i, double r, int) { return i == 3 ? r + 1.0 : r; };
   tool.rig.stay(direction_at(40, 120));
   const TransitionRecord& record = tool.rig.records.back();
-  EXPECT_EQ(record.event, HealthEvent::set_aside);
+  EXPECT_EQ(record.event, HealthEvent::provisional_exclusion);
   EXPECT_EQ(record.sensors, SensorSet::of(3));
   EXPECT_EQ(tool.rig.monitor.verdict().cause, record.cause);
 }
@@ -163,7 +163,7 @@ TEST(Votes, TheKeyForgetsTheEpisode) {
   EXPECT_EQ(v.state, HealthState::suspect);
   EXPECT_EQ(v.stations_on_record, 0);
   EXPECT_TRUE(v.suspects.empty());
-  EXPECT_EQ(rig.stay(direction_at(50, 50)).live_hypotheses, 4);
+  EXPECT_EQ(rig.stay(direction_at(50, 50)).consistent_hypotheses, 4);
 }
 
 /// Losing a channel while suspect changes who is in service and not the state: what the host has asked for stands.
@@ -175,7 +175,7 @@ TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
   tool.bias.fill(2.5e-2);
   for (int k = 0; k < 10 && tool.state() == HealthState::nominal; ++k) tool.visit(1);
   ASSERT_EQ(tool.state(), HealthState::suspect);
-  ASSERT_EQ(tool.rig.records.back().cause, Cause::reference);
+  ASSERT_EQ(tool.rig.records.back().cause, Cause::norm_mismatch);
   tool.fault = [](int i, double r, int) { return i == 5 ? std::nan("") : r; };
   for (int k = 0; k < 200; ++k) {
     HealthMonitor before = tool.rig.monitor;
@@ -202,7 +202,7 @@ TEST(Votes, ARequestOutlivesALossThatLeavesTheStateAlone) {
 TEST(Votes, AreTakenUpToTheSixteenthBlockOfAStation) {
   MonitorConfig config;
   config.isolation_stations = 2;
-  config.clean_blocks = config.forget_blocks = 20;
+  config.passed_blocks = config.forget_blocks = 20;
   for (const int begins : {12, 17}) {
     Rig rig(plumb_test::tetrahedron(), config);
     for (int k = 0; k < 6; ++k) rig.prove();
@@ -236,7 +236,7 @@ TEST(Votes, OneStationIsEnoughWhereTheSurvivorsCheckOneAnother) {
 // Negative: REQ-071
 TEST(Votes, AStationWhereNothingIsSeenConfirmsNothing) {
   MonitorConfig config;
-  config.clean_blocks = config.forget_blocks = 20;
+  config.passed_blocks = config.forget_blocks = 20;
   for (const bool another : {false, true}) {
     const int n = another ? 6 : 4;
     if (n > kCapacity) continue;
@@ -311,7 +311,7 @@ TEST(Votes, AForgottenEpisodeLeavesNothingBehind) {
     rig.stay(plumb_test::random_direction(noise));
   const Verdict& v = rig.monitor.verdict();
   EXPECT_EQ(v.stations_on_record, 0);
-  EXPECT_EQ(v.qualifiers & Qualifier::exhausted, 0);
+  EXPECT_EQ(v.qualifiers & Qualifier::timed_out, 0);
   EXPECT_EQ(v.state, HealthState::nominal);
 }
 
@@ -321,7 +321,7 @@ TEST(Votes, AForgottenEpisodeLeavesNothingBehind) {
 TEST(Votes, AForgottenContradictionIsNotToldAgain) {
   MonitorConfig config;
   config.station_angle_rad = 1.5;
-  config.clean_blocks = 2;
+  config.passed_blocks = 2;
   Rig rig(plumb_test::tetrahedron(), config);
   rig.prove();
   const auto at = [](int k) { return direction_at(60 + 0.5 * k, 200); };
@@ -331,7 +331,7 @@ TEST(Votes, AForgottenContradictionIsNotToldAgain) {
   };
   int k = 0;
   while (k < 16) rig.stay(at(k++));
-  ASSERT_EQ(rig.records.back().event, HealthEvent::contradiction);
+  ASSERT_EQ(rig.records.back().event, HealthEvent::no_consistent_hypothesis);
   two = false;
   while (k < 60) rig.stay(at(k++));
   ASSERT_EQ(rig.monitor.verdict().stations_on_record, 0);
@@ -358,7 +358,7 @@ TEST(Votes, AThousandBlocksAtOneStationExcludeNobody) {
 // Verifies: REQ-070
 TEST(Votes, WhatTheAssertionCannotNameTheyMay) {
   MonitorConfig config;
-  config.asserted_faults = 2;
+  config.assumed_faults = 2;
   Rig rig(plumb_test::tetrahedron(), config);
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };

@@ -16,12 +16,12 @@ const Vec3 kHere = direction_at(45, 200);
 
 /// 31 rows at rest; in the 32nd one channel alone, as the tool starts to turn; then it turns on.
 // Negative: REQ-078
-TEST(WholeRows, OneChannelAloneAsTheToolStartsToTurnConvictsNobody) {
+TEST(WholeRows, OneChannelAloneAsTheToolStartsToTurnExcludesNoSensor) {
   for (const int asserted : {-1, 0, 1, 2}) {
     for (int n = 4; n <= kCapacity && n <= 8; ++n) {
       for (int alone = 0; alone < n; ++alone) {
         MonitorConfig config;
-        config.asserted_faults = asserted;
+        config.assumed_faults = asserted;
         Rig rig(n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n), config, 7);
         rig.prove();
         for (int k = 0; k < 31; ++k) rig.step(rig.sample(kHere, kG0_mps2));
@@ -71,12 +71,12 @@ TEST(WholeRows, ALostChannelDoesNotStopTheEvidence) {
   rig.distort = [](int i, double r, int) { return i == 1 ? std::nan("") : i == 4 ? r + 0.5 : r; };
   rig.stay(kHere, 2);
   EXPECT_EQ(rig.monitor.verdict().absent, SensorSet::of(1));
-  EXPECT_EQ(rig.monitor.verdict().set_aside, SensorSet::of(4));
+  EXPECT_EQ(rig.monitor.verdict().provisionally_excluded, SensorSet::of(4));
 }
 
 /// Where every row lacks another sensor nothing can be said, and nothing is.
 // Negative: REQ-078
-TEST(WholeRows, WhereNoRowIsWholeNothingIsClaimedAndNobodyBlamed) {
+TEST(WholeRows, WithoutACompleteRowNothingIsClaimedAndNoSensorIsExcluded) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   for (int k = 0; k < 3200; ++k) {

@@ -1,5 +1,5 @@
 // What is collected until a block is full: which rows join it.
-#include "plumb/health/window.hpp"
+#include "plumb/health/detail/window.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io_test_support.hpp"
-#include "plumb/health/paper_rule.hpp"
+#include "plumb/paper/paper_rule.hpp"
 
 namespace array_file_test {
 namespace {
@@ -72,7 +72,7 @@ TEST(ArrayFile, ReadsEveryPart) {
   EXPECT_EQ(file.monitor.window, 16);
   EXPECT_DOUBLE_EQ(file.monitor.delta_f_mps2, 0.05 * kG0_mps2);
   EXPECT_DOUBLE_EQ(file.monitor.alert_limit_rad, rad_from_deg(1.0));
-  EXPECT_EQ(file.monitor.patience, MonitorConfig().patience);
+  EXPECT_EQ(file.monitor.isolation_timeout, MonitorConfig().isolation_timeout);
   EXPECT_EQ(file.datasheet.reads, Reads::gravity);
   EXPECT_EQ(file.input.rows, RowKind::samples);
   EXPECT_EQ(file.input.time_column, "t_s");
@@ -193,7 +193,7 @@ TEST(ArrayFileRefuses, WrongTypesAndUnits) {
                  {"the unit is missing", "mm/s^2"});
   expect_refused(changed("delta_f = \"0.05 g0\"", "delta_f = \"0.05 g\""), 8, "monitor.delta_f", {"bare \"g\"", "g98"});
   expect_refused(changed("alert_limit = \"1 deg\"", "alert_limit = \"1 degree\""), 9, "monitor.alert_limit",
-                 {"\"degree\" is unknown", "mrad"});
+                 {"\"degree\" is not a known unit", "mrad"});
   expect_refused(changed("unit = \"V\"", "unit = \"g\""), 14, "input.unit", {"bare \"g\""});
   expect_refused(changed("rows = \"samples\"", "rows = \"sample\""), 11, "input.rows", {"did you mean \"samples\"?"});
   expect_refused(changed("scale = \"3 V/g0\"", "scale = \"3 V\""), 19, "sensor[1].scale", {"2048 count/g0"});
@@ -221,8 +221,9 @@ TEST(ArrayFileRefuses, TooFewTooManyAndTwins) {
   expect_refused(two, 15, "sensor", {"2 sensors", "3 are needed"});
   const std::string none = kArrayText.substr(0, kArrayText.find("[[sensor]]"));
   expect_refused(none, 0, "sensor", {"no sensor"});
-  expect_refused(changed("id = \"A3\"", "id = \"A1\""), 30, "sensor[3].id",
-                 {"\"A1\" is already the id of sensor[1] (line 16)", "equal names are not"});
+  expect_refused(
+      changed("id = \"A3\"", "id = \"A1\""), 30, "sensor[3].id",
+      {"\"A1\" is already the id of sensor[1] (line 16)", "give every sensor its own id (parallel axes are allowed,"});
   expect_refused(changed("column = \"a3_v\"", "column = \"a1_v\""), 31, "sensor[3].column",
                  {"already the column of sensor[1]"});
   std::string many = kArrayText;
@@ -282,13 +283,13 @@ TEST(ArrayFile, AGravityThatIsGivenIsComparedWithThatOfThePlace) {
   EXPECT_EQ(array_of(given("9.79", equator)).gravity.g_mps2, 9.79);
   EXPECT_EQ(array_of(given("9.7649", equator + "elevation = \"5 km\"\n")).gravity.model, GravityModel::value);
   for (const char* off : {"9.8781", "9.6825"})
-    expect_refused(given(off, equator), 4, "gravity.value", {"gravity reference off by 1 %", "9.78033", "latitude"});
-  expect_refused(given("9.8625", equator + "elevation = \"5 km\"\n"), 4, "gravity.value", {"off by 1 %"});
+    expect_refused(given(off, equator), 4, "gravity.value", {"gravity value is wrong by 1 %", "9.78033", "latitude"});
+  expect_refused(given("9.8625", equator + "elevation = \"5 km\"\n"), 4, "gravity.value", {"wrong by 1 %"});
   expect_refused(given("9.81", "depth = \"1 km\"\n"), 5, "gravity.depth", {"without latitude"});
   const std::string table =
       "model = \"table\"\nlatitude = \"0 deg\"\ntable = [{depth = \"0 m\", g = \"9.88 m/s^2\"}, {depth = \"2 km\", g = "
       "\"9.89 m/s^2\"}]\n";
-  expect_refused(changed("model = \"value\"\nvalue = \"9.81 m/s^2\"\n", table), 5, "gravity.table", {"off by 1 %"});
+  expect_refused(changed("model = \"value\"\nvalue = \"9.81 m/s^2\"\n", table), 5, "gravity.table", {"wrong by 1 %"});
 }
 
 TEST(ArrayFile, PaperModeHasThePapersLimitUnlessAnotherIsGiven) {

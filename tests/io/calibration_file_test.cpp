@@ -185,9 +185,9 @@ TEST(CalibrationFile, KeepsWhatTheRollGroupsWereOnlyWhereThereWereSome) {
   const auto in = calibration_of(array, &third);
   EXPECT_EQ(nlohmann::json::parse(calibration_json(*in, array, context_of(array)))["report"].count("roll"), 0U);
   in->report.roll_groups = 4;
-  in->report.lone_rolls = 1;
+  in->report.single_station_groups = 1;
   in->report.roll_axis = {0.6, 0.0, 0.8};
-  in->report.roll_wobble_rad = 1.0 / 3000.0;
+  in->report.roll_axis_deviation_rad = 1.0 / 3000.0;
   in->report.inclination_sigma_rad = 1.0 / 7000.0;
   in->report.common_turn.rad = 1.0 / 70.0;
   in->report.common_turn.sigma_rad = 1.0 / 30.0;
@@ -195,9 +195,9 @@ TEST(CalibrationFile, KeepsWhatTheRollGroupsWereOnlyWhereThereWereSome) {
   ASSERT_TRUE(file.has_value()) << file.error().text();
   const FitReport& out = file->calibration.report;
   EXPECT_EQ(out.roll_groups, 4);
-  EXPECT_EQ(out.lone_rolls, 1);
+  EXPECT_EQ(out.single_station_groups, 1);
   EXPECT_EQ(out.roll_axis, in->report.roll_axis);
-  EXPECT_EQ(out.roll_wobble_rad, in->report.roll_wobble_rad);
+  EXPECT_EQ(out.roll_axis_deviation_rad, in->report.roll_axis_deviation_rad);
   EXPECT_EQ(out.inclination_sigma_rad, in->report.inclination_sigma_rad);
   EXPECT_EQ(out.common_turn.rad, in->report.common_turn.rad);
   EXPECT_EQ(out.common_turn.sigma_rad, in->report.common_turn.sigma_rad);
@@ -252,14 +252,14 @@ TEST(CalibrationFileRefuses, AnotherArrayByWhatDiffers) {
     return refusal_of(json, array_of(changed(from, to)));
   };
   expect_refusal(refusal("id = \"A3\"", "id = \"B3\""), line_of(json, "\"A3\""), "array.nominal[3].id",
-                 {"another array", "\"A3\" there and \"B3\"", "plumb calibrate"});
+                 {"another array", "\"A3\" in the calibration and \"B3\"", "plumb calibrate"});
   expect_refusal(refusal("[0.6, 0.0, 0.8]", "[0.8, 0.0, 0.6]"), line_of(json, "\"A4\""), "array.nominal[4].axis",
                  {"A4 differs by 16.26", "deg"});
   expect_refusal(refusal("\"3 V/g0\"", "\"2 V/g0\""), line_of(json, "\"A1\""), "array.nominal[1].scale",
                  {"scale of A1 is 0.30591", "and 0.2039"});
   expect_refusal(refusal("\"12 mg\"", "\"13 mg\""), line_of(json, "\"A1\""), "array.nominal[1].bias", {"bias of A1"});
   expect_refusal(refusal("\"gravity\"", "\"specific-force\""), line_of(json, "\"reads\""), "array.reads",
-                 {"read gravity", "specific-force"});
+                 {"reads = gravity", "specific-force"});
   const std::string fifth = "[[sensor]]\nid = \"A5\"\naxis = [0, 0, 1]\nscale = \"3 V/g0\"\nnoise = \"1 mg\"\n";
   expect_refusal(refusal_of(json, array_of(kArrayText + fifth)), line_of(json, "\"nominal\""), "array.nominal",
                  {"has 4 sensors", "has 5"});
@@ -345,9 +345,9 @@ TEST(CalibrationFileRefuses, RollGroupsThatNoFitHas) {
   ASSERT_TRUE(read_calibration(written("cal.json", json), array).has_value());
   const std::pair<const char*, J> cases[] = {{"groups", -1},
                                              {"groups", 17},
-                                             {"lone", 5},
-                                             {"wobble_rad", -0.1},
-                                             {"wobble_rad", "nan"},
+                                             {"single_station_groups", 5},
+                                             {"axis_deviation_rad", -0.1},
+                                             {"axis_deviation_rad", "nan"},
                                              {"axis", J{0.6, 0.0, 0.9}},
                                              {"inclination_sigma_rad", -1.0}};
   for (const auto& [key, value] : cases)

@@ -151,7 +151,8 @@ TEST(CalibrationFilePaperRefuses, AnotherVersionAndOtherSensors) {
                "list of 3");
   expect_words(refused([](Json& r) { r["paper"]["all"]["misalignment"][1].erase(0); }), "paper.all.misalignment",
                "list of 4");
-  expect_words(refused([](Json& r) { r["paper"]["all"]["converged"] = 1; }), "paper.all.converged", "neither true");
+  expect_words(refused([](Json& r) { r["paper"]["all"]["converged"] = 1; }), "paper.all.converged",
+               "must be true or false");
   expect_words(refused([](Json& r) { r["paper"]["all"]["bias_mps2"][0][0] = "lots"; }), "paper.all.bias_mps2",
                "not a number");
   expect_words(refused([](Json& r) { r["paper"] = 7; }), "version", "is missing");
@@ -162,12 +163,12 @@ TEST(CalibrationFilePaperRefuses, CoefficientsThatContradictTheCalibrationBeside
   const std::string json = json_of(array, paper_of(array).get());
   const auto refused = [&json](auto edit) { return refusal_of(resealed(json, edit)); };
   expect_words(refused([](Json& r) { r["paper"]["all"]["scale"][1][0] = 3.4 / kG0_mps2; }), "paper.all",
-               "contradicts the calibration beside it: gravity");
+               "gravity differs by");
   expect_words(refused([](Json& r) { r["paper"]["triples"][1]["bias_mps2"][0][0] = 5.0; }), "paper.triples[2]",
-               "gravity comes out");
+               "gravity differs by");
   expect_words(refused([](Json& r) { r["paper"]["triples"][3]["misalignment"][0][1] = 1e9; }), "paper.triples[4]",
-               "gravity comes out");
-  expect_words(refused([](Json& r) { r["paper"]["all"]["scale"][1][0] = "nan"; }), "paper.all", "gravity comes out");
+               "gravity differs by");
+  expect_words(refused([](Json& r) { r["paper"]["all"]["scale"][1][0] = "nan"; }), "paper.all", "gravity differs by");
   // A turn of the frame keeps the length: all axes by 20 deg about z, where the first three are x, y and z.
   expect_words(refused([](Json& r) {
                  Json& m = r["paper"]["triples"][0]["misalignment"];
@@ -177,7 +178,7 @@ TEST(CalibrationFilePaperRefuses, CoefficientsThatContradictTheCalibrationBeside
                  for (std::size_t i = 0; i < 2; ++i)
                    r["paper"]["triples"][0]["scale"][i][0] = r["paper"]["triples"][0]["scale"][i][0].get<double>() / c;
                }),
-               "paper.triples[1]", "down comes out 20");
+               "paper.triples[1]", "direction of gravity differs by 20");
   // One that is not sound has no say, whatever it holds.
   EXPECT_TRUE(
       read_calibration(

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <initializer_list>
@@ -78,10 +79,11 @@ inline plumb::io::ArrayFile array_of(const std::string& text = kArrayText) {
   return *std::move(array);
 }
 
-/// A new file of this test.
+/// A new file of this test; what an earlier run left under its name (a link, say) is removed, not written through.
 inline std::string written(const std::string& name, const std::string& text) {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
   const std::string path = testing::TempDir() + "plumb_io_" + info->test_suite_name() + "_" + info->name() + "_" + name;
+  (void)std::remove(path.c_str());
   std::ofstream(path, std::ios::binary) << text;
   return path;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,12 @@ TEST(JsonFields, AVariableIsCopiedAndStaysAsItIs) {
   EXPECT_EQ(constant.size(), 2U);
   EXPECT_EQ(variable, "kept");
   EXPECT_EQ(text, "text");
+}
+
+TEST(JsonFields, AFigureThatIsNotFiniteIsNull) {
+  EXPECT_EQ(finite_or_null(0.5).dump(), "0.5");
+  EXPECT_TRUE(finite_or_null(std::numeric_limits<double>::infinity()).is_null());
+  EXPECT_TRUE(finite_or_null(std::numeric_limits<double>::quiet_NaN()).is_null());
 }
 
 TEST(JsonFields, TheFirstOfTwoWithOneKeyCounts) { EXPECT_EQ(object({{"key", 1}, {"key", 2}}).dump(), R"({"key":1})"); }

@@ -119,7 +119,7 @@ TEST(LogReader, StationsCountsTemperatureAndFilters) {
   EXPECT_EQ(label_of_tag(log.samples[1].station), 7);
   EXPECT_EQ(log.samples[2].station, 0U);
   EXPECT_EQ(log.samples[1].count, 12U);
-  EXPECT_EQ(log.samples[0].time_s, 0.0) << "the row number is the time";
+  EXPECT_EQ(log.samples[0].time_s, 0.0) << "remove this key; the row number is then the time";
   EXPECT_EQ(log.samples[2].time_s, 2.0);
   EXPECT_EQ(log.samples[1].temperature_degc, 21.0) << "held from the row before";
   EXPECT_EQ(log.statistics.temperature_held, 1U);
@@ -175,7 +175,7 @@ TEST(LogReader, RateGivesTimeAlsoAcrossBadRows) {
 TEST(LogReaderRefuses, EmptyAndUnreadableLogs) {
   expect_bad("", 0, "", {"the log is empty", "header row"});
   expect_bad("\r\n\n", 0, "", {"the log is empty"});
-  expect_bad(kHeader, 1, "", {"no row that can be used"});
+  expect_bad(kHeader, 1, "", {"the log has a header but no usable row ("});
   const auto missing = read_log("/nonexistent/log.csv", array_of(), BadRowPolicy::stop);
   ASSERT_FALSE(missing.has_value());
   expect_error(missing.error(), "/nonexistent/log.csv", 0, "", {"No such file", "check the path"});
@@ -198,7 +198,7 @@ TEST(LogReaderRefuses, BadRowsByLineAndColumn) {
   expect_bad(kHeader + "0,1,2,3,4\n1,1,2,abc,4\n", 3, "a3_v (column 4)",
              {"\"abc\" is not a number", "--on-bad-row skip"});
   expect_bad(kHeader + "0,1,2,1.5V,4\n", 2, "a3_v (column 4)", {"\"1.5V\" is not a number"});
-  expect_bad(kHeader + "0,1,2,3\n", 2, "", {"has 4 cells, the header names 5"});
+  expect_bad(kHeader + "0,1,2,3\n", 2, "", {"has 4 cells, but the header has 5"});
   expect_bad(kHeader + "0,1,2,3,4\n1,1,2,3,4,5\n", 3, "", {"has 6 cells"});
   expect_bad(kHeader + "0,1,2,3,4\n0,1,2,3,4\n", 3, "t_s (column 1)",
              {"time 0 s does not increase", "row before has 0 s"});
@@ -215,7 +215,8 @@ TEST(LogReaderRefuses, BadTagsCountsAndTemperatures) {
   expect_bad(header + "0,-2,1,20,1,2,3,4\n", 2, "att (column 2)", {"is not a station number"}, array);
   expect_bad(header + "0,1,0,20,1,2,3,4\n", 2, "n (column 3)", {"is not a number of samples"}, array);
   expect_bad(header + "0,1,1,warm,1,2,3,4\n", 2, "T (column 4)", {"is not a temperature"}, array);
-  expect_bad(header + "0,1,1,,1,2,3,4\n", 2, "T (column 4)", {"no temperature yet"}, array);
+  expect_bad(header + "0,1,1,,1,2,3,4\n", 2, "T (column 4)", {"neither this row nor a row before it has a temperature"},
+             array);
   const ArrayFile rolled = array_of(changed("time = \"t_s\"", "time = \"t_s\"\nroll_group = \"ring\""));
   for (const char* label : {"1.5", "-2", "nan", "one", "4294967295"})
     expect_bad("t_s,ring,a1_v,a2_v,a3_v,a4_v\n0," + std::string(label) + ",1,2,3,4\n", 2, "ring (column 2)",

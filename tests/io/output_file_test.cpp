@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "plumb/io/file_error.hpp"
 #include "io_test_support.hpp"
 
 namespace output_file_test {
@@ -38,6 +39,29 @@ TEST(OutputFile, WholeFilesAppearOnCommitOnly) {
   ASSERT_TRUE(write_file(path, "new").has_value());
   EXPECT_EQ(content(path), "new");
   EXPECT_FALSE(exists(path + ".part" + std::to_string(::getpid())));
+}
+
+TEST(OutputFile, ALinkStaysALinkAndPermissionsStayAsTheyWere) {
+  const std::string path = written("kept.toml", "old"), link = path + ".link";
+  ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
+  (void)::unlink(link.c_str());
+  ASSERT_EQ(::symlink(path.c_str(), link.c_str()), 0);
+  ASSERT_TRUE(write_file(link, "new").has_value());
+  struct stat status {};
+  ASSERT_EQ(::lstat(link.c_str(), &status), 0);
+  EXPECT_TRUE(S_ISLNK(status.st_mode));
+  EXPECT_EQ(content(path), "new");
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0600U);
+}
+
+TEST(OutputFile, WhatLiesUnderTheTemporaryNameIsNotFollowed) {
+  const std::string victim = written("victim", "untouched"), path = written("result.json", "old");
+  const std::string beside = path + ".part" + std::to_string(::getpid());
+  ASSERT_EQ(::symlink(victim.c_str(), beside.c_str()), 0);
+  ASSERT_TRUE(write_file(path, "new").has_value());
+  EXPECT_EQ(content(victim), "untouched");
+  EXPECT_EQ(content(path), "new");
 }
 
 TEST(OutputFile, StreamsKeepWhatWasWritten) {
@@ -76,6 +100,20 @@ TEST(OutputFile, AFullDiskIsReported) {
   ASSERT_FALSE(result.has_value());
   EXPECT_NE(result.error().text().find("No space left on device"), std::string::npos);
   EXPECT_NE(result.error().text().find("free space"), std::string::npos);
+}
+
+TEST(ReadFile, AFileWithoutEndIsRefusedBeforeMemoryRunsOut) {
+  if (!exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
+  const auto text = read_file("/dev/zero");
+  ASSERT_FALSE(text.has_value());
+  EXPECT_NE(text.error().text().find("larger than 256 MiB"), std::string::npos) << text.error().text();
+}
+
+TEST(FileErrorText, ShellWordQuotesWhatAShellWouldSplitOrExpand) {
+  EXPECT_EQ(shell_word("tools/my-tool_1.toml"), "tools/my-tool_1.toml");
+  EXPECT_EQ(shell_word("my tool.toml"), "'my tool.toml'");
+  EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(shell_word(""), "''");
 }
 
 TEST(FileErrorText, LeavesOutWhatDoesNotApply) {

@@ -231,13 +231,13 @@ TEST(BinaryLog, ForeignHeadersAreNamed) {
   expect_refused_log(text_copy, "header", {"line ends were changed", "binary mode"});
   std::string other = log;
   other[1] = 'p';
-  expect_refused_log(other, "header", {"and is none"});
+  expect_refused_log(other, "header", {"but its header is wrong"});
   std::string big_endian = log;
   big_endian.replace(8, 4, std::string("\x01\x02\x03\x04", 4));
   expect_refused_log(big_endian, "header", {"big-endian", "lowest byte first"});
   std::string order = log;
   order[8] = 'x';
-  expect_refused_log(order, "header", {"byte order", "damaged"});
+  expect_refused_log(order, "header", {"byte-order mark", "damaged"});
   expect_refused_log(with_header(log, 12, u32_text(2)), "header", {"version 2, this plumb reads version 1"});
   std::string size = log;
   size.replace(16, 4, u32_text(70000));
@@ -246,25 +246,26 @@ TEST(BinaryLog, ForeignHeadersAreNamed) {
   name[48] = 'x';
   expect_refused_log(name, "header", {"check sum is wrong"});
   expect_refused_log(with_header(log, 20, u32_text(0)), "header", {"names 0 columns"});
-  expect_refused_log(with_header(log, 20, u32_text(6)), "header", {"column 6 does not fit"});
-  expect_refused_log(with_header(log, 20, u32_text(4)), "header", {"does not fit"});
+  expect_refused_log(with_header(log, 20, u32_text(6)), "header", {"column 6 does not match"});
+  expect_refused_log(with_header(log, 20, u32_text(4)), "header", {"does not match the table of columns"});
   expect_refused_log(with_header(log, 24, u32_text(4097)), "header", {"4097 rows in a block"});
   expect_refused_log(with_header(log, 28, u32_text(1)), "header", {"reserved"});
   expect_refused_log(with_header(log, 32, std::string("\0\0\0\0\0\0\xF8\x7F", 8)), "header", {"rate"});
   for (const std::size_t cut : {std::size_t{1}, std::size_t{7}, std::size_t{39}, std::size_t{60}}) {
-    expect_refused_log(log.substr(0, cut), "header", {"ends within its header", "not complete"});
+    expect_refused_log(log.substr(0, cut), "header", {"ends within its header", "incomplete"});
   }
 }
 
 TEST(BinaryLog, UnitsAndRateMustBeThoseOfTheArrayFile) {
   const std::string log = bytes_of(written_plog(array_of(), some_samples(3)));
-  expect_refused_log(log, "a1_v", {"is in \"V\" by the log and in \"mV\" by the array file", "[input] unit"},
+  expect_refused_log(log, "a1_v",
+                     {"is in \"V\" according to the log and in \"mV\" according to the array file", "[input] unit"},
                      array_of(changed("unit = \"V\"", "unit = \"mV\"")));
-  expect_refused_log(log, "t_s", {"is in \"s\" by the log and in \"ms\"", "time_unit"},
+  expect_refused_log(log, "t_s", {"is in \"s\" according to the log and in \"ms\"", "time_unit"},
                      array_of(changed("time = \"t_s\"", "time = \"t_s\"\ntime_unit = \"ms\"")));
   const std::string paced =
       bytes_of(written_plog(array_of(changed("time = \"t_s\"", "rate = \"100 Hz\"")), some_samples(3)));
-  expect_refused_log(paced, "rate", {"100 Hz by the log and 50 Hz"},
+  expect_refused_log(paced, "rate", {"100 Hz according to the log and 50 Hz"},
                      array_of(changed("time = \"t_s\"", "rate = \"50 Hz\"")));
   expect_refused_log(log, "t_s", {"holds numbers", "without quotes"},
                      array_of(changed("time = \"t_s\"", "time = \"t_s\"\nwhere = {t_s = \"one\"}")));
@@ -319,13 +320,13 @@ TEST(BinaryLog, ForgedBlocksAreNamed) {
   const std::size_t first = header_size(log);
   std::string rows = log;
   rows.replace(first + 4, 4, u32_text(513));
-  expect_refused_log(rows, "", {"says that it holds 513 rows, the header allows 512"});
+  expect_refused_log(rows, "", {"states 513 rows, but the header allows 512"});
   std::string without_first = log;
   without_first.erase(first, kPlogBlockHead + 512 * 48);
-  expect_refused_log(without_first, "", {"begins with row 513, row 1 comes next"});
+  expect_refused_log(without_first, "", {"begins with row 513, row 1 is expected"});
   std::string no_rows = log;
   no_rows.erase(first, log.size() - first - 16);
-  expect_refused_log(no_rows, "", {"says that the log has 600 rows, it has 0"});
+  expect_refused_log(no_rows, "", {"states 600 rows, but the log has 0"});
   expect_refused_log(log + log, "", {"bytes follow the end mark", "two logs"});
   std::string mark = log;
   mark.back() = 1;
@@ -354,7 +355,7 @@ TEST(BinaryLog, ColumnsThatDoNotFitAreLeftToCsv) {
   for (int k = 0; k < 64; ++k) array.input.where.push_back({"c" + std::to_string(k), "1", 1.0, true});
   const auto writer = LogWriter::create(written("wide.plog", ""), array);
   ASSERT_FALSE(writer.has_value());
-  EXPECT_NE(writer.error().text().find("at most 64 columns, the array file names 69"), std::string::npos);
+  EXPECT_NE(writer.error().text().find("at most 64 columns, but the array file needs 69"), std::string::npos);
 }
 
 RC_GTEST_PROP(BinaryLogLaw, NoChangedByteGoesUnnoticed, ()) {

@@ -21,7 +21,7 @@ Verdict some_verdict() {
   Verdict v;
   v.time_s = 0.1 + 0.2;
   v.state = HealthState::suspect;
-  v.qualifiers = Qualifier::unproven | Qualifier::no_redundancy;
+  v.qualifiers = Qualifier::not_yet_validated | Qualifier::no_redundancy;
   v.tick = true;
   v.statistic = std::numeric_limits<double>::infinity();
   v.limit = 4.5;
@@ -29,7 +29,7 @@ Verdict some_verdict() {
   v.configured = SensorSet::first(4);
   v.in_service = SensorSet::first(4).without(2);
   v.excluded = SensorSet::of(2);
-  v.fewest_faults = {0, 1, kNoHypothesis, 2};
+  v.minimum_faults = {0, 1, kNoHypothesis, 2};
   v.gravity_mps2 = {0.0, -5.0, 5.0};
   v.covariance = {1.0, 0.5, 0.0, 0.5, 2.0, 0.0, 0.0, 0.0, 3.0};
   v.protection_level_rad = rad_from_deg(0.5);
@@ -42,9 +42,9 @@ TEST(Records, EventIsOneObjectWithStableKeys) {
   record.time_s = 12.25;
   record.from = HealthState::suspect;
   record.to = HealthState::isolated;
-  record.event = HealthEvent::culprit;
+  record.event = HealthEvent::exclusion;
   record.cause = Cause::isolated_fault;
-  record.grade = Grade::strict;
+  record.grade = Grade::confirmed;
   record.sensors = SensorSet::of(1).with(3);
   record.statistic = 12.0;
   record.limit = 4.5;
@@ -55,8 +55,8 @@ TEST(Records, EventIsOneObjectWithStableKeys) {
   EXPECT_EQ(object["t_s"], 12.25);
   EXPECT_EQ(object["from"], to_string(HealthState::suspect));
   EXPECT_EQ(object["to"], to_string(HealthState::isolated));
-  EXPECT_EQ(object["event"], to_string(HealthEvent::culprit));
-  EXPECT_EQ(object["grade"], to_string(Grade::strict));
+  EXPECT_EQ(object["event"], to_string(HealthEvent::exclusion));
+  EXPECT_EQ(object["grade"], to_string(Grade::confirmed));
   EXPECT_EQ(object["sensors"], Json({"A2", "A4"}));
   std::string keys;
   for (const auto& item : object.items()) keys += item.key() + " ";
@@ -67,13 +67,13 @@ TEST(Records, VerdictCarriesEverything) {
   const ArrayFile file = array_of();
   const Json object = Json::parse(verdict_json(some_verdict(), file.array));
   EXPECT_EQ(object["t_s"].get<double>(), 0.1 + 0.2) << "full precision";
-  EXPECT_EQ(object["qualifiers"], Json({"unproven", "no_redundancy"}));
+  EXPECT_EQ(object["qualifiers"], Json({"not_yet_validated", "no_redundancy"}));
   EXPECT_TRUE(object["statistic"].is_null()) << "not finite";
   EXPECT_TRUE(object["margin"].is_null());
   EXPECT_EQ(object["in_service"], Json({"A1", "A2", "A4"}));
   EXPECT_EQ(object["excluded"], Json({"A3"}));
   EXPECT_EQ(object["absent"], Json::array());
-  EXPECT_EQ(object["fewest_faults"], Json({0, 1, nullptr, 2}));
+  EXPECT_EQ(object["minimum_faults"], Json({0, 1, nullptr, 2}));
   EXPECT_NEAR(object["inclination_deg"].get<double>(), 45.0, 1e-12);
   EXPECT_NEAR(object["toolface_deg"].get<double>(), 0.0, 1e-12);
   EXPECT_TRUE(object["protection_level_deg"].is_null()) << "not available";
@@ -85,15 +85,15 @@ TEST(Records, VerdictCarriesEverything) {
                           "accepted",
                           "limit",
                           "configured",
-                          "set_aside",
+                          "provisionally_excluded",
                           "suspects",
                           "clipped",
-                          "restless",
+                          "scattering",
                           "not_finite",
                           "grade",
-                          "strict_grade",
-                          "parity_grade",
-                          "live_hypotheses",
+                          "confirmed_grade",
+                          "provisional_grade",
+                          "consistent_hypotheses",
                           "stations_on_record",
                           "wants_rotation",
                           "recalibration",
@@ -147,11 +147,11 @@ TEST(Records, RecalibrationIsAnObjectWhileItGoesOnOrWasRefused) {
 
 TEST(Records, EveryQualifierHasItsName) {
   Verdict v;
-  v.qualifiers = 1023;
+  v.qualifiers = 2047;
   const Json object = Json::parse(verdict_json(v, array_of().array));
-  EXPECT_EQ(object["qualifiers"],
-            Json({"unproven", "moving", "initial_calibration", "provisional", "no_redundancy", "exhausted",
-                  "three_sensor_fit", "inhibited", "standstill_assumed", "stability_unstated"}));
+  EXPECT_EQ(object["qualifiers"], Json({"not_yet_validated", "moving", "initial_calibration", "provisional",
+                                        "no_redundancy", "timed_out", "three_sensor_fit", "inhibited",
+                                        "standstill_assumed", "stability_unstated", "uncertainty_unstated"}));
 }
 
 TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
@@ -159,12 +159,12 @@ TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
   Verdict v = some_verdict();
   const Json plain = Json::parse(verdict_json(v, file.array));
   EXPECT_TRUE(plain["rotation"].is_null());
-  EXPECT_TRUE(plain["reference"].is_null());
+  EXPECT_TRUE(plain["norm_mismatch"].is_null());
   EXPECT_EQ(plain["sensor_cause"].size(), 4U);
   v.rotation = {true, {0.0, 1.0, 0.0}, 0.5, 0.1};
-  v.reference.kind = ReferenceKind::common_bias;
-  v.reference.attitudes = 7;
-  v.reference.bias_mps2 = {0.0, 2.0, 0.0};
+  v.norm_mismatch.kind = NormMismatchKind::common_bias;
+  v.norm_mismatch.attitudes = 7;
+  v.norm_mismatch.bias_mps2 = {0.0, 2.0, 0.0};
   v.sensor_cause[2] = Cause::noisy;
   v.drift_mps2_per_h[1] = 0.25F;
   v.noise_factor = 2.5;
@@ -173,9 +173,9 @@ TEST(Records, RotationAndReferenceAreObjectsInTheOutputFrame) {
   const Json object = Json::parse(verdict_json(v, file.array, turned));
   EXPECT_EQ(object["rotation"]["along"], Json({0.0, 0.0, 1.0}));
   EXPECT_EQ(object["rotation"]["change_mps2"], 0.5);
-  EXPECT_EQ(object["reference"]["kind"], "common_bias");
-  EXPECT_EQ(object["reference"]["bias_mps2"], Json({0.0, 0.0, 2.0}));
-  EXPECT_TRUE(object["reference"]["turn_deg"].is_null());
+  EXPECT_EQ(object["norm_mismatch"]["kind"], "common_bias");
+  EXPECT_EQ(object["norm_mismatch"]["bias_mps2"], Json({0.0, 0.0, 2.0}));
+  EXPECT_TRUE(object["norm_mismatch"]["turn_deg"].is_null());
   EXPECT_EQ(object["sensor_cause"], Json({"none", "none", "noisy", "none"}));
   EXPECT_EQ(object["drift_mps2_per_h"], Json({0.0, 0.25, 0.0, 0.0}));
   EXPECT_EQ(object["noise_factor"], 2.5);

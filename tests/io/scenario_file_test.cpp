@@ -89,7 +89,7 @@ void expect_same(const Scenario& a, const Scenario& b) {
   EXPECT_TRUE(same_bits(a.turning.axis, b.turning.axis));
   EXPECT_EQ(a.turning.from_s, b.turning.from_s);
   EXPECT_EQ(a.turning.until_s, b.turning.until_s);
-  EXPECT_EQ(a.depth.stand_m, b.depth.stand_m);
+  EXPECT_EQ(a.depth.station_spacing_m, b.depth.station_spacing_m);
   EXPECT_EQ(a.depth.gravity_per_s2, b.depth.gravity_per_s2);
   EXPECT_EQ(a.depth.heat_degc_per_m, b.depth.heat_degc_per_m);
   EXPECT_EQ(a.faults, b.faults);
@@ -215,7 +215,7 @@ axis = [0.0, 0.6, 0.8]
 from = "2 s"
 until = "8 s"
 [depth]
-stand = "28 m"
+station_spacing = "28 m"
 gravity = "0.084 mGal/m"
 heat = "0.03 degC/m"
 [[sensor_truth]]
@@ -267,7 +267,7 @@ TEST(ScenarioFile, BadSurroundingsAreRefusedWithFieldAndRemedy) {
       {"rate = \"60 deg/s\"", "rate = \"60 deg\"", "rotation.rate"},
       {"axis = [0.0, 0.6, 0.8]", "axis = [0.0, 0.6, 0.9]", "rotation.axis"},
       {"until = \"8 s\"", "until = \"1 s\"", "rotation.until"},
-      {"stand = \"28 m\"", "stand = 28", "depth.stand"},
+      {"station_spacing = \"28 m\"", "station_spacing = 28", "depth.station_spacing"},
       {"heat = \"0.03 degC/m\"", "heat = \"0.03 degC\"", "depth.heat"},
       {"correlation = \"30 s\"", "correlation = \"0 s\"", "noise.correlation"},
       {"walk = \"1 ug0\"", "walk = \"-1 ug0\"", "noise.walk"},

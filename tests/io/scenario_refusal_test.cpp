@@ -33,7 +33,7 @@ TEST(ScenarioRefusal, RateComesFromTheArrayFileWhereItDeclaresOne) {
   refuse(head + "rate = \"100 Hz\"\n" + attitude, 2, "rate", {"100 Hz", "250 Hz", "no time column"});
   refuse(head + "start = \"5 s\"\n" + attitude, 2, "start", {"no time column"});
   refuse(head + attitude + "record_motion = false\n", 4, "attitude.record_motion", {"gaps"});
-  refuse(head + attitude + "tag_stations = true\n", 4, "attitude.tag_stations", {"no column", "station = "});
+  refuse(head + attitude + "tag_stations = true\n", 4, "attitude.tag_stations", {"no station column", "station = "});
 }
 
 TEST(ScenarioRefusal, BadFilesAreRefusedWithLineFieldAndRemedy) {
@@ -62,7 +62,10 @@ TEST(ScenarioRefusal, BadFilesAreRefusedWithLineFieldAndRemedy) {
       {tool + "gravity = \"1 g\"\n[attitude]\nlaw = \"random\"", 2, "gravity", {"ambiguous", "g0"}},
       {tool + "gravity = \"1.62 m/s^2\"\n", 2, "gravity", {"out of range", "9.5 to 10.2"}},
       {tool + "[attitude]\nlaw = \"rol-test\"\n", 3, "attitude.law", {"did you mean \"roll-test\"?"}},
-      {tool + "[attitude]\nlaw = \"random\"\nbuild = \"4 deg\"\n", 4, "attitude.build", {"no meaning", "stations"}},
+      {tool + "[attitude]\nlaw = \"random\"\nbuild = \"4 deg\"\n",
+       4,
+       "attitude.build",
+       {"cannot be used with", "stations"}},
       {tool + "[attitude]\nlaw = \"random\"\nstatoins = 4\n", 4, "attitude.statoins", {"did you mean \"stations\"?"}},
       {tool + "[attitude]\nlaw = \"random\"\nstations = 0\n", 4, "attitude.stations", {"is 0", "1 to 1000000"}},
       {tool + "[attitude]\nlaw = \"fixed\"\n", 2, "attitude.direction", {"is missing", "[0, 0, 1]"}},
@@ -70,7 +73,10 @@ TEST(ScenarioRefusal, BadFilesAreRefusedWithLineFieldAndRemedy) {
        4,
        "attitude.direction",
        {"is 5 long", "[0, 0.6, 0.8]"}},
-      {tool + "[attitude]\nlaw = \"list\"\ndirections = []\n", 4, "attitude.directions", {"one direction or more"}},
+      {tool + "[attitude]\nlaw = \"list\"\ndirections = []\n",
+       4,
+       "attitude.directions",
+       {"must be a list of at least one direction"}},
       {tool + "[attitude]\nlaw = \"list\"\ndirections = [[0, 0, 1], [0, 1]]\n",
        4,
        "attitude.directions[2]",
@@ -80,16 +86,19 @@ TEST(ScenarioRefusal, BadFilesAreRefusedWithLineFieldAndRemedy) {
       {kShortest + "motion = \"2 deg\"\n", 4, "attitude.motion", {"deg", "accepted: s, ms"}},
       {kShortest + "vibration = \"-1 g0\"\n", 4, "attitude.vibration", {"rms"}},
       {kShortest + "tag_stations = \"yes\"\n", 4, "attitude.tag_stations", {"true or false"}},
-      {kShortest + "[truth]\nlaw = \"none\"\nbias = \"1 mg0\"\n", 6, "truth.bias", {"no meaning", "\"none\""}},
+      {kShortest + "[truth]\nlaw = \"none\"\nbias = \"1 mg0\"\n", 6, "truth.bias", {"cannot be used with", "\"none\""}},
       {kShortest + "[truth]\nscale = \"80 %\"\n", 5, "truth.scale", {"\"80 %\"", "2 %"}},
       {sensor + "bias = \"1 mg0\"\n", 4, "sensor_truth[1].id", {"is missing", "a1, a2, a3, a4"}},
       {sensor + "id = \"b1\"\n", 5, "sensor_truth[1].id", {"no sensor \"b1\"", "a1, a2, a3, a4"}},
-      {sensor + "id = \"a1\"\n[[sensor_truth]]\nid = \"a1\"\n", 7, "sensor_truth[2].id", {"already"}},
+      {sensor + "id = \"a1\"\n[[sensor_truth]]\nid = \"a1\"\n",
+       7,
+       "sensor_truth[2].id",
+       {"two [[sensor_truth]] tables"}},
       {sensor + "id = \"a1\"\nscale = \"3 count/g0\"\n", 6, "sensor_truth[1].scale", {"count", "the log is in V"}},
       {sensor + "id = \"a1\"\nscale_t = [\"3 V\"]\n", 6, "sensor_truth[1].scale_t[1]", {"per degC", "ppm/degC"}},
       {sensor + "id = \"a1\"\ncross = [1, 2]\n", 6, "sensor_truth[1].cross", {"4 numbers", "eq (3)"}},
       {sensor + "id = \"a1\"\naxis = [1, 1, 0]\n", 6, "sensor_truth[1].axis", {"unit length", "divide"}},
-      {kShortest + "[temperature]\nrate = \"1 degC/s\"\n", 5, "temperature.rate", {"no meaning", "value"}},
+      {kShortest + "[temperature]\nrate = \"1 degC/s\"\n", 5, "temperature.rate", {"cannot be used with", "value"}},
       {kShortest + "[temperature]\nlaw = \"linear\"\nrate = \"1 degC\"\n", 6, "temperature.rate", {"3 degC/min"}},
       {kShortest + "[temperature]\nlaw = \"linear\"\n", 4, "temperature.rate", {"is missing", "3 degC/min"}},
       {kShortest + "[noise]\nfactor = -1\n", 5, "noise.factor", {"is -1", "0 none"}},

@@ -69,8 +69,8 @@ TEST(StabilityKeys, WhatIsNoStabilityIsRefused) {
   refused("stability = \"0.2 g\"", "stability", "ambiguous");
   refused("stability = \"-0.2 mg\"", "stability", "out of range");
   refused("stability = \"2 g0\"", "stability", "out of range");
-  refused("stability = \"0.2 mg/day\"", "stability", "unit \"mg/day\" is unknown");
-  refused("stability_per_day = \"0.2 mg/degC\"", "stability_per_day", "unit \"mg/degC\" is unknown");
+  refused("stability = \"0.2 mg/day\"", "stability", "unit \"mg/day\" is not a known unit");
+  refused("stability_per_day = \"0.2 mg/degC\"", "stability_per_day", "unit \"mg/degC\" is not a known unit");
   refused("stability_day = \"1 ug\"", "stability_day", "did you mean \"stability");
 }
 
@@ -81,7 +81,7 @@ TEST(StabilityKeys, KeysOfVersionOneAreRefusedWithWhatStandsInTheirPlace) {
     ASSERT_FALSE(answer.has_value()) << key;
     EXPECT_EQ(answer.error().line, 8);
     EXPECT_EQ(answer.error().field, "monitor." + key);
-    EXPECT_NE(answer.error().what.find("is gone since 1.1"), std::string::npos);
+    EXPECT_NE(answer.error().what.find("is no longer a key"), std::string::npos);
     EXPECT_NE(answer.error().remedy.find("stability = \"0.2 mg\""), std::string::npos);
   }
 }

@@ -66,7 +66,7 @@ TEST(Units, RefusesWhatIsAmbiguousMissingOrUnknown) {
   expect_part(missing, "the unit is missing");
   expect_part(missing, "mm/s^2");
   const std::string unknown = refusal(parse_quantity(Quantity::angle, "3 degs"));
-  expect_part(unknown, "\"degs\" is unknown");
+  expect_part(unknown, "\"degs\" is not a known unit");
   expect_part(unknown, "did you mean \"deg\"?");
   expect_part(refusal(parse_quantity(Quantity::time, "soon")), "not a number");
   expect_part(refusal(parse_quantity(Quantity::time, "")), "not a number");

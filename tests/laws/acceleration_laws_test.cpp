@@ -43,7 +43,7 @@ MonitorConfig allowing(double bound_mps2) {
   return config;
 }
 
-TEST(Law, ElevenNoAccelerationWithinItsBoundIsBeyondTheProtectionLevelOrBlamesTheHealthy) {
+TEST(Law, ElevenNoAccelerationWithinItsBoundExceedsTheProtectionLevelOrExcludesAHealthySensor) {
   BoundLaw law(BoundLaw::Tried::unconfirmed_too);
   const LawCount count = run_law(11, kLawCases, [&law](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);

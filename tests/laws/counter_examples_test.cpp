@@ -33,7 +33,7 @@ Out out_after(const TrialTool& tool, LawCase& c, int stations, double samples, T
     EXPECT_TRUE(c.faulty().contains(v.excluded)) << names_of(v.excluded) << " at station " << k;
   }
   const Verdict& v = watch.verdict();
-  return {v.excluded, v.excluded | v.set_aside};
+  return {v.excluded, v.excluded | v.provisionally_excluded};
 }
 
 LawCase bias_of_a_tenth(const TrialTool& tool, double gravity_sigmas, TrialNoise& noise) {
@@ -84,7 +84,8 @@ TEST(CounterExample, WhatCalibrationLeavesExcludesNobodyHealthyHoweverManySample
   }
 }
 
-/// As many faults as the strict grade bears, n - 3. A search that stopped at fault sets one smaller was wrong in all.
+/// As many faults as the confirmed grade bears, n - 3. A search that stopped at fault sets one smaller was wrong in
+/// all.
 TEST(CounterExample, AsManyFaultsAsTheStrictGradeBearsAreTold) {
   for (const int n : {6, 7, 8}) {
     const TrialTool tool = exact_tool(n);
@@ -94,7 +95,7 @@ TEST(CounterExample, AsManyFaultsAsTheStrictGradeBearsAreTold) {
       LawCase c(tool, LawCase::some(n, n - 3, noise), Lie::random, 0.0);
       c.draw(noise);
       MonitorConfig config;
-      config.patience = 24;
+      config.isolation_timeout = 24;
       right += out_after(tool, c, 12, 32.0, noise, config).excluded == c.faulty() ? 1 : 0;
     }
     EXPECT_GE(right, 57) << n << " sensors";
@@ -102,7 +103,7 @@ TEST(CounterExample, AsManyFaultsAsTheStrictGradeBearsAreTold) {
 }
 
 /// Five axes of which two triples lie in a plane: untestable sets once counted as dead, and 179 of 291 were wrong.
-TEST(CounterExample, CoplanarTriplesBlameNobodyHealthy) {
+TEST(CounterExample, CoplanarTriplesExcludeNoHealthySensor) {
   AxisList axes{};
   std::size_t i = 0;
   for (const Vec3& axis : test::mikoff5_axes()) axes[i++] = axis;
@@ -121,7 +122,7 @@ TEST(CounterExample, CoplanarTriplesBlameNobodyHealthy) {
 /// Two triads, one axis reversed: n - 2m = 4, and yet the largest set that agrees is not the healthy one. A reversed
 /// axis and its twin explain each other at every attitude, so nobody is excluded; any other fault of the same axis is
 /// told.
-TEST(CounterExample, AReversedAxisOfTwoTriadsIsNotBlamedOnItsTwin) {
+TEST(CounterExample, AReversedAxisOfTwoTriadsDoesNotExcludeItsTwin) {
   AxisList axes{};
   for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = 1.0;
   const TrialTool tool = exact_tool(axes, 6);
@@ -139,7 +140,7 @@ TEST(CounterExample, AReversedAxisOfTwoTriadsIsNotBlamedOnItsTwin) {
 
 /// A bias that raises the alarm of nearly every block and yet leaves the whole set alive: nobody can be named, and the
 /// error of 0.02 deg is far within the alert limit. Patience once failed the tool.
-TEST(CounterExample, AFaultThatAlarmsWithoutKillingDoesNotFailTheTool) {
+TEST(CounterExample, AFaultThatAlarmsButRejectsNoHypothesisDoesNotFailTheTool) {
   const TrialTool tool = exact_tool(4, 0, 2e-4 * kG0_mps2);
   for (const double mg0 : {0.28, 0.35, 0.41}) {
     TrialNoise noise(7);
@@ -205,11 +206,12 @@ TEST(CounterExample, AtAttitudesThatTellNothingNobodyHealthyIsOut) {
       for (int k = 0; k < 20; ++k) {
         const Vec3 u = rolls ? direction_at(2.0, 37.0 * k) : still;
         const Verdict& v = watch.station(c.with_noise(c.readings(u, noise), noise));
-        EXPECT_TRUE(c.faulty().contains(v.excluded | v.set_aside)) << n << " sensors, trial " << t << ", station " << k;
+        EXPECT_TRUE(c.faulty().contains(v.excluded | v.provisionally_excluded))
+            << n << " sensors, trial " << t << ", station " << k;
         EXPECT_NE(v.state, HealthState::failed) << n << " sensors, trial " << t << ", station " << k;
         alarmed = alarmed || v.statistic > v.limit;
       }
-      noticed += alarmed || watch.verdict().set_aside == c.faulty() ? 1 : 0;
+      noticed += alarmed || watch.verdict().provisionally_excluded == c.faulty() ? 1 : 0;
       for (int k = 0; k < 8; ++k) watch.station(c.with_noise(c.readings(noise.direction(), noise), noise));
       told += watch.verdict().excluded == c.faulty() ? 1 : 0;
     }
@@ -218,7 +220,7 @@ TEST(CounterExample, AtAttitudesThatTellNothingNobodyHealthyIsOut) {
   }
 }
 
-/// Of 60 tools with one fault, how many the strict grade tells after 25 stations. Broken where it names anybody
+/// Of 60 tools with one fault, how many the confirmed grade tells after 25 stations. Broken where it names anybody
 /// healthy.
 int told_strictly(const TrialTool& tool, Lie lie, TrialNoise& noise) {
   int right = 0;
@@ -243,7 +245,7 @@ int told_strictly(const TrialTool& tool, Lie lie, TrialNoise& noise) {
 /// A sensor that sits on its mirror axis reads as gravity mirrored in the plane of two others would, and the three
 /// agree with gravity at every attitude. (Where the three lie in one plane they do not vote, and others tell.) One that
 /// reads anything is told by the same stations.
-TEST(CounterExample, ASensorOnItsMirrorAxisIsNeverToldAndNobodyElseIsBlamed) {
+TEST(CounterExample, ASensorOnItsMirrorAxisIsNeverIsolatedAndNoOtherIsExcluded) {
   for (int n = 4; n <= 6; ++n) {
     const TrialTool tool = exact_tool(n);
     TrialNoise noise(static_cast<std::uint64_t>(n));

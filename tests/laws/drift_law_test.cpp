@@ -45,7 +45,7 @@ Readings drift_of(Corner corner, const SensorArray& array, TrialNoise& noise) {
   return out;
 }
 
-TEST(Law, TwelveNoDriftWithinItsToleranceBlamesTheHealthyOrIsBeyondTheProtectionLevel) {
+TEST(Law, TwelveNoDriftWithinItsToleranceExcludesAHealthySensorOrExceedsTheProtectionLevel) {
   BoundLaw law(BoundLaw::Tried::usable);
   const LawCount count = run_law(12, kLawCases, [&law](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);

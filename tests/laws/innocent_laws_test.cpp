@@ -87,7 +87,7 @@ TEST(Law, OneHoldsForOneFaultThoughGravityIsOffByTenSigma) {
   expect_some_told(told, count, 0.3);
 }
 
-TEST(Law, FourFaultsInLeagueExcludeNobodyHealthyThoughTheyAreMoreThanCanBeTold) {
+TEST(Law, FourCorrelatedFaultsExcludeNoHealthySensorThoughTheyCannotBeIsolated) {
   std::uint64_t told = 0;
   const LawCount count = run_law(4, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
@@ -132,7 +132,7 @@ TEST(Law, EightLinearFaultsEndExcludedOrOpenAndNeverInAWrongExclusion) {
     Watch watch = proven_watch(tool, config_of(0), 0, gravity);
     const LawOutcome outcome = never_latches_the_healthy(tool, c, watch, 8, noise);
     const Verdict& v = watch.verdict();
-    const bool out = (v.excluded | v.set_aside) == c.faulty();
+    const bool out = (v.excluded | v.provisionally_excluded) == c.faulty();
     const bool open = v.validity != Validity::valid && v.validity != Validity::degraded;
     ++(out ? end.excluded : open ? end.open : end.unseen);
     return outcome;
@@ -194,7 +194,7 @@ class TroubledRun {
         if (trouble_ == Trouble::axial) moved = scaled(axis_, shake_mps2_ * noise_->normal());
         const Verdict& v = monitor.step(sample(direction, moved, troubled, k));
         const SensorSet own = channel() >= 0 ? SensorSet::of(channel_) : SensorSet{};
-        const SensorSet out = (v.excluded | v.set_aside | v.absent) - own;
+        const SensorSet out = (v.excluded | v.provisionally_excluded | v.absent) - own;
         if (!out.empty()) {
           return {true,
                   "of " + std::to_string(tool_->n()) + " sensors " + names_of(out) + " are out for trouble " +

@@ -20,8 +20,8 @@ LawOutcome broken(const LawTool& tool, const LawCase& c, int stations, const std
 
 std::string said(const LawTool& tool, const LawCase& c, const Verdict& v) {
   return "of " + std::to_string(tool.n()) + " sensors (c = " + std::to_string(tool.plane) + ") " +
-         names_of(c.faulty()) + " lied; excluded " + names_of(v.excluded) + ", set aside " + names_of(v.set_aside) +
-         ", " + to_string(v.state);
+         names_of(c.faulty()) + " lied; excluded " + names_of(v.excluded) + ", set aside " +
+         names_of(v.provisionally_excluded) + ", " + to_string(v.state);
 }
 
 /// What is played once the oracle has said that it must end with exactly the faulty out: stations until every wrong
@@ -67,7 +67,7 @@ LawOutcome ends_with_the_faulty_out(const LawTool& tool, const LawCase& c, const
 
 MonitorConfig patient() {
   MonitorConfig config;
-  config.patience = 24;  // another rule's business
+  config.isolation_timeout = 24;  // another rule's business
   return config;
 }
 
@@ -88,7 +88,7 @@ TEST(Law, TwoFaultsThatCanBeToldAreExcludedAndNobodyElse) {
   EXPECT_EQ(count.broken, 0U);
 }
 
-TEST(Law, ThreeWithTheirNumberAssertedFaultsInLeagueAreExcludedAndNobodyElse) {
+TEST(Law, ThreeCorrelatedFaultsOfAnAssumedNumberAreExcludedAndNoOtherSensor) {
   const LawCount count = run_law(3, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
@@ -103,7 +103,7 @@ TEST(Law, ThreeWithTheirNumberAssertedFaultsInLeagueAreExcludedAndNobodyElse) {
     const auto stations = separating_stations(tool, c, tool.n() - m, 1, noise);
     if (stations.empty()) return not_of_this_law();
     MonitorConfig config = patient();
-    config.asserted_faults = m;
+    config.assumed_faults = m;
     Watch watch = proven_watch(tool, config, 10 + m, gravity);
     return ends_with_the_faulty_out(tool, c, stations, watch, noise);
   });
@@ -128,7 +128,7 @@ TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
     c.least_mps2 = 10.0 * kTrialSigma_mps2;
     c.draw(noise);
     Watch watch = proven_watch(tool, config, key, gravity);
-    bool blamed = false, hurried = false, contradiction = false;
+    bool blamed = false, hurried = false, no_consistent_hypothesis = false;
     int first = -1;
     for (int k = 0; k < 10; ++k) {
       const Verdict& v = watch.station(c.with_noise(c.readings(noise.direction(), noise), noise));
@@ -138,13 +138,15 @@ TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
         hurried = k + 1 < std::max(config.isolation_stations, three ? 2 : 1);
       }
       blamed = blamed || (key == 0 && !c.faulty().contains(v.excluded));
-      contradiction = contradiction || v.transition.event == HealthEvent::contradiction || v.live_hypotheses == 0;
+      no_consistent_hypothesis = no_consistent_hypothesis ||
+                                 v.transition.event == HealthEvent::no_consistent_hypothesis ||
+                                 v.consistent_hypotheses == 0;
     }
     const Verdict& v = watch.verdict();
-    const bool survives = contradiction && v.state != HealthState::failed && v.excluded.empty();
+    const bool survives = no_consistent_hypothesis && v.state != HealthState::failed && v.excluded.empty();
     wrong += blamed ? 1U : 0U;
     hasty += hurried ? 1U : 0U;
-    contradicted += contradiction ? 1U : 0U;
+    contradicted += no_consistent_hypothesis ? 1U : 0U;
     not_failed += survives ? 1U : 0U;
     if (hurried)
       return broken(tool, c, first, "after " + std::to_string(first + 1) + " stations already: " + said(tool, c, v));
@@ -201,7 +203,7 @@ TEST(Law, SixSmallFaultsExcludeNobodyHealthyAndTheBoundHolds) {
   EXPECT_GT(bounded, count.cases);
 }
 
-TEST(Law, NineWhatTheParityGradeBearsIsSetAsideAtTheFirstStation) {
+TEST(Law, NineFaultsWithinTheProvisionalGradeAreProvisionallyExcludedAtTheFirstStation) {
   const LawCount count = run_law(9, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
@@ -217,7 +219,7 @@ TEST(Law, NineWhatTheParityGradeBearsIsSetAsideAtTheFirstStation) {
     if (!oracle.parity_tells(c.faulty(), tool.plane + 2, y)) return not_of_this_law();
     Watch watch = proven_watch(tool, MonitorConfig(), 0, std::abs(gravity) > 3.0 ? 0.0 : gravity);
     const Verdict& v = watch.station(c.with_noise(y, noise));
-    return broken(tool, c, 1, v.set_aside == c.faulty() ? "" : said(tool, c, v));
+    return broken(tool, c, 1, v.provisionally_excluded == c.faulty() ? "" : said(tool, c, v));
   });
   EXPECT_EQ(count.broken, 0U);
 }

@@ -67,7 +67,7 @@ LawCount run_law(int law, std::uint64_t wanted, Check&& check) {
   if (long_run()) wanted *= 1000;
   std::uint64_t first = 0;
   if (some != nullptr && (!is_count(some, wanted) || wanted == 0)) {
-    ADD_FAILURE() << "PLUMB_LAW_CASES is \"" << some << "\": give a whole number from 1 up, in digits";
+    ADD_FAILURE() << "PLUMB_LAW_CASES is \"" << some << "\": give a whole number, 1 or more, in digits";
     return {};
   }
   if (one != nullptr && !is_count(one, first)) {

@@ -77,7 +77,7 @@ const Bus& proven(const LawTool& tool, int asserted, int stations) {
   auto& kept = known[{&tool, 8 * asserted + stations}];
   if (!kept) {
     MonitorConfig config;
-    config.asserted_faults = asserted;
+    config.assumed_faults = asserted;
     config.isolation_stations = stations;
     kept = std::make_unique<Bus>(tool, config);
     TrialNoise noise(11);
@@ -108,7 +108,7 @@ LawOutcome play(const LawTool& tool, Bus& bus, int position, TrialNoise& noise) 
     }
     bus.stay(direction, (1 + noise.below(3)) * kRows, noise);
     const Verdict& v = bus.monitor.verdict();
-    const SensorSet out = v.excluded | v.set_aside | v.absent;
+    const SensorSet out = v.excluded | v.provisionally_excluded | v.absent;
     if (!out.empty()) {
       return {true,
               "of " + std::to_string(tool.n()) + " sensors " + names_of(out) + " are out, truncated at row " +
@@ -120,7 +120,7 @@ LawOutcome play(const LawTool& tool, Bus& bus, int position, TrialNoise& noise) 
 }
 
 // Verifies: REQ-078
-TEST(Law, TenRowsThatLackChannelsBlameNobody) {
+TEST(Law, TenRowsThatLackChannelsExcludeNoSensor) {
   const LawCount count = run_law(10, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const auto& tools = every_tool();

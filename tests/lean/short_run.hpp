@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "plumb/array/named.hpp"
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 #include "plumb/health/health_monitor.hpp"
 
 namespace {

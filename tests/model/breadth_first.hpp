@@ -22,17 +22,17 @@ enum Event : std::uint8_t {
   reset,
   channel_lost,
   channel_back,
-  culprit,
-  set_aside,
-  patience_over,
-  contradiction,
+  exclusion,
+  provisional_exclusion,
+  isolation_timeout,
+  no_consistent_hypothesis,
   alarm,
-  reference,
+  norm_mismatch,
   fit_accepted,
   fit_rejected,
   probation_passed,
   recalibrate,
-  clean_block,
+  passed_block,
   none
 };
 enum class Block : std::uint8_t { sample, no_evidence, clean, soft, alarming, off_gravity };
@@ -43,7 +43,7 @@ inline int count(unsigned s) { return __builtin_popcount(s); }
 inline unsigned bit(Event e) { return 1U << e; }
 
 struct Limits {
-  int stations, patience, probation, forget, clean_blocks;
+  int stations, isolation_timeout, probation, forget, passed_blocks;
 };
 
 /// All that is kept from step to step: the machine in the library's hands, and the evidence on record.
@@ -68,7 +68,7 @@ class Search {
       w.machine.mode = calibrated ? suspect : initial;
       w.machine.base = suspect;
       w.machine.in_service = all_;
-      w.machine.unproven = 1;
+      w.machine.not_yet_validated = 1;
       w.machine.calibrated = calibrated ? 1 : 0;
       meet(w);
     }
@@ -90,7 +90,7 @@ class Search {
   };
 
   // --- words of the specification ------------------------------------------------------------------------------
-  static Set posed(const World& w) { return w.machine.in_service | w.machine.set_aside; }
+  static Set posed(const World& w) { return w.machine.in_service | w.machine.provisionally_excluded; }
   static bool publishes(int mode) { return mode == nominal || mode == isolated || mode == degraded; }
   static bool collects(const World& w) { return w.machine.mode == recalibrating || w.machine.mode == initial; }
   static bool records(const World& w) { return w.machine.mode != failed && w.machine.mode != initial; }
@@ -113,8 +113,8 @@ class Search {
   }
   static bool may_recalibrate(const World& w) {
     const plumb_model_state& m = w.machine;
-    if (m.set_aside != 0) return false;
-    if (publishes(m.mode)) return !w.open && !m.unproven;
+    if (m.provisionally_excluded != 0) return false;
+    if (publishes(m.mode)) return !w.open && !m.not_yet_validated;
     return m.mode == suspect && count(m.in_service) > 3 &&
            (w.suspicion == none_alive || (w.suspicion == of_gravity && !w.open));
   }
@@ -218,8 +218,8 @@ class Search {
     }
   }
   void prove(const Step& s, bool excited) {
-    const bool may =
-        s.kind == Block::clean && s.w.machine.unproven && excited && s.w.machine.clean_run + 1 >= limits_.clean_blocks;
+    const bool may = s.kind == Block::clean && s.w.machine.not_yet_validated && excited &&
+                     s.w.machine.clean_run + 1 >= limits_.passed_blocks;
     ballot(s, excited, false);
     if (may) ballot(s, excited, true);
   }
@@ -258,28 +258,28 @@ class Search {
     Step t = s;
     World& w = t.w;
     plumb_model_state& m = w.machine;
-    const int suspected = count((w.standing ? w.accused : 0U) | m.set_aside);
+    const int suspected = count((w.standing ? w.accused : 0U) | m.provisionally_excluded);
     if (records(w) && suspected > w.most) {
       w.most = static_cast<std::uint8_t>(suspected);
       w.doubt = 0;
     }
     const bool in_doubt = (t.kind == Block::alarming && !(nothing_alive && expected(w, none_alive))) ||
                           (t.kind == Block::soft && m.mode == suspect);
-    if (records(w) && in_doubt && excited && w.doubt < limits_.patience) ++w.doubt;
+    if (records(w) && in_doubt && excited && w.doubt < limits_.isolation_timeout) ++w.doubt;
     if (t.kind != Block::clean) {
       m.clean_run = 0;
       if (t.kind != Block::soft || m.mode == suspect) w.clean_stations = 0;
       if (t.kind != Block::soft) w.probation = w.probation_stations = 0;
       return raise(t, nothing_alive);
     }
-    if (m.clean_run < limits_.clean_blocks) ++m.clean_run;
-    if (proves) m.unproven = 0;
+    if (m.clean_run < limits_.passed_blocks) ++m.clean_run;
+    if (proves) m.not_yet_validated = 0;
     const bool on_record = w.open || w.doubt > 0;
     if (on_record && excited) {
-      if (m.set_aside != 0) probe(t, excited);  // those set aside do not agree
+      if (m.provisionally_excluded != 0) probe(t, excited);  // those set aside do not agree
       if (++w.clean_stations == limits_.forget) {
         w.open = w.accused = w.standing = w.agree = w.doubt = w.most = w.clean_stations = w.ever = 0;
-        m.exhausted = 0;
+        m.timed_out = 0;
       }
     }
     probe(t, excited);
@@ -287,8 +287,8 @@ class Search {
 
   void probe(const Step& s, bool excited) {
     const plumb_model_state& m = s.w.machine;
-    if (s.w.open || m.unproven || !records(s.w) || m.mode == suspect || n_ == 6) return raise(s, false);
-    const Set asked = static_cast<Set>((m.excluded | m.set_aside) & ~(m.readmitted | m.absent));
+    if (s.w.open || m.not_yet_validated || !records(s.w) || m.mode == suspect || n_ == 6) return raise(s, false);
+    const Set asked = static_cast<Set>((m.excluded | m.provisionally_excluded) & ~(m.readmitted | m.absent));
     subsets(asked, [&](Set fine) {
       Step t = s;
       World& w = t.w;
@@ -308,15 +308,15 @@ class Search {
     World& w = t.w;
     if (accuses(w) && w.open && w.standing && w.agree >= needed(w)) {
       t.in.culprits = w.accused;
-      t.in.raised |= bit(culprit);
+      t.in.raised |= bit(exclusion);
     }
     if (t.kind == Block::alarming) {
       if (!nothing_alive) t.in.raised |= bit(alarm);
-      if (nothing_alive && !expected(w, none_alive)) t.in.raised |= bit(contradiction);
+      if (nothing_alive && !expected(w, none_alive)) t.in.raised |= bit(no_consistent_hypothesis);
     }
-    if (t.kind == Block::off_gravity && !expected(w, of_gravity)) t.in.raised |= bit(reference);
+    if (t.kind == Block::off_gravity && !expected(w, of_gravity)) t.in.raised |= bit(norm_mismatch);
     if (t.kind == Block::clean) {
-      t.in.raised |= bit(clean_block);
+      t.in.raised |= bit(passed_block);
       if (collects(w)) w.fit = 1;
     }
     if (w.probation != 0 && w.probation_stations == limits_.probation) {
@@ -338,19 +338,20 @@ class Search {
       if (aside == 0 || count(m.in_service & ~aside) < 3) return;
       Step t = s;
       t.in.accused = aside;
-      t.in.raised |= bit(set_aside);
+      t.in.raised |= bit(provisional_exclusion);
       lose_patience(t);
     });
   }
 
   void lose_patience(const Step& s) {
     const int mode = s.w.machine.mode;
-    if (s.kind == Block::off_gravity || s.w.doubt < limits_.patience || !(mode == suspect || mode == recalibrating))
+    if (s.kind == Block::off_gravity || s.w.doubt < limits_.isolation_timeout ||
+        !(mode == suspect || mode == recalibrating))
       return conclude(s);
     for (const bool within : {false, true}) {
       Step t = s;
       t.in.protection_within = within ? 1 : 0;
-      if (!s.w.machine.exhausted || !within) t.in.raised |= bit(patience_over);
+      if (!s.w.machine.timed_out || !within) t.in.raised |= bit(isolation_timeout);
       conclude(t);
     }
   }
@@ -360,7 +361,8 @@ class Search {
     const auto freeze = [&](const Step& t) {
       take(t);
       Step u = t;
-      u.in.raised &= ~(bit(culprit) | bit(set_aside) | bit(probation_passed) | bit(recalibrate) | bit(fit_accepted));
+      u.in.raised &=
+          ~(bit(exclusion) | bit(provisional_exclusion) | bit(probation_passed) | bit(recalibrate) | bit(fit_accepted));
       if (u.in.raised != t.in.raised) take(u);
     };
     const auto ask = [&](const Step& t) {
@@ -386,17 +388,17 @@ class Search {
     World& w = s.w;
     const plumb_model_state before = w.machine;
     const Set posed_before = posed(w);
-    s.in.raised |= static_cast<unsigned>(w.pending) << contradiction;
-    s.in.clean_blocks = static_cast<unsigned char>(limits_.clean_blocks);
+    s.in.raised |= static_cast<unsigned>(w.pending) << no_consistent_hypothesis;
+    s.in.passed_blocks = static_cast<unsigned char>(limits_.passed_blocks);
     s.in.sensors = static_cast<unsigned char>(n_);
-    constexpr unsigned kKept = 1U << contradiction | 1U << alarm | 1U << reference;
-    if (before.mode == recalibrating && (s.in.raised & kKept) != 0) s.in.raised &= ~bit(patience_over);
+    constexpr unsigned kKept = 1U << no_consistent_hypothesis | 1U << alarm | 1U << norm_mismatch;
+    if (before.mode == recalibrating && (s.in.raised & kKept) != 0) s.in.raised &= ~bit(isolation_timeout);
     if ((s.in.raised & kKept) != 0) w.alarmed = collects(w) ? 1 : 0;
     const plumb_model_answer answer = plumb_model_step(&w.machine, &s.in);
     const int event = answer.event;
     const bool taken = event != none;
-    const bool forgets =
-        taken && (event == culprit || event == reset || answer.adopted) && (event != culprit || before.mode != failed);
+    const bool forgets = taken && (event == exclusion || event == reset || answer.adopted) &&
+                         (event != exclusion || before.mode != failed);
     const Set now_posed = posed(w);
     if (forgets) {
       w.open = w.accused = w.standing = w.agree = w.doubt = w.most = w.clean_stations = 0;
@@ -411,20 +413,20 @@ class Search {
     }
     const bool collected = before.mode == recalibrating || before.mode == initial;
     const bool still = collects(w) && collected;
-    const bool spoken_against = event == channel_lost || event == culprit || event == set_aside ||
-                                event == patience_over || event == contradiction || event == alarm ||
-                                event == reference;
+    const bool spoken_against = event == channel_lost || event == exclusion || event == provisional_exclusion ||
+                                event == isolation_timeout || event == no_consistent_hypothesis || event == alarm ||
+                                event == norm_mismatch;
     const bool ended = (collected && spoken_against) || !still;
     if (ended || before.in_service != w.machine.in_service) w.fit = 0;
     if (ended) w.alarmed = 0;
     switch (event) {
-      case reference: w.suspicion = of_gravity; break;
-      case contradiction: w.suspicion = none_alive; break;
+      case norm_mismatch: w.suspicion = of_gravity; break;
+      case no_consistent_hypothesis: w.suspicion = none_alive; break;
       case alarm:
-      case set_aside:
+      case provisional_exclusion:
       case channel_lost:
       case fit_accepted:
-      case culprit: w.suspicion = other; break;
+      case exclusion: w.suspicion = other; break;
       default: break;
     }
     const int mode = w.machine.mode;
@@ -432,7 +434,8 @@ class Search {
       w.suspicion = other;
     }
     if (mode != recalibrating) w.machine.base = suspect;
-    w.pending = event <= channel_back ? static_cast<std::uint8_t>((s.in.raised & kKept) >> contradiction) : 0;
+    w.pending =
+        event <= channel_back ? static_cast<std::uint8_t>((s.in.raised & kKept) >> no_consistent_hypothesis) : 0;
     w.ever = w.open ? static_cast<Set>(w.ever & now_posed) : Set{0};
     meet(w);
   }
@@ -440,8 +443,9 @@ class Search {
   // --- states seen: sensors in a standard order -----------------------------------------------------------------
   void meet(World w) {
     plumb_model_state& m = w.machine;
-    const std::array<unsigned char*, 8> sets = {&m.in_service, &m.set_aside, &m.excluded, &m.absent,
-                                                &m.readmitted, &w.ever,      &w.accused,  &w.probation};
+    const std::array<unsigned char*, 8> sets = {
+        &m.in_service, &m.provisionally_excluded, &m.excluded, &m.absent, &m.readmitted, &w.ever, &w.accused,
+        &w.probation};
     std::array<unsigned, 8> columns{};
     for (int i = 0; i < n_; ++i) {
       for (std::size_t k = 0; k < sets.size(); ++k) columns[static_cast<std::size_t>(i)] |= ((*sets[k] >> i) & 1U) << k;

@@ -45,7 +45,7 @@ class OneFault(unittest.TestCase):
         rows = plumb.Monitor(ARRAY, CALIBRATION).run(log)
         OneFault.found += bool(rows["excluded"][-1])
         others = ~np.uint32(1 << sensor)
-        self.assertFalse(((rows["excluded"] | rows["set_aside"]) & others).any())
+        self.assertFalse(((rows["excluded"] | rows["provisionally_excluded"]) & others).any())
         valid = (rows["validity"] == plumb.VALIDITIES.index("valid")) & rows["tick"]
         g = rows["gravity_mps2"][valid]
         cross = np.linalg.norm(np.cross(g, TRUTH[valid]), axis=1)

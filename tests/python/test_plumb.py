@@ -237,7 +237,7 @@ class Errors(unittest.TestCase):
         text = self.said(plumb.Monitor, self.array, calibration, snapshot=b"no snapshot")
         self.assertTrue(text.startswith("snapshot: "), text)
         monitor = plumb.Monitor(self.array, calibration)
-        self.assertIn('"a9" is no sensor', self.said(monitor.reset, 1, ["a9"]))
+        self.assertIn('"a9" is not a sensor', self.said(monitor.reset, 1, ["a9"]))
         self.said(monitor.set_gravity, 1.6, 0.01)
         self.said(monitor.request_recalibration)
 

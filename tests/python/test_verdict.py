@@ -26,7 +26,7 @@ PARTS = {
     "rotation": ("rotation.hpp", "RotationRequest", "turn_", {"wanted": "wants_rotation"}),
     "recalibration": ("recalibration_progress.hpp", "RecalibrationProgress", "recalibration_",
                       {"stations_wanted": "stations_wanted", "last_refusal": "recalibration_refusal"}),
-    "reference": ("reference_study.hpp", "ReferenceFinding", "reference_",
+    "norm_mismatch": ("reference_study.hpp", "NormMismatch", "norm_mismatch_",
                   {"configure_mps2": "gravity_to_configure_mps2"}),
     "calibration": ("calibration_check.hpp", "CalibrationFinding", "calibration_", {}),
 }
@@ -36,7 +36,7 @@ OF_JSON = {
     "t_s": "time_s",
     "rotation": "turn_along",
     "recalibration": "recalibration_phase",
-    "reference": "reference_kind",
+    "norm_mismatch": "norm_mismatch_kind",
     "covariance_mps2_2": "covariance",
     "inclination_deg": "gravity_mps2",
     "inclination_sigma_deg": "covariance",
@@ -45,7 +45,7 @@ OF_JSON = {
     "protection_level_deg": "protection_level_rad",
     "snapshot_refused": "snapshot_refusal",
 }
-SETS = ("configured", "in_service", "set_aside", "excluded", "absent", "suspects", "clipped", "restless", "not_finite",
+SETS = ("configured", "in_service", "provisionally_excluded", "excluded", "absent", "suspects", "clipped", "scattering", "not_finite",
         "noisy", "stuck", "contradicted_clip")
 
 
@@ -175,7 +175,7 @@ class Values(unittest.TestCase):
         for key, words in (("qualifiers", plumb.QUALIFIERS), ("usable", plumb.USABLE)):
             self.assertEqual([word for k, word in enumerate(words) if int(row[key]) >> k & 1], line[key])
         for key in ("tick", "accepted", "alert", "protection_available", "wants_rotation", "transition", "faults_covered",
-                    "strict_grade", "parity_grade", "live_hypotheses", "stations_on_record", "triples_tested", "statistic",
+                    "confirmed_grade", "provisional_grade", "consistent_hypotheses", "stations_on_record", "triples_tested", "statistic",
                     "limit", "margin", "mae_all_mps2", "mae_worst_mps2", "mae_worst_limit_mps2", "parity", "parity_limit",
                     "norm_error_mps2", "noise_factor", "noise_correlation", "temperature_degc",
                     "temperature_rate_degc_per_min", "age_s"):
@@ -187,7 +187,7 @@ class Values(unittest.TestCase):
         self.assertEqual(row["triples_failing"], len(line["triples_failing"]))
         self.assertEqual(f"{int(row['config_hash']):016x}", line["config_hash"])
         self.assertEqual([plumb.CAUSES[c] for c in row["sensor_cause"][:n]], line["sensor_cause"])
-        self.assertEqual([None if s == 255 else s for s in row["fewest_faults"][:n].tolist()], line["fewest_faults"])
+        self.assertEqual([None if s == 255 else s for s in row["minimum_faults"][:n].tolist()], line["minimum_faults"])
         self.assertEqual([float(d) for d in row["drift_mps2_per_h"][:n]], line["drift_mps2_per_h"])
         if line["protection_level_deg"] is None:
             self.assertTrue(math.isnan(row["protection_level_rad"]) and math.isnan(row["toolface_protection_rad"]))
@@ -201,13 +201,13 @@ class Values(unittest.TestCase):
             self.assertEqual(list(row["turn_along"]) if along is not None else None, along)
             self.assertEqual(row["turn_change_mps2"], line["rotation"]["change_mps2"])
             self.assertAlmostEqual(math.degrees(row["turn_angle_rad"]), line["rotation"]["angle_deg"], 9)
-        reference = line["reference"]
-        self.assertEqual(plumb.REFERENCE_KINDS[row["reference_kind"]], reference["kind"] if reference else "none")
+        reference = line["norm_mismatch"]
+        self.assertEqual(plumb.NORM_MISMATCH_KINDS[row["norm_mismatch_kind"]], reference["kind"] if reference else "none")
         if reference is not None:
-            self.assertEqual(row["reference_attitudes"], reference["attitudes"])
-            self.assertEqual(row["reference_length_mps2"], reference["length_mps2"])
+            self.assertEqual(row["norm_mismatch_attitudes"], reference["attitudes"])
+            self.assertEqual(row["norm_mismatch_length_mps2"], reference["length_mps2"])
             self.assertEqual(row["gravity_to_configure_mps2"], reference.get("configure_mps2") or 0.0)
-            self.assertEqual(list(row["reference_bias_mps2"]), reference["bias_mps2"])
+            self.assertEqual(list(row["norm_mismatch_bias_mps2"]), reference["bias_mps2"])
         told = line["calibration_contradicted"]
         self.assertEqual(row["calibration_contradicted"], told is not None)
         if told is not None:
@@ -249,7 +249,7 @@ class Values(unittest.TestCase):
         changed = rows[rows["transition"] > 0]
         out = changed[changed["transition_sensors"] > 0][0]
         self.assertEqual(self.names(array, out["transition_sensors"]), ["a2"])
-        self.assertEqual(plumb.EVENTS[out["transition_event"]], "culprit")
+        self.assertEqual(plumb.EVENTS[out["transition_event"]], "exclusion")
         self.assertEqual(plumb.STATES[out["transition_to"]], "degraded")
         self.assertEqual(out["transition_time_s"], out["time_s"])
         self.assertEqual(list(rows["sample"]), list(range(1, len(rows) + 1)))
@@ -267,7 +267,7 @@ class Values(unittest.TestCase):
     def test_of_gravity_that_is_off(self):
         text = self.text.replace('value = "9.80665 m/s^2"', 'value = "9.77 m/s^2"')
         _, rows, _ = self.both(text, self.simulated("stand"))
-        self.assertEqual(plumb.REFERENCE_KINDS[rows["reference_kind"][-1]], "common_scale")
+        self.assertEqual(plumb.NORM_MISMATCH_KINDS[rows["norm_mismatch_kind"][-1]], "common_scale")
         self.assertAlmostEqual(rows["gravity_offset_mps2"][-1], 0.03665, 3)
         self.assertAlmostEqual(rows["gravity_to_configure_mps2"][-1], 9.80665, 3)
         self.assertAlmostEqual(rows["reference_mps2"][-1], 9.77, 6)
@@ -284,7 +284,7 @@ class Values(unittest.TestCase):
     def test_a_recorded_roll_test_validates_beforehand(self):
         array, stand = plumb.simulate(str(EXAMPLES / "stand.toml"))
         calibration = plumb.calibrate(array, stand)
-        unproven = 1 << plumb.QUALIFIERS.index("unproven")
+        unproven = 1 << plumb.QUALIFIERS.index("not_yet_validated")
         still = plumb.Log(0.01 * np.arange(200), np.array(stand.raw[:200]))
         self.assertTrue((plumb.Monitor(array, calibration).run(still)["qualifiers"] & unproven).all())
         monitor = plumb.Monitor(array, calibration)

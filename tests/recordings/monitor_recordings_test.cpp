@@ -75,7 +75,7 @@ TEST_F(MikoffZ, TheNearlyCoplanarTriplesAreFoundAndTheStrictGradeIsOne) {
   }
   EXPECT_EQ(count, 2);
   EXPECT_EQ(near_singular_triples, array.all());
-  EXPECT_EQ(m->step(data_->rows[0]).strict_grade, 1) << "published with every verdict";
+  EXPECT_EQ(m->step(data_->rows[0]).confirmed_grade, 1) << "published with every verdict";
 }
 
 TEST_F(MikoffZ, HealthyMaeOfThePyramidAndItsTriples) {
@@ -105,13 +105,14 @@ TEST_F(MikoffZ, TheHealthyRecordingNeverAlarms) {
   const auto m = monitor();
   for (const Sample& s : data_->rows) {
     const Verdict& v = m->step(s);
-    EXPECT_TRUE(v.cause == Cause::clean || v.cause == Cause::power_on) << to_string(v.cause) << " at " << v.time_s;
-    EXPECT_TRUE((v.excluded | v.set_aside).empty());
+    EXPECT_TRUE(v.cause == Cause::passed_block || v.cause == Cause::power_on)
+        << to_string(v.cause) << " at " << v.time_s;
+    EXPECT_TRUE((v.excluded | v.provisionally_excluded).empty());
   }
   EXPECT_EQ(m->verdict().state, HealthState::nominal);
 }
 
-TEST_F(MikoffZ, EveryStuckAndFrozenAxisIsExcludedWithinEightStationsAndNoHealthyOneIsBlamed) {
+TEST_F(MikoffZ, EveryStuckAndFrozenAxisIsExcludedWithinEightStationsAndNoHealthyOne) {
   int cases = 0, excluded = 0, wrong = 0, latest = 0;
   double used[4] = {0.0, kG0_mps2, -kG0_mps2, 0.0};
   for (int start = 0; start < 22; ++start) {
@@ -125,7 +126,7 @@ TEST_F(MikoffZ, EveryStuckAndFrozenAxisIsExcludedWithinEightStationsAndNoHealthy
           s.time_s = 10.0 * (k + 1);
           s.raw[static_cast<std::size_t>(axis)] = used[kind];
           const Verdict& v = m->step(s);
-          const SensorSet blamed = v.excluded | v.set_aside | v.absent;
+          const SensorSet blamed = v.excluded | v.provisionally_excluded | v.absent;
           if (!SensorSet::of(axis).contains(blamed)) ++wrong;
           if (when == 0 && v.excluded == SensorSet::of(axis)) when = k + 1;
         }
@@ -133,7 +134,7 @@ TEST_F(MikoffZ, EveryStuckAndFrozenAxisIsExcludedWithinEightStationsAndNoHealthy
         excluded += when > 0 ? 1 : 0;
         latest = std::max(latest, when);
         EXPECT_GT(when, 0) << "start " << start << " axis " << axis << " kind " << kind << " ends "
-                           << to_string(m->verdict().state) << ", live " << m->verdict().live_hypotheses;
+                           << to_string(m->verdict().state) << ", live " << m->verdict().consistent_hypotheses;
       }
     }
   }

@@ -25,7 +25,7 @@ TEST(ToolOnMikoff, CalibratesInjectsAndExcludesTheStuckAxis) {
   const Outcome healthy = plumb_test::run(
       dir, {"monitor", "--array", array, "--calibration", "cal.json", "--log", recording.path, "--events", "ok.jsonl"});
   EXPECT_EQ(healthy.code, 0) << healthy.err;
-  EXPECT_EQ(plumb_test::read_text(dir / "ok.jsonl").find("culprit"), std::string::npos);
+  EXPECT_EQ(plumb_test::read_text(dir / "ok.jsonl").find("exclusion"), std::string::npos);
 
   for (const char* fault :
        {"a2z:stuck=1g0@station5", "a4z:stuck=-1g0@station5", "a0z:stuck=0g0@station5", "a3z:last@station5"}) {
@@ -37,7 +37,7 @@ TEST(ToolOnMikoff, CalibratesInjectsAndExcludesTheStuckAxis) {
     EXPECT_EQ(watched.code, 0) << fault << watched.err;
     const std::string events = plumb_test::read_text(dir / "bad.jsonl");
     const std::string named =
-        "\"event\":\"culprit\",\"cause\":\"isolated_fault\",\"grade\":\"strict\",\"sensors\":[\"" +
+        "\"event\":\"exclusion\",\"cause\":\"isolated_fault\",\"grade\":\"confirmed\",\"sensors\":[\"" +
         std::string(fault, 3) + "\"]";
     EXPECT_NE(events.find(named), std::string::npos) << fault << "\n" << events;
   }
@@ -85,7 +85,7 @@ TEST(ToolOnRecordings, HeldOutStationsArePredictedAsClaimed) {
     EXPECT_GT(sigmas, 0.7) << c.array;
     EXPECT_LT(sigmas, 1.3) << c.array;
     EXPECT_LT(json["hold_out"]["norm_rms_mps2"].get<double>(), 4e-3) << c.array;
-    EXPECT_TRUE(json["odd_sensor"].is_null() || json["odd_sensor"]["id"].is_null()) << c.array;
+    EXPECT_TRUE(json["inconsistent_sensor"].is_null() || json["inconsistent_sensor"]["id"].is_null()) << c.array;
     std::cout << "[ measured ] " << c.array << ": held-out error over claim " << sigmas << ", norm "
               << json["hold_out"]["norm_rms_mps2"] << " m/s^2\n";
   }

@@ -277,7 +277,7 @@ TEST(Surroundings, WhatCannotBePlayedIsRefused) {
   EXPECT_TRUE(refused([](Scenario& s) { s.turning.axis = {0.0, 0.0, 2.0}; }));
   EXPECT_TRUE(refused([](Scenario& s) { s.turning.until_s = -1.0; }));
   EXPECT_TRUE(refused([](Scenario& s) { s.turning.rate_radps = std::nan(""); }));
-  EXPECT_TRUE(refused([](Scenario& s) { s.depth.stand_m = std::nan(""); }));
+  EXPECT_TRUE(refused([](Scenario& s) { s.depth.station_spacing_m = std::nan(""); }));
   EXPECT_TRUE(refused([](Scenario& s) { s.tool.lever_arm_m[1][2] = 1e9; }));
 }
 

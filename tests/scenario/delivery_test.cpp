@@ -70,7 +70,7 @@ TEST(Delivery, TimeRunsBehindAndShareOfRowsIsLost) {
 }
 
 /// What the monitor sees of it: samples refused, nobody blamed, the output as it was.
-TEST(Delivery, TheMonitorRefusesWhatComesOutOfOrderAndBlamesNobody) {
+TEST(Delivery, TheMonitorRefusesSamplesOutOfOrderAndExcludesNoSensor) {
   struct Case {
     FaultKind kind;
     double magnitude;

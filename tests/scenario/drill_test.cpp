@@ -8,6 +8,7 @@
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/detection/stationarity.hpp"
+#include "plumb/health/health_monitor.hpp"
 #include "plumb/scenario/library.hpp"
 
 namespace plumb {
@@ -55,7 +56,7 @@ std::string names(SensorSet sensors) {
 }
 
 struct Played {
-  std::string changes;  ///< a line each: "culprit a2 -> degraded"
+  std::string changes;  ///< a line each: "exclusion a2 -> degraded"
   std::vector<Host::Answer> answers;
   std::size_t waiting = 0;
   int wronged = 0;  ///< exclusions of sensors that are sound at that moment
@@ -79,7 +80,7 @@ Played play(const Tool& tool, std::uint64_t seed, const Drill& drill) {
     const TransitionRecord& change = monitor->step(sample).transition;
     if (change.sequence == 0) continue;
     out.changes += to_string(change.event) + names(change.sensors) + " -> " + to_string(change.to) + "\n";
-    const bool blames = change.event == HealthEvent::culprit || change.event == HealthEvent::set_aside;
+    const bool blames = change.event == HealthEvent::exclusion || change.event == HealthEvent::provisional_exclusion;
     if (blames && !run.truth().faulty.contains(change.sensors)) ++out.wronged;
   }
   out.answers = host.answers();
@@ -92,14 +93,14 @@ TEST(Drill, AGoesThroughFailedAndComesBackWithWhatHasRecovered) {
     const Tool tool = paper_tool(seed);
     const Played played = play(tool, seed, drill_a(tool, seed));
     EXPECT_EQ(played.changes,
-              "clean_block -> nominal\n"
+              "passed_block -> nominal\n"
               "alarm -> suspect\n"
-              "culprit a2 -> degraded\n"
+              "exclusion a2 -> degraded\n"
               "alarm -> suspect\n"
-              "patience_over -> failed\n"
+              "isolation_timeout -> failed\n"
               "reset a2 -> suspect\n"
-              "culprit a3 -> suspect\n"
-              "clean_block -> degraded\n")
+              "exclusion a3 -> suspect\n"
+              "passed_block -> degraded\n")
         << "seed " << seed;
     EXPECT_EQ(played.wronged, 0) << "seed " << seed;
     ASSERT_EQ(played.answers.size(), 2U);
@@ -114,16 +115,16 @@ TEST(Drill, BIsolatesRecalibratesIsolatesAgainAndReinstatesWhatHasRecovered) {
     const Tool tool = hexad_tool(seed);
     const Played played = play(tool, seed, drill_b(tool, seed));
     EXPECT_EQ(played.changes,
-              "clean_block -> nominal\n"
-              "set_aside a2 -> suspect\n"
-              "clean_block -> isolated\n"
-              "culprit a2 -> isolated\n"
+              "passed_block -> nominal\n"
+              "provisional_exclusion a2 -> suspect\n"
+              "passed_block -> isolated\n"
+              "exclusion a2 -> isolated\n"
               "recalibrate a1 a3 a4 a5 a6 -> recalibrating\n"
               "fit_accepted a1 a3 a4 a5 a6 -> suspect\n"
-              "clean_block -> isolated\n"
-              "set_aside a5 -> suspect\n"
-              "clean_block -> isolated\n"
-              "culprit a5 -> isolated\n"
+              "passed_block -> isolated\n"
+              "provisional_exclusion a5 -> suspect\n"
+              "passed_block -> isolated\n"
+              "exclusion a5 -> isolated\n"
               "probation_passed a2 -> isolated\n")
         << "seed " << seed;
     EXPECT_EQ(played.wronged, 0) << "seed " << seed;
@@ -138,8 +139,8 @@ TEST(Drill, HealthyTwinsRaiseNoAlarm) {
       drill->scenario.faults.clear();
       drill->requests.clear();
     }
-    EXPECT_EQ(play(four, seed, a).changes, "clean_block -> nominal\n") << "seed " << seed;
-    EXPECT_EQ(play(six, seed, b).changes, "clean_block -> nominal\n") << "seed " << seed;
+    EXPECT_EQ(play(four, seed, a).changes, "passed_block -> nominal\n") << "seed " << seed;
+    EXPECT_EQ(play(six, seed, b).changes, "passed_block -> nominal\n") << "seed " << seed;
   }
 }
 

@@ -122,9 +122,9 @@ TEST(FaultText, BadStringsAreRefusedWithARemedy) {
     const char* text;
     const char* says;
   };
-  const Bad bad[] = {{"", "no onset"},
-                     {"a2:stuck=0V", "no onset"},
-                     {"stuck=0V@12s", "no sensor"},
+  const Bad bad[] = {{"", "the onset is missing. Remedy: give the begin of the fault,"},
+                     {"a2:stuck=0V", "the onset is missing. Remedy: give the begin of the fault,"},
+                     {"stuck=0V@12s", "the sensor is missing"},
                      {"b2:stuck=0V@12s", "name one of a1, a2, a3, a4"},
                      {"0:stuck=0V@12s", "no sensor '0'"},
                      {"5:stuck=0V@12s", "no sensor '5'"},
@@ -153,7 +153,7 @@ TEST(FaultText, BadStringsAreRefusedWithARemedy) {
                      {"a2:random=3V..-3V@12s", "range of the random value is empty"},
                      {"a2:random=..3V@12s", "does not begin with a number"},
                      {"a2:scale=1.1V@12s", "not a plain factor"},
-                     {"a2:scale=1@12s", "no fault"},
+                     {"a2:scale=1@12s", "changes nothing"},
                      {"a2:stuck=0V@", "onset"},
                      {"a2:stuck=0V@12", "no unit"},
                      {"a2:stuck=0V@12V", "unknown unit"},
@@ -179,12 +179,12 @@ TEST(FaultText, BadStringsAreRefusedWithARemedy) {
 
 TEST(FaultText, DescribesInSentences) {
   const auto said = [](const char* text) { return describe(parsed(text, volts()), volts()); };
-  EXPECT_EQ(said("a2:stuck=0V@12s"), "a2 stands at 0 V from t = 12 s on");
-  EXPECT_EQ(said("a3:last@#5"), "a3 stands at its last value from row 5 on");
-  EXPECT_EQ(said("a2:bias=50mg0@30s+10s"), "a2 reads 50 mg0 too much from t = 30 s on, for 10 s");
+  EXPECT_EQ(said("a2:stuck=0V@12s"), "a2 is stuck at 0 V from t = 12 s on");
+  EXPECT_EQ(said("a3:last@#5"), "a3 is stuck at its last value from row 5 on");
+  EXPECT_EQ(said("a2:bias=50mg0@30s+10s"), "a2 reads 50 mg0 too high from t = 30 s on, for 10 s");
   EXPECT_EQ(said("a1:random=-3V..3V@station2+station3"),
             "a1 delivers random values from -3 V to 3 V, new in every row from station 2 on, for 3 stations");
-  EXPECT_EQ(said("a1:held=-3V..3V@1s"), "a1 stands at a random value from -3 V to 3 V from t = 1 s on");
+  EXPECT_EQ(said("a1:held=-3V..3V@1s"), "a1 is stuck at a random value from -3 V to 3 V from t = 1 s on");
   EXPECT_EQ(said("a1:drift=1mg0/s@10s"), "a1 drifts by 1 mg0/s from t = 10 s on");
   EXPECT_EQ(said("a4:scale=1.1@10s"), "a4 has its scale factor multiplied by 1.1 from t = 10 s on");
 }

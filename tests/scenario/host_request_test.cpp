@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "plumb/array/named.hpp"
+#include "plumb/health/health_monitor.hpp"
 
 namespace plumb {
 namespace scenario {
@@ -41,21 +42,22 @@ TEST(HostRequest, ReadsARecalibration) {
 
 TEST(HostRequest, RefusalsSayWhatAndHow) {
   const SensorArray array = tetrahedron();
-  const std::pair<const char*, const char*> bad[] = {{"", "does not begin with a number"},
-                                                     {"reset a2 key 1", "does not begin with a number"},
-                                                     {"60 reset a2 key 1", "has no unit"},
-                                                     {"60s", "cannot ask for ''"},
-                                                     {"60s explode", "cannot ask for 'explode'"},
-                                                     {"60s reset", "no sensor ''"},
-                                                     {"60s reset a9 key 1", "no sensor 'a9'"},
-                                                     {"60s reset a1,,a2 key 1", "no sensor ''"},
-                                                     {"60s reset a2", "needs its key"},
-                                                     {"60s reset a2 key", "'' is no key"},
-                                                     {"60s reset a2 key -1", "'-1' is no key"},
-                                                     {"60s reset a2 key 0x", "'0x' is no key"},
-                                                     {"60s reset a2 key 18446744073709551616", "is no key"},
-                                                     {"60s reset a2 key 1 2", "'2' is too much"},
-                                                     {"60s recalibrate a2", "'a2' is too much"}};
+  const std::pair<const char*, const char*> bad[] = {
+      {"", "does not begin with a number"},
+      {"reset a2 key 1", "does not begin with a number"},
+      {"60 reset a2 key 1", "has no unit"},
+      {"60s", "unknown request ''"},
+      {"60s explode", "unknown request 'explode'"},
+      {"60s reset", "no sensor ''"},
+      {"60s reset a9 key 1", "no sensor 'a9'"},
+      {"60s reset a1,,a2 key 1", "no sensor ''"},
+      {"60s reset a2", "a reset needs a key. Remedy: end with `key` and the"},
+      {"60s reset a2 key", "'' is not a key"},
+      {"60s reset a2 key -1", "'-1' is not a key"},
+      {"60s reset a2 key 0x", "'0x' is not a key"},
+      {"60s reset a2 key 18446744073709551616", "is not a key. Remedy:"},
+      {"60s reset a2 key 1 2", "'2' is not expected here"},
+      {"60s recalibrate a2", "'a2' is not expected here"}};
   for (const auto& [text, what] : bad) {
     const auto request = parse_host_request(text, array);
     ASSERT_FALSE(request) << text;
@@ -99,7 +101,8 @@ TEST(Host, AsksInOrderOfTimeAndKeepsTheAnswers) {
   EXPECT_EQ(host.answers()[0].refusal, Errc::wrong_key);
   EXPECT_EQ(host.answers()[1].refusal, Errc::wrong_state) << "a reset is for failed only";
   EXPECT_EQ(host.answers()[1].time_s, 2.5);
-  EXPECT_EQ(host.answers()[2].refusal, Errc::wrong_state) << "an unproven monitor has nothing to recalibrate from";
+  EXPECT_EQ(host.answers()[2].refusal, Errc::wrong_state)
+      << "an not yet validated monitor has nothing to recalibrate from";
   EXPECT_EQ(host.waiting(), 1U);
 }
 

@@ -1,5 +1,5 @@
 // The kernel in single precision against the bounds that are proved for it; long double plays the exact value.
-#include "plumb/detection/near_lengths.hpp"
+#include "plumb/detection/detail/near_lengths.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

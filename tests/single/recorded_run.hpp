@@ -97,7 +97,7 @@ inline single_test::Told told_by(const plumb::Verdict& v) {
                v.in_service.bits,
                v.excluded.bits,
                v.absent.bits,
-               v.set_aside.bits,
+               v.provisionally_excluded.bits,
                v.suspects.bits,
                v.noisy.bits,
                v.stuck.bits,
@@ -106,7 +106,7 @@ inline single_test::Told told_by(const plumb::Verdict& v) {
                v.alert ? 1U : 0U,
                v.wants_rotation ? 1U : 0U,
                v.transition.sequence,
-               static_cast<std::uint64_t>(v.live_hypotheses)};
+               static_cast<std::uint64_t>(v.consistent_hypotheses)};
   out.gravity_mps2 = v.gravity_mps2;
   out.latest_mps2 = v.latest_mps2;
   out.protection_rad = v.protection_level_rad;

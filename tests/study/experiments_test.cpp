@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "plumb/health/paper_rule.hpp"
+#include "plumb/paper/paper_rule.hpp"
 #include "study_test_support.hpp"
 
 namespace experiments_test {

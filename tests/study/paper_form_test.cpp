@@ -82,7 +82,7 @@ TEST(PaperForm, RefusesWhatHasNoAnswer) {
   const plumb::scenario::Tool tool = plumb::scenario::paper_tool(1);
   CommonFrame frame = frame_of(tool);
   EXPECT_FALSE(paper_form(tool.datasheet, frame, SensorSet(3U))) << "two sensors";
-  EXPECT_FALSE(paper_form(tool.datasheet, frame, SensorSet(19U))) << "a sensor that is not there";
+  EXPECT_FALSE(paper_form(tool.datasheet, frame, SensorSet(19U))) << "remove an absent sensor";
   frame.axis[2] = frame.axis[1];
   EXPECT_FALSE(paper_form(tool.datasheet, frame, SensorSet(7U)));
   EXPECT_FALSE(paper_form(tool.datasheet, frame, SensorSet(15U)));

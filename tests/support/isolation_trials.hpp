@@ -328,7 +328,7 @@ struct TrialCount {
   }
 };
 
-/// One episode of `stations` blocks through the strict grade; right is the answer after the last one.
+/// One episode of `stations` blocks through the confirmed grade; right is the answer after the last one.
 inline void strict_trial(const TrialTool& tool, TrialEpisode& episode, int stations, TrialNoise& noise,
                          TrialCount& count) {
   plumb::Isolation isolation = tool.posed;
@@ -353,14 +353,14 @@ struct Soundness {
 /// sigmas of the gravity reference.
 inline void soundness_trial(const TrialTool& tool, double gravity_error, int healthy, int stations, TrialNoise& noise,
                             Soundness& out) {
-  const int most = std::min(tool.posed.strict_grade(), tool.array.size() - healthy);
+  const int most = std::min(tool.posed.confirmed_grade(), tool.array.size() - healthy);
   const int m = 1 + noise.below(most);
   const auto law = static_cast<FaultLaw>(noise.below(kFaultLaws));
   TrialEpisode episode(tool, m, law, noise);
   const double length = plumb::kG0_mps2 + gravity_error * tool.gravity.sigma_mps2;
   TrialAttitudes attitudes(noise);
   plumb::Isolation isolation = tool.posed;
-  const bool ask_parity = m <= tool.posed.parity_grade();
+  const bool ask_parity = m <= tool.posed.provisional_grade();
   const bool ask_asserted = m <= plumb::kScanDepth && noise.below(4) == 0;
   bool strict = false, parity = false, asserted = false;
   plumb::SensorSet last;

@@ -111,7 +111,7 @@ class Rig {
   const plumb::Verdict& step(const plumb::Sample& s) {
     const plumb::Verdict& v = monitor.step(s);
     if (v.transition.sequence != 0) records.push_back(v.transition);
-    ever_blamed = ever_blamed | v.excluded | v.set_aside;
+    ever_blamed = ever_blamed | v.excluded | v.provisionally_excluded;
     return v;
   }
   /// `blocks` quiet blocks at one attitude.
@@ -128,7 +128,7 @@ class Rig {
     }
     return monitor.verdict();
   }
-  /// Earns trust: clean blocks at three very different attitudes.
+  /// Earns trust: passed blocks at three very different attitudes.
   const plumb::Verdict& prove() {
     // A healthy block is now and then above 0.7 of its limit and starts the count anew: hence the loop.
     for (int round = 0; round < 5; ++round) {

@@ -52,19 +52,21 @@ TEST(MonitorLaws, AMonitorThatWaitsTooLongIsFound) {
     c.faults[k].sensor = static_cast<int>(k);
     c.faults[k].magnitude *= 1.0 + static_cast<double>(k);
   }
-  const LawResult result = isolates_what_can_be_told(c);
+  const LawResult result = isolates_what_is_isolable(c);
   EXPECT_TRUE(result.applies) << result.reason;
   EXPECT_FALSE(result.holds);
   EXPECT_NE(result.reason.find("faulty: a1, a2, a3, a4"), std::string::npos) << result.reason;
 }
 
-/// The page that teaches it quotes the example line by line.
+/// The page that teaches it quotes the examples line by line.
 TEST(PropertyTestingPage, QuotesTheExample) {
   const std::string root = PLUMB_SOURCE_DIR;
   std::set<std::string> example;
   std::string line;
-  std::ifstream source(root + "/examples/property_test/cone_test.cpp");
-  while (std::getline(source, line)) example.insert(line);
+  for (const char* const file : {"/examples/property_test/cone_test.cpp", "/examples/ideas/law.cpp"}) {
+    std::ifstream source(root + file);
+    while (std::getline(source, line)) example.insert(line);
+  }
   std::ifstream page(root + "/docs/property-testing.md");
   bool code = false;
   int quoted = 0;
@@ -117,7 +119,7 @@ TEST(Generators, ShrinkToTheFewestFaultsAndStationsAndToRoundNumbers) {
   ASSERT_TRUE(result.match(failure)) << "no case was found";
   ASSERT_FALSE(failure.counterExample.empty());
   const std::string shown = failure.counterExample.front().second;
-  EXPECT_NE(shown.find("7 sensors, 8 stations to earn trust and 8 more: a1 reads 1 mg0 too much from station 9 on."),
+  EXPECT_NE(shown.find("7 sensors, 8 stations for validation and 8 more: a1 reads 1 mg0 too high from station 9 on."),
             std::string::npos)
       << shown.substr(0, 400);
   EXPECT_NE(shown.find("[[fault]]\nspec = \"a1:bias=1mg0@station9\""), std::string::npos);

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "plumb/array/sensor_array.hpp"
-#include "plumb/core/flag.hpp"
+#include "plumb/core/detail/flag.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -53,14 +53,16 @@ ParityBasis parity_basis(const SensorArray& array, SensorSet used) noexcept;
 int coplanarity(const SensorArray& array, SensorSet used) noexcept;
 
 /// m_strict = |used| - 1 - c, never below 0 (docs/theory.md, section 5.1; n-3 is the case of general position).
-int strict_grade(const SensorArray& array, SensorSet used) noexcept;
+int confirmed_grade(const SensorArray& array, SensorSet used) noexcept;
 /// The same of so many sensors whose coplanarity number is known.
-constexpr int strict_grade(int sensors, int coplanarity) noexcept {
+constexpr int confirmed_grade(int sensors, int coplanarity) noexcept {
   return sensors - 1 > coplanarity ? sensors - 1 - coplanarity : 0;
 }
 /// m_parity = |used| - 2 - c, never below 0; needs no gravity.
-int parity_grade(const SensorArray& array, SensorSet used) noexcept;
-constexpr int parity_grade(int sensors, int coplanarity) noexcept { return strict_grade(sensors - 1, coplanarity); }
+int provisional_grade(const SensorArray& array, SensorSet used) noexcept;
+constexpr int provisional_grade(int sensors, int coplanarity) noexcept {
+  return confirmed_grade(sensors - 1, coplanarity);
+}
 
 /// Sensors whose loss leaves rank < 3 (coplanarity within the rank tolerance of 0.05, so a nearly
 /// coplanar rest counts as lost too).
@@ -76,8 +78,8 @@ struct FiguresOfMerit {
   double max_triple_condition = 0.0;
   double common_bias_visibility = 0.0;  ///< |V'1|/|1|, V = parity basis (docs/theory.md, section 1.4)
   int coplanarity = 0;
-  int strict_grade = 0;
-  int parity_grade = 0;
+  int confirmed_grade = 0;
+  int provisional_grade = 0;
   int near_singular_triples = 0;
 };
 FiguresOfMerit figures_of_merit(const SensorArray& array) noexcept;

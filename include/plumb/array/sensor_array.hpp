@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/error.hpp"
-#include "plumb/core/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
 
@@ -53,6 +53,8 @@ struct RowUncertainty {
   static constexpr int packed_size(int sensors) noexcept { return 4 * sensors * (4 * sensors + 1) / 2; }
   /// True where all that concerns the first `sensors` rows is zero.
   bool is_zero(int sensors) const noexcept;
+  /// Those of the first `sensors` whose bias has no variance, or whose scale and axis have none, whatever their misfit.
+  SensorSet without_variance(int sensors) const noexcept;
   /// No variance, that of a misfit included, below zero or so large that nothing is known (1e12), no covariance beyond
   /// what its two variances allow, but for rounding.
   bool is_covariance() const noexcept;
@@ -89,6 +91,11 @@ class SensorArray {
   /// Checks and builds. Errors: too_few_sensors, too_many_sensors, axis_not_unit (index),
   /// axes_rank_deficient, duplicate_id (index), empty_id, sigma_not_positive (index), not_finite.
   /// Parallel axes are allowed (arrays of triads), duplicate ids are not.
+  ///
+  ///   plumb::SensorRow rows[4];
+  ///   for (std::size_t i = 0; i < 4; ++i) rows[i] = {plumb::make_id(ids[i]), axes[i], sigma_mps2};
+  ///   const plumb::Expected<plumb::SensorArray> array = plumb::SensorArray::make(rows, 4);
+  ///   if (!array) std::puts(plumb::remedy(array.error().code));
   static Expected<SensorArray> make(const SensorRow* rows, int n) noexcept;
 
   /// An empty array (size 0): a placeholder inside states that are filled later.
@@ -113,6 +120,8 @@ class SensorArray {
   void set_uncertainty(const RowUncertainty& u) noexcept;
   /// True where calibration leaves nothing open: every entry of `uncertainty` that concerns a row is zero.
   bool perfectly_known() const noexcept { return perfectly_known_; }
+  /// The sensors whose row counts as exact: a calibration was to state what it leaves of them, and states zero.
+  SensorSet taken_for_exact() const noexcept { return taken_for_exact_; }
   /// As many rows as there are, in place of those that there are; the uncertainty stays. Errors: those of `make`, and
   /// nothing has changed.
   Expected<void> set_rows(const SensorRow* rows) noexcept;
@@ -122,11 +131,12 @@ class SensorArray {
 
   friend struct FieldsOf;
   void rebuild() noexcept;
+  void see_what_is_exact() noexcept;
   bool plausible() const noexcept;
   static constexpr auto fields() noexcept {
     return field_list(per_sensor(&SensorArray::rows_), not_stored(&SensorArray::triples_),
                       not_stored(&SensorArray::form_), &SensorArray::uncertainty_, not_stored(&SensorArray::size_),
-                      not_stored(&SensorArray::perfectly_known_));
+                      not_stored(&SensorArray::perfectly_known_), not_stored(&SensorArray::taken_for_exact_));
   }
 
   std::array<SensorRow, kCapacity> rows_{};
@@ -135,6 +145,7 @@ class SensorArray {
   RowUncertainty uncertainty_{};
   int size_ = 0;
   bool perfectly_known_ = true;
+  SensorSet taken_for_exact_;
 };
 
 }  // namespace PLUMB_ABI

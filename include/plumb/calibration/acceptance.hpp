@@ -35,7 +35,7 @@ enum class Concern : std::uint8_t {
   none,
   gravity,
   common_scale,
-  odd_sensor,
+  inconsistent_sensor,
   parity,
   hold_out,
   hold_out_claim,

@@ -1,5 +1,5 @@
 /// Calibration from gravity alone: the forward maximum-likelihood fit  a = W g + b + e  in one common
-/// frame (a departure from the paper's, whose Hessian is singular: `paper_calibration.hpp`), with the
+/// frame (a departure from the paper's, whose Hessian is singular: `paper/paper_calibration.hpp`), with the
 /// datasheet as prior. Every triple of the array follows from the one fit.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "plumb/calibration/datasheet.hpp"
-#include "plumb/calibration/station_list.hpp"
+#include "plumb/calibration/detail/station_list.hpp"
 #include "plumb/core/sample.hpp"
 #include "plumb/gravity/gravity.hpp"
 
@@ -107,13 +107,13 @@ struct FitFigures {
   double excitation = 0.0;            ///< least eigenvalue of the Gram matrix of the 9 harmonics, uniform sphere = 1
   double temperature_min_degc = 0.0;  ///< span of the stations: beyond it by > 5 degC a monitor confirms nothing
   double temperature_max_degc = 0.0;
-  int outliers = 0;           ///< stations left out; at most kMaxOutliers are kept, in order
-  int clipped = 0;            ///< readings at or beyond the full scale, left out
-  SensorSet clipped_sensors;  ///< whose they were
-  int roll_groups = 0;        ///< groups of stations that share an inclination
-  int lone_rolls = 0;         ///< of them those with a single station, which say nothing
-  Vec3 roll_axis{};           ///< as the fit took it; zero where no two stations share a group
-  double roll_wobble_rad = 0.0;
+  int outliers = 0;               ///< stations left out; at most kMaxOutliers are kept, in order
+  int clipped = 0;                ///< readings at or beyond the full scale, left out
+  SensorSet clipped_sensors;      ///< whose they were
+  int roll_groups = 0;            ///< groups of stations that share an inclination
+  int single_station_groups = 0;  ///< of them those with a single station, which say nothing
+  Vec3 roll_axis{};               ///< as the fit took it; zero where no two stations share a group
+  double roll_axis_deviation_rad = 0.0;
   /// 1 sigma of an inclination about `FitOptions::roll_axis` at the stations' own attitudes, as far as calibration
   /// goes; without roll rows the part of the nominal axes, which no station sees, included.
   double inclination_sigma_rad = 0.0;
@@ -179,14 +179,14 @@ struct FitOptions {
   /// (p < `kNoNoise`). The limits of a monitor are made of the declared noise, and no misfit mends those.
   double max_noise_factor = 2.0;
   Vec3 roll_axis{0.0, 0.0, 1.0};  ///< about which stations of one `Station::roll_group` are rolled; unit, tool frame
-  double roll_wobble_rad = 0.0;   ///< 1 sigma by which the inclination differs from roll to roll
+  double roll_axis_deviation_rad = 0.0;  ///< 1 sigma by which the inclination differs from roll to roll
 
   static constexpr auto fields() noexcept {
     using F = FitOptions;
     return field_list(not_stored(&F::max_iterations), &F::stop_relative, &F::max_norm_rms_mps2, &F::max_scale_change,
                       &F::max_axis_change_rad, &F::max_bias_sigmas, &F::require_full_rank, &F::estimate_misfit,
                       not_stored(&F::start), &F::reject_outliers, &F::max_outlier_share, &F::max_sensor_excess,
-                      &F::max_noise_factor, &F::roll_axis, &F::roll_wobble_rad);
+                      &F::max_noise_factor, &F::roll_axis, &F::roll_axis_deviation_rad);
   }
 };
 
@@ -215,6 +215,8 @@ struct Fitted;
 class Calibrator {
  public:
   Calibrator(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options) noexcept;
+  /// Of no sensors: room for a fit that is assigned later.
+  Calibrator() noexcept = default;
 
   /// One iteration over the given stations (always the same ones until `done`).
   void iterate(const Station* stations, int count) noexcept;
@@ -254,30 +256,30 @@ class Calibrator {
   enum class Phase : std::uint8_t { start, squares, huber, tukey, screened };
 
   void find_start(const Station* stations, int count) noexcept;
-  template <class Count>
+  // `Axes` is how the axes are treated, those that are free or those that are held: fit::FreeAxes or fit::HeldAxes.
+  template <class Axes>
   bool weigh(const fit::Problem& problem, const std::array<double, kFitParameters>& natural) noexcept;
   /// Symmetric, lower triangle, stride 4n. Needed within one iteration alone and so on the stack, not in the state.
   using Information = std::array<double, std::size_t{kFitParameters} * kFitParameters>;
 
   fit::Sums accumulate_best(const fit::Problem& problem, std::array<double, kFitParameters>& natural, double* blocks,
                             std::array<double, kFitParameters>& rhs, const fit::Room& room) noexcept;
-  template <class Matrix>
+  template <class Axes>
   bool step_from(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
                  const std::array<double, kFitParameters>& rhs, const double* blocks, const fit::Room& room,
-                 const Matrix& normal) noexcept;
+                 const typename Axes::Matrix& normal) noexcept;
   bool step_alone(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
                   const std::array<double, kFitParameters>& rhs, const double* blocks) noexcept;
-  template <class Count>
+  template <class Axes>
   bool solve(const fit::Problem& problem, std::array<double, kFitParameters>& natural, fit::Sums& sums,
              const fit::Room& room) noexcept;
-  /// `Count` counts the stations.
-  template <class Count>
+  template <class Axes>
   void iterate_over(const fit::Problem& problem, const fit::Room& room) noexcept;
   bool goes_down(double cost, bool finite) noexcept;
   bool settled(const fit::Problem& problem, const std::array<double, kFitParameters>& natural,
                double relative) const noexcept;
   bool misfit_changed(const fit::Sums& sums, double* factor) noexcept;
-  template <class Count>
+  template <class Axes>
   bool advance(const fit::Problem& problem, const std::array<double, kFitParameters>& natural, const fit::Sums& sums,
                bool weights_settled, double* factor) noexcept;
 

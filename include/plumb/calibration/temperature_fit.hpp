@@ -149,7 +149,7 @@ Expected<Calibration> calibrate_over_temperature(const Datasheet& datasheet, con
                                                  FitReport* fit_report = nullptr) noexcept;
 
 /// A datasheet whose sensors drift with temperature as those of the calibration do, its values at T_C as they were: by
-/// it the fits at one temperature (`calibrate`, `odd_sensor`) look at stations of any.
+/// it the fits at one temperature (`calibrate`, `inconsistent_sensor`) look at stations of any.
 Datasheet with_temperature_of(const Datasheet& datasheet, const Calibration& calibration) noexcept;
 
 /// So far beyond the stations' temperatures a monitor still judges.

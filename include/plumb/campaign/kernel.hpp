@@ -24,7 +24,7 @@ class Kernel {
   virtual int capacity() const noexcept = 0;
 };
 
-/// Refuses, with a remedy, a plan whose monitors cannot be configured or do not earn trust with healthy sensors.
+/// Refuses, with a remedy, a plan whose monitors cannot be configured or do not validate healthy sensors.
 /// `least_capacity` asks for a larger build than needed: what is played must not depend on it.
 tl::expected<std::unique_ptr<Kernel>, std::string> make_kernel(const Plan& plan, int least_capacity = 0);
 

@@ -26,8 +26,8 @@ struct Outcome {
   int isolated_block = -1;     ///< from it on exactly the faulty are out
   std::uint32_t faulty = 0;    ///< bits of sensors, these and the following
   std::uint32_t excluded = 0;  ///< at the end, lost ones included
-  std::uint32_t set_aside = 0;
-  std::uint32_t ever_excluded = 0, ever_set_aside = 0;
+  std::uint32_t provisionally_excluded = 0;
+  std::uint32_t ever_excluded = 0, ever_provisionally_excluded = 0;
   bool failed = false;  ///< the monitor ended in `failed`
   std::array<BlockOutcome, kMostBlocks> block{};
 
@@ -36,7 +36,7 @@ struct Outcome {
     return alarm_block >= 0 && (first_fault_block < 0 || alarm_block < first_fault_block);
   }
   bool wrong_exclusion() const noexcept { return (ever_excluded & ~faulty) != 0; }
-  bool wrong_set_aside() const noexcept { return (ever_set_aside & ~faulty) != 0; }
+  bool wrong_provisional_exclusion() const noexcept { return (ever_provisionally_excluded & ~faulty) != 0; }
   /// Error above the alert limit without an alert, while published as usable.
   bool misleading(double alert_limit_rad) const noexcept;
   /// Error above the protection level, while published as usable.

@@ -28,7 +28,7 @@ struct ToolPlan {
   double resolution_raw = 0.0;                         ///< one code [V]; 0 = not known, nothing is rounded
   /// Of each sensor, the four figures of a `Stability` in their order; all zero: not stated.
   std::array<std::array<double, 4>, kMostSensors> stability{};
-  int grade = 0;  ///< strict grade: faults that the monitor promises to bear
+  int grade = 0;  ///< confirmed grade: faults that the monitor promises to bear
 };
 
 enum class AttitudeKind : std::uint8_t { random, roll_test, drilling_path, fixed };
@@ -57,12 +57,12 @@ struct FaultPlan {
 struct Cell {
   int tool = 0, attitude = 0, fault = 0;
   int faulty = 0;               ///< sensors at fault
-  double gravity_sigmas = 0.0;  ///< true gravity less told
+  double gravity_sigmas = 0.0;  ///< true gravity minus the configured one
 };
 
 enum class Start : std::uint8_t {
-  proven,   ///< every scenario begins with a monitor that has earned its trust
-  power_on  ///< ... with one that has just been switched on
+  validated,  ///< every scenario begins with a validated monitor
+  power_on    ///< ... with one that has just been switched on
 };
 
 struct Plan {
@@ -73,8 +73,8 @@ struct Plan {
   int stations = 8, samples = 32;
   double rate_hz = 100.0, move_s = 1.0;
   int first_onset = 1, last_onset = 1;  ///< station at which faults begin, counted from 1
-  Start start = Start::proven;
-  int trust_stations = 8;
+  Start start = Start::validated;
+  int validation_stations = 8;
   double gravity_mps2 = 9.80665, gravity_sigma_mps2 = 1e-3;
   double calibration_mps2 = 0.0;  ///< 1 sigma of what calibration left, known to the monitor; drawn within two
   double days_since_calibration = 0.0;

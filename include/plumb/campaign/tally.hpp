@@ -16,20 +16,20 @@ namespace campaign {
 /// Counted apart for every cell; a scenario may raise several.
 enum class Count : std::uint8_t {
   scenarios,
-  detected,                ///< an alarm of whatever kind at or after the onset
-  isolated,                ///< excluded at the end: the faulty sensors exactly
-  partial,                 ///< excluded: some of the faulty sensors
-  provisional,             ///< none excluded, set aside: faulty ones alone
-  ambiguous,               ///< detected, nobody excluded or set aside at the end
-  undetected,              ///< a fault, and no alarm
-  missed_above_threshold,  ///< no alarm though a lone constant shift was at least 1 MDB
-  wrong_exclusion,         ///< a sensor that never lied was excluded at any time
-  wrong_set_aside,         ///< ... was set aside at any time
-  false_alarm,             ///< an alarm before the onset, or without any fault
-  misleading,              ///< error above the alert limit without an alert, while published as usable
-  beyond_protection,       ///< error above the protection level, while published as usable
-  unavailable,             ///< alert at the end: nothing usable within the alert limit
-  failed,                  ///< the monitor ended in `failed`
+  detected,                     ///< an alarm of whatever kind at or after the onset
+  isolated,                     ///< excluded at the end: the faulty sensors exactly
+  partial,                      ///< excluded: some of the faulty sensors
+  provisional,                  ///< none excluded, only faulty ones provisionally
+  ambiguous,                    ///< detected, no sensor excluded or provisionally excluded at the end
+  undetected,                   ///< a fault, and no alarm
+  missed_above_threshold,       ///< no alarm, although one sensor had a constant bias of at least 1 MDB
+  wrong_exclusion,              ///< a healthy sensor was excluded at any time
+  wrong_provisional_exclusion,  ///< ... was provisionally excluded at any time
+  false_alarm,                  ///< an alarm before the onset, or without any fault
+  misleading,                   ///< error above the alert limit without an alert, while published as usable
+  beyond_protection,            ///< error above the protection level, while published as usable
+  unavailable,                  ///< alert at the end: nothing usable within the alert limit
+  failed,                       ///< the monitor ended in `failed`
 };
 inline constexpr int kCounts = 15;
 /// "wrong_exclusion": the key in the result file.

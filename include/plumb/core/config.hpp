@@ -8,9 +8,9 @@
 #endif
 
 #if defined(__cplusplus) && __cplusplus < 201703L
-#error "plumb is C++17: compile with -std=c++17 or later"
+#error "plumb needs C++17: compile with -std=c++17 or later"
 #elif defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "plumb refuses -ffast-math: it removes the NaN checks that keep a broken channel out of a sum"
+#error "remove -ffast-math: it removes the NaN checks that keep a broken channel out of a sum"
 #endif
 
 // NOLINTBEGIN(cppcoreguidelines-macro-usage): the preprocessor decides by them, and a namespace is named by them
@@ -22,7 +22,7 @@
 #endif
 
 #if PLUMB_CAPACITY != 4 && PLUMB_CAPACITY != 8 && PLUMB_CAPACITY != 16 && PLUMB_CAPACITY != 24
-#error "PLUMB_CAPACITY is 4, 8, 16 or 24"
+#error "PLUMB_CAPACITY must be 4, 8, 16 or 24"
 #endif
 #define PLUMB_JOIN_(a, b, c, d) a##b##c##d
 #define PLUMB_JOIN(a, b, c, d) PLUMB_JOIN_(a, b, c, d)
@@ -40,14 +40,14 @@
 #define PLUMB_SINGLE 1
 #define PLUMB_SCALAR_NAME _float
 #else
-#error "PLUMB_SCALAR is double or float"
+#error "PLUMB_SCALAR must be double or float"
 #endif
 #if PLUMB_SINGLE && PLUMB_CAPACITY > 8
-#error "PLUMB_SCALAR=float is for capacities 4 and 8: its block sums are bounded for 32 samples"
+#error "PLUMB_SCALAR=float needs PLUMB_CAPACITY 4 or 8: its block sums are bounded for 32 samples"
 #endif
 
 #if PLUMB_FIRST_CALIBRATION && !PLUMB_RECALIBRATION
-#error "a monitor that makes its first calibration recalibrates too: PLUMB_FIRST_CALIBRATION=0"
+#error "PLUMB_FIRST_CALIBRATION=1 needs PLUMB_RECALIBRATION=1: set PLUMB_FIRST_CALIBRATION=0"
 #elif PLUMB_FIRST_CALIBRATION
 #define PLUMB_ABI PLUMB_JOIN(cap, PLUMB_CAPACITY, , PLUMB_SCALAR_NAME)
 #elif PLUMB_RECALIBRATION
@@ -69,6 +69,9 @@ inline constexpr bool kCalibratesItself = PLUMB_FIRST_CALIBRATION != 0;
 
 /// Largest number of sensors for which the strict isolation grade is decided (docs/theory.md, section 5.1).
 inline constexpr int kStrictCapacity = kCapacity < 16 ? kCapacity : 16;
+
+/// Fault sets of up to this many members are scanned one by one.
+inline constexpr int kScanDepth = 3;
 
 /// Longest sliding window, in samples.
 inline constexpr int kWindowCapacity = kCapacity <= 8 ? 32 : 256;

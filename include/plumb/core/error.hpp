@@ -6,7 +6,7 @@
 #include <tl/expected.hpp>
 
 #include "plumb/core/config.hpp"
-#include "plumb/core/fields.hpp"
+#include "plumb/core/detail/fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

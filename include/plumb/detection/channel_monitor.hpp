@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
-#include "plumb/core/fields.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/sample.hpp"
 
 namespace plumb {

@@ -8,7 +8,7 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/config.hpp"
-#include "plumb/detection/lanes.hpp"
+#include "plumb/detection/detail/lanes.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

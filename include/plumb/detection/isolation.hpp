@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
-#include "plumb/core/flag.hpp"
+#include "plumb/core/detail/flag.hpp"
+#include "plumb/detection/detail/reference_doubt.hpp"
 #include "plumb/detection/protection_level.hpp"
-#include "plumb/detection/reference_doubt.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -28,32 +28,30 @@ constexpr int max_voting_sets() noexcept {
 }
 inline constexpr int kVotingCapacity = max_voting_sets();
 
-/// Fault sets of up to this many members are scanned one by one.
-inline constexpr int kScanDepth = 3;
-
 /// What a vote found.
 struct IsolationAnswer {
-  SensorSet strict;            ///< convicted at the strict grade, empty where nobody is or the survivors are not alive
-  SensorSet parity;            ///< convicted at the parity grade by this station alone
-  SensorSet asserted;          ///< convicted under "at most M faults"
-  int live = 0;                ///< voting sets still alive
-  int voting = 0;              ///< voting sets in all
-  bool contradiction = false;  ///< some sensor is redundant and no voting set is alive
-  bool norm_void = false;      ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
-  bool full_alive = false;     ///< the empty fault set still explains everything
+  SensorSet strict;    ///< convicted at the confirmed grade, empty where nobody is or the survivors are not alive
+  SensorSet parity;    ///< convicted at the provisional grade by this station alone
+  SensorSet asserted;  ///< convicted under "at most M faults"
+  int live = 0;        ///< voting sets still alive
+  int voting = 0;      ///< voting sets in all
+  bool no_consistent_hypothesis = false;  ///< some sensor is redundant and no voting set is alive
+  bool norm_void = false;   ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
+  bool full_alive = false;  ///< the empty fault set still explains everything
 
   static constexpr auto fields() noexcept {
     using A = IsolationAnswer;
     return field_list(&A::strict, &A::parity, &A::asserted, within(&A::live, 0, kVotingCapacity),
-                      within(&A::voting, 0, kVotingCapacity), &A::contradiction, &A::norm_void, &A::full_alive);
+                      within(&A::voting, 0, kVotingCapacity), &A::no_consistent_hypothesis, &A::norm_void,
+                      &A::full_alive);
   }
 };
 
 /// Outcome of scanning the fault sets of at most kScanDepth members.
 struct FaultSetScan {
-  std::array<std::uint8_t, kCapacity> fewest_faults{};  ///< s_i, 255 = none found
-  SensorSet suspects;                                   ///< union of the live fault sets of least size
-  SensorSet asserted;  ///< intersection of the live fault sets of at most `asserted_faults` members
+  std::array<std::uint8_t, kCapacity> minimum_faults{};  ///< s_i, 255 = none found
+  SensorSet suspects;                                    ///< union of the live fault sets of least size
+  SensorSet asserted;  ///< intersection of the live fault sets of at most `assumed_faults` members
   int least = 255;     ///< size of the smallest live fault set
   Flag protection_available;
   int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many members
@@ -63,7 +61,7 @@ struct FaultSetScan {
   bool plausible() const noexcept { return protection_rad >= 0.0; }
   static constexpr auto fields() noexcept {
     using S = FaultSetScan;
-    return field_list(&S::fewest_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255),
+    return field_list(&S::minimum_faults, &S::suspects, &S::asserted, within(&S::least, 0, 255),
                       &S::protection_available, within(&S::covered, 0, kCapacity), &S::bears_more, &S::protection_rad);
   }
 };
@@ -80,8 +78,8 @@ class Isolation {
 
   SensorSet posed() const noexcept { return posed_; }
   int coplanarity() const noexcept { return coplanarity_; }
-  int strict_grade() const noexcept { return strict_; }
-  int parity_grade() const noexcept { return parity_; }
+  int confirmed_grade() const noexcept { return strict_; }
+  int provisional_grade() const noexcept { return parity_; }
 
   /// One station's pooled block: kills what it contradicts and answers. Sets with a member that is not
   /// usable are not tested and stay alive, and so do those with a member outside `witnesses`: what a sensor that
@@ -93,7 +91,7 @@ class Isolation {
   /// `faults_covered` members (solution separation; of those in service alone, too, where some are provisionally
   /// excluded). Where the sensors that a fault set leaves measure in one plane only, the mirrored vector counts. For
   /// the asserted answer a fault set that leaves others than `witnesses`, or too few to be tested, stays alive.
-  FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted_faults,
+  FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,
                     const ProtectionTerms& protect, SensorSet witnesses = SensorSet::first(kCapacity)) const noexcept;
 
   /// Whether the sensors in service that nobody suspects would be right within `limit_rad`, by the terms of `scan`,
@@ -115,7 +113,18 @@ class Isolation {
   void resume(const SensorArray& array, SensorSet posed, int coplanarity) noexcept;
   bool any_dead() const noexcept;
   bool has_dead_subset(SensorSet set) const noexcept;
-  ReferenceDoubt doubt_reference(const BlockTests& tests, ReferenceClaims* record) const noexcept;
+  /// Who is asked about gravity.
+  ReferencePanel panel_of(const BlockTests& tests) const noexcept {
+    return {posed_, posed_ & tests.block().usable, universe_, coplanarity_};
+  }
+  /// What is held against a hypothesis about a block, beside the test of the sensors that it leaves.
+  struct Grounds {
+    ReferenceDoubt doubt;
+    bool deaths = false;  ///< some set of the episode is dead
+  };
+  Grounds grounds(const BlockTests& tests) const noexcept;
+  /// Whether the sensors `rest`, with their test, can be the healthy ones.
+  bool explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest, const SetTest& test) const noexcept;
   SensorSet convict_by_parity(const BlockTests& tests, SensorSet witnesses) const noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};

@@ -1,7 +1,7 @@
 /// How far off a vector may be under one explanation of a block: these sensors are healthy, whatever the others read.
 #pragma once
 
-#include "plumb/detection/block_tests.hpp"
+#include "plumb/detection/detail/block_tests.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -81,9 +81,9 @@ BlockNoise noise_of(const SensorArray& array, double factor = 1.0,
 /// How a block looked.
 struct BlockJudgement {
   bool quiet = false;
-  SensorSet restless;           ///< channels whose scatter is above their own noise limit
+  SensorSet scattering;         ///< channels whose scatter is above their own noise limit
   SensorSet noisy;              ///< restless ones that the quiet others contradict: a channel, not the tool, moves
-  SensorSet noisy_for_certain;  ///< noisy whichever others may be faulty, up to the parity grade and three
+  SensorSet noisy_for_certain;  ///< noisy whichever others may be faulty, up to the provisional grade and three
   BlockEvidence evidence;
 };
 
@@ -114,8 +114,8 @@ double restless_factor(int n, int size, double rate) noexcept;
 /// Judges a finished block. A block is quiet when no channel is restless, or when the channels that
 /// are not restless have rank 3 and the residual of every restless one against their estimate is itself
 /// restless: then it is the channel that shakes, not the tool (docs/theory.md, section 6.2). But where the calm ones
-/// are no more than the strict grade and the restless ones have rank 3, the calm ones may all be at fault: then it is
-/// not quiet. A block of one sample (a station mean) has no scatter and is quiet. Only channels in `considered` are
+/// are no more than the confirmed grade and the restless ones have rank 3, the calm ones may all be at fault: then it
+/// is not quiet. A block of one sample (a station mean) has no scatter and is quiet. Only channels in `considered` are
 /// judged, so that an excluded one cannot stop the evidence. `factor` comes from `restless_factor`. With a `record` of
 /// the blocks before, a channel is noisy as well where its residual is restless over all of them, and at least half of
 /// its scatter is found in the residual: of a movement of the tool the others would have predicted it. `known`: a map

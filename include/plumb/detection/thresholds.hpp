@@ -38,10 +38,11 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
 struct SensorThresholds {
   /// Minimum detectable bias: by parity, one block, any attitude, missed with `missed_detection`.
   double detectable_mps2 = 0.0;
-  /// Single fault that the parity grade sets aside with its first block at any attitude, but for `missed_detection`.
-  double set_aside_mps2 = 0.0;
+  /// Single fault that the provisional grade sets aside with its first block at any attitude, but for
+  /// `missed_detection`.
+  double provisional_exclusion_mps2 = 0.0;
   /// Detected whatever the noise does below `noise_factor` sigmas (T7, k = 1).
-  double sure_detection_mps2 = 0.0;
+  double guaranteed_detection_mps2 = 0.0;
   /// Vector error per unit of bias, |column of H^+|.
   double gain = 0.0;
 };
@@ -61,7 +62,7 @@ struct Thresholds {
 double protection_level_rad(const SensorArray& array, const GravityReference& gravity,
                             const TestSettings& settings) noexcept;
 
-/// Sensors beyond kStrictCapacity: `set_aside_mps2` for grades up to kScanDepth, as the vote does it.
+/// Sensors beyond kStrictCapacity: `provisional_exclusion_mps2` for grades up to kScanDepth, as the vote does it.
 Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravity,
                          const TestSettings& settings) noexcept;
 

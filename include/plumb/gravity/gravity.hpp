@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/error.hpp"
-#include "plumb/core/fields.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {

@@ -2,15 +2,25 @@
 /// down and within what bound. No heap, no exceptions, no clock, no global state; bounded work in every
 /// step; plain copyable state, so a copy is an assignment and a replay is a loop. What outlives a power cycle is
 /// written by `snapshot` and taken up by `restore` (health/snapshot.hpp).
+///
+///   static plumb::HealthMonitor monitor;                     // large: not on a small stack
+///   if (!monitor.configure(setup)) return refused();         // MonitorSetup: calibrated axes, noise, settings
+///   for (;;) {
+///     const plumb::Verdict& v = monitor.step(next_sample());
+///     if (v.validity == plumb::Validity::valid) use(v.gravity_mps2, v.protection_level_rad);
+///     if (v.transition.sequence != 0) log(v.transition);     // something changed: a good time for a snapshot
+///   }
+///
+/// examples/ideas has a program of 25 lines for each thing that can be asked of it.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "plumb/health/detail/monitor_state.hpp"
+#include "plumb/health/detail/publish.hpp"
 #include "plumb/health/monitor_setup.hpp"
-#include "plumb/health/monitor_state.hpp"
-#include "plumb/health/publish.hpp"
 #include "plumb/health/snapshot.hpp"
 #include "plumb/health/verdict.hpp"
 
@@ -21,9 +31,9 @@ class HealthMonitor {
  public:
   HealthMonitor() noexcept = default;
 
-  /// Checks the setup and powers on: suspect, unproven; recalibrating, qualifier initial_calibration, where the setup
-  /// has no calibration: output is invalid until the monitor has accepted its own. On an error the monitor is left
-  /// unconfigured and every step answers `invalid`. Errors: wrong_mode (paper); those of `checked(config)`;
+  /// Checks the setup and powers on: suspect, not yet validated; recalibrating, qualifier initial_calibration, where
+  /// the setup has no calibration: output is invalid until the monitor has accepted its own. On an error the monitor is
+  /// left unconfigured and every step answers `invalid`. Errors: wrong_mode (paper); those of `checked(config)`;
   /// too_few_sensors; not_calibrated (misalignment terms left in the model, or its size is not the array's, or a setup
   /// without a calibration for a build without `kCalibratesItself`);
   /// range_too_small (index = sensor) where a full scale does not reach gravity plus
@@ -33,7 +43,7 @@ class HealthMonitor {
   /// `configure`, then takes up what `snapshot` wrote under an equal setup, but for gravity: that in force is the
   /// snapshot's until `set_gravity`. The next step answers as the monitor that wrote it would have, bit for bit. Bytes
   /// behind the snapshot are not read. Errors: those of `configure`, with the monitor left unconfigured; snapshot_...,
-  /// with the monitor as after `configure`, unproven, and the cause in its verdict (`snapshot_refusal`).
+  /// with the monitor as after `configure`, not yet validated, and the cause in its verdict (`snapshot_refusal`).
   Expected<void> restore(const MonitorSetup& setup, const std::uint8_t* bytes, std::size_t size) noexcept;
 
   /// Writes all that the monitor remembers; returns the bytes written. Not during a step. Errors: not_calibrated (not
@@ -54,7 +64,7 @@ class HealthMonitor {
 
   /// Asks for new biases and scales of the sensors in service: taken at the next step. Error:
   /// wrong_state (value = HealthState) unless the monitor is nominal, isolated or degraded with no alarm on record, or
-  /// suspect for a reason that no sensor is accused of (reference, contradiction) and with sensors to spare; always in
+  /// suspect for a cause that suspects no sensor (norm mismatch, no consistent hypothesis), redundancy left; always in
   /// a build without `kRecalibrates`. may_accelerate (value = the bound [m/s^2]) where an acceleration is allowed for:
   /// a fit would take it for biases.
   Expected<void> request_recalibration() noexcept;
@@ -78,7 +88,7 @@ class HealthMonitor {
 
   /// The next sample may have any time: a recording has been played and the run begins, or the clock was set. What was
   /// measured before is no evidence of now: the output is held until that sample, and invalid from it to the next block
-  /// at rest. What the monitor has learned stays: validation, exclusions, doubts.
+  /// at rest. What the monitor has learned stays: validation, exclusions, suspicions.
   void begin_time_base() noexcept;
 
   /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
@@ -128,7 +138,7 @@ class HealthMonitor {
   void follow_motion(const BlockTests& tests, const BlockReport& report) noexcept;
   void leave_to_motion(bool turning) noexcept;
   EventMask serve_block_at_rest(const Sample& sample, const BlockTests& tests, const BlockReport& report,
-                                const RawBlock& raw) noexcept;
+                                const RawBlock& raw, bool as_stated) noexcept;
   EventMask serve_slow_block(const Sample& sample, const BlockTests& tests, const BlockReport& report) noexcept;
   bool check_calibration(const BlockReport& report) noexcept;
   void study_gravity(const BlockReport& report) noexcept;

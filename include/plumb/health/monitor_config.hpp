@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/error.hpp"
-#include "plumb/core/fields.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/detection/alarm_form.hpp"
 
@@ -17,8 +17,8 @@ enum class MonitorMode : std::uint8_t { plumb, paper };
 
 /// Largest values of settings that bound a counter.
 inline constexpr int kMostConfirm = 60000;
-inline constexpr int kMostCleanBlocks = 1000;
-inline constexpr int kMostPatienceBlocks = 1000000;
+inline constexpr int kMostPassedBlocks = 1000;
+inline constexpr int kMostIsolationTimeoutBlocks = 1000000;
 inline constexpr int kMostAgeSamples = 1000000;
 
 struct MonitorConfig {
@@ -27,10 +27,10 @@ struct MonitorConfig {
   double delta_f_mps2 = 0.0;       ///< given MAE limit (the paper's); 0 = computed from noise and geometry
   double false_alarm_rate = 1e-5;  ///< per block: of parity, of the norm, of all triples' MAE together; 1e-9 .. 1e-2
   double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
-  int asserted_faults = -1;        ///< the integrator's claim "never more than M faults"; -1 = no claim
+  int assumed_faults = -1;         ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
-  int patience = 6;                ///< P: excited stations in doubt before suspect must justify itself
-  int clean_blocks = 3;            ///< R: clean blocks in a row that end suspicion
+  int isolation_timeout = 6;       ///< P: distinct attitudes under suspicion before suspect must be bounded
+  int passed_blocks = 3;           ///< R: passed blocks in a row that end suspicion
   int forget_blocks = 3;           ///< M: clean excited blocks that end an episode
   int probation_stations = 6;      ///< K: excited stations before an excluded sensor may return
   int missing_confirm = 3;         ///< samples in a row without a usable value: the channel is lost
@@ -39,16 +39,16 @@ struct MonitorConfig {
   /// T_age: without a quiet block for this long nothing is published as valid; 0 = 1 s, or two blocks where they take
   /// longer.
   double max_age_s = 0.0;
-  double station_angle_rad = rad_from_deg(2.0);     ///< change of direction that begins a new station
-  double excitation_angle_rad = rad_from_deg(5.0);  ///< directions at least this far apart count as excited
-  double clear_fraction = 0.7;                      ///< clean means below this fraction of the limit while in suspect
-  double alert_limit_rad = rad_from_deg(1.0);       ///< largest tilt error that the user can bear
-  double integrity_risk = 1e-6;                     ///< allocation to fault sets that the protection level leaves out
-  double fault_prior = 1e-4;                        ///< probability that one given sensor is faulty
-  std::uint64_t reset_key = 0x706c756d62ULL;        ///< what `reset` must be called with
-  double temperature_min_degc = -1e9;               ///< calibrated span; beyond it by > 5 degC output is unconfirmed
+  double station_angle_rad = rad_from_deg(2.0);            ///< change of direction that begins a new station
+  double distinct_attitude_angle_rad = rad_from_deg(5.0);  ///< directions at least this far apart count as excited
+  double clear_fraction = 0.7;                 ///< clean means below this fraction of the limit while in suspect
+  double alert_limit_rad = rad_from_deg(1.0);  ///< largest tilt error that the user can bear
+  double integrity_risk = 1e-6;                ///< allocation to fault sets that the protection level leaves out
+  double fault_prior = 1e-4;                   ///< probability that one given sensor is faulty
+  std::uint64_t reset_key = 0x706c756d62ULL;   ///< what `reset` must be called with
+  double temperature_min_degc = -1e9;          ///< calibrated span; beyond it by > 5 degC output is unconfirmed
   double temperature_max_degc = 1e9;
-  int patience_blocks = 0;  ///< W: blocks in doubt at any attitude that end patience too; 0 = attitudes alone count
+  int isolation_timeout_blocks = 0;              ///< W: the same in blocks at any attitude; 0 = attitudes alone count
   AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
   bool recalibrate_after_exclusion = false;      ///< estimate biases and scales anew once the survivors are trusted
   /// Largest steady acceleration of the tool, in any direction. Gravity and a steady acceleration are one vector to
@@ -61,14 +61,14 @@ struct MonitorConfig {
   static constexpr auto fields() noexcept {
     using C = MonitorConfig;
     return field_list(up_to(&C::mode, MonitorMode::paper), within(&C::window, 1, kWindowCapacity), &C::delta_f_mps2,
-                      &C::false_alarm_rate, &C::rejection_rate, within(&C::asserted_faults, -1, 3),
-                      within(&C::isolation_stations, 1, 20), within(&C::patience, 1, 24),
-                      within(&C::clean_blocks, 1, kMostCleanBlocks), within(&C::forget_blocks, 1, 24),
+                      &C::false_alarm_rate, &C::rejection_rate, within(&C::assumed_faults, -1, 3),
+                      within(&C::isolation_stations, 1, 20), within(&C::isolation_timeout, 1, 24),
+                      within(&C::passed_blocks, 1, kMostPassedBlocks), within(&C::forget_blocks, 1, 24),
                       within(&C::probation_stations, 1, 24), within(&C::missing_confirm, 1, kMostConfirm),
                       within(&C::max_age_samples, 0, kMostAgeSamples), &C::max_gap_s, &C::max_age_s,
-                      &C::station_angle_rad, &C::excitation_angle_rad, &C::clear_fraction, &C::alert_limit_rad,
+                      &C::station_angle_rad, &C::distinct_attitude_angle_rad, &C::clear_fraction, &C::alert_limit_rad,
                       &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
-                      &C::temperature_max_degc, within(&C::patience_blocks, 0, kMostPatienceBlocks),
+                      &C::temperature_max_degc, within(&C::isolation_timeout_blocks, 0, kMostIsolationTimeoutBlocks),
                       up_to(&C::alarm_form, AlarmForm::average_tool), &C::recalibrate_after_exclusion,
                       &C::acceleration_bound_mps2, &C::triple_false_alarm_rate);
   }

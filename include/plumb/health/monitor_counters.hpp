@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "plumb/core/fields.hpp"
+#include "plumb/core/detail/fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

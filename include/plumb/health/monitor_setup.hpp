@@ -1,4 +1,10 @@
 /// What a monitor is built from, and what is refused before it is built.
+///
+///   plumb::MonitorSetup setup;
+///   setup.array = calibration.array;                         // axes with their uncertainty, from a calibration
+///   setup.model = calibration.model;                         // scales and biases
+///   setup.gravity = *plumb::normal_gravity({latitude_deg});  // where the tool works
+///   setup.stability.fill({0.001, 0.0, 0.0, 0.0});            // drift since then, 1 sigma [m/s^2], from the datasheet
 #pragma once
 
 #include <array>

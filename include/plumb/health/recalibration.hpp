@@ -14,27 +14,13 @@
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/detection/set_test.hpp"
+#include "plumb/health/detail/drift_bounds.hpp"
+#include "plumb/health/detail/offered_calibration.hpp"
+#include "plumb/health/detail/station_store.hpp"
 #include "plumb/health/recalibration_progress.hpp"
-#include "plumb/health/station_store.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-
-/// How far a sensor may have drifted since it was calibrated, 1 sigma. The defaults are for sensors whose stability
-/// nobody stated: the yearly repeatability of a borehole servo accelerometer with margin. MEMS need more.
-struct DriftSigmas {
-  double bias_mps2 = 2e-3 * kG0_mps2;
-  double scale = 5e-4;  ///< relative
-
-  static constexpr auto fields() noexcept { return field_list(&DriftSigmas::bias_mps2, &DriftSigmas::scale); }
-};
-
-/// The same for every sensor.
-inline std::array<DriftSigmas, kCapacity> alike(const DriftSigmas& drift) noexcept {
-  std::array<DriftSigmas, kCapacity> out{};
-  out.fill(drift);
-  return out;
-}
 
 class Recalibration {
  public:
@@ -47,20 +33,10 @@ class Recalibration {
   };
   enum class Outcome : std::uint8_t { none, accepted, rejected };
 
-  /// Bounds on a change in units of the drift sigma: against the calibration in force, against the commissioning
-  /// one (else small accepted steps would add up without limit), and per hour since the last adoption, of which
-  /// an adoption may always use a quarter.
-  static constexpr double kLastSigmas = 3.0;
-  static constexpr double kCommissioningSigmas = 5.0;
-  static constexpr double kSigmasPerHour = 1.0;
-  static constexpr double kLeastHours = 0.25;
   static constexpr int kHeldOutNeeded = 2;
   /// A calibration that was offered is tried at so many stations, all of them visited after the offer: nobody can have
-  /// made it from them. The axes must be those in force but for so much: five sigmas of the commissioning calibration,
-  /// or this where that claims to be better.
+  /// made it from them.
   static constexpr int kOfferStations = 8;
-  static constexpr double kOfferAxis_rad = 2e-4;
-  static constexpr double kOfferLife_s = 24.0 * 3600.0;  ///< on trial no longer than that
 
   /// The first calibration: part of what the datasheet leaves open that the stations must have settled, for every
   /// parameter; how far a parameter may be from the datasheet [its sigmas]; how well the attitudes must tell the nine
@@ -87,13 +63,13 @@ class Recalibration {
   /// Not while a fit is made. Takes biases and scales of `sensors` from another calibration, for the next `start` to
   /// try in place of a fit. Axes and temperature coefficients stay those in force, at whose reference temperatures it
   /// is read. Errors: not_calibrated (its size, or misalignment terms in the model); implausible (index = sensor,
-  /// value, limit): an axis further off than `kOfferAxis_rad` says [rad], a bias or a scale beyond the bounds of a fit
-  /// [drift sigmas], a sigma of either that is not above zero or beyond the drift sigma [drift sigmas].
+  /// value, limit): an axis further off than `OfferedCalibration::kAxis_rad` says [rad], a bias or a scale beyond the
+  /// bounds of a fit [drift sigmas], a sigma of either that is not above zero or beyond the drift sigma [drift sigmas].
   Expected<void> offer(const InForce& in_force, const SensorModel& model, const SensorArray& array, SensorSet sensors,
                        double time_s) noexcept;
   /// An offer that has not been started lapses; `last_refusal` is then wrong_state.
   void withdraw_offer() noexcept;
-  bool offered() const noexcept { return kRecalibrates && offered_sensors_ > 0; }  ///< waiting or on trial
+  bool offered() const noexcept { return kRecalibrates && offer_.any(); }  ///< waiting or on trial
 
   // ---- The fit
   void start(SensorSet sensors) noexcept;
@@ -111,11 +87,9 @@ class Recalibration {
 
   SensorSet sensors() const noexcept { return sensors_; }
   bool first() const noexcept { return kCalibratesItself && first_; }  ///< no calibration has been accepted yet
-  bool adopted() const noexcept { return adopted_; }  ///< a fit in flight, since the commissioning calibration
+  bool adopted() const noexcept { return bounds_.adopted(); }  ///< a fit in flight, since the commissioning calibration
   bool collects(SensorSet sensors) const noexcept { return phase_ != RecalibrationPhase::idle && sensors_ == sensors; }
-  /// A model with the coefficients of the commissioning calibration, temperature terms left alone.
-  SensorModel commissioned(const SensorModel& like) const noexcept;
-  bool commissioned_as(const SensorModel& model) const noexcept;
+  const DriftBounds& bounds() const noexcept { return bounds_; }
   /// Started, and its end has not been heard: a step will tell it.
   bool under_way() const noexcept { return phase_ != RecalibrationPhase::idle || refusal_.code != Errc::ok; }
   RecalibrationProgress progress(const SensorArray& array) const noexcept;
@@ -138,89 +112,64 @@ class Recalibration {
   struct ReadingError {
     double noise_mps2_sq = 0.0, total_mps2_sq = 0.0;
   };
-  static constexpr int kOfferSize = kCapacity * (2 * kCapacity + 1);
-
   using Stations = std::array<Station, StationStore::kMax>;
 
+  /// The three kinds: each answers the same questions (src/health/recalibration_kinds.hpp).
+  struct InFlight;
+  struct First;
+  struct Offered;
+  template <class F>
+  auto by_kind(F&& f) const noexcept;
+  template <class F>
+  auto by_parameters(F&& f) const noexcept;
+  /// Where an accepted calibration goes.
+  struct Adoption {
+    SensorModel& model;
+    SensorArray& array;
+    const GravityReference& gravity;
+    double time_s;
+    bool doubted;
+  };
+
+  int stations_due() const noexcept;
+  bool stations_suffice() const noexcept { return sensors_.size() >= 3 && store_.size() >= stations_due(); }
   StationList fit_stations() const noexcept;
-  int copy_stations(Stations& out) const noexcept;
-  void iterate_first() noexcept;
-  void begin_fit(const InForce& in_force) noexcept;
-  ReadingError reading_error(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
+  void begin_fit(const InForce& in_force, const FitOptions& options) noexcept;
   Datasheet datasheet(const InForce& in_force) const noexcept;
-  bool uncertainty_of_fit(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out,
-                          SensorSet& lacking) const noexcept;
-  bool ready(const InForce& in_force) noexcept;
-  bool is_proof(int station) const noexcept { return offered() || StationStore::held_out(station); }
-  int stations_due() const noexcept {
-    if (offered()) return kOfferStations;
-    return first() ? first_stations_needed(sensors_.size()) : stations_needed(sensors_.size());
-  }
-  FitOptions options() const noexcept;
-  void commission(const SensorModel& model) noexcept;
-  bool attitudes_suffice(const SensorArray& array) noexcept;
-  Outcome judge_first(const InForce& in_force) noexcept;
-  Error check_first(const InForce& in_force) noexcept;
-  Expected<Calibration> finish_first() const noexcept;
-  Error try_first(const InForce& in_force, const Calibration& fit) const noexcept;
-  Error check_figures(const FitReport& report) noexcept;
-  bool install(const Calibration& fit, SensorModel& model, SensorArray& array) const noexcept;
-  void apply_first(SensorModel& model, SensorArray& array, double time_s) noexcept;
-  bool resume_first(const InForce& in_force) noexcept;
-  Outcome examine_offer(const InForce& in_force, double time_s) noexcept;
-  Error read_offer(const InForce& in_force, const SensorModel& model, const SensorArray& array, int i) noexcept;
-  void keep_offered_covariance(const SensorArray& array) noexcept;
-  double offered_variance(int parameter) const noexcept;
-  void uncertainty_of_offer(const SensorArray& array, RowUncertainty& out) const noexcept;
-  bool uncertainty_after(const SensorArray& array, const GravityReference& gravity, RowUncertainty& out) const noexcept;
-  bool offer_is_plausible(const InForce& in_force) const noexcept;
-  Outcome judge(const InForce& in_force, double time_s) noexcept;
-  Error read_fit(const InForce& in_force) noexcept;
-  Error check_bounds(const SensorModel& model, double time_s) const noexcept;
-  bool coefficients_are_plausible(const SensorModel& model) const noexcept;
-  Error check_fit(const InForce& in_force) const noexcept;
-  Error try_stations(const InForce& in_force, const RowUncertainty& uncertainty) const noexcept;
+  ReadingError reading_error(const SensorArray& array, const GravityReference& gravity, int i) const noexcept;
+  Outcome accept() noexcept;
+  Outcome reject(const Error& why) noexcept;
   Error check_stations(const InForce& candidate, const RowUncertainty& uncertainty) const noexcept;
-  void write_coefficients(SensorModel& model) const noexcept;
-  using Change = std::array<double, std::size_t{4} * kCapacity>;  ///< of W and b of every sensor
-  Change whole_change(const SensorArray& array) const noexcept;
-  Change unseen_by_parity(const SensorArray& array, const Change& change) const noexcept;
-  void doubt_change(const SensorArray& array, bool whole, RowUncertainty& uncertainty) const noexcept;
-  static void add_change(const SensorArray& array, const Change& change, RowUncertainty& uncertainty) noexcept;
+  Error try_change(const InForce& in_force, const RowUncertainty& uncertainty) const noexcept;
+  Error check_bounds(const SensorModel& model, double time_s) const noexcept {
+    return bounds_.check(change_, sensors_, model, time_s);
+  }
+  /// After it has been read back: within the bounds at some time, and its covariance not made smaller.
+  bool change_is_sound(const SensorModel& model) const noexcept;
+  void adopt_change(const Adoption& into, const RowUncertainty& uncertainty) noexcept;
   Vec3 wanted_direction(const SensorArray& array) const noexcept;
 
   StationStore store_;
-  std::array<DriftSigmas, kCapacity> drift_{};
-  std::array<double, kCapacity> commissioned_scale_{}, commissioned_bias_mps2_{};
-  std::array<double, kCapacity> length_{};      ///< fitted: new scale over the one in force
-  std::array<double, kCapacity> shift_mps2_{};  ///< fitted: what is added to the bias, before the new scale
-  double inflation_ = 1.0;                      ///< of the fit's covariance: chi^2 per degree of freedom, at least 1
-  double adopted_s_ = 0.0;
-  bool adopted_ = false;
-  bool untried_ = false;  ///< the store has changed since the last fit
+  DriftBounds bounds_;
+  CoefficientChange change_;  ///< fitted or offered, of `sensors_`
+  double inflation_ = 1.0;    ///< of the fit's covariance: chi^2 per degree of freedom, at least 1
+  bool untried_ = false;      ///< the store has changed since the last fit
   bool first_ = false;
   RecalibrationPhase phase_ = RecalibrationPhase::idle;
   SensorSet sensors_, lacking_;
   std::uint32_t iterations_ = 0;
   Error refusal_;
-  int offered_sensors_ = 0;  ///< of the array whose calibration was offered; 0 = none was, `length_` is a fit's
-  double offered_s_ = 0.0;
-  std::array<double, kOfferSize> offered_covariance_{};  ///< of scale and bias per sensor, lower triangle by rows
-  Calibrator calibrator_{Datasheet{}, GravityReference{}, FitOptions{}};
+  OfferedCalibration offer_;
+  Calibrator calibrator_;
 
   friend struct FieldsOf;
   bool fitting() const noexcept { return phase_ == RecalibrationPhase::fitting; }
   bool keeps_fit() const noexcept { return fitting() || (first() && phase_ == RecalibrationPhase::accepted); }
-  int offer_size() const noexcept { return offered_sensors_ * (2 * offered_sensors_ + 1); }
   static constexpr auto fields() noexcept {
     using R = Recalibration;
-    return field_list(&R::store_, not_stored(&R::drift_), per_sensor(any(&R::commissioned_scale_)),
-                      per_sensor(any(&R::commissioned_bias_mps2_)), per_sensor(any(&R::length_)),
-                      per_sensor(any(&R::shift_mps2_)), any(&R::inflation_), &R::adopted_s_, &R::adopted_, &R::untried_,
-                      &R::first_, up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_,
-                      &R::iterations_, &R::refusal_, within(&R::offered_sensors_, 0, kCapacity), any(&R::offered_s_),
-                      counted(any(&R::offered_covariance_), &R::offer_size),
-                      stored_if<kRecalibrates>(only_when(&R::calibrator_, &R::keeps_fit)));
+    return field_list(&R::store_, &R::bounds_, &R::change_, any(&R::inflation_), &R::untried_, &R::first_,
+                      up_to(&R::phase_, RecalibrationPhase::accepted), &R::sensors_, &R::lacking_, &R::iterations_,
+                      &R::refusal_, &R::offer_, stored_if<kRecalibrates>(only_when(&R::calibrator_, &R::keeps_fit)));
   }
 };
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "plumb/core/detail/flag.hpp"
 #include "plumb/core/error.hpp"
-#include "plumb/core/flag.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/core/vec3.hpp"
 

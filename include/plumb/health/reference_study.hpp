@@ -7,35 +7,35 @@
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
-#include "plumb/core/fields.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/core/vec3.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-enum class ReferenceKind : std::uint8_t {
+enum class NormMismatchKind : std::uint8_t {
   none,          ///< the length is not off
   undecided,     ///< too few attitudes, or neither explanation holds alone
   common_scale,  ///< common scale or gravity: the direction is usable within `turn_rad`
   common_bias,   ///< a bias along `bias_mps2`: the direction is not usable
 };
-const char* to_string(ReferenceKind kind) noexcept;
+const char* to_string(NormMismatchKind kind) noexcept;
 
-struct ReferenceFinding {
-  ReferenceKind kind = ReferenceKind::none;
+struct NormMismatch {
+  NormMismatchKind kind = NormMismatchKind::none;
   int attitudes = 0;
   double length_mps2 = 0.0;        ///< kappa G: what is off alike at every attitude
-  double length_bound_mps2 = 0.0;  ///< of its error; 0 = none told
-  double configure_mps2 = 0.0;     ///< common_scale: the length of gravity to configure; 0 = none told
+  double length_bound_mps2 = 0.0;  ///< of its error; 0 = none found
+  double configure_mps2 = 0.0;     ///< common_scale: the length of gravity to configure; 0 = none found
   double widened_mps2 = 0.0;       ///< by so much the monitor has widened what it takes gravity to be known to
   Vec3 bias_mps2{};                ///< a: what is off along a direction, tool frame
   double turn_rad = 0.0;  ///< most that `a` and the acceleration allowed for can turn the direction; 0 = no bound yet
 
   static constexpr int kMostAttitudes = 12;
   static constexpr auto fields() noexcept {
-    using F = ReferenceFinding;
-    return field_list(up_to(&F::kind, ReferenceKind::common_bias), within(&F::attitudes, 0, kMostAttitudes),
+    using F = NormMismatch;
+    return field_list(up_to(&F::kind, NormMismatchKind::common_bias), within(&F::attitudes, 0, kMostAttitudes),
                       any(&F::length_mps2), any(&F::length_bound_mps2), any(&F::configure_mps2), any(&F::widened_mps2),
                       any(&F::bias_mps2), any(&F::turn_rad));
   }
@@ -48,7 +48,7 @@ inline constexpr double kMostGravityOffset_mps2 = 1e-2 * kG0_mps2;
 /// leaves is the same at every block, and averages away over none.
 class ReferenceStudy {
  public:
-  static constexpr int kMax = ReferenceFinding::kMostAttitudes;
+  static constexpr int kMax = NormMismatch::kMostAttitudes;
   /// Four parameters and two attitudes that can contradict them.
   static constexpr int kLeast = 6;
 
@@ -62,7 +62,7 @@ class ReferenceStudy {
   bool add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad,
            double noise_mps2 = 0.0) noexcept;
   /// `gravity_bound_mps2`: largest credible error of the gravity reference. `usable_rad`: turn that the user can bear.
-  ReferenceFinding find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
+  NormMismatch find(double g_mps2, double gravity_bound_mps2, double usable_rad) const noexcept;
 
  private:
   /// In single precision: 6e-8 is nothing to a direction, nor to what a length is off by.

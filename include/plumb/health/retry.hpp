@@ -23,7 +23,7 @@ struct RetryPolicy {
 enum class RetryAction : std::uint8_t {
   none,
   pause_began,  ///< failed by timeout: the pause has begun
-  asked,        ///< the reset was called: the next step leaves failed, unproven
+  asked,        ///< the reset was called: the next step leaves failed, not yet validated
   refused,      ///< the reset was called and refused (`error`): it is not called again
   too_few,      ///< failed by too few sensors, or by another cause than a timeout: for a person
   given_up,     ///< the retries are used up: for a person

@@ -1,7 +1,7 @@
 /// How the tool turns, as far as the host knows, and how it should be turned.
 #pragma once
 
-#include "plumb/core/fields.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/vec3.hpp"
 
 namespace plumb {

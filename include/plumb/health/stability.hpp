@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "plumb/core/config.hpp"
+#include "plumb/core/detail/fields.hpp"
 #include "plumb/core/error.hpp"
-#include "plumb/core/fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

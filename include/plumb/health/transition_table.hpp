@@ -1,9 +1,9 @@
-/// The state machine as one constexpr table: it runs in the monitor, it is proven total by the
-/// static_asserts at the end of this file, and `plumb model` prints it. By hand: model/state_table.txt.
+/// The state machine as one constexpr table: it runs in the monitor, static_asserts in
+/// src/health/transition_table.cpp prove it total, and `plumb model` prints it. By hand: model/state_table.txt.
 ///
 /// Two departures from the design's drawing, both to make the code's table exact: "recalibrating" before
-/// any calibration has been accepted is a mode of its own (`initial`), and setting a sensor aside (parity
-/// grade, reversible) is an event of its own, because its target differs from that of a latched culprit.
+/// any calibration has been accepted is a mode of its own (`initial`), and provisional exclusion (reversible)
+/// is an event of its own, because its target differs from that of an exclusion.
 #pragma once
 
 #include <array>
@@ -35,16 +35,16 @@ constexpr HealthState state_of(Mode mode) noexcept {
 /// Where a cell leads; some depend on what is left in service after the cell's actions.
 enum class Target : std::uint8_t {
   stay,
-  by_size,              ///< failed, degraded, nominal or isolated, by rank, critical sensors and count
-  by_size_if_proven,    ///< by size, but who is unproven goes to suspect, or stays there
-  by_size_when_earned,  ///< by size after R clean blocks (unproven: excited ones), else stay
+  by_size,               ///< failed, degraded, nominal or isolated, by rank, critical sensors and count
+  by_size_if_validated,  ///< by size, but who is not yet validated goes to suspect, or stays there
+  by_size_when_passed,   ///< by size after R passed blocks (not yet validated: excited ones), else stay
   suspect,
   suspect_or_failed,  ///< failed where rank < 3
   stay_or_failed,     ///< failed where rank < 3
   by_protection,      ///< stay while the doubt has a bound or a way out, else failed
   recalibrating,
   base,   ///< back where recalibration came from: suspect, or by size
-  rearm,  ///< rank < 3: stay; no calibration: initial; else suspect(unproven)
+  rearm,  ///< rank < 3: stay; no calibration: initial; else suspect(not yet validated)
   failed,
 };
 const char* to_string(Target target) noexcept;
@@ -53,8 +53,8 @@ const char* to_string(Target target) noexcept;
 struct Action {
   using Bits = std::uint16_t;
   static constexpr Bits none = 0;
-  static constexpr Bits exclude = 1;    ///< latch the culprits out
-  static constexpr Bits set_aside = 2;  ///< take the accused out of service, reversibly
+  static constexpr Bits exclude = 1;                ///< latch the isolated sensors out
+  static constexpr Bits exclude_provisionally = 2;  ///< take the suspected sensors out of service, reversibly
   static constexpr Bits mark_absent = 4;
   static constexpr Bits mark_back = 8;  ///< absent -> excluded, open to probation
   static constexpr Bits discard_fit = 16;
@@ -62,11 +62,11 @@ struct Action {
   static constexpr Bits adopt_fit = 64;
   static constexpr Bits start_fit = 128;
   static constexpr Bits reinstate = 256;
-  static constexpr Bits rearm = 512;       ///< return the named sensors, forget the episode
-  static constexpr Bits exhausted = 1024;  ///< set the qualifier
-  static constexpr Bits unproven = 2048;   ///< trust must be earned again
-  static constexpr Bits count = 4096;      ///< recorded, nothing else
-  static constexpr int kinds = 13;         ///< how many there are, one bit each
+  static constexpr Bits rearm = 512;               ///< return the named sensors, forget the episode
+  static constexpr Bits timed_out = 1024;          ///< set the qualifier
+  static constexpr Bits not_yet_validated = 2048;  ///< validation begins anew
+  static constexpr Bits count = 4096;              ///< recorded, nothing else
+  static constexpr int kinds = 13;                 ///< how many there are, one bit each
 };
 /// The word for one action; "?" where `one` is not exactly one of them.
 const char* action_name(Action::Bits one) noexcept;
@@ -81,129 +81,162 @@ struct Cell {
 
 namespace table_detail {
 
-constexpr Cell go(Target target, Action::Bits actions = Action::none) { return {CellKind::taken, target, actions}; }
-constexpr Cell ignored() { return {CellKind::ignored, Target::stay, Action::none}; }
-constexpr Cell held() { return {CellKind::held, Target::stay, Action::none}; }
-/// Not reachable; were it reached, the monitor would trust nothing.
-constexpr Cell impossible() { return {CellKind::impossible, Target::failed, Action::none}; }
+/// A cell with the event that it is for: `on(E::alarm).to(T::suspect).does(A::discard_fit)`.
+struct Entry {
+  HealthEvent event = HealthEvent::none;
+  Cell cell;
+
+  constexpr Entry to(Target target) const { return {event, {CellKind::taken, target, cell.actions}}; }
+  constexpr Entry does(Action::Bits actions) const { return {event, {cell.kind, cell.target, actions}}; }
+  constexpr Entry ignored() const { return {event, {CellKind::ignored, Target::stay, Action::none}}; }
+  constexpr Entry held() const { return {event, {CellKind::held, Target::stay, Action::none}}; }
+  /// Not reachable; were it reached, the monitor would trust nothing.
+  constexpr Entry impossible() const { return {event, {CellKind::impossible, Target::failed, Action::none}}; }
+};
+constexpr Entry on(HealthEvent event) { return {event, {}}; }
 
 using A = Action;
+using E = HealthEvent;
 using T = Target;
-using Row = std::array<Cell, kEventCount>;
+/// Every event once, in rank order: asserted in src/health/transition_table.cpp.
+using Row = std::array<Entry, kEventCount>;
 
-// Order of columns: reset, channel_lost, channel_back, culprit, set_aside, patience_over, contradiction,
-// alarm, reference, fit_accepted, fit_rejected, probation_passed, recalibrate, clean_block, none.
 constexpr Row kInService = {
-    ignored(),
-    go(T::by_size, A::mark_absent),
-    go(T::stay, A::mark_back),
-    go(T::by_size, A::exclude),
-    go(T::suspect_or_failed, A::set_aside),
-    impossible(),
-    go(T::suspect),
-    go(T::suspect),
-    go(T::suspect),
-    impossible(),
-    impossible(),
-    go(T::by_size, A::reinstate),
-    go(T::recalibrating, A::start_fit),
-    go(T::stay, A::count),
-    ignored(),
+    on(E::reset).ignored(),
+    on(E::channel_lost).to(T::by_size).does(A::mark_absent),
+    on(E::channel_back).to(T::stay).does(A::mark_back),
+    on(E::exclusion).to(T::by_size).does(A::exclude),
+    on(E::provisional_exclusion).to(T::suspect_or_failed).does(A::exclude_provisionally),
+    on(E::isolation_timeout).impossible(),
+    on(E::no_consistent_hypothesis).to(T::suspect),
+    on(E::alarm).to(T::suspect),
+    on(E::norm_mismatch).to(T::suspect),
+    on(E::fit_accepted).impossible(),
+    on(E::fit_rejected).impossible(),
+    on(E::probation_passed).to(T::by_size).does(A::reinstate),
+    on(E::recalibrate).to(T::recalibrating).does(A::start_fit),
+    on(E::passed_block).to(T::stay).does(A::count),
+    on(E::none).ignored(),
 };
 constexpr Row kSuspect = {
-    ignored(),
-    go(T::stay_or_failed, A::mark_absent),
-    go(T::stay, A::mark_back),
-    go(T::by_size_if_proven, A::exclude),
-    go(T::stay_or_failed, A::set_aside),
-    go(T::by_protection, A::exhausted),
-    go(T::stay, A::count),
-    go(T::stay, A::count),
-    go(T::stay, A::count),
-    impossible(),
-    impossible(),
-    held(),
-    go(T::recalibrating, A::start_fit),
-    go(T::by_size_when_earned, A::count),
-    ignored(),
+    on(E::reset).ignored(),
+    on(E::channel_lost).to(T::stay_or_failed).does(A::mark_absent),
+    on(E::channel_back).to(T::stay).does(A::mark_back),
+    on(E::exclusion).to(T::by_size_if_validated).does(A::exclude),
+    on(E::provisional_exclusion).to(T::stay_or_failed).does(A::exclude_provisionally),
+    on(E::isolation_timeout).to(T::by_protection).does(A::timed_out),
+    on(E::no_consistent_hypothesis).to(T::stay).does(A::count),
+    on(E::alarm).to(T::stay).does(A::count),
+    on(E::norm_mismatch).to(T::stay).does(A::count),
+    on(E::fit_accepted).impossible(),
+    on(E::fit_rejected).impossible(),
+    on(E::probation_passed).held(),
+    on(E::recalibrate).to(T::recalibrating).does(A::start_fit),
+    on(E::passed_block).to(T::by_size_when_passed).does(A::count),
+    on(E::none).ignored(),
 };
 constexpr Row kDegraded = {
-    ignored(),
-    go(T::by_size, A::mark_absent),
-    go(T::stay, A::mark_back),
-    impossible(),
-    impossible(),
-    impossible(),
-    go(T::suspect),
-    go(T::suspect),
-    go(T::suspect),
-    impossible(),
-    impossible(),
-    go(T::by_size, A::reinstate),
-    go(T::recalibrating, A::start_fit),
-    go(T::stay, A::count),
-    ignored(),
+    on(E::reset).ignored(),
+    on(E::channel_lost).to(T::by_size).does(A::mark_absent),
+    on(E::channel_back).to(T::stay).does(A::mark_back),
+    on(E::exclusion).impossible(),
+    on(E::provisional_exclusion).impossible(),
+    on(E::isolation_timeout).impossible(),
+    on(E::no_consistent_hypothesis).to(T::suspect),
+    on(E::alarm).to(T::suspect),
+    on(E::norm_mismatch).to(T::suspect),
+    on(E::fit_accepted).impossible(),
+    on(E::fit_rejected).impossible(),
+    on(E::probation_passed).to(T::by_size).does(A::reinstate),
+    on(E::recalibrate).to(T::recalibrating).does(A::start_fit),
+    on(E::passed_block).to(T::stay).does(A::count),
+    on(E::none).ignored(),
 };
 constexpr Row kRecalibrating = {
-    ignored(),
-    go(T::suspect_or_failed, A::mark_absent | A::discard_fit),
-    go(T::stay, A::mark_back),
-    go(T::by_size_if_proven, A::exclude | A::discard_fit),
-    go(T::suspect_or_failed, A::set_aside | A::discard_fit),
-    go(T::base, A::discard_fit),
-    go(T::suspect, A::discard_fit),
-    go(T::suspect, A::discard_fit),
-    go(T::suspect, A::discard_fit),
-    go(T::suspect, A::adopt_fit | A::unproven),
-    go(T::base, A::discard_fit),
-    held(),
-    ignored(),
-    go(T::stay, A::count),
-    ignored(),
+    on(E::reset).ignored(),
+    on(E::channel_lost).to(T::suspect_or_failed).does(A::mark_absent | A::discard_fit),
+    on(E::channel_back).to(T::stay).does(A::mark_back),
+    on(E::exclusion).to(T::by_size_if_validated).does(A::exclude | A::discard_fit),
+    on(E::provisional_exclusion).to(T::suspect_or_failed).does(A::exclude_provisionally | A::discard_fit),
+    on(E::isolation_timeout).to(T::base).does(A::discard_fit),
+    on(E::no_consistent_hypothesis).to(T::suspect).does(A::discard_fit),
+    on(E::alarm).to(T::suspect).does(A::discard_fit),
+    on(E::norm_mismatch).to(T::suspect).does(A::discard_fit),
+    on(E::fit_accepted).to(T::suspect).does(A::adopt_fit | A::not_yet_validated),
+    on(E::fit_rejected).to(T::base).does(A::discard_fit),
+    on(E::probation_passed).held(),
+    on(E::recalibrate).ignored(),
+    on(E::passed_block).to(T::stay).does(A::count),
+    on(E::none).ignored(),
 };
 constexpr Row kInitial = {
-    ignored(),
-    go(T::stay_or_failed, A::mark_absent | A::restart_fit),
-    go(T::stay, A::mark_back),
-    go(T::stay_or_failed, A::exclude | A::restart_fit),
-    go(T::stay_or_failed, A::set_aside | A::restart_fit),
-    go(T::stay, A::restart_fit),
-    go(T::stay, A::restart_fit),
-    go(T::stay, A::restart_fit),
-    go(T::stay, A::restart_fit),
-    go(T::suspect, A::adopt_fit | A::unproven),
-    go(T::stay, A::count),
-    held(),
-    ignored(),
-    go(T::stay, A::count),
-    ignored(),
+    on(E::reset).ignored(),
+    on(E::channel_lost).to(T::stay_or_failed).does(A::mark_absent | A::restart_fit),
+    on(E::channel_back).to(T::stay).does(A::mark_back),
+    on(E::exclusion).to(T::stay_or_failed).does(A::exclude | A::restart_fit),
+    on(E::provisional_exclusion).to(T::stay_or_failed).does(A::exclude_provisionally | A::restart_fit),
+    on(E::isolation_timeout).to(T::stay).does(A::restart_fit),
+    on(E::no_consistent_hypothesis).to(T::stay).does(A::restart_fit),
+    on(E::alarm).to(T::stay).does(A::restart_fit),
+    on(E::norm_mismatch).to(T::stay).does(A::restart_fit),
+    on(E::fit_accepted).to(T::suspect).does(A::adopt_fit | A::not_yet_validated),
+    on(E::fit_rejected).to(T::stay).does(A::count),
+    on(E::probation_passed).held(),
+    on(E::recalibrate).ignored(),
+    on(E::passed_block).to(T::stay).does(A::count),
+    on(E::none).ignored(),
 };
 constexpr Row kFailed = {
-    go(T::rearm, A::rearm | A::unproven),
-    go(T::stay, A::mark_absent),
-    go(T::stay, A::mark_back),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
-    ignored(),
+    on(E::reset).to(T::rearm).does(A::rearm | A::not_yet_validated),
+    on(E::channel_lost).to(T::stay).does(A::mark_absent),
+    on(E::channel_back).to(T::stay).does(A::mark_back),
+    on(E::exclusion).ignored(),
+    on(E::provisional_exclusion).ignored(),
+    on(E::isolation_timeout).ignored(),
+    on(E::no_consistent_hypothesis).ignored(),
+    on(E::alarm).ignored(),
+    on(E::norm_mismatch).ignored(),
+    on(E::fit_accepted).ignored(),
+    on(E::fit_rejected).ignored(),
+    on(E::probation_passed).ignored(),
+    on(E::recalibrate).ignored(),
+    on(E::passed_block).ignored(),
+    on(E::none).ignored(),
 };
+
+struct ModeRow {
+  Mode mode = Mode::failed;
+  Row row;
+};
+constexpr std::array<ModeRow, kModeCount> kRows = {{
+    {Mode::nominal, kInService},
+    {Mode::isolated, kInService},
+    {Mode::suspect, kSuspect},
+    {Mode::degraded, kDegraded},
+    {Mode::recalibrating, kRecalibrating},
+    {Mode::initial, kInitial},
+    {Mode::failed, kFailed},
+}};
 
 }  // namespace table_detail
 
 using TransitionTable = std::array<std::array<Cell, kEventCount>, kModeCount>;
 
-inline constexpr TransitionTable kTransitionTable = {
-    table_detail::kInService,     table_detail::kInService, table_detail::kSuspect, table_detail::kDegraded,
-    table_detail::kRecalibrating, table_detail::kInitial,   table_detail::kFailed,
-};
+namespace table_detail {
+
+constexpr TransitionTable table_of(const std::array<ModeRow, kModeCount>& rows) {
+  TransitionTable table{};
+  for (const ModeRow& one : rows) {
+    for (const Entry& entry : one.row) {
+      table[static_cast<std::size_t>(one.mode)][static_cast<std::size_t>(entry.event)] = entry.cell;
+    }
+  }
+  return table;
+}
+
+}  // namespace table_detail
+
+inline constexpr TransitionTable kTransitionTable = table_detail::table_of(table_detail::kRows);
 
 constexpr const Cell& cell_of(Mode mode, HealthEvent event) noexcept {
   return kTransitionTable[static_cast<std::size_t>(mode)][static_cast<std::size_t>(event)];
@@ -243,9 +276,9 @@ constexpr Mode mode_by_size(SizeClass size) noexcept {
 /// Facts that resolve a conditional target, taken after the cell's actions.
 struct TargetFacts {
   SizeClass size = SizeClass::rank_lost;
-  bool unproven = false;
-  bool earned = false;             ///< R clean blocks in a row (unproven: over stations that move every sensor)
-  bool base_suspect = false;       ///< recalibration came from suspect
+  bool not_yet_validated = false;
+  bool enough_passed = false;  ///< R passed blocks in a row (not yet validated: over stations that move every sensor)
+  bool base_suspect = false;   ///< recalibration came from suspect
   bool protection_within = false;  ///< a bound within the alert limit, or a way out (`DecisionInput`)
   bool calibrated = false;
 };
@@ -255,8 +288,9 @@ constexpr Mode resolve(Mode from, Target target, const TargetFacts& facts) noexc
   switch (target) {
     case Target::stay: return from;
     case Target::by_size: return mode_by_size(facts.size);
-    case Target::by_size_if_proven: return lost || !facts.unproven ? mode_by_size(facts.size) : Mode::suspect;
-    case Target::by_size_when_earned: return facts.earned ? mode_by_size(facts.size) : from;
+    case Target::by_size_if_validated:
+      return lost || !facts.not_yet_validated ? mode_by_size(facts.size) : Mode::suspect;
+    case Target::by_size_when_passed: return facts.enough_passed ? mode_by_size(facts.size) : from;
     case Target::suspect: return Mode::suspect;
     case Target::suspect_or_failed: return lost ? Mode::failed : Mode::suspect;
     case Target::stay_or_failed: return lost ? Mode::failed : from;
@@ -268,107 +302,6 @@ constexpr Mode resolve(Mode from, Target target, const TargetFacts& facts) noexc
   }
   return Mode::failed;
 }
-
-// ---- Facts about the table that hold at compile time -------------------------------------------
-
-namespace table_detail {
-
-/// Every cell was written down: a defaulted cell is `impossible` with target failed, so an impossible
-/// cell must be one of the listed ones and nothing else may be left at its default.
-constexpr int count_impossible() {
-  int n = 0;
-  for (const auto& row : kTransitionTable) {
-    for (const auto& cell : row) n += cell.kind == CellKind::impossible ? 1 : 0;
-  }
-  return n;
-}
-constexpr bool kinds_are_consistent() {
-  for (const auto& row : kTransitionTable) {
-    for (const auto& cell : row) {
-      const bool idle = cell.target == Target::stay && cell.actions == Action::none;
-      if ((cell.kind == CellKind::ignored || cell.kind == CellKind::held) && !idle) return false;
-      if (cell.kind == CellKind::taken && idle) return false;
-      if (cell.kind == CellKind::impossible && cell.target != Target::failed) return false;
-    }
-  }
-  return true;
-}
-/// S5: failed is left by reset alone, whatever the facts.
-constexpr bool failed_is_latched() {
-  for (int e = 0; e < kEventCount; ++e) {
-    const Target t = cell_of(Mode::failed, static_cast<HealthEvent>(e)).target;
-    if (static_cast<HealthEvent>(e) != HealthEvent::reset && t != Target::stay) return false;
-  }
-  return true;
-}
-/// S3: with rank < 3 after the actions, no event that takes a sensor away leaves a mode in service.
-constexpr bool rank_loss_fails() {
-  TargetFacts facts;
-  facts.size = SizeClass::rank_lost;
-  facts.calibrated = true;
-  for (int m = 0; m < kModeCount; ++m) {
-    for (HealthEvent e : {HealthEvent::channel_lost, HealthEvent::culprit, HealthEvent::set_aside}) {
-      const Cell& cell = cell_of(static_cast<Mode>(m), e);
-      if (cell.kind == CellKind::ignored || cell.kind == CellKind::impossible) continue;
-      if (resolve(static_cast<Mode>(m), cell.target, facts) != Mode::failed) return false;
-    }
-  }
-  return true;
-}
-/// S7: a contradiction or a reference event excludes nobody. S16: an alarm leaves recalibrating.
-constexpr bool nobody_is_blamed_without_a_culprit() {
-  constexpr Action::Bits blame = Action::exclude | Action::set_aside | Action::mark_absent;
-  for (int m = 0; m < kModeCount; ++m) {
-    for (HealthEvent e : {HealthEvent::contradiction, HealthEvent::alarm, HealthEvent::reference,
-                          HealthEvent::patience_over, HealthEvent::clean_block}) {
-      if ((cell_of(static_cast<Mode>(m), e).actions & blame) != 0) return false;
-    }
-  }
-  const Cell& alarm = cell_of(Mode::recalibrating, HealthEvent::alarm);
-  return alarm.target == Target::suspect && (alarm.actions & Action::discard_fit) != 0;
-}
-/// S8 and S19: only an accepted fit adopts, and only out of a recalibrating mode.
-constexpr bool adoption_is_guarded() {
-  for (int m = 0; m < kModeCount; ++m) {
-    for (int e = 0; e < kEventCount; ++e) {
-      const bool adopts = (cell_of(static_cast<Mode>(m), static_cast<HealthEvent>(e)).actions & Action::adopt_fit) != 0;
-      const bool may = static_cast<HealthEvent>(e) == HealthEvent::fit_accepted &&
-                       state_of(static_cast<Mode>(m)) == HealthState::recalibrating;
-      if (adopts != may) return false;
-    }
-  }
-  return true;
-}
-/// S19: from `initial` no event leads to a mode that publishes valid or degraded output.
-constexpr bool initial_is_never_trusted() {
-  for (int e = 0; e < kEventCount; ++e) {
-    const Target t = cell_of(Mode::initial, static_cast<HealthEvent>(e)).target;
-    if (t == Target::by_size || t == Target::by_size_if_proven || t == Target::by_size_when_earned ||
-        t == Target::base) {
-      return false;
-    }
-  }
-  return true;
-}
-
-constexpr bool ignored_events_block_nothing() {
-  constexpr EventMask both = bit(HealthEvent::reset) | bit(HealthEvent::alarm);
-  return first_taken(Mode::nominal, both) == HealthEvent::alarm &&
-         first_taken(Mode::failed, both) == HealthEvent::reset &&
-         first_taken(Mode::nominal, bit(HealthEvent::alarm) | bit(HealthEvent::culprit)) == HealthEvent::culprit &&
-         first_taken(Mode::failed, bit(HealthEvent::alarm)) == HealthEvent::none;
-}
-
-static_assert(ignored_events_block_nothing());
-static_assert(count_impossible() == 3 + 3 + 2 + 5, "an impossible cell was added, or a cell was left unwritten");
-static_assert(kinds_are_consistent());
-static_assert(failed_is_latched());
-static_assert(rank_loss_fails());
-static_assert(nobody_is_blamed_without_a_culprit());
-static_assert(adoption_is_guarded());
-static_assert(initial_is_never_trusted());
-
-}  // namespace table_detail
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

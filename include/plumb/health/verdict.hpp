@@ -6,10 +6,10 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/core/vec3.hpp"
+#include "plumb/detection/detail/triple_set.hpp"
 #include "plumb/detection/isolation.hpp"
-#include "plumb/detection/triple_set.hpp"
 #include "plumb/health/calibration_check.hpp"
-#include "plumb/health/episode.hpp"
+#include "plumb/health/detail/episode.hpp"
 #include "plumb/health/recalibration_progress.hpp"
 #include "plumb/health/reference_study.hpp"
 #include "plumb/health/rotation.hpp"
@@ -36,7 +36,7 @@ struct TransitionRecord {
     using R = TransitionRecord;
     return field_list(&R::sequence, &R::time_s, up_to(&R::from, HealthState::failed),
                       up_to(&R::to, HealthState::failed), up_to(&R::event, HealthEvent::none),
-                      up_to(&R::cause, kLastCause), up_to(&R::grade, Grade::asserted), &R::sensors, any(&R::statistic),
+                      up_to(&R::cause, kLastCause), up_to(&R::grade, Grade::assumed), &R::sensors, any(&R::statistic),
                       any(&R::limit));
   }
 };
@@ -54,7 +54,7 @@ struct Usable {
   static constexpr std::uint16_t stationary = 32;
   static constexpr std::uint16_t temperature = 64;   ///< within the calibrated span and its margin, and not in a hurry
   static constexpr std::uint16_t calibration = 128;  ///< accepted, and not one that none could check
-  static constexpr std::uint16_t reference = 256;    ///< the length of gravity is not in doubt
+  static constexpr std::uint16_t reference = 256;    ///< there is no norm mismatch
 };
 
 struct Verdict {
@@ -74,19 +74,19 @@ struct Verdict {
   double limit = 0.0;
   double margin = 0.0;  ///< 1 - statistic/limit; negative = alarm
 
-  // Who. configured = in service + set aside + excluded + absent (property S4).
-  SensorSet configured, in_service, set_aside, excluded, absent;
-  SensorSet suspects;                                   ///< sensors that some live hypothesis accuses
-  SensorSet clipped, restless, not_finite;              ///< of this block: channels that did so at all
-  SensorSet noisy, stuck, contradicted_clip;            ///< facts of the last quiet block on which the others insist
-  std::array<Cause, kCapacity> sensor_cause{};          ///< why a sensor is out of service or doubted; none = it is not
-  std::array<std::uint8_t, kCapacity> fewest_faults{};  ///< s_i: fewest faults that explain the data with i healthy
-  Grade grade = Grade::none;                            ///< of the last exclusion
-  int strict_grade = 0;                                 ///< m_strict of the sensors not latched out
-  int parity_grade = 0;
-  int live_hypotheses = 0;      ///< voting sets still alive in this episode
-  int stations_on_record = 0;   ///< excited stations in doubt, on which patience runs out
-  bool wants_rotation = false;  ///< another attitude would help: `rotation` says which
+  // Who. configured = in service + provisionally excluded + excluded + absent (property S4).
+  SensorSet configured, in_service, provisionally_excluded, excluded, absent;
+  SensorSet suspects;                           ///< sensors that are faulty in some consistent hypothesis
+  SensorSet clipped, scattering, not_finite;    ///< of this block: channels that did so at all
+  SensorSet noisy, stuck, contradicted_clip;    ///< facts of the last block at rest that the others corroborate
+  std::array<Cause, kCapacity> sensor_cause{};  ///< why a sensor is out of service or suspected; none = it is not
+  std::array<std::uint8_t, kCapacity> minimum_faults{};  ///< s_i: fewest faults that explain the data with i healthy
+  Grade grade = Grade::none;                             ///< of the last exclusion
+  int confirmed_grade = 0;                               ///< m_strict of the sensors not latched out
+  int provisional_grade = 0;
+  int consistent_hypotheses = 0;  ///< voting sets still alive in this episode
+  int stations_on_record = 0;     ///< distinct attitudes under suspicion, which count towards the timeout
+  bool wants_rotation = false;    ///< another attitude would help: `rotation` says which
   RotationRequest rotation;
 
   RecalibrationProgress recalibration;  ///< `wanted_direction` in the output frame
@@ -101,9 +101,10 @@ struct Verdict {
   double parity_limit = 0.0;
   double norm_error_mps2 = 0.0;                             ///< |x| - G of the last block
   double reference_mps2 = 0.0, reference_sigma_mps2 = 0.0;  ///< G and its 1 sigma
-  ReferenceFinding reference;      ///< what the length being off means; bias in the output frame
-  CalibrationFinding calibration;  ///< what its first attitudes say against the calibration
-  /// Slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]; 0 = none told.
+  NormMismatch norm_mismatch;                               ///< its kind and size; bias in the output frame
+  CalibrationFinding calibration;                           ///< what its first attitudes say against the calibration
+  /// Slow drift below the limits, for each sensor as if it alone drifted [m/s^2 per hour]: positive where the sensor's
+  /// own reading grows, in the sense of `Reads`. 0 = none found.
   std::array<float, kCapacity> drift_mps2_per_h{};
   /// Noise of all sensors in stated sigmas, as blocks at rest have shown it; above 1 the stated ones are too small, and
   /// every limit is wider for it.
@@ -146,9 +147,9 @@ struct Verdict {
   /// What a host steers by.
   static constexpr auto core() noexcept {
     using V = Verdict;
-    return field_list(&V::state, &V::qualifiers, &V::validity, &V::configured, &V::in_service, &V::set_aside,
-                      &V::excluded, &V::absent, &V::gravity_mps2, &V::protection_level_rad, &V::toolface_protection_rad,
-                      &V::usable, &V::faults_covered, &V::protection_available, &V::alert);
+    return field_list(&V::state, &V::qualifiers, &V::validity, &V::configured, &V::in_service,
+                      &V::provisionally_excluded, &V::excluded, &V::absent, &V::gravity_mps2, &V::protection_level_rad,
+                      &V::toolface_protection_rad, &V::usable, &V::faults_covered, &V::protection_available, &V::alert);
   }
   static constexpr auto fields() noexcept {
     using V = Verdict;
@@ -156,18 +157,18 @@ struct Verdict {
         any(&V::time_s), &V::sample, up_to(&V::state, HealthState::failed), &V::qualifiers,
         up_to(&V::validity, Validity::valid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted, &V::transition,
         up_to(&V::decided_by, kLastCause), &V::statistic, &V::limit, &V::margin, &V::configured, &V::in_service,
-        &V::set_aside, &V::excluded, &V::absent, &V::suspects, &V::clipped, &V::restless, &V::not_finite, &V::noisy,
-        &V::stuck, &V::contradicted_clip, within(&V::sensor_cause, 0, static_cast<int>(kLastCause)), &V::fewest_faults,
-        up_to(&V::grade, Grade::asserted), within(&V::strict_grade, 0, kCapacity),
-        within(&V::parity_grade, 0, kCapacity), within(&V::live_hypotheses, 0, kVotingCapacity),
+        &V::provisionally_excluded, &V::excluded, &V::absent, &V::suspects, &V::clipped, &V::scattering, &V::not_finite,
+        &V::noisy, &V::stuck, &V::contradicted_clip, within(&V::sensor_cause, 0, static_cast<int>(kLastCause)),
+        &V::minimum_faults, up_to(&V::grade, Grade::assumed), within(&V::confirmed_grade, 0, kCapacity),
+        within(&V::provisional_grade, 0, kCapacity), within(&V::consistent_hypotheses, 0, kVotingCapacity),
         within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
         &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::triples_tested, &V::triples_passed,
-        &V::parity, &V::parity_limit, &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::reference,
-        &V::calibration, any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation, &V::temperature_degc,
-        &V::temperature_rate_degc_per_min, within(&V::block_fill, 0, kWindowCapacity), &V::gravity_mps2, &V::covariance,
-        &V::age_s, &V::latest_mps2, &V::protection_level_rad, &V::toolface_protection_rad, &V::usable,
-        &V::faults_covered, &V::protection_available, &V::alert, up_to(&V::snapshot_refusal, kLastErrc),
-        not_stored(&V::config_hash));
+        &V::parity, &V::parity_limit, &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2,
+        &V::norm_mismatch, &V::calibration, any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation,
+        &V::temperature_degc, &V::temperature_rate_degc_per_min, within(&V::block_fill, 0, kWindowCapacity),
+        &V::gravity_mps2, &V::covariance, &V::age_s, &V::latest_mps2, &V::protection_level_rad,
+        &V::toolface_protection_rad, &V::usable, &V::faults_covered, &V::protection_available, &V::alert,
+        up_to(&V::snapshot_refusal, kLastErrc), not_stored(&V::config_hash));
   }
 };
 

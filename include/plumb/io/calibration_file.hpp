@@ -7,11 +7,11 @@
 #include <string>
 
 #include "plumb/calibration/calibration.hpp"
-#include "plumb/calibration/paper_calibration.hpp"
 #include "plumb/gravity/gravity.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/hash.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

@@ -20,6 +20,7 @@ enum class ExitCode {
   not_accepted = 4,    ///< not observable, or the fit was not accepted
   monitor_failed = 5,  ///< the monitor ended in `failed`
   verification_failed = 6,
+  nothing_judged = 7,  ///< no block was at rest: the run says nothing about any sensor
 };
 constexpr int to_int(ExitCode code) noexcept { return static_cast<int>(code); }
 
@@ -37,6 +38,9 @@ struct FileError {
 
 template <class T>
 using FileExpected = tl::expected<T, FileError>;
+
+/// A path or text as a shell takes it for one word: quoted where it must be.
+std::string shell_word(const std::string& text);
 
 /// An error of floors 1 to 4 in the words of `describe` and `remedy`, with its figures. `code` says
 /// what the tool shall exit with.

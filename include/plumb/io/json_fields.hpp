@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "plumb/core/config.hpp"
+#include "plumb/array/sensor_array.hpp"
 
 // Compiled once, in json_fields.cpp.
 extern template nlohmann::basic_json<nlohmann::ordered_map>::basic_json(
@@ -70,6 +70,12 @@ Json object(std::initializer_list<Field> fields);
 
 /// The array of these texts.
 Json texts(std::initializer_list<const char*> items);
+
+/// Null where there is no figure: JSON has no infinity.
+Json finite_or_null(double value);
+
+/// The ids of these sensors.
+Json ids_of(SensorSet set, const SensorArray& array);
 
 /// What JSON text says; discarded where it is none.
 Json parsed(const std::string& text);

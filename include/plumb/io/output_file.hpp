@@ -39,6 +39,7 @@ class OutputFile {
   FileError failure(const char* doing, int error_number) const;
 
   std::string path_;
+  std::string place_;      ///< where the path leads through links: what is replaced
   std::string temporary_;  ///< empty in Mode::stream
   std::string buffer_;
   int descriptor_ = -1;
@@ -46,7 +47,7 @@ class OutputFile {
 
 /// The whole text, in one step.
 FileExpected<void> write_file(const std::string& path, std::string_view text);
-/// The whole file as text; "-" is not accepted. Errors: unreadable, a directory.
+/// The whole file as text; "-" is not accepted. Errors: unreadable, a directory, larger than 256 MiB.
 FileExpected<std::string> read_file(const std::string& path);
 
 }  // namespace io

@@ -41,11 +41,11 @@ constexpr StateMask state_bit(HealthState state) noexcept {
   return static_cast<StateMask>(1U << static_cast<unsigned>(state));
 }
 
-/// Which sensors the monitor may have excluded or set aside at the end.
+/// Which sensors the monitor may have excluded, also provisionally, at the end.
 enum class AllowedMask : std::uint8_t {
   nobody,       ///< none
   only_faulty,  ///< none, some or all of the faulty ones
-  the_faulty,   ///< the faulty ones exactly
+  the_faulty,   ///< exactly the faulty ones
 };
 
 /// What the monitor makes of it on the course (course.hpp), counted in blocks from the onset on.

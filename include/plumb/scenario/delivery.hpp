@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/sample.hpp"
+#include "plumb/health/rotation.hpp"
 #include "plumb/scenario/fault.hpp"
 
 namespace plumb {
@@ -16,9 +18,15 @@ namespace scenario {
 /// are not of the delivery are passed over, so the whole list of a scenario may be given.
 class Delivery {
  public:
+  /// What a row of a log says beside its sample.
+  struct Beside {
+    double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< measured depth; NaN: not said
+    Rotation rotation;
+  };
   struct Parcel {
     Sample sample;
     std::uint64_t row = 0;  ///< as measured, counted from 0
+    Beside beside;
   };
 
   Delivery() = default;
@@ -28,7 +36,8 @@ class Delivery {
   bool any() const noexcept { return any_; }
 
   /// `now` is where in the log the row was measured.
-  void push(const Sample& sample, const Moment& now);
+  void push(const Sample& sample, const Moment& now) { push(sample, now, Beside{}); }
+  void push(const Sample& sample, const Moment& now, const Beside& beside);
   /// After the last row: what is still held back will not get any later.
   void finish();
   /// The next row that arrives; false where there is none yet.

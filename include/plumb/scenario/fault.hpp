@@ -45,7 +45,7 @@ enum class FaultKind : std::uint8_t {
   swap,          ///< whole log: rows come in pairs, the second of a pair first
   back,          ///< whole log: the time runs behind by `magnitude` [s] (below 0: ahead)
 };
-inline constexpr int kFaultKinds = 30;
+inline constexpr int kFaultKinds = static_cast<int>(FaultKind::back) + 1;
 
 /// The sensor of a fault that is not one sensor's: of the tool, of its clock or of the link.
 inline constexpr int kWholeLog = -1;

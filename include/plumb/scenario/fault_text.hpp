@@ -5,7 +5,7 @@
 ///   a2:stuck=0V@12s           stands at 0 V from t = 12 s on; also 3V, -3V, FS, -FS, 12count, 1g0
 ///   a3:last@5s                stands at its last value; last=0.5LSB dithers by that much about it
 ///   a1:random=-3V..3V@20s     a new random value every row; held= draws one value and keeps it
-///   a2:bias=50mg0@30s+10s     reads 50 mg0 too much for ten seconds
+///   a2:bias=50mg0@30s+10s     reads 50 mg0 too high for ten seconds
 ///   a1:drift=1mg0/s@10s       error grows; also per min, per h
 ///   a4:scale=1.1@10s          scale factor times 1.1; scale=-1 is a reversed wire
 ///   a2:noise=5mg0@10s         white noise on top

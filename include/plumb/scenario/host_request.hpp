@@ -12,8 +12,9 @@
 
 #include "plumb/array/sensor_array.hpp"
 #include "plumb/core/config.hpp"
-#include "plumb/health/health_monitor.hpp"
-#include "plumb/health/paper_monitor.hpp"
+#include "plumb/core/error.hpp"
+#include "plumb/core/sensor_set.hpp"
+#include "plumb/health/state.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -48,21 +49,31 @@ class Host {
   Host() = default;
   explicit Host(std::vector<HostRequest> requests);
 
-  /// Call before the monitor steps over a sample of this time.
-  void before(double time_s, HealthMonitor& monitor);
-  /// The paper's monitor calibrates anew by its own rule only: such a request is refused (wrong_mode).
-  void before(double time_s, PaperMonitor& monitor);
+  /// Call before the monitor steps over a sample of this time. A `Monitor` has `reset`, `request_recalibration` and
+  /// `verdict`, as `HealthMonitor` has.
+  template <class Monitor>
+  void before(double time_s, Monitor& monitor);
   const std::vector<Answer>& answers() const noexcept { return answers_; }
   /// Requests whose time has not come.
   std::size_t waiting() const noexcept { return requests_.size() - answers_.size(); }
 
  private:
-  template <class Monitor, class Recalibrate>
-  void make_due(double time_s, Monitor& monitor, Recalibrate recalibrate);
-
   std::vector<HostRequest> requests_;  ///< in order of time
   std::vector<Answer> answers_;
 };
+
+template <class Monitor>
+void Host::before(double time_s, Monitor& monitor) {
+  while (waiting() > 0 && requests_[answers_.size()].time_s <= time_s) {
+    const HostRequest& request = requests_[answers_.size()];
+    const bool reset = request.kind == HostRequest::Kind::reset;
+    const Expected<void> done = reset ? monitor.reset(request.key, request.sensors) : monitor.request_recalibration();
+    Errc refusal = done ? Errc::ok : done.error().code;
+    // The monitor ignores such a reset without a word; whoever asked for it is told.
+    if (reset && done && monitor.verdict().state != HealthState::failed) refusal = Errc::wrong_state;
+    answers_.push_back({time_s, request, refusal});
+  }
+}
 
 }  // namespace scenario
 }  // namespace PLUMB_ABI

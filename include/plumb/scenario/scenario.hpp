@@ -31,9 +31,9 @@ struct TemperatureLaw {
 
 /// How deep the tool is: it is lowered by a stand between two stations, and what depends on depth with it.
 struct DepthLaw {
-  double stand_m = 0.0;          ///< between two stations
-  double gravity_per_s2 = 0.0;   ///< growth of gravity with depth [m/s^2 per m]: 8.4e-7 in rock of 2670 kg/m^3
-  double heat_degc_per_m = 0.0;  ///< growth of temperature with depth: 0.03 is ordinary
+  double station_spacing_m = 0.0;  ///< between two stations
+  double gravity_per_s2 = 0.0;     ///< growth of gravity with depth [m/s^2 per m]: 8.4e-7 in rock of 2670 kg/m^3
+  double heat_degc_per_m = 0.0;    ///< growth of temperature with depth: 0.03 is ordinary
 };
 
 struct Scenario {

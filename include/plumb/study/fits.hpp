@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "plumb/calibration/paper_calibration.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 #include "plumb/scenario/truth.hpp"
 #include "plumb/study/survey.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "plumb/calibration/paper_calibration.hpp"
+#include "plumb/paper/paper_calibration.hpp"
 #include "plumb/scenario/truth.hpp"
 
 namespace plumb {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "plumb/health/health_monitor.hpp"
-#include "plumb/health/paper_rule.hpp"
+#include "plumb/paper/paper_rule.hpp"
 #include "plumb/study/experiments.hpp"
 #include "plumb/study/fits.hpp"
 #include "plumb/study/proportion.hpp"

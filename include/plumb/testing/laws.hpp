@@ -17,20 +17,21 @@ struct LawResult {
   std::string reason;   ///< what broke it, or why it does not apply
 };
 
-/// No sensor that was healthy throughout is latched out by at most m_strict faults, or set aside by at most the parity
+/// No sensor that was healthy throughout is excluded by at most m_strict faults, or provisionally by at most the parity
 /// grade (design, S1).
-LawResult never_blames_the_innocent(const Case& c);
-/// Constant and held faults, at most n - 3 of them, are out at the end, and nobody else is. Other faults of the case
-/// and its systematic errors are left out, and the attitudes are random ones. Applies where every three axes are
+LawResult never_excludes_a_healthy_sensor(const Case& c);
+/// Constant and held faults, at most n - 3 of them, are excluded at the end, and no other sensor. Other faults of the
+/// case and its systematic errors are left out, and the attitudes are random ones. Applies where every three axes are
 /// independent and every triple that holds a faulty sensor misses the length of gravity by far at one of the stations
-/// between the last onset and that from which an answer can still stand at four stations before patience is over
-/// (`patience`, counted from the first onset) and before the end; every four that hold one disagree by far at each of
-/// them. Faults that come one after the other spend patience, and where it ends first "failed" is the answer; equal
-/// faults may leave four that agree, and where those miss the length of gravity the answer is "reference".
-LawResult isolates_what_can_be_told(const Case& c);
+/// between the last onset and that from which an answer can still stand at four stations before the isolation timeout
+/// is over
+/// (`isolation_timeout`, counted from the first onset) and before the end; every four that hold one disagree by far at
+/// each of them. Faults that come one after the other spend patience, and where it ends first "failed" is the answer;
+/// equal faults may leave four that agree, and where those miss the length of gravity the answer is "reference".
+LawResult isolates_what_is_isolable(const Case& c);
 /// One fault whose parity is far above the limit at its first station is not plainly valid from there on.
 LawResult detects_above_the_threshold(const Case& c);
-/// In service, set aside, excluded and absent share the sensors out.
+/// In service, provisionally excluded, excluded and absent partition the sensors.
 LawResult sets_are_a_partition(const Case& c);
 /// What an excluded sensor says does not matter, bit for bit.
 LawResult excluded_bytes_do_not_matter(const Case& c);
@@ -42,8 +43,8 @@ LawResult snapshot_is_transparent(const Case& c);
 LawResult replay_is_exact(const Case& c);
 /// State, validity and bits of a verdict do not contradict one another, and its numbers are finite.
 LawResult verdict_agrees_with_itself(const Case& c);
-/// Vibration of the whole tool excludes nobody and fails nothing (the faults of the case are left out).
-LawResult motion_blames_nobody(const Case& c);
+/// Vibration of the whole tool excludes no sensor and fails nothing (the faults of the case are left out).
+LawResult motion_excludes_no_sensor(const Case& c);
 
 struct Law {
   const char* name;

@@ -28,7 +28,7 @@ bool of_one_channel(const scenario::Fault& fault) noexcept {
 }  // namespace
 
 Generator::Generator(const Plan& plan) : plan_(plan), injector_(empty_injector()) {
-  const int stations = std::max(plan.stations, plan.trust_stations);
+  const int stations = std::max(plan.stations, plan.validation_stations);
   const auto rows = static_cast<size_t>(stations) * static_cast<size_t>(plan.samples);
   healthy_.resize(rows);
   noise_.resize(rows);

@@ -12,12 +12,12 @@ namespace {
 bool accuses(HealthEvent event) noexcept {
   switch (event) {
     case HealthEvent::channel_lost:
-    case HealthEvent::culprit:
-    case HealthEvent::set_aside:
-    case HealthEvent::patience_over:
-    case HealthEvent::contradiction:
+    case HealthEvent::exclusion:
+    case HealthEvent::provisional_exclusion:
+    case HealthEvent::isolation_timeout:
+    case HealthEvent::no_consistent_hypothesis:
     case HealthEvent::alarm:
-    case HealthEvent::reference: return true;
+    case HealthEvent::norm_mismatch: return true;
     default: return false;
   }
 }
@@ -31,7 +31,7 @@ void Judge::begin(const Plan& plan, const Spec& spec, campaign::Outcome& outcome
   outcome.blocks = 0;
   outcome.first_fault_block = outcome.alarm_block = outcome.isolated_block = -1;
   outcome.faulty = campaign::faulty_of(spec);
-  outcome.excluded = outcome.set_aside = outcome.ever_excluded = outcome.ever_set_aside = 0;
+  outcome.excluded = outcome.provisionally_excluded = outcome.ever_excluded = outcome.ever_provisionally_excluded = 0;
   outcome.failed = false;
   for (int k = 0; k < spec.faults; ++k) {
     const int station = static_cast<int>(spec.fault[static_cast<size_t>(k)].onset_station);
@@ -49,9 +49,9 @@ void Judge::note(const Verdict& v, const Vec3& truth, bool ends) noexcept {
                              !(v.noisy | v.stuck | v.contradicted_clip).empty());
   if (out.alarm_block < 0 && (against || over)) out.alarm_block = out.blocks;
   out.excluded = (v.excluded | v.absent).bits;
-  out.set_aside = v.set_aside.bits;
+  out.provisionally_excluded = v.provisionally_excluded.bits;
   out.ever_excluded |= out.excluded;
-  out.ever_set_aside |= out.set_aside;
+  out.ever_provisionally_excluded |= out.provisionally_excluded;
   const bool exactly = out.faulty != 0 && out.excluded == out.faulty;
   if (!exactly) out.isolated_block = -1;
   if (exactly && out.isolated_block < 0) out.isolated_block = out.blocks;
@@ -106,14 +106,14 @@ std::string Player::prepare() {
       return "the monitor of tool " + name + " cannot be configured: " + describe(configured.error().code) +
              ". Remedy: " + remedy(configured.error().code);
     }
-    if (plan_.start == campaign::Start::proven) {
+    if (plan_.start == campaign::Start::validated) {
       run(trust_spec(plan_, static_cast<int>(tool)), 0.0, *outcome);
       const HealthState state = monitor_.verdict().state;
       const bool three = state == HealthState::degraded_3_sensor && monitor_.array().size() == 3;
       if (state != HealthState::nominal && !three) {
-        return "healthy sensors of tool " + name + " do not earn trust in " + std::to_string(plan_.trust_stations) +
-               " stations: the monitor is " + to_string(state) +
-               ". Remedy: give more stations of trust, or another seed";
+        return "the monitor did not validate the healthy sensors of tool " + name + " within " +
+               std::to_string(plan_.validation_stations) + " stations: its state is " + to_string(state) +
+               ". Remedy: raise [run] validation_stations, or use another seed";
       }
     }
     start_.push_back(monitor_);

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "plumb/core/archive.hpp"
+#include "plumb/core/detail/archive.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -74,7 +74,7 @@ Vec3 direction_at(const AttitudePlan& attitude, int station, int stations, const
 
 double start_s(const Plan& plan) noexcept {
   if (plan.start == campaign::Start::power_on) return 0.0;
-  return plan.trust_stations * (plan.samples / plan.rate_hz + plan.move_s);
+  return plan.validation_stations * (plan.samples / plan.rate_hz + plan.move_s);
 }
 
 Spec trust_spec(const Plan& plan, int tool) noexcept {
@@ -83,7 +83,7 @@ Spec trust_spec(const Plan& plan, int tool) noexcept {
   spec.seed = scenario::derive_seed(plan.seed, ~static_cast<std::uint64_t>(tool));
   spec.tool = tool;
   spec.attitude = -1;  // random, whatever the plan has
-  spec.stations = plan.trust_stations;
+  spec.stations = plan.validation_stations;
   return spec;
 }
 

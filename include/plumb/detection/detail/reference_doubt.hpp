@@ -1,0 +1,83 @@
+/// When may the length of gravity speak against a set of sensors? Not where other sensors, more of them and checked by
+/// each other, agree among themselves and disagree with gravity too: then it may be gravity that is off, or the tool
+/// moves steadily, and a norm test would kill whichever healthy set measures the length best.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/core/config.hpp"
+#include "plumb/core/detail/fields.hpp"
+#include "plumb/core/sensor_set.hpp"
+#include "plumb/detection/detail/block_tests.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// The sets that doubt gravity at one block. If such a set is healthy, then gravity is off, and it is no fault of its
+/// subsets that they are off too: the norm excuses them. A healthy sensor in a healthy set of four or more is thereby
+/// never convicted by a wrong gravity.
+class ReferenceDoubt {
+ public:
+  static constexpr int kMax = 64;
+  void add(SensorSet set) noexcept;
+  bool any() const noexcept { return count_ > 0; }
+  /// With more sets than fit, everything is excused: nothing dies that should not.
+  bool excuses(SensorSet set) const noexcept;
+
+ private:
+  std::array<SensorSet, kMax> set_{};
+  int count_ = 0;
+};
+
+/// What the sets that doubt gravity have claimed during an episode. A wrong gravity and a common scale are the
+/// same at every attitude; what a chance set of faulty sensors is off by turns with the tool. A claim that was not the
+/// same everywhere is refuted.
+class ReferenceClaims {
+ public:
+  /// Arrays of up to so many sensors have room for every set; larger ones for their sets of four.
+  static constexpr int kAllSets = kStrictCapacity < 8 ? kStrictCapacity : 8;
+  static constexpr int kMax = kStrictCapacity <= 8 ? 1 << kAllSets : 1820;
+  /// Where a set is kept: `rank` is its number among all of its size; -1 where there is no room.
+  static constexpr int index_of(SensorSet set, int rank, int universe) noexcept {
+    if (universe <= kAllSets) return static_cast<int>(set.bits);
+    return set.size() == 4 && rank < kMax ? rank : -1;
+  }
+
+  void clear() noexcept { *this = ReferenceClaims{}; }
+  /// The set, which agrees with itself, is off gravity by `error`, known to `margin` (both m/s^2).
+  void hear(int index, double error_mps2, double margin_mps2) noexcept;
+  /// No one wrong gravity explains what the set was off by.
+  bool refuted(int index) const noexcept { return low_[slot(index)] > high_[slot(index)]; }
+
+ private:
+  static constexpr std::size_t slot(int index) noexcept { return static_cast<std::size_t>(index); }
+
+  /// Between what a wrong gravity would have to lie, over the stations heard.
+  std::array<float, static_cast<std::size_t>(kMax)> low_{}, high_{};
+  std::array<bool, static_cast<std::size_t>(kMax)> heard_{};
+
+  friend struct FieldsOf;
+  static constexpr int slots(int sensors) noexcept { return sensors <= kAllSets ? 1 << sensors : kMax; }
+  static constexpr auto fields() noexcept {
+    using C = ReferenceClaims;
+    return field_list(leading(any(&C::low_), &slots), leading(any(&C::high_), &slots), leading(&C::heard_, &slots));
+  }
+};
+
+/// Who is asked about gravity at one block.
+struct ReferencePanel {
+  SensorSet posed;      ///< the sensors that are not latched out
+  SensorSet delivered;  ///< those of them that delivered: who is asked
+  int universe = 0;     ///< configured sensors, over which sets are numbered
+  int coplanarity = 0;
+};
+
+/// The sets that doubt gravity at a vote: what they claim goes on record, and each is judged by all of its claims.
+ReferenceDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept;
+/// The same at any other question: judged by what is on record, to which nothing is added.
+ReferenceDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
+                            const ReferenceClaims& record) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,36 @@
+/// A refused fit tried again with one mistake of the array file mended at a time: columns exchanged, a sign reversed, a
+/// roll group left out, another roll axis. What then settles is named.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "plumb/calibration/temperature_fit.hpp"
+#include "plumb/io/array_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace findings {
+
+struct SecondLook {
+  /// Sensors that have each other's columns; both the same where it is the sign. The best fit first; to gravity some of
+  /// these mistakes are the same.
+  std::vector<std::pair<int, int>> exchanged;
+  std::vector<std::int64_t> groups;  ///< roll groups, as in the log, without any one of which it settles
+  std::optional<Vec3> roll_axis;     ///< about which it settles
+  bool without_groups = false;       ///< settles only with all roll groups left out
+
+  bool found() const { return !exchanged.empty() || !groups.empty() || roll_axis || without_groups; }
+};
+
+/// All signs and all exchanges of two columns: n (n + 1) / 2 fits; and, where there are roll groups, at most
+/// kMaxRollGroups + 4. Fewer for many sensors over temperature, where all would take minutes: first those that the axes
+/// of the refused fit, where there is one, suggest.
+SecondLook second_look(const io::ArrayFile& array, const std::vector<Station>& stations,
+                       const TemperatureOptions& options, const SensorArray* refused);
+
+}  // namespace findings
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,32 @@
+/// The monitor's vocabulary in plain words, for tables and pages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plumb/array/sensor_array.hpp"
+#include "plumb/health/verdict.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+
+/// "a1, a3", or `none` for the empty set.
+std::string sensor_names(SensorSet set, const SensorArray& array, const char* none = "-");
+
+/// "a, b and c".
+std::string listed(const std::vector<std::string>& names);
+
+/// Why the monitor says what it says, for someone who has not read the manual. `grade` is that of an exclusion; `event`
+/// tells what became of a calibration.
+std::string explain(Cause cause, Grade grade = Grade::none, HealthEvent event = HealthEvent::none);
+
+/// What a state means, in one sentence.
+const char* meaning(HealthState state) noexcept;
+
+/// What the output may be used for, in a few words.
+const char* meaning(Validity validity) noexcept;
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

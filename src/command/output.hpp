@@ -1,0 +1,23 @@
+/// What a program says on standard output and standard error.
+#pragma once
+
+#include <string_view>
+
+#include "plumb/core/config.hpp"
+#include "plumb/io/file_error.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace command {
+
+/// Standard output and standard error. A failure to write is remembered and ends the tool with code 1.
+void print(std::string_view text);
+void print_now(std::string_view text);  ///< and flushes: for what someone is waiting for
+void print_error(std::string_view text);
+/// "plumb: <text>" on standard error; returns the code of the error.
+io::ExitCode report(const io::FileError& error);
+bool output_is_sound();
+
+}  // namespace command
+}  // namespace PLUMB_ABI
+}  // namespace plumb

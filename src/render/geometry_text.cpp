@@ -1,0 +1,203 @@
+// What `plumb geometry` prints.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geometry_fields.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/geometry_report.hpp"
+#include "plumb/render/words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+namespace {
+
+using findings::ExpectedReading;
+using findings::Finding;
+using findings::GeometryStudy;
+using findings::GeometrySubject;
+using findings::HiddenWiring;
+using findings::MapSummary;
+using findings::SensorStudy;
+
+constexpr std::size_t kMostListed = 12;
+
+std::string line(const char* what, const std::string& value) { return fmt::format("{:<44} {}\n", what, value); }
+
+std::string reading_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const bool file = subject.file != nullptr;
+  std::string out = fmt::format("{}: {} sensors{}\n", subject.name, subject.array.size(),
+                                subject.calibrated ? ", axes and uncertainty from the calibration" : "");
+  if (file) {
+    const io::ArrayFile& f = *subject.file;
+    out += fmt::format("reads {}; the log is in {}; gravity {:.5f} m/s^2 (1 sigma {:.3f} mg0)\n",
+                       f.datasheet.reads == Reads::gravity ? "gravity (a sensor that points down counts up)"
+                                                           : "specific force (a sensor that points up counts up)",
+                       f.input.unit.name, subject.gravity.g_mps2, in_mg0(subject.gravity.sigma_mps2));
+  }
+  out += fmt::format("\n  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>32}\n", "sensor", "x", "y", "z", "noise",
+                     file ? "expected in the log, tool at" : "expected, g0, tool at");
+  out += fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>10} {:>10} {:>10}\n", "", "", "", "", "mg0", "vertical",
+                     "horiz. 0", "horiz. 90");
+  for (int i = 0; i < subject.array.size(); ++i) {
+    const Vec3& h = subject.array.axis(i);
+    out += fmt::format("  {:<15} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.4f}  ", study.sensors[at(i)].id, h[0], h[1], h[2],
+                       in_mg0(subject.array.sigma_mps2(i)));
+    const ExpectedReading& e = study.sensors[at(i)].expected;
+    for (std::size_t a = 0; a < 3; ++a)
+      out += fmt::format(" {:>10.4g}", file ? e.raw[a] : g0_from_mps2(e.down_mps2[a]));
+    out += "\n";
+  }
+  return out + "  (vertical: z down; horiz. 0 and 90: z level, toolface 0 and 90 deg)\n";
+}
+
+std::string merit_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const FiguresOfMerit& f = study.merit;
+  std::string out = "\ngeometry\n";
+  out += line("  noise gain of the vector (GDOP)", fmt::format("{:.4f}", f.gdop));
+  out += line("  condition of the axes", fmt::format("{:.4f}", f.condition));
+  out += line("  angle between the nearest two axes", fmt::format("{:.3f} deg", deg_from_rad(f.nearest_angle_rad)));
+  out += line("  smallest |det| of a triple", fmt::format("{:.4f}", f.min_triple_det));
+  out += line("  worst condition of a triple", fmt::format("{:.4g}", f.max_triple_condition));
+  out +=
+      line("  near-singular triples", fmt::format("{} of {}", f.near_singular_triples, subject.array.triple_count()));
+  out += line("  most axes in one plane, c", fmt::format("{}", f.coplanarity));
+  out += "\nfaulty sensors that can be isolated\n";
+  out += line("  with confirmation, n - 1 - c", fmt::format("{}   over several attitudes", f.confirmed_grade));
+  out += line("  provisionally, by parity alone, n - 2 - c",
+              fmt::format("{}   at once, without gravity, reversible", f.provisional_grade));
+  out += line("  correlated faults, n >= 2m + c + 1", fmt::format("{}   in one block", study.correlated_grade));
+  out += line("  critical sensors",
+              sensor_names(critical_sensors(subject.array, subject.array.all()), subject.array, "none"));
+  return out;
+}
+
+std::string worst_text(const GeometryStudy& study) {
+  if (study.worst.empty()) return "";
+  std::string out =
+      "\nworst case, in errors e of a healthy reading (T7: any attitude, any values of the other faulty ones)\n";
+  out += fmt::format("  {:>7}", "faulty") + text_head(kWorstFields, &FieldOf<findings::WorstCase>::above);
+  for (const findings::WorstCase& c : study.worst) out += fmt::format("  {:>7}", c.faults) + text_row(kWorstFields, c);
+  return out;
+}
+
+std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  const TestSettings& s = subject.settings;
+  std::string out = fmt::format(
+      "\n"
+      "minimum detectable bias, mg0, in one block of {:.0f} samples at any attitude (false alarms {:.0e}, missed "
+      "{:.0e})\n",
+      s.samples, s.false_alarm_rate, s.missed_detection);
+  out += fmt::format("  {:<15}", "") + text_head(kThresholdFields, &ThresholdField::above);
+  out += fmt::format("  {:<15}", "sensor") + text_head(kThresholdFields, &ThresholdField::below);
+  for (int i = 0; i < subject.array.size(); ++i)
+    out += fmt::format("  {:<15}", study.sensors[at(i)].id) + text_row(kThresholdFields, subject, study, i);
+  if (subject.file) out += "  drift since the calibration: " + drift_words(*subject.file, 0.0) + "\n";
+  return out;
+}
+
+std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  std::string out = "\nundetected tilt error (one bias at its worst, noise, calibration, drift; one block)\n";
+  const bool known = study.thresholds.protection_rad < kPi;
+  out += line("  protection level of this array",
+              known ? fmt::format("{:.4f} deg", deg_from_rad(study.thresholds.protection_rad)) : "not available");
+  if (!study.levels.empty()) {
+    out += fmt::format("  {:>22}", "noise of a sample, mg0");
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.2f}", level.sigma_mg0);
+    out += fmt::format("\n  {:>22}", "one sample, deg");
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.4f}", level.one_sample_deg);
+    out += fmt::format("\n  {:>22}", fmt::format("block of {:.0f}, deg", subject.settings.samples));
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.4f}", level.block_deg);
+    out += "\n";
+  }
+  if (study.map.empty()) return out;
+  const MapSummary& s = study.one_attitude;
+  out += "\nby the length of gravity at one attitude (T8; more attitudes remove the rest)\n";
+  out += line("  attitudes that leave a sensor unchecked",
+              fmt::format("{:.0f} % of the sphere", 100.0 * s.not_guaranteed_share));
+  out += line("  any fault is isolated above",
+              fmt::format("{:.3f} g0 at the best attitude (inclination {:.0f}, toolface {:.0f} deg), {:.3f} g0 at the "
+                          "worst",
+                          g0_from_mps2(s.least_clear_mps2), s.best_inclination_deg, s.best_toolface_deg,
+                          g0_from_mps2(s.largest_clear_mps2)));
+  return out;
+}
+
+std::string bias_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  std::string out = "\na bias common to all sensors\n";
+  const auto effect = [](const CommonBias& b) {
+    return fmt::format("{:.4f} of it seen by parity, {:.4f} of it in the vector", b.visibility, norm(b.vector_error));
+  };
+  out += line("  as mounted", effect(study.common));
+  if (study.polarity.reverse.empty()) return out + line("  best polarities", "as mounted");
+  return out +
+         line("  best polarities", fmt::format("{} reversed: {}", sensor_names(study.polarity.reverse, subject.array),
+                                               effect(study.polarity.effect)));
+}
+
+std::string wiring_text(const SensorArray& array, const GeometryStudy& study) {
+  std::string out = "\nwiring and mounting\n";
+  if (study.hidden.empty()) out += "  every reversed sensor, exchange of two and permutation of three is detected\n";
+  std::size_t listed = 0;
+  for (const HiddenWiring& h : study.hidden) {
+    if (listed++ == kMostListed) {
+      out += fmt::format("  ... and {} more (--json lists all)\n", study.hidden.size() - kMostListed);
+      break;
+    }
+    const double off_deg = deg_from_rad(h.effect.inclination_rad);
+    out += fmt::format("  not detected at any attitude: {}; {}, inclination {}\n", wiring_words(h, array),
+                       h.effect.turn_rad >= kPi
+                           ? "the vector is mirrored"
+                           : fmt::format("the vector turns by up to {:.0f} deg", deg_from_rad(h.effect.turn_rad)),
+                       off_deg < 0.05 ? "stays right" : fmt::format("off by up to {:.1f} deg", off_deg));
+  }
+  double nearest = 0.0;
+  std::string id;
+  for (const SensorStudy& s : study.sensors) {
+    if (s.nearest_remount_rad > 0.0 && (nearest <= 0.0 || s.nearest_remount_rad < nearest)) {
+      nearest = s.nearest_remount_rad;
+      id = s.id;
+    }
+  }
+  if (nearest > 0.0) {
+    out += fmt::format(
+        "  mounted on a mirror axis a sensor passes in that group of three at every attitude; nearest: {}, {:.1f} deg "
+        "away\n",
+        id, deg_from_rad(nearest));
+  }
+  return out;
+}
+
+std::string finding_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  std::string out;
+  for (const Finding& f : study.warnings)
+    out += fmt::format("\nwarning: {}: {}\n", to_string(f.code), geometry_words(f, subject, study));
+  out += "\nknown limits\n";
+  for (const Finding& f : study.limits)
+    out += fmt::format("  {:<26} {}\n", to_string(f.code), geometry_words(f, subject, study));
+  return out;
+}
+
+std::string triple_text(const SensorArray& array) {
+  std::string out = fmt::format("\n  {:>9} {:>11}  {:<14}  {}\n", "det", "condition", "", "triple");
+  for (int k = 0; k < array.triple_count(); ++k) {
+    const Triple& t = array.triple(k);
+    out += fmt::format("  {:>9.5f} {:>11.4g}  {:<14}  {}\n", t.det, t.condition, t.votes ? "" : "near singular",
+                       sensor_names(t.set(), array));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string geometry_text(const GeometrySubject& subject, const GeometryStudy& study) {
+  return reading_text(subject, study) + merit_text(subject, study) + worst_text(study) +
+         threshold_text(subject, study) + attitude_text(subject, study) + bias_text(subject, study) +
+         wiring_text(subject.array, study) + finding_text(subject, study) + triple_text(subject.array);
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/detection/isolation.hpp"
+#include "plumb/render/geometry_report.hpp"
+#include "plumb/render/words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+namespace {
+
+using Code = findings::FindingCode;
+
+/// "a1, a2, a3 carry a2, a3, a1"
+std::string turn_words(const std::array<int, 3>& turn, const SensorArray& array) {
+  std::array<int, 3> sorted = turn;
+  std::sort(sorted.begin(), sorted.end());
+  std::string whose, carried;
+  for (const int i : sorted) {
+    const auto place = static_cast<std::size_t>(std::find(turn.begin(), turn.end(), i) - turn.begin());
+    whose += (whose.empty() ? "" : ", ") + std::string(array.row(i).id.data());
+    carried += (carried.empty() ? "" : ", ") + std::string(array.row(turn[(place + 1) % 3]).id.data());
+  }
+  return whose + " carry " + carried;
+}
+
+}  // namespace
+
+std::string wiring_words(const findings::HiddenWiring& wiring, const SensorArray& array) {
+  using Kind = findings::HiddenWiring::Kind;
+  if (wiring.kind == Kind::turned) return turn_words(wiring.sensor, array);
+  const std::string first = array.row(wiring.sensor[0]).id.data();
+  if (wiring.kind == Kind::reversed) return first + " reversed";
+  const std::string both = first + " and " + array.row(wiring.sensor[1]).id.data() + " exchanged";
+  return wiring.kind == Kind::exchanged ? both : both + " and reversed";
+}
+
+std::string geometry_words(const findings::Finding& f, const findings::GeometrySubject& subject,
+                           const findings::GeometryStudy& study) {
+  const SensorArray& array = subject.array;
+  switch (f.code) {
+    case Code::near_singular_triples:
+      return fmt::format(
+          "{} of {} groups of three lie nearly in one plane (|det| below {}): they raise no alarm and do not "
+          "isolate. Turn or move one axis of each group out of the plane",
+          f.value, array.triple_count(), f.limit);
+    case Code::weak_isolation:
+      return fmt::format(
+          "in the worst case a fault must exceed {:.0f} errors of a reading before it can be isolated (more than "
+          "{:.0f}). Spread the axes more evenly",
+          f.value, f.limit);
+    case Code::no_isolation: return "one faulty sensor cannot be isolated";
+    case Code::critical_sensors:
+      return fmt::format("without {} the vector is undetermined",
+                         sensor_names(critical_sensors(array, array.all()), array));
+    case Code::gravity_needed:
+      return "the parity test detects but cannot isolate a fault: isolation needs the length of gravity and several "
+             "attitudes";
+    case Code::correlated_faults:
+      return "an error of one sensor that matches a mirror image leaves two hypotheses at that attitude";
+    case Code::common_bias_unobservable:
+      return fmt::format("a bias common to all sensors is invisible in parity and moves the vector by {:.2f} of it",
+                         f.value);
+    case Code::unobservable_permutations:
+      return fmt::format("{} wiring errors are not detectable at any attitude; check one known attitude by hand",
+                         study.hidden.size());
+    case Code::many_sensors:
+      return fmt::format("above {} sensors the monitor has no confirmed grade, and no provisional grade above {}",
+                         kStrictCapacity, kScanDepth);
+    case Code::common_rotation:
+      return "gravity shows neither the mounting of the axes in the housing nor a wrong sign convention (`reads`)";
+    case Code::common_scale: return "a common scale error is detectable only against the value of gravity";
+    default: return findings::to_string(f.code);
+  }
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

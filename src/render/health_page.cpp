@@ -1,0 +1,234 @@
+#include "plumb/render/health_page.hpp"
+#include "plumb/io/json_fields.hpp"
+
+#include <fmt/format.h>
+
+#include "html_view.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/render/figures.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+namespace {
+
+std::string tone_of_colour(const std::string& colour) {
+  return colour == "green" || colour == "yes" ? "good" : (colour == "red" || colour == "no" ? "bad" : "open");
+}
+
+std::string fixed(const Json& value, double factor, int decimals) {
+  return value.is_number() ? fmt::format("{:.{}f}", factor * value.get<double>(), decimals) : "-";
+}
+/// Three decimals, however large.
+std::string seconds(const Json& value) { return fixed(value, 1.0, 3); }
+std::string degrees(const Json& value) { return fixed(value, 1.0, 3); }
+std::string with_sigma(const Json& value, const Json& sigma) {
+  return value.is_number() ? degrees(value) + " ± " + shown(sigma) : "-";
+}
+std::string why(const Json& station) {
+  const std::string out = joined_list(station["reasons"], "text");
+  return out == "-" ? "" : out;
+}
+
+Section answer_view(const Json& report) {
+  const Json& a = report["answer"];
+  Section out("verdict", "1 Answer", "Whether this tool may be used for a survey, and what to do.");
+  out.notice(a["sentence"], tone_of_colour(a["usable_for_survey"]));
+  std::vector<std::string> actions;
+  for (const Json& action : a["actions"]) actions.push_back(action);
+  out.list("What to do", actions);
+  out.figures({{"Usable for survey", a["usable_for_survey"], "the tool as it is at the end of the run"},
+               {"Green stations", a["green"].dump(), "use them"},
+               {"Orange stations", a["orange"].dump(), "for orientation only"},
+               {"Red stations", a["red"].dump(), "do not use them"}});
+  out.table("The monitor at the end", {"question", "answer"},
+            {{"state", a["state"].get<std::string>() + ": " + a["state_means"].get<std::string>()},
+             {"output", a["output"]},
+             {"sensors in service", joined_list(a["in_service"])},
+             {"excluded", joined_list(a["excluded"])},
+             {"provisionally excluded", joined_list(a["provisionally_excluded"])},
+             {"absent", joined_list(a["absent"])}});
+  return out;
+}
+
+ViewRows station_rows(const Json& report) {
+  ViewRows rows;
+  for (const Json& s : report["stations"]) {
+    const std::string colour = s["colour"];
+    rows.push_back({s["number"], seconds(s["begin_s"]), s["depth_m"], ViewCell(colour, tone_of_colour(colour)),
+                    fixed(s["length_mps2"], kMg0, 3), shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
+                    with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
+                    with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), s["protection_level_deg"],
+                    joined_list(s["used"]), why(s)});
+  }
+  return rows;
+}
+
+Section stations_view(const Json& report, const PagePictures& pictures) {
+  Section out("stations", "2 Stations", "Every stretch at rest, with its survey values and their bounds.");
+  if (report["stations"].empty()) {
+    out.notice("The run has no complete block at rest.", "bad");
+    return out;
+  }
+  out.picture("From station to station", picture_of(pictures, "run.svg"),
+              "Length of gravity less its reference, with its limit, inclination, and the largest statistic of the "
+              "tests over its limit, by station and colour",
+              "Limit of |G|: three standard deviations of reference, noise and calibration together. Statistic: of "
+              "parity, norm or MAE, whichever came nearest to its own limit in the station; above 1 is an alarm.");
+  out.table(
+      "Stations",
+      {"station", "t, s", "depth, m", "verdict", "|G|, mg0", "off by, mg0", "limit, mg0", "inclination, deg",
+       "toolface, deg", "bound, deg", "sensors used", "why"},
+      station_rows(report),
+      "± is one standard deviation of noise and calibration; a fault may do more. Bound: the largest error of the "
+      "direction under any single undetected fault; - where there is no bound. Figures are those of the last block of "
+      "the station; a toolface needs an inclination of 3 deg.");
+  return out;
+}
+
+Section roll_view(const Json& report, const PagePictures& pictures) {
+  Section out("roll", "3 Roll test", "Length and inclination against the toolface.");
+  bool any = false;
+  for (const Json& s : report["stations"]) any = any || s["toolface_deg"].is_number();
+  if (!any) {
+    out.notice("No station has a toolface: the tool was within 3 deg of vertical, or had no direction.", "open");
+    return out;
+  }
+  out.picture(
+      "Roll test", picture_of(pictures, "roll.svg"),
+      "Length of gravity less its reference, and inclination, against the toolface",
+      "A healthy tool shows no pattern in the upper panel. A wave with one crest in a turn is a bias across the "
+      "tool, one with two crests a scale or an alignment. The lower panel is meaningful only if the tool was rolled "
+      "at one inclination.");
+  return out;
+}
+
+Section events_view(const Json& report) {
+  Section out("events", "4 Events", "Every change that the monitor reported, and why.");
+  ViewRows rows;
+  for (const Json& e : report["events"])
+    rows.push_back({e["sequence"], seconds(e["t_s"]), e["from"], e["to"], e["cause"], joined_list(e["sensors"]),
+                    e["statistic"], e["limit"], e["why"]});
+  if (rows.empty()) {
+    out.text("No change.");
+  } else {
+    out.table("Events", {"no.", "t, s", "from", "to", "cause", "sensors", "statistic", "limit", "in words"}, rows,
+              "Statistic and limit share a unit: standard deviations for parity and norm, m/s^2 for mae.");
+  }
+  return out;
+}
+
+Section extremes_view(const Json& report) {
+  const Json& e = report["extremes"];
+  Section out("extremes", "5 Extremes", "Extreme values of the run.");
+  const double hours = (e["last_s"].get<double>() - e["first_s"].get<double>()) / 3600.0;
+  out.table(
+      "Of the run", {"figure", "value", "at t, s"},
+      {{"duration, h", shown(hours), "-"},
+       {"samples", e["samples"], "-"},
+       {"samples refused", e["samples_refused"], "-"},
+       {"blocks at rest", e["blocks"], "-"},
+       {"lowest temperature, degC", shown(e["temperature_min_degc"]), "-"},
+       {"highest temperature, degC", shown(e["temperature_max_degc"]), "-"},
+       {"fastest change of temperature, degC/min", shown(e["temperature_rate_degc_per_min"]), "-"},
+       {"largest error of |G|, mg0", shown(e["off_mps2"], kMg0), seconds(e["off_at_s"])},
+       {"largest statistic over its limit", shown(e["statistic_over_limit"]), seconds(e["statistic_over_limit_at_s"])},
+       {"largest MAE of a group of three, mg0", shown(e["worst_mae_mps2"], kMg0), "-"},
+       {"largest bound on the direction, deg", shown(e["protection_level_deg"]), "-"}});
+  ViewRows rows;
+  for (const Json& s : e["sensors"])
+    rows.push_back({s["id"], s["blocks_clipped"], s["blocks_scattering"], s["blocks_not_finite"],
+                    shown(s.value("cells_empty", Json())), shown(s.value("cells_not_finite", Json()))});
+  out.table("By sensor",
+            {"sensor", "blocks clipped", "blocks scattering", "blocks not finite", "cells empty", "cells not finite"},
+            rows, "Blocks at rest are counted. Scattering: one sensor scattered more than its noise.");
+  return out;
+}
+
+std::string told(const Json& text) { return text.get<std::string>().empty() ? "unknown" : text.get<std::string>(); }
+
+Section basis_view(const Json& report) {
+  const Json& basis = report["basis"];
+  const Json& g = basis["gravity"];
+  const Json& c = basis["calibration"];
+  Section out("basis", "6 Basis", "The length of gravity, and the calibration.");
+  out.table("Gravity", {"figure", "value"},
+            {{"model", g["model"]},
+             {"length, m/s^2", fixed(g["g_mps2"], 1.0, 6)},
+             {"standard deviation, mg0", shown(g["sigma_mps2"], kMg0)}},
+            "From [gravity] of the array file.");
+  out.text("Drift since the calibration: " + basis["drift"]["text"].get<std::string>() +
+           ". What a reading drifts by beyond that is in no limit and in no bound on the direction.");
+  if (c.is_null()) {
+    out.text("There was no calibration file: the run began by calibrating itself.");
+    return out;
+  }
+  out.table("Calibration, as it was read", {"figure", "value"},
+            {{"log", c["log"]},
+             {"date of the log", told(c["date"])},
+             {"serial number of the tool", told(c["serial"])},
+             {"made by", "plumb " + c["made_by"].get<std::string>()},
+             {"stations", c["stations"]},
+             {"length of gravity then, m/s^2", fixed(c["g_mps2"], 1.0, 6)},
+             {"lowest temperature, degC", c["temperature_min_degc"]},
+             {"highest temperature, degC", c["temperature_max_degc"]},
+             {"rms of |G| less gravity, mg0", shown(c["norm_rms_mps2"], kMg0)},
+             {"rms of parity, mg0", shown(c["parity_rms_mps2"], kMg0)},
+             {"chance of such residuals or worse", c["p_value"]}},
+            "Date and serial number are those given to plumb calibrate. The hash of the file is in the next section.");
+  ViewRows rows;
+  for (const Json& s : c["sensors"])
+    rows.push_back({s["id"], shown(s["bias_mps2"][0], kMg0), s["scale_raw_per_mps2"][0], fixed(s["axis"][0], 1.0, 5),
+                    fixed(s["axis"][1], 1.0, 5), fixed(s["axis"][2], 1.0, 5), shown(s["sigma_mps2"], kMg0),
+                    shown(s["e_cal_mps2"], kMg0), shown(s["residual_rms_mps2"], kMg0)});
+  out.table("Coefficients by sensor",
+            {"sensor", "bias, mg0", "scale, raw per m/s^2", "x", "y", "z", "noise of a sample, mg0",
+             "left by the calibration, mg0", "rms residual, mg0"},
+            rows, "At the reference temperature; every coefficient with all its digits stands in the data file.");
+  return out;
+}
+
+std::string hash_of(const Json& input) {
+  return input.contains("sha256") ? "sha256 " + input["sha256"].get<std::string>()
+                                  : "fnv1a " + input["fnv1a"].get<std::string>();
+}
+
+Section identity_of(const Json& report) {
+  const Json& id = report["identity"];
+  const Json& build = id["build"];
+  Section out("identity", "7 Identity", "Inputs, versions and the command to repeat the run.");
+  ViewRows rows = {{"tool", "plumb " + build["version"].get<std::string>()},
+                   {"commit", build["commit"]},
+                   {"compiler", build["compiler"]},
+                   {"configuration of the monitor", id["config_hash"]},
+                   {"rows of the log", id["log"]["rows"]},
+                   {"bad rows", id["log"]["rows_bad"]},
+                   {"the log ended", id["log"]["ended"]}};
+  out.table("Identity", {"what", "value"}, rows);
+  ViewRows inputs;
+  for (const Json& i : id["inputs"]) inputs.push_back({i["role"], i["name"], i["bytes"], hash_of(i)});
+  out.table("Inputs", {"role", "file", "bytes", "hash"}, inputs);
+  std::vector<std::string> lines;
+  lines.push_back(id["command"]);
+  out.commands(lines);
+  return out;
+}
+
+}  // namespace
+
+std::string health_html(const Json& report, const PagePictures& pictures, const std::string& data) {
+  const Json& run = report["run"];
+  const Json& id = report["identity"];
+  return sections_html(
+      {"Tool health: " + id["name"].get<std::string>(),
+       fmt::format("{} sensors, watched by plumb {}. Every figure stands in {} beside this page.",
+                   report["extremes"]["sensors"].size(), id["build"]["version"].get<std::string>(), data),
+       "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
+       fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
+      {answer_view(report), stations_view(report, pictures), roll_view(report, pictures), events_view(report),
+       extremes_view(report), basis_view(report), identity_of(report)});
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,96 @@
+#include "plumb/render/monitor_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "plumb/core/units.hpp"
+#include "plumb/health/stability.hpp"
+#include "plumb/io/json_fields.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+namespace {
+
+using findings::MonitorLimits;
+using findings::TestLimit;
+
+std::string mg(double mps2) {
+  const double g0 = g0_from_mps2(mps2);
+  return g0 < 1.0 ? fmt::format("{:.3g} mg", 1e3 * g0) : fmt::format("{:.2f} g0", g0);
+}
+
+std::string row(const char* name, const TestLimit& t, bool with_bias) {
+  return fmt::format("{:<28}{:>12}{:>12}{:>12}{:>14}\n", name, mg(t.noise_mps2), mg(t.systematic_mps2),
+                     mg(t.noise_mps2 + t.systematic_mps2), with_bias ? mg(t.bias_mps2) : std::string("-"));
+}
+
+/// Which stability the limits hold.
+std::string drift_line(const MonitorLimits& l) {
+  if (l.untold == l.sensors)
+    return "No stability is stated: these limits allow for no drift since the calibration. State it in the array file "
+           "(stability).\n";
+  return fmt::format(
+      "drift since the calibration allowed for: {} in a reading, {:.0f} sigmas of the stability{}\n",
+      mg(l.tolerance_mps2), kStabilitySigmas,
+      l.untold > 0 ? fmt::format("; none for {} of the sensors, which state none", l.untold) : std::string());
+}
+
+nlohmann::ordered_json json_of(const TestLimit& t) {
+  return io::object({{"noise_mps2", t.noise_mps2}, {"systematic_mps2", t.systematic_mps2}, {"bias_mps2", t.bias_mps2}});
+}
+
+}  // namespace
+
+std::string limits_text(const MonitorLimits& l) {
+  std::string out = fmt::format("{} sensors, blocks of {} samples; medians over {} attitudes\n\n", l.sensors, l.window,
+                                findings::kSearchedAttitudes);
+  out += fmt::format("{:<28}{:>12}{:>12}{:>12}{:>14}\n", "test", "noise", "systematic", "limit", "bias at limit");
+  if (l.sensors > 3) out += row("parity", l.parity, true);
+  out += row("length of the vector", l.length, true);
+  out += row(l.delta_f_mps2 > 0.0 ? "triples (given delta_f)" : "triple, the widest", l.triple, false);
+  out += fmt::format("\nnoise of a sample {}, left by calibration {}\n", mg(l.noise_mps2), mg(l.left_mps2));
+  out += drift_line(l);
+  if (l.useful_samples > 0.0) {
+    const auto enough = static_cast<long>(std::ceil(l.useful_samples * (1.0 - 1e-9)));
+    out += fmt::format(
+        "What calibration leaves does not average out: blocks beyond {} samples bring no gain at one attitude{}.\n",
+        enough, l.window > enough ? fmt::format(", and these have {}", l.window) : std::string());
+  }
+  if (l.delta_f_mps2 > 0.0) {
+    out += fmt::format(
+        "with delta_f = {} the triples miss a bias of {} in some sensor at half of the attitudes, of {} at the worst;\n"
+        "such a bias turns the answer by up to {:.2f} deg. {}\n",
+        mg(l.delta_f_mps2), mg(l.blind_median_mps2), mg(l.blind_worst_mps2), deg_from_rad(l.blind_tilt_rad),
+        l.sensors > 3 ? fmt::format("Parity and length keep their own limits, and parity still detects {}.",
+                                    mg(l.parity.bias_mps2))
+                      : std::string("With three sensors only the norm test is left, and a mirror fault passes it."));
+  }
+  return out;
+}
+
+std::string limits_json(const MonitorLimits& l) {
+  nlohmann::ordered_json out;
+  out["sensors"] = l.sensors;
+  out["window"] = l.window;
+  if (l.sensors > 3) out["parity"] = json_of(l.parity);
+  out["length"] = json_of(l.length);
+  out["triple"] = io::object({{"noise_mps2", l.triple.noise_mps2}, {"systematic_mps2", l.triple.systematic_mps2}});
+  out["noise_mps2"] = l.noise_mps2;
+  out["left_by_calibration_mps2"] = l.left_mps2;
+  out["drift_tolerance_mps2"] = l.tolerance_mps2;
+  out["without_stability"] = l.untold;
+  out["useful_samples"] = l.useful_samples > 0.0 ? nlohmann::ordered_json(l.useful_samples) : nullptr;
+  if (l.delta_f_mps2 > 0.0) {
+    out["delta_f_mps2"] = l.delta_f_mps2;
+    out["blind_median_mps2"] = l.blind_median_mps2;
+    out["blind_worst_mps2"] = l.blind_worst_mps2;
+    out["blind_tilt_deg"] = deg_from_rad(l.blind_tilt_rad);
+  }
+  return io::object({{"limits", std::move(out)}}).dump() + "\n";
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

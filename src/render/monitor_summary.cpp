@@ -1,0 +1,90 @@
+#include "plumb/render/monitor_summary.hpp"
+
+#include <fmt/format.h>
+
+#include "plumb/core/units.hpp"
+#include "plumb/io/records.hpp"
+#include "plumb/navigation/tilt.hpp"
+#include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/run_findings.hpp"
+#include "plumb/render/timeline.hpp"
+#include "plumb/render/words.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+namespace {
+
+/// What a recalibration is at, or why the last one was refused; empty where there was none.
+std::string recalibration_text(const Verdict& v, const SensorArray& sensors, const Mat3& frame) {
+  const RecalibrationProgress& p = v.recalibration;
+  if (v.state != HealthState::recalibrating) {
+    return p.last_refusal.code == Errc::ok ? ""
+                                           : fmt::format("recalibrate refused: {}\n", describe(p.last_refusal.code));
+  }
+  std::string out = fmt::format("recalibrate {}: {} stations, {} held out", to_string(p.phase), p.stations, p.held_out);
+  if (p.stations_wanted > 0) {
+    const Tilt tilt = tilt_of(io::in_frame(frame, p.wanted_direction), Mat3{});
+    out += fmt::format(", {} more wanted, best at inclination {:.0f} deg", p.stations_wanted,
+                       deg_from_rad(tilt.inclination_rad));
+    if (tilt.toolface_valid) out += fmt::format(", toolface {:.0f} deg", deg_from_rad(tilt.toolface_rad));
+  }
+  if (!p.lacking.empty()) out += fmt::format("; too little change along {}", sensor_names(p.lacking, sensors));
+  if (p.last_refusal.code != Errc::ok)
+    out += fmt::format("; the last fit was refused: {}", describe(p.last_refusal.code));
+  return out + "\n";
+}
+
+/// What of drift the run allowed for; the paper's method allows for none.
+std::string drift_of(const io::ArrayFile& array, double days) {
+  if (array.monitor.mode == MonitorMode::paper) return "none allowed for: the paper's algorithm takes none";
+  return drift_words(array, days);
+}
+
+}  // namespace
+
+std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
+                         double days) {
+  const Mat3& frame = array.output_frame;
+  const Verdict& v = run.last;
+  std::string out = fmt::format("\nstate       {}: {}\n", to_string(v.state), meaning(v.state));
+  out += fmt::format("log         {} samples, {} quiet blocks, {} changes, {} bad rows skipped\n", run.samples,
+                     run.blocks, run.transitions, run.log.rows_bad);
+  const bool failed = v.state == HealthState::failed;
+  out += fmt::format("in service  {}\n", failed ? "none" : sensor_names(v.in_service, sensors));
+  out += fmt::format("excluded    {}\n", sensor_names(v.excluded, sensors));
+  if (!v.provisionally_excluded.empty())
+    out += fmt::format("provisional {}\n", sensor_names(v.provisionally_excluded, sensors));
+  if (!v.absent.empty()) out += fmt::format("absent      {}\n", sensor_names(v.absent, sensors));
+  out += recalibration_text(v, sensors, frame);
+  double inclination_deg = 0.0;
+  const bool known = inclination_of(v.gravity_mps2, frame, inclination_deg);
+  out += fmt::format("inclination {}, {} ({})\n", known ? fmt::format("{:.3f} deg", inclination_deg) : "not known",
+                     to_string(v.validity), meaning(v.validity));
+  out += "protection  ";
+  out += v.protection_available
+             ? fmt::format("the direction is within {:.3f} deg of the truth\n", deg_from_rad(v.protection_level_rad))
+             : std::string("no bound on the error can be given\n");
+  return out + findings_text(v) + "drift       " + drift_of(array, days) + "\n";
+}
+
+std::string summary_json(const session::MonitorRun& run, const SensorArray& sensors, const Mat3& frame, double days,
+                         const io::Json& roll_test) {
+  nlohmann::ordered_json s;
+  s["state"] = to_string(run.last.state);
+  s["output"] = to_string(run.last.validity);
+  s["samples"] = run.samples;
+  s["blocks"] = run.blocks;
+  s["changes"] = run.transitions;
+  s["rows_bad"] = run.log.rows_bad;
+  s["last_time_s"] = run.last_time_s;
+  s["interrupted"] = run.interrupted;
+  s["days_since_calibration"] = days;
+  if (!roll_test.is_null()) s["roll_test"] = roll_test;
+  s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, frame));
+  return io::object({{"summary", std::move(s)}}).dump() + "\n";
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,51 @@
+#include "plumb/render/run_findings.hpp"
+
+#include <fmt/format.h>
+
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+
+namespace {
+
+/// Samples that are worth one independent one before it is told.
+constexpr double kToldCorrelation = 1.5;
+
+double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+}  // namespace
+
+std::string findings_text(const Verdict& last) {
+  std::string out;
+  const NormMismatch& gravity = last.norm_mismatch;
+  if (gravity.configure_mps2 > 0.0) {
+    out +=
+        fmt::format("gravity     off by {:+.2f} mg0, within {:.2f} mg0: configure [gravity] value = \"{:.5f} m/s^2\"\n",
+                    mg0(gravity.length_mps2), mg0(gravity.length_bound_mps2), gravity.configure_mps2);
+  }
+  if (last.noise_factor > 1.0) {
+    out += fmt::format("noise       {:.1f} times what is stated: write {:.1f} times the noise into the array file\n",
+                       last.noise_factor, last.noise_factor);
+  }
+  if (last.noise_correlation > kToldCorrelation) {
+    out += fmt::format(
+        "noise       correlated: {:.0f} samples carry the information of one; state the output filter's rate\n",
+        last.noise_correlation);
+  }
+  const CalibrationFinding& calibration = last.calibration;
+  if (calibration.contradicted) {
+    out += fmt::format(
+        "calibration contradicted at {} attitudes: residuals are {:.1f} times what its covariance allows; {}. "
+        "Remedy: calibrate again\n",
+        calibration.attitudes, calibration.ratio,
+        calibration.refused ? std::string("no output is valid")
+                            : fmt::format("every limit is wider by {:.2f} mg0", mg0(calibration.tolerance_mps2)));
+  }
+  return out;
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,276 @@
+#include "plumb/session/monitor_pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "plumb/io/records.hpp"
+#include "plumb/session/interrupt.hpp"
+#include "plumb/session/progress.hpp"
+#include "row_pump.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+namespace {
+
+io::FileExpected<void> put_line(io::OutputFile& file, std::string& line, bool live) {
+  line += '\n';
+  io::FileExpected<void> done = file.write(line);
+  if (done && live) done = file.flush();
+  return done;
+}
+
+/// Relative; beyond the rounding of scales and lengths, far below what a person would write.
+constexpr double kSameNoise = 1e-6;
+
+/// Noise of one sample of sensor i by the array file; that of the calibration where both say the same.
+double noise_mps2(const io::ArrayFile& array, const Calibration& calibration, int i) {
+  const DatasheetSensor& sheet = array.datasheet.sensor[static_cast<std::size_t>(i)];
+  const double scale = calibration.model.sensor[static_cast<std::size_t>(i)].scale[0];
+  const double then = calibration.array.sigma_mps2(i);
+  const double now = sheet.row.sigma_mps2 * std::fabs(sheet.coefficients.scale[0] / scale);
+  return !std::isfinite(now) || std::fabs(now - then) <= kSameNoise * then ? then : now;
+}
+
+std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array) {
+  auto setup = std::make_unique<MonitorSetup>();
+  setup->gravity = array.gravity;
+  setup->config = array.monitor;
+  // The frame stays the tool's here: it is applied where results are written (io/records.hpp), once.
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    setup->full_scale_raw[a] = array.datasheet.sensor[a].full_scale_raw;
+    setup->resolution_raw[a] = array.datasheet.sensor[a].resolution_raw;
+    setup->stability[a] = array.stability[a];
+    if (!array.lever_arm_m.empty()) setup->lever_arm_m[a] = array.lever_arm_m[a];
+  }
+  setup->lever_arms_known = !array.lever_arm_m.empty();
+  return setup;
+}
+
+std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibration& calibration, double days) {
+  auto setup = setup_of(array);
+  setup->days_since_calibration = days;
+  setup->model = calibration.model;
+  setup->array = calibrated_array(array, calibration);
+  // The calibrated span, where the array file does not claim another.
+  const MonitorConfig unset;
+  MonitorConfig& config = setup->config;
+  if (config.temperature_min_degc == unset.temperature_min_degc)
+    config.temperature_min_degc = calibration.report.temperature_min_degc;
+  if (config.temperature_max_degc == unset.temperature_max_degc)
+    config.temperature_max_degc = calibration.report.temperature_max_degc;
+  return setup;
+}
+
+/// null: the monitor is to calibrate itself.
+Expected<std::unique_ptr<MonitorSetup>> setup_of(const io::ArrayFile& array, const Calibration* calibration,
+                                                 double days) {
+  if (calibration != nullptr) return setup_of(array, *calibration, days);
+  auto setup = setup_of(array);
+  const Expected<void> known = set_datasheet(array.datasheet, *setup);
+  if (!known) return tl::unexpected<Error>(known.error());
+  return setup;
+}
+
+tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::ArrayFile& array) {
+  io::FileError error = io::from_error(reason);
+  error.file = array.path;
+  if (reason.code == Errc::range_too_small && reason.index >= 0)
+    error.field = "sensor[" + std::to_string(reason.index + 1) + "].full_scale";
+  if (reason.code == Errc::out_of_range && reason.index < 0) {
+    error.field = "days_since_calibration";
+    error.remedy = "give the days from the calibration to the run, 0 or more";
+  }
+  if (reason.code == Errc::implausible && reason.index >= 0) {
+    error.field = "sensor[" + std::to_string(reason.index + 1) + "].prior";
+    error.what =
+        "is too wide for the monitor to calibrate itself: at most 0.1 m/s^2 per m/s^2 of scale, 0.1 rad of axis and "
+        "0.1 g0 of bias";
+    error.remedy = "calibrate with plumb calibrate, or give the tolerances of the datasheet, 1 sigma";
+  }
+  return tl::unexpected<io::FileError>(error);
+}
+
+/// Every sink every row whose verdict somebody wanted: it chooses itself.
+io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& said,
+                            const std::vector<VerdictSink*>& sinks) {
+  stepping_detail::Unpacker unpacker(said.bytes.data());
+  Sample sample;
+  Verdict verdict;
+  for (const std::size_t k : said.row) {
+    stepping_detail::take_row(rows, k, sample);
+    unpacker(verdict);
+    for (VerdictSink* sink : sinks) {
+      if (!rows.depth_m.empty()) sink->at_depth(rows.depth_m[k]);
+      const io::FileExpected<void> taken = sink->take(sample, verdict);
+      if (!taken) return taken;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+SensorSet noise_changed(const io::ArrayFile& array, const Calibration& calibration) {
+  SensorSet out;
+  for (int i = 0; i < calibration.array.size(); ++i) {
+    if (noise_mps2(array, calibration, i) != calibration.array.sigma_mps2(i)) out = out.with(i);
+  }
+  return out;
+}
+
+SensorArray calibrated_array(const io::ArrayFile& array, const Calibration& calibration) {
+  SensorArray out = calibration.array;
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < out.size(); ++i) {
+    rows[static_cast<std::size_t>(i)] = out.row(i);
+    rows[static_cast<std::size_t>(i)].sigma_mps2 = noise_mps2(array, calibration, i);
+  }
+  if (!noise_changed(array, calibration).empty()) (void)out.set_rows(rows.data());  // the same axes and ids as before
+  return out;
+}
+
+SensorArray array_to_certify(const io::ArrayFile& array, const Calibration& calibration) {
+  SensorArray out = calibrated_array(array, calibration);
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < out.size(); ++i) {
+    rows[static_cast<std::size_t>(i)] = out.row(i);
+    rows[static_cast<std::size_t>(i)].sigma_mps2 = std::fmax(out.sigma_mps2(i), calibration.array.sigma_mps2(i));
+  }
+  if (!noise_changed(array, calibration).empty()) (void)out.set_rows(rows.data());  // the same axes and ids as before
+  return out;
+}
+
+io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
+  if (verdict.transition.sequence == 0) return {};
+  line_.clear();
+  io::append_event_json(line_, verdict.transition, array_);
+  return put_line(file_, line_, live_);
+}
+
+io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
+  if (!verdict.tick && !every_sample_) return {};
+  line_.clear();
+  io::append_verdict_json(line_, verdict, array_, frame_);
+  return put_line(file_, line_, live_);
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
+                                                              const Calibration* calibration, double days) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
+  if (!setup) return refused_setup(setup.error(), array);
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> configured = monitor->configure(**setup);
+  if (configured) return monitor;
+  return refused_setup(configured.error(), array);
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration* calibration,
+                                                                 const std::string& snapshot_path, double days) {
+  const io::FileExpected<std::string> bytes = io::read_file(snapshot_path);
+  if (!bytes) return tl::unexpected<io::FileError>(bytes.error());
+  auto monitor = restore_monitor(array, calibration, *bytes, snapshot_path, days);
+  if (!monitor && monitor.error().file == snapshot_path) monitor.error().remedy += " (leave out --snapshot-in)";
+  return monitor;
+}
+
+io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::ArrayFile& array,
+                                                                 const Calibration* calibration,
+                                                                 const std::string& bytes, const std::string& name,
+                                                                 double days) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
+  if (!setup) return refused_setup(setup.error(), array);
+  auto monitor = std::make_unique<HealthMonitor>();
+  const Expected<void> restored =
+      monitor->restore(**setup, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  if (restored && bytes.size() > monitor->snapshot_size()) {
+    return tl::unexpected<io::FileError>(io::FileError{
+        name, 0, "",
+        "holds " + std::to_string(bytes.size() - monitor->snapshot_size()) + " bytes behind the end of the snapshot",
+        "give the file as --snapshot-out wrote it"});
+  }
+  if (restored) return monitor;
+  if (monitor->verdict().snapshot_refusal == Errc::ok) return refused_setup(restored.error(), array);
+  io::FileError error = io::from_error(restored.error());
+  error.file = name;
+  return tl::unexpected<io::FileError>(std::move(error));
+}
+
+io::FileExpected<void> save_snapshot(const std::string& path, const HealthMonitor& monitor) {
+  std::string bytes(monitor.snapshot_size(), '\0');
+  const Expected<std::size_t> written = monitor.snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  if (!written) return tl::unexpected<io::FileError>(io::from_error(written.error()));
+  return io::write_file(path, bytes);
+}
+
+io::FileExpected<std::unique_ptr<PaperMonitor>> make_paper_monitor(const io::ArrayFile& array,
+                                                                   const io::CalibrationFile& calibration,
+                                                                   const std::string& path) {
+  if (!calibration.paper) {
+    return tl::unexpected<io::FileError>(io::FileError{
+        path, 0, "paper", "is missing: " + array.path + " asks for mode = \"paper\", which needs the paper's own fits",
+        "run plumb calibrate again with this array file (--paper is implied), or set mode = \"plumb\""});
+  }
+  auto setup = std::make_unique<PaperSetup>();
+  setup->base = *setup_of(array, calibration.calibration, 0.0);
+  setup->datasheet = array.datasheet;
+  setup->paper = *calibration.paper;
+  auto monitor = std::make_unique<PaperMonitor>();
+  const Expected<void> configured = monitor->configure(*setup);
+  if (configured) return monitor;
+  return refused_setup(configured.error(), array);
+}
+
+std::unique_ptr<stepping::Stepper> make_stepper(const io::ArrayFile& array, const Calibration* calibration,
+                                                int least_capacity, double days) {
+  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
+  if (!setup) return nullptr;
+  const int sensors = (*setup)->array.size();
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < sensors; ++i) rows[static_cast<std::size_t>(i)] = (*setup)->array.row(i);
+  std::vector<std::uint8_t> bytes(2 * sizeof(MonitorSetup));
+  stepping_detail::Packer packer(bytes.data());
+  stepping_detail::lead(packer, std::as_const(**setup), rows, (*setup)->array.uncertainty());
+  return stepping::make_stepper(bytes, sensors, array.monitor.window, least_capacity);
+}
+
+io::FileExpected<MonitorRun> run_stepper(stepping::Stepper& stepper, const io::ArrayFile& array, const LogSpec& log,
+                                         const std::vector<VerdictSink*>& sinks) {
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->stop_when(interrupt_flag());
+  if (log.follow) reader->follow();
+  if (log.hash) reader->hash_bytes();
+  stepping::Wanted wanted = stepping::Wanted::changes;
+  for (const VerdictSink* sink : sinks) wanted = std::max(wanted, sink->wanted());
+  MonitorRun run;
+  stepping::Said said;
+  Progress progress("monitoring " + log.path);
+  RowPump pump(*reader, array, is_live(log));
+  while (const stepping::Rows* rows = pump.next()) {
+    stepper.step(*rows, run.samples == 0, wanted, said);
+    const io::FileExpected<void> told = tell(*rows, said, sinks);
+    if (!told) return tl::unexpected<io::FileError>(told.error());
+    run.samples += rows->row.size();
+    run.blocks += said.blocks;
+    run.transitions += said.changes;
+    run.last_time_s = rows->row.back().time_s;
+    progress.at(run.samples, run.last_time_s);
+  }
+  run.interrupted = interrupted();
+  run.stopped = pump.ended() == io::LogReader::Next::error;
+  if (run.stopped) run.stop = reader->error();
+  said.clear();
+  stepper.now(said.bytes);
+  stepping_detail::Unpacker unpacker(said.bytes.data());
+  unpacker(run.last);
+  run.log = reader->statistics();
+  return run;
+}
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

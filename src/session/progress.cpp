@@ -1,0 +1,38 @@
+#include "plumb/session/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+namespace {
+
+/// Rows between two updates of the progress line: rare enough to cost nothing.
+constexpr std::uint64_t kProgressRows = 16384;
+
+void show(const std::string& text) {
+  std::fflush(stdout);  // what was said before on standard output comes first
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what) : what_(std::move(what)), on_terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  if (shown_) show("\r\033[K");
+}
+
+void Progress::at(std::uint64_t rows, double time_s) {
+  if (!on_terminal_ || rows % kProgressRows != 0) return;
+  shown_ = true;
+  show(fmt::format("\r{}: {} rows, t = {:.1f} s\033[K", what_, rows, time_s));
+}
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

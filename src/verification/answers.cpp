@@ -1,0 +1,88 @@
+// How many, how large, how sure, what not to trust: the questions of someone who is new to an array.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "plumb/core/units.hpp"
+#include "plumb/verification/verdict.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace verification {
+namespace {
+
+double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+/// What not to trust, in one sentence.
+std::string distrust_of(const Facts& facts) {
+  const int grade = facts.array.confirmed_grade;
+  std::string out = grade > 0 ? fmt::format("any output once more than {} of {} sensors {} faulty; ", grade,
+                                            facts.array.sensors.size(), grade == 1 ? "is" : "are")
+                              : std::string("any isolation of a sensor: this array cannot isolate a fault; ");
+  out +=
+      "any output during an alert or with only three sensors in use; several sensors that all show the same wrong "
+      "gravity";
+  if (facts.calibration.predicted())
+    out += "; every figure here, because the tool was not calibrated: they come from a simulated calibration";
+  if (!facts.calibration.accepted)
+    out += "; any figure here: the calibration was refused, and they are of an exact tool";
+  return out;
+}
+
+/// The worst sensor's; nothing where one has none.
+std::optional<double> worst(const ArrayFacts& array, std::optional<double> SensorFacts::*size_mps2) {
+  double out = 0.0;
+  for (const SensorFacts& sensor : array.sensors) {
+    if (!(sensor.*size_mps2)) return std::nullopt;
+    out = std::fmax(out, *(sensor.*size_mps2));
+  }
+  return out;
+}
+
+Answer how_large(const ArrayFacts& array) {
+  const std::optional<double> least = worst(array, &SensorFacts::detectable_mps2);
+  const std::optional<double> sure = worst(array, &SensorFacts::sure_isolation_mps2);
+  if (!least) return {"How large?", "never", "nothing checks every sensor"};
+  return {
+      "How large?", fmt::format("{:.3g} mg0", mg0(*least)),
+      "constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
+          (sure ? fmt::format("; the sensor is isolated with certainty above {:.3g} mg0", mg0(*sure)) : std::string())};
+}
+
+}  // namespace
+
+std::vector<Answer> answers_of(const Facts& facts) {
+  const ArrayFacts& array = facts.array;
+  std::vector<Answer> out;
+  out.push_back(
+      {"How many faults?", fmt::format("{}", array.confirmed_grade),
+       fmt::format(
+           "faulty sensors of {} at once are isolated and excluded, given several attitudes; {} at a single attitude",
+           array.sensors.size(), array.provisional_grade)});
+  out.push_back(how_large(array));
+  const std::optional<double>& level = array.protection_level_deg;
+  out.push_back({"Protection level?", level ? fmt::format("{:.3g} deg", *level) : "unbounded",
+                 std::string("tilt error that can stay without an alarm (protection level)") +
+                     (facts.calibration.accepted ? "" : ", if the array file were exact")});
+  if (facts.faults.played) {
+    const Rate &wrong = facts.faults.wrong_exclusion, &isolated = facts.faults.isolated;
+    out.push_back(
+        {"How sure?", fmt::format("{} of {}", wrong.count, wrong.of),
+         fmt::format("simulated scenarios of the fault campaign excluded a healthy sensor; with 95 % confidence "
+                     "the rate is below {:.2g} of such scenarios",
+                     wrong.high)});
+    out.push_back({"How often isolated?", fmt::format("{} of {}", isolated.count, isolated.of),
+                   fmt::format("of the same scenarios, small faults among them, end with exactly the faulty sensors "
+                               "excluded; {} end in an alarm without an exclusion",
+                               facts.faults.ambiguous.count)});
+  } else {
+    out.push_back({"How sure?", "unknown", "no scenario was run"});
+  }
+  out.push_back({"What not to trust?", "Do not trust", distrust_of(facts)});
+  return out;
+}
+
+}  // namespace verification
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,91 @@
+// What a verdict rests on without having shown it.
+#include <fmt/format.h>
+
+#include "plumb/core/units.hpp"
+#include "plumb/verification/verdict.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace verification {
+namespace {
+
+double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
+
+/// What a row of a log of stations is taken for.
+std::string row_words(std::uint64_t samples) {
+  if (samples > 1)
+    return fmt::format(
+        "Every row is the mean of {} samples, the fewest behind any row of the log of positions, and scatters by the "
+        "noise of the array file over the root of that. The monitor must not get rows of fewer samples.",
+        samples);
+  return "Every row counts as one sample with the noise of the array file. Where rows are means, let `count` of "
+         "[input] "
+         "name the column that says of how many samples, and give the log (--stations).";
+}
+
+/// First of all: it is the one that no test of plumb can find broken.
+std::string standstill_words(const UserLimits& limits) {
+  if (!(limits.acceleration_bound_mps2 > 0.0))
+    return "A standstill is assumed: no acceleration_bound is stated, and every figure here holds for a tool that does "
+           "not accelerate while its readings are steady. No test detects a steady acceleration across gravity; 30 mg "
+           "turn the direction by 1.7 deg.";
+  const std::string size =
+      fmt::format("A steady acceleration of at most {:.4g} mg0 is allowed for", mg0(limits.acceleration_bound_mps2));
+  if (limits.acceleration_turn_rad > limits.alert_limit_rad)
+    return size + fmt::format(
+                      ", which alone turns the direction by more than the alert limit ({:.4g} deg): the alert "
+                      "never ends. A tool that accelerates by more is not covered.",
+                      deg_from_rad(limits.alert_limit_rad));
+  return size + fmt::format(
+                    ": {:.4g} deg of every protection level, and of what the length may be off. A tool that "
+                    "accelerates by more is not covered.",
+                    deg_from_rad(limits.acceleration_turn_rad));
+}
+
+/// Beside it: no test tells drift that all sensors share from gravity, and what a limit does not hold is blamed on
+/// somebody.
+std::string drift_sentence(const UserLimits& limits) {
+  return "Drift since the calibration: " + limits.drift +
+         ". A healthy sensor that has drifted further can be excluded, and the direction can be off by more than the "
+         "protection level. The array file states it: stability.";
+}
+
+}  // namespace
+
+std::vector<std::string> assumptions_of(const UserLimits& limits, const Facts& facts) {
+  std::vector<std::string> out = {standstill_words(limits)};
+  if (!limits.drift.empty()) out.push_back(drift_sentence(limits));
+  out.push_back(
+      fmt::format("At most {} of the sensors are faulty at once; no guarantee holds beyond {} (confirmed grade).",
+                  limits.faults, facts.array.confirmed_grade));
+  out.push_back(
+      fmt::format("Gravity is {:.6f} m/s^2 within three times its stated sigma; the noise of every sensor is "
+                  "white and as stated in the array file.",
+                  facts.array.gravity_mps2));
+  if (facts.calibration.predicted())
+    out.push_back(
+        "No calibration was given: what it leaves is predicted from a simulated stand with sensors drawn from the "
+        "priors of the array file. Verify again with the real one (--stations or --calibration).");
+  if (!facts.calibration.taken_for_exact.empty())
+    out.push_back("The calibration is exact for " + facts.calibration.taken_for_exact +
+                  ": it states no uncertainty of them, so no limit and no protection level includes its errors. "
+                  "Calibrate again with plumb calibrate, which states it.");
+  if (!facts.calibration.accepted)
+    out.push_back(
+        "The calibration was refused: bounds and campaigns treat axes, scales and biases of the array file as exact. "
+        "A real tool is worse; correct the calibration before any figure here is used.");
+  if (facts.rows_are_stations) out.push_back(row_words(facts.samples_per_row));
+  out.push_back(
+      "The campaign rates hold for the simulated scenarios: the faults, sizes and attitudes listed, in equal shares. "
+      "Rates in the field differ.");
+  if (!facts.trace.tests_given)
+    out.push_back("The tests of this build of plumb have passed: their results were not given (--test-results).");
+  if (!facts.trace.proofs)
+    out.push_back(
+        "The theorems and the model behind the requirements hold: their results were not given (--assurance).");
+  return out;
+}
+
+}  // namespace verification
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,96 @@
+"""schema.py TOOL SOURCE: what plumb verify writes is what docs/report.schema.json says, what plumb monitor --report writes is what
+docs/health.schema.json says, and damaged copies are not."""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import jsonschema
+except ImportError:
+    print("skipped: no jsonschema (Debian package python3-jsonschema)")
+    sys.exit(77)
+
+
+def verified(tool, array, out, *more):
+    done = subprocess.run([tool, "verify", "--array", array, "--scenarios", "200", "--out", out, *more], capture_output=True, text=True)
+    assert done.returncode in (0, 6), done.stderr
+    return json.loads((pathlib.Path(out) / "report.json").read_text())
+
+
+def validator_of(path):
+    schema = json.loads(path.read_text())
+    jsonschema.Draft7Validator.check_schema(schema)
+    return jsonschema.Draft7Validator(schema)
+
+
+def judge(validator, reports, breaks):
+    for report in reports:
+        errors = [f"{list(e.absolute_path)}: {e.message}" for e in validator.iter_errors(report)]
+        assert not errors, "\n".join(errors[:10])
+    # The schema is not so wide that everything fits.
+    for number, break_it in enumerate(breaks):
+        broken = copy.deepcopy(reports[0])
+        break_it(broken)
+        assert not validator.is_valid(broken), number
+
+
+def health_reports(tool, source, folder):
+    """Of a run in which a2 dies, and of one that is too short for a station and has a bad row."""
+    examples = source / "examples"
+    array = ["--array", str(examples / "paper_tool.toml")]
+
+    def monitored(name, *more, code=0):
+        done = subprocess.run([tool, "monitor", *array, "--calibration", "cal.json", "--log", name, "--report", name + ".html", *more],
+                              capture_output=True, text=True, cwd=folder)
+        assert done.returncode == code, done.stderr
+        return json.loads(pathlib.Path(folder, name + ".json").read_text())
+
+    for command in (["simulate", str(examples / "stand.toml"), "--out", "stand.csv"],
+                    ["calibrate", *array, "--log", "stand.csv", "--out", "cal.json"],
+                    ["simulate", str(examples / "drilling.toml"), "--out", "run"]):
+        done = subprocess.run([tool, *command], capture_output=True, text=True, cwd=folder)
+        assert done.returncode == 0, done.stderr
+    lines = pathlib.Path(folder, "run").read_text().splitlines()
+    pathlib.Path(folder, "short").write_text("\n".join(lines[:9] + [lines[9].replace(",", ",x", 1)] + lines[10:20]) + "\n")
+    out = [monitored("run"), monitored("short", "--on-bad-row", "skip", code=7)]
+    assert out[0]["stations"] and out[0]["events"] and not out[1]["stations"] and out[1]["identity"]["log"]["rows_bad"] == 1
+    return out
+
+
+def main(tool, source):
+    source = pathlib.Path(source)
+    with tempfile.TemporaryDirectory() as folder:
+        first = verified(tool, str(source / "examples/paper_tool.toml"), folder + "/a")
+        reports = [first, verified(tool, str(source / "examples/mikoff5_z.toml"), folder + "/b", "--compare", folder + "/a/report.json")]
+        triad = (source / "examples/paper_tool.toml").read_text()
+        pathlib.Path(folder, "triad.toml").write_text(triad[: triad.rindex("[[sensor]]")])
+        reports.append(verified(tool, folder + "/triad.toml", folder + "/c"))
+        health = health_reports(tool, source, folder)
+    judge(validator_of(source / "docs/report.schema.json"), reports, (
+        lambda r: r.pop("verdict"),
+        lambda r: r["verdict"].update(verdict="splendid"),
+        lambda r: r["campaign"]["faults"]["by_fault"][0]["detected"].update(high=1.5),
+        lambda r: r["identity"]["inputs"][0].update(sha256="0"),
+        lambda r: r["traceability"]["requirements"][0].update(result="well"),
+        lambda r: r["run"]["monitor_step"].pop("high_water_ns"),
+        lambda r: r.update(more=1),
+    ))
+    judge(validator_of(source / "docs/health.schema.json"), health, (
+        lambda r: r.pop("answer"),
+        lambda r: r["answer"].update(usable_for_survey="perhaps"),
+        lambda r: r["stations"][0].update(colour="blue"),
+        lambda r: r["stations"][0].pop("limit"),
+        lambda r: r["stations"][0].update(inclination_deg=181),
+        lambda r: r["events"][0].update(to="splendid"),
+        lambda r: r["extremes"]["sensors"][0].update(blocks_clipped=-1),
+        lambda r: r["identity"]["inputs"][0].update(sha256="0"),
+        lambda r: r.update(more=1),
+    ))
+    print(f"{len(reports)} verification reports and {len(health)} health reports fit their schemas")
+
+
+main(*sys.argv[1:])
