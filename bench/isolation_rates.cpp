@@ -101,7 +101,7 @@ void beyond(const Settings& s) {
   for (int n = 4; n <= 8; ++n) {
     for (const double error : {4.0, 7.0, 20.0, 70.0}) {
       SoundnessJob job;
-      job.healthy = n > 4 ? 4 : 3;  // with three, nothing but gravity itself can vouch for them
+      job.healthy = n > 4 ? 4 : 3;  // with three, nothing but gravity itself can corroborate them
       job.stations = 8;
       job.n = n;
       job.trials = s.trials(n < 7 ? 1e5 : 2e4);

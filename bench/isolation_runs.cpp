@@ -76,7 +76,7 @@ RuleCounts eight_attitudes(const RatesJob& job) {
   std::array<TrialCount, kRules> count;
   for (std::uint64_t t = 0; t < job.trials; ++t) {
     TrialEpisode episode = episode_of(tool, job, noise);
-    plumb::Isolation isolation = tool.posed;
+    plumb::Isolation isolation = tool.monitored;
     plumb::IsolationAnswer answer;
     bool blamed = false;
     rivals.clear();
@@ -105,7 +105,7 @@ Count parity_at_one_station(const RatesJob& job) {
   TrialCount count;
   for (std::uint64_t t = 0; t < job.trials; ++t) {
     TrialEpisode episode = episode_of(tool, job, noise);
-    plumb::Isolation isolation = tool.posed;
+    plumb::Isolation isolation = tool.monitored;
     const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
     const plumb::IsolationAnswer answer =
         isolation.vote({tool.array, tool.gravity, tool.limits, episode.block(g, noise)});
@@ -120,7 +120,7 @@ Count asserted_at_one_block(const RatesJob& job) {
   TrialCount count;
   for (std::uint64_t t = 0; t < job.trials; ++t) {
     TrialEpisode episode = episode_of(tool, job, noise);
-    plumb::Isolation isolation = tool.posed;
+    plumb::Isolation isolation = tool.monitored;
     const plumb::Vec3 g = plumb::scaled(noise.direction(), tool.gravity.g_mps2);
     const plumb::BlockEvidence block = episode.block(g, noise);
     isolation.vote({tool.array, tool.gravity, tool.limits, block});

@@ -96,7 +96,7 @@ double Adversary::worth_of(const Verdict& v) const {
              2.0 * (v.suspects - liars).size() - (v.suspects & liars).size() - found;
     case Aim::fail: break;
   }
-  // Attitudes in doubt run patience down, and the more sensors are suspected the longer the doubt lasts.
+  // Attitudes in doubt use up the isolation timeout, and the more sensors are suspected the longer the doubt lasts.
   return (v.state == HealthState::failed ? 1000.0 : 0.0) + 3.0 * v.stations_on_record + 0.5 * v.suspects.size() +
          (v.state == HealthState::suspect ? 1.0 : 0.0) - found;
 }

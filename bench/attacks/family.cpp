@@ -41,7 +41,7 @@ const std::vector<Family>& all() {
       {"gravity-off", "four sensors, gravity 0.6 to 10 mg off, and one fault", Play::gravity_off, kOutside, kOutside, 4, 4, false, false, 0, 1},
 
       {"adaptive-error", "one liar that tries its lies on copies of the monitor: largest error while valid", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 0, 2},
-      {"adaptive-accuse", "the same, to get a healthy sensor accused", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 1, 2},
+      {"adaptive-accuse", "the same, to get a healthy sensor suspected", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 1, 2},
       {"adaptive-many", "1 to m adaptive colluders, m the confirmed grade, with any of these three aims", Play::adaptive, kPromised, kOutside, 5, 8, true, true, 3, 2},
       {"adaptive-axis-cone", "two adaptive colluders among an axis and a cone of four, whose grade is one", Play::adaptive, kOutside, kOutside, 5, 5, false, true, 4, 1},
 

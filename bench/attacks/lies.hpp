@@ -43,7 +43,7 @@ inline constexpr std::uint64_t kNeverNominal = ~std::uint64_t{0};
 struct LiesCount {
   std::uint64_t blocks = 0, valid_blocks = 0;
   // Never, as long as no more sensors lie than the grade bears, and gravity is within three sigmas.
-  std::uint64_t excluded_healthy = 0;   ///< latched out
+  std::uint64_t excluded_healthy = 0;   ///< excluded
   std::uint64_t set_aside_healthy = 0;  ///< within the provisional grade
   std::uint64_t beyond_level = 0;       ///< valid, at most one liar in service, tilt error beyond the protection level
   std::uint64_t beyond_alert = 0;       ///< the same, beyond the alert limit and no alert

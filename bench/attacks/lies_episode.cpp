@@ -268,7 +268,7 @@ void LiesEpisode::judge() {
   if (v.accepted) ++steady_rows_;
   if (v.tick) note_bounds();  // before anything is held against the block
   if (tell_ && v.transition.sequence != 0) {
-    std::printf("  t %.2f %s -> %s, event %s, cause %s, excluded %x, set aside %x, absent %x\n", v.time_s,
+    std::printf("  t %.2f %s -> %s, event %s, cause %s, excluded %x, provisionally excluded %x, absent %x\n", v.time_s,
                 to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
                 to_string(v.transition.cause), v.excluded.bits, v.provisionally_excluded.bits, v.absent.bits);
   }
@@ -280,7 +280,7 @@ void LiesEpisode::judge() {
   if (broken.size() <= strict_ && !broken.contains(v.excluded))
     find(count_.excluded_healthy, "a healthy sensor is out");
   if (broken.size() <= parity_ && !broken.contains(v.provisionally_excluded)) {
-    find(count_.set_aside_healthy, "a healthy sensor is set aside");
+    find(count_.set_aside_healthy, "a healthy sensor is provisionally excluded");
   }
   if (v.state == HealthState::failed) {
     if (count_.failed == 0) ++count_.failed;

@@ -147,8 +147,8 @@ void Player::note_block() {
 void Player::tell_change() const {
   const Verdict& v = verdict();
   if (!tell_ || v.transition.sequence == 0) return;
-  std::printf("  t %.2f %s -> %s, event %s, cause %s, in service%s, excluded%s, set aside%s, absent%s\n", v.time_s,
-              to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
+  std::printf("  t %.2f %s -> %s, event %s, cause %s, in service%s, excluded%s, provisionally excluded%s, absent%s\n",
+              v.time_s, to_string(v.transition.from), to_string(v.transition.to), to_string(v.transition.event),
               to_string(v.transition.cause), names(v.in_service).c_str(), names(v.excluded).c_str(),
               names(v.provisionally_excluded).c_str(), names(v.absent).c_str());
 }
@@ -178,7 +178,8 @@ void Player::judge_sensors() {
     find(Count::wrong_exclusion, faulty.size() <= strict_, "excluded" + names(v.excluded - faulty));
   }
   if (!faulty.contains(v.provisionally_excluded)) {
-    find(Count::wrong_aside, faulty.size() <= parity_, "set aside" + names(v.provisionally_excluded - faulty));
+    find(Count::wrong_aside, faulty.size() <= parity_,
+         "provisionally excluded" + names(v.provisionally_excluded - faulty));
   }
   if (v.state == HealthState::failed) {
     tally_[Count::failed] = 1;

@@ -116,7 +116,7 @@ Tally play_adaptive(const Episode& e) {
   player.faulty = LawCase::some(e.n, m, draws);
   const auto goal = static_cast<Aim>(many ? draws.below(3) : aim);
   Adversary adversary(player, goal, e.request.stream + 1);
-  const int stations = goal == Aim::fail ? 40 : 24;  // failed is latched: it is a matter of patience
+  const int stations = goal == Aim::fail ? 40 : 24;  // failed is latched: it takes the isolation timeout
   for (int station = 0; station < stations; ++station) {
     player.direction = player.noise.direction();
     const int blocks = 1 + player.noise.below(2);

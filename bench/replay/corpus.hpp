@@ -29,7 +29,7 @@ enum class Situation : std::uint8_t {
   turning,            ///< the tool turns, known, unknown or wrongly told
   first_calibration,  ///< no calibration yet
   bound,              ///< an acceleration bound is stated, and the tool pushed
-  asserted,           ///< the integrator's claim on the number of faults; little patience
+  asserted,           ///< the integrator's claim on the number of faults; a short isolation timeout
   stability,          ///< stability is stated, biases wander, temperature drifts
   means,              ///< every row is the mean of a station
   storage,            ///< overwritten, unconfigured, configured anew

@@ -33,7 +33,7 @@ inline SurveyStation survey(const plumb::Verdict& v, double pumps_off_s) {
   if (!has(Usable::reference)) return answer(Go::no_go, "length of gravity is in doubt");
   if (v.validity == plumb::Validity::unconfirmed) {
     const bool not_yet_validated =
-        (v.qualifiers & plumb::Qualifier::not_yet_validated) != 0;  // history unknown, nobody accused
+        (v.qualifiers & plumb::Qualifier::not_yet_validated) != 0;  // history unknown, nobody suspected
     return answer(Go::no_go,
                   not_yet_validated ? "not validated yet: turn the tool" : "sensors disagree: turn the tool");
   }

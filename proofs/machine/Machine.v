@@ -138,7 +138,7 @@ Proof. unfold publishes. revert e. intros e. destruct e; unfold goes; simpl; int
 
 (* S12 (its part in the table): isolation timeout in suspect: bounded, or with an explanation that the rest corroborates
    ([within]), or failed. *)
-Theorem S12_patience c f :
+Theorem S12_isolation_timeout c f :
   goes M_suspect E_isolation_timeout c f = (if within f then M_suspect else M_failed).
 Proof. destruct f as [s u r b w]. destruct w; reflexivity. Qed.
 

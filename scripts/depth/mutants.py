@@ -187,11 +187,11 @@ def sources(root, arguments):
         "src/health/diagnosis.cpp": {"vote", "is_vote_due", "accuse", "convicted_by_scatter", "note_accusation",
                                      "culprits", "witnesses"},
         "src/detection/isolation.cpp": None,
-        "src/detection/reference_doubt.cpp": None,
+        "src/detection/norm_mismatch_doubt.cpp": None,
         "include/plumb/health/detail/decision.hpp": {"decide"},
         "include/plumb/health/transition_table.hpp": {"bit", "first_taken", "mode_by_size", "resolve"},
         "include/plumb/detection/isolation.hpp": {"is_dead", "kill"},
-        "include/plumb/detection/detail/reference_doubt.hpp": {"index_of", "refuted"},
+        "include/plumb/detection/detail/norm_mismatch_doubt.hpp": {"index_of", "refuted"},
     }
     out = []
     for file, functions in sources.items():

@@ -32,13 +32,13 @@ INDUCTION = ("tests/health/induction_test.cpp", "tests/health/transition_table_t
              "tests/health/decision_test.cpp")
 # The sources that have mutants, and the tests that compile a changed header themselves: each is a library of its own.
 APART = ("src/health/decision.cpp", "src/health/transition_table.cpp", "src/health/serve_event.cpp", "src/health/diagnosis.cpp",
-         "src/detection/isolation.cpp", "src/detection/reference_doubt.cpp", *INDUCTION)
+         "src/detection/isolation.cpp", "src/detection/norm_mismatch_doubt.cpp", *INDUCTION)
 # Where a changed header is compiled anew; all else that reads it keeps the original.
 READERS = {
     "include/plumb/health/detail/decision.hpp": ("src/health/decision.cpp", *INDUCTION),
     "include/plumb/health/transition_table.hpp": ("src/health/decision.cpp", "src/health/transition_table.cpp", *INDUCTION),
     "include/plumb/detection/isolation.hpp": ("src/detection/isolation.cpp",),
-    "include/plumb/detection/detail/reference_doubt.hpp": ("src/detection/isolation.cpp", "src/detection/reference_doubt.cpp"),
+    "include/plumb/detection/detail/norm_mismatch_doubt.hpp": ("src/detection/isolation.cpp", "src/detection/norm_mismatch_doubt.cpp"),
 }
 RESULT = re.compile(r"^\[  (     OK|FAILED ) \] ([\w/.]+).* \((\d+) ms\)$", re.M)
 BEGUN = re.compile(r"^\[ RUN      \] ([\w/.]+)$", re.M)

@@ -73,7 +73,8 @@ Error compose(const Datasheet& datasheet, const GravityReference& gravity, const
     }
   }
   for (int i = 0; i < n; ++i) {
-    const double misfit = (i == report.loud_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) / length[at(i)];
+    const double misfit =
+        (i == report.high_variance_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) / length[at(i)];
     uncertainty.misfit_mps2[at(i)] = misfit;
     double variance = misfit * misfit;
     for (int p = 0; p < 4; ++p) {

@@ -149,7 +149,7 @@ bool Calibrator::misfit_changed(const fit::Sums& sums, double* factor) noexcept 
 bool Calibrator::goes_down(double cost, bool finite) noexcept {
   if (fresh_ ? !finite : !(finite && cost <= cost_ + kCostTolerance * (1.0 + cost_))) {
     ++rises_;
-    return finite && rises_ <= kPatience;
+    return finite && rises_ <= kMostRises;
   }
   rises_ = 0;
   cost_ = cost;

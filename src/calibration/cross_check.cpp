@@ -60,7 +60,7 @@ double unrest_without(const Datasheet& datasheet, const GravityReference& gravit
   FitReport report;
   misfit_mps2 = 0.0;
   const Expected<Calibration> fitted = calibrate(datasheet, gravity, scratch, count, options, &report);
-  // Nor does a fit that bends a sensor beyond all bounds explain anything: it does so to make up for the culprit.
+  // Nor does a fit that bends a sensor beyond all bounds explain anything: it does so to make up for the faulty sensor.
   const bool settled = fitted || (fitted.error().code != Errc::diverged && fitted.error().code != Errc::implausible);
   if (!settled) return kUnsettled;
   if (!fitted || report.degrees_of_freedom < kOddFreedom) return std::numeric_limits<double>::infinity();

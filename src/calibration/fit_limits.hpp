@@ -16,7 +16,7 @@ inline constexpr double kMisfitTolerance = 0.01;
 inline constexpr double kCostTolerance = 1e-9;
 /// Rises in a row that are let pass. Where stations are few the optimum lies in a narrow curved valley: a
 /// step along it first rises, the next falls back into the valley further on. Damping would crawl.
-inline constexpr int kPatience = 4;
+inline constexpr int kMostRises = 4;
 inline constexpr int kPriorTurns = 3;  ///< an iteration
 inline constexpr double kFirstDamping = 1e-3;
 inline constexpr double kMaxDamping = 1e9;

@@ -117,14 +117,15 @@ void note_stations(const Problem& problem, FitFigures& report) noexcept {
 double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigures& report) noexcept {
   const int n = problem.datasheet.size, freedom = tally.freedom(report);
   double excess = 0.0;
-  const int loudest = tally.loudest(n, freedom, excess);
-  if (loudest < 0 || !(report.p_value < kNoNoise)) return 1.0;
-  // Whether or not it can be named: the misfit is a mean over the sensors, and the loudest one has more.
-  const double factor = std::fmax(tally.variance_factor(loudest, n, freedom), 1.0);
-  if (!tally.beyond_chance(loudest, freedom, excess)) return factor;
-  report.loud_sensor = loudest;
+  const int highest_variance = tally.highest_variance(n, freedom, excess);
+  if (highest_variance < 0 || !(report.p_value < kNoNoise)) return 1.0;
+  // Whether or not it can be named: the misfit is a mean over the sensors, and the sensor with the highest variance has
+  // more.
+  const double factor = std::fmax(tally.variance_factor(highest_variance, n, freedom), 1.0);
+  if (!tally.beyond_chance(highest_variance, freedom, excess)) return factor;
+  report.high_variance_sensor = highest_variance;
   report.loud_excess = excess;
-  const double sigma = problem.datasheet.sensor[at(loudest)].row.sigma_mps2;
+  const double sigma = problem.datasheet.sensor[at(highest_variance)].row.sigma_mps2;
   double noise = 0.0;
   int stations = 0;
   for (int k = 0; k < problem.count; ++k) {
@@ -299,13 +300,13 @@ Error judge_figures(const Problem& problem, const FitOptions& options, const Fit
   const Error noisy = noisy_samples(problem.datasheet, options, r);
   if (noisy.code != Errc::ok) return noisy;
   double excess = 0.0;
-  const int loudest = fitted.tally.loudest(problem.datasheet.size, fitted.tally.freedom(r), excess);
+  const int highest_variance = fitted.tally.highest_variance(problem.datasheet.size, fitted.tally.freedom(r), excess);
   // Among few stations chance alone reaches the bound; what accuses nobody as a whole accuses no sensor.
   const bool singled_out = excess > options.max_sensor_excess && r.p_value < kSuspicious;
   if (!(r.norm_rms_mps2 <= options.max_norm_rms_mps2)) {
-    return Error{Errc::poor_fit, singled_out ? loudest : -1, r.norm_rms_mps2, options.max_norm_rms_mps2};
+    return Error{Errc::poor_fit, singled_out ? highest_variance : -1, r.norm_rms_mps2, options.max_norm_rms_mps2};
   }
-  if (singled_out) return Error{Errc::poor_fit, loudest, excess, options.max_sensor_excess};
+  if (singled_out) return Error{Errc::poor_fit, highest_variance, excess, options.max_sensor_excess};
   return Error{};
 }
 

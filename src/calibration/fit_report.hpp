@@ -47,7 +47,7 @@ Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions
 /// A fit of full rank, judged by its own figures.
 Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted,
                     FitFigures& report) noexcept;
-/// `loud_sensor` and what goes with it; by what factor its residuals widen every variance (>= 1).
+/// `high_variance_sensor` and what goes with it; by what factor its residuals widen every variance (>= 1).
 double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigures& report) noexcept;
 
 /// Three sensors, stations set aside, and too little left to say that they were the right ones: poor_fit (value =

@@ -143,7 +143,7 @@ double Harmonics::excitation(int stations) const noexcept { return least_eigenva
 
 /// Mean square of what is the sensor's own, against the mean square of the rest in the degrees of freedom that the fit
 /// has left.
-int FitTally::loudest(int n, int freedom, double& excess) const noexcept {
+int FitTally::highest_variance(int n, int freedom, double& excess) const noexcept {
   excess = 0.0;
   int most = -1;
   for (int i = 0; i < n; ++i) {

@@ -37,8 +37,8 @@ class FitTally {
   }
   /// Sensor whose residuals are most above those of the others, and by what factor (rms); -1 where none can be told
   /// from the rest.
-  int loudest(int n, int freedom, double& excess) const noexcept;
-  /// Whether noise alike in all sensors would hardly ever single out the loudest of them so (Fisher's z).
+  int highest_variance(int n, int freedom, double& excess) const noexcept;
+  /// Whether noise alike in all sensors would hardly ever single out the one with the highest variance so (Fisher's z).
   bool beyond_chance(int sensor, int freedom, double excess) const noexcept;
   /// Variance of that sensor's reading at a station over what the weights of the fit say.
   double variance_factor(int sensor, int n, int freedom) const noexcept;

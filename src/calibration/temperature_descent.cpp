@@ -58,7 +58,7 @@ bool Descent::goes_down(double cost) noexcept {
   const bool finite = sums_.sums.finite && std::isfinite(cost);
   if (fresh_ ? !finite : !(finite && cost <= cost_ + kCostTolerance * (1.0 + cost_))) {
     ++rises_;
-    return finite && rises_ <= kPatience;
+    return finite && rises_ <= kMostRises;
   }
   rises_ = 0;
   cost_ = cost;

@@ -197,7 +197,7 @@ class DrillSection {
         "\n"
         "  inclination error: {:.2g} deg in valid outputs of plumb, {:.2g} deg without plumb; within the bound in {} "
         "of {} blocks\n",
-        f.vouched_deg, f.plain_deg, f.kept, f.bounded);
+        f.published_deg, f.plain_deg, f.kept, f.bounded);
     return out;
   }
 

@@ -149,7 +149,8 @@ std::string sum_sentence(const Timeline& timeline) {
       "Over the whole run: in the {} of {} blocks at rest that plumb published as valid, the inclination was within "
       "{} of the truth; in unconfirmed blocks the error was up to {}. Without plumb the error was up to {}, without "
       "any warning. The error was within the protection level in {} of {} blocks that had one.",
-      f.vouched, f.blocks, degrees(f.vouched_deg), degrees(f.unconfirmed_deg), degrees(f.plain_deg), f.kept, f.bounded);
+      f.published, f.blocks, degrees(f.published_deg), degrees(f.unconfirmed_deg), degrees(f.plain_deg), f.kept,
+      f.bounded);
 }
 
 const TimelineRow* first_row(const Timeline& timeline, HealthEvent event, double from_s) {
@@ -219,8 +220,8 @@ DrillFigures figures_of(const Timeline& timeline) {
     ++f.blocks;
     f.plain_deg = std::max(f.plain_deg, std::fabs(p.inclination_plain_deg - p.inclination_true_deg));
     if (p.validity == Validity::valid || p.validity == Validity::degraded) {
-      ++f.vouched;
-      f.vouched_deg = std::max(f.vouched_deg, plumb_deg);
+      ++f.published;
+      f.published_deg = std::max(f.published_deg, plumb_deg);
     }
     if (p.validity == Validity::unconfirmed) f.unconfirmed_deg = std::max(f.unconfirmed_deg, plumb_deg);
     if (!std::isfinite(p.protection_level_deg)) continue;
@@ -247,7 +248,7 @@ std::vector<render::Figure> key_figures(const DrillRecord& record) {
                                         (excluded == nullptr ? std::string("a sensor") : excluded->sensors)});
   }
   out.push_back({degrees(f.plain_deg), "worst inclination error without plumb"});
-  out.push_back({degrees(f.vouched_deg), "worst error of an output published as valid"});
+  out.push_back({degrees(f.published_deg), "worst error of an output published as valid"});
   return out;
 }
 
@@ -314,8 +315,8 @@ nlohmann::ordered_json facts_of(const DrillRecord& record) {
   out["sensors"] = record.timeline.sensors;
   out["duration_s"] = record.timeline.end_s - record.timeline.begin_s;
   out["blocks"] = f.blocks;
-  out["blocks_vouched"] = f.vouched;
-  out["worst_inclination_error_vouched_deg"] = f.vouched_deg;
+  out["blocks_valid_or_degraded"] = f.published;
+  out["worst_inclination_error_valid_or_degraded_deg"] = f.published_deg;
   out["worst_inclination_error_unconfirmed_deg"] = f.unconfirmed_deg;
   out["worst_inclination_error_without_plumb_deg"] = f.plain_deg;
   out["blocks_bounded"] = f.bounded;

@@ -39,8 +39,8 @@ std::vector<render::TimelineMark> marks_of(const DrillRecord& record);
 /// How far off the answers were, and whether the bound was kept. Angles in deg.
 struct DrillFigures {
   int blocks = 0;
-  int vouched = 0;               ///< blocks with valid or degraded output
-  double vouched_deg = 0.0;      ///< worst inclination error in them
+  int published = 0;             ///< blocks with valid or degraded output
+  double published_deg = 0.0;    ///< worst inclination error in them
   double unconfirmed_deg = 0.0;  ///< worst error of what plumb called unconfirmed
   double plain_deg = 0.0;        ///< worst error without plumb
   int bounded = 0;               ///< blocks for which plumb gave a bound

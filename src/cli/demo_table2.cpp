@@ -127,7 +127,7 @@ nlohmann::ordered_json facts_of(const Table2Study& study, const study::Proportio
 }
 
 /// Experiments with one faulty sensor in which plumb excluded that one, the attitudes it took, those in which
-/// it named a healthy one; and experiments with two faulty ones throughout which it vouched for nothing.
+/// it named a healthy one; and experiments with two faulty ones throughout which it published nothing as valid.
 struct OwnTally {
   int right = 0, wrong = 0, most_attitudes = 0, pairs_without_output = 0;
 };

@@ -75,7 +75,7 @@ ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulato
 /// predicted a movement of the tool.
 bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, SensorSet calm,
                      int i, int grade) noexcept {
-  const double least_ratio = restless_factor(1, block.size(), kCertainRate);
+  const double least_ratio = scatter_factor(1, block.size(), kCertainRate);
   for (SensorSet left = SensorSet::first(grade); array.all().contains(left); left = next_of_same_size(left)) {
     if (!calm.contains(left)) continue;
     const LeastSquares ls = least_squares(array, calm - left);
@@ -236,7 +236,7 @@ double BlockAccumulator::covariance(int i, int j) const noexcept {
   return (both - a * b / n) / (n - 1.0);
 }
 
-double restless_factor(int n, int size, double rate) noexcept {
+double scatter_factor(int n, int size, double rate) noexcept {
   return n > 0 && size > 1 ? chi2_tail_quantile(rate / n, size - 1) / (size - 1) : 0.0;
 }
 

@@ -33,7 +33,7 @@ BlockTests::Told BlockTests::of(SensorSet set) const noexcept {
   return p.test;
 }
 
-bool BlockTests::vouches_for_norm(SensorSet set, const SetTest& test) const noexcept {
+bool BlockTests::corroborates_norm(SensorSet set, const SetTest& test) const noexcept {
   if (!test.tested || test.parity_rows < 1) return false;
   if (test.least_leverage >= kMinLeverage) return true;
   for (int i = 0; i < array_.size(); ++i) {

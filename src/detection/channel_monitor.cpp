@@ -132,9 +132,9 @@ void ChannelMonitor::count_facts(SensorSet noisy, SensorSet stuck, SensorSet cli
   }
 }
 
-void ChannelMonitor::condemn(SensorSet channels) noexcept { lost_ = lost_ | (channels & SensorSet::first(size_)); }
+void ChannelMonitor::mark_lost(SensorSet channels) noexcept { lost_ = lost_ | (channels & SensorSet::first(size_)); }
 
-void ChannelMonitor::welcome(SensorSet channels) noexcept {
+void ChannelMonitor::reinstate(SensorSet channels) noexcept {
   lost_ = lost_ - channels;
   back_ = back_ - channels;
 }

@@ -19,25 +19,26 @@ void for_each_subset(int universe, int size, F&& f) noexcept {
   }
 }
 
-/// Calls f(F) for every subset of `posed` with at most `depth` members, and none of more than three, smallest first.
+/// Calls f(F) for every subset of `monitored` with at most `depth` members, and none of more than three, smallest
+/// first.
 template <class F>
-void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
+void for_each_fault_set(SensorSet monitored, int n, int depth, F&& f) noexcept {
   f(SensorSet{});
   if (depth < 1) return;
   for (int i = 0; i < n; ++i) {
-    if (posed.has(i)) f(SensorSet::of(i));
+    if (monitored.has(i)) f(SensorSet::of(i));
   }
   if (depth < 2) return;
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
-      if (posed.has(i) && posed.has(j)) f(SensorSet::of(i).with(j));
+      if (monitored.has(i) && monitored.has(j)) f(SensorSet::of(i).with(j));
     }
   }
   if (depth < 3) return;
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       for (int k = j + 1; k < n; ++k) {
-        if (posed.has(i) && posed.has(j) && posed.has(k)) f(SensorSet::of(i).with(j).with(k));
+        if (monitored.has(i) && monitored.has(j) && monitored.has(k)) f(SensorSet::of(i).with(j).with(k));
       }
     }
   }
@@ -45,16 +46,17 @@ void for_each_fault_set(SensorSet posed, int n, int depth, F&& f) noexcept {
 
 /// Whether `f(F)` holds for every one of them; none is asked after one for which it does not.
 template <class F>
-bool all_fault_sets(SensorSet posed, int n, int depth, F&& f) noexcept {
+bool all_fault_sets(SensorSet monitored, int n, int depth, F&& f) noexcept {
   bool all = true;
-  for_each_fault_set(posed, n, depth, [&](SensorSet set) { all = all && f(set); });
+  for_each_fault_set(monitored, n, depth, [&](SensorSet set) { all = all && f(set); });
   return all;
 }
 
 /// Whether nothing in the block speaks against the set: it agrees with itself and with gravity, or is excused from
 /// that.
-bool may_be_healthy(SensorSet set, const SetTest& t, const TestLimits& limits, const ReferenceDoubt& doubt) noexcept {
-  return t.parity_alive(limits) && (t.alive(limits) || doubt.excuses(set));
+bool may_be_healthy(SensorSet set, const SetTest& t, const TestLimits& limits,
+                    const NormMismatchDoubt& doubt) noexcept {
+  return t.parity_consistent(limits) && (t.consistent(limits) || doubt.excuses(set));
 }
 
 }  // namespace
@@ -64,22 +66,22 @@ void Isolation::clear() noexcept {
   claims_.clear();
 }
 
-void Isolation::pose(const SensorArray& array, SensorSet posed) noexcept {
-  const int c = plumb::coplanarity(array, posed);
-  if (c + 1 != voting_size_ || !posed_.contains(posed) || universe_ != array.size()) clear();
-  resume(array, posed, c);
+void Isolation::pose(const SensorArray& array, SensorSet monitored) noexcept {
+  const int c = plumb::coplanarity(array, monitored);
+  if (c + 1 != voting_size_ || !monitored_.contains(monitored) || universe_ != array.size()) clear();
+  resume(array, monitored, c);
 }
 
-void Isolation::resume(const SensorArray& array, SensorSet posed) noexcept {
-  resume(array, posed, plumb::coplanarity(array, posed));
+void Isolation::resume(const SensorArray& array, SensorSet monitored) noexcept {
+  resume(array, monitored, plumb::coplanarity(array, monitored));
 }
 
-void Isolation::resume(const SensorArray& array, SensorSet posed, int c) noexcept {
-  posed_ = posed;
+void Isolation::resume(const SensorArray& array, SensorSet monitored, int c) noexcept {
+  monitored_ = monitored;
   universe_ = static_cast<std::int8_t>(array.size());
   coplanarity_ = static_cast<std::int8_t>(c);
   voting_size_ = static_cast<std::int8_t>(c + 1);
-  const int sensors = (posed & array.all()).size();
+  const int sensors = (monitored & array.all()).size();
   const bool strict_possible = universe_ <= kStrictCapacity;
   strict_ = static_cast<std::int8_t>(strict_possible ? plumb::confirmed_grade(sensors, c) : 0);
   parity_ = static_cast<std::int8_t>(plumb::provisional_grade(sensors, c));
@@ -87,7 +89,7 @@ void Isolation::resume(const SensorArray& array, SensorSet posed, int c) noexcep
   voting_ = 0;
   if (strict_ < 1) return;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int) {
-    if (posed_.contains(s)) ++voting_;
+    if (monitored_.contains(s)) ++voting_;
   });
 }
 
@@ -95,7 +97,7 @@ int Isolation::live() const noexcept {
   int count = 0;
   if (strict_ < 1) return count;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (posed_.contains(s) && !is_dead(index)) ++count;
+    if (monitored_.contains(s) && !is_dead(index)) ++count;
   });
   return count;
 }
@@ -116,16 +118,16 @@ bool Isolation::has_dead_subset(SensorSet set) const noexcept {
   return false;
 }
 
-SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnesses) const noexcept {
+SensorSet Isolation::exclude_by_parity(const BlockTests& tests, SensorSet corroborating) const noexcept {
   const TestLimits& limits = tests.limits();
-  // Where a posed sensor did not deliver, the published grade does not hold for the rest: nobody is convicted.
-  const SensorSet asked = posed_;
+  // Where a monitored sensor did not deliver, the published grade does not hold for the rest: nobody is excluded.
+  const SensorSet asked = monitored_;
   const int grade = provisional_grade();
   if (grade < 1 || !tests.block().usable.contains(asked)) return {};
   SensorSet cleared;
   const auto hear = [&](SensorSet s) {
     if (cleared.contains(s)) return;
-    if (!witnesses.contains(s) || tests.of(s).parity_alive(limits)) cleared = cleared | s;
+    if (!corroborating.contains(s) || tests.of(s).parity_consistent(limits)) cleared = cleared | s;
   };
   if (universe_ <= kStrictCapacity) {
     const int size = asked.size() - grade;
@@ -134,42 +136,42 @@ SensorSet Isolation::convict_by_parity(const BlockTests& tests, SensorSet witnes
     });
   }
   for_each_fault_set(asked, universe_, grade < kScanDepth ? grade : kScanDepth, [&](SensorSet f) { hear(asked - f); });
-  const SensorSet convicted = asked - cleared;
-  if (convicted.empty() || convicted.size() > grade) return {};
-  const SetTest& rest = tests.of(asked - convicted);
-  const bool agree = rest.tested && rest.parity_alive(limits);
-  return agree ? convicted : SensorSet{};
+  const SensorSet excluded = asked - cleared;
+  if (excluded.empty() || excluded.size() > grade) return {};
+  const SetTest& rest = tests.of(asked - excluded);
+  const bool agree = rest.tested && rest.parity_consistent(limits);
+  return agree ? excluded : SensorSet{};
 }
 
-IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet witnesses) noexcept {
+IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet corroborating) noexcept {
   const TestLimits& limits = tests.limits();
   IsolationAnswer out;
   out.voting = voting_;
   const ReferencePanel panel = panel_of(tests);
-  const ReferenceDoubt doubt =
-      witnesses.contains(posed_) ? hear_doubt(tests, panel, claims_) : recall_doubt(tests, panel, claims_);
+  const NormMismatchDoubt doubt =
+      corroborating.contains(monitored_) ? hear_doubt(tests, panel, claims_) : recall_doubt(tests, panel, claims_);
   out.norm_void = doubt.any();
-  out.parity = convict_by_parity(tests, witnesses);
-  const auto alive_here = [&](SensorSet s) { return may_be_healthy(s, tests.of(s), limits, doubt); };
-  out.full_alive = (!any_dead() || !has_dead_subset(posed_)) && alive_here(posed_);
+  out.parity = exclude_by_parity(tests, corroborating);
+  const auto consistent_here = [&](SensorSet s) { return may_be_healthy(s, tests.of(s), limits, doubt); };
+  out.full_alive = (!any_dead() || !has_dead_subset(monitored_)) && consistent_here(monitored_);
   if (strict_ < 1) return out;
 
   SensorSet innocent;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (!posed_.contains(s) || is_dead(index)) return;
-    if (!witnesses.contains(s) || alive_here(s)) {
+    if (!monitored_.contains(s) || is_dead(index)) return;
+    if (!corroborating.contains(s) || consistent_here(s)) {
       innocent = innocent | s;
       ++out.live;
     } else {
-      kill(index);
+      reject(index);
     }
   });
   out.no_consistent_hypothesis = out.live == 0;
-  const SensorSet accused = posed_ - innocent;
-  if (!out.no_consistent_hypothesis && !accused.empty() && accused.size() <= strict_) {
-    const SensorSet survivors = posed_ - accused;
+  const SensorSet suspected = monitored_ - innocent;
+  if (!out.no_consistent_hypothesis && !suspected.empty() && suspected.size() <= strict_) {
+    const SensorSet survivors = monitored_ - suspected;
     const bool tested = tests.of(survivors).tested;
-    if (tested && alive_here(survivors)) out.strict = accused;
+    if (tested && consistent_here(survivors)) out.strict = suspected;
   }
   return out;
 }
@@ -183,14 +185,14 @@ struct Hypothesis {
   bool explains = false;  ///< the rest is tested, and nothing speaks against it
 };
 
-/// The faults that every explanation of at most `most` of them has. One that leaves others than `witnesses`, or too few
-/// to be tested, stays.
+/// The faults that every explanation of at most `most` of them has. One that leaves others than `corroborating`, or too
+/// few to be tested, stays.
 class CommonFaults {
  public:
-  CommonFaults(SensorSet posed, int most, SensorSet witnesses) noexcept
-      : common_(posed), witnesses_(witnesses), most_(most) {}
+  CommonFaults(SensorSet monitored, int most, SensorSet corroborating) noexcept
+      : common_(monitored), corroborating_(corroborating), most_(most) {}
   void note(const Hypothesis& h) noexcept {
-    if (h.faults.size() <= most_ && (h.explains || !h.test.tested || !witnesses_.contains(h.rest))) {
+    if (h.faults.size() <= most_ && (h.explains || !h.test.tested || !corroborating_.contains(h.rest))) {
       common_ = common_ & h.faults;
       any_ = true;
     }
@@ -198,7 +200,7 @@ class CommonFaults {
   SensorSet found() const noexcept { return any_ ? common_ : SensorSet{}; }
 
  private:
-  SensorSet common_, witnesses_;
+  SensorSet common_, corroborating_;
   int most_;
   bool any_ = false;
 };
@@ -270,26 +272,27 @@ Isolation::Grounds Isolation::grounds(const BlockTests& tests) const noexcept {
 bool Isolation::explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest,
                          const SetTest& test) const noexcept {
   return test.tested && may_be_healthy(rest, test, limits, grounds.doubt) &&
-         (!grounds.deaths || !has_dead_subset(rest));
+         (!grounds.rejections || !has_dead_subset(rest));
 }
 
 FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,
-                             const ProtectionTerms& protect, SensorSet witnesses) const noexcept {
+                             const ProtectionTerms& protect, SensorSet corroborating) const noexcept {
   const TestLimits& limits = tests.limits();
   FaultSetScan out;
   out.minimum_faults.fill(255);
-  const SensorSet posed = posed_ & tests.block().usable;
+  const SensorSet monitored = monitored_ & tests.block().usable;
   const SetTest& used = tests.of(in_service & tests.block().usable);
   const Grounds by = grounds(tests);
   Levels levels(tests, used, protect);
-  CommonFaults common(posed, assumed_faults, witnesses);
+  CommonFaults common(monitored, assumed_faults, corroborating);
   const int most = faults_covered(protect, protect.suspected(confirmed_grade()), confirmed_grade());
   if (depth < most) depth = most;
-  // Who is set aside is out of the estimate as if latched out: the next fault is also one of those that are left.
-  const SensorSet left = posed & in_service;
+  // Who is provisionally excluded is out of the estimate as if excluded: the next fault is also one of those that are
+  // left.
+  const SensorSet left = monitored & in_service;
   for (const bool of_those_left : {false, true}) {
-    const SensorSet all = of_those_left ? left : posed;
-    if (of_those_left && left == posed) break;
+    const SensorSet all = of_those_left ? left : monitored;
+    if (of_those_left && left == monitored) break;
     for_each_fault_set(all, universe_, of_those_left ? protect.faults : depth, [&](SensorSet f) {
       const SensorSet rest = all - f;
       const SetTest& test = tests.of(rest);
@@ -307,21 +310,21 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   out.bears_more = !protect.doubted || out.covered >= suspected + protect.faults;
   const SensorSet asserted = common.found();
   if (!asserted.empty()) {
-    const SetTest& rest = tests.of(posed - asserted);
-    if (rest.tested && may_be_healthy(posed - asserted, rest, limits, by.doubt)) out.asserted = asserted;
+    const SetTest& rest = tests.of(monitored - asserted);
+    if (rest.tested && may_be_healthy(monitored - asserted, rest, limits, by.doubt)) out.asserted = asserted;
   }
   return out;
 }
 
 bool Isolation::bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
                                 const ProtectionTerms& protect, double limit_rad) const noexcept {
-  const SensorSet posed = posed_ & tests.block().usable;
+  const SensorSet monitored = monitored_ & tests.block().usable;
   const SetTest unsuspected = tests.of((in_service & tests.block().usable) - scan.suspects);
   const int faults = scan.least > scan.covered ? scan.least : scan.covered;
   if (!unsuspected.tested || faults > kScanDepth) return false;
   const Grounds by = grounds(tests);
-  return all_fault_sets(posed, universe_, faults, [&](SensorSet f) {
-    const SensorSet rest = posed - f;
+  return all_fault_sets(monitored, universe_, faults, [&](SensorSet f) {
+    const SensorSet rest = monitored - f;
     const SetTest& t = tests.of(rest);
     if (!t.tested) return mirror_separation_rad(tests, unsuspected.x_mps2, rest, protect) <= limit_rad;
     return !explains(tests.limits(), by, rest, t) ||

@@ -11,7 +11,7 @@ StationFinder::StationFinder(const SensorArray& array, double g_mps2, const Sett
     : array_(array),
       settings_(settings),
       g_mps2_(g_mps2),
-      factor_(restless_factor(array.size(), settings.block, settings.restless_rate)) {}
+      factor_(scatter_factor(array.size(), settings.block, settings.restless_rate)) {}
 
 void StationFinder::merge(const Block& block) noexcept {
   if (!station_.present) {

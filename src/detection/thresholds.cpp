@@ -59,7 +59,7 @@ double binomial(int n, int k) noexcept {
   return out;
 }
 
-/// What the provisional grade's own vote takes: every set with sensor i that it hears must be dead.
+/// What the provisional grade's own vote takes: every set with sensor i that it hears must be rejected.
 class SetAside {
  public:
   SetAside(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget) noexcept

@@ -109,9 +109,9 @@ BlockReport judge(const BlockTests& tests, const JudgeTerms& terms) noexcept {
   if (!(report.parity_ratio <= 1.0)) {
     decided(report, Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits));
   } else if (!(report.norm_ratio <= 1.0)) {
-    const bool vouched = tests.vouches_for_norm(used, t);
-    decided(report, vouched ? Kind::reference : Kind::alarm, vouched ? Cause::norm_mismatch : Cause::norm, Cause::norm,
-            std::fabs(t.norm), t.norm_alarm_limit(limits));
+    const bool corroborated = tests.corroborates_norm(used, t);
+    decided(report, corroborated ? Kind::reference : Kind::alarm, corroborated ? Cause::norm_mismatch : Cause::norm,
+            Cause::norm, std::fabs(t.norm), t.norm_alarm_limit(limits));
   } else if (report.mae_ratio > 1.0) {
     decided(report, Kind::alarm, Cause::mae, Cause::mae, report.mae_worst_mps2, report.mae_limit_mps2);
   } else {

@@ -29,7 +29,7 @@ constexpr int kSearched = 8;
 constexpr int kTestsPerBlock = 150;
 /// Degrees of freedom below which chance decides.
 constexpr int kLeastDegrees = 6;
-/// Attitudes below which nobody is convicted, however many degrees of freedom they have: of many sensors there are many
+/// Attitudes below which nobody is excluded, however many degrees of freedom they have: of many sensors there are many
 /// sets that might be innocent by chance.
 constexpr int kLeastVouching = 4;
 /// What is learned explains its own attitudes to the noise, and leaves as much again for others.
@@ -44,7 +44,7 @@ constexpr double kWellSigmas = 2.326;
 /// Of a right calibration one attitude in 1e5 is held back: as seldom as a false alarm by default.
 constexpr double kDoubtSigmas = 4.265;
 
-/// Sensors that agree by chance where all are off convict one in so many: ln(1e-4).
+/// Sensors that agree by chance where all are off exclude one in so many: ln(1e-4).
 constexpr double kLnMostChance = -9.21;
 
 constexpr size_t at(int i) noexcept { return static_cast<size_t>(i); }
@@ -155,16 +155,16 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
   return out;
 }
 
-bool CalibrationCheck::vouches(const Terms& terms, SensorSet posed, SensorSet culprits) const noexcept {
-  const SensorSet set = posed - culprits;
+bool CalibrationCheck::corroborates(const Terms& terms, SensorSet monitored, SensorSet isolated) const noexcept {
+  const SensorSet set = monitored - isolated;
   const Fit rest = fit(terms, set, 0.0);
   // A calibration that has been corroborated is believed until there is enough on record to say otherwise.
   if (rest.degrees < kLeastDegrees) return corroborated_;
   if ((!corroborated_ && rest.attitudes < kLeastVouching) || !rest.within(kVouching)) return false;
   // Were all sensors off by what they are together, and the rest of them by chance no more than this?
-  const Fit all = fit(terms, posed, 0.0);
+  const Fit all = fit(terms, monitored, 0.0);
   const double ratio = std::fmax(rest.sum / rest.degrees, 1.0) / std::fmax(all.sum / all.degrees, 1.0);
-  return ln_chance(ratio, independent(rest, set)) + ln_sets(posed.size(), culprits.size()) <= kLnMostChance;
+  return ln_chance(ratio, independent(rest, set)) + ln_sets(monitored.size(), isolated.size()) <= kLnMostChance;
 }
 
 /// An error of bias and axis, alike in size, makes at two attitudes u and v errors of a sensor correlated by
@@ -190,46 +190,46 @@ double CalibrationCheck::independent(const Fit& found, SensorSet set) const noex
   return std::fmax(1.0, rows * attitudes / parity + attitudes / length - 1.0);
 }
 
-void CalibrationCheck::weigh(const Terms& terms, SensorSet posed, SensorSet in_service, bool episode) noexcept {
-  const Fit all = fit(terms, posed, 0.0);
+void CalibrationCheck::weigh(const Terms& terms, SensorSet monitored, SensorSet in_service, bool episode) noexcept {
+  const Fit all = fit(terms, monitored, 0.0);
   if (!episode && all.degrees >= kLeastDegrees && all.within(kConsistent)) {
     corroborated_ = Flag(true);
-    const bool well = all.within(mean_square_beyond(kWellSigmas, independent(all, posed)));
+    const bool well = all.within(mean_square_beyond(kWellSigmas, independent(all, monitored)));
     closed_ = Flag(well || all.attitudes >= kLeast);
   }
   forget_doubt();
   if (!corroborated_) {
-    const Fit serving = in_service == posed ? all : fit(terms, in_service, 0.0);
+    const Fit serving = in_service == monitored ? all : fit(terms, in_service, 0.0);
     const double most = mean_square_beyond(kDoubtSigmas, independent(serving, in_service));
     doubted_ = Flag(serving.degrees > 0 && !serving.within(most));
   }
   if (!open() || size_ < kLeast || all.within(kConsistent)) return;
   next_ = SensorSet::first(1);
-  searched_ = posed;
+  searched_ = monitored;
 }
 
-double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept {
+double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet monitored) const noexcept {
   double tau = kFinestTolerance_mps2;
   for (int doubled = 0; doubled < kMostDoublings && kLearnedFactor * tau <= kMostLearnedTolerance_mps2; ++doubled) {
-    const Fit found = fit(terms, posed, tau);
+    const Fit found = fit(terms, monitored, tau);
     if (found.within(kExplained)) return tau;
     tau *= 2.0;
   }
   return 0.0;
 }
 
-bool CalibrationCheck::explained_without(const Terms& terms, SensorSet posed, SensorSet faulty,
+bool CalibrationCheck::explained_without(const Terms& terms, SensorSet monitored, SensorSet faulty,
                                          int& tests) const noexcept {
   const double most = faulty.size() > kScanDepth ? kVouchingFew : kVouching;
-  const Fit rest = fit(terms, posed - faulty, 0.0, most);
+  const Fit rest = fit(terms, monitored - faulty, 0.0, most);
   tests += rest.tests;
   // Too few attitudes at which the rest delivered refute nothing.
   return rest.degrees < kLeastDegrees || rest.within(most);
 }
 
-bool CalibrationCheck::search(const Terms& terms, SensorSet posed, int grade) noexcept {
+bool CalibrationCheck::search(const Terms& terms, SensorSet monitored, int grade) noexcept {
   // Of others than those among whom it began it tells nothing: the next attitude begins anew.
-  const SensorSet first = searched_ == posed ? next_ : SensorSet{};
+  const SensorSet first = searched_ == monitored ? next_ : SensorSet{};
   next_ = SensorSet{};
   if (first.empty() || refused()) return false;
   // Contradicted once, it is likelier to be so again than for a sensor to have failed meanwhile. And on a full record
@@ -242,24 +242,24 @@ bool CalibrationCheck::search(const Terms& terms, SensorSet posed, int grade) no
   int tests = 0;
   for (int size = first.size(); size <= depth; f = SensorSet::first(++size)) {
     for (; every.contains(f); f = next_of_same_size(f)) {
-      if (!posed.contains(f)) continue;
+      if (!monitored.contains(f)) continue;
       if (tests >= kTestsPerBlock) {
         next_ = f;
         return false;
       }
-      if (explained_without(terms, posed, f, tests)) return false;
+      if (explained_without(terms, monitored, f, tests)) return false;
     }
   }
-  contradict(terms, posed);
+  contradict(terms, monitored);
   return true;
 }
 
-void CalibrationCheck::contradict(const Terms& terms, SensorSet posed) noexcept {
-  const Fit all = fit(terms, posed, 0.0);
+void CalibrationCheck::contradict(const Terms& terms, SensorSet monitored) noexcept {
+  const Fit all = fit(terms, monitored, 0.0);
   finding_.contradicted = true;
   finding_.attitudes = size_;
   finding_.ratio = std::sqrt(all.sum / all.degrees);
-  const double learned_mps2 = kLearnedFactor * least_tolerance_mps2(terms, posed);
+  const double learned_mps2 = kLearnedFactor * least_tolerance_mps2(terms, monitored);
   finding_.tolerance_mps2 += learned_mps2;
   finding_.refused = !(learned_mps2 > 0.0) || finding_.tolerance_mps2 > kMostLearnedTolerance_mps2;
   if (finding_.refused) finding_.tolerance_mps2 = 0.0;

@@ -78,7 +78,7 @@ void HealthMonitor::set_up(const MonitorSetup& setup) noexcept {
   s.lever_arms_known = setup.lever_arms_known;
   s.limits =
       TestLimits::from_rates(n, s.config.false_alarm_rate, s.config.rejection_rate, s.config.acceleration_bound_mps2);
-  s.restless_factor = restless_factor(n, s.config.window, kRestlessRate);
+  s.scatter_factor = scatter_factor(n, s.config.window, kRestlessRate);
   derive_limits();
   s.k_integrity = normal_tail_quantile(s.config.integrity_risk / 2.0);
   s.protection_faults = faults_to_cover(n, s.config.fault_prior, s.config.integrity_risk);

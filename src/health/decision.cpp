@@ -6,16 +6,16 @@ inline namespace PLUMB_ABI {
 SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLedger& s) noexcept {
   SensorSet moved;
   if ((actions & Action::exclude) != 0) {
-    moved = named.culprits;
+    moved = named.isolated;
     s.excluded = s.excluded | moved;
-    // The survivors were just found alive together, those set aside before among them: they serve again, however often
-    // they were set aside. Setting aside is no conviction: beyond its own grade it may meet a healthy sensor time and
-    // again, and only the grade that convicts may take a sensor out for good.
+    // The survivors were just found consistent together, those provisionally excluded before among them: they serve
+    // again, however often they were provisionally excluded. Provisional exclusion is not final: beyond its own grade
+    // it may meet a healthy sensor time and again, and only the grade that excludes may take a sensor out for good.
     s.in_service = (s.in_service | s.provisionally_excluded) - moved;
     s.provisionally_excluded = SensorSet{};
   }
   if ((actions & Action::exclude_provisionally) != 0) {
-    moved = named.accused & s.in_service;
+    moved = named.suspected & s.in_service;
     s.in_service = s.in_service - moved;
     s.provisionally_excluded = s.provisionally_excluded | moved;
   }

@@ -28,7 +28,7 @@ void Diagnosis::clear(const InForce& in_force, SensorSet in_service, int assumed
   *this = Diagnosis{};
   asserted_left_ = assumed_faults;
   isolation_.pose(in_force.array, in_service);
-  live_ = isolation_.live();
+  consistent_ = isolation_.live();
 }
 
 void Diagnosis::forget_episode() noexcept {
@@ -66,7 +66,7 @@ void Diagnosis::spend_asserted(int faults) noexcept {
 }
 
 void Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcept {
-  // Nobody is accused by a datasheet.
+  // Nobody is suspected by a datasheet.
   if (report.kind != BlockReport::Kind::alarm || episode_.open || !calibrated) return;
   episode_.open = true;
   station_.clear();
@@ -91,8 +91,8 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
                                std::uint32_t tag) noexcept {
   const BlockEvidence& evidence = tests.block();
   const SensorLedger& sensors = terms.machine.sensors;
-  const SensorSet posed = sensors.in_service | sensors.provisionally_excluded;
-  const SensorSet voters = episode_.candidate.empty() ? sensors.in_service : posed - episode_.candidate;
+  const SensorSet monitored = sensors.in_service | sensors.provisionally_excluded;
+  const SensorSet voters = episode_.candidate.empty() ? sensors.in_service : monitored - episode_.candidate;
   const SetTest& clear = tests.of(voters & evidence.usable);
   const SetTest& pose = clear.tested ? clear : report.used;
   const Vec3& direction = pose.x_mps2;
@@ -123,15 +123,16 @@ SensorSet Diagnosis::convicted_by_scatter(const Terms& terms, const BlockTests& 
   if (noisy.size() != 1 || isolation_.confirmed_grade() < 1) return {};
   const bool checked = isolation_.provisional_grade() >= 1;
   if (checked && !terms.facts.noisy_for_certain().contains(noisy)) return {};
-  const SensorSet others = isolation_.posed() - noisy;
+  const SensorSet others = isolation_.monitored() - noisy;
   const TestLimits& limits = terms.settings.limits;
   const SetTest& rest = tests.of(others & tests.block().usable);
-  const bool agree = terms.last.calm.contains(others) && rest.tested && rest.alive(limits) && rest.parity_alive(limits);
+  const bool agree =
+      terms.last.calm.contains(others) && rest.tested && rest.consistent(limits) && rest.parity_consistent(limits);
   return agree ? noisy : SensorSet{};
 }
 
 /// By the vote where that names anyone, else by scatter.
-Diagnosis::Accusation Diagnosis::accuse(const Terms& terms, const BlockTests& tests,
+Diagnosis::Suspicion Diagnosis::suspect(const Terms& terms, const BlockTests& tests,
                                         const IsolationAnswer& voted) const noexcept {
   if (!voted.strict.empty()) return {voted.strict, false};
   const SensorSet scatters = convicted_by_scatter(terms, tests);
@@ -141,7 +142,7 @@ Diagnosis::Accusation Diagnosis::accuse(const Terms& terms, const BlockTests& te
 bool Diagnosis::is_vote_due(const BlockTests& tests) const noexcept {
   const int blocks = station_.blocks;
   // An answer that a silent channel leaves untestable neither confirms nor takes back the one before.
-  const bool testable = tests.block().usable.contains(isolation_.posed());
+  const bool testable = tests.block().usable.contains(isolation_.monitored());
   return testable && blocks <= kLastVoteBlock && (blocks & (blocks - 1)) == 0;
 }
 
@@ -149,29 +150,29 @@ void Diagnosis::vote(const Terms& terms, const BlockTests& tests) noexcept {
   if (!is_vote_due(tests)) return;
   answer_ = isolation_.vote(tests, terms.last.calm);
   station_.asked = true;
-  const Accusation accused = accuse(terms, tests, answer_);
-  answer_.strict = accused.culprits;
-  note_accusation(terms, tests, accused);
+  const Suspicion suspected = suspect(terms, tests, answer_);
+  answer_.strict = suspected.isolated;
+  note_suspicion(terms, tests, suspected);
 }
 
 /// What the accusation of one station makes of the candidate that the stations before it have named.
-void Diagnosis::note_accusation(const Terms& terms, const BlockTests& tests, const Accusation& accused) noexcept {
-  const SensorSet posed = isolation_.posed(), usable = tests.block().usable;
+void Diagnosis::note_suspicion(const Terms& terms, const BlockTests& tests, const Suspicion& suspected) noexcept {
+  const SensorSet monitored = isolation_.monitored(), usable = tests.block().usable;
   const TestLimits& limits = terms.settings.limits;
-  const SetTest& full = tests.of(posed & usable);
-  const bool visible = !full.alive(limits) || !full.parity_alive(limits);
+  const SetTest& full = tests.of(monitored & usable);
+  const bool visible = !full.consistent(limits) || !full.parity_consistent(limits);
   // A fault may come and go within a station: a block without it neither confirms nor takes back.
-  if (accused.culprits.empty() && !visible) return;
-  if (accused.culprits != episode_.candidate) {
+  if (suspected.isolated.empty() && !visible) return;
+  if (suspected.isolated != episode_.candidate) {
     episode_.take_back();
-    episode_.candidate = accused.culprits;
-    episode_.by_scatter = accused.by_scatter;
+    episode_.candidate = suspected.isolated;
+    episode_.by_scatter = suspected.by_scatter;
   }
-  station_.answered = !accused.culprits.empty();
+  station_.answered = !suspected.isolated.empty();
   // A station at which the fault cannot be seen confirms nothing.
-  if (accused.culprits.empty() || !visible) return;
-  episode_.by_scatter = episode_.by_scatter && accused.by_scatter;
-  const SetTest& survivors = tests.of((posed - accused.culprits) & usable);
+  if (suspected.isolated.empty() || !visible) return;
+  episode_.by_scatter = episode_.by_scatter && suspected.by_scatter;
+  const SetTest& survivors = tests.of((monitored - suspected.isolated) & usable);
   const double apart_rad = terms.settings.config.distinct_attitude_angle_rad;
   if (survivors.tested) episode_.agreeing.add(known_direction(survivors, apart_rad), apart_rad);
 }
@@ -182,26 +183,26 @@ SensorSet Diagnosis::noise_confirmed(const ChannelFacts& facts) const noexcept {
   return at_stations && isolation_.provisional_grade() >= 1 ? out | episode_.candidate : out;
 }
 
-/// Until the calibration is believed a sensor is convicted only if the others agree at every attitude on record; once
+/// Until the calibration is believed a sensor is excluded only if the others agree at every attitude on record; once
 /// it has been contradicted, by no evidence: that rests on what was learned a moment ago.
-bool Diagnosis::may_convict(const Terms& terms, SensorSet culprits) const noexcept {
+bool Diagnosis::may_exclude(const Terms& terms, SensorSet isolated) const noexcept {
   if (!terms.check.open()) return true;
   const CalibrationCheck::Terms by{terms.in_force.array, terms.in_force.gravity, terms.settings.limits};
-  return !terms.check.finding().contradicted && terms.check.vouches(by, isolation_.posed(), culprits);
+  return !terms.check.finding().contradicted && terms.check.corroborates(by, isolation_.monitored(), isolated);
 }
 
-SensorSet Diagnosis::culprits(const Terms& terms) const noexcept {
-  const SensorSet posed = isolation_.posed();
+SensorSet Diagnosis::isolated(const Terms& terms) const noexcept {
+  const SensorSet monitored = isolation_.monitored();
   if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_ &&
-      may_convict(terms, scan_.asserted))
+      may_exclude(terms, scan_.asserted))
     return scan_.asserted;
   if (isolation_.confirmed_grade() < 1 || episode_.candidate.empty()) return {};
-  const int survivors = (posed - episode_.candidate).size();
+  const int survivors = (monitored - episode_.candidate).size();
   int needed = terms.settings.config.isolation_stations;
   if (survivors <= 3 && needed < 2) needed = 2;  // three survivors have no parity: one station may be a mirror
   if (episode_.by_scatter && isolation_.provisional_grade() >= 1) return {};  // provisionally, and by `noise_confirmed`
   if (episode_.by_scatter && needed < 2) needed = 2;  // at one station its scatter may be a push
-  const bool agreed = episode_.agreeing.size() >= needed && may_convict(terms, episode_.candidate);
+  const bool agreed = episode_.agreeing.size() >= needed && may_exclude(terms, episode_.candidate);
   return agreed ? episode_.candidate : SensorSet{};
 }
 
@@ -210,12 +211,12 @@ Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, No
   Conclusion out;
   out.refuted = report.kind == Kind::alarm && asserted_left_ == 0 && !terms.in_force.owes_calibration();
   if (may_accuse(terms.machine.mode)) {
-    out.culprits = episode_.open ? culprits(terms) : SensorSet{};
-    if (!out.culprits.empty())
-      last_grade_ = asserted_left_ > 0 && out.culprits == scan_.asserted ? Grade::assumed : Grade::confirmed;
+    out.isolated = episode_.open ? isolated(terms) : SensorSet{};
+    if (!out.isolated.empty())
+      last_grade_ = asserted_left_ > 0 && out.isolated == scan_.asserted ? Grade::assumed : Grade::confirmed;
     const bool by_parity =
         episode_.open && noise.learned && report.kind == Kind::alarm && report.cause == Cause::parity;
-    const SensorSet odd = by_parity && may_convict(terms, answer_.parity) ? answer_.parity : SensorSet{};
+    const SensorSet odd = by_parity && may_exclude(terms, answer_.parity) ? answer_.parity : SensorSet{};
     // Where all sensors may be noisier than stated, the scatter of one may be its share of that.
     const SensorSet scatters = noise.learned || noise.others_as_stated ? noise_confirmed(terms.facts) : SensorSet{};
     out.aside = aside_ = (odd | scatters) & terms.machine.sensors.in_service;
@@ -226,7 +227,7 @@ Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, No
 
 /// Who may speak against a fault set of the asserted size: the calm, and those that scatter by themselves whichever so
 /// many others hang.
-SensorSet Diagnosis::witnesses(const Terms& terms) const noexcept {
+SensorSet Diagnosis::corroborating(const Terms& terms) const noexcept {
   const SensorSet in_service = terms.machine.sensors.in_service;
   if (asserted_left_ > provisional_grade(terms.in_force.array, in_service & terms.last.usable)) return terms.last.calm;
   return terms.last.calm | terms.facts.noisy_for_certain();
@@ -234,7 +235,7 @@ SensorSet Diagnosis::witnesses(const Terms& terms) const noexcept {
 
 void Diagnosis::rescan(const Terms& terms, const BlockTests& tests, double turn_rad,
                        double reference_turn_rad) noexcept {
-  live_ = isolation_.live();
+  consistent_ = isolation_.live();
   if (!terms.last.known) return;
   const int priors = terms.settings.protection_faults;
   int depth = std::max(priors, asserted_left_);
@@ -243,7 +244,7 @@ void Diagnosis::rescan(const Terms& terms, const BlockTests& tests, double turn_
   const int aside = (sensors.provisionally_excluded & terms.last.evidence.usable).size();
   scan_ = isolation_.scan(tests, sensors.in_service, depth, asserted_left_,
                           {priors, terms.settings.k_integrity, aside, episode_.open, terms.machine.not_yet_validated},
-                          witnesses(terms));
+                          corroborating(terms));
   scan_.protection_rad += turn_rad;
   scan_.protection_rad += reference_turn_rad;
 }

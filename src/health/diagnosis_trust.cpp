@@ -30,9 +30,10 @@ bool Diagnosis::expected(HealthEvent event, const DecisionState& machine) const 
 }
 
 /// The timeout counts doubt, not alarms alone: a block between the limit to leave suspect and the one to enter it would
-/// else hold the monitor there for ever. It rests at a reference error, of which nobody in service is accused.
+/// else hold the monitor there for ever. It rests at a reference error, of which nobody in service is suspected.
 void Diagnosis::count_doubt(const Terms& terms, const BlockReport& report) noexcept {
-  // The contradiction for which the host had a fit made is no news, and the fit needs more stations than patience has.
+  // The contradiction for which the host had a fit made is no news, and the fit needs more stations than the isolation
+  // timeout allows.
   const bool known = answer_.no_consistent_hypothesis && expected(HealthEvent::no_consistent_hypothesis, terms.machine);
   episode_.note_suspected((episode_.candidate | terms.machine.sensors.provisionally_excluded).size());
   if (!report.doubtful(terms.machine.mode) || known || terms.in_force.owes_calibration()) return;
@@ -52,10 +53,10 @@ bool Diagnosis::is_out_of_blocks(const Terms& terms) const noexcept {
   return config.isolation_timeout_blocks > 0 && episode_.doubtful_blocks >= config.isolation_timeout_blocks;
 }
 
-bool Diagnosis::patience_is_over(const Terms& terms) const noexcept {
+bool Diagnosis::isolation_timed_out(const Terms& terms) const noexcept {
   const Mode mode = terms.machine.mode;
   if (mode != Mode::suspect && mode != Mode::recalibrating) return false;
-  if (terms.check.refused()) return false;  // nobody is accused of it
+  if (terms.check.refused()) return false;  // nobody is suspected of it
   return (is_out_of_stations(terms) || is_out_of_blocks(terms)) &&
          (!terms.machine.timed_out || unbounded_run_ >= terms.settings.config.passed_blocks);
 }
@@ -65,7 +66,7 @@ bool Diagnosis::patience_is_over(const Terms& terms) const noexcept {
 /// of each other, no attitude speaks against the tool.
 bool Diagnosis::is_isolable(const BlockEvidence& evidence) const noexcept {
   const int grade = std::max(isolation_.confirmed_grade(), isolation_.provisional_grade());
-  return scan_.least <= grade && (isolation_.posed() & evidence.usable).size() - scan_.least >= 4;
+  return scan_.least <= grade && (isolation_.monitored() & evidence.usable).size() - scan_.least >= 4;
 }
 
 /// Blocks in a row in which the doubt had neither a bound nor a way out. A bound: of the estimate, or of that of the
@@ -124,10 +125,10 @@ void Diagnosis::count_clean(const Terms& terms, const BlockTests& tests, const B
     const bool believed = isolation_.confirmed_grade() < 1 || terms.check.believed();
     if (moved && believed && machine.clean_run >= config.passed_blocks) machine.not_yet_validated = false;
   }
-  // While a sensor is set aside the episode ends only when it, too, agrees again.
-  const SensorSet posed = isolation_.posed() & tests.block().usable;
-  const SetTest& all = tests.of(posed);
-  if (!(all.alive(terms.settings.limits) && all.parity_alive(terms.settings.limits))) return;
+  // While a sensor is provisionally excluded the episode ends only when it, too, agrees again.
+  const SensorSet monitored = isolation_.monitored() & tests.block().usable;
+  const SetTest& all = tests.of(monitored);
+  if (!(all.consistent(terms.settings.limits) && all.parity_consistent(terms.settings.limits))) return;
   const double apart_rad = config.distinct_attitude_angle_rad;
   episode_.clean.add(known_direction(report.used, apart_rad), apart_rad);
   const bool on_record = episode_.open || episode_.stations.size() > 0;
@@ -152,7 +153,7 @@ void Diagnosis::examine_probation(const Terms& terms, const BlockTests& tests, c
   for (int i = 0; i < terms.in_force.array.size(); ++i) {
     if (!asked.has(i)) continue;
     const SetTest& t = tests.of((s.in_service & evidence.usable).with(i));
-    if (t.tested && t.alive(limits) && t.parity <= config.clear_fraction * t.parity_alarm_limit(limits))
+    if (t.tested && t.consistent(limits) && t.parity <= config.clear_fraction * t.parity_alarm_limit(limits))
       fine = fine.with(i);
   }
   const SensorSet still = on_probation_ & fine;

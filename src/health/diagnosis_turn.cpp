@@ -29,8 +29,8 @@ RotationRequest Diagnosis::validating_turn(const Terms& terms) const noexcept {
   return out;
 }
 
-/// The pair of live explanations that is hardest to tell apart: sensor i at fault by f, sensor j accused instead. The
-/// rest without j answers f w too far, w being its column for i; its length gives it away elsewhere.
+/// The pair of consistent explanations that is hardest to tell apart: sensor i at fault by f, sensor j suspected
+/// instead. The rest without j answers f w too far, w being its column for i; its length gives it away elsewhere.
 RotationRequest Diagnosis::resolving_turn(const Terms& terms) const noexcept {
   RotationRequest out;
   out.wanted = true;
@@ -40,19 +40,19 @@ RotationRequest Diagnosis::resolving_turn(const Terms& terms) const noexcept {
   const GravityReference& gravity = terms.in_force.gravity;
   const TestLimits& limits = terms.settings.limits;
   const BlockEvidence& evidence = terms.last.evidence;
-  const SensorSet posed = isolation_.posed() & evidence.usable;
-  const SensorSet accused = scan_.suspects & posed;
+  const SensorSet monitored = isolation_.monitored() & evidence.usable;
+  const SensorSet suspected = scan_.suspects & monitored;
   for (int j = 0; j < array.size(); ++j) {
-    if (!accused.has(j)) continue;
-    const SensorSet rest = posed.without(j);
+    if (!suspected.has(j)) continue;
+    const SensorSet rest = monitored.without(j);
     const SetTest wrong = test_set(array, gravity, limits, evidence, rest);
     if (!wrong.tested) continue;
     const LeastSquares map = least_squares(array, rest);
     const double margin = 2.0 * wrong.norm_reject_limit(limits) * wrong.norm_sigma_mps2 / std::sqrt(evidence.samples);
     for (int i = 0; i < array.size(); ++i) {
-      if (!accused.has(i) || i == j) continue;
+      if (!suspected.has(i) || i == j) continue;
       const auto a = static_cast<size_t>(i);
-      const LeastSquares others = least_squares(array, posed.without(i));
+      const LeastSquares others = least_squares(array, monitored.without(i));
       if (!others.valid) continue;
       const double fault = evidence.mean_mps2[a] - dot(array.axis(i), others.estimate(evidence.mean_mps2));
       const double reach = std::fabs(fault) * norm(map.column[a]);

@@ -58,7 +58,7 @@ GravityFinding::News GravityFinding::study(const Terms& terms, const BlockReport
   return news && !(widened_mps2_ > 0.0) ? tell(terms) : News{};
 }
 
-/// Gravity is taken to be known no better than the offset that every sensor of the array vouches for. Only ever wider:
+/// Gravity is taken to be known no better than the offset that every sensor of the array corroborates. Only ever wider:
 /// no explanation dies of it. Not while a sensor is doubted, and not where the offset may be an acceleration.
 GravityFinding::News GravityFinding::tell(const Terms& terms) noexcept {
   const GravityReference& gravity = terms.in_force.gravity;
@@ -79,7 +79,7 @@ GravityFinding::News GravityFinding::tell(const Terms& terms) noexcept {
   turn_rad_ = found.turn_rad;
   found.bias_mps2 = times(terms.settings.frame, found.bias_mps2);
   const double most_mps2 = std::fabs(found.length_mps2) + found.length_bound_mps2;
-  if (found.kind == NormMismatchKind::common_scale && terms.vouched && !(acceleration_mps2 > 0.0) &&
+  if (found.kind == NormMismatchKind::common_scale && terms.corroborated && !(acceleration_mps2 > 0.0) &&
       most_mps2 <= kMostGravityOffset_mps2) {
     widened_mps2_ = std::fabs(found.length_mps2) + std::fmax(0.0, found.length_bound_mps2 - stated_mps2);
     news.widen_mps2 = found.widened_mps2 = widened_mps2_;

@@ -14,8 +14,8 @@ namespace {
 
 /// What the host's freeze leaves of the events: it holds back what moves sensors on evidence and what replaces the
 /// calibration. Both are levels or come again with the next block.
-/// Patience that ends recalibration leads back to where that began, but not past what speaks against the tool at the
-/// same time (S17; the model in model/ found it).
+/// An isolation timeout that ends recalibration leads back to where that began, but not past what speaks against the
+/// tool at the same time (S17; the model in model/ found it).
 EventMask allowed(const MonitorState& s, EventMask raised) noexcept {
   if (s.machine.mode == Mode::recalibrating && (raised & kKeptEvents) != 0)
     raised &= ~bit(HealthEvent::isolation_timeout);
@@ -176,7 +176,7 @@ EventMask HealthMonitor::serve_rows(const Sample& sample, GateResult& gate, bool
   const SensorSet absent = s.machine.sensors.absent, all = s.in_force.array.all();
   if (s.intake.silence.is_due(config.window)) {
     const SensorSet silent = s.intake.silence.close(s.in_force.array.size(), config.missing_confirm);
-    if (!silent.empty()) s.intake.gate.condemn(silent - absent);
+    if (!silent.empty()) s.intake.gate.mark_lost(silent - absent);
   }
   if (!((s.intake.gate.lost() & all) - absent).empty()) raised |= bit(HealthEvent::channel_lost);
   if (!(s.intake.gate.back() & absent).empty()) raised |= bit(HealthEvent::channel_back);
@@ -186,9 +186,9 @@ EventMask HealthMonitor::serve_rows(const Sample& sample, GateResult& gate, bool
 /// One event through the machine. Where it changes the sensors that serve, the last block is judged once more, by those
 /// that are left, before anything is published.
 HealthEvent HealthMonitor::take_event(EventMask raised, double time_s) noexcept {
-  const SensorSet in_service = state_.in_service(), posed = state_.posed();
+  const SensorSet in_service = state_.in_service(), monitored = state_.monitored();
   const HealthEvent taken = decide(raised, time_s);
-  const bool others = in_service != state_.in_service() || posed != state_.posed();
+  const bool others = in_service != state_.in_service() || monitored != state_.monitored();
   if (others && state_.last.known) judge_again();
   return taken;
 }

@@ -19,7 +19,7 @@ bool MonitorState::may_recalibrate() const noexcept {
     case Mode::isolated:
     case Mode::degraded: return !diagnosis.episode().open && !machine.not_yet_validated;
     case Mode::suspect:
-      // A fit of three sensors never clears an alarm: nothing but the fit itself would vouch for it.
+      // A fit of three sensors never clears an alarm: nothing but the fit itself would corroborate it.
       if (service.size == SizeClass::critical) return false;
       return diagnosis.suspicion() == Cause::no_consistent_hypothesis ||
              (diagnosis.suspicion() == Cause::norm_mismatch && !diagnosis.episode().open);

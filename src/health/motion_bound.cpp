@@ -27,15 +27,15 @@ double least_share_felt(const SensorArray& array, SensorSet used) noexcept {
   return std::sqrt(least / used.size());
 }
 
-double hidden_turn_rad(const InForce& in_force, SensorSet in_service, SensorSet used, double restless_factor,
+double hidden_turn_rad(const InForce& in_force, SensorSet in_service, SensorSet used, double scatter_factor,
                        double noise_factor) noexcept {
   const double share = least_share_felt(in_force.array, used);
-  if (!(share > 0.0) || !(restless_factor > 1.0)) return 0.0;  // a row that is a station has no scatter
+  if (!(share > 0.0) || !(scatter_factor > 1.0)) return 0.0;  // a row that is a station has no scatter
   double most_mps2 = 0.0;
   for (int i = 0; i < in_force.array.size(); ++i) {
     if (in_service.has(i)) most_mps2 = std::fmax(most_mps2, in_force.array.sigma_mps2(i) * noise_factor);
   }
-  return std::sqrt(12.0 * (restless_factor - 1.0)) * most_mps2 / (share * in_force.gravity.g_mps2);
+  return std::sqrt(12.0 * (scatter_factor - 1.0)) * most_mps2 / (share * in_force.gravity.g_mps2);
 }
 
 }  // namespace PLUMB_ABI

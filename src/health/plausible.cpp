@@ -96,7 +96,7 @@ bool mode_is_plausible(const MonitorState& s) noexcept {
   const bool rank_lost = s.service.size == SizeClass::rank_lost, owes = s.in_force.owes_calibration();
   if (owes && machine.mode != Mode::initial && machine.mode != Mode::failed) return false;
   // Nobody whom the monitor has not calibrated serves.
-  if (!owes && !s.in_force.calibrated.contains(s.posed())) return false;
+  if (!owes && !s.in_force.calibrated.contains(s.monitored())) return false;
   switch (machine.mode) {
     case Mode::nominal:
     case Mode::isolated:

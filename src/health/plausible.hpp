@@ -8,7 +8,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// In service, set aside, excluded and absent partition the array (property S4).
+/// In service, provisionally excluded, excluded and absent partition the array (property S4).
 bool sets_are_plausible(const MonitorState& state) noexcept;
 /// The coefficients in force, and how they can have come about.
 bool calibration_is_plausible(const MonitorState& state, const MonitorSetup& setup) noexcept;

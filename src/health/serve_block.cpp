@@ -13,7 +13,7 @@ namespace {
 
 using Kind = BlockReport::Kind;
 
-/// Blocks at rest that show the noise, before a sensor is set aside by parity alone.
+/// Blocks at rest that show the noise, before a sensor is provisionally excluded by parity alone.
 constexpr double kBlocksOfNoise = 3.0;
 
 /// Blocks that show how correlated the noise is, before a doubt keeps more from being learned.
@@ -43,10 +43,11 @@ EventMask events_of(const MonitorState& s, const BlockReport& report, const Conc
   const auto raise = [&](HealthEvent event) {
     if (!d.expected(event, s.machine)) raised |= bit(event);
   };
-  if (!concluded.culprits.empty()) raise(HealthEvent::exclusion);
+  if (!concluded.isolated.empty()) raise(HealthEvent::exclusion);
   if (!concluded.aside.empty() && rank_of(s.in_force.array, s.in_service() - concluded.aside) == 3)
     raise(HealthEvent::provisional_exclusion);
-  if (report.kind != Kind::reference && d.patience_is_over(s.diagnosis_terms())) raise(HealthEvent::isolation_timeout);
+  if (report.kind != Kind::reference && d.isolation_timed_out(s.diagnosis_terms()))
+    raise(HealthEvent::isolation_timeout);
   const bool nothing_explains = d.answer().no_consistent_hypothesis || concluded.refuted;
   if (report.kind == Kind::alarm) raise(nothing_explains ? HealthEvent::no_consistent_hypothesis : HealthEvent::alarm);
   if (s.studies.check.refused()) raise(HealthEvent::no_consistent_hypothesis);
@@ -90,7 +91,7 @@ bool HealthMonitor::moves_slowly(const BlockNoise& noise, bool turning, BlockJud
       s.in_force.owes_calibration())
     return false;
   if (!(s.intake.gate.clipped_beyond(0.0) & used).empty()) return false;
-  return moves_together(s.in_force.array, s.window.block, used, s.settings.restless_factor, s.in_force.gravity.g_mps2,
+  return moves_together(s.in_force.array, s.window.block, used, s.settings.scatter_factor, s.in_force.gravity.g_mps2,
                         noise, judged);
 }
 
@@ -99,7 +100,7 @@ HealthMonitor::Block HealthMonitor::close_block(double time_s, bool turning) noe
   MonitorState& s = state_;
   const SensorArray& array = s.in_force.array;
   const BlockAccumulator& block = s.window.block;
-  const double scattering = s.settings.restless_factor, g_mps2 = s.in_force.gravity.g_mps2;
+  const double scattering = s.settings.scatter_factor, g_mps2 = s.in_force.gravity.g_mps2;
   // Of the blocks before: a turn that begins in this one, and that a sensor hides, may pass for noise.
   const BlockNoise before = noise_of(array, s.studies.noise.factor(), s.settings.resolution_mps2);
   const BlockNoise noise = learn_noise();
@@ -147,7 +148,7 @@ void HealthMonitor::follow_motion(const BlockTests& tests, const BlockReport& re
   const double hidden_rad = motion.known()
                                 ? 0.0
                                 : hidden_turn_rad(s.in_force, s.in_service(), s.in_service() & tests.block().usable,
-                                                  s.settings.restless_factor, s.last.noise_factor);
+                                                  s.settings.scatter_factor, s.last.noise_factor);
   motion.add_turn(report.used.x_mps2, sigma_rad, s.settings.config.alert_limit_rad, rms_rad, row_rad, hidden_rad);
 }
 
@@ -192,15 +193,15 @@ void HealthMonitor::keep_vector(const BlockTests& tests) noexcept {
   if (!check.open() || check.refused() || s.in_force.owes_calibration() || s.machine.mode == Mode::failed) return false;
   check.count(report.kind == Kind::clean);
   const CalibrationCheck::Terms terms{s.in_force.array, s.in_force.gravity, s.settings.limits};
-  const SensorSet posed = s.diagnosis.isolation().posed();
+  const SensorSet monitored = s.diagnosis.isolation().monitored();
   if (!check.searches()) {
     // Of a tool whose calibration is believed so far: the length is gravity's matter, and that is another now.
     const bool other_gravity = report.kind == Kind::reference && s.diagnosis.suspicion() != Cause::norm_mismatch;
     if (check.corroborated() && other_gravity) check.forget_readings();
     if (check.add(s.diagnosis.station().direction, s.last.evidence, s.settings.config.distinct_attitude_angle_rad))
-      check.weigh(terms, posed, s.in_service(), s.diagnosis.episode().open);
+      check.weigh(terms, monitored, s.in_service(), s.diagnosis.episode().open);
   }
-  if (!check.search(terms, posed, grade)) return false;
+  if (!check.search(terms, monitored, grade)) return false;
   s.diagnosis.forget_episode();
   s.machine.timed_out = false;
   s.machine.clean_run = 0;
@@ -213,9 +214,9 @@ void HealthMonitor::study_gravity(const BlockReport& report) noexcept {
   MonitorState& s = state_;
   const Mode mode = s.machine.mode;
   const bool trusted = report.kind == Kind::clean && mode != Mode::suspect && mode != Mode::recalibrating;
-  const bool vouched = s.in_service() == s.in_force.array.all() && !s.last.partial && !s.diagnosis.episode().open &&
-                       s.facts.noisy().empty();
-  const GravityFinding::Terms terms{s.settings, s.in_force, s.last.evidence, s.in_service(), trusted, vouched};
+  const bool corroborated = s.in_service() == s.in_force.array.all() && !s.last.partial &&
+                            !s.diagnosis.episode().open && s.facts.noisy().empty();
+  const GravityFinding::Terms terms{s.settings, s.in_force, s.last.evidence, s.in_service(), trusted, corroborated};
   const GravityFinding::News news = s.studies.gravity.study(terms, report);
   if (!news.told) return;
   if (news.noticed) s.requests.reference_notice = news.finding.kind;
@@ -243,8 +244,8 @@ void HealthMonitor::collect_station(const BlockReport& report, const RawBlock& r
                             s.diagnosis.station().blocks == 1);
 }
 
-/// Of a tool in slow motion: a vector and its bound. Nobody is accused by it and nobody cleared, it is no station, and
-/// nothing is learned from it; but that the sensors do not agree is an alarm whatever the tool does.
+/// Of a tool in slow motion: a vector and its bound. Nobody is suspected by it and nobody cleared, it is no station,
+/// and nothing is learned from it; but that the sensors do not agree is an alarm whatever the tool does.
 EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests& tests,
                                           const BlockReport& report) noexcept {
   MonitorState& s = state_;
@@ -267,7 +268,7 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
   return alarm ? bit(HealthEvent::alarm) : EventMask{0};
 }
 
-/// Of a tool at rest within its temperatures: who is accused and who is cleared by it, and what is learned.
+/// Of a tool at rest within its temperatures: who is suspected and who is cleared by it, and what is learned.
 /// `as_stated`: the noise of the calm sensors.
 EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTests& tests, const BlockReport& report,
                                              const RawBlock& raw, bool as_stated) noexcept {

@@ -14,7 +14,7 @@ void HealthMonitor::sets_changed() noexcept {
   if (s.studies.slow_motion.lately()) s.freshness.lapse();  // how fast the others show it to move is not known
   s.window.forget_near();
   s.window.mae.clear_all_sensor();
-  s.diagnosis.pose(array, s.posed());
+  s.diagnosis.pose(array, s.monitored());
   s.studies.trend.clear();
   s.studies.gravity.forget_attitudes();
   s.facts.forget_scatter();
@@ -44,7 +44,7 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const SensorLedger&
   }
   if ((actions & Action::exclude_provisionally) != 0) d.grade_by_parity();
   if ((actions & Action::mark_absent) != 0) d.forget_probation_of(named);
-  if ((actions & (Action::mark_back | Action::rearm)) != 0) s.intake.gate.welcome(named);
+  if ((actions & (Action::mark_back | Action::rearm)) != 0) s.intake.gate.reinstate(named);
   if ((actions & Action::reinstate) != 0) d.forget_probation();
   if ((actions & (Action::reinstate | Action::rearm)) != 0) {
     s.studies.check.forget_readings();  // of when the sensors were at fault
@@ -62,7 +62,7 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const SensorLedger&
     s.recalibration.forget();  // its stations were those of other sensors
     if (s.recalibration.offered()) drop_request();
   }
-  const bool posed_others = (before.in_service | before.provisionally_excluded) != s.posed();
+  const bool posed_others = (before.in_service | before.provisionally_excluded) != s.monitored();
   if (posed_others) d.withdraw_answer();
   if (serve_others || posed_others) sets_changed();
   return named;
@@ -75,7 +75,7 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   const bool calibrated = !s.in_force.owes_calibration();
   DecisionInput input;
   input.raised = raised;
-  input.named = {d.culprits(s.diagnosis_terms()),
+  input.named = {d.isolated(s.diagnosis_terms()),
                  d.aside(),
                  lost & all,
                  s.intake.gate.back(),

@@ -156,7 +156,7 @@ bool HealthMonitor::resume(const MonitorSetup& setup) noexcept {
   derive_limits();
   s.service.size = s.classify(s.in_service());
   s.service.map = least_squares(s.in_force.array, s.in_service());
-  s.diagnosis.resume(s.in_force.array, s.posed());
+  s.diagnosis.resume(s.in_force.array, s.monitored());
   return s.recalibration.resume(s.fit_terms()) && mode_is_plausible(s) && verdict_is_plausible(s, verdict_);
 }
 

@@ -1,5 +1,5 @@
 // The words of the transition table, and facts about it that hold at compile time: it is total, failed is latched, and
-// nobody is blamed without a culprit.
+// no sensor is excluded unless it is isolated.
 #include "plumb/health/transition_table.hpp"
 
 namespace plumb {

@@ -59,7 +59,7 @@ Expected<void> PaperMonitor::configure(const PaperSetup& setup) noexcept {
   frame_ = setup.base.output_frame;
   const int n = array_.size();
   limits_ = TestLimits::from_rates(n, config_.false_alarm_rate, config_.rejection_rate);
-  restless_factor_ = restless_factor(n, config_.window, kRestlessRate);
+  restless_factor_ = scatter_factor(n, config_.window, kRestlessRate);
   delta_f_mps2_ = config_.delta_f_mps2 > 0.0 ? config_.delta_f_mps2 : kPaperDeltaF_mps2;
   gate_.configure(n, setup.base.full_scale_raw, config_.missing_confirm);
   power_on();

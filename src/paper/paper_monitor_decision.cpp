@@ -39,7 +39,7 @@ SensorSet PaperMonitor::move_channels(Action::Bits actions) noexcept {
     named = gate_.back() & absent_;
     absent_ = absent_ - named;
     excluded_ = excluded_ | named;  // the paper has no probation: back by reset alone
-    gate_.welcome(named);
+    gate_.reinstate(named);
   }
   return named;
 }
@@ -56,7 +56,7 @@ SensorSet PaperMonitor::act(Action::Bits actions) noexcept {
   if ((actions & (Action::mark_absent | Action::mark_back)) != 0) named = move_channels(actions);
   if ((actions & Action::rearm) != 0) {
     named = reset_sensors_ - gate_.lost();
-    gate_.welcome(named);
+    gate_.reinstate(named);
     excluded_ = excluded_ - named;
     absent_ = absent_ - named;
     in_service_ = in_service_ | named;

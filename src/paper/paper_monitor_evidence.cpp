@@ -107,7 +107,7 @@ double PaperMonitor::mae_over_stations(SensorSet of) const noexcept {
 
 /// Steps 4 to 7 and 9, once the pool holds enough attitudes.
 EventMask PaperMonitor::decide_triples() noexcept {
-  // Without redundancy the table knows no culprit: the alarm leads to suspect first.
+  // Without redundancy the table cannot isolate a sensor: the alarm leads to suspect first.
   if (attitudes_.size() < config_.isolation_stations || mode_ == Mode::degraded) return 0;
   finding_ = pool_.finding(fits(), delta_f_mps2_, in_service_);
   EventMask raised = 0;
@@ -188,7 +188,7 @@ EventMask PaperMonitor::judge(double mae_mps2) noexcept {
 EventMask PaperMonitor::tick(const Sample& sample) noexcept {
   const BlockJudgement judged = judge_block(array_, block_, in_service_, restless_factor_, gravity_.g_mps2);
   const SensorSet silent = silence_.note(block_.usable(), array_.size(), config_.missing_confirm);
-  if (!silent.empty()) gate_.condemn(silent - absent_);
+  if (!silent.empty()) gate_.mark_lost(silent - absent_);
   verdict_.scattering = judged.scattering;
   moving_ = !judged.quiet || !read_block(judged);
   if (moving_) {

@@ -147,8 +147,8 @@ Json clipped_json(const findings::CalibrationRun& run, const io::ArrayFile& arra
 
 Json sensors_json(const findings::CalibrationRun& run, const io::ArrayFile& array) {
   Json out = Json::array();
-  const int loudest = run.told().loud_sensor;
-  const std::string loud = loudest >= 0 ? id_of(array, loudest) : "";
+  const int highest_variance = run.told().high_variance_sensor;
+  const std::string loud = highest_variance >= 0 ? id_of(array, highest_variance) : "";
   for (const findings::SensorFigures& f : findings::sensor_figures(run, array)) {
     Json one = io::object({{"id", f.id}});
     put_fields(one, kSensorFields, f);

@@ -167,7 +167,7 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
     out += line("stands out",
                 id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
   }
-  if (const std::string loud = loud_words(r, array); !loud.empty()) out += line("stands out", loud);
+  if (const std::string loud = high_variance_words(r, array); !loud.empty()) out += line("stands out", loud);
   for (const findings::Finding& f : findings::noise_remarks(run, array)) {
     out += line("noise", noise_words(r, array, f.sensor) +
                              ": declare the measured noise; the limits of the monitor depend on it");

@@ -199,12 +199,12 @@ std::string noise_words(const FitReport& report, const io::ArrayFile& array, int
                      in_mg0(array.datasheet.sensor[static_cast<std::size_t>(sensor)].row.sigma_mps2));
 }
 
-std::string loud_words(const FitReport& report, const io::ArrayFile& array) {
-  if (report.loud_sensor < 0) return "";
+std::string high_variance_words(const FitReport& report, const io::ArrayFile& array) {
+  if (report.high_variance_sensor < 0) return "";
   return fmt::format(
       "{}: its residuals are {:.1f} times those of the other sensors, {:.3g} mg0 at a station beyond its noise; all "
       "sigmas are widened for it. Look at its channel",
-      id_of(array, report.loud_sensor), report.loud_excess, in_mg0(report.loud_misfit_mps2));
+      id_of(array, report.high_variance_sensor), report.loud_excess, in_mg0(report.loud_misfit_mps2));
 }
 
 std::string inclination_words(const FitReport& report) {

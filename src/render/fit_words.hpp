@@ -38,7 +38,7 @@ std::vector<std::string> outlier_words(const findings::CalibrationRun& run, cons
 std::string noise_words(const FitReport& report, const io::ArrayFile& array, int sensor);
 
 /// "a3: its residuals are 2.4 times ...": the sensor that is louder than the others beyond chance; empty where none is.
-std::string loud_words(const FitReport& report, const io::ArrayFile& array);
+std::string high_variance_words(const FitReport& report, const io::ArrayFile& array);
 
 /// How surely an inclination is known in itself, and by what.
 std::string inclination_words(const FitReport& report);

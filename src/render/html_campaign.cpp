@@ -30,7 +30,7 @@ void rates_table(const Json& rates, Section& out) {
             "Clopper-Pearson interval.");
 }
 
-/// The unit of the campaign's sizes, which is not the size that section 2 vouches for.
+/// The unit of the campaign's sizes, which is not the size that section 2 guarantees.
 std::string mdb_words(const Json& mdb_mps2) {
   double least = 0.0, most = 0.0;
   for (const Json& one : mdb_mps2) {

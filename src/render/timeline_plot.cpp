@@ -259,11 +259,11 @@ std::string frame(Sheet& sheet, double gap, double height, const char* title) {
 /// Columns by name, as the CSV has them.
 std::string column(const char* name) { return fmt::format("${}", timeline_column(name)); }
 
-/// Expression `value` where plumb vouches for it, or where it says that it does not; else nothing is drawn.
-std::string where(bool vouched, const std::string& value) {
+/// Expression `value` where it is valid or degraded, or where it says that it does not; else nothing is drawn.
+std::string where(bool published, const std::string& value) {
   const int output = timeline_column("output");
-  const std::string test = vouched ? fmt::format("strcol({0}) eq 'valid' || strcol({0}) eq 'degraded'", output)
-                                   : fmt::format("strcol({}) eq 'unconfirmed'", output);
+  const std::string test = published ? fmt::format("strcol({0}) eq 'valid' || strcol({0}) eq 'degraded'", output)
+                                     : fmt::format("strcol({}) eq 'unconfirmed'", output);
   return fmt::format("({}) ? {} : NaN", test, value);
 }
 

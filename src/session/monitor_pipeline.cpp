@@ -147,14 +147,14 @@ io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
   if (verdict.transition.sequence == 0) return {};
   line_.clear();
   io::append_event_json(line_, verdict.transition, array_);
-  return put_line(file_, line_, live_);
+  return put_line(file_, line_, consistent_);
 }
 
 io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
   if (!verdict.tick && !every_sample_) return {};
   line_.clear();
   io::append_verdict_json(line_, verdict, array_, frame_);
-  return put_line(file_, line_, live_);
+  return put_line(file_, line_, consistent_);
 }
 
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,

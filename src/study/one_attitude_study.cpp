@@ -100,7 +100,7 @@ Finding ask_paper(const Fits& fits, const std::vector<Sample>& samples) {
   return {finding.detected, finding.isolated};
 }
 
-/// An alarm is whatever keeps the monitor from vouching for all sensors.
+/// An alarm is whatever keeps the monitor from calling all sensors healthy.
 Finding ask_monitor(HealthMonitor& monitor, const std::vector<Sample>& samples) {
   Finding out;
   for (const Sample& s : samples) {

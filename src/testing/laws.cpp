@@ -15,7 +15,7 @@ namespace {
 
 /// Stations over which an answer must stand before a sensor is latched out (the default of `isolation_stations`): what
 /// a law asks of a monitor is not taken from a configuration that asks for less.
-constexpr int kConvictingStations = 4;
+constexpr int kExcludingStations = 4;
 
 LawResult broken(const std::string& why) { return {false, true, why}; }
 LawResult silent(const std::string& why) { return {true, false, why}; }
@@ -72,8 +72,8 @@ struct StationSpan {
 };
 
 /// Where everything must have been told apart: behind the last onset, early enough for the answer to stand over the
-/// stations that a conviction takes, before the isolation timeout is over and the run ends. Every station from the
-/// first onset on may have cost patience already.
+/// stations that an exclusion takes, before the isolation timeout is over and the run ends. Every station from the
+/// first onset on may have used part of the isolation timeout.
 StationSpan stations_to_tell(const Case& c) {
   double first = c.faults.front().onset;
   double last = first;
@@ -85,8 +85,8 @@ StationSpan stations_to_tell(const Case& c) {
   if (c.config.isolation_timeout_blocks > 0)
     isolation_timeout = std::min(isolation_timeout, c.config.isolation_timeout_blocks / kStationBlocks);
   const int from = static_cast<int>(last);
-  const int within_patience = static_cast<int>(first) + isolation_timeout - kConvictingStations;
-  return {from, std::min(within_patience, c.stations - kConvictingStations - 2)};
+  const int within_timeout = static_cast<int>(first) + isolation_timeout - kExcludingStations;
+  return {from, std::min(within_timeout, c.stations - kExcludingStations - 2)};
 }
 
 bool all_finite(const Verdict& v) {

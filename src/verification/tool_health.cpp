@@ -83,10 +83,10 @@ std::vector<StationReason> reasons_against(const StationHealth& s) {
   };
   const auto lacks = [&s](std::uint16_t bit) { return (s.usable & bit) == 0; };
   const double off = std::fabs(s.off_mps2());
-  const bool vouched = s.validity == Validity::valid || s.validity == Validity::degraded;
+  const bool published = s.validity == Validity::valid || s.validity == Validity::degraded;
   when(s.state == HealthState::failed, StationReason::failed);
   when(s.validity == Validity::invalid || !s.tilt.inclination_valid, StationReason::no_direction);
-  when(!vouched && s.limit > 0.0 && s.statistic > s.limit, StationReason::alarm);
+  when(!published && s.limit > 0.0 && s.statistic > s.limit, StationReason::alarm);
   when(s.reference == NormMismatchKind::common_bias, StationReason::common_bias);
   // Negated, so that a length that is not a number is far off.
   when(!(off <= 2.0 * s.length_limit_mps2), StationReason::length_far);

@@ -119,13 +119,13 @@ TEST(CalibrationInput, AStationWithoutSamplesCountsNowhere) {
   b.options.reject_outliers = false;
   b.run();
   const FitReport without = b.report;
-  ASSERT_EQ(without.loud_sensor, 1);
+  ASSERT_EQ(without.high_variance_sensor, 1);
   b.stations.push_back(b.stations[0]);
   b.stations.back().count = 0;
   b.stations.back().roll_group = 4;
   b.run();
   EXPECT_EQ(b.report.stations, without.stations);
-  EXPECT_EQ(b.report.loud_sensor, 1);
+  EXPECT_EQ(b.report.high_variance_sensor, 1);
   EXPECT_NEAR(b.report.loud_misfit_mps2, without.loud_misfit_mps2, 1e-9);
   EXPECT_EQ(b.report.roll_groups, 0);
 }

@@ -62,7 +62,7 @@ TEST(LevelMisfit, StationsThatMoveMoreThanDeclaredAreNoBend) {
   }
 }
 
-/// Stations set aside have a vote on bends; stray ones must not convict a sensor.
+/// Stations set aside have a vote on bends; stray ones must not exclude a sensor.
 TEST(LevelMisfit, SpikesAreNoBend) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Noise noise(seed);

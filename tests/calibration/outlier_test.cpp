@@ -300,8 +300,8 @@ TEST(FaultySensor, FiveTimesAsNoisyIsNamedAndTheSigmasHold) {
     }
     ++fits;
     const plumb::FitReport& r = c->report;
-    EXPECT_TRUE(r.loud_sensor == 2 || r.loud_sensor == -1) << seed;
-    if (r.loud_sensor == 2) {
+    EXPECT_TRUE(r.high_variance_sensor == 2 || r.high_variance_sensor == -1) << seed;
+    if (r.high_variance_sensor == 2) {
       ++named;
       EXPECT_NEAR(r.loud_misfit_mps2, 5.0 * kSigma, 3.0 * kSigma) << seed;
       EXPECT_GT(c->array.uncertainty().misfit_mps2[2], c->array.uncertainty().misfit_mps2[1]);

@@ -174,7 +174,7 @@ TEST(Campaign, TheSmallCampaignCountsWhatItMust) {
   EXPECT_GT(tally.total(Count::undetected), 10U) << "half an MDB is mostly missed";
 }
 
-/// The integrator claims one fault, and there are two or three: the claim convicts the innocent. Such a scenario is
+/// The integrator claims one fault, and there are two or three: the claim excludes the innocent. Such a scenario is
 /// made small.
 TEST(Campaign, AFailingScenarioBecomesSmallAndFailsAgainFromItsFile) {
   CampaignFile file = campaign_from(R"(
@@ -208,7 +208,7 @@ sensors = [2, 3]
     EXPECT_LT(least.stations, spec.stations);
     EXPECT_EQ(least.gravity_sigmas, 0.0);
     // Nothing can be left out of it any more.
-    EXPECT_GE(least.faults, 2) << "one fault, one claimed: nobody innocent is convicted";
+    EXPECT_GE(least.faults, 2) << "one fault, one claimed: nobody innocent is excluded";
     for (int stations = 1; stations < least.stations; ++stations) {
       Spec shorter = least;
       shorter.stations = stations;
@@ -225,7 +225,7 @@ sensors = [2, 3]
     expect_same(*outcome, *again, sentence_of(plan, least));
     EXPECT_TRUE(again->wrong_exclusion());
   }
-  EXPECT_EQ(small, 3) << "the claim never convicted anybody innocent";
+  EXPECT_EQ(small, 3) << "the claim never excluded anybody innocent";
 }
 
 struct Bad {

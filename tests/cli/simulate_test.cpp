@@ -112,15 +112,15 @@ TEST(Simulate, TruthIsInTheFrameOfTheVerdicts) {
   EXPECT_EQ(truth[0], "t_s,station,moving,gx_mps2,gy_mps2,gz_mps2,inclination_deg,toolface_deg,faulty");
   EXPECT_EQ(cells_of(truth[1500]).back(), "") << "station 5";
   EXPECT_EQ(cells_of(truth[1501]).back(), "a2") << "station 6";
-  int vouched = 0;
+  int valid = 0;
   for (const std::string& line : lines_of(read_text(where / "v.jsonl"))) {
     const auto verdict = nlohmann::json::parse(line);
     if (verdict["validity"] != "valid" && verdict["validity"] != "degraded") continue;
     const auto row = static_cast<std::size_t>(verdict["t_s"].get<double>() * 100.0 + 1.5);
     EXPECT_NEAR(verdict["inclination_deg"].get<double>(), std::stod(cells_of(truth[row])[6]), 0.02) << line;
-    ++vouched;
+    ++valid;
   }
-  EXPECT_GT(vouched, 20);
+  EXPECT_GT(valid, 20);
 }
 
 TEST(Simulate, ArrayOutIsTheFileThatTheLogNeeds) {

@@ -91,7 +91,7 @@ RC_GTEST_PROP(BlockTestsLaw, TheLeastLimitOfATripleIsItsNoise, ()) {
   }
 }
 
-/// A dead bus reads zero on all lines: a limit is still a number, and nothing is within it.
+/// A rejected bus reads zero on all lines: a limit is still a number, and nothing is within it.
 TEST(BlockTests, TheLeastLimitOfThreeThatReadZeroIsBelowEveryError) {
   const SensorArray array = plumb::test::tetrahedron();
   BlockEvidence block;
@@ -105,7 +105,7 @@ TEST(BlockTests, TheLeastLimitOfThreeThatReadZeroIsBelowEveryError) {
   }
 }
 
-/// Two pairs: without one of the single axes the others are a plane, so nobody vouches for it.
+/// Two pairs: without one of the single axes the others are a plane, so nothing corroborates it.
 // Negative: REQ-060
 TEST(BlockTests, ALengthThatNobodyChecksIsNotCorroborated) {
   AxisList axes{};
@@ -120,8 +120,8 @@ TEST(BlockTests, ALengthThatNobodyChecksIsNotCorroborated) {
   block.mean_mps2[2] = block.mean_mps2[3] = kG0_mps2;
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
   const BlockTests tests(array, gravity, limits, block);
-  EXPECT_FALSE(tests.vouches_for_norm(array.all(), SetTest{}));
-  EXPECT_FALSE(tests.vouches_for_norm(array.all(), tests.of(array.all())));
+  EXPECT_FALSE(tests.corroborates_norm(array.all(), SetTest{}));
+  EXPECT_FALSE(tests.corroborates_norm(array.all(), tests.of(array.all())));
   const SensorArray cone = plumb_test::cone_array(6, kSigma);
   for (int i = 0; i < 6; ++i) block.mean_mps2[static_cast<std::size_t>(i)] = cone.axis(i)[2] * kG0_mps2;
   block.usable = cone.all();
@@ -130,9 +130,9 @@ TEST(BlockTests, ALengthThatNobodyChecksIsNotCorroborated) {
   SetTest badly_checked = six.of(cone.all());
   badly_checked.least_leverage = 0.0;
   for (double& c : badly_checked.covariance) c *= 10.0;
-  EXPECT_TRUE(six.vouches_for_norm(cone.all(), badly_checked)) << "the others say the same";
+  EXPECT_TRUE(six.corroborates_norm(cone.all(), badly_checked)) << "the others say the same";
   badly_checked.norm_error_mps2 += 1.0;
-  EXPECT_FALSE(six.vouches_for_norm(cone.all(), badly_checked)) << "the others deny it";
+  EXPECT_FALSE(six.corroborates_norm(cone.all(), badly_checked)) << "the others deny it";
 }
 
 }  // namespace

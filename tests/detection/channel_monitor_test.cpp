@@ -64,7 +64,7 @@ TEST(ChannelGate, LossIsConfirmedAndSoIsReturn) {
   EXPECT_TRUE(gate.back().empty());
   gate.gate(full_sample());
   EXPECT_EQ(gate.back(), SensorSet::of(3));
-  gate.welcome(SensorSet::of(3));
+  gate.reinstate(SensorSet::of(3));
   EXPECT_TRUE(gate.lost().empty());
   EXPECT_TRUE(gate.back().empty());
 }

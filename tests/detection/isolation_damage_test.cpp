@@ -16,7 +16,7 @@ using plumb_test::block_at;
 
 constexpr double kSigma = 2e-4 * kG0_mps2;
 
-/// Every byte of what it remembers set to zero in turn: it answers, convicts nobody of a sound block, and counts no
+/// Every byte of what it remembers set to zero in turn: it answers, excludes nobody of a sound block, and counts no
 /// more sets than there are.
 // Negative: REQ-166
 TEST(IsolationDamage, WithAnyByteLostASoundBlockIsolatesNobody) {
@@ -40,7 +40,7 @@ TEST(IsolationDamage, WithAnyByteLostASoundBlockIsolatesNobody) {
   }
 }
 
-/// Two sensors of six are wrong. Whichever byte memory has lowered to one: no answer convicts more sensors than the
+/// Two sensors of six are wrong. Whichever byte memory has lowered to one: no answer excludes more sensors than the
 /// grade that is stated with it, though more were isolated before.
 // Negative: REQ-166
 TEST(IsolationDamage, WithAnyByteLoweredNoMoreAreIsolatedThanTheGradeSays) {

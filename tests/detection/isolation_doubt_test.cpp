@@ -13,7 +13,7 @@ using plumb_test::block_at;
 constexpr double kSigma = 2e-4 * kG0_mps2;
 
 /// One sensor is far off, another by a little more and more: those that agree in fours need not agree in fives, and
-/// where they do not, nobody is set aside.
+/// where they do not, nobody is provisionally excluded.
 // Negative: REQ-070
 TEST(IsolationDoubt, SensorsThatAgreeInPartsButNotTogetherSuspectNoSensor) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
@@ -28,10 +28,10 @@ TEST(IsolationDoubt, SensorsThatAgreeInPartsButNotTogetherSuspectNoSensor) {
     isolation.clear();
     isolation.pose(array, array.all());
     const BlockTests tests(array, gravity, limits, block);
-    const SensorSet accused = isolation.vote(tests, array.all()).parity;
-    one += accused == SensorSet::of(5) ? 1 : 0;
-    two += accused == SensorSet::of(5).with(0) ? 1 : 0;
-    nobody += accused.empty() ? 1 : 0;
+    const SensorSet suspected = isolation.vote(tests, array.all()).parity;
+    one += suspected == SensorSet::of(5) ? 1 : 0;
+    two += suspected == SensorSet::of(5).with(0) ? 1 : 0;
+    nobody += suspected.empty() ? 1 : 0;
   }
   EXPECT_GT(one, 0);
   EXPECT_GT(two, 0);
@@ -65,7 +65,7 @@ TEST(IsolationDoubt, AWeaklyCheckedSensorIsolatesNoOther) {
     const BlockTests tests(array, gravity, limits, block);
     const SetTest& all = tests.of(array.all());
     ASSERT_LT(all.least_leverage, 0.002);
-    denied += all.parity_alive(limits) && !tests.vouches_for_norm(array.all(), all) ? 1 : 0;
+    denied += all.parity_consistent(limits) && !tests.corroborates_norm(array.all(), all) ? 1 : 0;
     const IsolationAnswer answer = isolation.vote(tests, array.all());
     EXPECT_TRUE(SensorSet::of(4).contains(answer.strict | answer.parity)) << k;
   }

@@ -79,8 +79,8 @@ struct Asked {
 };
 
 void expect_kept_to_grades(const Isolation& isolation, const IsolationAnswer& answer) {
-  const SensorSet posed = isolation.posed();
-  ASSERT_TRUE(posed.contains(answer.strict | answer.parity));
+  const SensorSet monitored = isolation.monitored();
+  ASSERT_TRUE(monitored.contains(answer.strict | answer.parity));
   ASSERT_LE(answer.strict.size(), isolation.confirmed_grade());
   ASSERT_LE(answer.parity.size(), isolation.provisional_grade());
   ASSERT_GE(answer.live, 0);
@@ -102,12 +102,12 @@ void run(const SensorArray& array, std::uint64_t seed, int rounds) {
     }
     asked.next();
     const BlockTests tests(array, gravity, limits, asked.block);
-    const SensorSet witnesses = luck.uniform() < 0.7 ? array.all() : asked.some(0.7);
-    if (luck.uniform() < 0.5) expect_kept_to_grades(isolation, isolation.vote(tests, witnesses));
+    const SensorSet corroborating = luck.uniform() < 0.7 ? array.all() : asked.some(0.7);
+    if (luck.uniform() < 0.5) expect_kept_to_grades(isolation, isolation.vote(tests, corroborating));
     const int asserted = asked.whole(-1, 4);
     const ProtectionTerms protect = {asked.whole(0, 4), 5.0};
     const FaultSetScan scan = isolation.scan(tests, luck.uniform() < 0.6 ? array.all() : asked.some(0.9),
-                                             asked.whole(-1, 5), asserted, protect, witnesses);
+                                             asked.whole(-1, 5), asserted, protect, corroborating);
     ASSERT_TRUE(array.all().contains(scan.asserted | scan.suspects));
     ASSERT_LE(scan.asserted.size(), std::max(asserted, 0));
     ASSERT_TRUE(std::isfinite(scan.protection_rad));

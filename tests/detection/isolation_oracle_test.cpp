@@ -40,35 +40,36 @@ struct Claim {
 
 /// The rule as the design has it, and what it remembers of an episode.
 struct Rule {
-  SensorSet posed;
+  SensorSet monitored;
   int universe = 0, c = 2, size = 3;
-  std::set<std::uint32_t> dead;
+  std::set<std::uint32_t> rejected;
   std::map<std::uint32_t, Claim> claims;
 
-  int strict() const { return std::max(0, posed.size() - 1 - c); }
-  int parity() const { return std::max(0, posed.size() - 2 - c); }
+  int strict() const { return std::max(0, monitored.size() - 1 - c); }
+  int parity() const { return std::max(0, monitored.size() - 2 - c); }
 
   void clear() {
-    dead.clear();
+    rejected.clear();
     claims.clear();
   }
   void pose(const SensorArray& array, SensorSet set) {
     const int now = coplanarity(array, set);
-    if (now + 1 != size || !posed.contains(set) || universe != array.size()) clear();
-    posed = set;
+    if (now + 1 != size || !monitored.contains(set) || universe != array.size()) clear();
+    monitored = set;
     c = now;
     size = c + 1;
     universe = array.size();
   }
-  int voting() const { return strict() < 1 ? 0 : static_cast<int>(subsets(posed, size, size).size()); }
+  int voting() const { return strict() < 1 ? 0 : static_cast<int>(subsets(monitored, size, size).size()); }
   bool died(SensorSet set) const {
     if (strict() < 1) return false;
-    return std::any_of(dead.begin(), dead.end(), [&](std::uint32_t bits) { return set.contains(SensorSet(bits)); });
+    return std::any_of(rejected.begin(), rejected.end(),
+                       [&](std::uint32_t bits) { return set.contains(SensorSet(bits)); });
   }
   int live() const {
     if (strict() < 1) return 0;
     int count = 0;
-    for (const SensorSet s : subsets(posed, size, size)) count += dead.count(s.bits) == 0 ? 1 : 0;
+    for (const SensorSet s : subsets(monitored, size, size)) count += rejected.count(s.bits) == 0 ? 1 : 0;
     return count;
   }
 
@@ -83,12 +84,12 @@ struct Rule {
   void ask(const BlockTests& tests, SensorSet set, bool record, bool& agrees, Doubt& doubt) {
     const TestLimits& limits = tests.limits();
     const SetTest t = tests.of(set);
-    if (!t.tested || !t.parity_alive(limits)) return;
-    if (t.least_leverage < 0.002 && !tests.vouches_for_norm(set, t)) return;
+    if (!t.tested || !t.parity_consistent(limits)) return;
+    if (t.least_leverage < 0.002 && !tests.corroborates_norm(set, t)) return;
     const double limit = t.norm_reject_limit(limits);
     const bool doubts = std::fabs(t.norm) > 0.5 * limit;
     if (!doubts) agrees = true;
-    if (posed.size() - set.size() >= 2) {
+    if (monitored.size() - set.size() >= 2) {
       const double margin = limit * (t.norm_sigma_mps2 / std::sqrt(tests.block().samples)) -
                             TestLimits::gravity * tests.gravity().sigma_mps2;
       const bool first = claims.count(set.bits) == 0;
@@ -106,7 +107,7 @@ struct Rule {
   }
   Doubt doubt(const BlockTests& tests, bool record) {
     Doubt out;
-    const SensorSet there = posed & tests.block().usable;
+    const SensorSet there = monitored & tests.block().usable;
     const int smallest = std::max(c + 2, 4), deep = there.size() - 3;
     bool agrees = false;
     std::vector<int> sizes;
@@ -119,48 +120,48 @@ struct Rule {
     return out;
   }
 
-  SensorSet by_parity(const BlockTests& tests, SensorSet witnesses) const {
-    if (parity() < 1 || !tests.block().usable.contains(posed)) return {};
+  SensorSet by_parity(const BlockTests& tests, SensorSet corroborating) const {
+    if (parity() < 1 || !tests.block().usable.contains(monitored)) return {};
     SensorSet cleared;
-    for (const SensorSet f : subsets(posed, 0, parity())) {
+    for (const SensorSet f : subsets(monitored, 0, parity())) {
       if (f.size() > 3 && f.size() != parity()) continue;
-      const SensorSet s = posed - f;
-      if (!witnesses.contains(s) || tests.of(s).parity_alive(tests.limits())) cleared = cleared | s;
+      const SensorSet s = monitored - f;
+      if (!corroborating.contains(s) || tests.of(s).parity_consistent(tests.limits())) cleared = cleared | s;
     }
-    const SensorSet convicted = posed - cleared;
-    if (convicted.empty() || convicted.size() > parity()) return {};
-    const SetTest rest = tests.of(posed - convicted);
-    return rest.tested && rest.parity_alive(tests.limits()) ? convicted : SensorSet{};
+    const SensorSet excluded = monitored - cleared;
+    if (excluded.empty() || excluded.size() > parity()) return {};
+    const SetTest rest = tests.of(monitored - excluded);
+    return rest.tested && rest.parity_consistent(tests.limits()) ? excluded : SensorSet{};
   }
 
-  IsolationAnswer vote(const BlockTests& tests, SensorSet witnesses) {
+  IsolationAnswer vote(const BlockTests& tests, SensorSet corroborating) {
     const TestLimits& limits = tests.limits();
     IsolationAnswer out;
     out.voting = voting();
-    const Doubt doubted = doubt(tests, witnesses.contains(posed));
-    const auto alive = [&](SensorSet s) {
+    const Doubt doubted = doubt(tests, corroborating.contains(monitored));
+    const auto consistent = [&](SensorSet s) {
       const SetTest t = tests.of(s);
-      return t.parity_alive(limits) && (t.alive(limits) || doubted.excuses(s));
+      return t.parity_consistent(limits) && (t.consistent(limits) || doubted.excuses(s));
     };
     out.norm_void = !doubted.sets.empty();
-    out.parity = by_parity(tests, witnesses);
-    out.full_alive = !died(posed) && alive(posed);
+    out.parity = by_parity(tests, corroborating);
+    out.full_alive = !died(monitored) && consistent(monitored);
     if (strict() < 1) return out;
     SensorSet innocent;
-    for (const SensorSet s : subsets(posed, size, size)) {
-      if (dead.count(s.bits) != 0) continue;
-      if (witnesses.contains(s) && !alive(s)) {
-        dead.insert(s.bits);
+    for (const SensorSet s : subsets(monitored, size, size)) {
+      if (rejected.count(s.bits) != 0) continue;
+      if (corroborating.contains(s) && !consistent(s)) {
+        rejected.insert(s.bits);
       } else {
         innocent = innocent | s;
       }
     }
     out.live = live();
     out.no_consistent_hypothesis = out.live == 0;
-    const SensorSet accused = posed - innocent, left = posed - accused;
-    if (!out.no_consistent_hypothesis && !accused.empty() && accused.size() <= strict() && tests.of(left).tested &&
-        alive(left))
-      out.strict = accused;
+    const SensorSet suspected = monitored - innocent, left = monitored - suspected;
+    if (!out.no_consistent_hypothesis && !suspected.empty() && suspected.size() <= strict() && tests.of(left).tested &&
+        consistent(left))
+      out.strict = suspected;
     return out;
   }
 
@@ -189,16 +190,16 @@ struct Rule {
   }
 
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted,
-                    const ProtectionTerms& terms, SensorSet witnesses) {
+                    const ProtectionTerms& terms, SensorSet corroborating) {
     const TestLimits& limits = tests.limits();
     FaultSetScan out;
     out.minimum_faults.fill(255);
-    const SensorSet there = posed & tests.block().usable, serves = in_service & tests.block().usable;
+    const SensorSet there = monitored & tests.block().usable, serves = in_service & tests.block().usable;
     const SetTest used = tests.of(serves);
     const Doubt doubted = doubt(tests, false);
     const auto explains = [&](SensorSet rest) {
       const SetTest t = tests.of(rest);
-      return t.tested && t.parity_alive(limits) && (t.alive(limits) || doubted.excuses(rest)) && !died(rest);
+      return t.tested && t.parity_consistent(limits) && (t.consistent(limits) || doubted.excuses(rest)) && !died(rest);
     };
     const auto level = [&](SensorSet rest) {
       const SetTest t = tests.of(rest);
@@ -223,7 +224,7 @@ struct Rule {
     for (const SensorSet f : subsets(there, 0, std::min(3, std::max(0, depth)))) {
       const SensorSet rest = there - f;
       const bool tested = tests.of(rest).tested, good = explains(rest);
-      if (f.size() <= asserted && (good || !tested || !witnesses.contains(rest))) {
+      if (f.size() <= asserted && (good || !tested || !corroborating.contains(rest))) {
         any_asserted = true;
         common = common & f;
       }
@@ -254,8 +255,9 @@ struct Rule {
     }
     out.protection_available = any && bounded;
     const SetTest rest = tests.of(there - common);
-    const bool alive = rest.parity_alive(limits) && (rest.alive(limits) || doubted.excuses(there - common));
-    if (any_asserted && rest.tested && alive) out.asserted = common;
+    const bool consistent =
+        rest.parity_consistent(limits) && (rest.consistent(limits) || doubted.excuses(there - common));
+    if (any_asserted && rest.tested && consistent) out.asserted = common;
     return out;
   }
 };
@@ -340,29 +342,31 @@ void play(const SensorArray& array, std::uint64_t seed, int stations) {
   const GravityReference gravity{kG0_mps2, luck.uniform() < 0.5 ? 1e-3 : 1e-2, GravityModel::value};
   Isolation code;
   Rule rule;
-  SensorSet posed = luck.uniform() < 0.7 ? array.all() : episode.some(0.85);
-  code.pose(array, posed);
-  rule.pose(array, posed);
+  SensorSet monitored = luck.uniform() < 0.7 ? array.all() : episode.some(0.85);
+  code.pose(array, monitored);
+  rule.pose(array, monitored);
   for (int k = 0; k < stations; ++k) {
     BlockEvidence block = episode.station();
     const float drift_mps2 =
         luck.uniform() < 0.5 ? 0.0F : static_cast<float>(std::pow(10.0, 3.0 * luck.uniform() - 4.0));
     for (float& tau : block.tolerance_mps2) tau = drift_mps2 * static_cast<float>(luck.uniform());
     const BlockTests tests(array, gravity, limits, block);
-    const SensorSet witnesses = luck.uniform() < 0.7 ? array.all() : episode.some(0.8);
-    if (luck.uniform() < 0.7) expect_same(code.vote(tests, witnesses), rule.vote(tests, witnesses));
+    const SensorSet corroborating = luck.uniform() < 0.7 ? array.all() : episode.some(0.8);
+    if (luck.uniform() < 0.7) expect_same(code.vote(tests, corroborating), rule.vote(tests, corroborating));
     EXPECT_EQ(code.live(), rule.live());
     const int depth = static_cast<int>(6 * luck.uniform()) - 1, asserted = static_cast<int>(6 * luck.uniform()) - 1;
     const ProtectionTerms terms{static_cast<int>(5 * luck.uniform()), 5.0 * luck.uniform(),
                                 std::max(0, static_cast<int>(6 * luck.uniform()) - 3), luck.uniform() < 0.5,
                                 luck.uniform() < 0.5};
-    const SensorSet in_service = luck.uniform() < 0.5 ? posed : luck.uniform() < 0.5 ? array.all() : episode.some(0.8);
-    expect_same(code.scan(tests, in_service, depth, asserted, terms, witnesses),
-                rule.scan(tests, in_service, depth, asserted, terms, witnesses));
+    const SensorSet in_service = luck.uniform() < 0.5   ? monitored
+                                 : luck.uniform() < 0.5 ? array.all()
+                                                        : episode.some(0.8);
+    expect_same(code.scan(tests, in_service, depth, asserted, terms, corroborating),
+                rule.scan(tests, in_service, depth, asserted, terms, corroborating));
     if (luck.uniform() < 0.1) {
-      posed = luck.uniform() < 0.7 ? posed.without(posed.lowest()) : array.all();
-      code.pose(array, posed);
-      rule.pose(array, posed);
+      monitored = luck.uniform() < 0.7 ? monitored.without(monitored.lowest()) : array.all();
+      code.pose(array, monitored);
+      rule.pose(array, monitored);
     }
     if (luck.uniform() < 0.05) {  // the episode is over
       code.clear();

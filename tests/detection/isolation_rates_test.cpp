@@ -84,11 +84,11 @@ TEST(IsolationRates, ParityGradeAtOneStationNamesStuckSensorsAndNobodyElse) {
       for (std::uint64_t t = 0; t < trials(100); ++t) {
         const Vec3 g = scaled(noise.direction(), kG0_mps2);
         TrialEpisode stuck(tool, m, FaultLaw::stuck, noise);
-        Isolation isolation = tool.posed;
+        Isolation isolation = tool.monitored;
         count.add(stuck.faulty(), isolation.vote({tool.array, tool.gravity, tool.limits, stuck.block(g, noise)}).parity,
                   false);
         TrialEpisode colluding(tool, m, noise.below(2) == 0 ? FaultLaw::colluding : FaultLaw::mirrored, noise);
-        isolation = tool.posed;
+        isolation = tool.monitored;
         lies.add(colluding.faulty(),
                  isolation.vote({tool.array, tool.gravity, tool.limits, colluding.block(g, noise)}).parity, false);
       }
@@ -105,7 +105,7 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
   TrialCount count;
   for (std::uint64_t t = 0; t < trials(2000); ++t) {
     TrialEpisode episode(tool, 1, FaultLaw::bias, 0.06 * kG0_mps2, kG0_mps2, noise);
-    Isolation isolation = tool.posed;
+    Isolation isolation = tool.monitored;
     const BlockEvidence block = episode.block(scaled(noise.direction(), kG0_mps2), noise);
     isolation.vote({tool.array, tool.gravity, tool.limits, block});
     const FaultSetScan scan =
@@ -119,7 +119,7 @@ TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous)
 /// One fault in a tool of five to eight, and a reference that is off by far more than its sigma: by a constant
 /// (gravity), or by something else at every station (steady acceleration).
 // Verifies: REQ-061
-TEST(ReferenceDoubt, OneFaultAndAWrongGravityExcludeNoHealthySensor) {
+TEST(NormMismatchDoubt, OneFaultAndAWrongGravityExcludeNoHealthySensor) {
   for (int n = 5; n <= kCapacity; ++n) {
     const TrialTool tool = exact_tool(n);
     for (const bool steady : {true, false}) {
@@ -129,7 +129,7 @@ TEST(ReferenceDoubt, OneFaultAndAWrongGravityExcludeNoHealthySensor) {
       for (int t = 0; t < count; ++t) {
         TrialEpisode episode(tool, 1, FaultLaw::bias, 20.0 * kTrialSigma_mps2, kG0_mps2, noise);
         const double size = noise.log_between(10.0, 300.0) * kTrialGravitySigma_mps2;
-        Isolation isolation = tool.posed;
+        Isolation isolation = tool.monitored;
         IsolationAnswer answer;
         for (int k = 0; k < 8; ++k) {
           const Vec3 u = noise.direction();
@@ -147,7 +147,7 @@ TEST(ReferenceDoubt, OneFaultAndAWrongGravityExcludeNoHealthySensor) {
 
 /// Two biases that a quad with them hides from parity: it doubts gravity wherever they turn out to matter.
 // Negative: REQ-061
-TEST(ReferenceDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
+TEST(NormMismatchDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
   const TrialTool tool = exact_tool(6);
   const SensorSet chance(0b001111);
   const ParityBasis basis = parity_basis(tool.array, chance);
@@ -155,7 +155,7 @@ TEST(ReferenceDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
   std::array<double, kCapacity> bias{};
   bias[0] = 0.02 * kG0_mps2;
   bias[1] = -bias[0] * basis.weight[0][0] / basis.weight[0][1];
-  Isolation isolation = tool.posed;
+  Isolation isolation = tool.monitored;
   TrialNoise noise(3);
   IsolationAnswer answer;
   for (int k = 0; k < 8; ++k) {
@@ -164,7 +164,7 @@ TEST(ReferenceDoubt, AChanceSetIsRefutedByItsOwnErrorAtOtherAttitudes) {
     block.usable = tool.array.all();
     block.samples = kTrialSamples;
     for (int i = 0; i < 6; ++i) block.mean_mps2[slot(i)] = dot(tool.array.axis(i), g) + bias[slot(i)];
-    ASSERT_TRUE(test_set(tool.array, tool.gravity, tool.limits, block, chance).parity_alive(tool.limits));
+    ASSERT_TRUE(test_set(tool.array, tool.gravity, tool.limits, block, chance).parity_consistent(tool.limits));
     answer = isolation.vote({tool.array, tool.gravity, tool.limits, block});
     if (k == 0) {
       EXPECT_TRUE(answer.strict.empty()) << "one station cannot tell it from a healthy set in a wrong gravity";

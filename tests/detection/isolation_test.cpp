@@ -144,8 +144,8 @@ TEST(Isolation, AnAccelerationThatTheOthersShowTooIsNoFaultOfAWeaklyCheckedMembe
   }
 }
 
-/// One sensor is set aside, and the next fault is among those that are left: the level covers it as it does once the
-/// first is latched out.
+/// One sensor is provisionally excluded, and the next fault is among those that are left: the level covers it as it
+/// does once the first is excluded.
 // Negative: REQ-121
 TEST(Isolation, TheNextFaultAfterAProvisionalExclusionIsWithinTheProtectionLevel) {
   int judged = 0;
@@ -195,7 +195,7 @@ TEST(Isolation, WhatTheOthersCannotDenyIsNoFaultOfAWeaklyCheckedMember) {
     const SetTest without = test_set(c.array, kGravity, c.limits, block, c.array.all().without(5));
     const bool alone = std::fabs(t.norm) > t.norm_reject_limit(c.limits) &&
                        std::fabs(without.norm) < without.norm_reject_limit(c.limits);
-    shown_by_all_only += alone && t.parity_alive(c.limits) ? 1 : 0;
+    shown_by_all_only += alone && t.parity_consistent(c.limits) ? 1 : 0;
     c.isolation.clear();
     EXPECT_TRUE(c.isolation.vote({c.array, kGravity, c.limits, block}).strict.empty()) << station;
     c.isolation.clear();
@@ -221,19 +221,19 @@ TEST(Isolation, ASetWithAnUncheckedMemberDoesNotVoidTheNorm) {
   fault[1] = 0.1;
   const Vec3 u = plumb_test::direction_at(50, 290);
   const SetTest unchecked = test_set(c.array, kGravity, c.limits, c.block(u, fault), SensorSet(0b10111));
-  ASSERT_TRUE(unchecked.parity_alive(c.limits)) << "0, 2 and 4 are coplanar: nobody checks 1";
+  ASSERT_TRUE(unchecked.parity_consistent(c.limits)) << "0, 2 and 4 are coplanar: nobody checks 1";
   ASSERT_GT(std::fabs(unchecked.norm), unchecked.norm_reject_limit(c.limits)) << "and yet the norm is off";
-  SensorSet convicted;
+  SensorSet excluded;
   for (int station = 0; station < 6; ++station) {
     const auto answer =
         c.isolation.vote({c.array, kGravity, c.limits, c.block(plumb_test::random_direction(c.noise), fault)});
     EXPECT_FALSE(answer.norm_void);
-    convicted = answer.strict;
+    excluded = answer.strict;
   }
-  EXPECT_EQ(convicted, SensorSet::of(1));
+  EXPECT_EQ(excluded, SensorSet::of(1));
 }
 
-/// T5: with at most m_strict faulty sensors, whatever they read, no healthy one is convicted, at any
+/// T5: with at most m_strict faulty sensors, whatever they read, no healthy one is excluded, at any
 /// station of the episode; gravity error within three sigmas included.
 // Verifies: REQ-070, REQ-074
 RC_GTEST_PROP(IsolationLaw, NeverIsolatesASensorHealthyThroughout, ()) {
@@ -277,7 +277,7 @@ TEST(Isolation, LosingAChannelProjectsTheHypotheses) {
   const int live = c.isolation.live();
   EXPECT_LT(live, 20);
   c.isolation.pose(c.array, c.array.all().without(5));
-  EXPECT_LT(c.isolation.live(), 10) << "what died stays dead among those that are left";
+  EXPECT_LT(c.isolation.live(), 10) << "what died stays rejected among those that are left";
   c.isolation.pose(c.array, c.array.all());
   EXPECT_EQ(c.isolation.live(), 20) << "a sensor that joins poses a new question";
 }

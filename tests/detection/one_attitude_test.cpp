@@ -99,7 +99,7 @@ TEST(OneAttitude, ASensorWithoutAVotingTripleIsNeverIsolated) {
   EXPECT_FALSE(one.isolates(up, 0, 1e3));
 }
 
-/// The vote itself: outside the intervals, and where parity sees it, exactly the faulty sensor is accused at this one
+/// The vote itself: outside the intervals, and where parity sees it, exactly the faulty sensor is suspected at this one
 /// attitude, whatever the noise below k_e sigmas.
 // Verifies: REQ-017
 RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolatedByTheVote, ()) {

@@ -33,8 +33,8 @@ TEST(RequirementLimits, WithoutTheSigmaOfGravityAHealthySetDies) {
   const BlockEvidence block = block_at(array, plumb_test::direction_at(40, 70), kG0_mps2 + 2.9 * sigma_g, 1e6);
   const GravityReference honest{kG0_mps2, sigma_g, GravityModel::value};
   const GravityReference vain{kG0_mps2, 0.0, GravityModel::value};
-  EXPECT_TRUE(test_set(array, honest, limits, block, array.all()).alive(limits));
-  EXPECT_FALSE(test_set(array, vain, limits, block, array.all()).alive(limits));
+  EXPECT_TRUE(test_set(array, honest, limits, block, array.all()).consistent(limits));
+  EXPECT_FALSE(test_set(array, vain, limits, block, array.all()).consistent(limits));
   EXPECT_EQ(limits.gravity, 3.0);
 }
 
@@ -45,14 +45,14 @@ TEST(RequirementLimits, WithoutTheCalibrationBoundAHealthySetDies) {
   const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};
   BlockEvidence block = block_at(array, plumb_test::direction_at(40, 70), kG0_mps2, 1e9);
   block.mean_mps2[2] += 2e-3;  // two sigmas of an offset that calibration left
-  EXPECT_FALSE(test_set(array, gravity, limits, block, array.all()).alive(limits));
+  EXPECT_FALSE(test_set(array, gravity, limits, block, array.all()).consistent(limits));
   RowUncertainty u;
   for (int i = 0; i < 5; ++i) {
     const auto k = static_cast<std::size_t>(4 * i + 3);
     u.covariance[k * (k + 1) / 2 + k] = 1e-3 * 1e-3;
   }
   array.set_uncertainty(u);
-  EXPECT_TRUE(test_set(array, gravity, limits, block, array.all()).alive(limits));
+  EXPECT_TRUE(test_set(array, gravity, limits, block, array.all()).consistent(limits));
 }
 
 // Verifies: REQ-056
@@ -101,7 +101,7 @@ TEST(RequirementLeastFault, IsHardlyEverMissedAtAnyAttitude) { EXPECT_LE(missed(
 TEST(RequirementLeastFault, HalfOfItIsMissedOften) { EXPECT_GT(missed(0.5), 12000); }
 
 // Verifies: REQ-070
-TEST(RequirementConviction, SetsThatCouldNotBeTestedStayConsistent) {
+TEST(RequirementExclusion, SetsThatCouldNotBeTestedStayConsistent) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
@@ -117,7 +117,7 @@ TEST(RequirementConviction, SetsThatCouldNotBeTestedStayConsistent) {
 }
 
 // Verifies: REQ-077
-TEST(RequirementContradiction, WithoutAConsistentHypothesisItReportsSoAndExcludesNoSensor) {
+TEST(RequirementNoConsistentHypothesis, WithoutAConsistentHypothesisItReportsSoAndExcludesNoSensor) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};

@@ -58,9 +58,9 @@ TEST(SetTest, MirrorOfTheoremT1PassesATripleExactly) {
   block.mean_mps2[0] += mirror;
   const SetTest t = test_set(array, kGravity, limits, block, array.triple(k).set());
   EXPECT_NEAR(t.norm_error_mps2, 0.0, 1e-12);
-  EXPECT_TRUE(t.alive(limits)) << "one attitude cannot tell a mirror from the truth";
+  EXPECT_TRUE(t.consistent(limits)) << "one attitude cannot tell a mirror from the truth";
   EXPECT_GT(angle_between_rad(t.x_mps2, u), 0.1);
-  EXPECT_FALSE(test_set(array, kGravity, limits, block, array.all()).parity_alive(limits)) << "parity can";
+  EXPECT_FALSE(test_set(array, kGravity, limits, block, array.all()).parity_consistent(limits)) << "parity can";
 }
 
 // Verifies: REQ-070
@@ -71,8 +71,8 @@ TEST(SetTest, UntestedSetsAreAlive) {
   block.usable = block.usable.without(2);
   const SetTest t = test_set(array, kGravity, limits, block, array.all());
   EXPECT_FALSE(t.tested);
-  EXPECT_TRUE(t.alive(limits));
-  EXPECT_TRUE(t.parity_alive(limits));
+  EXPECT_TRUE(t.consistent(limits));
+  EXPECT_TRUE(t.parity_consistent(limits));
   EXPECT_FALSE(test_set(array, kGravity, limits, block, SensorSet::first(2)).tested);
 }
 
@@ -119,9 +119,9 @@ RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundRejectsNoSet, ()) {
   const BlockEvidence block = exact_block(array, plumb_test::random_direction(noise), kG0_mps2 + off, 1e6);
   const TestLimits limits = TestLimits::from_rates(n, 1e-5, 1e-6);
   for (SensorSet s = SensorSet::first(3); array.all().contains(s); s = next_of_same_size(s)) {
-    RC_ASSERT(test_set(array, gravity, limits, block, s).alive(limits));
+    RC_ASSERT(test_set(array, gravity, limits, block, s).consistent(limits));
   }
-  RC_ASSERT(test_set(array, gravity, limits, block, array.all()).alive(limits));
+  RC_ASSERT(test_set(array, gravity, limits, block, array.all()).consistent(limits));
 }
 
 /// ... and an error of the calibration within k_c of its covariance kills nothing either.
@@ -157,8 +157,8 @@ RC_GTEST_PROP(SetTestLaw, CalibrationErrorWithinItsBoundRejectsNoSet, ()) {
   }
   for (int size = 3; size <= n; ++size) {
     for (SensorSet s = SensorSet::first(size); array.all().contains(s); s = next_of_same_size(s)) {
-      RC_ASSERT(test_set(array, kGravity, limits, block, s).alive(limits));
-      RC_ASSERT(test_set(array, kGravity, limits, block, s).parity_alive(limits));
+      RC_ASSERT(test_set(array, kGravity, limits, block, s).consistent(limits));
+      RC_ASSERT(test_set(array, kGravity, limits, block, s).parity_consistent(limits));
     }
   }
 }

@@ -37,7 +37,7 @@ BlockAccumulator fill(const SensorArray& array, Noise& noise, const Vec3& vibrat
 // Verifies: REQ-058
 TEST(Stationarity, QuietIsQuiet) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
-  const double factor = restless_factor(4, 32, 1e-6);
+  const double factor = scatter_factor(4, 32, 1e-6);
   Noise noise(1);
   for (int k = 0; k < 2000; ++k) {
     const BlockJudgement j = judge_block(array, fill(array, noise, {0, 0, 0}), array.all(), factor, kG0_mps2);
@@ -91,7 +91,7 @@ TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {
   // docs/theory.md, section 6.2: purely axial vibration shakes sensor 4 of the paper's tool three times as much as
   // the others; a rule that looked at single channels would blame the innocent.
   const SensorArray array = plumb_test::tetrahedron(kSigma);
-  const double factor = restless_factor(4, 32, 1e-6);
+  const double factor = scatter_factor(4, 32, 1e-6);
   Noise noise(5);
   int blamed = 0, moving = 0;
   for (int k = 0; k < 4000; ++k) {
@@ -107,7 +107,7 @@ TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {
 // Verifies: REQ-058
 TEST(Stationarity, AShakingChannelInAQuietToolIsNamed) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
-  const double factor = restless_factor(4, 32, 1e-6);
+  const double factor = scatter_factor(4, 32, 1e-6);
   Noise noise(6);
   for (int i = 0; i < 4; ++i) {
     const BlockJudgement j = judge_block(array, fill(array, noise, {0, 0, 0}, i, 1.0), array.all(), factor, kG0_mps2);
@@ -127,7 +127,7 @@ TEST(Stationarity, WhatHalfOfEightMayHideIsNotCertain) {
   // The two of the healthy that feel it least hardly feel it.
   const Vec3 across = cross(array.axis(0), array.axis(1));
   const Vec3 line = scaled(across, 1.0 / norm(across));
-  const double factor = restless_factor(8, 32, 1e-6);
+  const double factor = scatter_factor(8, 32, 1e-6);
   Noise noise(11);
   int pushed = 0, certain = 0, own = 0;
   for (int k = 0; k < 3000; ++k) {
@@ -157,7 +157,7 @@ TEST(Stationarity, WhatHalfOfEightMayHideIsNotCertain) {
 // Verifies: REQ-058
 TEST(Stationarity, AnExcludedChannelCannotStopTheEvidence) {
   const SensorArray array = plumb_test::cone_array(5, kSigma);
-  const double factor = restless_factor(5, 32, 1e-6);
+  const double factor = scatter_factor(5, 32, 1e-6);
   Noise noise(7);
   const BlockJudgement j =
       judge_block(array, fill(array, noise, {0, 0, 0}, 2, 50.0), array.all().without(2), factor, kG0_mps2);
@@ -174,8 +174,8 @@ TEST(Stationarity, ABlockWithoutSamplesIsNotJudged) {
   EXPECT_FALSE(j.quiet);
   EXPECT_EQ(j.evidence.samples, 0.0);
   EXPECT_TRUE(j.evidence.usable.empty());
-  EXPECT_EQ(restless_factor(0, 32, 1e-6), 0.0);
-  EXPECT_EQ(restless_factor(4, 1, 1e-6), 0.0);
+  EXPECT_EQ(scatter_factor(0, 32, 1e-6), 0.0);
+  EXPECT_EQ(scatter_factor(4, 1, 1e-6), 0.0);
 }
 
 /// Sets that name sensors which no build has: those that there are count, and nothing is read beyond them.

@@ -178,9 +178,9 @@ TEST(SetAsideBias, IsIsolatedByTheVoteOnEveryGeometry) {
       block.mean_mps2[static_cast<std::size_t>(i)] += t.sensor[static_cast<std::size_t>(i)].provisional_exclusion_mps2;
       isolation.clear();
       isolation.pose(array, array.all());
-      const SensorSet convicted = isolation.vote({array, kExact, limits, block}).parity;
-      if (convicted != SensorSet::of(i)) ++missed;
-      if (!(SensorSet::of(i).contains(convicted))) ++wrong;
+      const SensorSet excluded = isolation.vote({array, kExact, limits, block}).parity;
+      if (excluded != SensorSet::of(i)) ++missed;
+      if (!(SensorSet::of(i).contains(excluded))) ++wrong;
     }
     EXPECT_LE(missed, 10) << array.size() << ": 2 expected at most";
     EXPECT_EQ(wrong, 0);
@@ -240,7 +240,7 @@ RC_GTEST_PROP(SureFaultLaw, IsDetectedAndFaultyInEveryConsistentHypothesis, ()) 
   }
   const SetTest full = test_set(array, kExact, limits, block, array.all());
   RC_ASSERT(full.parity > full.parity_alarm_limit(limits));
-  RC_ASSERT(!full.parity_alive(limits));
+  RC_ASSERT(!full.parity_consistent(limits));
 }
 
 // Verifies: REQ-016

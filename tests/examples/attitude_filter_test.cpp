@@ -43,7 +43,7 @@ TEST(AttitudeFilter, ridesThroughTheFailureAndTheLeastSquaresDoesNot) {
   double before = 0, coasting = 0, after = 0, without_before = 0, without_after = 0, worst_ratio = 0;
   int rows = 0;
   for (const Row& row : table()) {
-    if (row.time_s < 6.0) continue;  // plumb has not vouched for anything yet
+    if (row.time_s < 6.0) continue;  // plumb has published nothing as valid yet
     ++rows;
     double& worst = row.time_s < 30.0 ? before : row.time_s < 41.6 ? coasting : after;
     worst = std::max(worst, row.with_deg);

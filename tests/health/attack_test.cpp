@@ -214,7 +214,7 @@ TEST(Attack, SensorsThatHangTogetherDoNotPassAShakenBlockForAQuietOne) {
 }
 
 /// Three of six hang, the tool is pushed along the one line that two of the other three do not feel: the sixth alone
-/// scatters, as if it were noisy. What it reads on average convicts nobody.
+/// scatters, as if it were noisy. What it reads on average excludes nobody.
 // Negative: REQ-074
 TEST(Attack, SensorsThatHangDoNotPassAPushedOneForANoisyOne) {
   for (int n = 5; n <= std::min(8, kCapacity); ++n) {
@@ -247,7 +247,7 @@ double mirrored_reading(const SensorArray& array, int i, int j, int k, const Vec
 
 /// One of four hangs where the other three cannot tell, and the tool is pushed now and then along the one line that
 /// two of these do not feel: the fourth alone scatters, and its average kills the true set. Among four nobody is
-/// convicted by that, asserted or not (`plumb_monitor_attacks --seed 5 --episode 138685`, and 206565, 258565, 275445).
+/// excluded by that, asserted or not (`plumb_monitor_attacks --seed 5 --episode 138685`, and 206565, 258565, 275445).
 // Negative: REQ-073, REQ-074
 TEST(Attack, AmongFourAPushedSensorIsNotExcludedAsNoisy) {
   for (const int asserted : {-1, 1}) {
@@ -277,7 +277,7 @@ TEST(Attack, AmongFourAPushedSensorIsNotExcludedAsNoisy) {
   }
 }
 
-/// One of four that scatters at every station, while the others never do, is convicted by its scatter after E
+/// One of four that scatters at every station, while the others never do, is excluded by its scatter after E
 /// stations. To the readings it is the same as a tool that is pushed at every one of them along the line that two do
 /// not feel, and hangs on the third: nobody can tell these apart, and the first is what happens to tools.
 // Verifies: REQ-143
@@ -305,7 +305,7 @@ TEST(Attack, AmongFourASensorThatScattersAtEveryStationIsExcluded) {
   }
 }
 
-/// Where four survive, one station is enough if it is configured so; but not for who is accused by its scatter alone
+/// Where four survive, one station is enough if it is configured so; but not for who is suspected by its scatter alone
 /// (`plumb_monitor_attacks --seed 6 --episode 116526`).
 // Negative: REQ-143
 TEST(Attack, OneStationOfScatterExcludesNoSensor) {
@@ -329,8 +329,8 @@ TEST(Attack, OneStationOfScatterExcludesNoSensor) {
 }
 
 /// Three lie among six, one more than parity bears: two of them agree with the healthy two of a chance set, so that a
-/// healthy sensor is set aside, serves again while they rest, and is set aside a second time. The conviction of the
-/// three acquits it (`plumb_monitor_attacks --seed 5 --episode 58827`).
+/// healthy sensor is provisionally excluded, serves again while they rest, and is provisionally excluded a second time.
+/// The exclusion of the three acquits it (`plumb_monitor_attacks --seed 5 --episode 58827`).
 // Verifies: REQ-074, REQ-099
 TEST(Attack, ASensorProvisionallyExcludedTwiceIsReinstatedWhenOthersAreExcluded) {
   Rig rig(plumb_test::cone_array(6));

@@ -86,7 +86,7 @@ TEST(BitFlips, AreReportedWithin64StepsOrHarmless) {
   if (kCapacity >= 8) flip_in_every_state(6, plumb_test::long_run() ? 13 : 331);
 }
 
-/// What the sums are for: forged storage whose sums agree convicts the healthy and publishes nonsense.
+/// What the sums are for: forged storage whose sums agree excludes the healthy and publishes nonsense.
 // Negative: REQ-166
 TEST(BitFlips, WithoutTheSumsTheyAreFoundWrong) {
   const Predicament at = predicament("nominal", 4);

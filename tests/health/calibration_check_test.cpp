@@ -1,4 +1,4 @@
-// A calibration whose covariance its own first attitudes contradict: told, widened or refused; nobody is convicted by
+// A calibration whose covariance its own first attitudes contradict: told, widened or refused; nobody is excluded by
 // it.
 #include <gtest/gtest.h>
 

@@ -52,22 +52,22 @@ TEST(Changes, TheRecordHoldsTheLimitAndAGradeOnlyForAnExclusion) {
   const double limit = rig.monitor.verdict().limit;
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 1.0 : i == 4 ? std::nan("") : r; };
   rig.stay(direction_at(20, 40), 8);
-  int convicted = 0, others = 0;
+  int excluded = 0, others = 0;
   for (const TransitionRecord& record : rig.records) {
-    const bool convicts = record.event == HealthEvent::exclusion || record.event == HealthEvent::provisional_exclusion;
-    EXPECT_EQ(record.grade != Grade::none, convicts) << to_string(record.event);
-    if (record.event == HealthEvent::alarm || convicts) {
+    const bool excludes = record.event == HealthEvent::exclusion || record.event == HealthEvent::provisional_exclusion;
+    EXPECT_EQ(record.grade != Grade::none, excludes) << to_string(record.event);
+    if (record.event == HealthEvent::alarm || excludes) {
       EXPECT_GT(record.limit, 0.0) << to_string(record.event);
       EXPECT_LT(record.limit, 10.0 * limit) << to_string(record.event);
     }
-    (convicts ? convicted : others) += 1;
+    (excludes ? excluded : others) += 1;
   }
-  EXPECT_GT(convicted, 0);
+  EXPECT_GT(excluded, 0);
   EXPECT_GT(others, 1) << "trust is earned, a channel lost";
   EXPECT_EQ(rig.records.back().event, HealthEvent::channel_lost);
 }
 
-/// "At most two are faulty": the first that is convicted uses up one of them, and the second is believed as quickly.
+/// "At most two are faulty": the first that is excluded uses up one of them, and the second is believed as quickly.
 // Verifies: REQ-073
 TEST(Changes, OneExcludedOfTwoAssumedFaultsLeavesOne) {
   if (kCapacity < 7) GTEST_SKIP() << "seven sensors";

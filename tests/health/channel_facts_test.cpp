@@ -39,7 +39,7 @@ TEST(ChannelFacts, TwoSigmasOfNoiseAreToldByTheResidualWithinAFewBlocks) {
         noisy += v.noisy == SensorSet::of(2) ? 1 : 0;
         EXPECT_TRUE(SensorSet::of(2).contains(v.noisy));
         if (v.noisy.has(2)) {
-          EXPECT_NE(v.validity, Validity::valid) << "nobody vouches for it";
+          EXPECT_NE(v.validity, Validity::valid) << "no other sensor corroborates it";
           EXPECT_EQ(v.sensor_cause[2], Cause::noisy);
         }
       }

@@ -54,8 +54,8 @@ Place moved_to(Action::Bits action, Place from, bool asked, bool chosen) {
 NamedSensors naming(Action::Bits action, SensorSet asked) {
   const SensorSet all = SensorSet::first(kSensors);
   NamedSensors named{all, all, all, all, all, all};
-  (action == Action::exclude                 ? named.culprits
-   : action == Action::exclude_provisionally ? named.accused
+  (action == Action::exclude                 ? named.isolated
+   : action == Action::exclude_provisionally ? named.suspected
    : action == Action::mark_absent           ? named.lost
    : action == Action::mark_back             ? named.back
    : action == Action::reinstate             ? named.proven
@@ -127,7 +127,8 @@ void for_every_event_taken(Law&& law) {
   }
 }
 
-/// Patience that ran out stands until somebody is convicted, the coefficients are other ones, or the key is turned.
+/// An isolation timeout that ran out stands until somebody is excluded, the coefficients are other ones, or the key is
+/// turned.
 // Verifies: REQ-098
 TEST(Decision, ExhaustionStandsUntilSomethingIsDecided) {
   for_every_event_taken([](Mode mode, HealthEvent event) {
@@ -158,7 +159,7 @@ TEST(Decision, CleanBlocksCountAnewForOtherSensors) {
   state.clean_run = 2;
   DecisionInput input;
   input.raised = bit(HealthEvent::provisional_exclusion);
-  input.named.accused = SensorSet::of(1);
+  input.named.suspected = SensorSet::of(1);
   const Decision d = decide(kTransitionTable, state, input, [](SensorSet) { return SizeClass::critical; });
   EXPECT_EQ(state.clean_run, 0);
   EXPECT_EQ(d.sensors, SensorSet::of(1));

@@ -196,7 +196,7 @@ TEST(FirstCalibration, AnAlarmStartsTheCollectionAnew) {
   EXPECT_EQ(tool.monitor.recalibration().store().size(), 0);
   EXPECT_EQ(tool.state(), HealthState::recalibrating);
   EXPECT_EQ(tool.monitor.verdict().cause, Cause::parity);
-  EXPECT_TRUE(tool.monitor.verdict().excluded.empty()) << "nobody is accused by a datasheet";
+  EXPECT_TRUE(tool.monitor.verdict().excluded.empty()) << "nobody is suspected by a datasheet";
   tool.roam(60);
   EXPECT_FALSE(tool.calibrated()) << "gross from then on";
   tool.distort = [](int, double r, int) { return r; };

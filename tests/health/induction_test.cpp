@@ -150,13 +150,14 @@ class Induction {
     const SensorLedger& s = m.state.sensors;
     const Mode mode = m.state.mode;
     const auto any = [](SensorSet) { return true; };
-    const SensorSet posed = s.in_service | s.provisionally_excluded;
+    const SensorSet monitored = s.in_service | s.provisionally_excluded;
     const bool accuses = mode != Mode::degraded && mode != Mode::failed;
     if (accuses) {
-      // Nobody is convicted unless the others still make a vector, and set-asides are acquitted by a conviction.
-      subsets_of(posed, m, HealthEvent::exclusion, &NamedSensors::culprits,
-                 [&](SensorSet z) { return left(posed - z) != SizeClass::rank_lost; });
-      subsets_of(s.in_service, m, HealthEvent::provisional_exclusion, &NamedSensors::accused, any);
+      // Nobody is excluded unless the others still make a vector, and provisionally excluded sensors are reinstated by
+      // an exclusion.
+      subsets_of(monitored, m, HealthEvent::exclusion, &NamedSensors::isolated,
+                 [&](SensorSet z) { return left(monitored - z) != SizeClass::rank_lost; });
+      subsets_of(s.in_service, m, HealthEvent::provisional_exclusion, &NamedSensors::suspected, any);
     }
     subsets_of(all_ - s.absent, m, HealthEvent::channel_lost, &NamedSensors::lost, any);
     subsets_of(s.absent, m, HealthEvent::channel_back, &NamedSensors::back, any);
@@ -209,8 +210,8 @@ class Induction {
 
     const SensorSet out = s.in_service - t.in_service, in = t.in_service - s.in_service;
     SensorSet may_leave, may_return;
-    if (event == HealthEvent::exclusion) may_leave = input.named.culprits;
-    if (event == HealthEvent::provisional_exclusion) may_leave = input.named.accused;
+    if (event == HealthEvent::exclusion) may_leave = input.named.isolated;
+    if (event == HealthEvent::provisional_exclusion) may_leave = input.named.suspected;
     if (event == HealthEvent::channel_lost) may_leave = input.named.lost;
     if (event == HealthEvent::exclusion) may_return = s.provisionally_excluded;
     if (event == HealthEvent::probation_passed) may_return = input.named.proven;
@@ -222,15 +223,15 @@ class Induction {
       return "S10: a return that is not counted";
     if (event == HealthEvent::probation_passed && !(in & s.readmitted).empty())
       return "S10: a second return by probation";
-    if (event == HealthEvent::exclusion && (t.excluded - s.excluded) != input.named.culprits)
-      return "S1: a conviction latches out whom it does not name";
-    if (event == HealthEvent::exclusion && !t.in_service.contains(s.provisionally_excluded - input.named.culprits))
-      return "S1: who was only set aside is not acquitted";
+    if (event == HealthEvent::exclusion && (t.excluded - s.excluded) != input.named.isolated)
+      return "S1: an exclusion excludes whom it does not name";
+    if (event == HealthEvent::exclusion && !t.in_service.contains(s.provisionally_excluded - input.named.isolated))
+      return "S1: who was only provisionally excluded is not acquitted";
     const bool done =
         (event != HealthEvent::channel_lost || t.absent.contains(input.named.lost)) &&
         (event != HealthEvent::channel_back || t.excluded.contains(input.named.back)) &&
-        (event != HealthEvent::exclusion || t.excluded.contains(input.named.culprits)) &&
-        (event != HealthEvent::provisional_exclusion || t.provisionally_excluded.contains(input.named.accused));
+        (event != HealthEvent::exclusion || t.excluded.contains(input.named.isolated)) &&
+        (event != HealthEvent::provisional_exclusion || t.provisionally_excluded.contains(input.named.suspected));
     if (!done) return "S2: the event was taken and not carried out";
     if (!t.readmitted.contains(s.readmitted)) return "S10: a record was forgotten";
 
@@ -325,7 +326,7 @@ TEST(Induction, EveryPlantedDefectIsFound) {
       {"a lost channel is not marked", Mode::nominal, HealthEvent::channel_lost, go(T::stay, A::count)},
       {"an exclusion leaves nominal nominal", Mode::nominal, HealthEvent::exclusion, go(T::stay, A::exclude)},
       {"an exclusion takes nobody out", Mode::suspect, HealthEvent::exclusion, go(T::by_size, A::count)},
-      {"an not yet validated suspect is trusted after a conviction", Mode::suspect, HealthEvent::exclusion,
+      {"a not yet validated suspect is trusted after an exclusion", Mode::suspect, HealthEvent::exclusion,
        go(T::by_size, A::exclude)},
       {"no consistent hypothesis excludes", Mode::nominal, HealthEvent::no_consistent_hypothesis,
        go(T::failed, A::exclude)},
@@ -363,8 +364,8 @@ TEST(Induction, EveryPlantedDefectIsFound) {
   }
 }
 
-/// Found by the induction: a culprit found while recalibrating went by size, also where recalibration had been entered
-/// from a suspect that had not earned its trust.
+/// Found by the induction: a sensor isolated while recalibrating went by size, also where recalibration had been
+/// entered from a suspect that had not earned its trust.
 // Negative: REQ-092
 TEST(Induction, FoundThatAnExclusionWhileRecalibratingSkippedTheProof) {
   DecisionState state;
@@ -373,14 +374,14 @@ TEST(Induction, FoundThatAnExclusionWhileRecalibratingSkippedTheProof) {
   state.sensors.in_service = SensorSet::first(5);
   DecisionInput input;
   input.raised = bit(HealthEvent::exclusion);
-  input.named.culprits = SensorSet::of(2);
+  input.named.isolated = SensorSet::of(2);
   decide(kTransitionTable, state, input, [](SensorSet set) { return general_position(set, 5); });
   EXPECT_EQ(state.mode, Mode::suspect);
   EXPECT_EQ(state.sensors.excluded, SensorSet::of(2));
 }
 
-/// Found by an attack: who was set aside after a return was to stay out, and the next conviction of others latched it
-/// out with them. Setting aside is no conviction, and a healthy sensor may meet it twice.
+/// Found by an attack: who was provisionally excluded after a return was to stay out, and the next exclusion of others
+/// latched it out with them. Setting aside is no exclusion, and a healthy sensor may meet it twice.
 // Negative: REQ-099
 TEST(Induction, FoundThatAnExclusionLatchedOutASensorProvisionallyExcludedTwice) {
   DecisionState state;
@@ -392,18 +393,19 @@ TEST(Induction, FoundThatAnExclusionLatchedOutASensorProvisionallyExcludedTwice)
   const auto size_of = [](SensorSet set) { return general_position(set, 6); };
   DecisionInput input;
   input.raised = bit(HealthEvent::provisional_exclusion);
-  input.named.accused = SensorSet::of(1);
+  input.named.suspected = SensorSet::of(1);
   decide(kTransitionTable, state, input, size_of);
   EXPECT_EQ(state.sensors.provisionally_excluded, SensorSet(0b000110));
   input.raised = bit(HealthEvent::exclusion);
-  input.named.culprits = SensorSet::of(5);
+  input.named.isolated = SensorSet::of(5);
   decide(kTransitionTable, state, input, size_of);
   EXPECT_EQ(state.sensors.in_service, SensorSet(0b011111));
   EXPECT_EQ(state.sensors.excluded, SensorSet(0b100000));
   EXPECT_EQ(state.mode, Mode::isolated);
 }
 
-/// Who was convicted after a return stays out; who was set aside after one waits for an acquittal, not for probation.
+/// Who was excluded after a return stays out; who was provisionally excluded after one waits for an acquittal, not for
+/// probation.
 // Verifies: REQ-099
 TEST(Induction, ProbationBringsNobodyBackTwice) {
   DecisionState state;
@@ -438,9 +440,9 @@ TEST(Induction, EveryPairOfEventsIsTakenInRankOrder) {
   }
 }
 
-/// Patience that is used up stays so until somebody is convicted, the key turned or a fit adopted.
+/// An isolation timeout that is used up stays so until somebody is excluded, the key turned or a fit adopted.
 // Verifies: REQ-098
-/// In failed it tells a failure by patience from every other.
+/// In failed it tells a failure by isolation timeout from every other.
 TEST(Induction, TheTimeoutEndsByAnExclusionTheKeyAFitOrAFailureOfAnotherKind) {
   for (int m = 0; m < kModeCount; ++m) {
     for (int e = 0; e < kEventCount; ++e) {
@@ -452,10 +454,10 @@ TEST(Induction, TheTimeoutEndsByAnExclusionTheKeyAFitOrAFailureOfAnotherKind) {
         DecisionInput input;
         input.raised = bit(static_cast<HealthEvent>(e));
         const Decision d = decide(kTransitionTable, state, input, [](SensorSet) { return SizeClass::reduced; });
-        const bool convicts = (d.actions & Action::exclude) != 0, turned = (d.actions & Action::rearm) != 0;
+        const bool excludes = (d.actions & Action::exclude) != 0, turned = (d.actions & Action::rearm) != 0;
         const bool adopts = (d.actions & Action::adopt_fit) != 0, sets = (d.actions & Action::timed_out) != 0;
         const bool fails = state.mode == Mode::failed && static_cast<Mode>(m) != Mode::failed && !sets;
-        EXPECT_EQ(state.timed_out, sets || (before && !convicts && !turned && !adopts && !fails)) << m << " " << e;
+        EXPECT_EQ(state.timed_out, sets || (before && !excludes && !turned && !adopts && !fails)) << m << " " << e;
       }
     }
   }

@@ -68,8 +68,8 @@ TEST(Inhibit, DoesNotHoldBackLostChannelsOrFailed) {
   EXPECT_EQ(rig.stay(direction_at(60, 10)).state, HealthState::failed);
 }
 
-/// Frozen, the monitor may not take the faulty sensor out; where its bound is beyond what the user can bear, patience
-/// still ends in failed, and where it is not, in a doubt that says so.
+/// Frozen, the monitor may not take the faulty sensor out; where its bound is beyond what the user can bear, the
+/// isolation timeout still ends in failed, and where it is not, in a doubt that says so.
 // Negative: REQ-107
 TEST(Inhibit, DoesNotHoldBackTheIsolationTimeout) {
   for (const double limit_rad : {1e-5, 0.5}) {
@@ -322,7 +322,7 @@ TEST(VerdictFields, AfterAnExclusionTheMarginIsThatOfTheSurvivors) {
   const Verdict& v = rig.stay(direction_at(55, 77));
   ASSERT_EQ(v.excluded, SensorSet::of(1));
   EXPECT_GT(v.margin, 0.0) << "the four that are left are clean";
-  EXPECT_GT(rig.records.back().statistic, rig.records.back().limit) << "the record keeps what convicted";
+  EXPECT_GT(rig.records.back().statistic, rig.records.back().limit) << "the record keeps what excluded";
 }
 
 }  // namespace

@@ -146,8 +146,8 @@ RC_GTEST_PROP(MonitorLaw, ExcludesOnlyTheFaultySensorAndThenIgnoresIt, ()) {
   const bool excluded = rig.monitor.verdict().excluded == SensorSet::of(faulty);
   RC_CLASSIFY(excluded, "excluded");
   // Constant, stuck and random faults end excluded, or (rarely) as "cannot tell"; who scatters from sample to sample
-  // may stay set aside as noisy: with five sensors and more nobody is convicted on the mean of such readings. Never
-  // trusted.
+  // may stay provisionally excluded as noisy: with five sensors and more nobody is excluded on the mean of such
+  // readings. Never trusted.
   if (kind <= 2 && !excluded) {
     const Verdict& v = rig.monitor.verdict();
     RC_ASSERT(v.validity != Validity::valid || (kind == 2 && v.provisionally_excluded == SensorSet::of(faulty)));

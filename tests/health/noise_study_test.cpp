@@ -317,7 +317,8 @@ TEST(NoiseStudy, StepsOfFourSigmasAreNoFault) {
   }
 }
 
-/// A dead sensor does not follow a tool that shakes, so that the channels scatter and not together: that is no noise.
+/// A rejected sensor does not follow a tool that shakes, so that the channels scatter and not together: that is no
+/// noise.
 // Negative: REQ-066
 TEST(NoiseStudy, ADeadSensorInAToolThatShakesTeachesNoNoise) {
   for (int n = 5; n <= kCapacity; ++n) {

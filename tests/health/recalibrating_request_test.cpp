@@ -25,17 +25,17 @@ TEST(Recalibrating, WhoMayAskAndWhen) {
   EXPECT_EQ(tool.rig.monitor.request_recalibration().error().code, Errc::wrong_state) << "not_yet_validated";
   tool.rig.prove();
   EXPECT_TRUE(tool.rig.monitor.request_recalibration().has_value()) << "nominal";
-  Tool accused(4);
-  accused.rig.prove();
-  accused.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
-  accused.rig.stay(direction_at(45, 200));
-  const Expected<void> refused = accused.rig.monitor.request_recalibration();
+  Tool suspected(4);
+  suspected.rig.prove();
+  suspected.fault = [](int i, double r, int) { return i == 2 ? r + 0.3 : r; };
+  suspected.rig.stay(direction_at(45, 200));
+  const Expected<void> refused = suspected.rig.monitor.request_recalibration();
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().code, Errc::wrong_state);
   EXPECT_EQ(refused.error().value, static_cast<double>(HealthState::suspect));
-  accused.visit(8);
-  ASSERT_EQ(accused.state(), HealthState::degraded_3_sensor);
-  EXPECT_TRUE(accused.rig.monitor.request_recalibration().has_value()) << "degraded: host only";
+  suspected.visit(8);
+  ASSERT_EQ(suspected.state(), HealthState::degraded_3_sensor);
+  EXPECT_TRUE(suspected.rig.monitor.request_recalibration().has_value()) << "degraded: host only";
   Tool lost(4);
   lost.rig.prove();
   lost.fault = [](int i, double r, int) { return i < 2 ? std::numeric_limits<double>::quiet_NaN() : r; };
@@ -115,7 +115,7 @@ TEST(Recalibrating, ThreeSensorsStayUnconfirmedAfterTheirFit) {
   EXPECT_TRUE(tool.rig.monitor.verdict().qualifiers & Qualifier::three_sensor_fit);
 }
 
-/// Common drift (heat): parity is silent, the length is off, nobody is accused. The host may ask; the fit mends it.
+/// Common drift (heat): parity is silent, the length is off, nobody is suspected. The host may ask; the fit mends it.
 TEST(Recalibrating, CommonDriftIsMendedOnRequestAndUnconfirmedMeanwhile) {
   Tool tool(6, {}, 3);
   tool.rig.prove();
@@ -161,7 +161,7 @@ TEST(Recalibrating, WrongGravityIsNotPutIntoTheScales) {
 TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
   const double g = kG0_mps2 * (1.0 - 2.2e-3);
   int adopted = 0;
-  int vouched = 0;
+  int accepted = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Tool tool(7, {}, seed);
     tool.rig.prove();
@@ -177,12 +177,12 @@ TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
       if (tool.count(HealthEvent::fit_accepted) > 0) adopted = static_cast<int>(seed);
       const Verdict& v = tool.rig.monitor.verdict();
       if (v.validity != Validity::valid || !v.protection_available) continue;
-      if (tool.count(HealthEvent::fit_accepted) > 0) ++vouched;
+      if (tool.count(HealthEvent::fit_accepted) > 0) ++accepted;
       EXPECT_LE(angle_between_rad(v.gravity_mps2, down), v.protection_level_rad) << "seed " << seed << " station " << k;
     }
   }
   EXPECT_GT(adopted, 0);
-  EXPECT_GT(vouched, 0);
+  EXPECT_GT(accepted, 0);
 }
 
 TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
@@ -203,7 +203,7 @@ TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
   }
   EXPECT_LE(farthest, DriftBounds::kCommissioningSigmas * kStability_mps2);
   EXPECT_GT(tool.count(HealthEvent::fit_accepted) + tool.count(HealthEvent::fit_rejected), 0);
-  EXPECT_EQ(tool.rig.ever_blamed, SensorSet::of(2)) << "in the end it is convicted, and it alone";
+  EXPECT_EQ(tool.rig.ever_blamed, SensorSet::of(2)) << "in the end it is excluded, and it alone";
 }
 
 TEST(Recalibrating, OtherGravityOtherStations) {

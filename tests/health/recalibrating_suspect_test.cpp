@@ -11,7 +11,7 @@ namespace {
 using namespace plumb;
 using plumb_test::Tool;
 
-/// All four sensors have drifted, each its own way: every three of them contradict gravity, and nobody is accused.
+/// All four sensors have drifted, each its own way: every three of them contradict gravity, and nobody is suspected.
 struct Drifted : Tool {
   explicit Drifted(MonitorConfig config = {}) : Tool(4, config, 5) {
     rig.prove();
@@ -30,7 +30,8 @@ TEST(RecalibratingSuspect, AFitForAContradictionIsMadeAndAdoptedThoughTheContrad
   const int before = tool.rig.monitor.verdict().stations_on_record;
   for (int k = 0; k < 20 && tool.state() == HealthState::recalibrating; ++k) {
     EXPECT_EQ(tool.rig.monitor.verdict().validity, Validity::unconfirmed);
-    EXPECT_EQ(tool.rig.monitor.verdict().stations_on_record, before) << "patience rests, else no fit is ever done";
+    EXPECT_EQ(tool.rig.monitor.verdict().stations_on_record, before)
+        << "the isolation timeout rests, else no fit is ever done";
     tool.visit(1);
   }
   ASSERT_EQ(tool.count(HealthEvent::fit_accepted), 1);

@@ -192,7 +192,7 @@ TEST(Recalibrating, EveryOtherEventOfTheTableDoesWhatItSays) {
     EXPECT_EQ(tool.state(), HealthState::nominal) << "adopted, proven, reinstated";
     EXPECT_EQ(tool.count(HealthEvent::fit_accepted), 1);
   }
-  {  // culprit: excluded, by size
+  {  // isolated: excluded, by size
     MonitorConfig config;
     config.assumed_faults = 1;
     Tool tool(6, config);
@@ -203,7 +203,7 @@ TEST(Recalibrating, EveryOtherEventOfTheTableDoesWhatItSays) {
     EXPECT_EQ(tool.state(), HealthState::isolated);
     EXPECT_TRUE(tool.calibration_untouched());
   }
-  {  // set aside: suspect
+  {  // provisionally excluded: suspect
     Tool tool(7);
     tool.begin();
     tool.fault = [](int i, double r, int) { return i == 4 ? r + 0.4 : r; };

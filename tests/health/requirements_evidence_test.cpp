@@ -102,7 +102,7 @@ Rig steady_parity(double share, Vec3& direction) {
 }
 
 // Verifies: REQ-097
-TEST(RequirementClean, BelowSevenTenthsOfTheLimitABlockCountsForValidation) {
+TEST(RequirementPassedBlocks, BelowSevenTenthsOfTheLimitABlockCountsForValidation) {
   Vec3 u{};
   Rig rig = steady_parity(0.6, u);
   Noise noise(3);
@@ -112,7 +112,7 @@ TEST(RequirementClean, BelowSevenTenthsOfTheLimitABlockCountsForValidation) {
 }
 
 // Negative: REQ-097
-TEST(RequirementClean, AboveSevenTenthsSuspicionStaysThoughNothingAlarms) {
+TEST(RequirementPassedBlocks, AboveSevenTenthsSuspicionStaysThoughNothingAlarms) {
   Vec3 u{};
   Rig rig = steady_parity(0.85, u);
   Noise noise(3);
@@ -128,7 +128,7 @@ TEST(RequirementClean, AboveSevenTenthsSuspicionStaysThoughNothingAlarms) {
 }
 
 // Negative: REQ-097
-TEST(RequirementClean, ABlockThatIsNotCleanStartsTheCountAnew) {
+TEST(RequirementPassedBlocks, ABlockThatIsNotCleanStartsTheCountAnew) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.3 : r; };

@@ -16,7 +16,7 @@ using plumb_test::Noise;
 using plumb_test::Rig;
 
 // Verifies: REQ-071
-TEST(RequirementStrict, TheAnswerMustHoldAtFourStations) {
+TEST(RequirementConfirmed, TheAnswerMustHoldAtFourStations) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 1.5 : r; };
@@ -29,7 +29,7 @@ TEST(RequirementStrict, TheAnswerMustHoldAtFourStations) {
 }
 
 // Negative: REQ-071
-TEST(RequirementStrict, ThreeSurvivorsNeedTwoStationsEvenWhereOneIsConfigured) {
+TEST(RequirementConfirmed, ThreeSurvivorsNeedTwoStationsEvenWhereOneIsConfigured) {
   MonitorConfig config;
   config.isolation_stations = 1;
   int excluded = 0;
@@ -46,7 +46,7 @@ TEST(RequirementStrict, ThreeSurvivorsNeedTwoStationsEvenWhereOneIsConfigured) {
 }
 
 // Negative: REQ-072
-TEST(RequirementParityGrade, FourSensorsHaveNoneAndSetNobodyAside) {
+TEST(RequirementProvisionalGrade, FourSensorsHaveNoneAndSetNobodyAside) {
   for (const double fault : {0.01, 0.1, 1.0, 20.0}) {
     Rig rig(plumb_test::tetrahedron());
     rig.prove();
@@ -63,7 +63,7 @@ TEST(RequirementParityGrade, FourSensorsHaveNoneAndSetNobodyAside) {
 }
 
 // Negative: REQ-073
-TEST(RequirementAssertedFaults, AnAlarmWithNoneLeftHasNoConsistentHypothesisAndExcludesNoSensor) {
+TEST(RequirementAssumedFaults, AnAlarmWithNoneLeftHasNoConsistentHypothesisAndExcludesNoSensor) {
   MonitorConfig config;
   config.assumed_faults = 0;
   Rig rig(plumb_test::tetrahedron(), config);
@@ -178,7 +178,7 @@ TEST(RequirementEpisode, DoesNotEndByCleanBlocksAtOneAttitude) {
 }
 
 // Negative: REQ-077
-TEST(RequirementContradiction, TwoRandomFaultsAmongFourExcludeNoSensor) {
+TEST(RequirementNoConsistentHypothesis, TwoRandomFaultsAmongFourExcludeNoSensor) {
   int contradictions = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Rig rig(plumb_test::tetrahedron(), {}, seed);

@@ -36,7 +36,7 @@ TEST(RequirementRank, EventsStandInTheOrderOfTheHandWrittenTable) {
 }
 
 // Verifies: REQ-077
-TEST(RequirementContradiction, NoCellExcludesOrProvisionallyExcludesOrFails) {
+TEST(RequirementNoConsistentHypothesis, NoCellExcludesOrProvisionallyExcludesOrFails) {
   for (int m = 0; m < kModeCount; ++m) {
     const auto mode = static_cast<Mode>(m);
     const Cell& cell = cell_of(mode, HealthEvent::no_consistent_hypothesis);
@@ -51,7 +51,7 @@ TEST(RequirementContradiction, NoCellExcludesOrProvisionallyExcludesOrFails) {
 }
 
 // Negative: REQ-093
-TEST(RequirementTrust, ASensorWhosePredictionNeverMovedIsNotProven) {
+TEST(RequirementValidation, ASensorWhosePredictionNeverMovedIsNotProven) {
   // Rolled about the axis of sensor 4, the other three move and it does not: stuck, it would look the same.
   Rig rig(plumb_test::tetrahedron());
   for (int k = 0; k < 24; ++k) {

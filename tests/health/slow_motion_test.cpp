@@ -1,5 +1,5 @@
-// A tool that turns or shakes slowly has a vector, whose bound holds what it moves by until the next; nobody is accused
-// by such a block and nobody cleared.
+// A tool that turns or shakes slowly has a vector, whose bound holds what it moves by until the next; nobody is
+// suspected by such a block and nobody cleared.
 #include "plumb/health/detail/slow_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -296,7 +296,7 @@ TEST(SlowMotion, ARowThatIsMissingEndsTheClaimWithTheBlock) {
 /// Whether the channels move as one, or one by itself.
 // Negative: REQ-068
 TEST(SlowMotion, AChannelThatMovesByItselfIsNoMotionOfTheTool) {
-  const double factor = restless_factor(6, 32, 1e-6);
+  const double factor = scatter_factor(6, 32, 1e-6);
   for (const bool alone : {false, true}) {
     for (const int sensors : {6, 3}) {
       const SensorArray array = plumb_test::cone_array(6);

@@ -66,7 +66,7 @@ TEST(Stability, DriftWithinTheStatedStabilityExcludesNoSensorAndStaysWithinThePr
 // Negative: REQ-123
 TEST(Stability, WhereNothingIsStatedTheSameDriftIsBeyondBound) {
   const Outcome out = run(0.0, 0.5 * kMilligee_mps2, false, 100);
-  EXPECT_EQ(out.blamed, 0) << "the first attitudes contradict the calibration, and nobody is convicted by it";
+  EXPECT_EQ(out.blamed, 0) << "the first attitudes contradict the calibration, and nobody is excluded by it";
   EXPECT_LT(out.valid, out.blocks * 9 / 10);
   const Outcome shared = run(0.0, 2.0 * kMilligee_mps2, true, 100);
   EXPECT_GT(out.beyond + shared.beyond, 0) << "what comes before the contradiction is not bounded";
@@ -131,7 +131,7 @@ TEST(Stability, NoErrorsWithinTheTolerancesRejectAHealthySet) {
       }
       const SetTest all = test_set(array, gravity, limits, block, array.all());
       EXPECT_LE(all.parity, all.parity_systematic + 1e-9) << n;
-      EXPECT_TRUE(all.alive(limits)) << n;
+      EXPECT_TRUE(all.consistent(limits)) << n;
     }
   }
 }

@@ -52,7 +52,7 @@ TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
   }
 }
 
-/// Two convicted where one was asserted: the claim is used up, and the next alarm contradicts it.
+/// Two excluded where one was asserted: the claim is used up, and the next alarm contradicts it.
 // Negative: REQ-073
 TEST(Votes, MoreExclusionsThanAssumedFaultsLeaveNone) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
@@ -74,8 +74,8 @@ TEST(Votes, MoreExclusionsThanAssumedFaultsLeaveNone) {
   EXPECT_EQ(rig.records.back().event, HealthEvent::no_consistent_hypothesis);
 }
 
-/// Where parity has a grade, who scatters is set aside and comes back: no number of stations convicts it by its
-/// scatter.
+/// Where parity has a grade, who scatters is provisionally excluded and comes back: no number of stations excludes it
+/// by its scatter.
 // Negative: REQ-143
 TEST(Votes, WhereParityHasAGradeScatterAloneExcludesNoSensor) {
   MonitorConfig config;
@@ -354,7 +354,7 @@ TEST(Votes, AThousandBlocksAtOneStationExcludeNobody) {
   EXPECT_TRUE(rig.ever_blamed.empty());
 }
 
-/// Two faults are asserted, which of four sensors nobody could tell apart: the votes of the stations convict one alone.
+/// Two faults are asserted, which of four sensors nobody could tell apart: the votes of the stations exclude one alone.
 // Verifies: REQ-070
 TEST(Votes, WhatTheAssertionCannotNameTheyMay) {
   MonitorConfig config;

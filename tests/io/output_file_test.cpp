@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "plumb/io/file_error.hpp"
 #include "io_test_support.hpp"
+#include "plumb/io/file_error.hpp"
 
 namespace output_file_test {
 namespace {

@@ -74,7 +74,7 @@ class BoundLaw {
     const int faults = faulty.size();
     if (!faulty.contains(v.excluded)) return names_of(v.excluded) + " are out";
     if (faults <= tool.parity() && !faulty.contains(v.provisionally_excluded))
-      return names_of(v.provisionally_excluded) + " are set aside";
+      return names_of(v.provisionally_excluded) + " are provisionally excluded";
     if (faults == 0 && !(v.margin >= 0.0)) return std::string("an alarm, ") + plumb::to_string(v.cause);
     if (!is_tried(v) || faults > 1) return "";  // the level is of one fault, by the priors of the default configuration
     ++stations_;

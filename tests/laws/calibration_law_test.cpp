@@ -36,7 +36,7 @@ LawOutcome promises_too_much(const LawTool& tool, TrialNoise& noise) {
     if (!blamed && v.state != HealthState::failed) continue;
     return {true,
             "of " + std::to_string(tool.n()) + " healthy sensors " + names_of(v.excluded) + " excluded, " +
-                names_of(v.provisionally_excluded) + " set aside, " + to_string(v.state),
+                names_of(v.provisionally_excluded) + " provisionally excluded, " + to_string(v.state),
             {tool.n(), 0, played}};
   }
   return {};

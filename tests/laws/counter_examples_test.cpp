@@ -102,7 +102,7 @@ TEST(CounterExample, AsManyFaultsAsTheStrictGradeBearsAreTold) {
   }
 }
 
-/// Five axes of which two triples lie in a plane: untestable sets once counted as dead, and 179 of 291 were wrong.
+/// Five axes of which two triples lie in a plane: untestable sets once counted as rejected, and 179 of 291 were wrong.
 TEST(CounterExample, CoplanarTriplesExcludeNoHealthySensor) {
   AxisList axes{};
   std::size_t i = 0;
@@ -138,8 +138,8 @@ TEST(CounterExample, AReversedAxisOfTwoTriadsDoesNotExcludeItsTwin) {
   }
 }
 
-/// A bias that raises the alarm of nearly every block and yet leaves the whole set alive: nobody can be named, and the
-/// error of 0.02 deg is far within the alert limit. Patience once failed the tool.
+/// A bias that raises the alarm of nearly every block and yet leaves the whole set consistent: nobody can be named, and
+/// the error of 0.02 deg is far within the alert limit. The isolation timeout once failed the tool.
 TEST(CounterExample, AFaultThatAlarmsButRejectsNoHypothesisDoesNotFailTheTool) {
   const TrialTool tool = exact_tool(4, 0, 2e-4 * kG0_mps2);
   for (const double mg0 : {0.28, 0.35, 0.41}) {
@@ -227,7 +227,7 @@ int told_strictly(const TrialTool& tool, Lie lie, TrialNoise& noise) {
   for (int t = 0; t < 60; ++t) {
     LawCase c(tool, LawCase::some(tool.array.size(), 1, noise), lie, 0.0);
     c.draw(noise);
-    Isolation isolation = tool.posed;
+    Isolation isolation = tool.monitored;
     IsolationAnswer answer;
     for (int k = 0; k < 25; ++k) {
       BlockEvidence block;

@@ -16,7 +16,7 @@ MonitorConfig config_of(int key) {
   return config;
 }
 
-/// Directions, noise and lies over some stations; broken where a healthy sensor is latched out.
+/// Directions, noise and lies over some stations; broken where a healthy sensor is excluded.
 LawOutcome never_latches_the_healthy(const LawTool& tool, LawCase& c, Watch& watch, int stations, TrialNoise& noise) {
   TrialAttitudes attitudes(noise);
   for (int k = 0; k < stations; ++k) {
@@ -138,9 +138,10 @@ TEST(Law, EightLinearFaultsEndExcludedOrOpenAndNeverInAWrongExclusion) {
     return outcome;
   });
   EXPECT_EQ(count.broken, 0U);
-  std::printf("law 8: %llu ended excluded or set aside, %llu open or failed, %llu unseen or part of them unseen\n",
-              static_cast<unsigned long long>(end.excluded), static_cast<unsigned long long>(end.open),
-              static_cast<unsigned long long>(end.unseen));
+  std::printf(
+      "law 8: %llu ended excluded or provisionally excluded, %llu open or failed, %llu unseen or part of them unseen\n",
+      static_cast<unsigned long long>(end.excluded), static_cast<unsigned long long>(end.open),
+      static_cast<unsigned long long>(end.unseen));
   EXPECT_GT(3 * end.excluded, end.unseen) << "a monitor that sees nothing would pass as well";
 }
 

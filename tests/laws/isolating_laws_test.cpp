@@ -20,7 +20,7 @@ LawOutcome broken(const LawTool& tool, const LawCase& c, int stations, const std
 
 std::string said(const LawTool& tool, const LawCase& c, const Verdict& v) {
   return "of " + std::to_string(tool.n()) + " sensors (c = " + std::to_string(tool.plane) + ") " +
-         names_of(c.faulty()) + " lied; excluded " + names_of(v.excluded) + ", set aside " +
+         names_of(c.faulty()) + " lied; excluded " + names_of(v.excluded) + ", provisionally excluded " +
          names_of(v.provisionally_excluded) + ", " + to_string(v.state);
 }
 
@@ -110,8 +110,9 @@ TEST(Law, ThreeCorrelatedFaultsOfAnAssumedNumberAreExcludedAndNoOtherSensor) {
   EXPECT_EQ(count.broken, 0U);
 }
 
-/// Beyond every grade nothing is guaranteed but patience: E stations before anybody is latched out, and rarely wrong.
-/// With E = 1 three survivors, who have no parity, still need two; how often that is wrong is not asserted.
+/// Beyond every grade nothing is guaranteed but the isolation timeout: E stations before anybody is excluded, and
+/// rarely wrong. With E = 1 three survivors, who have no parity, still need two; how often that is wrong is not
+/// asserted.
 TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
   static std::uint64_t hasty = 0, contradicted = 0, not_failed = 0, wrong = 0;
   hasty = contradicted = not_failed = wrong = 0;

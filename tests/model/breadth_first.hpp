@@ -49,7 +49,7 @@ struct Limits {
 /// All that is kept from step to step: the machine in the library's hands, and the evidence on record.
 struct World {
   plumb_model_state machine{};
-  Set ever = 0, accused = 0, probation = 0;
+  Set ever = 0, suspected = 0, probation = 0;
   std::uint8_t open = 0, standing = 0, agree = 0, doubt = 0, most = 0, clean_stations = 0, probation_stations = 0;
   std::uint8_t pending = 0, suspicion = other, fit = 0, alarmed = 0;
 };
@@ -90,12 +90,12 @@ class Search {
   };
 
   // --- words of the specification ------------------------------------------------------------------------------
-  static Set posed(const World& w) { return w.machine.in_service | w.machine.provisionally_excluded; }
+  static Set monitored(const World& w) { return w.machine.in_service | w.machine.provisionally_excluded; }
   static bool publishes(int mode) { return mode == nominal || mode == isolated || mode == degraded; }
   static bool collects(const World& w) { return w.machine.mode == recalibrating || w.machine.mode == initial; }
   static bool records(const World& w) { return w.machine.mode != failed && w.machine.mode != initial; }
   static bool accuses(const World& w) { return w.machine.mode <= suspect || w.machine.mode == recalibrating; }
-  static int healthy_throughout(const World& w) { return count(posed(w) & ~w.ever); }
+  static int healthy_throughout(const World& w) { return count(monitored(w) & ~w.ever); }
   static bool expected(const World& w, Doubt what) {
     return w.machine.mode == recalibrating && w.machine.base == suspect && w.suspicion == what;
   }
@@ -106,10 +106,10 @@ class Search {
     return n_ == 6 ? count(w.machine.absent | silent) <= 1 && in_all <= most_faults() : in_all <= most_faults() + 1;
   }
   bool answerable(const World& w) const {
-    return w.accused != 0 && count(posed(w)) >= 4 && count(posed(w) & ~w.accused) >= 3;
+    return w.suspected != 0 && count(monitored(w)) >= 4 && count(monitored(w) & ~w.suspected) >= 3;
   }
   int needed(const World& w) const {
-    return count(posed(w) & ~w.accused) <= 3 ? std::max(2, limits_.stations) : limits_.stations;
+    return count(monitored(w) & ~w.suspected) <= 3 ? std::max(2, limits_.stations) : limits_.stations;
   }
   static bool may_recalibrate(const World& w) {
     const plumb_model_state& m = w.machine;
@@ -173,7 +173,7 @@ class Search {
 
   template <class Next>
   void onset(const Step& s, Next&& next) {
-    subsets(posed(s.w) & ~s.w.ever, [&](Set wrong) {
+    subsets(monitored(s.w) & ~s.w.ever, [&](Set wrong) {
       Step t = s;
       const bool bounded = healthy_throughout(s.w) - count(wrong) >= 3 && count(touched(s.w) | wrong) <= most_faults();
       if (bounded) t.w.ever |= wrong;
@@ -227,12 +227,12 @@ class Search {
   void ballot(const Step& s, bool excited, bool proves) {
     const bool channel = (s.in.lost | s.in.back) != 0;
     if (!(s.w.open && records(s.w)) || s.kind == Block::off_gravity || channel) return contradict(s, excited, proves);
-    const bool sound = count(posed(s.w)) >= 4 && healthy_throughout(s.w) >= 3;
-    const Set accusable = sound ? static_cast<Set>(posed(s.w) & s.w.ever & ~s.w.accused) : Set{0};
+    const bool sound = count(monitored(s.w)) >= 4 && healthy_throughout(s.w) >= 3;
+    const Set accusable = sound ? static_cast<Set>(monitored(s.w) & s.w.ever & ~s.w.suspected) : Set{0};
     subsets(accusable, [&](Set grown) {
       Step t = s;
-      if (grown != 0 && count(posed(s.w) & ~(s.w.accused | grown)) >= 3) {
-        t.w.accused |= grown;
+      if (grown != 0 && count(monitored(s.w) & ~(s.w.suspected | grown)) >= 3) {
+        t.w.suspected |= grown;
         t.w.standing = t.w.agree = 0;
       }
       for (const bool stands : {false, true}) {
@@ -251,14 +251,15 @@ class Search {
 
   void contradict(const Step& s, bool excited, bool proves) {
     count_blocks(s, excited, proves, false);
-    if (s.kind == Block::alarming && count(posed(s.w)) >= 4 && !s.w.standing) count_blocks(s, excited, proves, true);
+    if (s.kind == Block::alarming && count(monitored(s.w)) >= 4 && !s.w.standing)
+      count_blocks(s, excited, proves, true);
   }
 
   void count_blocks(const Step& s, bool excited, bool proves, bool nothing_alive) {
     Step t = s;
     World& w = t.w;
     plumb_model_state& m = w.machine;
-    const int suspected = count((w.standing ? w.accused : 0U) | m.provisionally_excluded);
+    const int suspected = count((w.standing ? w.suspected : 0U) | m.provisionally_excluded);
     if (records(w) && suspected > w.most) {
       w.most = static_cast<std::uint8_t>(suspected);
       w.doubt = 0;
@@ -278,7 +279,7 @@ class Search {
     if (on_record && excited) {
       if (m.provisionally_excluded != 0) probe(t, excited);  // those set aside do not agree
       if (++w.clean_stations == limits_.forget) {
-        w.open = w.accused = w.standing = w.agree = w.doubt = w.most = w.clean_stations = w.ever = 0;
+        w.open = w.suspected = w.standing = w.agree = w.doubt = w.most = w.clean_stations = w.ever = 0;
         m.timed_out = 0;
       }
     }
@@ -307,7 +308,7 @@ class Search {
     Step t = s;
     World& w = t.w;
     if (accuses(w) && w.open && w.standing && w.agree >= needed(w)) {
-      t.in.culprits = w.accused;
+      t.in.isolated = w.suspected;
       t.in.raised |= bit(exclusion);
     }
     if (t.kind == Block::alarming) {
@@ -330,20 +331,21 @@ class Search {
   void accuse_by_parity(const Step& s, bool nothing_alive) {
     const plumb_model_state& m = s.w.machine;
     const bool channel = (s.in.lost | s.in.back) != 0;
-    lose_patience(s);
-    if (!(accuses(s.w) && s.w.open && s.kind == Block::alarming && count(posed(s.w)) >= 5) || nothing_alive || channel)
+    count_isolation_timeout(s);
+    if (!(accuses(s.w) && s.w.open && s.kind == Block::alarming && count(monitored(s.w)) >= 5) || nothing_alive ||
+        channel)
       return;
     const Set accusable = healthy_throughout(s.w) >= 4 ? static_cast<Set>(m.in_service & s.w.ever) : Set{m.in_service};
     subsets(accusable, [&](Set aside) {
       if (aside == 0 || count(m.in_service & ~aside) < 3) return;
       Step t = s;
-      t.in.accused = aside;
+      t.in.suspected = aside;
       t.in.raised |= bit(provisional_exclusion);
-      lose_patience(t);
+      count_isolation_timeout(t);
     });
   }
 
-  void lose_patience(const Step& s) {
+  void count_isolation_timeout(const Step& s) {
     const int mode = s.w.machine.mode;
     if (s.kind == Block::off_gravity || s.w.doubt < limits_.isolation_timeout ||
         !(mode == suspect || mode == recalibrating))
@@ -387,7 +389,7 @@ class Search {
     ++steps_;
     World& w = s.w;
     const plumb_model_state before = w.machine;
-    const Set posed_before = posed(w);
+    const Set posed_before = monitored(w);
     s.in.raised |= static_cast<unsigned>(w.pending) << no_consistent_hypothesis;
     s.in.passed_blocks = static_cast<unsigned char>(limits_.passed_blocks);
     s.in.sensors = static_cast<unsigned char>(n_);
@@ -399,12 +401,12 @@ class Search {
     const bool taken = event != none;
     const bool forgets = taken && (event == exclusion || event == reset || answer.adopted) &&
                          (event != exclusion || before.mode != failed);
-    const Set now_posed = posed(w);
+    const Set now_posed = monitored(w);
     if (forgets) {
-      w.open = w.accused = w.standing = w.agree = w.doubt = w.most = w.clean_stations = 0;
+      w.open = w.suspected = w.standing = w.agree = w.doubt = w.most = w.clean_stations = 0;
     } else if (now_posed != posed_before) {
       w.standing = w.agree = 0;
-      w.accused = (now_posed & ~posed_before) != 0 ? Set{0} : static_cast<Set>(w.accused & now_posed);
+      w.suspected = (now_posed & ~posed_before) != 0 ? Set{0} : static_cast<Set>(w.suspected & now_posed);
     }
     if (event == probation_passed || answer.adopted) w.probation = w.probation_stations = 0;
     if (event == channel_lost) {
@@ -444,7 +446,7 @@ class Search {
   void meet(World w) {
     plumb_model_state& m = w.machine;
     const std::array<unsigned char*, 8> sets = {
-        &m.in_service, &m.provisionally_excluded, &m.excluded, &m.absent, &m.readmitted, &w.ever, &w.accused,
+        &m.in_service, &m.provisionally_excluded, &m.excluded, &m.absent, &m.readmitted, &w.ever, &w.suspected,
         &w.probation};
     std::array<unsigned, 8> columns{};
     for (int i = 0; i < n_; ++i) {

@@ -216,7 +216,7 @@ TEST(PaperMonitor, TwoFaultsOfFourAreDetectedButNotIsolated) {
   EXPECT_GT(rig.monitor->verdict().mae_worst_mps2, kPaperDeltaF_mps2);
   EXPECT_EQ(rig.monitor->verdict().cause, Cause::mae);
   rig.tour(8);
-  EXPECT_EQ(rig.monitor->verdict().state, HealthState::failed) << "patience: six attitudes without an answer";
+  EXPECT_EQ(rig.monitor->verdict().state, HealthState::failed) << "isolation timeout: six attitudes without an answer";
   EXPECT_EQ(rig.records.back().event, HealthEvent::isolation_timeout);
   EXPECT_TRUE(rig.ever_excluded.empty());
 }

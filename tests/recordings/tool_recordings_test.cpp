@@ -64,7 +64,7 @@ TEST(ToolOnCarlsson, CalibratesTwentyFourAxes) {
 }
 
 /// Real residuals exceed or miss the declared noise; what counts is that stations not used are predicted as claimed,
-/// and that no healthy sensor is accused.
+/// and that no healthy sensor is suspected.
 TEST(ToolOnRecordings, HeldOutStationsArePredictedAsClaimed) {
   const struct {
     const char *array, *log;

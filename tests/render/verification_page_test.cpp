@@ -93,7 +93,7 @@ TEST(VerificationPage, SaysWhatWasNotGivenAndHowToGiveIt) {
   EXPECT_NE(html.find("There is no picture: it was not drawn"), std::string::npos);
 }
 
-/// A size of the campaign is no size that is vouched for, and a few replayed scenarios are no coverage.
+/// A size of the campaign is not a guaranteed size, and a few replayed scenarios are no coverage.
 TEST(VerificationPage, SaysWhatItsSizesAndItsCoverageAreOf) {
   const std::string html = render::verification_html(paper_report(), {});
   const std::string replayed = paper_report()["campaign"]["replayed"]["scenarios"].dump();

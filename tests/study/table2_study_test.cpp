@@ -91,7 +91,7 @@ TEST(OneAttitudeStudy, ThePapersRuleErrsWherePlumbHoldsBack) {
   EXPECT_EQ(own.trials(), 500U * 22U);
   EXPECT_EQ(study->paper.group[0][Answer::right], 500U);
   EXPECT_EQ(study->own.group[0][Answer::right], 500U);
-  EXPECT_GT(paper[Answer::names_healthy], 100U) << "of two faulty ones a healthy third can look like the culprit";
+  EXPECT_GT(paper[Answer::names_healthy], 100U) << "of two faulty ones a healthy third can look like the faulty one";
   EXPECT_GT(paper[Answer::silent_large], 500U);
   EXPECT_EQ(study->paper.group[1][Answer::names_healthy], 0U) << "the triple of the healthy three always passes";
   EXPECT_GT(paper[Answer::keeps_faulty], 100U);

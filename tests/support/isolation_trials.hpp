@@ -69,13 +69,13 @@ struct TrialTool {
   plumb::SensorArray array;
   plumb::TestLimits limits;
   plumb::GravityReference gravity{plumb::kG0_mps2, kTrialGravitySigma_mps2, plumb::GravityModel::value};
-  plumb::Isolation posed;
+  plumb::Isolation monitored;
   std::array<plumb::Vec3, plumb::kCapacity> row{};
   plumb::Readings offset_mps2{};
 
   void pose() {
     limits = plumb::TestLimits::from_rates(array.size(), 1e-5, 1e-6);
-    posed.pose(array, array.all());
+    monitored.pose(array, array.all());
   }
 };
 
@@ -331,7 +331,7 @@ struct TrialCount {
 /// One episode of `stations` blocks through the confirmed grade; right is the answer after the last one.
 inline void strict_trial(const TrialTool& tool, TrialEpisode& episode, int stations, TrialNoise& noise,
                          TrialCount& count) {
-  plumb::Isolation isolation = tool.posed;
+  plumb::Isolation isolation = tool.monitored;
   plumb::IsolationAnswer answer;
   bool blamed = false;
   for (int k = 0; k < stations; ++k) {
@@ -353,14 +353,14 @@ struct Soundness {
 /// sigmas of the gravity reference.
 inline void soundness_trial(const TrialTool& tool, double gravity_error, int healthy, int stations, TrialNoise& noise,
                             Soundness& out) {
-  const int most = std::min(tool.posed.confirmed_grade(), tool.array.size() - healthy);
+  const int most = std::min(tool.monitored.confirmed_grade(), tool.array.size() - healthy);
   const int m = 1 + noise.below(most);
   const auto law = static_cast<FaultLaw>(noise.below(kFaultLaws));
   TrialEpisode episode(tool, m, law, noise);
   const double length = plumb::kG0_mps2 + gravity_error * tool.gravity.sigma_mps2;
   TrialAttitudes attitudes(noise);
-  plumb::Isolation isolation = tool.posed;
-  const bool ask_parity = m <= tool.posed.provisional_grade();
+  plumb::Isolation isolation = tool.monitored;
+  const bool ask_parity = m <= tool.monitored.provisional_grade();
   const bool ask_asserted = m <= plumb::kScanDepth && noise.below(4) == 0;
   bool strict = false, parity = false, asserted = false;
   plumb::SensorSet last;

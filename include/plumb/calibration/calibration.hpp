@@ -125,7 +125,7 @@ struct FitFigures {
   /// The sensor whose residuals exceed those of the others beyond chance where they are no noise (p < `kNoNoise`), by
   /// what factor (rms), and the noise beyond the datasheet's that is its own. All sigmas are widened, named or not; -1
   /// where there is none, or where too little is left over to tell.
-  int loud_sensor = -1;
+  int high_variance_sensor = -1;
   double loud_excess = 1.0;
   double loud_misfit_mps2 = 0.0;
   /// Part of the stations' squared residuals, in the weights of the fit, that goes without a sensor's readings; for

@@ -39,9 +39,9 @@ class ChannelMonitor {
   /// Lost channels that have delivered usable values for `confirm` samples in a row again.
   SensorSet back() const noexcept { return back_; }
   /// Counts the channels as lost whatever their last samples were (half of them missing, block after block).
-  void condemn(SensorSet channels) noexcept;
+  void mark_lost(SensorSet channels) noexcept;
   /// Forgets that the channels had been lost (the monitor has taken note).
-  void welcome(SensorSet channels) noexcept;
+  void reinstate(SensorSet channels) noexcept;
 
   /// Channels that were at full scale in more than `share` of the samples since `begin_block`.
   SensorSet clipped_beyond(double share) const noexcept;

@@ -1,7 +1,7 @@
 /// Who is at fault: which sets of sensors can still explain the evidence of an episode.
 ///
-/// A sensor is convicted only if every explanation with at most m faults accuses it (theorem T5:
-/// a sensor healthy throughout the episode is never convicted while the sensors healthy throughout
+/// A sensor is excluded only if every explanation with at most m faults contains it (theorem T5:
+/// a sensor healthy throughout the episode is never excluded while the sensors healthy throughout
 /// have rank 3, at most m are not, and systematic errors are within their bounds).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/detail/flag.hpp"
-#include "plumb/detection/detail/reference_doubt.hpp"
+#include "plumb/detection/detail/norm_mismatch_doubt.hpp"
 #include "plumb/detection/protection_level.hpp"
 
 namespace plumb {
@@ -30,12 +30,12 @@ inline constexpr int kVotingCapacity = max_voting_sets();
 
 /// What a vote found.
 struct IsolationAnswer {
-  SensorSet strict;    ///< convicted at the confirmed grade, empty where nobody is or the survivors are not alive
-  SensorSet parity;    ///< convicted at the provisional grade by this station alone
-  SensorSet asserted;  ///< convicted under "at most M faults"
-  int live = 0;        ///< voting sets still alive
+  SensorSet strict;    ///< found faulty at the confirmed grade; empty where the survivors are not consistent
+  SensorSet parity;    ///< found faulty at the provisional grade, by this station alone
+  SensorSet asserted;  ///< found faulty under "at most M faults"
+  int live = 0;        ///< voting sets still consistent
   int voting = 0;      ///< voting sets in all
-  bool no_consistent_hypothesis = false;  ///< some sensor is redundant and no voting set is alive
+  bool no_consistent_hypothesis = false;  ///< some sensor is redundant and no voting set is consistent
   bool norm_void = false;   ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
   bool full_alive = false;  ///< the empty fault set still explains everything
 
@@ -68,31 +68,33 @@ struct FaultSetScan {
 
 class Isolation {
  public:
-  /// Poses the problem on the sensors `posed` (those not latched out). Dead sets stay dead as long as
-  /// the voting size is unchanged and they consist of posed sensors (projection); otherwise all live.
-  void pose(const SensorArray& array, SensorSet posed) noexcept;
-  /// After the dead sets have been read back: poses the problem to which they belong.
-  void resume(const SensorArray& array, SensorSet posed) noexcept;
+  /// Poses the problem on the sensors `monitored` (those not excluded). Rejected sets stay rejected as long as
+  /// the voting size is unchanged and they consist of monitored sensors (projection); otherwise none is rejected.
+  void pose(const SensorArray& array, SensorSet monitored) noexcept;
+  /// After the rejected sets have been read back: poses the problem to which they belong.
+  void resume(const SensorArray& array, SensorSet monitored) noexcept;
   /// Forgets all evidence: a new episode.
   void clear() noexcept;
 
-  SensorSet posed() const noexcept { return posed_; }
+  SensorSet monitored() const noexcept { return monitored_; }
   int coplanarity() const noexcept { return coplanarity_; }
   int confirmed_grade() const noexcept { return strict_; }
   int provisional_grade() const noexcept { return parity_; }
 
   /// One station's pooled block: kills what it contradicts and answers. Sets with a member that is not
-  /// usable are not tested and stay alive, and so do those with a member outside `witnesses`: what a sensor that
-  /// scatters beyond its noise reads on average may be noise, or motion that faulty ones hide by hanging.
-  IsolationAnswer vote(const BlockTests& tests, SensorSet witnesses = SensorSet::first(kCapacity)) noexcept;
+  /// usable are not tested and stay consistent, and so do those with a member outside `corroborating`: what a sensor
+  /// that scatters beyond its noise reads on average may be noise, or motion that faulty ones hide by hanging.
+  IsolationAnswer vote(const BlockTests& tests, SensorSet corroborating = SensorSet::first(kCapacity)) noexcept;
 
-  /// Fault sets of at most kScanDepth members against this block and the episode's dead sets; the protection level is
-  /// the largest separation from the estimate of `in_service` over the consistent fault sets of at most
+  /// Fault sets of at most kScanDepth members against this block and the episode's rejected sets; the protection level
+  /// is the largest separation from the estimate of `in_service` over the consistent fault sets of at most
   /// `faults_covered` members (solution separation; of those in service alone, too, where some are provisionally
   /// excluded). Where the sensors that a fault set leaves measure in one plane only, the mirrored vector counts. For
-  /// the asserted answer a fault set that leaves others than `witnesses`, or too few to be tested, stays alive.
+  /// the asserted answer a fault set that leaves others than `corroborating`, or too few to be tested, stays
+  /// consistent.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,
-                    const ProtectionTerms& protect, SensorSet witnesses = SensorSet::first(kCapacity)) const noexcept;
+                    const ProtectionTerms& protect,
+                    SensorSet corroborating = SensorSet::first(kCapacity)) const noexcept;
 
   /// Whether the sensors in service that nobody suspects would be right within `limit_rad`, by the terms of `scan`,
   /// over every explanation of up to as many faults as it takes, or as `protect` covers. False where they determine no
@@ -107,30 +109,30 @@ class Isolation {
   bool is_dead(int index) const noexcept {
     return ((dead_[static_cast<std::size_t>(index) / 64U] >> (static_cast<unsigned>(index) % 64U)) & 1U) != 0;
   }
-  void kill(int index) noexcept {
+  void reject(int index) noexcept {
     dead_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
   }
-  void resume(const SensorArray& array, SensorSet posed, int coplanarity) noexcept;
+  void resume(const SensorArray& array, SensorSet monitored, int coplanarity) noexcept;
   bool any_dead() const noexcept;
   bool has_dead_subset(SensorSet set) const noexcept;
   /// Who is asked about gravity.
   ReferencePanel panel_of(const BlockTests& tests) const noexcept {
-    return {posed_, posed_ & tests.block().usable, universe_, coplanarity_};
+    return {monitored_, monitored_ & tests.block().usable, universe_, coplanarity_};
   }
   /// What is held against a hypothesis about a block, beside the test of the sensors that it leaves.
   struct Grounds {
-    ReferenceDoubt doubt;
-    bool deaths = false;  ///< some set of the episode is dead
+    NormMismatchDoubt doubt;
+    bool rejections = false;  ///< some set of the episode is rejected
   };
   Grounds grounds(const BlockTests& tests) const noexcept;
   /// Whether the sensors `rest`, with their test, can be the healthy ones.
   bool explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest, const SetTest& test) const noexcept;
-  SensorSet convict_by_parity(const BlockTests& tests, SensorSet witnesses) const noexcept;
+  SensorSet exclude_by_parity(const BlockTests& tests, SensorSet corroborating) const noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
   ReferenceClaims claims_;
-  SensorSet posed_;
-  int voting_ = 0;               ///< voting sets within the posed sensors
+  SensorSet monitored_;
+  int voting_ = 0;               ///< voting sets within the monitored sensors
   std::int8_t universe_ = 0;     ///< configured sensors, over which sets are numbered
   std::int8_t voting_size_ = 3;  ///< c + 1
   std::int8_t coplanarity_ = 2;
@@ -140,7 +142,7 @@ class Isolation {
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using I = Isolation;
-    return field_list(&I::dead_, &I::claims_, not_stored(&I::posed_), not_stored(&I::voting_),
+    return field_list(&I::dead_, &I::claims_, not_stored(&I::monitored_), not_stored(&I::voting_),
                       not_stored(&I::universe_), not_stored(&I::voting_size_), not_stored(&I::coplanarity_),
                       not_stored(&I::strict_), not_stored(&I::parity_));
   }

@@ -89,10 +89,10 @@ struct SetTest {
   double norm_alarm_limit(const TestLimits& limits) const noexcept;
   double norm_reject_limit(const TestLimits& limits) const noexcept;
 
-  /// A set that was not tested is alive (docs/theory.md, section 5.2). Comparisons are written so that a NaN,
-  /// which cannot arise from finite readings, would leave the set alive and raise the alarm.
-  bool alive(const TestLimits& limits) const noexcept { return !tested || !(combined() > reject_limit(limits)); }
-  bool parity_alive(const TestLimits& limits) const noexcept {
+  /// A set that was not tested is consistent (docs/theory.md, section 5.2). Comparisons are written so that a NaN,
+  /// which cannot arise from finite readings, would leave the set consistent and raise the alarm.
+  bool consistent(const TestLimits& limits) const noexcept { return !tested || !(combined() > reject_limit(limits)); }
+  bool parity_consistent(const TestLimits& limits) const noexcept {
     return !tested || parity_rows == 0 || !(parity > parity_reject_limit(limits));
   }
 };

@@ -109,14 +109,14 @@ struct ScatterRecord {
 
 /// Scatter limit of a channel over its own variance: shared by n channels, the chance that any healthy
 /// one exceeds it in a block of `size` samples is `rate`. 0 where a block has no scatter (size < 2).
-double restless_factor(int n, int size, double rate) noexcept;
+double scatter_factor(int n, int size, double rate) noexcept;
 
 /// Judges a finished block. A block is quiet when no channel is restless, or when the channels that
 /// are not restless have rank 3 and the residual of every restless one against their estimate is itself
 /// restless: then it is the channel that shakes, not the tool (docs/theory.md, section 6.2). But where the calm ones
 /// are no more than the confirmed grade and the restless ones have rank 3, the calm ones may all be at fault: then it
 /// is not quiet. A block of one sample (a station mean) has no scatter and is quiet. Only channels in `considered` are
-/// judged, so that an excluded one cannot stop the evidence. `factor` comes from `restless_factor`. With a `record` of
+/// judged, so that an excluded one cannot stop the evidence. `factor` comes from `scatter_factor`. With a `record` of
 /// the blocks before, a channel is noisy as well where its residual is restless over all of them, and at least half of
 /// its scatter is found in the residual: of a movement of the tool the others would have predicted it. `known`: a map
 /// at hand, used where it is that of the calm channels. `noise`: what is expected of the channels.

@@ -38,7 +38,7 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
 struct SensorThresholds {
   /// Minimum detectable bias: by parity, one block, any attitude, missed with `missed_detection`.
   double detectable_mps2 = 0.0;
-  /// Single fault that the provisional grade sets aside with its first block at any attitude, but for
+  /// Single fault that the provisional grade provisionally excludes with its first block at any attitude, but for
   /// `missed_detection`.
   double provisional_exclusion_mps2 = 0.0;
   /// Detected whatever the noise does below `noise_factor` sigmas (T7, k = 1).
@@ -50,7 +50,7 @@ struct SensorThresholds {
 struct Thresholds {
   std::array<SensorThresholds, kCapacity> sensor{};
   /// T7 with the errors of the budget and the limits of the tests [m/s^2]: fault[m] is detected by parity beside m - 1
-  /// others, fault[2m] is accused by every explanation with at most m faults.
+  /// others, fault[2m] is suspected by every explanation with at most m faults.
   FaultBounds sure{};
   /// Bound on the tilt error at any attitude while nothing alarms: the worst single bias that can go undetected, noise
   /// and calibration (docs/theory.md, section 7.1), and the turn by the acceleration allowed for. pi where parity does

@@ -19,7 +19,7 @@ struct WorstValue {
 };
 
 /// The value that is farthest beyond its bound. One sensor that is far off turns the axes of all others a little, so
-/// the first one beyond its bound need not be the culprit.
+/// the first one beyond its bound need not be the faulty sensor.
 WorstValue worst_value(const io::ArrayFile& array, const Calibration& fit, const FitOptions& bound);
 
 }  // namespace findings

@@ -58,7 +58,7 @@ Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept
 Expected<GravityReference> paper_gravity(double latitude_deg, double depth_m,
                                          double sigma_mps2 = kDefaultGravitySigma_mps2) noexcept;
 
-/// A value that the user vouches for. Errors: out_of_range outside 9.5 .. 10.2 m/s^2 (index 0) or a
+/// A value that the user states. Errors: out_of_range outside 9.5 .. 10.2 m/s^2 (index 0) or a
 /// sigma below 0 or above 0.1 m/s^2 (index 5).
 Expected<GravityReference> given_gravity(double g_mps2, double sigma_mps2) noexcept;
 

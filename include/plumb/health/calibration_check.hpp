@@ -1,5 +1,5 @@
 /// Does the calibration keep what its covariance promises? Asked of the first attitudes after power-on or adoption,
-/// before anybody is convicted by limits that rest on it: one faulty sensor leaves the others consistent everywhere, a
+/// before anybody is excluded by limits that rest on it: one faulty sensor leaves the others consistent everywhere, a
 /// covariance that is ten times too small leaves nobody so.
 #pragma once
 
@@ -59,7 +59,7 @@ class CalibrationCheck {
   /// The sensors in service are others.
   void forget_doubt() noexcept { doubted_ = finding_.refused; }
 
-  /// Until enough attitudes agree to close it: convictions ask for more than the limits, and attitudes are added.
+  /// Until enough attitudes agree to close it: exclusions ask for more than the limits, and attitudes are added.
   bool open() const noexcept { return !closed_; }
   /// What is on record is seldom seen of a calibration that is right, and does not rest on enough to be told; or it is
   /// refused.
@@ -80,19 +80,19 @@ class CalibrationCheck {
   /// Keeps what `block` read along `direction`, if no attitude on record is within `apart_rad` of it: true where it
   /// did. The oldest makes room.
   bool add(const Vec3& direction, const BlockEvidence& block, double apart_rad) noexcept;
-  /// Whether `posed` without `culprits` agree with themselves and, up to one offset, with gravity at all attitudes on
-  /// record, there are enough of them to say so, and they would not do so by chance if all were off alike.
-  bool vouches(const Terms& terms, SensorSet posed, SensorSet culprits) const noexcept;
+  /// Whether `monitored` without `isolated` agree with themselves and, up to one offset, with gravity at all attitudes
+  /// on record, there are enough of them to say so, and they would not do so by chance if all were off alike.
+  bool corroborates(const Terms& terms, SensorSet monitored, SensorSet isolated) const noexcept;
   /// What the attitudes on record say together, after one more: whether the calibration is believed (all agree at some
   /// of them, and no `episode` is open), whether the check is over (they do so at `kLeast`), whether there is doubt,
   /// and whether to search for who could be at fault.
-  void weigh(const Terms& terms, SensorSet posed, SensorSet in_service, bool episode) noexcept;
+  void weigh(const Terms& terms, SensorSet monitored, SensorSet in_service, bool episode) noexcept;
   /// The search for a fault of at most `grade` sensors that explains what is on record, a bounded part of it in each
   /// block. No attitude is added meanwhile.
   bool searches() const noexcept { return !next_.empty(); }
   /// One part. True where the last of them found none: the finding is made, and tolerance learned or the calibration
   /// refused.
-  bool search(const Terms& terms, SensorSet posed, int grade) noexcept;
+  bool search(const Terms& terms, SensorSet monitored, int grade) noexcept;
 
  private:
   struct Entry {
@@ -119,9 +119,9 @@ class CalibrationCheck {
   Fit fit(const Terms& terms, SensorSet set, double tolerance_mps2, double most = kAll) const noexcept;
   /// How many numbers, drawn once for a tool, its errors at the attitudes on record amount to.
   double independent(const Fit& found, SensorSet set) const noexcept;
-  bool explained_without(const Terms& terms, SensorSet posed, SensorSet faulty, int& tests) const noexcept;
-  void contradict(const Terms& terms, SensorSet posed) noexcept;
-  double least_tolerance_mps2(const Terms& terms, SensorSet posed) const noexcept;
+  bool explained_without(const Terms& terms, SensorSet monitored, SensorSet faulty, int& tests) const noexcept;
+  void contradict(const Terms& terms, SensorSet monitored) noexcept;
+  double least_tolerance_mps2(const Terms& terms, SensorSet monitored) const noexcept;
 
   Flag corroborated_, closed_, doubted_;
   int clean_run_ = 0;

@@ -92,8 +92,9 @@ class HealthMonitor {
   void begin_time_base() noexcept;
 
   /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
-  /// released. Never held back: a lost channel, rank < 3, failed. Patience goes on, too: who freezes the way out of a
-  /// doubt has not ended it, and beyond the alert limit nothing else would warn. Either is recorded as a notice.
+  /// released. Never held back: a lost channel, rank < 3, failed. The isolation timeout goes on, too: who freezes the
+  /// way out of a doubt has not ended it, and beyond the alert limit nothing else would warn. Either is recorded as a
+  /// notice.
   void inhibit(bool frozen) noexcept;
 
   const MonitorCounters& counters() const noexcept { return state_.counters; }

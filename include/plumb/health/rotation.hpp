@@ -20,8 +20,8 @@ struct Rotation {
 };
 
 /// "Rotate the tool", for a machine: gravity has to change by `change_mps2` along `along` before the explanations that
-/// are still alive can be told apart (theorem T9: a wrong one that passes at one attitude misses its length at another
-/// by the fault times that change over G).
+/// are still consistent can be told apart (theorem T9: a wrong one that passes at one attitude misses its length at
+/// another by the fault times that change over G).
 struct RotationRequest {
   bool wanted = false;
   Vec3 along{};              ///< unit vector, output frame; zero: any turn does

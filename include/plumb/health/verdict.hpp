@@ -82,9 +82,9 @@ struct Verdict {
   std::array<Cause, kCapacity> sensor_cause{};  ///< why a sensor is out of service or suspected; none = it is not
   std::array<std::uint8_t, kCapacity> minimum_faults{};  ///< s_i: fewest faults that explain the data with i healthy
   Grade grade = Grade::none;                             ///< of the last exclusion
-  int confirmed_grade = 0;                               ///< m_strict of the sensors not latched out
+  int confirmed_grade = 0;                               ///< m_strict of the sensors not excluded
   int provisional_grade = 0;
-  int consistent_hypotheses = 0;  ///< voting sets still alive in this episode
+  int consistent_hypotheses = 0;  ///< voting sets still consistent in this episode
   int stations_on_record = 0;     ///< distinct attitudes under suspicion, which count towards the timeout
   bool wants_rotation = false;    ///< another attitude would help: `rotation` says which
   RotationRequest rotation;

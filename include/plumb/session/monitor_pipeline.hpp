@@ -39,7 +39,7 @@ class EventsFile : public VerdictSink {
  public:
   /// `live`: flush each line, someone is reading along.
   EventsFile(io::OutputFile file, const SensorArray& array, bool live)
-      : file_(std::move(file)), array_(array), live_(live) {}
+      : file_(std::move(file)), array_(array), consistent_(live) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
   io::FileExpected<void> commit() { return file_.commit(); }
@@ -47,7 +47,7 @@ class EventsFile : public VerdictSink {
  private:
   io::OutputFile file_;
   const SensorArray& array_;
-  bool live_;
+  bool consistent_;
   std::string line_;
 };
 
@@ -55,7 +55,7 @@ class EventsFile : public VerdictSink {
 class VerdictsFile : public VerdictSink {
  public:
   VerdictsFile(io::OutputFile file, const SensorArray& array, const Mat3& frame, bool every_sample, bool live)
-      : file_(std::move(file)), array_(array), frame_(frame), every_sample_(every_sample), live_(live) {}
+      : file_(std::move(file)), array_(array), frame_(frame), every_sample_(every_sample), consistent_(live) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   stepping::Wanted wanted() const override {
     return every_sample_ ? stepping::Wanted::samples : stepping::Wanted::blocks;
@@ -67,7 +67,7 @@ class VerdictsFile : public VerdictSink {
   const SensorArray& array_;
   Mat3 frame_;
   bool every_sample_;
-  bool live_;
+  bool consistent_;
   std::string line_;
 };
 

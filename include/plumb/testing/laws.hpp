@@ -26,8 +26,9 @@ LawResult never_excludes_a_healthy_sensor(const Case& c);
 /// between the last onset and that from which an answer can still stand at four stations before the isolation timeout
 /// is over
 /// (`isolation_timeout`, counted from the first onset) and before the end; every four that hold one disagree by far at
-/// each of them. Faults that come one after the other spend patience, and where it ends first "failed" is the answer;
-/// equal faults may leave four that agree, and where those miss the length of gravity the answer is "reference".
+/// each of them. Faults that come one after the other use up the isolation timeout, and where it ends first "failed" is
+/// the answer; equal faults may leave four that agree, and where those miss the length of gravity the answer is
+/// "reference".
 LawResult isolates_what_is_isolable(const Case& c);
 /// One fault whose parity is far above the limit at its first station is not plainly valid from there on.
 LawResult detects_above_the_threshold(const Case& c);

@@ -107,11 +107,11 @@ void Generator::lay_faults(const Spec& spec, const scenario::Tool& tool) noexcep
   faults_ = spec.faults;
   first_fault_row_ = rows_;
   alone_ = true;
-  std::array<scenario::Fault, campaign::kMostFaults> posed{};
+  std::array<scenario::Fault, campaign::kMostFaults> monitored{};
   for (int k = 0; k < faults_; ++k) {
     const auto a = static_cast<size_t>(k);
     Channel& c = channel_[a];
-    posed[a] = c.fault = fault_of(spec.fault[a]);
+    monitored[a] = c.fault = fault_of(spec.fault[a]);
     alone_ = alone_ && of_one_channel(c.fault);
     c.stream = scenario::Stream(spec.seed, scenario::Purpose::fault, static_cast<std::uint32_t>(k));
     c.memory = scenario::FaultMemory{};
@@ -129,7 +129,7 @@ void Generator::lay_faults(const Spec& spec, const scenario::Tool& tool) noexcep
     Datasheet real = tool.datasheet;  // faults of direction mean the true axes, as in the simulator
     for (int i = 0; i < real.size; ++i)
       real.sensor[static_cast<size_t>(i)].row.axis = tool.axes[static_cast<size_t>(i)];
-    injector_.pose(real, tool.model, posed.data(), faults_, spec.seed);
+    injector_.pose(real, tool.model, monitored.data(), faults_, spec.seed);
   }
   // In order of onset: a sensor that stands at its last value may have been at fault before.
   for (int station = 1; station <= spec.stations; ++station) {

@@ -32,7 +32,7 @@ class BlockTests {
   /// (leverage of at least 0.05), or the others do not deny it: the length is off without that member too, or may be,
   /// both by the rejection limit. Otherwise a member that nobody checks may be at fault: mikoff5's z axes, four of them
   /// with three coplanar, pass parity whatever the fourth reads. `test` is that of the set.
-  bool vouches_for_norm(SensorSet set, const SetTest& test) const noexcept;
+  bool corroborates_norm(SensorSet set, const SetTest& test) const noexcept;
 
  private:
   /// Enough for the whole set and every set without one sensor, each mostly in a place of its own; on a host, whose

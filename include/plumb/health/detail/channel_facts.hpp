@@ -43,8 +43,8 @@ class ChannelFacts {
   /// aside for that.
   SensorSet noisy_for_certain() const noexcept { return noisy_for(1); }
   SensorSet noisy_long_enough() const noexcept { return noisy_for(kConfirm); }
-  /// A noisy channel is set aside after so many quiet blocks in a row, or after so many stations at each of which it
-  /// alone scattered in one block at least.
+  /// A noisy channel is provisionally excluded after so many quiet blocks in a row, or after so many stations at each
+  /// of which it alone scattered in one block at least.
   static constexpr int kConfirm = 3;
   const std::array<Cause, kCapacity>& causes() const noexcept { return cause_; }
 

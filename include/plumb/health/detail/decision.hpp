@@ -23,12 +23,12 @@ struct SensorLedger {
 
 /// Which sensors the events of a step are about.
 struct NamedSensors {
-  SensorSet culprits;  ///< convicted, to be latched out
-  SensorSet accused;   ///< convicted at the provisional grade, to be set aside
-  SensorSet lost;      ///< channels that have fallen silent
-  SensorSet back;      ///< channels that deliver again
-  SensorSet proven;    ///< on probation, and through it
-  SensorSet reset;     ///< named by the host
+  SensorSet isolated;   ///< found faulty at the confirmed grade, to be excluded
+  SensorSet suspected;  ///< found faulty at the provisional grade, to be provisionally excluded
+  SensorSet lost;       ///< channels that have fallen silent
+  SensorSet back;       ///< channels that deliver again
+  SensorSet proven;     ///< on probation, and through it
+  SensorSet reset;      ///< named by the host
 };
 
 struct DecisionState {

@@ -27,7 +27,7 @@ constexpr bool may_accuse(Mode mode) noexcept {
 
 /// What one block leads to.
 struct Conclusion {
-  SensorSet culprits;    ///< to be excluded
+  SensorSet isolated;    ///< to be excluded
   SensorSet aside;       ///< to be provisionally excluded
   bool refuted = false;  ///< the integrator asserted no more faults, and here is one
 };
@@ -71,7 +71,7 @@ class Diagnosis {
     bool learned = false;           ///< enough blocks have shown it
     bool others_as_stated = false;  ///< those that scatter least in this block do so by what is stated
   };
-  /// Who is accused by it.
+  /// Who is suspected by it.
   Conclusion conclude(const Terms& terms, const BlockReport& report, NoiseKnowledge noise) noexcept;
 
   // ---- What ends
@@ -87,11 +87,11 @@ class Diagnosis {
   void begin_anew() noexcept;
   /// The sensors that are asked about are others: what was answered does not carry over.
   void withdraw_answer() noexcept;
-  void pose(const SensorArray& array, SensorSet posed) noexcept {
-    isolation_.pose(array, posed);
-    live_ = isolation_.live();
+  void pose(const SensorArray& array, SensorSet monitored) noexcept {
+    isolation_.pose(array, monitored);
+    consistent_ = isolation_.live();
   }
-  void resume(const SensorArray& array, SensorSet posed) noexcept { isolation_.resume(array, posed); }
+  void resume(const SensorArray& array, SensorSet monitored) noexcept { isolation_.resume(array, monitored); }
   /// An exclusion uses up so many of the faults that the integrator asserts.
   void spend_asserted(int faults) noexcept;
   void grade_by_parity() noexcept { last_grade_ = Grade::provisional; }
@@ -103,7 +103,7 @@ class Diagnosis {
   const StationTrack& station() const noexcept { return station_; }
   const IsolationAnswer& answer() const noexcept { return answer_; }
   const FaultSetScan& scan() const noexcept { return scan_; }
-  int live() const noexcept { return live_; }
+  int live() const noexcept { return consistent_; }
   bool rested() const noexcept { return rest_.holds(); }
   double drift_rad() const noexcept { return drift_rad_; }
   int unbounded_run() const noexcept { return unbounded_run_; }
@@ -113,10 +113,10 @@ class Diagnosis {
   SensorSet on_probation() const noexcept { return on_probation_; }
   bool probation_passed(const MonitorConfig& config) const noexcept;
   /// Convicted at the confirmed or the assumed grade, over the stations that it takes.
-  SensorSet culprits(const Terms& terms) const noexcept;
+  SensorSet isolated(const Terms& terms) const noexcept;
   /// Those that scatter by themselves for long enough.
   SensorSet noise_confirmed(const ChannelFacts& facts) const noexcept;
-  bool patience_is_over(const Terms& terms) const noexcept;
+  bool isolation_timed_out(const Terms& terms) const noexcept;
   bool bounded(double alert_limit_rad) const noexcept {
     return scan_.protection_available && scan_.protection_rad <= alert_limit_rad;
   }
@@ -128,20 +128,20 @@ class Diagnosis {
  private:
   bool is_still_there(const Terms& terms) const noexcept;
   /// Who is at fault by one station.
-  struct Accusation {
-    SensorSet culprits;
+  struct Suspicion {
+    SensorSet isolated;
     bool by_scatter = false;  ///< their own scatter is all that names them
   };
   bool is_vote_due(const BlockTests& tests) const noexcept;
   SensorSet convicted_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept;
-  Accusation accuse(const Terms& terms, const BlockTests& tests, const IsolationAnswer& voted) const noexcept;
-  void note_accusation(const Terms& terms, const BlockTests& tests, const Accusation& accused) noexcept;
+  Suspicion suspect(const Terms& terms, const BlockTests& tests, const IsolationAnswer& voted) const noexcept;
+  void note_suspicion(const Terms& terms, const BlockTests& tests, const Suspicion& suspected) noexcept;
   bool is_out_of_stations(const Terms& terms) const noexcept;
   bool is_out_of_blocks(const Terms& terms) const noexcept;
   bool is_isolable(const BlockEvidence& evidence) const noexcept;
-  bool may_convict(const Terms& terms, SensorSet culprits) const noexcept;
+  bool may_exclude(const Terms& terms, SensorSet isolated) const noexcept;
   bool note_predictions(const Terms& terms, const Vec3& x_mps2) noexcept;
-  SensorSet witnesses(const Terms& terms) const noexcept;
+  SensorSet corroborating(const Terms& terms) const noexcept;
   RotationRequest validating_turn(const Terms& terms) const noexcept;
   RotationRequest resolving_turn(const Terms& terms) const noexcept;
 
@@ -151,7 +151,7 @@ class Diagnosis {
   RestReference rest_;
   IsolationAnswer answer_;
   FaultSetScan scan_;
-  int live_ = 0;            ///< voting sets alive
+  int consistent_ = 0;      ///< voting sets consistent
   int asserted_left_ = -1;  ///< faults that the integrator still asserts; -1 = none asserted
   int unbounded_run_ = 0;   ///< blocks in a row without a bound within the alert limit, and without a way out
   double drift_rad_ = 0.0;  ///< turn since the block before, at one station
@@ -167,7 +167,7 @@ class Diagnosis {
   static constexpr auto fields() noexcept {
     using D = Diagnosis;
     return field_list(&D::isolation_, &D::episode_, &D::station_, &D::rest_, &D::answer_, &D::scan_,
-                      within(&D::live_, 0, kVotingCapacity), within(&D::asserted_left_, -1, 3),
+                      within(&D::consistent_, 0, kVotingCapacity), within(&D::asserted_left_, -1, 3),
                       within(&D::unbounded_run_, 0, kMostPassedBlocks), &D::drift_rad_, &D::aside_, &D::on_probation_,
                       &D::probation_, per_sensor(&D::least_prediction_), per_sensor(&D::most_prediction_),
                       &D::have_predictions_, up_to(&D::last_grade_, Grade::assumed), up_to(&D::suspicion_, kLastCause));

@@ -15,8 +15,8 @@ class GravityFinding {
     const InForce& in_force;
     const BlockEvidence& evidence;
     SensorSet in_service;
-    bool trusted = false;  ///< a passed block, and the tool is not in doubt
-    bool vouched = false;  ///< every sensor of the array serves, and none is doubted
+    bool trusted = false;       ///< a passed block, and the tool is not in doubt
+    bool corroborated = false;  ///< every sensor of the array serves, and none is doubted
   };
   /// What is new. `widen_mps2`: to be added to three sigma of gravity; 0 = nothing.
   struct News {

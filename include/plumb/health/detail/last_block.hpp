@@ -22,17 +22,17 @@ struct LastBlock {
   SensorSet scattering;                 ///< scattered by more than noise
   bool known = false;                   ///< there is one
   bool moving = false;                  ///< the block that ended last was no evidence
-  bool partial = false;       ///< a sensor in service was silent or doubted in it: nobody vouches for that one
+  bool partial = false;       ///< a sensor in service was silent or doubted in it: no other sensor corroborates it
   Cause cause = Cause::none;  ///< of what the monitor did last
 
   /// What is kept of the rows of a block: who delivered, who was calm.
   void note_rows(const BlockAccumulator& block, SensorSet delivered, const BlockNoise& noise,
-                 double restless_factor) noexcept {
+                 double scatter_factor) noexcept {
     usable = delivered;
     calm = SensorSet{};
     for (int i = 0; i < kCapacity; ++i) {
       if (!usable.has(i)) continue;  // silent when the tool moved, it is no witness that it rested
-      if (block.size() < 2 || block.covariance(i, i) <= restless_factor * noise.of(i)) calm = calm.with(i);
+      if (block.size() < 2 || block.covariance(i, i) <= scatter_factor * noise.of(i)) calm = calm.with(i);
     }
   }
 

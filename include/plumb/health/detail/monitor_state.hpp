@@ -36,7 +36,7 @@ struct MonitorState {
   MonitorCounters counters;
 
   SensorSet in_service() const noexcept { return machine.sensors.in_service; }
-  SensorSet posed() const noexcept { return machine.sensors.in_service | machine.sensors.provisionally_excluded; }
+  SensorSet monitored() const noexcept { return machine.sensors.in_service | machine.sensors.provisionally_excluded; }
   SensorSet doubted() const noexcept { return facts.doubted() & in_service(); }
   /// While recalibrating the output is that of the state it came from.
   Mode published_mode() const noexcept { return machine.mode == Mode::recalibrating ? machine.base : machine.mode; }

@@ -21,7 +21,7 @@ struct Settings {
   std::array<StabilityNow, kCapacity> stability{};
   std::array<Vec3, kCapacity> lever_arm_m{};
   TestLimits limits;
-  double restless_factor = 0.0;   ///< scatter of a channel over its noise, beyond which it is restless
+  double scatter_factor = 0.0;    ///< scatter of a channel over its noise, beyond which it is restless
   double mae_quantile = 0.0;      ///< of the mean absolute error of one triple, in sigmas
   double k_integrity = 0.0;       ///< sigmas that the integrity risk leaves
   int protection_faults = 1;      ///< K of the priors
@@ -33,7 +33,7 @@ struct Settings {
     using S = Settings;
     return field_list(not_stored(&S::config), not_stored(&S::frame), not_stored(&S::resolution_mps2),
                       not_stored(&S::stability), not_stored(&S::lever_arm_m), not_stored(&S::limits),
-                      not_stored(&S::restless_factor), not_stored(&S::mae_quantile), not_stored(&S::k_integrity),
+                      not_stored(&S::scatter_factor), not_stored(&S::mae_quantile), not_stored(&S::k_integrity),
                       not_stored(&S::protection_faults), not_stored(&S::stability_stated),
                       not_stored(&S::lever_arms_known), not_stored(&S::identity));
   }

@@ -1,4 +1,4 @@
-(* L3 (its count): how many stations in doubt an episode has before patience is over. Patience begins anew when more sensors
+(* L3 (its count): how many stations in doubt an episode has before the isolation timeout is over. The isolation timeout begins anew when more sensors
    are suspected than ever before in the episode; that number is at most n, and so are the beginnings. Nothing is assumed
    of who is suspected when. *)
 From Coq Require Import List Arith Lia.
@@ -47,7 +47,7 @@ Proof.
   unfold stations_in_doubt in *. simpl. destruct (snd b); simpl; lia.
 Qed.
 
-Theorem L3_patience_is_over_within_n_plus_one_times_P blocks :
+Theorem L3_isolation_timeout_is_over_within_n_plus_one_times_P blocks :
   (forall b, In b blocks -> fst b <= n) -> never_over (Count 0 0) blocks -> stations_in_doubt blocks <= (n + 1) * P.
 Proof.
   intros Hn Hover. pose proof (runs_are_bounded blocks (Count 0 0) (Nat.le_0_l n) Hn Hover) as H.

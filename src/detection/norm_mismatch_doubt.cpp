@@ -1,4 +1,4 @@
-#include "plumb/detection/detail/reference_doubt.hpp"
+#include "plumb/detection/detail/norm_mismatch_doubt.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@ inline namespace PLUMB_ABI {
 namespace {
 
 /// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
-/// whose less checked members are no better explanation (`vouches_for_norm`).
+/// whose less checked members are no better explanation (`corroborates_norm`).
 constexpr double kMinLeverage = 0.002;
 /// A set doubts gravity from this part of the limit on at which the norm would kill it: what its subsets, which measure
 /// the length less well, are off by is noise on top of the same error, and must not be held against them first.
@@ -51,7 +51,7 @@ class Questions {
     if (size_ > smallest_ && size_ > deep_) return size_ - 1;
     return few_ && size_ > smallest_ ? smallest_ : 0;
   }
-  /// From here on the first that is posed; none where all that are asked have been.
+  /// From here on the first that is monitored; none where all that are asked have been.
   void find(bool agrees) noexcept {
     while (open() && !asked_.contains(set_)) {
       if (all_.contains(set_)) {
@@ -81,8 +81,8 @@ Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, Sen
   const TestLimits& limits = tests.limits();
   Testimony out;
   const SetTest& t = tests.of(set);
-  if (!t.tested || !t.parity_alive(limits)) return out;  // four or more: there is parity
-  if (t.least_leverage < kMinLeverage && !tests.vouches_for_norm(set, t)) return out;
+  if (!t.tested || !t.parity_consistent(limits)) return out;  // four or more: there is parity
+  if (t.least_leverage < kMinLeverage && !tests.corroborates_norm(set, t)) return out;
   const double off = t.norm < 0.0 ? -t.norm : t.norm;
   const double limit = t.norm_reject_limit(limits);
   out.heard = true;
@@ -90,7 +90,7 @@ Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, Sen
   // A claim that leaves one fault alone is believed whatever the set is off by: one fault in a tool that moves
   // steadily is likelier than several that pass for a healthy set. A sensor that did not deliver counts among those
   // left.
-  if (panel.posed.size() - set.size() < 2) return out;
+  if (panel.monitored.size() - set.size() < 2) return out;
   out.claim = ReferenceClaims::index_of(set, rank, panel.universe);
   const double unit = t.norm_sigma_mps2 / std::sqrt(tests.block().samples);
   out.error_mps2 = t.norm_error_mps2;
@@ -113,8 +113,8 @@ struct Recall {
 
 /// `claims` is what is done with a claim, Hear or Recall.
 template <class Claims>
-ReferenceDoubt doubt_reference(const BlockTests& tests, const ReferencePanel& panel, const Claims& claims) noexcept {
-  ReferenceDoubt doubt;
+NormMismatchDoubt doubt_reference(const BlockTests& tests, const ReferencePanel& panel, const Claims& claims) noexcept {
+  NormMismatchDoubt doubt;
   bool agrees = false;
   for (Questions asked(panel); asked.open(); asked.advance(agrees)) {
     const Testimony t = testimony_of(tests, panel, asked.set(), asked.rank());
@@ -128,12 +128,12 @@ ReferenceDoubt doubt_reference(const BlockTests& tests, const ReferencePanel& pa
 
 }  // namespace
 
-void ReferenceDoubt::add(SensorSet set) noexcept {
+void NormMismatchDoubt::add(SensorSet set) noexcept {
   if (count_ < kMax) set_[static_cast<std::size_t>(count_)] = set;
   if (count_ <= kMax) ++count_;
 }
 
-bool ReferenceDoubt::excuses(SensorSet set) const noexcept {
+bool NormMismatchDoubt::excuses(SensorSet set) const noexcept {
   if (count_ > kMax) return true;
   for (int k = 0; k < count_; ++k) {
     if (set_[static_cast<std::size_t>(k)].contains(set)) return true;
@@ -149,12 +149,12 @@ void ReferenceClaims::hear(int index, double error_mps2, double margin_mps2) noe
   heard_[slot(index)] = true;
 }
 
-ReferenceDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept {
+NormMismatchDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept {
   return doubt_reference(tests, panel, Hear{record});
 }
 
-ReferenceDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
-                            const ReferenceClaims& record) noexcept {
+NormMismatchDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
+                               const ReferenceClaims& record) noexcept {
   return doubt_reference(tests, panel, Recall{record});
 }
 

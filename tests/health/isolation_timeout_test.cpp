@@ -1,4 +1,4 @@
-// Suspicion ends: patience counts doubt at excited stations, whatever the verdicts in between.
+// Suspicion ends: the isolation timeout counts doubt at distinct attitudes, whatever the verdicts in between.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "support/simulated_tool.hpp"
 
-namespace patience_test {
+namespace isolation_timeout_test {
 namespace {
 
 using namespace plumb;
@@ -66,7 +66,7 @@ Vec3 spiral(int k) { return direction_at(15 + 2.0 * k, 97.0 * k); }
 constexpr double kClean = 0.3, kSoft = 0.85, kAlarm = 1.5;
 
 // Verifies: REQ-105
-TEST(Patience, ThreeSensorsBetweenPassedBlocksAndAlarmsEndInFailed) {
+TEST(IsolationTimeout, ThreeSensorsBetweenPassedBlocksAndAlarmsEndInFailed) {
   Held held(triad());
   int stations = 0;
   while (held.rig.monitor.verdict().state != HealthState::failed && stations < 24) {
@@ -92,7 +92,7 @@ bool is_isolable(const SensorArray& array, const Verdict& v) {
 /// leave an explanation whose other sensors check one another; and that, too, ends by the blocks where they are
 /// counted.
 // Verifies: REQ-105
-RC_GTEST_PROP(PatienceLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
+RC_GTEST_PROP(IsolationTimeoutLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
   const int n = *rc::gen::inRange(3, kCapacity + 1);
   MonitorConfig config;
   const bool strict_user = *rc::gen::arbitrary<bool>();
@@ -121,7 +121,7 @@ RC_GTEST_PROP(PatienceLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
 
 /// Sensors that fail one after another: every one that is suspected beside those before it has its own time.
 // Verifies: REQ-098
-TEST(Patience, StartsAgainWithEveryFurtherSuspectedSensor) {
+TEST(IsolationTimeout, StartsAgainWithEveryFurtherSuspectedSensor) {
   if (kCapacity < 8) GTEST_SKIP() << "eight sensors";
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rig rig(plumb_test::cone_array(8), {}, seed);
@@ -150,7 +150,7 @@ TEST(Patience, StartsAgainWithEveryFurtherSuspectedSensor) {
 /// A fault of five that is small where two explanations fit it, and large once it is known: the estimate is far off,
 /// that of the sensors which nobody suspects is not.
 // Verifies: REQ-098
-TEST(Patience, AFaultySensorIsolatedByThenIsExcludedAndDoesNotFailTheTool) {
+TEST(IsolationTimeout, AFaultySensorIsolatedByThenIsExcludedAndDoesNotFailTheTool) {
   if (kCapacity < 5) GTEST_SKIP() << "five sensors";
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Rig rig(plumb_test::cone_array(5), {}, seed);
@@ -172,7 +172,7 @@ TEST(Patience, AFaultySensorIsolatedByThenIsExcludedAndDoesNotFailTheTool) {
 /// Counter-example to "suspect ends at excited stations, or is bounded by its protection level": two of six show
 /// gravity mirrored in the plane of two others, and four explain every attitude either way.
 // Verifies: REQ-098
-TEST(Patience, TwoMirrorFaultsOfSixStaySuspectAndEndByTheBlockTimeoutOnly) {
+TEST(IsolationTimeout, TwoMirrorFaultsOfSixStaySuspectAndEndByTheBlockTimeoutOnly) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   for (const int blocks : {0, 40}) {
     MonitorConfig config;
@@ -206,9 +206,9 @@ TEST(Patience, TwoMirrorFaultsOfSixStaySuspectAndEndByTheBlockTimeoutOnly) {
 }
 
 /// Four sensors with one fault: three are left of any explanation, and nobody checks them. No way out, so that
-/// patience ends in failed where no bound holds.
+/// the isolation timeout ends in failed where no bound holds.
 // Negative: REQ-098
-TEST(Patience, FourSensorsWithoutABoundStillFail) {
+TEST(IsolationTimeout, FourSensorsWithoutABoundStillFail) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   const SensorArray& array = rig.setup.array;
@@ -225,7 +225,7 @@ TEST(Patience, FourSensorsWithoutABoundStillFail) {
 
 /// L6: a violation that persists with three sensors ends in failed, though passed blocks in between end the suspicion.
 // Verifies: REQ-105
-TEST(Patience, PassedBlocksAtOneAttitudeDoNotClearThreeSensors) {
+TEST(IsolationTimeout, PassedBlocksAtOneAttitudeDoNotClearThreeSensors) {
   Held held(triad());
   for (int k = 0; k < 6; ++k) held.stay(spiral(3 * k), kClean);
   ASSERT_EQ(held.rig.monitor.verdict().state, HealthState::degraded_3_sensor);
@@ -237,7 +237,7 @@ TEST(Patience, PassedBlocksAtOneAttitudeDoNotClearThreeSensors) {
 }
 
 // Negative: REQ-105
-TEST(Patience, AHealthyToolThatIsNotYetValidatedDoesNotFail) {
+TEST(IsolationTimeout, AHealthyToolThatIsNotYetValidatedDoesNotFail) {
   Held held(triad());
   // About the axis of the third sensor: its prediction never moves, so trust is not earned, and nothing is wrong.
   for (int k = 0; k < 72; ++k) {
@@ -248,7 +248,7 @@ TEST(Patience, AHealthyToolThatIsNotYetValidatedDoesNotFail) {
 }
 
 // Negative: REQ-105
-TEST(Patience, DoesNotRunDuringANormMismatch) {
+TEST(IsolationTimeout, DoesNotRunDuringANormMismatch) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   for (int k = 0; k < 72; ++k) {
@@ -260,9 +260,9 @@ TEST(Patience, DoesNotRunDuringANormMismatch) {
   }
 }
 
-/// Where the error is bounded patience ends in a qualifier; clean stations take it back with the episode.
+/// Where the error is bounded the isolation timeout ends in a qualifier; passed stations take it back with the episode.
 // Verifies: REQ-098
-TEST(Patience, TheTimeoutIsForgottenWithTheEpisode) {
+TEST(IsolationTimeout, TheTimeoutIsForgottenWithTheEpisode) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   Held held(plumb_test::cone_array(6));
   held.rig.prove();
@@ -280,7 +280,7 @@ TEST(Patience, TheTimeoutIsForgottenWithTheEpisode) {
 }
 
 // Verifies: REQ-106
-TEST(Patience, BlocksAtOneAttitudeCountWhereConfigured) {
+TEST(IsolationTimeout, BlocksAtOneAttitudeCountWhereConfigured) {
   MonitorConfig config;
   config.isolation_timeout_blocks = 40;
   Held held(triad(), config);
@@ -291,11 +291,11 @@ TEST(Patience, BlocksAtOneAttitudeCountWhereConfigured) {
 }
 
 // Negative: REQ-106
-TEST(Patience, BlocksAtOneAttitudeDoNotCountOtherwise) {
+TEST(IsolationTimeout, BlocksAtOneAttitudeDoNotCountOtherwise) {
   Held held(triad());
   for (int k = 0; k < 300; ++k) EXPECT_EQ(held.stay(direction_at(40, 30), kAlarm).state, HealthState::suspect);
   EXPECT_EQ(held.rig.monitor.verdict().stations_on_record, 1);
 }
 
 }  // namespace
-}  // namespace patience_test
+}  // namespace isolation_timeout_test

@@ -1,5 +1,5 @@
 // Which sets may doubt gravity, and for how many of them there is room.
-#include "plumb/detection/detail/reference_doubt.hpp"
+#include "plumb/detection/detail/norm_mismatch_doubt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@
 
 // Serves: REQ-061
 
-namespace reference_doubt_test {
+namespace norm_mismatch_doubt_test {
 namespace {
 
 using namespace plumb;
 
 const SensorSet kTold = SensorSet::first(4), kPart = SensorSet::first(3), kOther = SensorSet::of(0).with(5);
 
-TEST(ReferenceDoubtSets, ExcusesThePartsOfEverySetThatDoubts) {
-  ReferenceDoubt doubt;
+TEST(NormMismatchDoubtSets, ExcusesThePartsOfEverySetThatDoubts) {
+  NormMismatchDoubt doubt;
   EXPECT_FALSE(doubt.any());
   EXPECT_FALSE(doubt.excuses(kPart));
   doubt.add(kOther);
@@ -28,9 +28,9 @@ TEST(ReferenceDoubtSets, ExcusesThePartsOfEverySetThatDoubts) {
   EXPECT_FALSE(doubt.excuses(kTold | kOther));
 }
 
-TEST(ReferenceDoubtSets, ExcusesEverythingOnlyBeyondTheSetsThatItHasRoomFor) {
-  ReferenceDoubt doubt;
-  for (int k = 1; k <= ReferenceDoubt::kMax; ++k) {
+TEST(NormMismatchDoubtSets, ExcusesEverythingOnlyBeyondTheSetsThatItHasRoomFor) {
+  NormMismatchDoubt doubt;
+  for (int k = 1; k <= NormMismatchDoubt::kMax; ++k) {
     doubt.add(kTold);
     ASSERT_FALSE(doubt.excuses(kOther)) << k;
     ASSERT_TRUE(doubt.excuses(kPart)) << k;
@@ -82,4 +82,4 @@ TEST(ReferenceClaims, AreHeardAtAVoteAndOnlyRecalledAtOtherQuestions) {
 }
 
 }  // namespace
-}  // namespace reference_doubt_test
+}  // namespace norm_mismatch_doubt_test

@@ -16,8 +16,8 @@ inline namespace PLUMB_ABI {
 
 /// The sets that doubt gravity at one block. If such a set is healthy, then gravity is off, and it is no fault of its
 /// subsets that they are off too: the norm excuses them. A healthy sensor in a healthy set of four or more is thereby
-/// never convicted by a wrong gravity.
-class ReferenceDoubt {
+/// never excluded by a wrong gravity.
+class NormMismatchDoubt {
  public:
   static constexpr int kMax = 64;
   void add(SensorSet set) noexcept;
@@ -67,17 +67,17 @@ class ReferenceClaims {
 
 /// Who is asked about gravity at one block.
 struct ReferencePanel {
-  SensorSet posed;      ///< the sensors that are not latched out
+  SensorSet monitored;  ///< the sensors that are not excluded
   SensorSet delivered;  ///< those of them that delivered: who is asked
   int universe = 0;     ///< configured sensors, over which sets are numbered
   int coplanarity = 0;
 };
 
 /// The sets that doubt gravity at a vote: what they claim goes on record, and each is judged by all of its claims.
-ReferenceDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept;
+NormMismatchDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept;
 /// The same at any other question: judged by what is on record, to which nothing is added.
-ReferenceDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
-                            const ReferenceClaims& record) noexcept;
+NormMismatchDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
+                               const ReferenceClaims& record) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb
