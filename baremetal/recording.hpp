@@ -90,6 +90,7 @@ void transfer_setup(Words& words, Setup& setup, Uncertainty& uncertainty, std::s
     words.number(uncertainty.misfit_mps2[i]);
   }
   for (std::size_t k = 0; k < 4 * n * (4 * n + 1) / 2; ++k) words.number(uncertainty.covariance[k]);
+  words.number(uncertainty.common_scale);
   words.number(setup.gravity.g_mps2);
   words.number(setup.gravity.sigma_mps2);
   words.number(setup.config.temperature_min_degc);

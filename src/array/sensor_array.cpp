@@ -116,7 +116,7 @@ double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const 
 
 bool RowUncertainty::is_zero(int sensors) const noexcept {
   const auto zero = [](double v) { return v == 0.0; };
-  return std::all_of(covariance.begin(), covariance.begin() + packed_size(sensors), zero) &&
+  return zero(common_scale) && std::all_of(covariance.begin(), covariance.begin() + packed_size(sensors), zero) &&
          std::all_of(misfit_mps2.begin(), misfit_mps2.begin() + sensors, zero);
 }
 
@@ -136,7 +136,7 @@ bool RowUncertainty::is_covariance() const noexcept {
   const auto entry = [this](int a, int b) { return covariance[index(a * (a + 1) / 2 + b)]; };
   double largest = 0.0;
   for (int a = 0; a < 4 * kCapacity; ++a) largest = std::fmax(largest, entry(a, a));
-  if (!(largest <= kMostVariance)) return false;
+  if (!(largest <= kMostVariance) || !(common_scale >= 0.0 && common_scale <= 1.0)) return false;
   const double floor = kRounding * kRounding * largest;
   for (int a = 0; a < 4 * kCapacity; ++a) {
     if (!(entry(a, a) >= -floor)) return false;
@@ -189,6 +189,13 @@ void SensorArray::derive() noexcept {
       }
     }
   }
+}
+
+double SensorArray::row_covariance(int a, int b) const noexcept {
+  const double own = uncertainty_.covariance[index(a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a)];
+  if (a % 4 == 3 || b % 4 == 3) return own;
+  const double share = uncertainty_.common_scale;
+  return own + share * share * axis(a / 4)[index(a % 4)] * axis(b / 4)[index(b % 4)];
 }
 
 void SensorArray::set_uncertainty(const RowUncertainty& u) noexcept {

@@ -94,6 +94,7 @@ plumb_error take_covariance(const plumb_config& config, Workspace& work) noexcep
     if (!std::isfinite(config.covariance[k]))
       return answer({Errc::not_finite, static_cast<int>(k), config.covariance[k]});
   }
+  work.uncertainty.common_scale = config.common_scale;
   if (!work.uncertainty.is_covariance()) return answer({Errc::implausible});
   return answer(PLUMB_OK);
 }

@@ -83,16 +83,7 @@ Error compose(const Datasheet& datasheet, const GravityReference& gravity, const
     }
     report.e_cal_mps2[at(i)] = std::sqrt(std::fmax(variance, 0.0));
   }
-  // The length of gravity where the tool was calibrated is itself uncertain: a common scale of all readings, which
-  // parity cannot see and every norm can. Not part of e_cal, which compares sensors.
-  const double share = gravity.sigma_mps2 / gravity.g_mps2;
-  for (int a = 0; a < 4 * n; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      if (a % 4 == 3 || b % 4 == 3) continue;
-      uncertainty.covariance[at(a * (a + 1) / 2 + b)] +=
-          share * share * rows[at(a / 4)].axis[at(a % 4)] * rows[at(b / 4)].axis[at(b % 4)];
-    }
-  }
+  uncertainty.common_scale = gravity.sigma_mps2 / gravity.g_mps2;
   out.array.set_uncertainty(uncertainty);
   if (&out.report != &report) out.report = report;
   return Error{};

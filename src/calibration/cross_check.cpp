@@ -16,15 +16,17 @@ using fit::at;
 /// Variance of a weighted sum of the readings: noise of the mean, misfit, covariance of the fit.
 double variance_of(const SensorArray& array, SensorSet used, const std::array<double, kCapacity>& weight,
                    const Vec3& gravity_mps2, double samples) noexcept {
-  double sum = 0.0;
+  double sum = 0.0, along = 0.0;
   for (int i = 0; i < array.size(); ++i) {
     if (!used.has(i)) continue;
+    along += weight[at(i)] * dot(array.axis(i), gravity_mps2);
     sum += weight[at(i)] * weight[at(i)] * array.sigma_mps2(i) * array.sigma_mps2(i) / samples;
     for (int j = 0; j < array.size(); ++j) {
       if (used.has(j)) sum += weight[at(i)] * weight[at(j)] * array.uncertainty().at(i, j, gravity_mps2);
     }
   }
-  return sum;
+  along *= array.uncertainty().common_scale;
+  return sum + along * along;
 }
 
 struct Tally {

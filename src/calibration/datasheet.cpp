@@ -50,18 +50,17 @@ RowUncertainty Datasheet::uncertainty() const noexcept {
 }
 
 Prior prior_in(const SensorArray& array, int i) noexcept {
-  const auto& covariance = array.uncertainty().covariance;
+  const auto variance = [&array, i](int p, int q) { return array.row_covariance(4 * i + p, 4 * i + q); };
   const Vec3& h = array.axis(i);
   double trace = 0.0, along = 0.0;
   for (int p = 0; p < 3; ++p) {
-    trace += covariance[packed(4 * i + p, 4 * i + p)];
+    trace += variance(p, p);
     for (int q = 0; q < 3; ++q) {
-      along += h[static_cast<std::size_t>(p)] * h[static_cast<std::size_t>(q)] *
-               covariance[p > q ? packed(4 * i + p, 4 * i + q) : packed(4 * i + q, 4 * i + p)];
+      along += h[static_cast<std::size_t>(p)] * h[static_cast<std::size_t>(q)] * variance(p, q);
     }
   }
   Prior out;
-  out.bias_mps2 = std::sqrt(std::fmax(covariance[packed(4 * i + 3, 4 * i + 3)], 0.0));
+  out.bias_mps2 = std::sqrt(std::fmax(variance(3, 3), 0.0));
   out.scale = std::sqrt(std::fmax(along, 0.0));
   out.axis_rad = std::sqrt(std::fmax(trace - along, 0.0) / 2.0);
   return out;

@@ -18,6 +18,8 @@ Vec3 estimate_column(const SensorArray& array, const SetTest& test, int i) noexc
 Mat3 calibration_covariance(const SensorArray& array, const SetTest& test, SensorSet set) noexcept {
   Mat3 cal{};
   if (!test.tested || array.perfectly_known()) return cal;
+  add_outer(cal, scaled(test.x_mps2, array.uncertainty().common_scale),
+            scaled(test.x_mps2, array.uncertainty().common_scale));
   const AttitudeProducts attitude(test.x_mps2);
   std::array<Vec3, kCapacity> column{};
   for (int i = 0; i < array.size(); ++i) {

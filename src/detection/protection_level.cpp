@@ -69,7 +69,7 @@ class InPlane {
     const SensorArray& array = tests_.array();
     const BlockEvidence& block = tests_.block();
     const AttitudeProducts attitude(x_mps2);
-    double out = 0.0;
+    double out = k * array.uncertainty().common_scale * norm(x_mps2);
     for (int i = 0; i < array.size(); ++i) {
       if (!set_.has(i)) continue;
       const double sigma = array.sigma_mps2(i);

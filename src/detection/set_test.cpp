@@ -4,6 +4,7 @@
 
 #include "reach.hpp"
 
+#include "plumb/detection/parity_rows.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -12,6 +13,15 @@ inline namespace PLUMB_ABI {
 namespace {
 
 using std::size_t;
+
+/// A length read through one set of sensors errs by nine numbers, whatever the attitude u: products of two components
+/// of u and components of u.
+constexpr int kNormHarmonics = 9;
+/// Calibrations beyond: shared by parity and the norm.
+constexpr double kBeyond = 0.005;
+
+/// Of parity whatever is left in its rows: four numbers each.
+double parity_factor(int rows) noexcept { return std::sqrt(chi2_tail_quantile(kBeyond, rows > 1 ? 4 * rows : 4)); }
 
 /// Members of a set with their whitened rows and readings.
 struct Rows {
@@ -203,8 +213,17 @@ TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejecti
   }
   limits.norm_alarm = limits.parity_alarm[1];
   limits.calibration = std::sqrt(chi2_tail_quantile(0.01, 4 * n - 3));
+  limits.parity_calibration = parity_factor(n - 3);
+  limits.norm_calibration = std::sqrt(chi2_tail_quantile(kBeyond, kNormHarmonics));
   limits.acceleration_mps2 = acceleration_mps2;
   return limits;
+}
+
+TestLimits TestLimits::of(const SensorArray& array) const noexcept {
+  TestLimits out = *this;
+  const int rows = array.size() - 3;
+  if (rows > 1) out.parity_calibration = parity_rows_alike(array) ? kLikeRows * roys_root(rows) : parity_factor(rows);
+  return out;
 }
 
 double SetTest::combined() const noexcept { return std::sqrt(parity * parity + norm * norm); }
@@ -280,10 +299,13 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   const Systematic cal = uncertainty != nullptr ? calibration_bound(*uncertainty, rows, p, x) : Systematic{};
   const Systematic drift = rows.tolerant ? tolerance_bound(rows, p, u, length, sigma_norm) : Systematic{};
   const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + block.motion_mps2 + limits.acceleration_mps2;
-  const double reference = (TestLimits::gravity * gravity.sigma_mps2 + moved) / sigma_norm;
-  out.parity_systematic = root_n * (limits.calibration * cal.parity + drift.parity);
-  out.norm_systematic = root_n * (limits.calibration * cal.norm + drift.norm + reference);
-  out.systematic = root_n * (limits.calibration * cal.both + drift.both + reference);
+  const double scaled_by = uncertainty != nullptr ? uncertainty->common_scale * gravity.g_mps2 : 0.0;
+  const double reference = (TestLimits::gravity * (gravity.sigma_mps2 + scaled_by) + moved) / sigma_norm;
+  const double norm = limits.norm_calibration * cal.norm;
+  out.parity_systematic = root_n * (limits.parity_calibration * cal.parity + drift.parity);
+  out.norm_systematic = root_n * (norm + drift.norm + reference);
+  const double both = out.parity_rows > 0 ? limits.calibration * cal.both : norm;
+  out.systematic = root_n * (both + drift.both + reference);
 }
 
 SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,

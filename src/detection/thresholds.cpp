@@ -8,6 +8,7 @@
 #include "plumb/detection/detectable.hpp"
 #include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/isolation.hpp"
+#include "plumb/detection/parity_rows.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -140,15 +141,23 @@ void find_detectable(const SensorArray& array, const TestSettings& settings, con
   }
 }
 
+/// k_v times the root of the largest trace of the covariance that calibration leaves in the vector of all sensors, over
+/// all attitudes; k_v holds for its twelve numbers at once.
+double calibrated_vector_mps2(const SensorArray& array, double g_mps2) noexcept {
+  constexpr int kNumbers = 12;
+  return std::sqrt(chi2_tail_quantile(0.005, kNumbers) * worst_vector_variance(array, g_mps2));
+}
+
 double protection_level(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
-                        const ErrorBudget& budget, const std::array<SensorThresholds, kCapacity>& sensor) noexcept {
+                        const std::array<SensorThresholds, kCapacity>& sensor) noexcept {
   double bias = 0.0, left = 0.0;
   for (int i = 0; i < array.size(); ++i) {
     const SensorThresholds& s = sensor[index(i)];
     const double moved = s.gain * s.detectable_mps2;
     if (moved > bias) bias = moved;
-    left += s.gain * budget.systematic_mps2[index(i)];
+    left += s.gain * settings.tolerance_mps2[index(i)];
   }
+  left += calibrated_vector_mps2(array, gravity.g_mps2);
   const double largest = largest_eigenvalue(least_squares(array, array.all()).covariance);
   const double noise = normal_tail_quantile(0.5 * settings.integrity_risk) * std::sqrt(largest / settings.samples);
   const double error = (bias + noise + left) / gravity.g_mps2;
@@ -164,20 +173,20 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
   ErrorBudget out;
   const int n = array.size();
   if (n < 3) return out;
-  out.limits =
-      TestLimits::from_rates(n, settings.false_alarm_rate, settings.rejection_rate, settings.acceleration_mps2);
+  out.limits = TestLimits::from_rates(n, settings.false_alarm_rate, settings.rejection_rate, settings.acceleration_mps2)
+                   .of(array);
   out.noise_factor = normal_tail_quantile(settings.rejection_rate / (2.0 * n));
-  out.gravity_mps2 = TestLimits::gravity * gravity.sigma_mps2 + settings.acceleration_mps2;
-  double trace = 0.0;
+  const double calibrated_at = array.uncertainty().common_scale * gravity.g_mps2;
+  out.gravity_mps2 = TestLimits::gravity * (gravity.sigma_mps2 + calibrated_at) + settings.acceleration_mps2;
   for (int i = 0; i < n; ++i) {
     const double sigma = array.sigma_mps2(i) / std::sqrt(settings.samples);
-    const double left = out.limits.calibration * calibration_sigma(array, i, gravity.g_mps2);
+    out.calibration_mps2[index(i)] = out.limits.calibration * calibration_sigma(array, i, gravity.g_mps2);
     out.noise_mps2[index(i)] = sigma;
-    out.systematic_mps2[index(i)] = left + settings.tolerance_mps2[index(i)];
-    trace += left / sigma * (left / sigma);
+    out.systematic_mps2[index(i)] = out.calibration_mps2[index(i)] + settings.tolerance_mps2[index(i)];
   }
-  // b_S is the root of an eigenvalue of a projection of the covariance: at most the root of its trace.
-  out.parity_systematic = std::sqrt(trace) + drift_in_parity(array, settings, out.noise_mps2);
+  const double variance = settings.samples * worst_parity_variance(array, gravity.g_mps2);
+  out.parity_systematic =
+      out.limits.parity_calibration * std::sqrt(variance) + drift_in_parity(array, settings, out.noise_mps2);
   return out;
 }
 
@@ -187,7 +196,7 @@ double protection_level_rad(const SensorArray& array, const GravityReference& gr
   std::array<SensorThresholds, kCapacity> sensor{};
   const ErrorBudget budget = error_budget(array, gravity, settings);
   find_detectable(array, settings, budget, sensor);
-  return protection_level(array, gravity, settings, budget, sensor);
+  return protection_level(array, gravity, settings, sensor);
 }
 
 Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravity,
@@ -215,7 +224,7 @@ Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravi
     out.sensor[index(i)].provisional_exclusion_mps2 = provisionally_excluded.of(i);
     out.sensor[index(i)].guaranteed_detection_mps2 = out.sure.fault[1][index(i)];
   }
-  out.protection_rad = protection_level(array, gravity, settings, budget, out.sensor);
+  out.protection_rad = protection_level(array, gravity, settings, out.sensor);
   return out;
 }
 

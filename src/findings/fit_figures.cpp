@@ -14,10 +14,7 @@ double share_of(double sigma, double prior) {
 
 /// Variance of the length of a row and of its two tilts together, from the covariance of the calibrated rows.
 void split_axis_covariance(const SensorArray& array, int i, double& along, double& across) {
-  const auto entry = [&array, i](int p, int q) {
-    const int a = 4 * i + std::max(p, q), b = 4 * i + std::min(p, q);
-    return array.uncertainty().covariance[static_cast<std::size_t>(a * (a + 1) / 2 + b)];
-  };
+  const auto entry = [&array, i](int p, int q) { return array.row_covariance(4 * i + p, 4 * i + q); };
   const Vec3& h = array.axis(i);
   along = across = 0.0;
   for (int p = 0; p < 3; ++p) {

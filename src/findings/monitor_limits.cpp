@@ -73,22 +73,25 @@ struct AttitudeLimits {
   double left = 0.0;  ///< 1 sigma of what calibration leaves, in sigmas of one sample
 };
 
-/// `t` of a block with its tolerances, `undrifted` without, `drift` what these add.
+/// `t` of a block with its tolerances, `undrifted` without, `drift` what these add; `calibrated_at_mps2`: 1 sigma of
+/// the gravity at which the array was calibrated.
 AttitudeLimits limits_of(const SetTest& t, const SetTest& undrifted, const ToleranceBound& drift,
-                         const TestLimits& limits, const GravityReference& gravity, AlarmForm form, int window) {
+                         const TestLimits& limits, const GravityReference& gravity, double calibrated_at_mps2,
+                         AlarmForm form, int window) {
   AttitudeLimits out;
   const double root_n = std::sqrt(window), s = t.norm_sigma_mps2;
-  const double parity_left = undrifted.parity_systematic / root_n / limits.calibration;
-  const double gravity_bound = TestLimits::gravity * gravity.sigma_mps2 / s, pushed = limits.acceleration_mps2 / s;
+  const double parity_left = undrifted.parity_systematic / root_n / limits.parity_calibration;
+  const double gravity_bound = TestLimits::gravity * (gravity.sigma_mps2 + calibrated_at_mps2) / s;
+  const double pushed = limits.acceleration_mps2 / s;
   const double length_left =
-      std::fmax(undrifted.norm_systematic / root_n - gravity_bound - pushed, 0.0) / limits.calibration;
+      std::fmax(undrifted.norm_systematic / root_n - gravity_bound - pushed, 0.0) / limits.norm_calibration;
   const double alarm = limits.parity_alarm[static_cast<size_t>(t.parity_rows)];
   out.left = t.parity_rows > 0 ? parity_left : length_left;
   out.parity_noise = t.parity_rows > 0 ? alarm / root_n : 0.0;
   out.length_noise_mps2 = limits.norm_alarm * s / root_n;
   if (form == AlarmForm::average_tool) {
     out.parity = out.parity_noise * std::sqrt(1.0 + window * parity_left * parity_left) + drift.parity / root_n;
-    const double sigma_g = gravity.sigma_mps2 / s;
+    const double sigma_g = std::hypot(gravity.sigma_mps2, calibrated_at_mps2) / s;
     out.length_mps2 =
         out.length_noise_mps2 * std::sqrt(1.0 + window * (length_left * length_left + sigma_g * sigma_g)) +
         limits.acceleration_mps2 + drift.norm_mps2;
@@ -164,7 +167,8 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
   out.window = config.window;
   out.delta_f_mps2 = config.delta_f_mps2;
   const TestLimits limits =
-      TestLimits::from_rates(n, config.false_alarm_rate, config.rejection_rate, config.acceleration_bound_mps2);
+      TestLimits::from_rates(n, config.false_alarm_rate, config.rejection_rate, config.acceleration_bound_mps2)
+          .of(array);
   const double rate = config.triple_false_alarm_rate > 0.0 ? config.triple_false_alarm_rate
                                                            : triple_share(array, config.false_alarm_rate);
   const double quantile = half_normal_mean_quantile(config.window, rate);
@@ -181,8 +185,9 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
     const BlockEvidence block = block_at(array, g, config.window, tolerance_mps2);
     const SetTest t = test_set(array, gravity, limits, block, array.all());
     const SetTest undrifted = test_set(array, gravity, limits, block_at(array, g, config.window, {}), array.all());
-    const AttitudeLimits at = limits_of(t, undrifted, tolerance_bound(array, block, array.all(), t), limits, gravity,
-                                        config.alarm_form, config.window);
+    const AttitudeLimits at =
+        limits_of(t, undrifted, tolerance_bound(array, block, array.all(), t), limits, gravity,
+                  array.uncertainty().common_scale * gravity.g_mps2, config.alarm_form, config.window);
     const Visibility seen = visibility(array, map, u);
     if (n > 3) parity.add(at.parity_noise * out.noise_mps2, at.parity * out.noise_mps2, at.parity / seen.parity);
     length.add(at.length_noise_mps2, at.length_mps2, at.length_mps2 / std::fmax(seen.length, 1e-9));

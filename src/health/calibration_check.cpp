@@ -115,6 +115,8 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
   gravity.sigma_mps2 = 0.0;
   TestLimits limits = terms.limits;
   limits.acceleration_mps2 = 0.0;
+  // Neither does the gravity at which it was calibrated differ between attitudes.
+  const double common_mps2 = TestLimits::gravity * terms.array.uncertainty().common_scale * gravity.g_mps2;
   std::array<double, kMost> off{}, sigma{}, hard{};
   double weights = 0.0, mean = 0.0;
   int lengths = 0;
@@ -130,7 +132,7 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
     if (!t.tested) continue;
     block.tolerance_mps2.fill(e.tolerance_mps2 + static_cast<float>(tolerance_mps2));
     const ToleranceBound bound = tolerance_bound(terms.array, block, set, t);
-    const double parity_variance = 1.0 + square(t.parity_systematic / limits.calibration);
+    const double parity_variance = 1.0 + square(t.parity_systematic / limits.parity_calibration);
     out.sum += square(beyond(t.parity, bound.parity)) / parity_variance;
     out.degrees += t.parity_rows;
     if (out.sum > most * most_degrees) {
@@ -138,7 +140,9 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
       return out;
     }
     const size_t n = at(lengths++);
-    const double norm_variance = 1.0 + square(t.norm_systematic / limits.calibration);
+    const double norm_variance =
+        1.0 + square((t.norm_systematic - std::sqrt(block.samples) * common_mps2 / t.norm_sigma_mps2) /
+                     limits.norm_calibration);
     off[n] = t.norm_error_mps2;
     sigma[n] = t.norm_sigma_mps2 * std::sqrt(norm_variance / block.samples);
     hard[n] = bound.norm_mps2 + static_cast<double>(e.moved_mps2) + terms.limits.acceleration_mps2;

@@ -85,12 +85,14 @@ void HealthMonitor::set_up(const MonitorSetup& setup) noexcept {
   s.identity = identity(setup);
 }
 
-/// Which triples vote depends on the axes, and so do their shares of the rate.
+/// Which triples vote depends on the axes, and so do their shares of the rate; what a calibration leaves in parity
+/// depends on its fit.
 void HealthMonitor::derive_limits() noexcept {
   Settings& s = state_.settings;
-  const double triple_rate = s.config.triple_false_alarm_rate > 0.0
-                                 ? s.config.triple_false_alarm_rate
-                                 : triple_share(state_.in_force.array, s.config.false_alarm_rate);
+  const SensorArray& array = state_.in_force.array;
+  s.limits = s.limits.of(array);
+  const double triple_rate = s.config.triple_false_alarm_rate > 0.0 ? s.config.triple_false_alarm_rate
+                                                                    : triple_share(array, s.config.false_alarm_rate);
   s.mae_quantile = half_normal_mean_quantile(s.config.window, triple_rate);
 }
 

@@ -11,6 +11,12 @@ namespace {
 /// The study takes attitudes that differ by this many excitation angles: neighbours tell it nothing new.
 constexpr double kStudyAngles = 2.0;
 
+/// By what the length may be off alike at every attitude: gravity as stated here, and where the array was calibrated.
+double stated_gravity_mps2(const InForce& in_force) noexcept {
+  const GravityReference& gravity = in_force.gravity;
+  return TestLimits::gravity * (gravity.sigma_mps2 + in_force.array.uncertainty().common_scale * gravity.g_mps2);
+}
+
 }  // namespace
 
 bool GravityFinding::withdraw() noexcept {
@@ -36,7 +42,7 @@ bool GravityFinding::learn(const Terms& terms, const BlockReport& report) noexce
     // Reject, not alarm: as wide as what latches, for the finding is believed for long. Without the gravity term, which
     // is alike at every attitude and part of what is looked for.
     const double sigma = report.used.norm_sigma_mps2 / std::sqrt(terms.evidence.samples);
-    const double stated_mps2 = TestLimits::gravity * terms.in_force.gravity.sigma_mps2;
+    const double stated_mps2 = stated_gravity_mps2(terms.in_force);
     double bound = report.used.norm_reject_limit(limits) * sigma - stated_mps2;
     // There the limit counts in sigmas of noise and calibration together, and not all of the acceleration is left in
     // it.
@@ -65,7 +71,7 @@ GravityFinding::News GravityFinding::tell(const Terms& terms) noexcept {
   const double acceleration_mps2 = terms.settings.limits.acceleration_mps2;
   // An acceleration that was allowed for turns the direction whatever the length says.
   const double turn_rad = acceleration_turn_rad(gravity, acceleration_mps2);
-  const double stated_mps2 = TestLimits::gravity * gravity.sigma_mps2;
+  const double stated_mps2 = stated_gravity_mps2(terms.in_force);
   NormMismatch found = study_.find(gravity.g_mps2, stated_mps2, terms.settings.config.alert_limit_rad - turn_rad);
   // Within its limit the length is not in doubt: only what lies beyond the stated gravity for certain is told.
   const bool beyond = std::fabs(found.length_mps2) > stated_mps2 + found.length_bound_mps2;

@@ -126,10 +126,6 @@ Kept kept_back(const HeldAxisFit& fit, const Sums& sums) noexcept {
   return out;
 }
 
-double packed(const RowUncertainty& u, int a, int b) noexcept {
-  return a >= b ? u.covariance[at(a * (a + 1) / 2 + b)] : u.covariance[at(b * (b + 1) / 2 + a)];
-}
-
 /// Not inlined, nor is the next: neither needs its room while the other works.
 [[gnu::noinline]] void add_stations(const SensorArray& array, const HeldAxisFit& fit, double g_mps2,
                                     Sums& sums) noexcept {
@@ -151,13 +147,12 @@ double packed(const RowUncertainty& u, int a, int b) noexcept {
   for (int i = 0; i < sums.k; ++i) place[at(sums.sensor[at(i)])] = i;
   const double common = gravity.sigma_mps2 / gravity.g_mps2;
   const Kept kept = kept_back(fit, sums);
-  const RowUncertainty& old = array.uncertainty();
   for (int a = 0; a < 4 * array.size(); ++a) {
     const int i = place[at(a / 4)];
     const Line line = line_of(array, sums, a / 4, i, a % 4);
     Line carried{};
     for (int c = 0; c < 4 * array.size(); ++c) {
-      for (int d = 0; d < 4 * array.size(); ++d) carried[at(c)] += packed(old, c, d) * line[at(d)];
+      for (int d = 0; d < 4 * array.size(); ++d) carried[at(c)] += array.row_covariance(c, d) * line[at(d)];
     }
     for (int b = 0; b <= a; ++b) {
       const int l = place[at(b / 4)];
@@ -176,7 +171,8 @@ double packed(const RowUncertainty& u, int a, int b) noexcept {
       uncertainty.covariance[at(a * (a + 1) / 2 + b)] = sum;
     }
   }
-  uncertainty.misfit_mps2 = old.misfit_mps2;
+  uncertainty.misfit_mps2 = array.uncertainty().misfit_mps2;
+  uncertainty.common_scale = 0.0;  // the rows no longer share it alike
 }
 
 }  // namespace

@@ -21,10 +21,10 @@ Row direction_of(const SensorArray& array, int parameter) noexcept {
   return parameter % 2 == 0 ? Row{h[0], h[1], h[2], 0.0} : Row{0.0, 0.0, 0.0, 1.0};
 }
 
-double covariance_along(const RowUncertainty& u, int i, const Row& a, int j, const Row& b) noexcept {
+double covariance_along(const SensorArray& array, int i, const Row& a, int j, const Row& b) noexcept {
   double sum = 0.0;
   for (int p = 0; p < 4; ++p) {
-    for (int q = 0; q < 4; ++q) sum += a[at(p)] * u.covariance[packed(4 * i + p, 4 * j + q)] * b[at(q)];
+    for (int q = 0; q < 4; ++q) sum += a[at(p)] * array.row_covariance(4 * i + p, 4 * j + q) * b[at(q)];
   }
   return sum;
 }
@@ -40,7 +40,7 @@ Block kept_part(const SensorArray& array, int i, bool i_taken, int j, bool j_tak
   for (int p = 0; p < 4; ++p) {
     for (int q = 0; q < 4; ++q) {
       for (int k = 0; k < 4; ++k) {
-        half[at(4 * p + q)] += across(i, i_taken, p, k) * array.uncertainty().covariance[packed(4 * i + k, 4 * j + q)];
+        half[at(4 * p + q)] += across(i, i_taken, p, k) * array.row_covariance(4 * i + k, 4 * j + q);
       }
     }
   }
@@ -86,8 +86,7 @@ Error OfferedCalibration::read(const SensorModel& now, const SensorArray& now_ar
   }
   for (int a = 0; a < 2 * n; ++a) {
     for (int b = 0; b <= a; ++b) {
-      covariance_[packed(a, b)] =
-          covariance_along(array.uncertainty(), a / 2, direction_of(array, a), b / 2, direction_of(array, b));
+      covariance_[packed(a, b)] = covariance_along(array, a / 2, direction_of(array, a), b / 2, direction_of(array, b));
     }
   }
   for (int i = 0; i < n; ++i) {
@@ -103,6 +102,7 @@ Error OfferedCalibration::read(const SensorModel& now, const SensorArray& now_ar
 
 void OfferedCalibration::uncertainty(const SensorArray& array, SensorSet sensors, RowUncertainty& out) const noexcept {
   out = array.uncertainty();
+  out.common_scale = 0.0;  // the rows taken over and those that stay have their own
   for (int i = 0; i < array.size(); ++i) {
     for (int j = 0; j <= i; ++j) {
       const bool both = sensors.has(i) && sensors.has(j);

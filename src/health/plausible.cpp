@@ -47,6 +47,7 @@ bool same_uncertainty(const RowUncertainty& a, const RowUncertainty& b, int sens
   for (int k = 0; k < RowUncertainty::packed_size(sensors); ++k) {
     if (a.covariance[static_cast<size_t>(k)] != b.covariance[static_cast<size_t>(k)]) return false;
   }
+  if (a.common_scale != b.common_scale) return false;
   for (int i = 0; i < sensors; ++i) {
     if (a.misfit_mps2[static_cast<size_t>(i)] != b.misfit_mps2[static_cast<size_t>(i)]) return false;
   }

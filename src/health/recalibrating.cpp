@@ -80,11 +80,11 @@ void HealthMonitor::adopt() noexcept {
     take_span(fit.store());
     fit.apply(now.model, now.array, now.gravity, now_s, false);
     if (!fit.first()) now.calibrated = fit.sensors();
-    derive_limits();
     s.service.size = s.classify(s.in_service());
   } else {
     fit.apply(now.model, now.array, now.gravity, now_s, s.machine.base == Mode::suspect);
   }
+  derive_limits();
   s.intake.coefficients.forget();
   now.three_sensor_fit = s.service.size == SizeClass::critical;
   s.studies.check.clear();

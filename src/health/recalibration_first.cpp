@@ -164,6 +164,7 @@ bool install(const Calibration& fit, SensorSet sensors, SensorModel& model, Sens
       }
     }
   }
+  out.common_scale = found.common_scale;
   for (int i = 0; i < array.size(); ++i) {
     if (fitted[at(i)] < 0) continue;
     out.misfit_mps2[at(i)] /= length[at(i)];

@@ -22,7 +22,7 @@ constexpr double kUnitLength = 1e-6;
 
 class Check {
  public:
-  /// `number` of an entry where the section is a list, counted from 1.
+  /// `number` of an entry where the section is a list, counted from 1; no section: the file itself.
   explicit Check(const Source& source, std::string section, int number = 0)
       : source_(source), section_(std::move(section)), number_(number) {}
 
@@ -37,12 +37,12 @@ class Check {
   }
   [[noreturn]] void refuse(const std::string& name, const std::string& what) const {
     const std::string index = number_ > 0 ? "[" + std::to_string(number_) + "]" : "";
-    source_.fail(line_of(name), section_ + index + "." + name, what, kMakeAnew);
+    source_.fail(line_of(name), (section_.empty() ? "" : section_ + index + ".") + name, what, kMakeAnew);
   }
 
  private:
   int line_of(const std::string& key) const {
-    std::size_t at = source_.text.find("\"" + section_.substr(section_.rfind('.') + 1) + "\"");
+    std::size_t at = section_.empty() ? 0 : source_.text.find("\"" + section_.substr(section_.rfind('.') + 1) + "\"");
     for (int k = 0; k < std::max(number_, 1) && at != std::string::npos; ++k)
       at = source_.text.find("\"" + key + "\"", at + 1);
     return at == std::string::npos ? 0 : source_.line_at(at);
@@ -147,6 +147,7 @@ void check_content(const Source& source, const CalibrationFile& file) {
   for (int i = 0; i < n; ++i) check_sensor(Check(source, "sensors", i + 1), calibration, i);
   for (const double m : calibration.model.misalignment)
     Check(source, "misalignment").within("m_ij", m, -kMostNumber, kMostNumber);
+  Check(source, "").within("common_scale_sigma", calibration.array.uncertainty().common_scale, 0.0, 1.0);
   check_covariance(source, calibration, static_cast<std::size_t>(n));
   check_context(source, file.context);
 }

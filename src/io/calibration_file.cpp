@@ -174,6 +174,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
   if (std::any_of(mixing.begin(), mixing.end(), [](double m) { return m != 0.0; })) {
     root["misalignment"] = from_misalignment(calibration.model, n);
   }
+  root["common_scale_sigma"] = from_double(calibration.array.uncertainty().common_scale);
   root["covariance"] = from_covariance(calibration.array.uncertainty(), n);
   if (paper != nullptr) root["paper"] = from_paper(*paper, array.array);
   root["checksum"] = checksum_of(root);

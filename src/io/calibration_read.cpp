@@ -210,6 +210,8 @@ Calibration read_content(const Source& source, const Json& root, const ArrayFile
     for (std::size_t i = 0; i < n; ++i)
       source.numbers(mixing[i], "misalignment", &out.model.misalignment[i * kCapacity], n);
   }
+  // A file without it has it in the covariance.
+  if (root.contains("common_scale_sigma")) uncertainty.common_scale = source.number_of(root, "common_scale_sigma");
   const Json& covariance = source.list(source.member(root, "covariance"), "covariance", 4 * n);
   for (std::size_t a = 0; a < 4 * n; ++a)
     source.numbers(covariance[a], "covariance", &uncertainty.covariance[a * (a + 1) / 2], a + 1);

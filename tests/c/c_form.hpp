@@ -35,6 +35,7 @@ struct CForm {
     config.sensors = n;
     config.sensor = sensor.data();
     config.covariance = setup.array.uncertainty().covariance.data();
+    config.common_scale = setup.array.uncertainty().common_scale;
     config.covariance_size = static_cast<std::uint32_t>(plumb::RowUncertainty::packed_size(n));
     config.gravity_mps2 = setup.gravity.g_mps2;
     config.gravity_sigma_mps2 = setup.gravity.sigma_mps2;

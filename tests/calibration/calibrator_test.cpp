@@ -138,12 +138,23 @@ TEST(Calibrator, GravityUncertaintyIsACommonScaleThatEveryNormSeesAndNoParity) {
   const auto unsure =
       plumb::calibrate(d, {plumb::kG0_mps2, sigma_g, plumb::GravityModel::value}, stations.data(), count);
   ASSERT_TRUE(sure.has_value() && unsure.has_value());
+  const double share = sigma_g / plumb::kG0_mps2;
+  EXPECT_EQ(unsure->array.uncertainty().common_scale, share);
+  EXPECT_EQ(sure->array.uncertainty().common_scale, 0.0);
   const Vec3 g = {1.0, -2.0, 9.0};
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      const double share = sigma_g / plumb::kG0_mps2;
+      EXPECT_EQ(unsure->array.uncertainty().at(i, j, g), sure->array.uncertainty().at(i, j, g)) << i << " " << j;
+      // All rows together: the entries of both axes, and none of an offset.
+      double added = 0.0;
+      for (std::size_t p = 0; p < 4; ++p) {
+        for (std::size_t q = 0; q < 4; ++q) {
+          const int a = 4 * i + static_cast<int>(p), b = 4 * j + static_cast<int>(q);
+          added += (p < 3 ? g[p] : 1.0) * (q < 3 ? g[q] : 1.0) *
+                   (unsure->array.row_covariance(a, b) - sure->array.row_covariance(a, b));
+        }
+      }
       const double common = share * share * plumb::dot(unsure->array.axis(i), g) * plumb::dot(unsure->array.axis(j), g);
-      const double added = unsure->array.uncertainty().at(i, j, g) - sure->array.uncertainty().at(i, j, g);
       EXPECT_NEAR(added, common, 1e-12) << i << " " << j;
     }
   }

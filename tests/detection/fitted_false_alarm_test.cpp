@@ -114,7 +114,7 @@ Study run(int sensors, int window, int tools, int attitudes) {
   Study study;
   study.attitudes = attitudes;
   const Datasheet d = tool_of(sensors);
-  const TestLimits limits = TestLimits::from_rates(d.size, kRate, 1e-6);
+  const TestLimits general = TestLimits::from_rates(d.size, kRate, 1e-6);
   std::vector<double> mae;
   for (int tool = 0; tool < tools; ++tool) {
     Noise noise(500000U + static_cast<std::uint64_t>(1000 * sensors + tool));
@@ -123,6 +123,7 @@ Study run(int sensors, int window, int tools, int attitudes) {
     const auto c = calibrate(d, calibration_test::standard_gravity(), stations.data(), 48);
     EXPECT_TRUE(c.has_value()) << tool;
     if (!c) continue;
+    const TestLimits limits = general.of(c->array);
     const int samples = window < 32 ? window : 32;
     const double quantile = half_normal_mean_quantile(samples, triple_share(c->array, kRate));
     Alarms sum;

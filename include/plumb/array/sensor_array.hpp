@@ -38,11 +38,14 @@ struct AttitudeProducts {
 
 /// What calibration leaves in every row: covariance of (axis error [m/s^2 per m/s^2], offset error
 /// [m/s^2]), four numbers a sensor, packed lower triangle over 4n; plus a per-sensor misfit that no
-/// parameter explains. All zero for a perfectly known array.
+/// parameter explains. All zero for a perfectly known array. The length of gravity where the array was calibrated is
+/// not part of the covariance (docs/theory.md, section 3.3): an error of it scales all rows alike, which no parity
+/// sees.
 struct RowUncertainty {
   static constexpr int kSize = 4 * kCapacity * (4 * kCapacity + 1) / 2;
   std::array<double, kSize> covariance{};       ///< SI; entry (a,b), a >= b, at a(a+1)/2+b
   std::array<double, kCapacity> misfit_mps2{};  ///< 1 sigma per sensor and attitude
+  double common_scale = 0.0;                    ///< 1 sigma of that gravity, relative
 
   /// Covariance of the errors of sensors i and j at gravity vector g [m/s^2]: z' Cov_ij z with
   /// z = (g, 1), plus misfit^2 where i == j. docs/theory.md, section 3.3. [(m/s^2)^2]
@@ -59,7 +62,8 @@ struct RowUncertainty {
   /// what its two variances allow, but for rounding.
   bool is_covariance() const noexcept;
   static constexpr auto fields() noexcept {
-    return field_list(leading(&RowUncertainty::covariance, &packed_size), per_sensor(&RowUncertainty::misfit_mps2));
+    return field_list(leading(&RowUncertainty::covariance, &packed_size), per_sensor(&RowUncertainty::misfit_mps2),
+                      &RowUncertainty::common_scale);
   }
 };
 
@@ -118,6 +122,8 @@ class SensorArray {
 
   const RowUncertainty& uncertainty() const noexcept { return uncertainty_; }
   void set_uncertainty(const RowUncertainty& u) noexcept;
+  /// Entry (a, b) of the covariance of all rows, 4n x 4n, the common scale included.
+  double row_covariance(int a, int b) const noexcept;
   /// True where calibration leaves nothing open: every entry of `uncertainty` that concerns a row is zero.
   bool perfectly_known() const noexcept { return perfectly_known_; }
   /// The sensors whose row counts as exact: a calibration was to state what it leaves of them, and states zero.

@@ -82,6 +82,9 @@ typedef struct plumb_config {
    * its row counts as exact, and every verdict has PLUMB_UNCERTAINTY_UNSTATED. Not kept. */
   const double* covariance;
   uint32_t covariance_size; /* 2 n (4 n + 1) of n sensors; 0 with null */
+  /* `common_scale_sigma` of the file: 1 sigma of the gravity at which it was calibrated, relative; 0 = in the
+   * covariance. Looked at with a covariance only. */
+  double common_scale;
   /* 0: axes, scales and biases are the datasheet's; the monitor makes its own calibration, and `covariance` is null. */
   int32_t calibrated;
   int32_t reads;       /* +1: a sensor shows +G with its axis down (gravity); -1: with its axis up (specific force) */

@@ -51,19 +51,26 @@ struct TestLimits {
   std::array<double, kCapacity + 1> reject{};        ///< [nu]: sqrt of chi^2_nu quantile at the rejection rate
   std::array<double, kCapacity + 1> parity_alarm{};  ///< [nu]: the same at the false-alarm rate
   double norm_alarm = 0.0;                           ///< one degree of freedom, false-alarm rate
-  double calibration = 0.0;               ///< k_c = sqrt(chi^2_(4n-3) quantile at 0.99): all attitudes at once
-  static constexpr double gravity = 3.0;  ///< sigmas of the gravity reference
+  /// What 99 of 100 calibrations stay below at every attitude, in standard deviations of what they leave
+  /// (docs/theory.md, section 3.3). Of parity and norm together, of parity alone, of one norm alone; the last two hold
+  /// at the same time.
+  double calibration = 0.0, parity_calibration = 0.0, norm_calibration = 0.0;
+  static constexpr double gravity = 3.0;  ///< sigmas of a gravity reference, where it calibrated and where it is used
   /// A: largest steady acceleration that the host allows for. What the sensors feel is then |g + a|, off G by at most
   /// A.
   double acceleration_mps2 = 0.0;
 
   static constexpr auto fields() noexcept {
     using L = TestLimits;
-    return field_list(&L::reject, &L::parity_alarm, &L::norm_alarm, &L::calibration, &L::acceleration_mps2);
+    return field_list(&L::reject, &L::parity_alarm, &L::norm_alarm, &L::calibration, &L::parity_calibration,
+                      &L::norm_calibration, &L::acceleration_mps2);
   }
 
+  /// Valid whatever a calibration leaves in n rows.
   static TestLimits from_rates(int n, double false_alarm_rate, double rejection_rate,
                                double acceleration_mps2 = 0.0) noexcept;
+  /// Those of this array: parity is held tighter where its calibration left all parity rows alike.
+  TestLimits of(const SensorArray& array) const noexcept;
 };
 
 /// All statistics and limits are in standard deviations of the block mean (whitened, times sqrt(N)).

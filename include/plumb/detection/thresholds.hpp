@@ -23,11 +23,11 @@ struct TestSettings {
 
 /// What limits the sensors of one array: everything as 1 block of `TestSettings::samples`.
 struct ErrorBudget {
-  Readings noise_mps2{};  ///< sigma_i / sqrt(N)
-  /// What calibration leaves, k_c sigmas of the worst attitude with the misfit, and drift within its tolerance.
-  Readings systematic_mps2{};
+  Readings noise_mps2{};           ///< sigma_i / sqrt(N)
+  Readings calibration_mps2{};     ///< what calibration leaves, k_c sigmas of the worst attitude with the misfit
+  Readings systematic_mps2{};      ///< that, and drift within its tolerance
   double noise_factor = 0.0;       ///< k_e: all n sensors stay within k_e sigmas but for the rejection rate
-  double parity_systematic = 0.0;  ///< bound on b_S of the parity rows, in standard deviations of a block mean
+  double parity_systematic = 0.0;  ///< largest b_S of the parity rows at any attitude, in sigmas of a block mean
   double gravity_mps2 = 0.0;       ///< what the length felt may be off: `TestLimits::gravity` sigmas, and acceleration
   TestLimits limits;
 };

@@ -115,6 +115,7 @@ void lead(Pipe& pipe, Setup& setup, Rows& rows, Uncertainty& uncertainty) noexce
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(RowUncertainty::packed_size(n)); ++k)
     pipe(uncertainty.covariance[k]);
+  pipe(uncertainty.common_scale);
   pipe(setup.gravity);
   pipe(setup.config);
   pipe(setup.output_frame);
