@@ -6,7 +6,7 @@
 
    Verdicts. Any block may be clean, short of clean, alarming, off gravity or no evidence at all (motion, heat, age),
    whatever is wrong: nothing is assumed about detection. Accusations obey the soundness theorem (T5, proofs/coq): at the
-   confirmed grade nobody healthy throughout the episode is accused; at the provisional grade nobody while four are healthy,
+   confirmed grade nobody healthy throughout the episode is suspected; at the provisional grade nobody while four are healthy,
    and beyond that anybody may be. MOVING weakens it to "healthy at this block", the wording that a moving fault
    defeats; the model must then find the run that excludes a healthy sensor.
 
@@ -44,7 +44,7 @@ inline pick(universe, set) {
   :: i < SENSORS ->
        if
        :: skip
-       :: HAS(universe, i) && (HAS(rep | APART(ever) | APART(accused) | APART(lost), i) || (i > 0 && HAS(set, i - 1))) ->
+       :: HAS(universe, i) && (HAS(rep | APART(ever) | APART(suspected) | APART(lost), i) || (i > 0 && HAS(set, i - 1))) ->
             set = set | (1 << i)
        fi;
        i++
@@ -55,13 +55,13 @@ inline pick(universe, set) {
 #define ACCUSES (mode == NOMINAL || mode == ISOLATED || mode == SUSPECT || mode == RECALIBRATING)
 /* What is on record of an episode in these modes is forgotten before it can matter. */
 #define RECORDS (mode != FAILED && mode != INITIAL)
-#define HEALTHY_THROUGHOUT COUNT(POSED & ~ever)
+#define HEALTHY_THROUGHOUT COUNT(MONITORED & ~ever)
 #ifdef MOVING
 #define SOUND_STRICT 1
-#define ACCUSABLE ((HEALTHY_THROUGHOUT >= 3) -> (POSED & ever) : POSED)
+#define ACCUSABLE ((HEALTHY_THROUGHOUT >= 3) -> (MONITORED & ever) : MONITORED)
 #else
 #define SOUND_STRICT HEALTHY_THROUGHOUT >= 3
-#define ACCUSABLE (POSED & ever)
+#define ACCUSABLE (MONITORED & ever)
 #endif
 /* All that has been the matter with a sensor in this run and has left a trace. */
 #define TOUCHED (ever | out | absent | readmitted)
@@ -94,9 +94,9 @@ inline block_kind() {
 
 /* How many sensors are wrong at once never exceeds the bound. */
 inline onset() {
-  pick(POSED & ~ever, wrong);
+  pick(MONITORED & ~ever, wrong);
 #ifdef MOVING
-  if :: COUNT(POSED & ~wrong) >= 3 || wrong == 0 -> ever = ever | wrong :: else -> wrong = 0 fi
+  if :: COUNT(MONITORED & ~wrong) >= 3 || wrong == 0 -> ever = ever | wrong :: else -> wrong = 0 fi
 #else
   if
   :: HEALTHY_THROUGHOUT - COUNT(wrong) >= 3 && COUNT(TOUCHED | wrong) <= MOST_FAULTS -> ever = ever | wrong
@@ -106,21 +106,21 @@ inline onset() {
 }
 
 /* Without a sensor to spare, or with fewer than three left, nobody is convicted. */
-#define ANSWERABLE (accused != 0 && COUNT(POSED) >= 4 && COUNT(POSED & ~accused) >= 3)
+#define ANSWERABLE (suspected != 0 && COUNT(MONITORED) >= 4 && COUNT(MONITORED & ~suspected) >= 3)
 
 inline ballot() {
   if
-  :: regime == FAULTY -> ever = ever | (broken & POSED); culprits = broken & POSED & ~accused; wrong = 0
+  :: regime == FAULTY -> ever = ever | (broken & MONITORED); isolated = broken & MONITORED & ~suspected; wrong = 0
   :: else ->
-       if :: COUNT(POSED) >= 4 && SOUND_STRICT && regime != VIOLATED -> among = ACCUSABLE; pick(among & ~accused, culprits); among = 0
-          :: else -> culprits = 0
+       if :: COUNT(MONITORED) >= 4 && SOUND_STRICT && regime != VIOLATED -> among = ACCUSABLE; pick(among & ~suspected, isolated); among = 0
+          :: else -> isolated = 0
        fi
   fi;
   if
-  :: culprits != 0 && COUNT(POSED & ~(accused | culprits)) >= 3 -> accused = accused | culprits; standing = 0; agree = 0
+  :: isolated != 0 && COUNT(MONITORED & ~(suspected | isolated)) >= 3 -> suspected = suspected | isolated; standing = 0; agree = 0
   :: else
   fi;
-  culprits = 0;
+  isolated = 0;
   if
   :: !ANSWERABLE -> standing = 0; agree = 0
   :: ANSWERABLE && standing
@@ -193,17 +193,17 @@ inline quiet_block() {
   if :: kind == CLEAN && not_yet_validated && clean_run + 1 >= R_BLOCKS && excited -> if :: shows = 1 :: regime == FREE -> shows = 0 fi :: else fi;
   if :: vote -> ballot() :: else fi;
   if
-  :: kind == ALARMING && COUNT(POSED) >= 4 && regime != FAULTY && !standing -> if :: result = 1 :: result = 0 fi
+  :: kind == ALARMING && COUNT(MONITORED) >= 4 && regime != FAULTY && !standing -> if :: result = 1 :: result = 0 fi
   :: else
   fi;
   if :: RECORDS -> count_doubt() :: else fi;
   count_clean();
   if
-  :: ACCUSES && open && standing && agree >= NEEDED -> culprits = accused; raised = raised | BIT(EXCLUSION)
+  :: ACCUSES && open && standing && agree >= NEEDED -> isolated = suspected; raised = raised | BIT(EXCLUSION)
   :: else
   fi;
   if
-  :: ACCUSES && open && kind == ALARMING && COUNT(POSED) >= 5 && (regime == FREE || regime == DOUBTING) &&
+  :: ACCUSES && open && kind == ALARMING && COUNT(MONITORED) >= 5 && (regime == FREE || regime == DOUBTING) &&
      result == 0 && !(lost | back) ->
        among = (SOUND_PARITY -> serving & ever : serving);
        pick(among, to_aside); among = 0;

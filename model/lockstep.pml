@@ -38,7 +38,7 @@ inline run_code() {
   c_code {
     S.not_yet_validated = now.not_yet_validated; S.timed_out = now.timed_out; S.clean_run = now.clean_run;
     I.raised = now.raised;
-    I.culprits = now.culprits; I.accused = now.to_aside; I.lost = now.lost; I.back = now.back;
+    I.isolated = now.isolated; I.suspected = now.to_aside; I.lost = now.lost; I.back = now.back;
     I.proven = now.proven; I.reset = now.named;
     I.protection_within = now.within; I.passed_blocks = R_BLOCKS; I.sensors = SENSORS;
     /* What recalibrating was entered from must be read in recalibrating alone: elsewhere another value changes nothing. */
@@ -72,9 +72,9 @@ inline compare() {
 }
 
 inline tidy() {
-  raised = 0; culprits = 0; to_aside = 0; lost = 0; back = 0; proven = 0; named = 0; within = 0;
+  raised = 0; isolated = 0; to_aside = 0; lost = 0; back = 0; proven = 0; named = 0; within = 0;
   event = NONE; does = 0; moved = 0; kind = SAMPLE; excited = 0; shows = 0; vote = 0; wrong = 0; result = 0;
-  ever = (open -> ever & POSED : 0);
+  ever = (open -> ever & MONITORED : 0);
   if :: mode != RECALIBRATING -> base = SUSPECT :: else fi;
 #ifdef CODE
   c_code { S.base = now.base; };

@@ -1,13 +1,13 @@
 /* What must hold at every step (assertions, by the names of docs/properties.md) and of every run (claims).
    The values before the step are taken by `look`, those after it are judged by `judge`. */
 
-hidden byte m0_, serving0_, aside0_, out0_, absent0_, readmitted0_, ever0_, accused0_, open0_, run0_, posed0_;
+hidden byte m0_, serving0_, aside0_, out0_, absent0_, readmitted0_, ever0_, suspected0_, open0_, run0_, monitored0_;
 hidden byte unproven0_, fit0_;
 bit alarmed;      /* a block spoke against the tool since the collection of stations began */
 
 inline look() {
-  m0_ = mode; serving0_ = serving; aside0_ = aside; out0_ = out; absent0_ = absent; posed0_ = POSED;
-  readmitted0_ = readmitted; ever0_ = ever; accused0_ = accused; open0_ = open;
+  m0_ = mode; serving0_ = serving; aside0_ = aside; out0_ = out; absent0_ = absent; monitored0_ = MONITORED;
+  readmitted0_ = readmitted; ever0_ = ever; suspected0_ = suspected; open0_ = open;
   run0_ = clean_run; unproven0_ = not_yet_validated; fit0_ = fit;
   if
   :: raised & (BIT(ALARM) | BIT(NO_CONSISTENT_HYPOTHESIS) | BIT(NORM_MISMATCH)) -> alarmed = (mode == RECALIBRATING || mode == INITIAL)
@@ -38,12 +38,12 @@ inline judge() {
   if
   :: event == EXCLUSION ->
        assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, moved))
-  :: event == PROVISIONAL_EXCLUSION && COUNT(posed0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
+  :: event == PROVISIONAL_EXCLUSION && COUNT(monitored0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
   :: else
   fi;
-  /* S6: only the accused, after their stations, and never so that fewer than three are left */
+  /* S6: only the suspected, after their stations, and never so that fewer than three are left */
   if
-  :: event == EXCLUSION -> assert(moved == accused0_ && moved != 0 && open0_ && COUNT(posed0_ & ~moved) >= 3)
+  :: event == EXCLUSION -> assert(moved == suspected0_ && moved != 0 && open0_ && COUNT(monitored0_ & ~moved) >= 3)
   :: else
   fi;
   /* S6, S7: nobody leaves the service but by a culprit, a set-aside, a silence */
@@ -69,8 +69,8 @@ inline judge() {
   assert(event != ISOLATION_TIMEOUT || m0_ != SUSPECT || (within -> (mode == SUSPECT && timed_out) : mode == FAILED));
   /* In failed the qualifier tells a failure by patience from one by what is left. */
   assert(mode != FAILED || m0_ == FAILED || timed_out == (event == ISOLATION_TIMEOUT));
-  /* S14: within an episode the accused only grow, but for those that are gone, and for a sensor that joined */
-  assert(!(open0_ && open) || CAME_BACK & ~posed0_ || WITHIN(accused0_ & POSED, accused));
+  /* S14: within an episode the suspected only grow, but for those that are gone, and for a sensor that joined */
+  assert(!(open0_ && open) || CAME_BACK & ~monitored0_ || WITHIN(suspected0_ & MONITORED, suspected));
   /* S15: a step that changes something has an event to record */
   assert(!CHANGED || event != NONE);
   /* S16: an alarm ends recalibration, and nothing collected outlives it */

@@ -214,8 +214,8 @@ byte clean_run;
 
 /* the evidence on record */
 bit open;                /* an episode: an alarm is on record */
-byte accused;            /* in every live fault set of the confirmed grade: the complement of what live sets contain */
-bit standing;            /* the survivors are alive together, so the accused are the answer */
+byte suspected;            /* in every live fault set of the confirmed grade: the complement of what live sets contain */
+bit standing;            /* the survivors are alive together, so the suspected are the answer */
 byte agree;              /* stations at which that answer stood */
 byte doubt;              /* stations in doubt */
 byte most;               /* sensors at most that the answer and those set aside came to in this episode */
@@ -229,8 +229,8 @@ byte suspicion;          /* what the suspicion is about: */
 bit fit;                 /* stations held out of the fit were clean */
 bit held;                /* no evidence for good */
 
-#define POSED (serving | aside)
-#define SUSPECTED COUNT((standing -> accused : 0) | aside)
+#define MONITORED (serving | aside)
+#define SUSPECTED COUNT((standing -> suspected : 0) | aside)
 /* Stations in doubt that an episode has left before the isolation timeout is over: (n + 1) P at first. */
 #define TO_GO ((SENSORS - most) * P_STATIONS + P_STATIONS - doubt)
 #define PUBLISHES(m) ((m) == NOMINAL || (m) == ISOLATED || (m) == DEGRADED)
@@ -241,7 +241,7 @@ bit held;                /* no evidence for good */
 /* --- One step of the machine: the first event in rank order that the mode neither ignores nor holds. ------------ */
 
 short raised;
-byte culprits, to_aside, lost, back, proven, named;
+byte isolated, to_aside, lost, back, proven, named;
 bit within;              /* the doubt has a bound within the alert limit, or an explanation that the rest corroborates */
 byte event;
 short does;              /* the actions of the cell taken */
@@ -264,7 +264,7 @@ inline move_sensors() {
   moved = 0;
   if
   :: does & EXCLUDE ->
-       moved = culprits;
+       moved = isolated;
 #ifdef OLD_BAN  /* who was set aside after a return was latched out with the next convicted: S1 falls */
        out = out | moved | (aside & readmitted);
        serving = (serving | (aside & ~readmitted)) & ~moved;
@@ -324,11 +324,11 @@ inline lead() {
   fi
 }
 
-hidden byte was_, in_was_, posed_was_;
+hidden byte was_, in_was_, monitored_was_;
 
 inline machine() {
   rank();
-  was_ = mode; in_was_ = serving; posed_was_ = POSED;
+  was_ = mode; in_was_ = serving; monitored_was_ = MONITORED;
   move_sensors();
   if :: does & START_FIT -> base = was_ :: else fi;
   if :: does & DISTRUST -> not_yet_validated = 1 :: else fi;
@@ -347,7 +347,7 @@ inline machine() {
 /* --- What the step means for the evidence on record. ------------------------------------------------------------- */
 
 inline forget_episode() {
-  open = 0; accused = 0; standing = 0; agree = 0; doubt = 0; most = 0; clean_stations = 0
+  open = 0; suspected = 0; standing = 0; agree = 0; doubt = 0; most = 0; clean_stations = 0
 }
 
 inline follow() {
@@ -355,11 +355,11 @@ inline follow() {
   :: does & (EXCLUDE | RETURN_NAMED | ADOPT_FIT) -> forget_episode()
   :: else ->
        if
-       :: POSED != posed_was_ ->              /* another question: the answer does not carry over */
+       :: MONITORED != monitored_was_ ->              /* another question: the answer does not carry over */
             standing = 0; agree = 0;
             if
-            :: POSED & ~posed_was_ -> accused = 0      /* a sensor joined: all lives again */
-            :: else -> accused = accused & POSED       /* lost: what died among the rest stays dead */
+            :: MONITORED & ~monitored_was_ -> suspected = 0      /* a sensor joined: all lives again */
+            :: else -> suspected = suspected & MONITORED       /* lost: what died among the rest stays dead */
             fi
        :: else
        fi
@@ -395,4 +395,4 @@ inline follow() {
 
 #define PATIENCE_ENDS ((mode == SUSPECT || mode == RECALIBRATING) && doubt >= P_STATIONS)
 
-#define NEEDED ((COUNT(POSED & ~accused) <= 3 && E_STATIONS < 2) -> 2 : E_STATIONS)
+#define NEEDED ((COUNT(MONITORED & ~suspected) <= 3 && E_STATIONS < 2) -> 2 : E_STATIONS)

@@ -8,7 +8,7 @@
 extern int readtrail; /* of pan.c: a trail is being replayed */
 
 #define PLUMB_MASKS(use) \
-  use(serving) use(aside) use(out) use(absent) use(readmitted) use(ever) use(accused) use(probation) use(broken)
+  use(serving) use(aside) use(out) use(absent) use(readmitted) use(ever) use(suspected) use(probation) use(broken)
 
 static int plumb_order[8];
 static int plumb_names[8] = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -92,7 +92,7 @@ static void plumb_tell(void) {
   if (!readtrail) return;
   printf("| %3d  %s%s", ++step, plumb_kinds[now.kind], now.kind >= 2 && now.excited ? " at a new attitude" : "");
   plumb_set("; wrong in this episode:", ever0_);
-  plumb_set("; accused:", accused0_);
+  plumb_set("; suspected:", suspected0_);
   printf("\n|      %s", plumb_events[now.event]);
   plumb_set(":", now.moved);
   if (m0_ != now.mode)

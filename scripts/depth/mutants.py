@@ -179,18 +179,18 @@ class Finder:
 
 
 def sources(root, arguments):
-    """The decision code and the isolation rule: of `diagnosis.cpp` what turns answers at several attitudes into culprits."""
+    """The decision code and the isolation rule: of `diagnosis.cpp` what turns answers at several attitudes into isolated sensors."""
     header = ["-x", "c++", *arguments]
     sources = {
         "src/health/decision.cpp": None,
         "src/health/serve_event.cpp": None,
-        "src/health/diagnosis.cpp": {"vote", "is_vote_due", "accuse", "convicted_by_scatter", "note_accusation",
-                                     "culprits", "witnesses"},
+        "src/health/diagnosis.cpp": {"vote", "is_vote_due", "suspect", "isolated_by_scatter", "note_suspicion",
+                                     "isolated", "corroborating"},
         "src/detection/isolation.cpp": None,
         "src/detection/norm_mismatch_doubt.cpp": None,
         "include/plumb/health/detail/decision.hpp": {"decide"},
         "include/plumb/health/transition_table.hpp": {"bit", "first_taken", "mode_by_size", "resolve"},
-        "include/plumb/detection/isolation.hpp": {"is_dead", "kill"},
+        "include/plumb/detection/isolation.hpp": {"is_rejected", "reject"},
         "include/plumb/detection/detail/norm_mismatch_doubt.hpp": {"index_of", "refuted"},
     }
     out = []

@@ -62,7 +62,7 @@ bool may_be_healthy(SensorSet set, const SetTest& t, const TestLimits& limits,
 }  // namespace
 
 void Isolation::clear() noexcept {
-  dead_.fill(0);
+  rejected_.fill(0);
   claims_.clear();
 }
 
@@ -97,23 +97,23 @@ int Isolation::live() const noexcept {
   int count = 0;
   if (strict_ < 1) return count;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (monitored_.contains(s) && !is_dead(index)) ++count;
+    if (monitored_.contains(s) && !is_rejected(index)) ++count;
   });
   return count;
 }
 
-bool Isolation::any_dead() const noexcept {
+bool Isolation::any_rejected() const noexcept {
   std::uint64_t any = 0;
-  for (const std::uint64_t word : dead_) any |= word;
+  for (const std::uint64_t word : rejected_) any |= word;
   return any != 0;
 }
 
-bool Isolation::has_dead_subset(SensorSet set) const noexcept {
+bool Isolation::has_rejected_subset(SensorSet set) const noexcept {
   if (strict_ < 1) return false;
   const SensorSet all = SensorSet::first(universe_);
   int index = 0;
   for (SensorSet s = SensorSet::first(voting_size_); all.contains(s); s = next_of_same_size(s), ++index) {
-    if (is_dead(index) && set.contains(s)) return true;
+    if (is_rejected(index) && set.contains(s)) return true;
   }
   return false;
 }
@@ -153,12 +153,12 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet corroborating
   out.norm_void = doubt.any();
   out.parity = exclude_by_parity(tests, corroborating);
   const auto consistent_here = [&](SensorSet s) { return may_be_healthy(s, tests.of(s), limits, doubt); };
-  out.full_alive = (!any_dead() || !has_dead_subset(monitored_)) && consistent_here(monitored_);
+  out.full_consistent = (!any_rejected() || !has_rejected_subset(monitored_)) && consistent_here(monitored_);
   if (strict_ < 1) return out;
 
   SensorSet innocent;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (!monitored_.contains(s) || is_dead(index)) return;
+    if (!monitored_.contains(s) || is_rejected(index)) return;
     if (!corroborating.contains(s) || consistent_here(s)) {
       innocent = innocent | s;
       ++out.live;
@@ -266,13 +266,13 @@ void note_explanation(const Hypothesis& h, FaultSetScan& out) noexcept {
 }  // namespace
 
 Isolation::Grounds Isolation::grounds(const BlockTests& tests) const noexcept {
-  return {recall_doubt(tests, panel_of(tests), claims_), any_dead()};
+  return {recall_doubt(tests, panel_of(tests), claims_), any_rejected()};
 }
 
 bool Isolation::explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest,
                          const SetTest& test) const noexcept {
   return test.tested && may_be_healthy(rest, test, limits, grounds.doubt) &&
-         (!grounds.rejections || !has_dead_subset(rest));
+         (!grounds.rejections || !has_rejected_subset(rest));
 }
 
 FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,

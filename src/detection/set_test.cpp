@@ -212,7 +212,7 @@ TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejecti
     limits.parity_alarm[static_cast<size_t>(nu)] = std::sqrt(chi2_tail_quantile(false_alarm_rate, nu));
   }
   limits.norm_alarm = limits.parity_alarm[1];
-  limits.calibration = std::sqrt(chi2_tail_quantile(0.01, 4 * n - 3));
+  limits.calibration = std::sqrt(chi2_tail_quantile(2.0 * kBeyond, 4 * n - 3));
   limits.parity_calibration = parity_factor(n - 3);
   limits.norm_calibration = std::sqrt(chi2_tail_quantile(kBeyond, kNormHarmonics));
   limits.acceleration_mps2 = acceleration_mps2;
@@ -301,10 +301,9 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + block.motion_mps2 + limits.acceleration_mps2;
   const double scaled_by = uncertainty != nullptr ? uncertainty->common_scale * gravity.g_mps2 : 0.0;
   const double reference = (TestLimits::gravity * (gravity.sigma_mps2 + scaled_by) + moved) / sigma_norm;
-  const double norm = limits.norm_calibration * cal.norm;
   out.parity_systematic = root_n * (limits.parity_calibration * cal.parity + drift.parity);
-  out.norm_systematic = root_n * (norm + drift.norm + reference);
-  const double both = out.parity_rows > 0 ? limits.calibration * cal.both : norm;
+  out.norm_systematic = root_n * (limits.norm_calibration * cal.norm + drift.norm + reference);
+  const double both = out.parity_rows > 0 ? limits.calibration * cal.both : limits.norm_calibration * cal.norm;
   out.systematic = root_n * (both + drift.both + reference);
 }
 

@@ -19,10 +19,10 @@ using std::size_t;
 /// deviation stated a tenth of what it is gives 30 to 100.
 constexpr double kConsistent = 6.0;
 /// Who speaks against others has to agree better: one set in many does so by chance.
-constexpr double kVouching = 4.0;
+constexpr double kCorroborating = 4.0;
 /// More faults than this at once are rarer than a wrong covariance: they have to explain what is on record all the
 /// better.
-constexpr double kVouchingFew = 2.5;
+constexpr double kCorroboratingFew = 2.5;
 /// Arrays of up to so many sensors are searched for every fault set of their grade.
 constexpr int kSearched = 8;
 /// Sets tested at an attitude in one block of the search: less work than a vote of eight sensors.
@@ -31,7 +31,7 @@ constexpr int kTestsPerBlock = 150;
 constexpr int kLeastDegrees = 6;
 /// Attitudes below which nobody is excluded, however many degrees of freedom they have: of many sensors there are many
 /// sets that might be innocent by chance.
-constexpr int kLeastVouching = 4;
+constexpr int kLeastCorroborating = 4;
 /// What is learned explains its own attitudes to the noise, and leaves as much again for others.
 constexpr double kExplained = 1.5;
 constexpr double kLearnedFactor = 2.0;
@@ -164,7 +164,7 @@ bool CalibrationCheck::corroborates(const Terms& terms, SensorSet monitored, Sen
   const Fit rest = fit(terms, set, 0.0);
   // A calibration that has been corroborated is believed until there is enough on record to say otherwise.
   if (rest.degrees < kLeastDegrees) return corroborated_;
-  if ((!corroborated_ && rest.attitudes < kLeastVouching) || !rest.within(kVouching)) return false;
+  if ((!corroborated_ && rest.attitudes < kLeastCorroborating) || !rest.within(kCorroborating)) return false;
   // Were all sensors off by what they are together, and the rest of them by chance no more than this?
   const Fit all = fit(terms, monitored, 0.0);
   const double ratio = std::fmax(rest.sum / rest.degrees, 1.0) / std::fmax(all.sum / all.degrees, 1.0);
@@ -224,7 +224,7 @@ double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet moni
 
 bool CalibrationCheck::explained_without(const Terms& terms, SensorSet monitored, SensorSet faulty,
                                          int& tests) const noexcept {
-  const double most = faulty.size() > kScanDepth ? kVouchingFew : kVouching;
+  const double most = faulty.size() > kScanDepth ? kCorroboratingFew : kCorroborating;
   const Fit rest = fit(terms, monitored - faulty, 0.0, most);
   tests += rest.tests;
   // Too few attitudes at which the rest delivered refute nothing.

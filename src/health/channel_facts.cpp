@@ -41,6 +41,7 @@ void ChannelFacts::note_stuck(const Terms& terms, const BlockEvidence& evidence,
     const auto a = static_cast<size_t>(i);
     if (!asked.has(i)) continue;
     const double now = predicted(terms, i, evidence);
+    if (!std::isfinite(now)) continue;  // the others do not determine it in this block
     if (!stuck_watch_.has(i)) {
       stuck_since_[a] = now;
       stuck_watch_ = stuck_watch_.with(i);

@@ -65,11 +65,12 @@ void Diagnosis::spend_asserted(int faults) noexcept {
   if (asserted_left_ > 0) asserted_left_ -= std::min(faults, asserted_left_);
 }
 
-void Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcept {
+bool Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcept {
   // Nobody is suspected by a datasheet.
-  if (report.kind != BlockReport::Kind::alarm || episode_.open || !calibrated) return;
+  if (report.kind != BlockReport::Kind::alarm || episode_.open || !calibrated) return false;
   episode_.open = true;
   station_.clear();
+  return true;
 }
 
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
@@ -118,7 +119,7 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
 /// What scatters may be all that shows of a movement: the confirmed grade bears so many faulty ones that hang that the
 /// calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing. But a
 /// sensor that alone scatters, whichever others are doubted, while these agree, is the answer of this station by that.
-SensorSet Diagnosis::convicted_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
+SensorSet Diagnosis::isolated_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
   const SensorSet noisy = terms.facts.noisy();
   if (noisy.size() != 1 || isolation_.confirmed_grade() < 1) return {};
   const bool checked = isolation_.provisional_grade() >= 1;
@@ -135,7 +136,7 @@ SensorSet Diagnosis::convicted_by_scatter(const Terms& terms, const BlockTests& 
 Diagnosis::Suspicion Diagnosis::suspect(const Terms& terms, const BlockTests& tests,
                                         const IsolationAnswer& voted) const noexcept {
   if (!voted.strict.empty()) return {voted.strict, false};
-  const SensorSet scatters = convicted_by_scatter(terms, tests);
+  const SensorSet scatters = isolated_by_scatter(terms, tests);
   return {scatters, !scatters.empty()};
 }
 

@@ -275,7 +275,7 @@ EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTe
   MonitorState& s = state_;
   Diagnosis& d = s.diagnosis;
   const Diagnosis::Terms terms = s.diagnosis_terms();
-  d.follow_alarm(report, !s.in_force.owes_calibration());
+  if (d.follow_alarm(report, !s.in_force.owes_calibration())) s.requests.alarm_notice = report.cause;
   d.follow_station(terms, tests, report, sample.station);
   if (d.episode().open && report.kind != Kind::reference) d.vote(terms, tests);
   d.count_doubt(terms, report);

@@ -125,6 +125,7 @@ void HealthMonitor::record(HealthEvent event, Mode from, Cause cause, SensorSet 
   out.sensors = named;
   out.statistic = s.last.statistic;
   out.limit = s.last.limit;
+  s.requests.alarm_notice = Cause::none;  // what opened an episode has led to this, or is less than it
   if (event != HealthEvent::fit_rejected) return;
   const Error refusal = s.recalibration.progress(s.in_force.array).last_refusal;
   out.statistic = refusal.value;
@@ -135,7 +136,12 @@ void HealthMonitor::record(HealthEvent event, Mode from, Cause cause, SensorSet 
 void HealthMonitor::give_notice(double time_s) noexcept {
   Requests& asked = state_.requests;
   Cause cause = Cause::none;
-  if (asked.inhibit_notice) {
+  HealthEvent event = HealthEvent::none;
+  if (asked.alarm_notice != Cause::none) {
+    cause = asked.alarm_notice;
+    event = HealthEvent::alarm;
+    asked.alarm_notice = Cause::none;
+  } else if (asked.inhibit_notice) {
     cause = asked.inhibited ? Cause::inhibited : Cause::released;
     asked.inhibit_notice = false;
   } else if (asked.calibration_notice) {
@@ -150,6 +156,7 @@ void HealthMonitor::give_notice(double time_s) noexcept {
   out.sequence = ++asked.sequence;
   out.time_s = time_s;
   out.from = out.to = state_of(state_.machine.mode);
+  out.event = event;
   out.cause = cause;
   out.statistic = state_.last.statistic;
   out.limit = state_.last.limit;

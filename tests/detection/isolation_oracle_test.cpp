@@ -145,7 +145,7 @@ struct Rule {
     };
     out.norm_void = !doubted.sets.empty();
     out.parity = by_parity(tests, corroborating);
-    out.full_alive = !died(monitored) && consistent(monitored);
+    out.full_consistent = !died(monitored) && consistent(monitored);
     if (strict() < 1) return out;
     SensorSet innocent;
     for (const SensorSet s : subsets(monitored, size, size)) {
@@ -330,7 +330,7 @@ void expect_same(const IsolationAnswer& code, const IsolationAnswer& rule) {
   EXPECT_EQ(code.voting, rule.voting);
   EXPECT_EQ(code.no_consistent_hypothesis, rule.no_consistent_hypothesis);
   EXPECT_EQ(code.norm_void, rule.norm_void);
-  EXPECT_EQ(code.full_alive, rule.full_alive);
+  EXPECT_EQ(code.full_consistent, rule.full_consistent);
 }
 
 void play(const SensorArray& array, std::uint64_t seed, int stations) {

@@ -60,7 +60,7 @@ TEST(Isolation, OneStationIsolatesTheFaultOfAFiveSensorConeByParityAlone) {
   fault[3] = 0.5;
   const IsolationAnswer answer = c.isolation.vote({c.array, kGravity, c.limits, c.block({0.6, 0.0, 0.8}, fault)});
   EXPECT_EQ(answer.parity, SensorSet::of(3));
-  EXPECT_FALSE(answer.full_alive);
+  EXPECT_FALSE(answer.full_consistent);
 }
 
 // Negative: REQ-070

@@ -249,6 +249,25 @@ TEST(ChannelFacts, RefusedTimesGapsAndHeatAreCounted) {
   EXPECT_EQ(rig.monitor.counters().samples, rig.monitor.verdict().sample);
 }
 
+/// The watch begins in a block in which the others do not determine the sensor; it must begin anew where they do.
+// Verifies: REQ-144
+TEST(ChannelFacts, AStuckChannelIsToldThoughAnotherWasSilentAsTheWatchBegan) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const double held = dot(rig.setup.array.axis(1), direction_at(100, 340)) * kG0_mps2;
+  rig.distort = [held](int i, double r, int) { return i == 1 ? held : r; };
+  rig.stay(direction_at(100, 340));
+  for (int k = 0; k < rig.setup.config.window; ++k) {
+    Sample s = rig.sample(direction_at(100, 340), kG0_mps2);
+    if (k % 3 != 0) s.delivered = s.delivered.without(3);
+    rig.step(s);
+  }
+  EXPECT_TRUE(rig.monitor.verdict().stuck.empty());
+  rig.stay(direction_at(100, 340), 2);
+  rig.stay(direction_at(40, 100), 2);
+  EXPECT_EQ(rig.monitor.verdict().stuck, SensorSet::of(1));
+}
+
 // Negative: REQ-149
 TEST(ChannelFacts, AHealthyRunCountsNothing) {
   Rig rig(plumb_test::tetrahedron());

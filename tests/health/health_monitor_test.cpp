@@ -35,6 +35,35 @@ TEST(HealthMonitor, StartsUnvalidatedAndIsValidatedOnlyByAChangeOfAttitude) {
   EXPECT_LT(angle_between_rad(v.gravity_mps2, direction_at(100, 340)), 1e-3);
 }
 
+/// One sensor is off from power-on: nothing changes state, and yet the first alarm is on record, once.
+// Verifies: REQ-101
+TEST(HealthMonitor, TheFirstAlarmBeforeValidationIsOnRecord) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.5 : r; };
+  rig.stay(direction_at(40, 30), 12);
+  ASSERT_EQ(rig.monitor.verdict().state, HealthState::suspect);
+  ASSERT_EQ(rig.records.size(), 1U);
+  const TransitionRecord& first = rig.records.front();
+  EXPECT_EQ(first.event, HealthEvent::alarm);
+  EXPECT_EQ(first.cause, Cause::parity);
+  EXPECT_EQ(first.sequence, 1U);
+  EXPECT_TRUE(first.from == HealthState::suspect && first.to == HealthState::suspect);
+  EXPECT_GT(first.statistic, first.limit);
+}
+
+/// An alarm that changes the state is one record, not two.
+// Negative: REQ-101
+TEST(HealthMonitor, AnAlarmThatChangesTheStateIsRecordedOnce) {
+  Rig rig(plumb_test::tetrahedron());
+  rig.prove();
+  const std::size_t before = rig.records.size();
+  rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.5 : r; };
+  rig.stay(direction_at(45, 200), 10);
+  ASSERT_EQ(rig.records.size(), before + 1);
+  EXPECT_EQ(rig.records.back().event, HealthEvent::alarm);
+  EXPECT_EQ(rig.records.back().to, HealthState::suspect);
+}
+
 // Verifies: REQ-094
 TEST(HealthMonitor, NothingIsSaidBeforeTheFirstBlock) {
   Rig rig(plumb_test::tetrahedron());

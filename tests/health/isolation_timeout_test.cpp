@@ -100,7 +100,7 @@ RC_GTEST_PROP(IsolationTimeoutLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
   const bool counts_blocks = *rc::gen::arbitrary<bool>();
   if (counts_blocks) config.isolation_timeout_blocks = *rc::gen::inRange(2, 7);
   Held held(n == 3 ? triad() : n == 4 ? plumb_test::tetrahedron() : plumb_test::cone_array(n), config);
-  int in_suspect = 0, unbounded = 0, in_doubt = 0, without = 0;
+  int unbounded = 0, in_doubt = 0, without = 0;
   SensorSet in_service;
   for (int k = 0; k < 72; ++k) {
     const int kind = *rc::gen::inRange(0, 3);
@@ -108,12 +108,11 @@ RC_GTEST_PROP(IsolationTimeoutLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
     if (v.state == HealthState::failed) break;
     const bool began = v.state != HealthState::suspect || v.in_service != in_service;  // who is out is an answer, too
     in_service = v.in_service;
-    in_suspect = began ? 0 : in_suspect + 1;
     in_doubt = began ? 0 : in_doubt + (kind == 0 ? 0 : 1);
     const bool bounded = v.protection_available && v.protection_level_rad <= config.alert_limit_rad;
     unbounded = bounded ? 0 : unbounded + 1;
     without = bounded || is_isolable(held.rig.setup.array, v) ? 0 : without + 1;
-    RC_ASSERT(in_suspect < (n + 1) * config.isolation_timeout || without < config.passed_blocks);
+    RC_ASSERT(in_doubt < (n + 1) * config.isolation_timeout || without < config.passed_blocks);
     const int most = (n + 1) * config.isolation_timeout_blocks + config.passed_blocks;
     RC_ASSERT(!counts_blocks || in_doubt < most || unbounded < config.passed_blocks);
   }

@@ -74,7 +74,7 @@ struct TrialTool {
   plumb::Readings offset_mps2{};
 
   void pose() {
-    limits = plumb::TestLimits::from_rates(array.size(), 1e-5, 1e-6);
+    limits = plumb::TestLimits::from_rates(array.size(), 1e-5, 1e-6).of(array);
     monitored.pose(array, array.all());
   }
 };

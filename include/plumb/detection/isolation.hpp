@@ -36,14 +36,14 @@ struct IsolationAnswer {
   int live = 0;        ///< voting sets still consistent
   int voting = 0;      ///< voting sets in all
   bool no_consistent_hypothesis = false;  ///< some sensor is redundant and no voting set is consistent
-  bool norm_void = false;   ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
-  bool full_alive = false;  ///< the empty fault set still explains everything
+  bool norm_void = false;  ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
+  bool full_consistent = false;  ///< the empty fault set still explains everything
 
   static constexpr auto fields() noexcept {
     using A = IsolationAnswer;
     return field_list(&A::strict, &A::parity, &A::asserted, within(&A::live, 0, kVotingCapacity),
                       within(&A::voting, 0, kVotingCapacity), &A::no_consistent_hypothesis, &A::norm_void,
-                      &A::full_alive);
+                      &A::full_consistent);
   }
 };
 
@@ -81,7 +81,7 @@ class Isolation {
   int confirmed_grade() const noexcept { return strict_; }
   int provisional_grade() const noexcept { return parity_; }
 
-  /// One station's pooled block: kills what it contradicts and answers. Sets with a member that is not
+  /// One station's pooled block: rejects what it contradicts and answers. Sets with a member that is not
   /// usable are not tested and stay consistent, and so do those with a member outside `corroborating`: what a sensor
   /// that scatters beyond its noise reads on average may be noise, or motion that faulty ones hide by hanging.
   IsolationAnswer vote(const BlockTests& tests, SensorSet corroborating = SensorSet::first(kCapacity)) noexcept;
@@ -106,15 +106,15 @@ class Isolation {
   int voting() const noexcept { return voting_; }
 
  private:
-  bool is_dead(int index) const noexcept {
-    return ((dead_[static_cast<std::size_t>(index) / 64U] >> (static_cast<unsigned>(index) % 64U)) & 1U) != 0;
+  bool is_rejected(int index) const noexcept {
+    return ((rejected_[static_cast<std::size_t>(index) / 64U] >> (static_cast<unsigned>(index) % 64U)) & 1U) != 0;
   }
   void reject(int index) noexcept {
-    dead_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
+    rejected_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
   }
   void resume(const SensorArray& array, SensorSet monitored, int coplanarity) noexcept;
-  bool any_dead() const noexcept;
-  bool has_dead_subset(SensorSet set) const noexcept;
+  bool any_rejected() const noexcept;
+  bool has_rejected_subset(SensorSet set) const noexcept;
   /// Who is asked about gravity.
   ReferencePanel panel_of(const BlockTests& tests) const noexcept {
     return {monitored_, monitored_ & tests.block().usable, universe_, coplanarity_};
@@ -129,7 +129,7 @@ class Isolation {
   bool explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest, const SetTest& test) const noexcept;
   SensorSet exclude_by_parity(const BlockTests& tests, SensorSet corroborating) const noexcept;
 
-  std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> dead_{};
+  std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> rejected_{};
   ReferenceClaims claims_;
   SensorSet monitored_;
   int voting_ = 0;               ///< voting sets within the monitored sensors
@@ -142,7 +142,7 @@ class Isolation {
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using I = Isolation;
-    return field_list(&I::dead_, &I::claims_, not_stored(&I::monitored_), not_stored(&I::voting_),
+    return field_list(&I::rejected_, &I::claims_, not_stored(&I::monitored_), not_stored(&I::voting_),
                       not_stored(&I::universe_), not_stored(&I::voting_size_), not_stored(&I::coplanarity_),
                       not_stored(&I::strict_), not_stored(&I::parity_));
   }

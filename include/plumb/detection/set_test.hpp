@@ -52,8 +52,8 @@ struct TestLimits {
   std::array<double, kCapacity + 1> parity_alarm{};  ///< [nu]: the same at the false-alarm rate
   double norm_alarm = 0.0;                           ///< one degree of freedom, false-alarm rate
   /// What 99 of 100 calibrations stay below at every attitude, in standard deviations of what they leave
-  /// (docs/theory.md, section 3.3). Of parity and norm together, of parity alone, of one norm alone; the last two hold
-  /// at the same time.
+  /// (docs/theory.md, section 3.3). Of parity and norm together; of parity alone and of one norm alone, both at the
+  /// same time.
   double calibration = 0.0, parity_calibration = 0.0, norm_calibration = 0.0;
   static constexpr double gravity = 3.0;  ///< sigmas of a gravity reference, where it calibrated and where it is used
   /// A: largest steady acceleration that the host allows for. What the sensors feel is then |g + a|, off G by at most

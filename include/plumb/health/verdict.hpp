@@ -18,8 +18,9 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Written once per change of state or of a mask (property S15). A notice (event none, from = to) records what the host
-/// or the evidence said without changing either: inhibited, released, common scale, common bias.
+/// Written once per change of state or of a mask (property S15). A notice (from = to) records what the host or the
+/// evidence said without changing either: inhibited, released, common scale, common bias (event none), and the first
+/// alarm of an episode where it changes nothing, as before validation (event alarm).
 struct TransitionRecord {
   std::uint32_t sequence = 0;  ///< 1, 2, 3, ... ; 0 = no record in this verdict
   double time_s = 0.0;

@@ -48,7 +48,7 @@ class Diagnosis {
 
   // ---- One block at rest, in this order
   /// An alarm opens an episode: votes are counted from it.
-  void follow_alarm(const BlockReport& report, bool calibrated) noexcept;
+  bool follow_alarm(const BlockReport& report, bool calibrated) noexcept;
   /// The station that the block belongs to, with `tag` as the host gave it.
   void follow_station(const Terms& terms, const BlockTests& tests, const BlockReport& report,
                       std::uint32_t tag) noexcept;
@@ -133,7 +133,7 @@ class Diagnosis {
     bool by_scatter = false;  ///< their own scatter is all that names them
   };
   bool is_vote_due(const BlockTests& tests) const noexcept;
-  SensorSet convicted_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept;
+  SensorSet isolated_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept;
   Suspicion suspect(const Terms& terms, const BlockTests& tests, const IsolationAnswer& voted) const noexcept;
   void note_suspicion(const Terms& terms, const BlockTests& tests, const Suspicion& suspected) noexcept;
   bool is_out_of_stations(const Terms& terms) const noexcept;

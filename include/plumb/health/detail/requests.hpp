@@ -21,23 +21,25 @@ struct Requests {
   bool recalibration_asked = false, recalibration_due = false;  ///< by the host; by the policy, after an exclusion
   bool inhibited = false;                                       ///< as the host left it
   bool inhibit_notice = false, calibration_notice = false;
+  Cause alarm_notice = Cause::none;  ///< of an alarm that opened an episode and is not on record yet
   NormMismatchKind reference_notice = NormMismatchKind::none;
 
   /// Something is to be told though nothing has changed.
   bool has_notice() const noexcept {
-    return inhibit_notice || calibration_notice || reference_notice != NormMismatchKind::none;
+    return inhibit_notice || calibration_notice || alarm_notice != Cause::none ||
+           reference_notice != NormMismatchKind::none;
   }
 
   static constexpr auto core() noexcept {
     using R = Requests;
     return field_list(&R::reset_pending, &R::recalibration_asked, &R::recalibration_due, &R::inhibited,
-                      &R::inhibit_notice, &R::calibration_notice, &R::reference_notice);
+                      &R::inhibit_notice, &R::calibration_notice, &R::alarm_notice, &R::reference_notice);
   }
   static constexpr auto fields() noexcept {
     using R = Requests;
     return field_list(&R::reset_sensors, &R::pending, &R::sequence, &R::reset_pending, &R::recalibration_asked,
                       &R::recalibration_due, &R::inhibited, &R::inhibit_notice, &R::calibration_notice,
-                      up_to(&R::reference_notice, NormMismatchKind::common_bias));
+                      up_to(&R::alarm_notice, kLastCause), up_to(&R::reference_notice, NormMismatchKind::common_bias));
   }
 };
 
