@@ -38,7 +38,7 @@ inline run_code() {
   c_code {
     S.not_yet_validated = now.not_yet_validated; S.timed_out = now.timed_out; S.clean_run = now.clean_run;
     I.raised = now.raised;
-    I.culprits = now.culprits; I.accused = now.to_aside; I.lost = now.lost; I.back = now.back;
+    I.isolated = now.culprits; I.suspected = now.to_aside; I.lost = now.lost; I.back = now.back;
     I.proven = now.proven; I.reset = now.named;
     I.protection_within = now.within; I.passed_blocks = R_BLOCKS; I.sensors = SENSORS;
     /* What recalibrating was entered from must be read in recalibrating alone: elsewhere another value changes nothing. */

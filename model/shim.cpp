@@ -52,8 +52,8 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
 
   DecisionInput in;
   in.raised = input->raised;
-  in.named = {SensorSet(input->culprits), SensorSet(input->accused), SensorSet(input->lost),
-              SensorSet(input->back),     SensorSet(input->proven),  SensorSet(input->reset)};
+  in.named = {SensorSet(input->isolated), SensorSet(input->suspected), SensorSet(input->lost),
+              SensorSet(input->back),     SensorSet(input->proven),    SensorSet(input->reset)};
   in.protection_within = input->protection_within != 0;
   in.calibrated = state->calibrated != 0;
   in.passed_blocks = input->passed_blocks;

@@ -16,7 +16,7 @@ typedef struct {
 
 typedef struct {
   unsigned raised; /* one bit per event */
-  unsigned char culprits, accused, lost, back, proven, reset;
+  unsigned char isolated, suspected, lost, back, proven, reset;
   unsigned char protection_within, passed_blocks, sensors;
 } plumb_model_input;
 

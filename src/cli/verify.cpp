@@ -11,6 +11,7 @@
 #include "plumb/render/plot.hpp"
 #include "plumb/render/verification_exports.hpp"
 #include "plumb/render/verification_page.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "tool.hpp"
 #include "verify_run.hpp"
 

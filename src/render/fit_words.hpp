@@ -31,7 +31,7 @@ std::vector<std::string> coverage_words(const findings::CalibrationRun& run, con
 /// What all scale factors have in common, and what that may mean; empty where there is no fit to show.
 std::string common_scale_words(const findings::CalibrationRun& run);
 
-/// Stations that the fit set aside: "station 7 (31.2 sigma, 98 % of it by a2)", and how many more.
+/// Stations that the fit rejected: "station 7 (31.2 sigma, 98 % of it by a2)", and how many more.
 std::vector<std::string> outlier_words(const findings::CalibrationRun& run, const io::ArrayFile& array);
 
 /// "the samples of a2 scatter by 1 mg0, 5 times the 0.2 mg0 declared".

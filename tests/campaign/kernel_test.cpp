@@ -70,7 +70,7 @@ TEST(CampaignKernel, AScenarioDoesNotRememberTheOneBefore) {
   }
 }
 
-TEST(CampaignKernel, FromPowerOnTheSameHoldsAndTrustComesLater) {
+TEST(CampaignKernel, FromPowerOnTheSameHoldsAndValidationComesLater) {
   CampaignFile file = campaign_from(small_text() + "\n");
   file.plan.start = Start::power_on;
   const auto kernel = kernel_of(file.plan);

@@ -43,7 +43,7 @@ std::string colours(const Json& report) {
 }
 
 // Verifies: REQ-179
-TEST(MonitorReport, ACleanRunEndsGreen) {
+TEST(MonitorReport, ARunWithoutAlarmsEndsGreen) {
   const Workshop shop;
   shop.put("clean.csv", clean_log());
   const Outcome outcome = run(shop, reported("clean.csv"));
