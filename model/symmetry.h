@@ -92,7 +92,7 @@ static void plumb_tell(void) {
   if (!readtrail) return;
   printf("| %3d  %s%s", ++step, plumb_kinds[now.kind], now.kind >= 2 && now.excited ? " at a new attitude" : "");
   plumb_set("; wrong in this episode:", ever0_);
-  plumb_set("; accused:", accused0_);
+  plumb_set("; isolated:", accused0_);
   printf("\n|      %s", plumb_events[now.event]);
   plumb_set(":", now.moved);
   if (m0_ != now.mode)

@@ -94,7 +94,7 @@ void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, Too
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
     const double leverage = 1.0 - dot(array.axis(i), map.column[a]);
-    if (!(leverage > 1e-9)) continue;  // nobody checks this one
+    if (!(leverage > 1e-9)) continue;  // no other sensor checks this one
     tool.detectable_mps2[a] = shift * tool.sigma_mps2[a] / std::sqrt(leverage * monitor.window);
   }
 }

@@ -68,7 +68,7 @@ tl::expected<std::unique_ptr<Kernel>, std::string> make_kernel(const Plan& plan,
   std::vector<bool> served(plan.tools.size(), false);
   for (const Build& build : builds()) {
     if (!build.holds(least_capacity, plan.window)) continue;
-    // A kernel knows its own tools only; the others are left out of its plan by emptying them.
+    // A kernel knows its own tools only; the others are taken out of its plan by emptying them.
     Plan part = plan;
     std::vector<std::size_t> mine;
     for (std::size_t t = 0; t < plan.tools.size(); ++t) {

@@ -1,4 +1,4 @@
-// plumb calibrate: a log of quiet attitudes in, a calibration file out.
+// plumb calibrate: a log of attitudes at rest in, a calibration file out.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -37,7 +37,7 @@ std::vector<std::string> outlier_words(const findings::CalibrationRun& run, cons
 /// "the samples of a2 scatter by 1 mg0, 5 times the 0.2 mg0 declared".
 std::string noise_words(const FitReport& report, const io::ArrayFile& array, int sensor);
 
-/// "a3: its residuals are 2.4 times ...": the sensor that is louder than the others beyond chance; empty where none is.
+/// "a3: its residuals are 2.4 times ...": the sensor of higher variance than the others; empty where none is.
 std::string high_variance_words(const FitReport& report, const io::ArrayFile& array);
 
 /// How surely an inclination is known in itself, and by what.

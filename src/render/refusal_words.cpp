@@ -275,7 +275,7 @@ Refusal reason_of(const std::vector<Finding>& list, const CalibrationRun& run, c
   return out ? *out : other_words(f, run.refusal, array);
 }
 
-/// Columns that are dead: no attitude mends that.
+/// Columns that are stuck: no attitude mends that.
 Refusal dead_columns_words(const std::vector<Finding>& dead, const CalibrationRun& run, const io::ArrayFile& array) {
   std::vector<std::string> words, ids;
   for (const Finding& f : dead) {

@@ -11,7 +11,7 @@ namespace render {
 
 namespace {
 
-/// Samples that are worth one independent one before it is told.
+/// Samples that are worth one independent one before it is reported.
 constexpr double kToldCorrelation = 1.5;
 
 double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }

@@ -125,7 +125,7 @@ std::optional<Refusal> temperature_refusal(const Finding& f, const findings::Cal
 
 namespace {
 
-/// A remark in the report; empty where its line is told elsewhere.
+/// A remark in the report; empty where its line is reported elsewhere.
 std::optional<TemperatureFact> remark_of(const Finding& f, const findings::CalibrationRun& run) {
   switch (f.code) {
     case Code::temperature_follows_inclination:

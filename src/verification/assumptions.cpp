@@ -43,7 +43,7 @@ std::string standstill_words(const UserLimits& limits) {
                     deg_from_rad(limits.acceleration_turn_rad));
 }
 
-/// Beside it: no test tells drift that all sensors share from gravity, and what a limit does not hold is blamed on
+/// Beside it: no test tells drift that all sensors share from gravity, and what a limit does not hold makes suspect
 /// somebody.
 std::string drift_sentence(const UserLimits& limits) {
   return "Drift since the calibration: " + limits.drift +

@@ -1,5 +1,5 @@
 /// What waits for its step: what the host asked for, what a block said beside an event that came first, and what is to
-/// be told without a change of state.
+/// be reported without a change of state.
 #pragma once
 
 #include "plumb/core/sensor_set.hpp"
@@ -23,7 +23,7 @@ struct Requests {
   bool inhibit_notice = false, calibration_notice = false;
   NormMismatchKind reference_notice = NormMismatchKind::none;
 
-  /// Something is to be told though nothing has changed.
+  /// Something is to be reported though nothing has changed.
   bool has_notice() const noexcept {
     return inhibit_notice || calibration_notice || reference_notice != NormMismatchKind::none;
   }
