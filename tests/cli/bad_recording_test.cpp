@@ -158,7 +158,7 @@ TEST(BadRecording, ReadingsThatNoSensorGives) {
     where.rows[6][2] = value;
     const Outcome outcome = where.calibrate();  // beyond full scale, which the array file knows
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_TRUE(says(outcome.out, {"at full scale", "1 readings of a3, not used"}));
+    EXPECT_TRUE(says(outcome.out, {"at full scale", "1 reading of a3, not used"}));
     forget(where, {"full_scale"});
     refused(where.calibrate(),
             {"station 7 holds a reading that no sensor gives (a3 reads", "e+308 V)", "correct or remove the row"});

@@ -132,7 +132,7 @@ TEST(WrongColumns, ATemperatureThatIsHalfEmptyIsCountedAndUsedWhereItIsKnown) {
   EXPECT_TRUE(says(flat(outcome.out),
                    {"24 stations", "`T` (temperature) is empty in",
                     "of " + std::to_string(where.total) + " rows (50 %), which use the value of the row before",
-                    "stations are excluded"}));
+                    "stations are not used"}));
   const Json json = report(where);
   EXPECT_EQ(json["stations"].size(), 24U);
   EXPECT_EQ(json["stations_without_temperature"], 24);

@@ -241,7 +241,7 @@ TEST(BinaryLog, ForeignHeadersAreReported) {
   expect_refused_log(with_header(log, 12, u32_text(2)), "header", {"version 2, this plumb reads version 1"});
   std::string size = log;
   size.replace(16, 4, u32_text(70000));
-  expect_refused_log(size, "header", {"70000 bytes long"});
+  expect_refused_log(size, "header", {"70000 bytes"});
   std::string name = log;
   name[48] = 'x';
   expect_refused_log(name, "header", {"check sum is wrong"});

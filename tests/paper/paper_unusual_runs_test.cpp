@@ -8,7 +8,7 @@
 
 #include "paper/paper_rig.hpp"
 
-namespace paper_odd_lives_test {
+namespace paper_unusual_runs_test {
 namespace {
 
 using namespace plumb;
@@ -52,4 +52,4 @@ TEST(PaperMonitorUnusualRun, RefusesFitsOfOtherSensors) {
 }
 
 }  // namespace
-}  // namespace paper_odd_lives_test
+}  // namespace paper_unusual_runs_test

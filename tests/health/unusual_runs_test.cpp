@@ -9,7 +9,7 @@
 #include "health/first_calibration_support.hpp"
 #include "health/recalibration_support.hpp"
 
-namespace odd_lives_test {
+namespace unusual_runs_test {
 namespace {
 
 using namespace plumb;
@@ -192,4 +192,4 @@ TEST(UnusualRun, ALengthThatIsOffIsStudiedWhereAllDeliver) {
 }
 
 }  // namespace
-}  // namespace odd_lives_test
+}  // namespace unusual_runs_test
