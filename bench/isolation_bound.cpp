@@ -23,7 +23,7 @@ struct Seen {
   Readings mean{}, exact{};
 };
 
-/// The best test of a wrong explanation is told what the faulty sensors read: the likelihood ratio, normal with the
+/// The best test of a wrong explanation knows what the faulty sensors read: the likelihood ratio, normal with the
 /// mean `separation` (noise of 1) where the explanation is wrong, and with 0 where it holds.
 class BestTest {
  public:
@@ -48,7 +48,7 @@ std::vector<Seen> stations_of(const TrialTool& tool, TrialEpisode& episode, int 
   return out;
 }
 
-/// All but three may lie as they like, gravity is what it is told to be within three sigmas, the same at all stations:
+/// All but three may be faulty in any way, gravity is as stated within three sigmas, the same at all stations:
 /// the length that the three show is all that speaks.
 bool triple_rejected(const TrialTool& tool, int triple, const std::vector<Seen>& seen, double limit) {
   const plumb::Mat3 map = plumb::triple_map(tool.array, triple);

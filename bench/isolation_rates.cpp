@@ -1,6 +1,6 @@
 // plumb_isolation_rates WHAT [--scale X] [--seed S] [--from N] [--to N]: how often isolation is right, undecided,
-// wrong, with 95 % Clopper-Pearson intervals, as Markdown. WHAT is soundness, beyond, strict, rivals, trouble, parity,
-// asserted, or bound (what no rule can do better);
+// wrong, with 95 % Clopper-Pearson intervals, as Markdown. WHAT is soundness, beyond, confirmed, rivals, trouble,
+// parity, assumed, or bound (what no rule can do better);
 // --scale multiplies the numbers of trials, --from and --to bound the numbers of sensors of soundness.
 // docs/isolation.md holds what it printed.
 #include <cstdio>
@@ -32,7 +32,7 @@ std::string share(std::uint64_t k, std::uint64_t n) {
 
 const char* name(Rule rule) {
   switch (rule) {
-    case Rule::strict: return "plumb, strict";
+    case Rule::strict: return "plumb, confirmed";
     case Rule::paper: return "union of triples (paper)";
     case Rule::glt: return "GLT";
     case Rule::leave_out: return "leave m out";
@@ -58,7 +58,7 @@ void print(const SoundCount& c, const std::string& lead) {
 }
 
 constexpr const char* kSoundHead =
-    "| n | trials | blocks | strict wrong, % | strict right, % | provisional grade wrong, % | asserted wrong, % |\n"
+    "| n | trials | blocks | confirmed wrong, % | confirmed right, % | provisional wrong, % | assumed wrong, % |\n"
     "|---|---|---|---|---|---|---|\n";
 
 /// More trials where they are cheap: a vote among 16 takes a thousand times as long as one among 4.
@@ -197,7 +197,7 @@ void asserted(const Settings& s) {
 /// What no rule can do better.
 void bound(const Settings& s) {
   std::printf(
-      "| n | m | sigmas | level | trials | told, %% | told where one fault may be in a moving tool, %% | told by "
+      "| n | m | sigmas | level | trials | isolable, %% | isolable in a moving tool, %% | isolable by "
       "parity at one station, %% |\n|---|---|---|---|---|---|---|---|\n");
   for (int n = 4; n <= 8; ++n) {
     for (int m = 1; m <= n - 3; ++m) {
@@ -219,7 +219,7 @@ void bound(const Settings& s) {
 
 int usage() {
   std::fputs(
-      "usage: plumb_isolation_rates soundness|beyond|strict|rivals|trouble|parity|asserted|bound [--scale X] [--seed "
+      "usage: plumb_isolation_rates soundness|beyond|confirmed|rivals|trouble|parity|assumed|bound [--scale X] [--seed "
       "S] "
       "[--from N] [--to N]\n",
       stderr);
@@ -250,7 +250,7 @@ int main(int argc, char** argv) {
     soundness(settings);
   } else if (what == "beyond") {
     beyond(settings);
-  } else if (what == "strict") {
+  } else if (what == "confirmed") {
     rates(settings, false);
   } else if (what == "rivals") {
     rates(settings, true);
@@ -258,7 +258,7 @@ int main(int argc, char** argv) {
     trouble(settings);
   } else if (what == "parity") {
     parity(settings);
-  } else if (what == "asserted") {
+  } else if (what == "assumed") {
     asserted(settings);
   } else if (what == "bound") {
     bound(settings);

@@ -9,16 +9,16 @@ constexpr Standing kOutside = Standing::outside;
 // clang-format off
 const std::vector<Family>& all() {
   static const std::vector<Family> kAll = {
-      {"lies-plain", "1 to m sensors lie by one of 13 laws, or nobody does, from station to station", Play::lies, kPromised, kOutside, 4, 8, true, false, 0, 4},
+      {"lies-plain", "1 to m faulty sensors, by one of 13 laws from station to station, or none", Play::lies, kPromised, kOutside, 4, 8, true, false, 0, 4},
       {"lies-motion", "the same amid vibration, sway and jolts below and above the noise", Play::lies, kPromised, kOutside, 4, 8, false, false, 1, 2},
       {"lies-recalibration", "the same while recalibrations are asked for", Play::lies, kPromised, kOutside, 4, 8, false, false, 2, 2},
       {"lies-offers", "the same while calibrations, most of them wrong, are offered", Play::lies, kPromised, kOutside, 4, 8, false, false, 3, 2},
       {"lies-reset", "the same while the host resets failed, whatever is broken", Play::lies, kPromised, kOutside, 4, 8, false, false, 4, 2},
-      {"lies-reinstatement", "the lies cease until their sensors are back, and begin anew", Play::lies, kPromised, kOutside, 4, 8, false, false, 5, 2},
-      {"lies-timing", "the same while rows are lost, late, repeated, or no number", Play::lies, kPromised, kOutside, 4, 8, false, false, 6, 2},
+      {"lies-reinstatement", "the faults cease until their sensors are reinstated, and begin again", Play::lies, kPromised, kOutside, 4, 8, false, false, 5, 2},
+      {"lies-timing", "the same while rows are lost, late, repeated, or not a number", Play::lies, kPromised, kOutside, 4, 8, false, false, 6, 2},
       {"lies-host", "the same with new gravity, inhibits and power cycles", Play::lies, kPromised, kOutside, 4, 8, false, false, 7, 2},
 
-      {"v1a-silence", "every channel silent or no number for 20 s while the tool turns", Play::silence, kPromised, kOutside, 4, 8, false, false, 0, 1},
+      {"v1a-silence", "every channel silent or not a number for 20 s while the tool turns", Play::silence, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v1b-gap", "a gap of 55 s, or one sample every 5.1 s, while the tool turns", Play::gap, kPromised, kOutside, 4, 8, false, false, 0, 1},
       {"v1c-turn-1hz", "a turn just after a block, one sample per second", Play::turn, kPromised, kOutside, 4, 8, false, false, 1, 1},
       {"v1c-turn-100hz", "a turn just after a block, 100 samples per second", Play::turn, kPromised, kOutside, 4, 8, false, false, 100, 1},
@@ -40,7 +40,7 @@ const std::vector<Family>& all() {
       {"no-covariance", "calibration errors of 0.3 mg and a stated covariance of zero", Play::no_covariance, kOutside, kOutside, 4, 8, false, false, 0.3, 1},
       {"gravity-off", "four sensors, gravity 0.6 to 10 mg off, and one fault", Play::gravity_off, kOutside, kOutside, 4, 4, false, false, 0, 1},
 
-      {"adaptive-error", "one liar that tries its lies on copies of the monitor: largest error while valid", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 0, 2},
+      {"adaptive-error", "one faulty sensor that tries its readings on copies of the monitor: largest error while valid", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 0, 2},
       {"adaptive-accuse", "the same, to get a healthy sensor suspected", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 1, 2},
       {"adaptive-many", "1 to m adaptive colluders, m the confirmed grade, with any of these three aims", Play::adaptive, kPromised, kOutside, 5, 8, true, true, 3, 2},
       {"adaptive-axis-cone", "two adaptive colluders among an axis and a cone of four, whose grade is one", Play::adaptive, kOutside, kOutside, 5, 5, false, true, 4, 1},
@@ -58,7 +58,7 @@ const std::vector<Family>& all() {
       {"b3-noise-3", "noise of three times the stated sigma", Play::understated_noise, kPromised, kOutside, 4, 8, false, false, 3.0, 0.5},
       {"b3-resolution", "readings in steps of four sigma", Play::coarse_steps, kPromised, kOutside, 4, 8, false, false, 4.0, 0.5},
       {"b3-ar1", "noise of the stated sigma, correlated by 0.99 from row to row", Play::slow_noise, kPromised, kOutside, 4, 8, false, false, 0.99, 0.5},
-      {"b4-adaptive-fail", "one adaptive liar that wants failed", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 2, 2},
+      {"b4-adaptive-fail", "one faulty sensor that aims at failed", Play::adaptive, kPromised, kOutside, 4, 8, true, true, 2, 2},
       {"b4-successive-1", "sensors fail one after another, one station between: constant biases, as many as the confirmed grade", Play::successive, kPromised, kOutside, 5, 8, true, false, 1, 0.5},
       {"b4-successive-2", "the same with two stations between", Play::successive, kPromised, kOutside, 5, 8, true, false, 2, 0.5},
       {"b5-mirrored", "two mirrored sensors of 6 to 8, default configuration", Play::mirrored_still, kPromised, kOutside, 6, 8, true, false, 2, 0.5},

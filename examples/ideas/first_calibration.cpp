@@ -6,7 +6,7 @@
 
 int main() {
   namespace sim = plumb::scenario;
-  const sim::Tool tool = sim::paper_tool(1);  // biases to 20 mg, scales to 2 %, axes to 2 deg: nobody knows them
+  const sim::Tool tool = sim::paper_tool(1);  // biases to 20 mg, scales to 2 %, axes to 2 deg: plumb does not know them
   plumb::MonitorSetup setup;
   if (!plumb::set_datasheet(tool.datasheet, setup)) return 1;
   static plumb::HealthMonitor monitor;

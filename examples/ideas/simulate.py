@@ -5,7 +5,7 @@ import plumb
 
 array, stand = plumb.simulate("examples/stand.toml")
 calibration = plumb.calibrate(array, stand)
-_, run = plumb.simulate("examples/drilling.toml")  # a2 dies at the sixth station
+_, run = plumb.simulate("examples/drilling.toml")  # a2 gets stuck at the sixth station
 v = plumb.Monitor(array, calibration).run(run)
 
 valid = v["tick"] & (v["validity"] == plumb.VALIDITIES.index("valid"))

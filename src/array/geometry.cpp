@@ -16,7 +16,7 @@ using array_detail::Rows;
 
 constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
-/// Members of a set as a list, with the weight of each row relative to the quietest one.
+/// Members of a set as a list, with the weight of each row relative to the one of least noise.
 struct Selection {
   std::array<int, kCapacity> sensor{};
   std::array<double, kCapacity> weight{};  ///< sigma_min / sigma_i, exactly 1 where all sigmas agree

@@ -1,4 +1,4 @@
-/// Linear algebra of n x 3 measurement matrices. Private to the array room.
+/// Linear algebra of n x 3 measurement matrices. Private to the array module.
 #pragma once
 
 #include <array>

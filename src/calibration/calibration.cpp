@@ -192,7 +192,7 @@ bool Calibrator::describe(const fit::Problem& problem, fit::Fitted& fitted, Info
   fit::Screening screening(problem);
   const fit::Room room = {&roll, &screening, nullptr};
   Information scratch;  // the blocks first, then what the analysis needs
-  // Chi^2 is told against the datasheet's noise alone, with the directions that this noise would choose.
+  // Chi^2 is reported against the datasheet's noise alone, with the directions that this noise would choose.
   const double variance = misfit_mps2_ * misfit_mps2_;
   if (variance > 0.0) {
     r.chi2 = fit::accumulate(problem, fitted.theta, 0.0, fit::Loss::squares, scratch.data(), gradient, room).chi2;
@@ -286,7 +286,7 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
   return error;
 }
 
-/// Leaves out what the screen leaves out; returns how many stations that are.
+/// Omits what the screen omits; returns how many stations that are.
 [[gnu::noinline]] int Calibrator::screen_out(StationList& stations) const noexcept {
   if (phase_ != Phase::screened) return 0;
   const fit::Screen screen = {screen_, screen_misfit_mps2_ * screen_misfit_mps2_};

@@ -274,7 +274,7 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
   return sums;
 }
 
-/// A step whose factor nobody asks for afterwards: half of the matrix will do.
+/// A step whose factor is not used afterwards: half of the matrix will do.
 [[gnu::noinline]] bool Calibrator::step_alone(const fit::Problem& problem, const fit::Parameters& natural,
                                               const fit::Parameters& rhs, const double* blocks) noexcept {
   std::array<double, std::size_t{kFitParameters} * (kFitParameters + 1) / 2> information{};

@@ -65,7 +65,7 @@ double chi2_after(const Turns& t, const Vec3& common, int left_out) noexcept {
 }
 
 /// The sensor whose own axis, off alone, explains the turns better than a common one; -1 where none does. Both
-/// explanations have two numbers more than a rotation about the roll axis, which nobody sees.
+/// explanations have two numbers more than a rotation about the roll axis, which is not observable.
 int lone_axis(const Turns& t, const Vec3& roll_axis, const Vec3& common) noexcept {
   double least = chi2_after(t, common, -1);
   int best = -1;

@@ -184,7 +184,7 @@ OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity
   OddSensor out;
   if (stations == nullptr || scratch == nullptr) return out;
   FitReport all;
-  // What a fit sets aside is what tells the sensors apart here.
+  // What a fit rejects is what tells the sensors apart here.
   FitOptions lenient = without_limits(options);
   lenient.reject_outliers = false;
   const Expected<Calibration> fitted = calibrate(datasheet, gravity, stations, count, lenient, &all);
@@ -208,7 +208,7 @@ OddSensor odd_sensor(const Datasheet& datasheet, const GravityReference& gravity
       next = unrest;
     }
   }
-  // With nobody to compare with, nobody stands out.
+  // Without another sensor to compare with, none stands out.
   if (best < 0 || least >= kUnsettled || !std::isfinite(next)) return out;
   out.ratio = next > 0.0 ? least / next : 1.0;
   if (out.ratio <= kOddRatio) out.sensor = best;

@@ -43,7 +43,7 @@ Directions rotations(const Roll& roll, const Parameters& theta, int n) noexcept 
 
 double reciprocal(double v) noexcept { return v > 0.0 ? 1.0 / v : 0.0; }
 
-/// The rotations in prior units, orthonormal. Frozen parameters (prior sigma zero) are left out.
+/// The rotations in prior units, orthonormal. Frozen parameters (prior sigma zero) are omitted.
 Directions gauge_basis(const Datasheet& datasheet, const Directions& rotation) noexcept {
   const int n = datasheet.size;
   Directions out = rotation;

@@ -1,4 +1,4 @@
-/// The parts of the forward fit. Private to the calibration room; src/paper takes its inline arithmetic.
+/// The parts of the forward fit. Private to the calibration module; src/paper takes its inline arithmetic.
 ///
 /// Two coordinates are used. *Natural*: per sensor W (3) and b [m/s^2], r = W g + b. *Prior units* x:
 /// natural = datasheet + S x with S S' the prior covariance, so that the prior is |x|^2 / 2, information
@@ -90,7 +90,7 @@ struct Roll {
   int lone = 0;    ///< groups of one station
 };
 
-/// Where the outliers were told from the rest: a station is out where its residual there, with that misfit, is beyond
+/// Where the outliers were separated: a station is out where its residual there, with that misfit, is beyond
 /// the limit. Kept as parameters rather than as a list, so that any number of stations is screened alike.
 struct Screen {
   Parameters theta{};
@@ -157,7 +157,7 @@ struct Sums {
 };
 class FitTally;
 class Screening;
-/// What a fit needs beyond its sums, where it has it. Without roll groups, and where no station is left out by a
+/// What a fit needs beyond its sums, where it has it. Without roll groups, and where no station is omitted by a
 /// screen, none of it; and who reads no factor gives no room for it.
 struct Room {
   RollSums* roll = nullptr;
@@ -202,7 +202,7 @@ struct FreeAxes {
 };
 /// ... and one in which they are held: what must fit in the small stack of a monitor's step.
 struct HeldAxes {
-  using Count = std::uint8_t;  ///< the stations of a StationList, as many as can be left out
+  using Count = std::uint8_t;  ///< the stations of a StationList, as many as can be omitted
   using Matrix = Packed;
   static constexpr bool kKeepsFactor = false;
   static constexpr bool kTurnsTogether = false;
@@ -227,7 +227,7 @@ bool stands_out(const Problem& problem, const Parameters& theta, int freedom) no
 void find_roll_groups(const Problem& problem, Roll& roll) noexcept;
 
 /// W and b from the stations alone, in the frame that the prior likes best; false where they do not determine it, or
-/// where the datasheet is too far off. Incomplete stations are left aside. All priors must be above zero.
+/// where the datasheet is too far off. Incomplete stations are not used. All priors must be above zero.
 bool closed_form(const Problem& problem, Parameters& theta) noexcept;
 
 /// Rotates all W by the vector `turn` (axis times angle).

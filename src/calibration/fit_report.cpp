@@ -133,7 +133,7 @@ double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigure
     noise += sigma * sigma / problem.stations[k].count;
     ++stations;
   }
-  noise /= stations;  // a sensor is loud at stations
+  noise /= stations;  // a sensor has a high variance at stations
   const double common = report.misfit_mps2 * report.misfit_mps2;
   report.loud_misfit_mps2 = std::sqrt(factor * (common + noise) - noise);
   return factor;
@@ -235,7 +235,7 @@ double prior_chi2(const Datasheet& datasheet, const Parameters& theta, int left_
   return sum;
 }
 
-/// With every sensor left out in turn, of either hand: where the others then fit, it is the one.
+/// With every sensor omitted in turn, of either hand: where the others then fit, it is the one.
 struct Alone {
   Error error;
   double chi2 = kInfinity;
@@ -301,7 +301,7 @@ Error judge_figures(const Problem& problem, const FitOptions& options, const Fit
   if (noisy.code != Errc::ok) return noisy;
   double excess = 0.0;
   const int highest_variance = fitted.tally.highest_variance(problem.datasheet.size, fitted.tally.freedom(r), excess);
-  // Among few stations chance alone reaches the bound; what accuses nobody as a whole accuses no sensor.
+  // Among few stations chance alone reaches the bound; what suspects none as a whole suspects no single sensor.
   const bool singled_out = excess > options.max_sensor_excess && r.p_value < kSuspicious;
   if (!(r.norm_rms_mps2 <= options.max_norm_rms_mps2)) {
     return Error{Errc::poor_fit, singled_out ? highest_variance : -1, r.norm_rms_mps2, options.max_norm_rms_mps2};

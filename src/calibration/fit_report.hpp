@@ -1,4 +1,4 @@
-/// What the report says beside the fit itself. Private to the calibration room.
+/// What the report says beside the fit itself. Private to the calibration module.
 #pragma once
 
 #include "fit_tally.hpp"
@@ -19,7 +19,7 @@ bool plainly_sound(const Datasheet& datasheet) noexcept;
 /// What is wrong before any fit; the report gets what the stations alone tell.
 Error refused_input(const Datasheet& datasheet, const GravityReference& gravity, const FitOptions& options,
                     const Station* stations, int count, FitFigures& report) noexcept;
-/// The part of it that the stations are to blame for.
+/// The part of it that the stations cause.
 Error refused_stations(const Problem& problem, const FitOptions& options, FitFigures& report) noexcept;
 
 /// Eigenvalues of the information below this part of the largest count as zero.
@@ -27,7 +27,7 @@ double rank_floor(const FitTally& tally) noexcept;
 
 /// Temperatures, clipped readings, noise of the samples.
 void note_stations(const Problem& problem, FitFigures& report) noexcept;
-/// The stations that the screen leaves out: how many, and the first of them.
+/// The stations that the screen omits: how many, and the first of them.
 void note_outliers(const Problem& problem, FitFigures& report, std::array<Outlier, kMaxOutliers>& list) noexcept;
 /// The sensor to which most of the outliers point; -1 where none does.
 int most_blamed(const Problem& problem) noexcept;
@@ -50,8 +50,8 @@ Error judge_figures(const Problem& problem, const FitOptions& options, const Fit
 /// `high_variance_sensor` and what goes with it; by what factor its residuals widen every variance (>= 1).
 double note_loud_sensor(const Problem& problem, const FitTally& tally, FitFigures& report) noexcept;
 
-/// Three sensors, stations set aside, and too little left to say that they were the right ones: poor_fit (value =
-/// stations set aside, limit = how many may be; or value = p of the rest, limit = what it may be).
+/// Three sensors, stations rejected, and too little left to say that they were the right ones: poor_fit (value =
+/// stations rejected, limit = how many may be; or value = p of the rest, limit = what it may be).
 Error doubtful_screening(const Datasheet& datasheet, const FitFigures& report) noexcept;
 
 /// A sensor whose own samples are noisier than declared, where the residuals are no noise either.

@@ -16,7 +16,7 @@ constexpr double kOwnResidual = 1e-6;
 /// A ratio of variances with fewer degrees of freedom below the line is chance.
 constexpr double kRestFreedom = 10.0;
 
-/// Of chi^2, what goes where row k is left out: (M e)_k^2 / M_kk, M the projector.
+/// Of chi^2, what goes where row k is omitted: (M e)_k^2 / M_kk, M the projector.
 double explained_by(const StationSolver& s, int k) noexcept {
   const double own = s.projector(k, k);
   const double projected = s.projected(k);
@@ -165,7 +165,7 @@ bool FitTally::beyond_chance(int sensor, int freedom, double excess) const noexc
   return z > kChance * std::sqrt(0.5 * (1.0 / own + 1.0 / rest));
 }
 
-/// What is left out with a sensor is its error against what the others say of it, theirs included. With the mean of
+/// What is omitted with a sensor is its error against what the others say of it, theirs included. With the mean of
 /// M_ii, (n - 2) / n, that is v_i + v_o (1 / M - 1) in units of 1 / M, v_o the variance of the others.
 double FitTally::variance_factor(int sensor, int n, int freedom) const noexcept {
   const double own = alone_[at(sensor)], rest = freedom - own;

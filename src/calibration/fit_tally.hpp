@@ -1,4 +1,4 @@
-/// The figures of the report that are sums over the stations. Private to the calibration room.
+/// The figures of the report that are sums over the stations. Private to the calibration module.
 #pragma once
 
 #include "station_solver.hpp"
@@ -35,7 +35,7 @@ class FitTally {
   int freedom(const FitFigures& report) const noexcept {
     return rows_ - 2 * stations_ - (report.rank - (3 - report.gauge));
   }
-  /// Sensor whose residuals are most above those of the others, and by what factor (rms); -1 where none can be told
+  /// Sensor whose residuals are most above those of the others, and by what factor (rms); -1 where none is known
   /// from the rest.
   int highest_variance(int n, int freedom, double& excess) const noexcept;
   /// Whether noise alike in all sensors would hardly ever single out the one with the highest variance so (Fisher's z).
@@ -48,7 +48,7 @@ class FitTally {
   std::array<double, kCapacity> squared_residual_{};
   std::array<int, kCapacity> seen_{};
   std::array<double, kCapacity> explained_{};  ///< of chi^2, by leaving the sensor out
-  std::array<double, kCapacity> alone_{};      ///< stations at which that can be told
+  std::array<double, kCapacity> alone_{};      ///< stations at which that can be found out
   double squared_norm_ = 0.0;
   double squared_parity_ = 0.0;
   double chi2_ = 0.0;

@@ -35,7 +35,7 @@ struct Solvers {
   StationSolver own, with_misfit;
 };
 
-/// Where a bend is steep, its own stations are those set aside: they pull half as much as a station may that is not, so
+/// Where a bend is steep, its own stations are those rejected: they pull half as much as a station may that is not, so
 /// that a few stray ones decide nothing.
 double vote_of_one_aside(StationSolver& with_misfit, const Station& station) noexcept {
   with_misfit.solve(station);  // as without the misfit it could be

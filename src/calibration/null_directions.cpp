@@ -15,7 +15,7 @@ using fit::at;
 
 constexpr int kBasis = kMaxNullDirections + 3;  // and three rotations
 /// A combination counts as made of some values if these carry this part of its square: the fitted axes lie a few
-/// degrees beside the nominal ones, so "scale" and "axis" are told apart no better.
+/// degrees beside the nominal ones, so "scale" and "axis" are distinguished no better.
 constexpr double kCarried = 0.98;
 /// And as new if this part of its square is not made of the gauge and of those already found.
 constexpr double kNew = 0.2;
@@ -93,7 +93,7 @@ class Search {
     return out;
   }
 
-  /// Gram-Schmidt, twice for rounding; what adds nothing is left out.
+  /// Gram-Schmidt, twice for rounding; what adds nothing is omitted.
   void add_basis(fit::Parameters v) noexcept {
     const double before = length_of(v);
     for (int pass = 0; pass < 2; ++pass) {

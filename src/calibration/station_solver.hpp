@@ -1,5 +1,5 @@
 /// One station after the other: its rows, the direction of gravity that explains them, and what is left. Private to the
-/// calibration room.
+/// calibration module.
 #pragma once
 
 #include "fit_internal.hpp"

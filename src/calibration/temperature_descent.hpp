@@ -1,4 +1,4 @@
-/// The iteration of the fit over temperature. Private to the calibration room.
+/// The iteration of the fit over temperature. Private to the calibration module.
 #pragma once
 
 #include "temperature_model.hpp"

@@ -14,7 +14,7 @@ using fit::at;
 
 /// Temperatures at which the shape of a scale factor is looked at.
 constexpr int kShapePoints = 14;
-/// A tool whose temperature is told by its inclination this well has no second variable.
+/// A tool whose temperature follows from its inclination this well has no second variable.
 constexpr double kFollows_degc = 0.5 * kLevelsApart_degc;
 constexpr double kFollowsShare = 0.1;
 constexpr int kFollowTerms = 4;
@@ -250,7 +250,7 @@ Error refused_options(const TemperatureOptions& options) noexcept {
   return {};
 }
 
-/// The span of use, or that of the stations: never without width, so that what is missing can be told.
+/// The span of use, or that of the stations: never without width, so that what is missing can be found out.
 ChebyshevSpan span_of(const TemperatureOptions& options, const TemperatureLevels& levels) noexcept {
   if (options.use_degc.lowest != options.use_degc.highest) return options.use_degc;
   const double middle = 0.5 * (levels.lowest_degc + levels.highest_degc);

@@ -1,4 +1,4 @@
-/// The parts of the fit over temperature. Private to the calibration room.
+/// The parts of the fit over temperature. Private to the calibration module.
 ///
 /// Per sensor  V / SF_0 = s(tau) (W g + b + beta(tau)) + e,  s = 1 + sum_1..K s_j T_j, beta = sum_0..K b_j T_j with b_0
 /// that of the datasheet, tau the temperature scaled to the span of use. Divided by s and less beta, a station reads as
@@ -41,7 +41,7 @@ struct Joint {
   PriorRoots roots;                    ///< of W and b
 };
 
-/// The station as a tool without temperature would have read it. Clipped channels are left out.
+/// The station as a tool without temperature would have read it. Clipped channels are omitted.
 Station reduced(const Joint& joint, const JointState& state, const Station& station) noexcept;
 /// Reduces all stations; one whose copy has no samples (an outlier) stays without.
 void reduce_all(const Joint& joint, const JointState& state, const Station* stations, int count, Station* to) noexcept;

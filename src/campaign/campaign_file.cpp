@@ -9,6 +9,7 @@
 #include "plumb/core/detail/archive.hpp"
 #include "plumb/io/hash.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 namespace campaign {
@@ -132,7 +133,7 @@ void lay_cells(const TomlTable& top, const std::vector<FaultFamily>& families, c
   }
   if (plan.cells.size() > kMostCells) {
     top.fail(0, "",
-             "makes " + std::to_string(plan.cells.size()) + " combinations, more than " + std::to_string(kMostCells),
+             "makes " + count_text(plan.cells.size(), "combination") + ", more than " + std::to_string(kMostCells),
              "use fewer tools, attitudes, faults or gravity errors");
   }
 }

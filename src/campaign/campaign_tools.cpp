@@ -10,6 +10,7 @@
 #include "plumb/detection/set_test.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/scenario/attitude.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 namespace campaign {
@@ -64,7 +65,7 @@ SensorArray array_from(const TomlTable& table, ToolPlan& tool, StabilityOfAll& s
   const int made = axes_of(geometry, sensors, axes);
   if (made != sensors) {
     table.fail(
-        table.line_of("sensors"), "sensors", "this geometry cannot have " + std::to_string(sensors) + " sensors",
+        table.line_of("sensors"), "sensors", "this geometry cannot have " + count_text(sensors, "sensor"),
         "give 4 for tetrahedron, 3 for triad, 4 or more for cone and cone-with-axis, 3, 4, 6 or 10 for platonic");
   }
   tool.name = table.text("name", geometries()[static_cast<size_t>(geometry)] + std::to_string(sensors));
@@ -93,7 +94,7 @@ void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, Too
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);
     const double leverage = 1.0 - dot(array.axis(i), map.column[a]);
-    if (!(leverage > 1e-9)) continue;  // nobody checks this one
+    if (!(leverage > 1e-9)) continue;  // no other sensor checks this one
     tool.detectable_mps2[a] = shift * tool.sigma_mps2[a] / std::sqrt(leverage * monitor.window);
   }
 }

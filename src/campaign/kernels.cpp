@@ -1,5 +1,6 @@
 // The kernels that this program has, one per capacity.
 #include "plumb/campaign/kernel.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 #include <algorithm>
 
@@ -67,7 +68,7 @@ tl::expected<std::unique_ptr<Kernel>, std::string> make_kernel(const Plan& plan,
   std::vector<bool> served(plan.tools.size(), false);
   for (const Build& build : builds()) {
     if (!build.holds(least_capacity, plan.window)) continue;
-    // A kernel knows its own tools only; the others are left out of its plan by emptying them.
+    // A kernel knows its own tools only; the others are taken out of its plan by emptying them.
     Plan part = plan;
     std::vector<std::size_t> mine;
     for (std::size_t t = 0; t < plan.tools.size(); ++t) {
@@ -86,9 +87,9 @@ tl::expected<std::unique_ptr<Kernel>, std::string> make_kernel(const Plan& plan,
   }
   for (std::size_t t = 0; t < plan.tools.size(); ++t) {
     if (!served[t]) {
-      return tl::unexpected<std::string>(
-          "no monitor of this program is large enough for tool " + plan.tools[t].name + " with a window of " +
-          std::to_string(plan.window) + " samples. Remedy: use at most 24 sensors and a window of at most 256 samples");
+      return tl::unexpected<std::string>("no monitor of this program is large enough for tool " + plan.tools[t].name +
+                                         " with a window of " + count_text(plan.window, "sample") +
+                                         ". Remedy: use at most 24 sensors and a window of at most 256 samples");
     }
   }
   return choice;

@@ -6,6 +6,7 @@
 
 #include "kernel/player.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/scenario/fault_text.hpp"
 
 namespace plumb {
@@ -190,9 +191,9 @@ tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scen
 std::string sentence_of(const Plan& plan, const Spec& spec) {
   scenario::FaultContext context;
   context.datasheet = campaign_kernel::datasheet_of(plan.tools[static_cast<size_t>(spec.tool)]);
-  std::string text = std::to_string(context.datasheet.size) + " sensors (" +
-                     plan.tools[static_cast<size_t>(spec.tool)].name + "), " + std::to_string(spec.stations) +
-                     " stations: ";
+  std::string text = count_text(context.datasheet.size, "sensor") + " (" +
+                     plan.tools[static_cast<size_t>(spec.tool)].name + "), " + count_text(spec.stations, "station") +
+                     ": ";
   if (spec.faults == 0) text += "no fault";
   for (int k = 0; k < spec.faults; ++k) {
     const scenario::Fault fault = campaign_kernel::fault_of(spec.fault[static_cast<size_t>(k)]);

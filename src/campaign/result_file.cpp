@@ -6,6 +6,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/hash.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/study/proportion.hpp"
 
 namespace plumb {
@@ -181,8 +182,9 @@ io::FileExpected<Progress> read_result(const std::string& path, const CampaignFi
 std::string summary_text(const CampaignFile& file, const Progress& progress) {
   const Tally& tally = progress.tally;
   const std::uint64_t trials = trials_of(progress);
-  std::string out = fmt::format("{}: {} of {} scenarios, {} combinations, seed {}\n", file.plan.name, progress.done,
-                                file.plan.scenarios, file.plan.cells.size(), file.plan.seed);
+  std::string out = fmt::format("{}: {} of {}, {}, seed {}\n", file.plan.name, progress.done,
+                                count_text(file.plan.scenarios, "scenario"),
+                                count_text(file.plan.cells.size(), "combination"), file.plan.seed);
   out += fmt::format("{:<28}{:>10}  {:<12}{:<26}{}\n", "", "count", "rate", "95 % Clopper-Pearson", "");
   for (int k = 1; k < kCounts; ++k) {
     const auto count = static_cast<Count>(k);
@@ -207,7 +209,7 @@ std::string broken_expectations(const CampaignFile& file, const Progress& progre
   for (const Expectation& expected : file.expect) {
     const std::uint64_t count = progress.tally.total(expected.count);
     if (count <= expected.at_most) continue;
-    out += fmt::format("{} in {} scenarios, at most {} expected: {}\n", to_string(expected.count), count,
+    out += fmt::format("{} in {}, at most {} expected: {}\n", to_string(expected.count), count_text(count, "scenario"),
                        expected.at_most, words_of(expected.count));
   }
   return out;

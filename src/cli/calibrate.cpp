@@ -1,4 +1,4 @@
-// plumb calibrate: a log of quiet attitudes in, a calibration file out.
+// plumb calibrate: a log of attitudes at rest in, a calibration file out.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/session/calibration_pipeline.hpp"
 #include "plumb/session/choice_texts.hpp"
 #include "plumb/session/days_since.hpp"
@@ -142,8 +143,8 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
   if (!saved) return report(saved.error());
   if (!options.json && options.out != "-") print("written: " + options.out + "\n");
   if (!fit->interrupted) return io::ExitCode::done;
-  print_error("plumb: interrupted; the calibration uses the " + std::to_string(fit->stations.size()) +
-              " stations found before the interruption.\n");
+  print_error("plumb: interrupted; the calibration uses the " + count_text(fit->stations.size(), "station") +
+              " found before the interruption.\n");
   return io::ExitCode::other;
 }
 

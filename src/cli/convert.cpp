@@ -6,6 +6,7 @@
 
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -66,7 +67,8 @@ io::ExitCode run_convert(const ConvertOptions& options) {
   const io::FileExpected<io::LogStatistics> done = convert(options, *array);
   if (!done) return report(done.error());
   if (options.out != "-") {
-    print(fmt::format("written: {} ({} rows, {} bad rows skipped)\n", options.out, done->rows, done->rows_bad));
+    print(fmt::format("written: {} ({}, {} skipped)\n", options.out, count_text(done->rows, "row"),
+                      count_text(done->rows_bad, "bad row")));
   }
   if (done->rows_bad > 0 && array->input.time_column.empty()) {
     print_error(

@@ -10,6 +10,7 @@
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/scenario/fault_text.hpp"
 
 namespace plumb {
@@ -59,7 +60,8 @@ std::string is_it_right(const DrillRecord& record, const TimelineRow& row) {
 std::string exclusion_sentence(const DrillRecord& record, const TimelineRow& row) {
   std::string why = "only one hypothesis is left";
   if (row.grade == Grade::confirmed) {
-    why += fmt::format(", confirmed at {} stations in different directions", record.array.monitor.isolation_stations);
+    why += fmt::format(", confirmed at {} in different directions",
+                       count_text(record.array.monitor.isolation_stations, "station"));
   }
   return fmt::format("{}{}, {}: {} is excluded. {}{}", at_time(row.time_s), after_fault(record, row), why, row.sensors,
                      is_it_right(record, row), state_and_output(row));
@@ -90,9 +92,9 @@ std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
     case HealthEvent::exclusion: return exclusion_sentence(record, row);
     case HealthEvent::isolation_timeout:
       return fmt::format(
-          "{} the isolation timeout has expired: after {} stations in different directions the fault is not "
+          "{} the isolation timeout has expired: after {} in different directions the fault is not "
           "isolated, and the error has no bound. {} Only a reset by the host ends this state.",
-          when, record.array.monitor.isolation_timeout, state_and_output(row));
+          when, count_text(record.array.monitor.isolation_timeout, "station"), state_and_output(row));
     case HealthEvent::reset:
       return fmt::format("{} the monitor starts again with {} back in service; it validates every sensor anew. {}",
                          when, row.sensors, state_and_output(row));
@@ -106,9 +108,9 @@ std::string change_sentence(const DrillRecord& record, const TimelineRow& row) {
     case HealthEvent::fit_rejected:
       return fmt::format("{} the new coefficients are refused; the old ones stay. {}", when, state_and_output(row));
     case HealthEvent::probation_passed:
-      return fmt::format(
-          "{} {} has agreed with the others at {} stations in different directions and is back in service. {}", when,
-          row.sensors, record.array.monitor.probation_stations, state_and_output(row));
+      return fmt::format("{} {} has agreed with the others at {} in different directions and is back in service. {}",
+                         when, row.sensors, count_text(record.array.monitor.probation_stations, "station"),
+                         state_and_output(row));
     default: break;
   }
   return fmt::format("{}: {}{}. {}", when, row.explanation, row.named.empty() ? "" : " (" + row.sensors + ")",
@@ -137,10 +139,11 @@ std::string motion_sentence(const DrillRecord& record) {
     }
   }
   return fmt::format(
-      "The tool moves {} times, with {:.2g} g0 rms of vibration. plumb does not test blocks in motion: it holds the "
+      "The tool moves {}, with {:.2g} g0 rms of vibration. plumb does not test blocks in motion: it holds the "
       "last output, and the state {}.",
-      stretches, record.scenario.vibration_mps2 / kG0_mps2,
-      changes == 0 ? "never changed during motion" : fmt::format("changed {} times during motion", changes));
+      count_text(stretches, "time"), record.scenario.vibration_mps2 / kG0_mps2,
+      changes == 0 ? "never changed during motion"
+                   : fmt::format("changed {} during motion", count_text(changes, "time")));
 }
 
 std::string sum_sentence(const Timeline& timeline) {

@@ -1,4 +1,4 @@
-/// What a drill has to say for itself: everything is told from its records alone, so that it holds for every seed.
+/// What a drill has to say for itself: everything is reported from its records alone, so that it holds for every seed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -7,6 +7,7 @@
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/study/table2_study.hpp"
 
 namespace plumb {
@@ -31,7 +32,8 @@ std::string mae(double measured_g, double printed_g) {
 
 /// What plumb's monitor made of the same samples.
 std::string own_words(const Table2Result& r) {
-  if (r.named_after > 0) return fmt::format("{} excluded after {} attitudes", sensors(r.excluded, "-"), r.named_after);
+  if (r.named_after > 0)
+    return fmt::format("{} excluded after {}", sensors(r.excluded, "-"), count_text(r.named_after, "attitude"));
   return to_string(r.state);
 }
 

@@ -53,9 +53,9 @@ constexpr const char* kGeometryNotes =
     "  plumb geometry --name cone:5 --noise \"1 mg0\" --json\n\n"
     "Words: det = determinant of three unit axes (1 = orthogonal, 0 = in one plane); near singular = |det| below\n"
     "0.05, such a triple raises no alarm. Coplanarity c = most axes in one plane. Confirmed grade = faults that can\n"
-    "be excluded; provisional grade = faults that can be excluded provisionally, without knowing gravity. A fault is\n"
-    "detected mostly: missed in at most 0.1 % of blocks; surely: whatever the noise does within its bound. Angles in\n"
-    "deg.\n"
+    "be excluded; provisional grade = faults that can be excluded provisionally, without knowing gravity.\n"
+    "Minimum detectable: missed in at most 0.1 % of blocks. Guaranteed: whatever the noise does within its bound.\n"
+    "Angles in deg.\n"
     "docs/guide.md explains every line. --check ends with 6 where there is a warning.\n\n";
 
 const std::vector<std::string> kNames = {"paper-tetrahedron", "triad", "cone", "cone-axis", "platonic"};

@@ -7,6 +7,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/scenario/delivery.hpp"
 #include "plumb/scenario/fault_text.hpp"
 #include "plumb/scenario/injector.hpp"
@@ -114,7 +115,7 @@ io::ExitCode run_inject(const InjectOptions& options) {
   const bool to_pipe = options.out == "-";
   if (!to_pipe) {
     for (const scenario::Fault& fault : faults) print(scenario::describe(fault, context) + "\n");
-    print(fmt::format("written: {} ({} rows)\n", options.out, done->rows));
+    print(fmt::format("written: {} ({})\n", options.out, count_text(done->rows, "row")));
   }
   for (const int k : injector->without_effect()) {
     print_error(fmt::format(

@@ -94,7 +94,7 @@ int run(int argc, char** argv) {
     print_error(tool.help());
     return io::to_int(io::ExitCode::usage);
   }
-  // For the build, which installs them: no part of what a user is told.
+  // For the build, which installs them: no part of what a user sees.
   for (const auto& [name, print_it] : {std::pair<const char*, std::string (*)(const Manual&)>{"--man", man_page},
                                        {"--completion", bash_completion},
                                        {"--completion-zsh", zsh_completion},

@@ -10,6 +10,7 @@
 #include "plumb/render/monitor_limits.hpp"
 #include "plumb/render/monitor_summary.hpp"
 #include "plumb/render/roll_test_words.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/session/days_since.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 #include "tool.hpp"
@@ -45,16 +46,15 @@ io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}
 /// A run without one block at rest says nothing about any sensor, which is not the same as finding none at fault.
 io::FileError nothing_judged(const MonitorOptions& options, const io::ArrayFile& array,
                              const session::MonitorRun& run) {
-  return {
-      options.log.path,
-      0,
-      "",
-      fmt::format("nothing was judged: none of its {} samples belong to a block of {} at rest", run.samples,
-                  array.monitor.window),
-      fmt::format("hold the tool still for at least {} samples at each attitude; if it was still, check the unit of "
-                  "[input] and the noise of each [[sensor]] in {}",
-                  array.monitor.window, array.path),
-      io::ExitCode::nothing_judged};
+  return {options.log.path,
+          0,
+          "",
+          fmt::format("nothing was judged: none of its {} is in a block of {} at rest",
+                      count_text(run.samples, "sample"), array.monitor.window),
+          fmt::format("hold the tool still for at least {} at each attitude; if it was still, check the unit of "
+                      "[input] and the noise of each [[sensor]] in {}",
+                      count_text(array.monitor.window, "sample"), array.path),
+          io::ExitCode::nothing_judged};
 }
 
 /// What the run goes on from.

@@ -22,7 +22,7 @@ std::optional<io::FileError> report_misuse(const MonitorOptions& options);
 
 class HealthReport : public session::VerdictSink {
  public:
-  /// Both files are opened now, so that a directory that is not there is told before the run; they appear with
+  /// Both files are opened now, so that a directory that is not there is reported before the run; they appear with
   /// `write`.
   static io::FileExpected<std::unique_ptr<HealthReport>> create(const MonitorOptions& options,
                                                                 const io::ArrayFile& array, const SensorArray& sensors,

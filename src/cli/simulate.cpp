@@ -6,6 +6,7 @@
 
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/session/scenario_play.hpp"
 #include "tool.hpp"
 
@@ -67,8 +68,8 @@ void tell(const SimulateOptions& options, const io::ScenarioFile& file, const se
   const bool to_pipe = options.out == "-" || options.truth == "-" || options.array_out == "-";
   if (!to_pipe) {
     for (const scenario::Fault& fault : file.scenario.faults) print(scenario::describe(fault, context) + "\n");
-    print(fmt::format("written: {} ({} rows, {} stations, t = {:.3f} to {:.3f} s)\n", options.out, play.rows(),
-                      play.stations(), file.scenario.start_s, play.last_time_s()));
+    print(fmt::format("written: {} ({}, {}, t = {:.3f} to {:.3f} s)\n", options.out, count_text(play.rows(), "row"),
+                      count_text(play.stations(), "station"), file.scenario.start_s, play.last_time_s()));
     for (const std::string& other : {options.truth, options.array_out}) {
       if (!other.empty()) print(fmt::format("written: {}\n", other));
     }
@@ -76,10 +77,10 @@ void tell(const SimulateOptions& options, const io::ScenarioFile& file, const se
   if (interrupted()) return;
   for (const std::size_t k : play.without_effect()) {
     print_error(
-        fmt::format("plumb: {}: fault[{}].spec: {} changed nothing: the run (t = {:.3f} to {:.3f} s, {} "
-                    "stations) has no such time, row or station.\n",
+        fmt::format("plumb: {}: fault[{}].spec: {} changed nothing: the run (t = {:.3f} to {:.3f} s, {}) "
+                    "has no such time, row or station.\n",
                     file.path, k + 1, scenario::to_text(file.scenario.faults[k], context), file.scenario.start_s,
-                    play.last_time_s(), play.stations()));
+                    play.last_time_s(), count_text(play.stations(), "station")));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "plumb/render/plot.hpp"
 #include "plumb/render/verification_exports.hpp"
 #include "plumb/render/verification_page.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "tool.hpp"
 #include "verify_run.hpp"
 
@@ -97,7 +98,7 @@ class Folder {
     if (fs::remove(fs::path(path_) / name, ignored))
       print_error("plumb: note: removed " + name + " of an earlier report from " + path_ + "\n");
   }
-  /// Writes what is there, and leaves out what is not.
+  /// Writes what is there, and omits what is not.
   void put(const std::string& name, const std::string& text) { text.empty() ? leave_out(name) : write(name, text); }
   const std::optional<io::FileError>& failure() const { return failure_; }
 

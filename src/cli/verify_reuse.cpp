@@ -6,6 +6,7 @@
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/trials_json.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -37,9 +38,9 @@ io::FileExpected<void> take_reused(const std::vector<std::string>& paths, Verifi
     const io::FileExpected<campaign::Progress> counted = campaign::read_result(path, file);
     if (!counted) return refuse(path, counted.error().what, remedy);
     if (counted->done < scenarios)
-      return refuse(
-          path, "is not complete: " + std::to_string(counted->done) + " of " + std::to_string(scenarios) + " scenarios",
-          "continue it: plumb campaign ... --out " + path + " --resume");
+      return refuse(path,
+                    "is not complete: " + std::to_string(counted->done) + " of " + count_text(scenarios, "scenario"),
+                    "continue it: plumb campaign ... --out " + path + " --resume");
     Json rates = render::rates_json(counted->tally);
     if (healthy) {
       take_longer(*here, counted->tally, out.facts.healthy);

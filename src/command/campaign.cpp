@@ -16,6 +16,7 @@
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/render/timeline.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/session/interrupt.hpp"
 #include "usual_options.hpp"
 
@@ -86,8 +87,8 @@ class Watch {
     const double rate = static_cast<double>(progress.done - before_) / std::max(elapsed_s, 1e-3);
     const double left_s = static_cast<double>(file_.plan.scenarios - progress.done) / std::max(rate, 1e-9);
     shown_ = true;
-    print_error(fmt::format("\r{}: {} of {} scenarios, {:.0f}/s, {} left; wrong exclusions {}\033[K", file_.plan.name,
-                            progress.done, file_.plan.scenarios, rate, duration(left_s),
+    print_error(fmt::format("\r{}: {} of {}, {:.0f}/s, {} left; wrong exclusions {}\033[K", file_.plan.name,
+                            progress.done, count_text(file_.plan.scenarios, "scenario"), rate, duration(left_s),
                             progress.tally.total(Count::wrong_exclusion)));
   }
 
@@ -133,7 +134,7 @@ std::string outcome_text(const CampaignFile& file, const campaign::Outcome& outc
     for (int i = 0; i < campaign::kMostSensors; ++i) {
       if ((bits >> i & 1U) != 0) out += (out.empty() ? "a" : " a") + std::to_string(i + 1);
     }
-    return out.empty() ? std::string("nobody") : out;
+    return out.empty() ? std::string("none") : out;
   };
   std::string out = fmt::format("faulty: {}; excluded: {}; provisionally excluded: {}\n", names(outcome.faulty),
                                 names(outcome.ever_excluded), names(outcome.ever_provisionally_excluded));
@@ -222,8 +223,8 @@ io::ExitCode finish(const CampaignOptions& options, const CampaignFile& file, co
   print(options.json ? campaign::result_text(file, progress) : campaign::summary_text(file, progress));
   if (progress.done < file.plan.scenarios) {
     const std::string more = options.out.empty() ? "nothing is saved without --out" : "continue with --resume";
-    print_error(
-        fmt::format("plumb: interrupted after {} of {} scenarios; {}.\n", progress.done, file.plan.scenarios, more));
+    print_error(fmt::format("plumb: interrupted after {} of {}; {}.\n", progress.done,
+                            count_text(file.plan.scenarios, "scenario"), more));
     return io::ExitCode::other;
   }
   const campaign::Tally& tally = progress.tally;
@@ -256,8 +257,12 @@ void add_campaign_options(const Options& command, CampaignOptions& options) {
   command.add_option("--threads", options.threads, "number of threads; the result does not depend on it")
       .range(1, 1024)
       .type_name("N");
-  command.add_option("--seed", options.seed, "seed, in place of the file's").check(seed_refusal).type_name("N");
-  command.add_option("--scenarios", options.scenarios, "how many, seed, in place of the file's")
+  command.add_option("--seed", options.seed, "use this seed instead of the seed in the campaign file")
+      .check(seed_refusal)
+      .type_name("N");
+  command
+      .add_option("--scenarios", options.scenarios,
+                  "play this number of scenarios instead of the number in the campaign file")
       .check(seed_refusal)
       .type_name("N");
   command.add_option("--every", options.every_s, "seconds between two writes of the result; 30 by default")

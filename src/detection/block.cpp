@@ -32,7 +32,7 @@ double functional_variance(const BlockAccumulator& block, const std::array<doubl
   return sum;
 }
 
-/// Over so many degrees of freedom a healthy residual may look restless with this chance.
+/// Over so many degrees of freedom a healthy residual may seem to scatter with this chance.
 constexpr double kRecordRate = 1e-7;
 /// Part of a channel's own scatter that its residual must hold before it is called the channel's.
 constexpr double kOwnShare = 0.5;
@@ -70,7 +70,7 @@ ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulato
   return {variance / expected, block.covariance(i, i) - own_noise, variance - expected};
 }
 
-/// True where the scatter of channel i is its own, whichever `grade` sensors of `calm` are left out of the estimate:
+/// True where the scatter of channel i is its own, whichever `grade` sensors of `calm` are missing in the estimate:
 /// with at most that many faulty ones among them, some choice leaves healthy sensors only, and those would have
 /// predicted a movement of the tool.
 bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, SensorSet calm,
@@ -242,7 +242,7 @@ double scatter_factor(int n, int size, double rate) noexcept {
 
 namespace {
 
-/// Sorts the restless channels: noisy ones, and whether the rest leaves the tool quiet.
+/// Sorts the scattering channels: noisy ones, and whether the rest leaves the tool at rest.
 void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise,
                             const LeastSquares& ls, double factor, ScatterRecord* record,
                             BlockJudgement& out) noexcept {
@@ -316,7 +316,7 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   const bool at_hand = known != nullptr && known->valid && known->used == calm;
   const LeastSquares ls = at_hand ? *known : least_squares(array, calm);
   out.quiet = ls.valid;
-  // So few calm ones may all hang at what they last said, in a tool that the others rightly show to move.
+  // So few ones at rest may all hang at what they last said, in a tool that the others rightly show to move.
   const bool may_hang = out.scattering.size() >= 3 && rank_of(array, out.scattering) == 3 &&
                         calm.size() <= confirmed_grade(array, judged);
   if (ls.valid && may_hang) {

@@ -7,7 +7,7 @@ inline namespace PLUMB_ABI {
 
 namespace {
 
-/// A member whose fault shows in parity with less than the root of this is one that nobody checks.
+/// A member whose fault shows in parity with less than the root of this is one that no other sensor checks.
 constexpr double kMinLeverage = 0.05;
 
 }  // namespace

@@ -120,7 +120,7 @@ bool Isolation::has_rejected_subset(SensorSet set) const noexcept {
 
 SensorSet Isolation::exclude_by_parity(const BlockTests& tests, SensorSet corroborating) const noexcept {
   const TestLimits& limits = tests.limits();
-  // Where a monitored sensor did not deliver, the published grade does not hold for the rest: nobody is excluded.
+  // Where a monitored sensor did not deliver, the published grade does not hold for the rest: no sensor is excluded.
   const SensorSet asked = monitored_;
   const int grade = provisional_grade();
   if (grade < 1 || !tests.block().usable.contains(asked)) return {};

@@ -1,4 +1,4 @@
-/// Of a symmetric 3x3 matrix. Private to the detection room.
+/// Of a symmetric 3x3 matrix. Private to the detection module.
 #pragma once
 
 #include <limits>

@@ -10,7 +10,7 @@ namespace {
 /// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
 /// whose less checked members are no better explanation (`corroborates_norm`).
 constexpr double kMinLeverage = 0.002;
-/// A set doubts gravity from this part of the limit on at which the norm would kill it: what its subsets, which measure
+/// A set doubts gravity from this part of the limit on where the norm would reject it: what its subsets, which measure
 /// the length less well, are off by is noise on top of the same error, and must not be held against them first.
 constexpr double kDoubtShare = 0.5;
 

@@ -22,7 +22,7 @@ double moved_by(const Mat3& map, const Vec3& errors) noexcept {
   return worst;
 }
 
-/// d: what the length of a triple's vector may be off by where nobody is at fault, plus what it is allowed to be.
+/// d: what the length of a triple's vector may be off by where no sensor is faulty, plus what it is allowed to be.
 double allowance(const SensorArray& array, const ErrorBudget& budget, int triple) noexcept {
   const Triple& t = array.triple(triple);
   Vec3 errors{};

@@ -130,7 +130,7 @@ bool StationFinder::add(const Sample& sample, const Readings& y_mps2, SensorSet 
 }
 
 bool StationFinder::finish(Station& finished) noexcept {
-  // The stream ended or jumped while still quiet: no onset of motion can hide in the last block.
+  // The stream ended or jumped while still at rest: no onset of motion can hide in the last block.
   if (waiting_.present) {
     const Block last = waiting_;
     waiting_ = Block{};

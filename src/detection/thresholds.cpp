@@ -83,7 +83,7 @@ class SetAside {
   /// Fault sets are heard one by one up to the depth of the scan, and those of the grade's own size.
   bool hears(int m) const noexcept { return m <= kScanDepth || m == grade_; }
 
-  /// Shift of the parity of a set without m sensors that kills it, the chance of a miss shared among all sets.
+  /// Shift of the parity of a set without m sensors that rejects it, the chance of a miss shared among all sets.
   double shift(int m) const noexcept {
     const int dof = array_.size() - m - 3;
     const double alarm = m == 0 ? budget_.limits.parity_alarm[index(dof)] : 0.0;
@@ -92,7 +92,7 @@ class SetAside {
     return detectable_shift(limit, dof, settings_.missed_detection / sets_) + budget_.parity_systematic;
   }
 
-  /// Largest `unit_bias` over all choices of m others to leave out.
+  /// Largest `unit_bias` over all choices of m others to omit.
   double hardest(int i, int m) const noexcept {
     const SensorSet others = array_.all().without(i);
     if (m == 0) return unit_bias(array_, others, i, settings_.samples);

@@ -22,7 +22,7 @@ constexpr double kEnoughSpan_deg = 60.0;
 constexpr double kDelivers = 0.5;
 /// Over the declared noise; 128 samples tell 1.25 from 1 by 4 sigma.
 constexpr double kToldNoise = 1.25;
-/// Told where the condition is above the one and the span of use wider than what was recorded by the other.
+/// Reported where the condition is above the one and the span of use wider than what was recorded by the other.
 constexpr double kExtrapolated = 100.0;
 constexpr double kWider = 1.2;
 

@@ -96,7 +96,7 @@ void look_again(const io::ArrayFile& array, const std::vector<Station>& stations
   }
 }
 
-/// What an accepted fit has set aside is neither predicted nor held against a sensor.
+/// What an accepted fit has rejected is neither predicted nor held against a sensor.
 void cross_check(const io::ArrayFile& array, const Datasheet& nominal, const std::vector<Station>& all,
                  const Expected<Calibration>& fit, const FitReport& report, const TemperatureOptions& over,
                  const HoldOutChoice& choice, FitStudy& out) {

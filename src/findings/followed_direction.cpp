@@ -7,7 +7,7 @@ inline namespace PLUMB_ABI {
 namespace findings {
 namespace {
 
-/// Told where the temperature is so nearly a linear function of one component of the direction, over enough stations.
+/// Where the temperature is so nearly a linear function of one component of the direction, over enough stations.
 constexpr double kFollows = 0.99;
 constexpr double kFollowStations = 6.0;
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBlock = 32;
 constexpr std::size_t kMostBlocks = 4096;
-/// The quietest tenth of the blocks is taken for the tool at rest.
+/// The tenth with least scatter of the blocks is taken for the tool at rest.
 constexpr double kQuietest = 0.1;
 /// Scatter within this factor of the declared noise is as declared; the search for stations allows about twice.
 constexpr double kNoiseFactor = 1.5;

@@ -102,7 +102,7 @@ AttitudeLimits limits_of(const SetTest& t, const SetTest& undrifted, const Toler
   return out;
 }
 
-/// The widest limit of a voting triple at one attitude.
+/// The widest limit of a monitored triple at one attitude.
 MaeLimit widest_triple(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                        const BlockEvidence& block, const MonitorConfig& config, double quantile) {
   if (config.delta_f_mps2 > 0.0) return given_mae_limit(config.delta_f_mps2);
@@ -116,7 +116,7 @@ MaeLimit widest_triple(const SensorArray& array, const GravityReference& gravity
   return widest;
 }
 
-/// Largest bias of sensor i that every voting triple passes at delta_F, without noise.
+/// Largest bias of sensor i that every monitored triple passes at delta_F, without noise.
 double hidden_bias(const SensorArray& array, const std::vector<Mat3>& maps, int i, const Vec3& g, double g_mps2,
                    double delta_f_mps2) {
   const auto passes = [&](double fault) {

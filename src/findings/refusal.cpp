@@ -183,7 +183,7 @@ std::vector<Finding> refusal_of(const CalibrationRun& run, const io::ArrayFile& 
     case Errc::implausible: return explained({implausible(run, array)}, run.second_look);
     case Errc::poor_fit: return explained({poor_fit(run, array)}, run.second_look);
     case Errc::diverged: return explained(did_not_settle(run, array), run.second_look);
-    case Errc::out_of_range:  // axis and wobble come from the command line, which checks them
+    case Errc::out_of_range:  // axis and axis deviation come from the command line, which checks them
       return {{FindingCode::too_many_roll_groups, -1, 0.0, static_cast<double>(kMaxRollGroups)}};
     default: return {as(FindingCode::refused_otherwise, e, e.index < array.array.size() ? e.index : -1)};
   }

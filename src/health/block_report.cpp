@@ -66,7 +66,7 @@ void decided(BlockReport& report, Kind kind, Cause cause, Cause by, double stati
   report.limit = limit;
 }
 
-/// Within every limit: the test that came nearest to its own is the one that is told.
+/// Within every limit: the test that came nearest to its own is the one that is reported.
 void decide_clean(const JudgeTerms& terms, BlockReport& report) noexcept {
   const SetTest& t = report.used;
   const TestLimits& limits = terms.settings.limits;

@@ -29,7 +29,7 @@ constexpr int kSearched = 8;
 constexpr int kTestsPerBlock = 150;
 /// Degrees of freedom below which chance decides.
 constexpr int kLeastDegrees = 6;
-/// Attitudes below which nobody is excluded, however many degrees of freedom they have: of many sensors there are many
+/// Attitudes below which none is excluded, however many degrees of freedom they have: of many sensors there are many
 /// sets that might be innocent by chance.
 constexpr int kLeastCorroborating = 4;
 /// What is learned explains its own attitudes to the noise, and leaves as much again for others.

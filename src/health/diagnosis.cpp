@@ -66,7 +66,7 @@ void Diagnosis::spend_asserted(int faults) noexcept {
 }
 
 bool Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcept {
-  // Nobody is suspected by a datasheet.
+  // The datasheet alone suspects no sensor.
   if (report.kind != BlockReport::Kind::alarm || episode_.open || !calibrated) return false;
   episode_.open = true;
   station_.clear();
@@ -74,7 +74,7 @@ bool Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcep
 }
 
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
-/// turned, whatever the others make of the direction: a liar that steps is no new attitude.
+/// turned, whatever the others make of the direction: a faulty sensor that steps is no new attitude.
 bool Diagnosis::is_still_there(const Terms& terms) const noexcept {
   const auto samples = static_cast<double>(station_.samples);
   const SensorArray& array = terms.in_force.array;
@@ -117,7 +117,7 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
 }
 
 /// What scatters may be all that shows of a movement: the confirmed grade bears so many faulty ones that hang that the
-/// calm healthy ones left lie in one plane, and across it the tool moves unfelt. So its average kills nothing. But a
+/// healthy ones at rest lie in one plane, and do not feel a movement across it. So its average rejects nothing. But a
 /// sensor that alone scatters, whichever others are doubted, while these agree, is the answer of this station by that.
 SensorSet Diagnosis::isolated_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
   const SensorSet noisy = terms.facts.noisy();
@@ -156,7 +156,7 @@ void Diagnosis::vote(const Terms& terms, const BlockTests& tests) noexcept {
   note_suspicion(terms, tests, suspected);
 }
 
-/// What the accusation of one station makes of the candidate that the stations before it have named.
+/// What the isolation of one station makes of the candidate that the stations before it have named.
 void Diagnosis::note_suspicion(const Terms& terms, const BlockTests& tests, const Suspicion& suspected) noexcept {
   const SensorSet monitored = isolation_.monitored(), usable = tests.block().usable;
   const TestLimits& limits = terms.settings.limits;
@@ -185,7 +185,7 @@ SensorSet Diagnosis::noise_confirmed(const ChannelFacts& facts) const noexcept {
 }
 
 /// Until the calibration is believed a sensor is excluded only if the others agree at every attitude on record; once
-/// it has been contradicted, by no evidence: that rests on what was learned a moment ago.
+/// it has been refuted, by no evidence: that rests on what was learned a moment ago.
 bool Diagnosis::may_exclude(const Terms& terms, SensorSet isolated) const noexcept {
   if (!terms.check.open()) return true;
   const CalibrationCheck::Terms by{terms.in_force.array, terms.in_force.gravity, terms.settings.limits};
@@ -226,8 +226,8 @@ Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, No
   return out;
 }
 
-/// Who may speak against a fault set of the asserted size: the calm, and those that scatter by themselves whichever so
-/// many others hang.
+/// Who may corroborate against a fault set of the assumed size: those at rest, and those that scatter by themselves
+/// whichever so many others hang.
 SensorSet Diagnosis::corroborating(const Terms& terms) const noexcept {
   const SensorSet in_service = terms.machine.sensors.in_service;
   if (asserted_left_ > provisional_grade(terms.in_force.array, in_service & terms.last.usable)) return terms.last.calm;

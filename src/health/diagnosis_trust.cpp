@@ -1,4 +1,4 @@
-// How long a doubt may last, and how trust is earned: the isolation timeout, validation, probation.
+// How long a doubt may last, and how the tool is validated: the isolation timeout, validation, probation.
 #include <algorithm>
 #include <cmath>
 
@@ -30,9 +30,9 @@ bool Diagnosis::expected(HealthEvent event, const DecisionState& machine) const 
 }
 
 /// The timeout counts doubt, not alarms alone: a block between the limit to leave suspect and the one to enter it would
-/// else hold the monitor there for ever. It rests at a reference error, of which nobody in service is suspected.
+/// else hold the monitor there for ever. It rests at a norm mismatch, by which no sensor in service is suspected.
 void Diagnosis::count_doubt(const Terms& terms, const BlockReport& report) noexcept {
-  // The contradiction for which the host had a fit made is no news, and the fit needs more stations than the isolation
+  // The contradiction for which the host had a fit made is not new, and the fit needs more stations than the isolation
   // timeout allows.
   const bool known = answer_.no_consistent_hypothesis && expected(HealthEvent::no_consistent_hypothesis, terms.machine);
   episode_.note_suspected((episode_.candidate | terms.machine.sensors.provisionally_excluded).size());
@@ -56,7 +56,7 @@ bool Diagnosis::is_out_of_blocks(const Terms& terms) const noexcept {
 bool Diagnosis::isolation_timed_out(const Terms& terms) const noexcept {
   const Mode mode = terms.machine.mode;
   if (mode != Mode::suspect && mode != Mode::recalibrating) return false;
-  if (terms.check.refused()) return false;  // nobody is suspected of it
+  if (terms.check.refused()) return false;  // no sensor is suspected of it
   return (is_out_of_stations(terms) || is_out_of_blocks(terms)) &&
          (!terms.machine.timed_out || unbounded_run_ >= terms.settings.config.passed_blocks);
 }
@@ -70,7 +70,7 @@ bool Diagnosis::is_isolable(const BlockEvidence& evidence) const noexcept {
 }
 
 /// Blocks in a row in which the doubt had neither a bound nor a way out. A bound: of the estimate, or of that of the
-/// sensors which nobody suspects: a liar takes the estimate as far as it likes once it is known, and has so many
+/// unsuspected sensors: a faulty one moves the estimate by any amount once it is known, and has so many
 /// stations to go before it is excluded. A way out: `is_isolable`, which ends with the blocks where these are counted.
 void Diagnosis::count_unbounded(const Terms& terms, const BlockTests& tests, const BlockReport& report,
                                 double turn_rad) noexcept {

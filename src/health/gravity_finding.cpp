@@ -27,7 +27,7 @@ bool GravityFinding::withdraw() noexcept {
   return true;
 }
 
-/// While the tool is trusted, too, and the length within its limit: an offset that no single block shows is seen at
+/// While the tool is validated, too, and the length within its limit: an offset that no single block shows is seen at
 /// many attitudes. Then the attitudes on record are those of one length; with the first that is not of it, gravity has
 /// changed, and the study begins anew. True where there is something to be said.
 bool GravityFinding::learn(const Terms& terms, const BlockReport& report) noexcept {
@@ -65,7 +65,7 @@ GravityFinding::News GravityFinding::study(const Terms& terms, const BlockReport
 }
 
 /// Gravity is taken to be known no better than the offset that every sensor of the array corroborates. Only ever wider:
-/// no explanation dies of it. Not while a sensor is doubted, and not where the offset may be an acceleration.
+/// it rejects no explanation. Not while a sensor is doubted, and not where the offset may be an acceleration.
 GravityFinding::News GravityFinding::tell(const Terms& terms) noexcept {
   const GravityReference& gravity = terms.in_force.gravity;
   const double acceleration_mps2 = terms.settings.limits.acceleration_mps2;
@@ -73,7 +73,7 @@ GravityFinding::News GravityFinding::tell(const Terms& terms) noexcept {
   const double turn_rad = acceleration_turn_rad(gravity, acceleration_mps2);
   const double stated_mps2 = stated_gravity_mps2(terms.in_force);
   NormMismatch found = study_.find(gravity.g_mps2, stated_mps2, terms.settings.config.alert_limit_rad - turn_rad);
-  // Within its limit the length is not in doubt: only what lies beyond the stated gravity for certain is told.
+  // Within its limit the length is not in doubt: only what lies beyond the stated gravity for certain is reported.
   const bool beyond = std::fabs(found.length_mps2) > stated_mps2 + found.length_bound_mps2;
   if (terms.trusted && !(found.kind == NormMismatchKind::common_scale && beyond)) found = NormMismatch{};
   if (found.turn_rad > 0.0) found.turn_rad += turn_rad;

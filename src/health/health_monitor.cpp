@@ -109,7 +109,7 @@ void HealthMonitor::collect_sample(const Sample& sample, GateResult& gate) noexc
 }
 
 /// In slow motion one sensor may feel the whole of what the bound holds: the vector tells how much it is.
-/// A liar can pull that vector back. So what the sensors depart by since the block has to be one movement, too: beyond
+/// A faulty sensor can pull it back. So what the sensors depart by since the block has to be one movement, too: beyond
 /// that no reading departs by more than its noise.
 void HealthMonitor::compare_in_motion(const Readings& y, SensorSet usable) noexcept {
   const MonitorState& s = state_;
@@ -153,7 +153,7 @@ void HealthMonitor::empty_windows() noexcept {
 
 void HealthMonitor::serve_gap(Arrival arrival) noexcept {
   if (arrival == Arrival::new_time_base) {
-    state_.last.known = false;  // its age cannot be told any more
+    state_.last.known = false;  // its age is no longer known
     state_.studies.trend.clear();
     state_.studies.temperature_rate.clear();
   }

@@ -1,4 +1,4 @@
-// Storage that changed though nobody wrote to it: a flipped bit, a stray write. The state, the masks and what a host
+// Storage that changed though no code wrote to it: a flipped bit, a stray write. The state, the masks and what a host
 // steers by are compared in every step; calibration, configuration and memory before anything is decided from them or
 // written to them, and so at every block; what every sample changes is held by sums of its own.
 #include "plumb/core/detail/storage_map.hpp"

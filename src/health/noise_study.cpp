@@ -12,7 +12,7 @@ namespace {
 
 /// Channels that scatter by more than so many times what their residuals do scatter together: the tool moves.
 constexpr double kTogether = 2.0;
-/// Channels that scatter by more than the largest factor explains in a block do so for another reason. With a dead
+/// Channels that scatter by more than the largest factor explains in a block do so for another reason. With a stuck
 /// sensor among them they need not do it together: it does not follow what moves the others.
 constexpr double kMostOfOneBlock = 1.8 * NoiseStudy::kMostFactor * NoiseStudy::kMostFactor;
 /// What the smoothest that counts of the triples shows of white noise, on average: it is one of the least smooth.

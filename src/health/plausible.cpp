@@ -75,7 +75,7 @@ bool calibration_is_plausible(const MonitorState& s, const MonitorSetup& setup) 
       now.temperature_max_degc != config.temperature_max_degc)
     return false;
   if (!same_rows(now.array, setup.array) || !s.recalibration.bounds().commissioned_as(setup.model)) return false;
-  // Where nobody has changed the calibration it is not another one.
+  // Where no calibration was adopted it is not another one.
   return changed || (!now.three_sensor_fit && same_coefficients(now.model, setup.model) &&
                      same_uncertainty(now.array.uncertainty(), setup.array.uncertainty(), now.array.size()));
 }
@@ -96,7 +96,7 @@ bool mode_is_plausible(const MonitorState& s) noexcept {
   if (s.last.known && !(s.last.evidence.samples > 0.0)) return false;
   const bool rank_lost = s.service.size == SizeClass::rank_lost, owes = s.in_force.owes_calibration();
   if (owes && machine.mode != Mode::initial && machine.mode != Mode::failed) return false;
-  // Nobody whom the monitor has not calibrated serves.
+  // No sensor that the monitor has not calibrated serves.
   if (!owes && !s.in_force.calibrated.contains(s.monitored())) return false;
   switch (machine.mode) {
     case Mode::nominal:

@@ -17,7 +17,7 @@ constexpr double kLeastInclination_rad = rad_from_deg(3.0);
 double across_tool(const Vec3& g) noexcept { return std::sqrt(g[0] * g[0] + g[1] * g[1]); }
 
 /// A calibration that is known to no digit leaves less than nothing by rounding, or more than there are numbers for:
-/// what such a vector is worth, nobody can tell. Doubles of no sign are ordered as their bits are, infinity and what is
+/// what such a vector is worth is not known. Doubles of no sign are ordered as their bits are, infinity and what is
 /// no number behind all, and a sign is behind those: this is asked in every sample, also where doubles are software.
 bool has_variances(const Mat3& covariance) noexcept {
   const auto variance = [&covariance](size_t k) {
@@ -124,7 +124,7 @@ bool has_news(const MonitorState& s, const Verdict& last) noexcept {
   const bool fine_now = !s.intake.temperature_out && s.studies.temperature_rate.slow();
   const bool stationary = (last.usable & Usable::stationary) != 0;
   const bool inhibited = (last.qualifiers & Qualifier::inhibited) != 0;
-  // An offer that an inhibit keeps waiting raises no event, and is told all the same.
+  // An offer that an inhibit keeps waiting raises no event, and is reported all the same.
   const Validity now = validity_of(s);
   const bool fresh = now == Validity::invalid ? s.is_fresh() : now != Validity::held;
   const bool stationary_now = fresh && !s.studies.slow_motion.slow();

@@ -46,7 +46,7 @@ SensorSet HealthMonitor::serve_fit(Action::Bits actions) noexcept {
   return {};
 }
 
-/// Where nobody has said over which span the coefficients hold, they hold where they were found.
+/// Where it is not stated over which span the coefficients hold, they hold where they were found.
 void HealthMonitor::take_span(const StationStore& store) noexcept {
   const MonitorConfig unset;
   const MonitorConfig& config = state_.settings.config;

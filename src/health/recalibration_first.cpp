@@ -1,5 +1,5 @@
 // The first calibration of a monitor that was given none: when it is tried, and what it must show before it is
-// believed. A fit that cannot be trusted is refused, whatever it costs in stations: before it there is no output at
+// believed. A fit that is not corroborated is refused, whatever it costs in stations: before it there is no output at
 // all, after it there is.
 #include <cmath>
 

@@ -63,7 +63,7 @@ struct Recalibration::First {
   static Error try_fit(const Recalibration& r, const InForce& in_force, const Calibration& fit) noexcept;
 };
 
-/// Biases and scales from elsewhere, held against stations that nobody can have made them from: nothing is fitted, and
+/// Biases and scales from elsewhere, held against stations that none of them was made from: nothing is fitted, and
 /// every station is a proof (recalibration_offer.cpp).
 struct Recalibration::Offered : Recalibration::InFlight {
   static int stations_due(const Recalibration&) noexcept { return kOfferStations; }

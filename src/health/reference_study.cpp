@@ -100,7 +100,7 @@ NormMismatch ReferenceStudy::find(double g_mps2, double gravity_bound_mps2, doub
   const Vec3 a = {p[1], p[2], p[3]};
 
   // How far bounded errors may have bent each parameter, and how well the model explains what was seen. A bias across
-  // gravity lengthens the vector by its square over 2 G, which the model leaves out.
+  // gravity lengthens the vector by its square over 2 G, which the model omits.
   std::array<double, kParameters> bend{};
   double low = -1e9, high = 1e9, hard_mps2 = 0.0, noise_square = 0.0;
   bool explained = true;

@@ -24,7 +24,7 @@ bool is_noise_known(const MonitorState& s) noexcept {
   return s.settings.config.window < NoiseStudy::kLeastWindow || s.studies.noise.blocks() >= kBlocksOfNoise;
 }
 
-/// Whether the calm sensors scatter by what is stated, on average: their own noise is no more than that, and the tool
+/// Whether the sensors at rest scatter as stated, on average: their own noise is no more than that, and the tool
 /// is at rest. Four sensors of 1.5 times the stated noise pass for such in 1 of 200 blocks of 32, of the stated one in
 /// all but 1 of 10 000.
 bool is_as_stated(const BlockAccumulator& block, SensorSet calm, const BlockNoise& noise) noexcept {
@@ -62,7 +62,7 @@ EventMask events_of(const MonitorState& s, const BlockReport& report, const Conc
 struct HealthMonitor::Block {
   BlockJudgement judged;
   bool slow = false;       ///< in slow motion
-  bool as_stated = false;  ///< the noise of its calm sensors
+  bool as_stated = false;  ///< the noise of its sensors at rest
 };
 
 /// What the block says of the noise of all sensors, and what is expected of each of them with that.
@@ -83,7 +83,7 @@ BlockNoise HealthMonitor::learn_noise() noexcept {
   return s.last.noise_factor > 1.0 ? noise_of(array, s.last.noise_factor, s.settings.resolution_mps2) : stated;
 }
 
-/// Whether a block that is not quiet is one of a tool in slow motion.
+/// Whether a block that is not at rest is one of a tool in slow motion.
 bool HealthMonitor::moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept {
   const MonitorState& s = state_;
   const SensorSet used = s.in_service() & s.last.usable;
@@ -152,7 +152,7 @@ void HealthMonitor::follow_motion(const BlockTests& tests, const BlockReport& re
   motion.add_turn(report.used.x_mps2, sigma_rad, s.settings.config.alert_limit_rad, rms_rad, row_rad, hidden_rad);
 }
 
-/// A block that is no evidence, and whose vector is no news.
+/// A block that is no evidence, and whose vector is no change.
 void HealthMonitor::leave_to_motion(bool turning) noexcept {
   MonitorState& s = state_;
   s.last.moving = true;
@@ -244,7 +244,7 @@ void HealthMonitor::collect_station(const BlockReport& report, const RawBlock& r
                             s.diagnosis.station().blocks == 1);
 }
 
-/// Of a tool in slow motion: a vector and its bound. Nobody is suspected by it and nobody cleared, it is no station,
+/// Of a tool in slow motion: a vector and its bound. No sensor is suspected by it and none cleared, it is no station,
 /// and nothing is learned from it; but that the sensors do not agree is an alarm whatever the tool does.
 EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests& tests,
                                           const BlockReport& report) noexcept {
@@ -261,7 +261,7 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
   const double trace = of_one_row * (covariance[0] + covariance[4] + covariance[8]);
   s.freshness.anchor_moving(s.settings.config, sample.time_s, s.motion_in_bound_rad() * s.in_force.gravity.g_mps2,
                             trace);
-  // A liar may hide part of the movement, from the block and from every row after it.
+  // A faulty sensor may hide part of the movement, from the block and from every row after it.
   if (report.kind == Kind::alarm || s.diagnosis.episode().open) s.freshness.lapse();
   const bool alarm = report.kind == Kind::alarm && !s.diagnosis.expected(HealthEvent::alarm, s.machine);
   if (alarm) s.recalibration.drop_last();
@@ -269,7 +269,7 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
 }
 
 /// Of a tool at rest within its temperatures: who is suspected and who is cleared by it, and what is learned.
-/// `as_stated`: the noise of the calm sensors.
+/// `as_stated`: the noise of the sensors at rest.
 EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTests& tests, const BlockReport& report,
                                              const RawBlock& raw, bool as_stated) noexcept {
   MonitorState& s = state_;
@@ -329,7 +329,7 @@ EventMask HealthMonitor::tick(const Sample& sample) noexcept {
   keep_report(report);
   if (block.slow) return serve_slow_block(sample, tests, report);
   if (!s.intake.temperature_out) return serve_block_at_rest(sample, tests, report, raw, block.as_stated);
-  // All sensors leave their model together: nothing dies, nothing latches.
+  // All sensors leave their model together: nothing is rejected and no sensor excluded.
   s.diagnosis.rescan(s.diagnosis_terms(), tests, s.turn_in_bound_rad(), s.studies.gravity.turn_rad());
   keep_vector(tests);
   s.freshness.anchor(s.settings.config, sample.time_s, 0.0);

@@ -72,7 +72,7 @@ Expected<SnapshotHeader> snapshot_header(const std::uint8_t* bytes, size_t size)
   return header;
 }
 
-/// Gravity is left out: it is what the depth makes of it, and a tool that is switched on elsewhere has no other past.
+/// Gravity is omitted: it is what the depth makes of it, and a tool that is switched on elsewhere has no other past.
 std::uint64_t HealthMonitor::identity(const MonitorSetup& setup) const noexcept {
   const int n = setup.array.size();
   ArchiveWriter out(nullptr, 0, n);

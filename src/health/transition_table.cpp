@@ -59,7 +59,7 @@ namespace {
 
 using table_detail::kRows;
 
-/// Every row names every event once, in rank order, and every mode has one row: no cell is written twice or left out.
+/// Every row names every event once, in rank order, and every mode has one row: no cell is written twice or omitted.
 constexpr bool rows_are_whole() {
   for (std::size_t m = 0; m < kRows.size(); ++m) {
     if (kRows[m].mode != static_cast<Mode>(m)) return false;
@@ -111,7 +111,7 @@ constexpr bool rank_loss_fails() {
   }
   return true;
 }
-/// S7: no_consistent_hypothesis and norm_mismatch exclude nobody. S16: an alarm leaves recalibrating.
+/// S7: no_consistent_hypothesis and norm_mismatch exclude no sensor. S16: an alarm leaves recalibrating.
 constexpr bool nobody_is_blamed_without_a_culprit() {
   constexpr Action::Bits blame = Action::exclude | Action::exclude_provisionally | Action::mark_absent;
   for (int m = 0; m < kModeCount; ++m) {

@@ -77,7 +77,7 @@ GravityReference normal(const TomlTable& table, double sigma_mps2) {
 }
 
 /// A length that is given can be checked where the place is given too: beyond this it is a slip. Anomalies stay below
-/// 0.06 %, an elevation that was left out below 0.3 %.
+/// 0.06 %, an elevation that was omitted below 0.3 %.
 constexpr double kMostOff = 0.003;
 
 GravityReference compared(const TomlTable& table, const char* key, const GravityReference& given) {

@@ -17,7 +17,7 @@ MonitorConfig read_monitor(const TomlNode& root, const std::string& file);
 Stability read_usual_stability(const TomlNode& root, const std::string& file);
 /// The keys of a table that states one, for its list of known keys.
 std::vector<std::string> with_stability_keys(std::vector<std::string> names);
-/// A figure that the table leaves out is that of `fallback`.
+/// A figure that the table omits is that of `fallback`.
 Stability read_stability(const TomlTable& table, const Stability& fallback);
 /// All of [input] but the columns of the sensors.
 InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);

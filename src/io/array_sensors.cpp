@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "array_parts.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "refusal.hpp"
 #include "text_tools.hpp"
 #include "toml_table.hpp"
@@ -188,7 +189,7 @@ const TomlNode& sensor_list(const TomlNode& root, const std::string& file) {
   if (n < 3)
     throw Refusal(FileError{
         file, list->line, "sensor",
-        "an array of " + std::to_string(n) + " sensors cannot determine a vector; at least 3 are needed", form});
+        "an array of " + count_text(n, "sensor") + " cannot determine a vector; at least 3 are needed", form});
   if (n > static_cast<std::size_t>(kCapacity)) {
     throw Refusal(FileError{
         file, list->items[static_cast<std::size_t>(kCapacity)].line, path_of(static_cast<std::size_t>(kCapacity)),

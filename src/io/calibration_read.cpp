@@ -7,6 +7,7 @@
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/date.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "renamed_keys.hpp"
 #include "text_tools.hpp"
 
@@ -119,9 +120,9 @@ void check_array(const Source& source, const Json& root, const ArrayFile& array)
   const auto n = static_cast<std::size_t>(array.datasheet.size);
   const Json& nominal = source.member(there, "nominal");
   if (!nominal.is_array() || nominal.size() != n) {
-    refuse_array(source, array, "", "nominal",
-                 "the calibration has " + std::to_string(nominal.size()) + " sensors and the array file has " +
-                     std::to_string(n));
+    refuse_array(
+        source, array, "", "nominal",
+        "the calibration has " + count_text(nominal.size(), "sensor") + " and the array file has " + std::to_string(n));
   }
   for (std::size_t i = 0; i < n; ++i) compare_sensor(source, array, nominal[i], i);
   const std::string reads = source.text_of(there, "reads");

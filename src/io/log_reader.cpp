@@ -1,4 +1,5 @@
 #include "plumb/io/log_reader.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -204,7 +205,7 @@ LogReader::State::Got LogReader::State::next_cells() {
   if (found == cells.size()) return Got::row;
   ++index;
   refuse(kNoColumn,
-         "the row has " + std::to_string(found) + " cells, but the header has " + std::to_string(cells.size()));
+         "the row has " + count_text(found, "cell") + ", but the header has " + std::to_string(cells.size()));
   return note_bad(1, bad_row());
 }
 

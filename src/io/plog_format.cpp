@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "plumb/io/units.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -147,7 +148,7 @@ FileExpected<std::size_t> plog_header_size(std::string_view fixed, const std::st
   const std::size_t size = u32_at(at + 16);
   if (size >= kPlogFixedSize + kCrcSize && size <= kPlogLongestHeader) return size;
   return refuse(path,
-                "states a length of " + std::to_string(size) + " bytes long, but the range is " +
+                "states a length of " + count_text(size, "byte") + ", but the range is " +
                     std::to_string(kPlogFixedSize + kCrcSize) + " to " + std::to_string(kPlogLongestHeader),
                 kCopyAgain);
 }
@@ -162,13 +163,13 @@ FileExpected<PlogHeader> plog_header_of(std::string_view bytes, const std::strin
   header.block_rows = u32_at(bytes_of(bytes) + 24);
   header.rate_hz = double_at(bytes_of(bytes) + 32);
   if (columns < 1 || columns > kPlogColumns) {
-    return refuse(
-        path, "names " + std::to_string(columns) + " columns, but the range is 1 to " + std::to_string(kPlogColumns),
-        "record only the columns that the array file names");
+    return refuse(path,
+                  "names " + count_text(columns, "column") + ", but the range is 1 to " + std::to_string(kPlogColumns),
+                  "record only the columns that the array file names");
   }
   if (header.block_rows < 1 || header.block_rows > kPlogBlockRows) {
     return refuse(path,
-                  "allows " + std::to_string(header.block_rows) + " rows in a block, but the range is 1 to " +
+                  "allows " + count_text(header.block_rows, "row") + " in a block, but the range is 1 to " +
                       std::to_string(kPlogBlockRows),
                   "let the recorder write shorter blocks");
   }

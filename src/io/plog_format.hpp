@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kPlogByteOrder = 0x01020304U;
 inline constexpr std::uint32_t kPlogVersion = 1;
 /// Presence is one bit per column in 64.
 inline constexpr std::size_t kPlogColumns = 64;
-/// A block stays below 2.2 MB, so that nobody has to hold much.
+/// A block stays below 2.2 MB, so that a reader needs little memory.
 inline constexpr std::uint32_t kPlogBlockRows = 4096;
 /// Up to the end of the rate; the columns follow.
 inline constexpr std::size_t kPlogFixedSize = 40;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "plumb/io/hash.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -78,7 +79,7 @@ PlogRows::Status PlogRows::end_mark(const unsigned char* at) {
     return lose("the check sum of the end mark at byte " + std::to_string(offset_) + " is wrong");
   }
   if (head.first_row != row_number_) {
-    return lose("the end mark states " + std::to_string(head.first_row) + " rows, but the log has " +
+    return lose("the end mark states " + count_text(head.first_row, "row") + ", but the log has " +
                 std::to_string(row_number_));
   }
   consume(at, kPlogBlockHead);
@@ -97,8 +98,8 @@ PlogRows::Status PlogRows::next_block() {
   const PlogBlockHead head = plog_block_head(at);
   if (head.rows == 0) return end_mark(at);
   if (head.rows > header_.block_rows) {
-    return lose("the block at byte " + std::to_string(offset_) + " states " + std::to_string(head.rows) +
-                " rows, but the header allows " + std::to_string(header_.block_rows));
+    return lose("the block at byte " + std::to_string(offset_) + " states " + count_text(head.rows, "row") +
+                ", but the header allows " + std::to_string(header_.block_rows));
   }
   const std::size_t size = kPlogBlockHead + head.rows * row_bytes_;
   at = peek(size);

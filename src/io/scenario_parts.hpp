@@ -31,9 +31,9 @@ scenario::DepthLaw read_depth(const ScenarioSource& source);
 
 // ---- what the sections share ---------------------------------------------------------------------
 
-/// A section that may be left out; then it is an empty table.
+/// A section that may be omitted; then it is an empty table.
 TomlTable section_of(const ScenarioSource& source, const char* name, const std::vector<std::string>& known);
-/// The tables of [[name]], none where it is left out; each with its field name, "fault[2]".
+/// The tables of [[name]], none where it is omitted; each with its field name, "fault[2]".
 std::vector<TomlTable> tables_of(const ScenarioSource& source, const char* name, const std::vector<std::string>& known);
 /// Refuses a key that the chosen law does not use.
 void refuse_unused(const TomlTable& table, const std::string& law, const std::vector<std::string>& used);
@@ -44,7 +44,7 @@ bool read_flag(const TomlTable& table, const char* key, bool fallback);
 /// From 0 to 2^64 - 1; what TOML's integers cannot hold stands in quotes.
 std::uint64_t read_seed(const TomlTable& table, const char* key, std::uint64_t fallback);
 
-/// Texts of the scenario room end in "... Remedy: ...": what was found, and the remedy.
+/// Texts of the scenario module end in "... Remedy: ...": what was found, and the remedy.
 std::pair<std::string, std::string> without_remedy(const std::string& text);
 
 }  // namespace io

@@ -1,4 +1,4 @@
-// [truth] and [[sensor_truth]] of the scenario file: what the sensors really are, which plumb is not told.
+// [truth] and [[sensor_truth]] of the scenario file: what the sensors really are, which plumb does not know.
 #include <algorithm>
 #include <cmath>
 

@@ -121,7 +121,7 @@ std::string sensor_text(const scenario::Tool& tool, int sensor, const RawUnit& u
   return out;
 }
 
-/// What is left out where it is not there: wander, rotation, depth.
+/// What is omitted where it is not there: wander, rotation, depth.
 std::string surroundings(const scenario::Scenario& s) {
   std::string out;
   const scenario::InstabilityLaw& wander = s.noise.instability;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/scenario/count_text.hpp"
 #include "refusal.hpp"
 #include "renamed_keys.hpp"
 #include "text_tools.hpp"
@@ -115,7 +116,7 @@ Vec3 TomlTable::need_vec3(const char* key, const std::string& remedy) const {
   const TomlNode& value = need(key, remedy);
   if (value.kind != TomlNode::Kind::array) wrong_kind(value, key, "a list of three numbers", remedy);
   if (value.items.size() != 3) {
-    fail(value.line, key, "has " + std::to_string(value.items.size()) + " numbers, must have three", remedy);
+    fail(value.line, key, "has " + count_text(value.items.size(), "number") + ", must have three", remedy);
   }
   Vec3 out{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -205,7 +205,7 @@ FileExpected<double> parse_scale(std::string_view text, const RawUnit& log_unit)
     return refuse(in_quotes(text) + ": the unit is missing",
                   "give the output per g0 or per m/s^2, for example \"3 V/g0\" or \"415 count/(m/s^2)\"");
   }
-  // Brackets may be left out ("415 count/m/s^2"): the slash that has a known unit on both sides divides.
+  // Brackets may be omitted ("415 count/m/s^2"): the slash that has a known unit on both sides divides.
   for (std::size_t at = unit.find('/'); at != std::string_view::npos; at = unit.find('/', at + 1)) {
     RawUnit raw;
     const Unit* per = find(units_of(Quantity::acceleration), without_brackets(unit.substr(at + 1)));

@@ -166,7 +166,7 @@ const Verdict& PaperMonitor::step(const Sample& sample) noexcept {
     refuse_time(sample);
     return verdict_;
   }
-  if (arrival == Arrival::new_time_base) have_evidence_ = false;  // its age cannot be told any more
+  if (arrival == Arrival::new_time_base) have_evidence_ = false;  // its age is no longer known
   GateResult gate = gate_.gate(sample);
   if (arrival != Arrival::in_order || gate.gap) {
     verdict_.cause = Cause::gap;
@@ -216,7 +216,7 @@ void PaperMonitor::publish(const Sample& sample, bool ticked) noexcept {
   v.absent = absent_;
   v.clipped = clipped_;
   v.not_finite = not_finite_;
-  v.suspects = episode_open_ ? in_service_ : SensorSet{};  // the gate accuses all alike
+  v.suspects = episode_open_ ? in_service_ : SensorSet{};  // the gate suspects all alike
   v.minimum_faults.fill(kNoHypothesis);                    // the paper counts no faults
   v.stations_on_record = alarmed_.size();
   v.wants_rotation =

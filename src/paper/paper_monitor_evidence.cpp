@@ -163,7 +163,7 @@ EventMask PaperMonitor::recalibrate(bool clean) noexcept {
   return in_state && due ? bit(HealthEvent::recalibrate) : 0;
 }
 
-/// Steps 3 to 10 on a quiet block; the events that it raises.
+/// Steps 3 to 10 on a block at rest; the events that it raises.
 EventMask PaperMonitor::judge(double mae_mps2) noexcept {
   const bool over = !(mae_mps2 < delta_f_mps2_);  // eq (15)
   EventMask raised = over ? bit(HealthEvent::alarm) : 0;

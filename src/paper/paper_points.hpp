@@ -1,4 +1,4 @@
-/// What the paper's error needs at every station, and sums over stations. Private to the room of the paper.
+/// What the paper's error needs at every station, and sums over stations. Private to the paper module.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// The step of the paper's fit, and the storage that it works in. Private to the calibration room.
+/// The step of the paper's fit, and the storage that it works in. Private to the calibration module.
 #pragma once
 
 #include "../calibration/fit_internal.hpp"

@@ -1,5 +1,5 @@
 /// The step of the paper's fit for three sensors, in a fraction of the time of the general one. Private to the
-/// calibration room.
+/// calibration module.
 ///
 /// The vector x is affine in the three readings, and each derivative of |x|^2 is x times something affine in one
 /// reading: a quadratic of the readings that vanishes where x does. Nine coefficients say all of such a quadratic, so

@@ -9,6 +9,7 @@
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/verdict_section.hpp"
 #include "plumb/render/verification_exports.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -91,8 +92,8 @@ std::string geometry_words(const Json& array) {
 
 std::string campaign_words(const Json& faults) {
   if (!faults.value("played", false)) return "section 4: not played";
-  return fmt::format("section 4: {} scenarios, wrong exclusions {}, misleading {}",
-                     faults["plan"]["scenarios"].get<std::uint64_t>(),
+  return fmt::format("section 4: {}, wrong exclusions {}, misleading {}",
+                     count_text(faults["plan"]["scenarios"].get<std::uint64_t>(), "scenario"),
                      faults["rates"]["wrong_exclusion"]["count"].get<std::uint64_t>(),
                      faults["rates"]["misleading"]["count"].get<std::uint64_t>());
 }

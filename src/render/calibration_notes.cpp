@@ -6,6 +6,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -45,9 +46,9 @@ std::string drift_words(const io::ArrayFile& array, double days_since_calibratio
   const Readings tolerance = io::tolerance_mps2(array, days_since_calibration);
   const double most_mg = 1e3 * g0_from_mps2(*std::max_element(tolerance.begin(), tolerance.end()));
   std::string out = fmt::format(
-      "up to {:.3g} mg0 allowed for, {:.0f} sigmas of the stability {:.0f} days after the "
+      "up to {:.3g} mg0 allowed for, {:.0f} sigmas of the stability {} after the "
       "calibration",
-      most_mg, kStabilitySigmas, days_since_calibration);
+      most_mg, kStabilitySigmas, count_text(std::round(days_since_calibration), "day"));
   if (!untold.empty()) out += "; none for " + sensor_names(untold, array.array);
   return out;
 }

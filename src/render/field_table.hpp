@@ -1,4 +1,4 @@
-/// What is told of something, one figure a row: text, JSON and page walk one table of these (private to src/render; the
+/// What is reported, one figure a row: text, JSON and page walk one table of these (private to src/render; the
 /// page's walkers are in html_view.hpp).
 #pragma once
 

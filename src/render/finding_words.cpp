@@ -8,6 +8,7 @@
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/unit_guess.hpp"
 #include "plumb/render/figures.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -19,8 +20,8 @@ using findings::Finding;
 using Code = findings::FindingCode;
 
 std::string in_rows(double without, double rows) {
-  if (without == rows) return fmt::format("all {} rows", rows);
-  return fmt::format("{} of {} rows ({:.3g} %)", without, rows, 100.0 * without / rows);
+  if (without == rows) return "all " + count_text(rows, "row");
+  return fmt::format("{} of {} ({:.3g} %)", without, count_text(rows, "row"), 100.0 * without / rows);
 }
 
 std::string gap_words(const Finding& f, const std::string& column, int left_out) {
@@ -28,9 +29,10 @@ std::string gap_words(const Finding& f, const std::string& column, int left_out)
                                 in_rows(f.value, f.limit));
   if (left_out > 0) {
     out += fmt::format(
-        "; {} station{} excluded: no temperature of {} own, and the stations before and after differ by more than "
+        "; {} {} not used: no temperature of {} own, and the stations before and after differ by more than "
         "{:g} degC or none follows",
-        left_out, left_out == 1 ? " is" : "s are", left_out == 1 ? "its" : "their", kLevelMargin_degc);
+        count_text(left_out, "station"), by_count(left_out, "is", "are"), by_count(left_out, "its", "their"),
+        kLevelMargin_degc);
   }
   return out;
 }
@@ -44,9 +46,9 @@ std::string inclination_remark(const Finding& f, const Coverage& c) {
         "inclinations from {:.0f} to {:.0f} deg only; a span of less than 60 deg separates bias and scale poorly",
         least_deg, most_deg);
   }
-  return fmt::format("{} inclination{}; at least three are needed: add {} {} {:.0f} deg", c.inclinations,
-                     c.inclinations == 1 ? "" : "s", f.limit - f.value > 1.0 ? "two" : "one",
-                     most_deg < 90.0 ? "above" : "below", most_deg < 90.0 ? most_deg + 15.0 : least_deg - 15.0);
+  return fmt::format("{}; at least three are needed: add {} {} {:.0f} deg", count_text(c.inclinations, "inclination"),
+                     f.limit - f.value > 1.0 ? "two" : "one", most_deg < 90.0 ? "above" : "below",
+                     most_deg < 90.0 ? most_deg + 15.0 : least_deg - 15.0);
 }
 
 }  // namespace
@@ -74,9 +76,9 @@ std::string column_words(const Finding& f, const CalibrationRun& run, const io::
     case Code::temperature_column_gaps: return gap_words(f, column, run.without_temperature);
     default:
       return fmt::format(
-          "`{}` (roll_group) is empty or -1 at all {} stations, so the groups with a common inclination are unknown: "
+          "`{}` (roll_group) is empty or -1 at all {}, so the groups with a common inclination are unknown: "
           "number the groups from 0, or remove `roll_group` from the array file",
-          column, run.stations.size());
+          column, count_text(run.stations.size(), "station"));
   }
 }
 
@@ -112,9 +114,9 @@ std::string log_words(const Finding& f, const io::ArrayFile& array) {
   switch (f.code) {
     case Code::log_too_short:
       return fmt::format(
-          "the log has {} rows; a station needs at least {} at rest. If the rows are means of "
+          "the log has {}; a station needs at least {} at rest. If the rows are means of "
           "attitudes, set rows = \"stations\"",
-          f.value, f.limit);
+          count_text(f.value, "row"), f.limit);
     case Code::vector_length_wrong:
       return fmt::format(
           "`unit` and `scale`: the vector is {:.3g} times as long as gravity (median), so the numbers "
@@ -131,7 +133,8 @@ std::string log_words(const Finding& f, const io::ArrayFile& array) {
           "`noise`: even in the quietest tenth of the log {} scatters by {:.3g} mg0, {:.3g} times the {:.3g} mg0 "
           "declared{}. If the tool was at rest then, declare the noise as it is",
           id_of(array, f.sensor), in_mg0(f.value), f.value / f.limit, in_mg0(f.limit),
-          f.other > 1 ? fmt::format(" ({} of {} sensors exceed theirs)", f.other, array.array.size()) : "");
+          f.other > 1 ? fmt::format(" ({} of {} exceed theirs)", f.other, count_text(array.array.size(), "sensor"))
+                      : "");
     default:
       return "noise, unit and time column look as declared, so the tool did not rest: hold it still for 10 s at each "
              "attitude, and check that `station` tags do not change from row to row";
@@ -141,10 +144,10 @@ std::string log_words(const Finding& f, const io::ArrayFile& array) {
 std::string remark_words(const Finding& f, const CalibrationRun& run, const io::ArrayFile& array) {
   switch (f.code) {
     case Code::few_attitudes:
-      return fmt::format("{} attitude{}; at least 9 are needed, 12 or more to test the fit", f.value,
-                         f.value == 1.0 ? "" : "s");
+      return fmt::format("{}; at least 9 are needed, 12 or more to test the fit", count_text(f.value, "attitude"));
     case Code::sensor_absent:
-      return fmt::format("{} was noisy or absent at {} of {} stations", id_of(array, f.sensor), f.value, f.limit);
+      return fmt::format("{} was noisy or absent at {} of {}", id_of(array, f.sensor), f.value,
+                         count_text(f.limit, "station"));
     case Code::range_above_not_covered:
       return fmt::format("no station with {} above {} (highest {})", id_of(array, f.sensor), range_words(f.limit),
                          range_words(f.value));

@@ -124,7 +124,7 @@ Json hold_out_json(const findings::CalibrationRun& run) {
                      {"worst_station", h.worst + 1}});
 }
 
-/// Stations that the fit set aside, those of an accepted fit all by number; details of the first kMaxOutliers.
+/// Stations that the fit rejected, those of an accepted fit all by number; details of the first kMaxOutliers.
 Json outliers_json(const findings::CalibrationRun& run, const io::ArrayFile& array) {
   const FitReport& r = run.told();
   Json listed = Json::array();

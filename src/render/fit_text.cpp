@@ -13,6 +13,7 @@
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "sensor_fields.hpp"
 #include "temperature_words.hpp"
 
@@ -70,7 +71,7 @@ std::string stations_text(const findings::CalibrationRun& run) {
         "  {:>7}  {:>12.3f} {:>12.3f}  {:>8}  {:>6.1f} degC  {:>9} {:>9} {:>9}\n", k + 1, s.begin_s, s.end_s, s.count,
         s.temperature_degc, fitted ? fmt::format("{:+.3f}", in_mg0(run.study.residuals[k].norm_error_mps2)) : "-",
         norm(u) > 0.0 ? fmt::format("{:.1f}", deg_from_rad(std::atan2(std::hypot(u[0], u[1]), u[2]))) : "-",
-        !kept       ? "aside"
+        !kept       ? "rejected"
         : predicted ? fmt::format("{:.2f} s", run.study.predicted[k].sigmas)
                     : "-");
   }
@@ -92,8 +93,8 @@ std::string fit_section(const findings::CalibrationRun& run, const io::ArrayFile
   const FitReport& r = run.told();
   std::string out = "\nfit\n";
   const bool judged = r.rank > 0;
-  out += line("stop", fmt::format("{} after {} iterations, from the {}", to_string(run.report.stop),
-                                  run.report.iterations, to_string(run.report.start)));
+  out += line("stop", fmt::format("{} after {}, from the {}", to_string(run.report.stop),
+                                  count_text(run.report.iterations, "iteration"), to_string(run.report.start)));
   if (!judged) {
     return out + line("rank", "not known: there is no fit to these stations");
   }
@@ -108,10 +109,10 @@ std::string fit_section(const findings::CalibrationRun& run, const io::ArrayFile
   if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
   if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
   if (const int hidden = findings::hidden_wiring_count(array); hidden > 0) {
-    out +=
-        line("wiring", fmt::format("{} mistake{} of wiring (exchanged or reversed channels) show{} in no recording of "
-                                   "this array: see `plumb geometry`, and check one known attitude by hand",
-                                   hidden, hidden == 1 ? "" : "s", hidden == 1 ? "s" : ""));
+    out += line("wiring", fmt::format("{} (exchanged or reversed channels) {} in no recording of "
+                                      "this array: see `plumb geometry`, and check one known attitude by hand",
+                                      count_text(hidden, "mistake of wiring", "mistakes of wiring"),
+                                      by_count(hidden, "shows", "show")));
   }
   if (const std::string axis = roll_axis_words(r); !axis.empty()) out += line("roll axis", axis);
   const std::vector<std::string> unseen = unobservable(run, array);
@@ -135,7 +136,8 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
   out += line("parity", array.array.size() > 3 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
                                                : std::string("none: three sensors do not check one another"));
   out += line("beyond the noise", fmt::format("{:.3f} mg0", in_mg0(r.misfit_mps2)));
-  out += line("chi^2", fmt::format("{:.4g} for {} degrees of freedom, p = {:.3g}: {}", r.chi2, r.degrees_of_freedom,
+  out += line("chi^2", fmt::format("{:.4g} for {}, p = {:.3g}: {}", r.chi2,
+                                   count_text(r.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
                                    r.p_value, p_value_words(r)));
   const HoldOut& h = run.study.held_out;
   if (h.judged > 0) {
@@ -145,8 +147,8 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
       words +=
           fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.parity_rms_mps2), in_mg0(h.parity_max_mps2));
     }
-    words += fmt::format("; {:.2f} times what the fit claims; {} of {} stations, each predicted by a fit without it",
-                         h.sigmas, h.judged, run.study.kept.size());
+    words += fmt::format("; {:.2f} times what the fit claims; {} of {}, each predicted by a fit without it", h.sigmas,
+                         h.judged, count_text(run.study.kept.size(), "station"));
     if (h.not_judged > 0) words += fmt::format("; {} not, the rest being too few without them", h.not_judged);
     out += line("held out", words);
   } else {
@@ -160,9 +162,10 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
   if (!odd.empty()) out += line("stand out", listed(odd));
   const std::vector<std::string> outliers = outlier_words(run, array);
   if (const std::string level = level_words(r, array); !level.empty()) out += line("bends", level);
-  if (!outliers.empty()) out += line("set aside", listed(outliers) + "; the values come from the other stations");
+  if (!outliers.empty()) out += line("rejected", listed(outliers) + "; the values come from the other stations");
   if (r.clipped > 0)
-    out += line("at full scale", fmt::format("{} readings of {}, not used", r.clipped, clipped_names(r, array)));
+    out += line("at full scale",
+                fmt::format("{} of {}, not used", count_text(r.clipped, "reading"), clipped_names(r, array)));
   if (run.study.odd.sensor >= 0) {
     out += line("stands out",
                 id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
@@ -228,9 +231,9 @@ std::string attitude_section(const findings::CalibrationRun& run, const io::Arra
   const Coverage& c = run.study.coverage;
   std::string out = "\nattitudes\n";
   if (c.attitudes > 0) {
-    out += line("inclinations",
-                fmt::format("{} distinct, from {:.0f} to {:.0f} deg, in {} stations", c.inclinations,
-                            deg_from_rad(c.inclination_min_rad), deg_from_rad(c.inclination_max_rad), c.attitudes));
+    out += line("inclinations", fmt::format("{} distinct, from {:.0f} to {:.0f} deg, in {}", c.inclinations,
+                                            deg_from_rad(c.inclination_min_rad), deg_from_rad(c.inclination_max_rad),
+                                            count_text(c.attitudes, "station")));
   }
   if (run.told().rank > 0)
     out += line("excitation", fmt::format("{:.3g} (evenly spread = 1, below 0.05 is poor)",
@@ -246,10 +249,11 @@ std::string attitude_section(const findings::CalibrationRun& run, const io::Arra
 }  // namespace
 
 std::string fit_text(const findings::CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts) {
-  std::string out = fmt::format("array       {} ({} sensors), gravity {:.6f} m/s^2 ({})\n", array.name,
-                                array.array.size(), array.gravity.g_mps2, to_string(array.gravity.model));
-  out += fmt::format("log         {} rows used, {} bad rows skipped, {} stations\n", run.log.rows, run.log.rows_bad,
-                     run.stations.size());
+  std::string out =
+      fmt::format("array       {} ({}), gravity {:.6f} m/s^2 ({})\n", array.name,
+                  count_text(array.array.size(), "sensor"), array.gravity.g_mps2, to_string(array.gravity.model));
+  out += fmt::format("log         {} used, {} skipped, {}\n", count_text(run.log.rows, "row"),
+                     count_text(run.log.rows_bad, "bad row"), count_text(run.stations.size(), "station"));
   out += columns_section(run, array);
   if (parts.stations) out += stations_text(run);
   out += fit_section(run, array) + temperature_section(run, array) + residual_section(run, array) +

@@ -31,13 +31,13 @@ std::vector<std::string> coverage_words(const findings::CalibrationRun& run, con
 /// What all scale factors have in common, and what that may mean; empty where there is no fit to show.
 std::string common_scale_words(const findings::CalibrationRun& run);
 
-/// Stations that the fit set aside: "station 7 (31.2 sigma, 98 % of it by a2)", and how many more.
+/// Stations that the fit rejected: "station 7 (31.2 sigma, 98 % of it by a2)", and how many more.
 std::vector<std::string> outlier_words(const findings::CalibrationRun& run, const io::ArrayFile& array);
 
 /// "the samples of a2 scatter by 1 mg0, 5 times the 0.2 mg0 declared".
 std::string noise_words(const FitReport& report, const io::ArrayFile& array, int sensor);
 
-/// "a3: its residuals are 2.4 times ...": the sensor that is louder than the others beyond chance; empty where none is.
+/// "a3: its residuals are 2.4 times ...": the sensor of higher variance than the others; empty where none is.
 std::string high_variance_words(const FitReport& report, const io::ArrayFile& array);
 
 /// How surely an inclination is known in itself, and by what.

@@ -1,4 +1,4 @@
-/// What is told of every sensor of a geometry, and of the set (private to src/render).
+/// What is reported of every sensor of a geometry, and of the set (private to src/render).
 #pragma once
 
 #include <limits>
@@ -26,13 +26,13 @@ inline constexpr ThresholdField kThresholdFields[] = {
     {"drift_tolerance",       [](const auto& subject, const auto&, const int& i) { return subject.settings.tolerance_mps2[at(i)]; },
      1.0, nullptr, nullptr, kMg0, "", 0, nullptr, kMg0},
     {"detectable",            [](const auto&, const auto& study, const int& i) { return study.thresholds.sensor[at(i)].detectable_mps2; },
-     1.0, "detected", "mostly", kMg0, "{:.3f}", 10, "detected mostly", kMg0},
+     1.0, "minimum", "detectable", kMg0, "{:.3f}", 10, "minimum detectable bias", kMg0},
     {"guaranteed_detection",  [](const auto&, const auto& study, const int& i) { return study.thresholds.sensor[at(i)].guaranteed_detection_mps2; },
-     1.0, "detected", "surely", kMg0, "{:.3f}", 10, "detected surely", kMg0},
+     1.0, "guaranteed", "detection", kMg0, "{:.3f}", 10, "guaranteed detection", kMg0},
     {"provisional_exclusion", [](const auto&, const auto& study, const int& i) { return study.thresholds.sensor[at(i)].provisional_exclusion_mps2; },
      1.0, "provisional", "by parity", kMg0, "{:.3f}", 10, "provisional by parity", kMg0},
     {"guaranteed_isolation",  [](const auto&, const auto& study, const int& i) { return study.thresholds.sure.fault[2][at(i)]; },
-     1.0, "isolated", "surely", kMg0, "{:.3f}", 10, "isolated surely", kMg0},
+     1.0, "guaranteed", "isolation", kMg0, "{:.3f}", 10, "guaranteed isolation", kMg0},
     {"not_guaranteed_below",  [](const auto&, const auto& study, const int& i) { return where_isolable(study, study.sensors[at(i)].blind_half_width_mps2); },
      1.0, "one attitude", "hidden below", kMg0, "{:.1f}", 12, "one attitude: not guaranteed below", kMg0},
     {"guaranteed_above",      [](const auto&, const auto& study, const int& i) { return where_isolable(study, study.sensors[at(i)].any_attitude_mps2); },

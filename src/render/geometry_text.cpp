@@ -8,6 +8,7 @@
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -28,7 +29,7 @@ std::string line(const char* what, const std::string& value) { return fmt::forma
 
 std::string reading_text(const GeometrySubject& subject, const GeometryStudy& study) {
   const bool file = subject.file != nullptr;
-  std::string out = fmt::format("{}: {} sensors{}\n", subject.name, subject.array.size(),
+  std::string out = fmt::format("{}: {}{}\n", subject.name, count_text(subject.array.size(), "sensor"),
                                 subject.calibrated ? ", axes and uncertainty from the calibration" : "");
   if (file) {
     const io::ArrayFile& f = *subject.file;

@@ -6,6 +6,7 @@
 #include "plumb/detection/isolation.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -44,9 +45,10 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
   switch (f.code) {
     case Code::near_singular_triples:
       return fmt::format(
-          "{} of {} groups of three lie nearly in one plane (|det| below {}): they raise no alarm and do not "
-          "isolate. Turn or move one axis of each group out of the plane",
-          f.value, array.triple_count(), f.limit);
+          "{} of {} {} nearly in one plane (|det| below {}): no alarm and no isolation come from "
+          "{}. Turn or move one axis of each group out of the plane",
+          f.value, count_text(array.triple_count(), "group of three", "groups of three"),
+          by_count(f.value, "lies", "lie"), f.limit, by_count(f.value, "it", "them"));
     case Code::weak_isolation:
       return fmt::format(
           "in the worst case a fault must exceed {:.0f} errors of a reading before it can be isolated (more than "
@@ -65,8 +67,8 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
       return fmt::format("a bias common to all sensors is invisible in parity and moves the vector by {:.2f} of it",
                          f.value);
     case Code::unobservable_permutations:
-      return fmt::format("{} wiring errors are not detectable at any attitude; check one known attitude by hand",
-                         study.hidden.size());
+      return fmt::format("{} {} not detectable at any attitude; check one known attitude by hand",
+                         count_text(study.hidden.size(), "wiring error"), by_count(study.hidden.size(), "is", "are"));
     case Code::many_sensors:
       return fmt::format("above {} sensors the monitor has no confirmed grade, and no provisional grade above {}",
                          kStrictCapacity, kScanDepth);

@@ -6,6 +6,7 @@
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/render/figures.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -219,14 +220,14 @@ Section identity_of(const Json& report) {
 std::string health_html(const Json& report, const PagePictures& pictures, const std::string& data) {
   const Json& run = report["run"];
   const Json& id = report["identity"];
-  return sections_html(
-      {"Tool health: " + id["name"].get<std::string>(),
-       fmt::format("{} sensors, watched by plumb {}. Every figure stands in {} beside this page.",
-                   report["extremes"]["sensors"].size(), id["build"]["version"].get<std::string>(), data),
-       "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
-       fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
-      {answer_view(report), stations_view(report, pictures), roll_view(report, pictures), events_view(report),
-       extremes_view(report), basis_view(report), identity_of(report)});
+  return sections_html({"Tool health: " + id["name"].get<std::string>(),
+                        fmt::format("{}, watched by plumb {}. Every figure is in {} beside this page.",
+                                    count_text(report["extremes"]["sensors"].size(), "sensor"),
+                                    id["build"]["version"].get<std::string>(), data),
+                        "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
+                        fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
+                       {answer_view(report), stations_view(report, pictures), roll_view(report, pictures),
+                        events_view(report), extremes_view(report), basis_view(report), identity_of(report)});
 }
 
 }  // namespace render

@@ -9,6 +9,7 @@
 #include "plumb/render/plot.hpp"
 #include "plumb/render/verdict_section.hpp"
 #include "plumb/render/verification_exports.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "sensor_fields.hpp"
 
 namespace plumb {
@@ -51,7 +52,7 @@ void limits_tables(const Json& array, Section& out) {
               true);
   for (const Json& t : array["triples"])
     triples.push_back({joined_list(t["sensors"]), t["det"], t["condition"],
-                       t["near_singular"].get<bool>() ? "near singular" : "votes"});
+                       t["near_singular"].get<bool>() ? "near singular" : "monitored"});
   if (!triples.empty())
     out.table("Every group of three", {"sensors", "determinant", "condition", ""}, triples, "", true);
   ViewRows hidden;
@@ -71,9 +72,10 @@ void planned_tables(const Json& c, Section& out) {
   if (!c.contains("planned")) return;
   const Json& p = c["planned"];
   out.text(fmt::format(
-      "To record: hold the tool still at {} attitudes, spread as in the table, {} s ({} samples) at each. Their angles "
+      "To record: hold the tool still at {}, spread as in the table, {} s ({}) at each. Their angles "
       "need not be met nor known; no external reference is needed. This is the stand of the prediction below.",
-      shown(p["stations"]), shown(p["seconds_each"]), shown(p["samples_each"])));
+      count_text(p["stations"].get<double>(), "attitude"), shown(p["seconds_each"]),
+      count_text(p["samples_each"].get<double>(), "sample")));
   ViewRows rows;
   int number = 0;
   for (const Json& a : p["attitudes"])
@@ -149,10 +151,10 @@ Section array_view(const Json& report, const PagePictures& pictures) {
              {"protection level, deg", a["protection_level_deg"]}});
   const char* map = "geometry-attitudes.svg";
   if (!a["attitude_map"]["rows"].empty()) {
-    out.picture("Blind and mirror attitudes", picture_of(pictures, map),
+    out.picture("Attitudes that hide a fault, and mirror attitudes", picture_of(pictures, map),
                 "Map over inclination and toolface: above, the fault from which on the length of gravity isolates; "
                 "below, the least fault with a second explanation.",
-                fmt::format("At {} % of all attitudes some sensor is blind to the length of gravity.",
+                fmt::format("At {} % of all attitudes the length of gravity hides a fault of some sensor.",
                             shown(a["one_attitude"]["not_guaranteed_share"], 100.0)),
                 "geometry-attitudes.csv");
   }

@@ -6,6 +6,7 @@
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -91,9 +92,10 @@ void reused_table(const Json& section, Section& out) {
 
 /// A row that is a station has no time of its own.
 std::string block_words(const Json& subject, const Json& plan) {
-  const std::string rows = plan["block_samples"].dump();
-  if (subject["rows"] != "stations") return rows + " samples, " + shown(plan["block_s"]) + " s";
-  return rows + " rows, each as the mean of " + subject["samples_per_row"].dump() + " samples";
+  const auto rows = plan["block_samples"].get<std::uint64_t>();
+  if (subject["rows"] != "stations") return count_text(rows, "sample") + ", " + shown(plan["block_s"]) + " s";
+  return count_text(rows, "row") + ", each as the mean of " +
+         count_text(subject["samples_per_row"].get<std::uint64_t>(), "sample");
 }
 
 std::string mae(const Json& measured_g0, const Json& printed_g) {
@@ -106,8 +108,8 @@ void table2_part(const Json& t, Section& out) {
   out.text(fmt::format(
       "The 23 experiments of Seyed Moosavi et al., Sensors 2018, with a tool drawn from this array file: the "
       "paper's rule gives {} of {} verdicts as printed. Beside it what plumb's monitor made of the same "
-      "samples, {} attitudes each.",
-      t["as_printed"].dump(), t["experiments"].dump(), t["attitudes"].dump()));
+      "samples, {} each.",
+      t["as_printed"].dump(), t["experiments"].dump(), count_text(t["attitudes"].get<std::uint64_t>(), "attitude")));
   ViewRows verdicts, errors;
   for (const Json& r : t["rows"]) {
     const bool same = r["as_printed"], wrong = r["monitor_suspected_a_healthy_one"];
@@ -203,11 +205,13 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
   } else {
     const Json& plan = faults["plan"];
     out.text(fmt::format(
-        "{} scenarios of {} stations, {} combinations, seed {}; attitudes: {}; a block is {}; alert limit {} "
-        "deg. Up to {} simultaneous sensor faults.",
-        plan["scenarios"].dump(), plan["stations"].dump(), plan["cells"].dump(), plan["seed"].dump(),
+        "{} of {}, {}, seed {}; attitudes: {}; a block is {}; alert limit {} "
+        "deg. Up to {}.",
+        count_text(plan["scenarios"].get<std::uint64_t>(), "scenario"),
+        count_text(plan["stations"].get<std::uint64_t>(), "station"),
+        count_text(plan["cells"].get<std::uint64_t>(), "combination"), plan["seed"].dump(),
         joined_list(plan["attitudes"]), block_words(report["subject"], plan), shown(plan["alert_limit_deg"]),
-        faults["largest_faulty"].dump()));
+        count_text(faults["largest_faulty"].get<std::uint64_t>(), "simultaneous sensor fault")));
     rates_table(faults["rates"], out);
     reused_table(faults, out);
     fault_table(faults, out);
@@ -216,10 +220,11 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
       ViewRows sizes;
       for (const Json& bin : faults["by_size"])
         sizes.push_back({bin["from_mdb"], bin["to_mdb"], shown_rate(bin["detected"]), shown_rate(bin["isolated"])});
-      out.picture("Detection and isolation by size", picture_of(pictures, "by-size.svg"),
-                  "Share of lone constant errors detected and isolated, by size in multiples of the minimal detectable "
-                  "bias, with intervals.",
-                  "Lone constant errors; bars are 95 % intervals.", "by-size.csv");
+      out.picture(
+          "Detection and isolation by size", picture_of(pictures, "by-size.svg"),
+          "Share of single constant errors detected and isolated, by size in multiples of the minimal detectable "
+          "bias, with intervals.",
+          "Single constant errors; bars are 95 % intervals.", "by-size.csv");
       out.table("Detection and isolation by size, the data", {"from, MDB", "to, MDB", "detected", "isolated"}, sizes,
                 "", true);
     }
@@ -239,9 +244,11 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
   if (campaign.contains("replayed")) {
     const Json& again = campaign["replayed"];
     out.text(
-        fmt::format("{} scenarios were played again by other code (the simulator and the monitor for 24 sensors): {} "
-                    "agree in every block.",
-                    again["scenarios"].dump(), again["agree"].dump()));
+        fmt::format("{} {} played again by other code (the simulator and the monitor for 24 sensors): {} "
+                    "{} in every block.",
+                    count_text(again["scenarios"].get<std::uint64_t>(), "scenario"),
+                    by_count(again["scenarios"].get<std::uint64_t>(), "was", "were"), again["agree"].dump(),
+                    by_count(again["agree"].get<std::uint64_t>(), "agrees", "agree")));
   }
   return out;
 }
@@ -293,7 +300,7 @@ void assurance_tables(const Json& given, Section& out) {
     if (!rows.empty()) out.table(kind.title, {"what", "tool", "bound or figure", "s", "result"}, rows, kind.note);
   }
   out.text("Made from " + given["version"].get<std::string>() +
-           (given["complete"].get<bool>() ? "." : ", the quick form: larger arrays left out."));
+           (given["complete"].get<bool>() ? "." : ", the quick form, without the larger arrays."));
 }
 
 }  // namespace
@@ -311,15 +318,16 @@ Section machine_view(const Json& report) {
   if (coverage.is_null()) {
     out.notice("No campaign was played, so the coverage is unknown.", "open");
   } else {
-    out.text(
-        fmt::format("{} scenarios were replayed for this, the first of each campaign, and not the campaigns as a "
-                    "whole. They visited "
-                    "{} of {} states, took {} of {} transitions between them, and left a record in {} of {} cells of "
-                    "the table that "
-                    "do something.",
-                    report["campaign"]["replayed"]["scenarios"].dump(), coverage["modes_visited"].dump(),
-                    coverage["modes"].dump(), coverage["moves"].size(), coverage["moves_possible"].dump(),
-                    coverage["cells_recorded"].dump(), coverage["cells_taken"].dump()));
+    out.text(fmt::format(
+        "{} {} replayed for this, the first of each campaign, and not the campaigns as a "
+        "whole. They visited "
+        "{} of {} states, took {} of {} transitions between them, and left a record in {} of {} cells of "
+        "the table that "
+        "do something.",
+        count_text(report["campaign"]["replayed"]["scenarios"].get<std::uint64_t>(), "scenario"),
+        by_count(report["campaign"]["replayed"]["scenarios"].get<std::uint64_t>(), "was", "were"),
+        coverage["modes_visited"].dump(), coverage["modes"].dump(), coverage["moves"].size(),
+        coverage["moves_possible"].dump(), coverage["cells_recorded"].dump(), coverage["cells_taken"].dump()));
     coverage_tables(coverage, out);
     for (const Json& cell : coverage["cells"])
       records[{cell["mode"], cell["event"]}] = cell["records"].get<std::uint64_t>();

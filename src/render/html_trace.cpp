@@ -3,6 +3,7 @@
 
 #include "html_view.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -132,8 +133,9 @@ Section change_view(const Json& report) {
     out.notice("Not given: " + c["how"].get<std::string>() + ".", "open");
     return out;
   }
-  out.text(fmt::format("Verdict before: {}; now: {}. {} values differ.", shown(c["verdict_before"]),
-                       shown(c["verdict_now"]), c["count"].dump()));
+  out.text(fmt::format("Verdict before: {}; now: {}. {} {}.", shown(c["verdict_before"]), shown(c["verdict_now"]),
+                       count_text(c["count"].get<std::uint64_t>(), "value"),
+                       by_count(c["count"].get<std::uint64_t>(), "differs", "differ")));
   ViewRows rows;
   for (const Json& d : c["differences"]) rows.push_back({d["where"], d["before"], d["now"]});
   if (!rows.empty())
@@ -146,7 +148,7 @@ namespace {
 
 /// What the run cost, and how long a step of the monitor took while it did.
 std::string run_words(const Json& run) {
-  std::string out = fmt::format("Run {} on {}, {} s, {} threads.", run.value("time", "-"), run.value("host", "-"),
+  std::string out = fmt::format("Run {} on {}, {} s, threads: {}.", run.value("time", "-"), run.value("host", "-"),
                                 shown(run.value("seconds", Json())), shown(run.value("threads", Json())));
   const Json step = run.value("monitor_step", Json());
   if (!step.is_object()) return out;
@@ -164,9 +166,9 @@ std::string verification_html(const Json& report, const PagePictures& pictures) 
   const Json& build = report["identity"]["build"];
   return sections_html(
       {"Verification of " + report["subject"]["name"].get<std::string>(),
-       fmt::format("{} sensors, judged by plumb {} ({}). Every figure stands in report.json beside this page.",
-                   report["subject"]["sensors"].dump(), build["version"].get<std::string>(),
-                   build["commit"].get<std::string>()),
+       fmt::format("{}, judged by plumb {} ({}). Every figure is in report.json beside this page.",
+                   count_text(report["subject"]["sensors"].get<std::uint64_t>(), "sensor"),
+                   build["version"].get<std::string>(), build["commit"].get<std::string>()),
        "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.",
        run_words(report["run"])},
       {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),

@@ -46,7 +46,7 @@ class Section {
   void notice(const std::string& text, const std::string& tone);
   /// The few numbers that matter: question, value, what it means.
   void figures(const std::vector<std::array<std::string, 3>>& answers);
-  /// `folded`: behind a click; on paper it is left out.
+  /// `folded`: behind a click; on paper it is omitted.
   void table(const std::string& title, const std::vector<std::string>& head, const ViewRows& rows,
              const std::string& note = "", bool folded = false);
   void list(const std::string& title, const std::vector<std::string>& items, bool ordered = false);

@@ -7,6 +7,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/health/stability.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -44,8 +45,8 @@ nlohmann::ordered_json json_of(const TestLimit& t) {
 }  // namespace
 
 std::string limits_text(const MonitorLimits& l) {
-  std::string out = fmt::format("{} sensors, blocks of {} samples; medians over {} attitudes\n\n", l.sensors, l.window,
-                                findings::kSearchedAttitudes);
+  std::string out = fmt::format("{}, blocks of {}; medians over {}\n\n", count_text(l.sensors, "sensor"),
+                                count_text(l.window, "sample"), count_text(findings::kSearchedAttitudes, "attitude"));
   out += fmt::format("{:<28}{:>12}{:>12}{:>12}{:>14}\n", "test", "noise", "systematic", "limit", "bias at limit");
   if (l.sensors > 3) out += row("parity", l.parity, true);
   out += row("length of the vector", l.length, true);
@@ -55,8 +56,8 @@ std::string limits_text(const MonitorLimits& l) {
   if (l.useful_samples > 0.0) {
     const auto enough = static_cast<long>(std::ceil(l.useful_samples * (1.0 - 1e-9)));
     out += fmt::format(
-        "What calibration leaves does not average out: blocks beyond {} samples bring no gain at one attitude{}.\n",
-        enough, l.window > enough ? fmt::format(", and these have {}", l.window) : std::string());
+        "What calibration leaves does not average out: blocks beyond {} bring no gain at one attitude{}.\n",
+        count_text(enough, "sample"), l.window > enough ? fmt::format(", and these have {}", l.window) : std::string());
   }
   if (l.delta_f_mps2 > 0.0) {
     out += fmt::format(

@@ -9,6 +9,7 @@
 #include "plumb/render/run_findings.hpp"
 #include "plumb/render/timeline.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -22,7 +23,8 @@ std::string recalibration_text(const Verdict& v, const SensorArray& sensors, con
     return p.last_refusal.code == Errc::ok ? ""
                                            : fmt::format("recalibrate refused: {}\n", describe(p.last_refusal.code));
   }
-  std::string out = fmt::format("recalibrate {}: {} stations, {} held out", to_string(p.phase), p.stations, p.held_out);
+  std::string out =
+      fmt::format("recalibrate {}: {}, {} held out", to_string(p.phase), count_text(p.stations, "station"), p.held_out);
   if (p.stations_wanted > 0) {
     const Tilt tilt = tilt_of(io::in_frame(frame, p.wanted_direction), Mat3{});
     out += fmt::format(", {} more wanted, best at inclination {:.0f} deg", p.stations_wanted,
@@ -48,8 +50,9 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
   const Mat3& frame = array.output_frame;
   const Verdict& v = run.last;
   std::string out = fmt::format("\nstate       {}: {}\n", to_string(v.state), meaning(v.state));
-  out += fmt::format("log         {} samples, {} quiet blocks, {} changes, {} bad rows skipped\n", run.samples,
-                     run.blocks, run.transitions, run.log.rows_bad);
+  out += fmt::format("log         {}, {}, {}, {} skipped\n", count_text(run.samples, "sample"),
+                     count_text(run.blocks, "block at rest", "blocks at rest"), count_text(run.transitions, "change"),
+                     count_text(run.log.rows_bad, "bad row"));
   const bool failed = v.state == HealthState::failed;
   out += fmt::format("in service  {}\n", failed ? "none" : sensor_names(v.in_service, sensors));
   out += fmt::format("excluded    {}\n", sensor_names(v.excluded, sensors));

@@ -13,6 +13,7 @@
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "second_look_words.hpp"
 #include "temperature_words.hpp"
 
@@ -52,12 +53,12 @@ std::vector<std::string> log_reasons(const CalibrationRun& run, const io::ArrayF
 std::optional<Refusal> amount_words(const Finding& f, const CalibrationRun& run, const io::ArrayFile& array) {
   switch (f.code) {
     case Code::no_stretch_at_rest:  // with nothing at rest in the log, other attitudes are no advice
-      return Refusal{fmt::format("no stretch at rest was found in {} rows", f.value),
+      return Refusal{fmt::format("no stretch at rest was found in {}", count_text(f.value, "row")),
                      "check the array file against the log: " + joined(log_reasons(run, array), ". Also ")};
     case Code::too_few_stations:
-      return Refusal{
-          fmt::format("{} station{} found, {} are needed", f.value, f.value == 1.0 ? " was" : "s were", f.limit),
-          more_attitudes(run)};
+      return Refusal{fmt::format("{} {} found, {} are needed", count_text(f.value, "station"),
+                                 by_count(f.value, "was", "were"), f.limit),
+                     more_attitudes(run)};
     case Code::undetermined:
       return Refusal{
           fmt::format(
@@ -201,8 +202,8 @@ std::optional<Refusal> residual_words(const Finding& f, const CalibrationRun& ru
                          "if this is its true noise, declare it in the array file: the limits of the monitor depend "
                          "on it"};
     case Code::too_many_outliers:
-      return Refusal{fmt::format("{} of {} stations contradict the others (at most {:.0f} may be outliers){}", f.value,
-                                 r.stations + r.outliers, f.limit,
+      return Refusal{fmt::format("{} of {} contradict the others (at most {:.0f} may be outliers){}", f.value,
+                                 count_text(r.stations + r.outliers, "station"), f.limit,
                                  f.sensor >= 0 ? ", most of them by the reading of " + sensor : ""),
                      channel + kRecordAgain};
     case Code::outliers_of_three:
@@ -274,7 +275,7 @@ Refusal reason_of(const std::vector<Finding>& list, const CalibrationRun& run, c
   return out ? *out : other_words(f, run.refusal, array);
 }
 
-/// Columns that are dead: no attitude mends that.
+/// Columns that are stuck: no attitude mends that.
 Refusal dead_columns_words(const std::vector<Finding>& dead, const CalibrationRun& run, const io::ArrayFile& array) {
   std::vector<std::string> words, ids;
   for (const Finding& f : dead) {
@@ -330,7 +331,8 @@ Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array) 
                           f.limit),
               more_attitudes(run) + ", or " + without};
     case Code::paper_too_few_stations:
-      return {fmt::format("{} stations have all sensors, {} are needed", f.value, f.limit),
+      return {fmt::format("{} {} all sensors, {} are needed", count_text(f.value, "station"),
+                          by_count(f.value, "has", "have"), f.limit),
               more_attitudes(run) + ", or " + without};
     default: {
       const Refusal words = other_words({}, run.paper_refusal, array);

@@ -8,6 +8,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -40,10 +41,13 @@ std::string missing_text(const session::RollTest& test, const HealthMonitor& mon
   const Verdict& v = test.run.last;
   const MonitorConfig& config = monitor.config();
   if (test.run.blocks == 0)
-    return fmt::format("no block was at rest: hold the tool still for {} rows or more at a time", config.window);
+    return fmt::format("no block was at rest: hold the tool still for {} or more at a time",
+                       count_text(config.window, "row"));
   if (v.wants_rotation && v.rotation.change_mps2 > 0.0)
     return "still missing is " + turn_text(v.rotation, monitor.array(), frame);
-  return fmt::format("still missing are {} blocks at rest in a row in which all sensors agree", config.passed_blocks);
+  return fmt::format("still missing {} {} in a row in which all sensors agree",
+                     by_count(config.passed_blocks, "is", "are"),
+                     count_text(config.passed_blocks, "block at rest", "blocks at rest"));
 }
 
 /// "a3 excluded, a5 absent": whoever does not serve in the run.
@@ -70,9 +74,9 @@ std::string roll_test_text(const session::RollTest& test, const std::string& pat
                            const Mat3& frame) {
   const Verdict& v = test.run.last;
   const SensorArray& array = monitor.array();
-  std::string out =
-      fmt::format("plumb: roll test {}: {} samples, {} attitudes at rest", path, test.run.samples, test.attitudes);
-  if (test.run.log.rows_bad > 0) out += fmt::format(", {} bad rows skipped", test.run.log.rows_bad);
+  std::string out = fmt::format("plumb: roll test {}: {}, {}", path, count_text(test.run.samples, "sample"),
+                                count_text(test.attitudes, "attitude at rest", "attitudes at rest"));
+  if (test.run.log.rows_bad > 0) out += fmt::format(", {} skipped", count_text(test.run.log.rows_bad, "bad row"));
   out += "; ";
   if (v.state == HealthState::failed) {
     const bool timed_out = (v.qualifiers & Qualifier::timed_out) != 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "plumb/core/units.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -10,7 +11,7 @@ namespace render {
 
 namespace {
 
-/// Samples that are worth one independent one before it is told.
+/// Samples that are worth one independent one before it is reported.
 constexpr double kToldCorrelation = 1.5;
 
 double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
@@ -37,9 +38,9 @@ std::string findings_text(const Verdict& last) {
   const CalibrationFinding& calibration = last.calibration;
   if (calibration.contradicted) {
     out += fmt::format(
-        "calibration contradicted at {} attitudes: residuals are {:.1f} times what its covariance allows; {}. "
+        "calibration contradicted at {}: residuals are {:.1f} times what its covariance allows; {}. "
         "Remedy: calibrate again\n",
-        calibration.attitudes, calibration.ratio,
+        count_text(calibration.attitudes, "attitude"), calibration.ratio,
         calibration.refused ? std::string("no output is valid")
                             : fmt::format("every limit is wider by {:.2f} mg0", mg0(calibration.tolerance_mps2)));
   }

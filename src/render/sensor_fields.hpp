@@ -1,4 +1,4 @@
-/// What is told of every sensor of a fit, and of every fit by the paper's method (private to src/render).
+/// What is reported of every sensor of a fit, and of every fit by the paper's method (private to src/render).
 #pragma once
 
 #include <limits>

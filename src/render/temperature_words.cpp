@@ -10,6 +10,7 @@
 #include "plumb/findings/fit_remarks.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -42,14 +43,14 @@ std::string null_words(const TemperatureNull& null, const io::ArrayFile& array) 
 std::string levels_words(const TemperatureLevels& levels) {
   if (static_cast<std::size_t>(levels.count) > kNamedLevels) {
     const auto [least, most] = std::minmax_element(levels.stations.begin(), levels.stations.begin() + levels.count);
-    return fmt::format("{}, from {:.3g} to {:.3g} degC, {}{} stations at each", levels.count, levels.lowest_degc,
-                       levels.highest_degc, *least, *most > *least ? fmt::format(" to {}", *most) : "");
+    return fmt::format("{}, from {:.3g} to {:.3g} degC, {}{} at each", levels.count, levels.lowest_degc,
+                       levels.highest_degc, *most > *least ? fmt::format("{} to ", *least) : "",
+                       count_text(*most, "station"));
   }
   std::vector<std::string> each;
   for (int k = 0; k < levels.count; ++k) {
     const auto a = static_cast<std::size_t>(k);
-    each.push_back(fmt::format("{:.3g} degC ({} station{})", levels.degc[a], levels.stations[a],
-                               levels.stations[a] == 1 ? "" : "s"));
+    each.push_back(fmt::format("{:.3g} degC ({})", levels.degc[a], count_text(levels.stations[a], "station")));
   }
   return listed(each);
 }
@@ -76,9 +77,9 @@ std::vector<std::string> temperature_unobservable(const findings::CalibrationRun
   const TemperatureReport& t = run.temperature;
   if (t.order == 0 || t.null_directions == 0) return out;
   if (run.refusal.code == Errc::too_few_levels) {
-    out.push_back(fmt::format("scale and bias of every sensor of order {}{}: {} values, for {} level{} of temperature",
-                              t.levels.count, t.levels.count < t.order ? fmt::format(" to {}", t.order) : "",
-                              t.null_directions, t.levels.count, t.levels.count == 1 ? "" : "s"));
+    out.push_back(fmt::format("scale and bias of every sensor of order {}{}: {} values, for {}", t.levels.count,
+                              t.levels.count < t.order ? fmt::format(" to {}", t.order) : "", t.null_directions,
+                              count_text(t.levels.count, "level of temperature", "levels of temperature")));
     return out;
   }
   const auto kept = static_cast<std::size_t>(std::min(t.null_directions, kMaxNullDirections));
@@ -94,12 +95,12 @@ std::optional<Refusal> temperature_refusal(const Finding& f, const findings::Cal
     case Code::too_few_levels: {
       const std::string lower =
           t.levels.count > 1 ? fmt::format("--temperature-order {}", t.levels.count - 1) : "--temperature-order 0";
-      return Refusal{
-          fmt::format("scale and bias of order {} need {} temperature levels of {:g} degC; these stations have "
-                      "{} ({})",
-                      t.order, f.limit, kLevelsApart_degc, f.value, degc_words(t.levels.degc.data(), t.levels.count)),
-          "add stations near " + degc_words(t.missing_degc.data(), t.missing) +
-              ", with six attitudes or more at each; or fit what there is with " + lower};
+      return Refusal{fmt::format("scale and bias of order {} need {} of {:g} degC; these stations have "
+                                 "{} ({})",
+                                 t.order, count_text(f.limit, "temperature level"), kLevelsApart_degc, f.value,
+                                 degc_words(t.levels.degc.data(), t.levels.count)),
+                     "add stations near " + degc_words(t.missing_degc.data(), t.missing) +
+                         ", with six attitudes or more at each; or fit what there is with " + lower};
     }
     case Code::roll_groups_with_drift:
       return Refusal{fmt::format("roll groups and a drift of order {:g} are not estimated together", f.value),
@@ -124,7 +125,7 @@ std::optional<Refusal> temperature_refusal(const Finding& f, const findings::Cal
 
 namespace {
 
-/// A remark in the report; empty where its line is told elsewhere.
+/// A remark in the report; empty where its line is reported elsewhere.
 std::optional<TemperatureFact> remark_of(const Finding& f, const findings::CalibrationRun& run) {
   switch (f.code) {
     case Code::temperature_follows_inclination:

@@ -30,7 +30,7 @@ constexpr const char* kLineColours =
     "without_plumb = '#d0553c'\nwith_plumb = '#2f78b7'\nunconfirmed = '#c98a00'\ntruth = '#8a8a8a'\nbound = "
     "'#2c8f57'\n";
 constexpr const char* kFaultColour = "#c53a3a";
-constexpr const char* kQuietColour = "#7d8690";  ///< motion: no news
+constexpr const char* kQuietColour = "#7d8690";  ///< motion: no change
 constexpr const char* kInServiceColour = "#2c8f57";
 constexpr const char* kSetAsideColour = "#b97a00";
 constexpr const char* kExcludedColour = "#4d545c";

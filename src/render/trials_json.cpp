@@ -146,7 +146,7 @@ Json confusion_json(const verification::Trials& trials) {
   return out;
 }
 
-/// Lone constant shifts by size, two bins an octave.
+/// Single constant shifts by size, two bins an octave.
 Json by_size_json(const verification::Trials& trials) {
   constexpr double kFirst = 0.25;
   constexpr int kBins = 16;

@@ -1,4 +1,5 @@
 #include "plumb/scenario/attitude.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ bool is_unit(const Vec3& v) noexcept { return std::abs(norm(v) - 1.0) <= kUnitTo
 bool count_ok(int stations) noexcept { return stations >= 1 && stations <= kMaxStations; }
 
 tl::unexpected<std::string> refuse_count(int stations) {
-  return refuse("an attitude law with " + std::to_string(stations) + " stations. Remedy: give 1 to " +
+  return refuse("an attitude law with " + count_text(stations, "station") + ". Remedy: give 1 to " +
                 std::to_string(kMaxStations) + " stations");
 }
 

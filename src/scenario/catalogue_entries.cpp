@@ -19,9 +19,9 @@ constexpr StateMask kFailed = state_bit(HealthState::failed);
 /// A station of the course is four blocks.
 constexpr int kStation = 4;
 
-/// Told within so many blocks, and the faulty one is out at the end.
+/// Reported within so many blocks, and the faulty one is out at the end.
 Outcome isolated_by(int latest, StateMask state) { return {0, latest, state, AllowedMask::the_faulty}; }
-/// May or may not be told; nobody who is healthy is blamed.
+/// May or may not be reported; no healthy sensor is suspected.
 Outcome harmless(StateMask states, AllowedMask mask = AllowedMask::nobody) { return {0, 0, states, mask}; }
 
 std::vector<CatalogueEntry> one_sensor() {

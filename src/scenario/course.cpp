@@ -26,7 +26,7 @@ std::string names(const Datasheet& datasheet, SensorSet set) {
   return text.empty() ? "none" : text;
 }
 
-/// Sensors that the scenario ever makes lie; those that merely fall silent are not lost to trust.
+/// Sensors that the scenario ever makes faulty; those that merely fall silent are not lost to validation.
 SensorSet liars(const Scenario& scenario) {
   SensorSet set;
   for (const Fault& fault : scenario.faults) {

@@ -55,7 +55,7 @@ struct FaultKindRow {
   SizeForm form;
   SizeRule rule;
   /// What the channel, or the log, does, in words that follow its id. {} is the size as written, {1} and {2} its parts,
-  /// {all} the share or "all". What stands in [ ] is left out where its size is empty.
+  /// {all} the share or "all", {rows} a count of rows. Text in [ ] is omitted where its size is empty.
   const char* sentence;
 };
 

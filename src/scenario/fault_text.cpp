@@ -75,7 +75,7 @@ Result<double> read_dither(const FaultContext& context, int sensor, Text text) {
   return read_quantity(text, level_units(context, sensor), "dither");
 }
 
-/// "-3V..3V"; the first unit may be left out where it is the same.
+/// "-3V..3V"; the first unit may be omitted where it is the same.
 Result<Fault> read_range(const FaultContext& context, Fault fault, Text text) {
   const std::size_t dots = text.find("..");
   if (dots == Text::npos) {

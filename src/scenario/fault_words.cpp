@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "fault_parts.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -109,7 +110,7 @@ std::string filled(const std::string& sentence, const std::string& size) {
       const std::size_t end = sentence.find('}', i);
       const std::string name = sentence.substr(i + 1, end - i - 1);
       const std::string& part = name == "1" ? first : name == "2" ? second : size;
-      *to += name == "all" && part.empty() ? "all" : part;
+      *to += name == "rows" ? count_text(std::stod(size), "row") : name == "all" && part.empty() ? "all" : part;
       empty = empty || part.empty();
       i = end;
     } else {
@@ -141,12 +142,13 @@ std::string describe_effect(const Fault& fault, const FaultContext& context) {
 
 std::string describe(const Fault& fault, const FaultContext& context) {
   static constexpr const char* kFrom[] = {"t = ", "row ", "station "};
-  static constexpr const char* kUnit[] = {"", " rows", " stations"};
+  static constexpr const char* kUnit[][2] = {{"", ""}, {" row", " rows"}, {" station", " stations"}};
   const auto clock = static_cast<std::size_t>(fault.clock);
   std::string text =
       describe_effect(fault, context) + " from " + kFrom[clock] + when_text(fault.clock, fault.onset, true) + " on";
   if (std::isfinite(fault.duration)) {
-    text += ", for " + when_text(fault.clock, fault.duration, true) + kUnit[clock];
+    text += ", for " + when_text(fault.clock, fault.duration, true);
+    text += by_count(fault.duration, kUnit[clock][0], kUnit[clock][1]);
   }
   return text;
 }

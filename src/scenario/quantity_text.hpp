@@ -1,5 +1,5 @@
-/// Numbers with units inside the text of a fault. The io room has a larger parser for files; it stands
-/// above this room, so the few units that faults need are read here, under the same names.
+/// Numbers with units inside the text of a fault. The io module has a larger parser for files; it stands
+/// above this module, so the few units that faults need are read here, under the same names.
 #pragma once
 
 #include <string>

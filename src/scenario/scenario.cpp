@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "plumb/scenario/count_text.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace scenario {
@@ -68,7 +70,7 @@ std::string numbers_wrong(const Scenario& s) {
 
 std::string tool_wrong(const Tool& tool) {
   if (tool.datasheet.size < 3 || tool.datasheet.size > kCapacity || tool.model.size != tool.datasheet.size) {
-    return "the tool has " + std::to_string(tool.datasheet.size) + " sensors. Remedy: give it 3 to " +
+    return "the tool has " + count_text(tool.datasheet.size, "sensor") + ". Remedy: give it 3 to " +
            std::to_string(kCapacity) + ", the same number in datasheet and model";
   }
   for (int i = 0; i < tool.datasheet.size; ++i) {

@@ -111,7 +111,7 @@ void settle(CalibrationRun& run, const Expected<Calibration>& fit) {
   run.concern = judged.concern;
 }
 
-/// Whether the values do not fit together, and no dead channel, other unit, single row or temperature is why. Of what
+/// Whether the values do not fit together, and no stuck channel, other unit, single row or temperature is why. Of what
 /// was refused by a name, only the roll axis may have a better one: which axis it was, or the group that spoils it.
 bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) {
   const Errc code = run.refusal.code;
@@ -184,7 +184,7 @@ void fit_stations(const io::ArrayFile& array, const CalibrationChoice& choice, C
     const SensorArray* const came_to = run.study.shown ? &run.study.shown->array : nullptr;
     run.second_look = findings::second_look(array, run.stations, again, came_to);
   }
-  // That without roll groups the axis does not matter is no news.
+  // That without roll groups the axis does not matter is no change.
   if (run.concern == Concern::roll_axis && run.second_look.without_groups) run.second_look = findings::SecondLook{};
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
 }

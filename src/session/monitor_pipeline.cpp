@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plumb/io/records.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/session/interrupt.hpp"
 #include "plumb/session/progress.hpp"
 #include "row_pump.hpp"
@@ -189,7 +190,7 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::Array
   if (restored && bytes.size() > monitor->snapshot_size()) {
     return tl::unexpected<io::FileError>(io::FileError{
         name, 0, "",
-        "holds " + std::to_string(bytes.size() - monitor->snapshot_size()) + " bytes behind the end of the snapshot",
+        "holds " + count_text(bytes.size() - monitor->snapshot_size(), "byte") + " behind the end of the snapshot",
         "give the file as --snapshot-out wrote it"});
   }
   if (restored) return monitor;

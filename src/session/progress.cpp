@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "plumb/scenario/count_text.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace session {
@@ -30,7 +32,7 @@ Progress::~Progress() {
 void Progress::at(std::uint64_t rows, double time_s) {
   if (!on_terminal_ || rows % kProgressRows != 0) return;
   shown_ = true;
-  show(fmt::format("\r{}: {} rows, t = {:.1f} s\033[K", what_, rows, time_s));
+  show(fmt::format("\r{}: {}, t = {:.1f} s\033[K", what_, count_text(rows, "row"), time_s));
 }
 
 }  // namespace session

@@ -67,7 +67,7 @@ void RowPump::read_ahead() noexcept {
     std::exception_ptr failure;
     try {
       fill(*rows, kBatchRows);
-    } catch (...) {  // out of memory: told by the thread that asks for the rows
+    } catch (...) {  // out of memory: reported by the thread that asks for the rows
       failure = std::current_exception();
     }
     const bool last = failure != nullptr || status_ != io::LogReader::Next::row;

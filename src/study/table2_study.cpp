@@ -8,7 +8,7 @@ namespace study {
 namespace {
 
 /// Healthy blocks may now and then lie above the fraction of the limit that counts as clean; a healthy tool needs 3 to
-/// 8 attitudes, and a monitor that has not come to trust it after these has a reason.
+/// 8 attitudes, and a monitor that has not validated it after these has a reason.
 constexpr int kProvingAttitudes = 40;
 /// Between two attitudes: longer than a sample, shorter than the gap that empties the windows.
 constexpr double kMove_s = 1.0;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/scenario/fault_text.hpp"
 
 namespace plumb {
@@ -117,8 +118,8 @@ std::string sentence_of(const Case& c) {
   context.datasheet = datasheet_of(c.array);
   context.raw = scenario::FaultContext::Raw::acceleration;
   context.raw_unit = "m/s^2";
-  std::string text = std::to_string(c.array.size()) + " sensors, " + std::to_string(kTrustStations) +
-                     " stations for validation and " + std::to_string(c.stations) + " more";
+  std::string text = count_text(c.array.size(), "sensor") + ", " + count_text(kTrustStations, "station") +
+                     " for validation and " + std::to_string(c.stations) + " more";
   if (c.walk != Walk::random) {
     char where[60];
     std::snprintf(where, sizeof where, ", %s inclination %g deg",

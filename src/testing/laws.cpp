@@ -13,7 +13,7 @@ inline namespace PLUMB_ABI {
 namespace testing {
 namespace {
 
-/// Stations over which an answer must stand before a sensor is latched out (the default of `isolation_stations`): what
+/// Stations over which an answer must stand before a sensor is excluded (the default of `isolation_stations`): what
 /// a law asks of a monitor is not taken from a configuration that asks for less.
 constexpr int kExcludingStations = 4;
 
@@ -71,7 +71,7 @@ struct StationSpan {
   int from = 0, until = -1;
 };
 
-/// Where everything must have been told apart: behind the last onset, early enough for the answer to stand over the
+/// Where everything must have been distinguished: behind the last onset, early enough for the answer to stand over the
 /// stations that an exclusion takes, before the isolation timeout is over and the run ends. Every station from the
 /// first onset on may have used part of the isolation timeout.
 StationSpan stations_to_tell(const Case& c) {

@@ -14,7 +14,7 @@ inline constexpr double kFarShift = 16.0;
 /// How far a bias moves the parity of a block, in its standard deviations.
 double parity_shift(const Case& c, int sensor, double bias_mps2);
 
-/// Every three axes are independent, and over the stations `from` .. `until` (numbers behind those of trust) every
+/// Every three axes are independent, and over the stations `from` .. `until` (numbers behind those of validation) every
 /// triple that holds a faulty sensor misses the length of gravity by far at one of them, every four that hold one
 /// disagree by far at each.
 bool told_apart(const Case& c, SensorSet faulty, int from, int until);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/verification/verdict.hpp"
 
 namespace plumb {
@@ -17,9 +18,10 @@ double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 /// What not to trust, in one sentence.
 std::string distrust_of(const Facts& facts) {
   const int grade = facts.array.confirmed_grade;
-  std::string out = grade > 0 ? fmt::format("any output once more than {} of {} sensors {} faulty; ", grade,
-                                            facts.array.sensors.size(), grade == 1 ? "is" : "are")
-                              : std::string("any isolation of a sensor: this array cannot isolate a fault; ");
+  std::string out = grade > 0
+                        ? fmt::format("any output once more than {} of {} {} faulty; ", grade,
+                                      count_text(facts.array.sensors.size(), "sensor"), by_count(grade, "is", "are"))
+                        : std::string("any isolation of a sensor: this array cannot isolate a fault; ");
   out +=
       "any output during an alert or with only three sensors in use; several sensors that all show the same wrong "
       "gravity";

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "plumb/core/units.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/verification/verdict.hpp"
 
 namespace plumb {
@@ -42,7 +43,7 @@ std::string standstill_words(const UserLimits& limits) {
                     deg_from_rad(limits.acceleration_turn_rad));
 }
 
-/// Beside it: no test tells drift that all sensors share from gravity, and what a limit does not hold is blamed on
+/// Beside it: no test tells drift that all sensors share from gravity, and what a limit does not hold makes suspect
 /// somebody.
 std::string drift_sentence(const UserLimits& limits) {
   return "Drift since the calibration: " + limits.drift +
@@ -55,9 +56,9 @@ std::string drift_sentence(const UserLimits& limits) {
 std::vector<std::string> assumptions_of(const UserLimits& limits, const Facts& facts) {
   std::vector<std::string> out = {standstill_words(limits)};
   if (!limits.drift.empty()) out.push_back(drift_sentence(limits));
-  out.push_back(
-      fmt::format("At most {} of the sensors are faulty at once; no guarantee holds beyond {} (confirmed grade).",
-                  limits.faults, facts.array.confirmed_grade));
+  out.push_back(fmt::format("At most {} {} faulty at once; no guarantee holds beyond {} (confirmed grade).",
+                            count_text(limits.faults, "sensor"), by_count(limits.faults, "is", "are"),
+                            facts.array.confirmed_grade));
   out.push_back(
       fmt::format("Gravity is {:.6f} m/s^2 within three times its stated sigma; the noise of every sensor is "
                   "white and as stated in the array file.",

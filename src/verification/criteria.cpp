@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "plumb/scenario/count_text.hpp"
 #include "plumb/verification/verdict.hpp"
 
 namespace plumb {
@@ -90,8 +91,8 @@ void judge_array(const UserLimits& limits, const Facts& facts, Criteria& out) {
   const int grade = facts.array.confirmed_grade;
   out.judge(CriterionId::faults_isolated, grade >= limits.faults,
             {fmt::format("at least {}", limits.faults), limits.faults_from}, fmt::format("{} (confirmed grade)", grade),
-            fmt::format("the array isolates {} faulty sensor{} with confirmation, {} {} required", grade,
-                        grade == 1 ? "" : "s", limits.faults, limits.faults == 1 ? "is" : "are"));
+            fmt::format("the array isolates {} with confirmation, {} {} required", count_text(grade, "faulty sensor"),
+                        limits.faults, by_count(limits.faults, "is", "are")));
   judge_protection(limits, facts, out);
   if (!limits.fault_mps2) return;
   double worst = 0.0;
@@ -177,7 +178,8 @@ void judge_requirements(const TraceFacts& trace, Criteria& out) {
   if (trace.counts.failed == 0 && !trace.tests_given && !trace.proofs) return;
   out.judge(CriterionId::requirements_failed, trace.counts.failed == 0, {"none"},
             fmt::format("{}", trace.counts.failed),
-            fmt::format("{} requirements have a test or a formal item that failed", trace.counts.failed));
+            fmt::format("{} {} a test or a formal item that failed", count_text(trace.counts.failed, "requirement"),
+                        by_count(trace.counts.failed, "has", "have")));
 }
 
 /// What was measured or found elsewhere and given to the report; nothing is judged where nothing was given.
@@ -192,7 +194,7 @@ void judge_evidence(const Facts& facts, Criteria& out) {
   if (facts.analysis_findings) {
     const std::uint64_t findings = *facts.analysis_findings;
     out.judge(CriterionId::analysis_findings, findings == 0, {"none"}, fmt::format("{}", findings),
-              fmt::format("the static analysis has {} finding{}", findings, findings == 1 ? "" : "s"));
+              fmt::format("the static analysis has {}", count_text(findings, "finding")));
   }
   if (!facts.target) return;
   const std::string above = failing(

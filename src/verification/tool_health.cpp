@@ -21,7 +21,7 @@ double length_variance(const Vec3& v, const Mat3& covariance) {
   return length > 0.0 ? std::fmax(dot(v, times(covariance, v)) / (length * length), 0.0) : 0.0;
 }
 
-/// Of the block, or of the event that it raised: a sensor that is set aside at once leaves a block without an alarm.
+/// Of the block, or of the event that it raised: a provisional exclusion at once leaves a block without an alarm.
 double ratio_of(const Verdict& v) {
   const TransitionRecord& event = v.transition;
   const double raised = event.sequence != 0 && event.limit > 0.0 ? event.statistic / event.limit : 0.0;

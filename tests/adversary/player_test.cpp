@@ -115,7 +115,7 @@ TEST(AttackPlayer, ASnapshotTakenUpGoesOnTheSame) {
   EXPECT_EQ(player.finish()[Count::broken], 0U);
 }
 
-TEST(AttackAdversary, TriesItsLiesOnCopiesAlone) {
+TEST(AttackAdversary, TriesItsFaultsOnCopiesOnly) {
   Player player = trusted();
   player.faulty = SensorSet::of(1);
   const std::uint32_t before = player.monitor().counters().samples;

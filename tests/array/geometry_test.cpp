@@ -110,7 +110,7 @@ TEST(LeastSquaresOf, SigmasBeyondAllReasonAreNotValidInsteadOfNotFinite) {
   EXPECT_FALSE(least_squares(*make(rows), SensorSet::first(3)).valid);
 }
 
-TEST(Merit, Mikoff5HasTwoNearSingularTriplesAndStrictGradeOne) {
+TEST(Merit, Mikoff5HasTwoNearSingularTriplesAndConfirmedGradeOne) {
   if constexpr (kCapacity >= 5) {
     const SensorArray array = built(mikoff5_axes().data(), 5);
     for (int k = 0; k < array.triple_count(); ++k) {
@@ -283,7 +283,7 @@ RC_GTEST_PROP(GeometryLaw, TripleMapInvertsItsRows, ()) {
   }
 }
 
-RC_GTEST_PROP(GeometryLaw, ParityIsBlindToEveryAcceleration, ()) {
+RC_GTEST_PROP(GeometryLaw, ParityDoesNotChangeWithAnyAcceleration, ()) {
   const SensorArray array = any_array(4);
   const Vec3 x = scaled(any_unit(), any_in(0.0, 200.0));
   const ParityBasis basis = parity_basis(array, array.all());

@@ -60,7 +60,7 @@ TEST(SensorArray, CountsOfEq13) {
   EXPECT_EQ(triple_count_of(24), 2024);
 }
 
-TEST(SensorArray, TetrahedronTriplesVoteAndHaveTheDeterminantOfTheNote) {
+TEST(SensorArray, TetrahedronTriplesAreMonitoredAndHaveTheDeterminantOfTheNote) {
   const SensorArray array = tetrahedron();
   for (int k = 0; k < 4; ++k) {
     EXPECT_TRUE(array.triple(k).votes);
@@ -86,7 +86,7 @@ TEST(SensorArray, ConditionOfASkewedTripleIsTheRatioOfItsSingularValues) {
   EXPECT_TRUE(array.triple(0).votes);
 }
 
-TEST(SensorArray, ACoplanarTripleAmongOthersIsSingularAndDoesNotVote) {
+TEST(SensorArray, ACoplanarTripleAmongOthersIsSingularAndNotMonitored) {
   const double d = std::sqrt(0.5);
   const Vec3 axes[4] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {d, d, 0.0}, {0.0, 0.0, 1.0}};
   const SensorArray array = built(axes, 4);
@@ -98,7 +98,7 @@ TEST(SensorArray, ACoplanarTripleAmongOthersIsSingularAndDoesNotVote) {
 }
 
 // Verifies: REQ-005
-TEST(SensorArray, NearSingularTripleHasAFormButNoVote) {
+TEST(SensorArray, NearSingularTripleHasAFormButIsNotMonitored) {
   const double d = 0.04;
   const Vec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, std::sqrt(1.0 - d * d), d}};
   const SensorArray array = built(axes, 3);

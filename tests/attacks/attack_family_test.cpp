@@ -30,7 +30,7 @@ Tally several(const char* family, int episodes) {
   return sum;
 }
 
-TEST(AttackFamilies, AreNamedOnceAndWithinWhatThePlayersBear) {
+TEST(AttackFamilies, AreNamedOnceAndWithinTheLimitsOfThePlayers) {
   std::set<std::string> names;
   for (const Family& f : families()) {
     EXPECT_TRUE(names.insert(f.name).second) << f.name;
@@ -103,7 +103,7 @@ TEST(AttackFamilies, CountWhatTheyAreAbout) {
 }
 
 /// More colluders than the grade of the array: what they achieve is counted and told.
-TEST(AttackFamilies, TellWhatTheyFind) {
+TEST(AttackFamilies, ReportWhatTheyFind) {
   std::vector<Finding> findings;
   Tally sum;
   for (std::uint64_t k = 0; k < 10; ++k) sum.add(played("adaptive-axis-cone", k, findings));

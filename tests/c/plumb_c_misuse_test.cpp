@@ -25,7 +25,7 @@ void expect_missing(plumb_error e, int argument) {
   EXPECT_EQ(e.index, argument);
 }
 
-TEST(CMisuse, ANullPointerIsNamedByItsPlace) {
+TEST(CMisuse, ANullPointerIsReportedByItsPlace) {
   Life life(4, 7);
   const CForm form(life.tool.rig.setup);
   Memory m;
@@ -118,7 +118,7 @@ TEST(CMisuse, ASensorThatIsNotThereHasNoCalibration) {
   EXPECT_EQ(plumb_monitor_calibration(m.monitor, 3, &sensor).code, PLUMB_OK);
 }
 
-TEST(CMisuse, ASnapshotWithoutRoomIsToldTheFunctionOfThisHeader) {
+TEST(CMisuse, ASnapshotWithoutRoomReportsTheFunctionOfThisHeader) {
   Life life(4, 12);
   const CForm form(life.tool.rig.setup);
   Memory m;
@@ -153,7 +153,7 @@ TEST(CMisuse, ReadsAndAlarmFormReachTheMonitor) {
   EXPECT_NE(restored(), PLUMB_OK);
 }
 
-TEST(CMisuse, AMisfitThatLeavesNothingKnownIsRefused) {
+TEST(CMisuse, AMisfitThatLeavesNoParameterKnownIsRefused) {
   Life life(4, 12);
   CForm form(life.tool.rig.setup);
   Memory m;

@@ -100,7 +100,7 @@ TEST(Acceptance, AllScalesOffTogetherIsRefusedAsSuch) {
   }
 }
 
-TEST(Acceptance, GravityOnePercentOffOnEarthIsNamedByTheScales) {
+TEST(Acceptance, GravityOnePercentOffOnEarthIsReportedByTheScales) {
   // 9.764 m/s^2 on a mountain, 9.8616 stated: on Earth, and one percent off. Only the datasheet's scales can tell.
   for (const double factor : {1.01, 0.99}) {
     Bench b;
@@ -133,7 +133,7 @@ TEST(Acceptance, OneScaleFarOffIsNotACommonOne) {
   EXPECT_EQ(b.run().error.code, Errc::ok);
 }
 
-TEST(Acceptance, ASensorThatChangesDuringTheRecordingIsNamed) {
+TEST(Acceptance, ASensorThatChangesDuringTheRecordingIsReported) {
   for (int sensor = 0; sensor < 4; ++sensor) {
     Bench step;
     step.add_to(sensor, 20, 0.2);
@@ -162,7 +162,7 @@ TEST(Acceptance, ADeadSensorNeverCausesTheSuspicionOfAHealthyOne) {
   }
 }
 
-TEST(Acceptance, WhatIsSmallBesideTheDatasheetIsToldNotRefused) {
+TEST(Acceptance, AnErrorSmallBesideTheDatasheetIsReportedNotRefused) {
   // So few stations that the fit itself cannot tell one sensor from the others.
   Bench b(1, 16, 0.01 * kSigma);
   for (plumb::Station& s : b.stations) s.count = 100;
@@ -262,7 +262,7 @@ TEST(CrossCheck, TakesNothingForAnAnswer) {
   EXPECT_STREQ(plumb::to_string(static_cast<Concern>(99)), "unknown");
 }
 
-TEST(Acceptance, AnIndexBeyondTheDatasheetSuspectsNobody) {
+TEST(Acceptance, AnIndexBeyondTheDatasheetSuspectsNoSensor) {
   Bench b;
   const auto fit = plumb::calibrate(b.sheet, b.gravity, b.stations.data(), 48);
   ASSERT_TRUE(fit.has_value());

@@ -73,7 +73,7 @@ TEST(CalibrationInput, WithoutFreedomNothingIsJudgedByTheResiduals) {
   for (int k = 0; k < b.report.parameters; ++k) EXPECT_TRUE(std::isfinite(b.report.sigma[at(k)])) << k;
 }
 
-TEST(CalibrationInput, ABoundOfZeroLeavesNoRoom) {
+TEST(CalibrationInput, ABoundOfZeroAllowsNoDeviation) {
   Bench scale;
   scale.options.max_scale_change = 0.0;
   EXPECT_EQ(scale.refusal(), Errc::implausible);

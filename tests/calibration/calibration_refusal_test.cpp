@@ -253,7 +253,7 @@ TEST(CalibrationRefusal, TheSameNumbersInTwoColumns) {
   EXPECT_EQ(c.error(), (plumb::Error{plumb::Errc::implausible, 3, 0.0, 0.0}));
 }
 
-TEST(CalibrationRefusal, SaturatedReadingsAreLeftOutAndCounted) {
+TEST(CalibrationRefusal, SaturatedReadingsAreNotUsedAndCounted) {
   Bench b;
   const double full_scale = 2.8;  // of 3 V/g0: clipped where a sensor points along gravity
   for (int i = 0; i < 4; ++i) b.sheet.sensor[at(i)].full_scale_raw = full_scale;
@@ -288,7 +288,7 @@ TEST(CalibrationRefusal, GravityOffByOnePercentIsACommonScale) {
 }
 
 /// An axis that is far off turns the frame of all, so that others leave their bounds with it.
-TEST(CalibrationRefusal, TheAxisThatIsFarOffIsNamedAndNoOther) {
+TEST(CalibrationRefusal, TheAxisThatIsFarOffIsReportedAndNoOther) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     for (int sensor = 0; sensor < 4; ++sensor) {
       Bench b;
@@ -307,7 +307,7 @@ TEST(CalibrationRefusal, TheAxisThatIsFarOffIsNamedAndNoOther) {
   }
 }
 
-TEST(CalibrationRefusal, WhereTwoExplainItAsWellNeitherIsNamed) {
+TEST(CalibrationRefusal, WhereTwoExplainItAsWellNeitherIsReported) {
   // The axes are hardly known, so that one far off may as well be the others turned about it.
   Bench b;
   for (int i = 0; i < 4; ++i) b.sheet.sensor[at(i)].prior.axis_rad = 0.3;

@@ -43,7 +43,7 @@ TEST(CalibratorFinish, AStationThatIsNoNumberIsRefused) {
 
 /// A tool that is noisier than declared: the misfit that was found for it changes the weights. Chi^2 is told against
 /// the declared noise, whatever the weights.
-TEST(CalibratorFinish, ChiSquareIsToldAgainstTheDeclaredNoise) {
+TEST(CalibratorFinish, ChiSquareIsReportedAgainstTheDeclaredNoise) {
   Bench b;
   Noise loud(3);
   for (Station& s : b.stations) {

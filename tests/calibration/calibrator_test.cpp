@@ -241,7 +241,7 @@ TEST(Calibrator, RanksOfStationSetsAsMeasured) {
 }
 
 // Verifies: REQ-038
-TEST(Calibrator, DataShareTellsDataFromDatasheet) {
+TEST(Calibrator, DataShareDistinguishesDataFromDatasheet) {
   // Nothing but vertical stations: z of the axial sensor is measured, its other components are not.
   Noise noise(12);
   const plumb::Datasheet d = paper_tool(kSigma);

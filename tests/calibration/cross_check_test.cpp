@@ -34,7 +34,7 @@ TEST(CrossCheck, AStationThatCannotBePredictedIsNotJudged) {
   EXPECT_FALSE(predict(*fit, b.gravity, nothing).judged);
 }
 
-TEST(CrossCheck, ASensorThatDidNotDeliverIsLeftOutOfTheParity) {
+TEST(CrossCheck, ASensorThatDidNotDeliverIsNotInTheParity) {
   AxisList axes{};
   const int n = cone(axes, 5);
   Bench b;
@@ -81,7 +81,7 @@ TEST(CrossCheck, PlansLargerThanTheStationsEnd) {
 }
 
 /// Nobody stands out where every fit leaves its bounds, where none is left, or where only one can be made.
-TEST(OddSensor, WithNobodyToCompareWithNobodyStandsOut) {
+TEST(OddSensor, WithoutASecondSensorNoneStandsOut) {
   Bench b;
   std::vector<Station> scratch(b.stations.size());
   FitOptions strict;
@@ -112,7 +112,7 @@ TEST(CrossCheck, AVectorBeyondAllNumbersIsNotPredicted) {
 }
 
 /// Five axes along three lines and readings without an error: who is left out changes nothing, and nobody is odd.
-TEST(OddSensor, WhereEveryFitIsPerfectNobodyStandsOut) {
+TEST(OddSensor, WhereEveryFitIsPerfectNoSensorStandsOut) {
   AxisList axes{};
   for (int i = 0; i < 5; ++i) axes[at(i)][at(i % 3)] = i < 3 ? 1.0 : -1.0;
   Datasheet sheet = datasheet_of(axes, 5, 1.0);

@@ -68,7 +68,7 @@ TEST(Screening, AStationWithoutSamplesIsNeverOut) {
 }
 
 /// A group whose only stations are so far off that they have no say has no inclination.
-TEST(FitSums, ARollGroupWithoutWeightSaysNothing) {
+TEST(FitSums, ARollGroupWithoutWeightChangesNothing) {
   Scene s;
   for (std::size_t k = 0; k < 6; ++k) s.stations[k].mean[(k + 1) % 3] += 3.0;
   s.stations[0].roll_group = s.stations[1].roll_group = 7;

@@ -143,7 +143,7 @@ TEST(FitReport, TheCommonTurnOfAxesOnOneLineIsUnknown) {
   EXPECT_TRUE(std::isfinite(lone.rad));
 }
 
-TEST(FitReport, ATurnThatIsNotAllOfItIsToldBySensor) {
+TEST(FitReport, ATurnThatExplainsOnlyAPartIsReportedBySensor) {
   Scene s;
   fit::Roll roll;
   roll.used = true;
@@ -174,7 +174,7 @@ TEST(FitReport, AFewOutlierStationsOfThreeSensorsAreReported) {
   EXPECT_EQ(fit::doubtful_screening(s.sheet, figures).code, Errc::ok);
 }
 
-TEST(FitReport, StationsWithoutSamplesTellNothingOfTwins) {
+TEST(FitReport, StationsWithoutSamplesReportNoTwins) {
   Scene s;
   for (Station& station : s.stations) station.mean = {4.0, 4.0, 4.0};
   EXPECT_EQ(fit::twin_channels(s.problem()).code, Errc::implausible);

@@ -35,7 +35,7 @@ plumb::Judgement judged(const plumb::Datasheet& d, const Fit& f) {
                 : plumb::Judgement{f.made.error(), Concern::none};
 }
 
-TEST(LevelMisfit, NoSensorThatFollowsTheModelIsNamed) {
+TEST(LevelMisfit, NoSensorThatFollowsTheModelIsReported) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Noise noise(seed);
     const plumb::Datasheet d = paper_sheet();
@@ -107,7 +107,7 @@ TEST(LevelMisfit, AKinkIsRefusedBySensorAndTemperature) {
 }
 
 /// The same test where the array file's coefficients are taken for granted.
-TEST(LevelMisfit, ADriftThatIsNotFittedIsNamedToo) {
+TEST(LevelMisfit, ADriftThatIsNotFittedIsReportedToo) {
   Noise noise(4);
   const plumb::Datasheet d = paper_sheet();
   const Truth truth = temperature_test::draw_truth(d, noise, 0.0);
@@ -154,7 +154,7 @@ TEST(TemperaturesThatAreNone, BoundTheRangeOfUse) {
   }
 }
 
-TEST(FollowsTime, IsToldOfARampAndNotOfOneThatComesBack) {
+TEST(FollowsTime, IsReportedOfARampAndNotOfOneThatComesBack) {
   Noise noise(7);
   const plumb::Datasheet d = paper_sheet();
   const Truth truth = temperature_test::draw_truth(d, noise);

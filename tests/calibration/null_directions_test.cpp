@@ -250,7 +250,7 @@ TEST(NullCombinations, AReportByHandIsReadAsItStands) {
 }
 
 /// All axes turned alike, and no rotation of which it is said that nobody sees it: told as one rotation.
-TEST(NullCombinations, ACommonRotationIsToldAsOne) {
+TEST(NullCombinations, ACommonRotationIsReportedAsOne) {
   const Datasheet sheet = paper_tool(kSigma);
   auto found = std::make_unique<NullCombinations>();
   auto report = std::make_unique<FitReport>();

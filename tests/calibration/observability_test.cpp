@@ -83,7 +83,7 @@ TEST(StationPlanner, GainFallsAsStationsComeIn) {
   EXPECT_LT(plan[29].gain, 0.2 * plan[0].gain);
 }
 
-TEST(StationPlanner, RefusesWhatTellsNothing) {
+TEST(StationPlanner, RefusesSamplesWithoutInformation) {
   const plumb::Datasheet d = paper_tool(kSigma);
   auto planner = std::make_unique<plumb::StationPlanner>(d, plumb::kG0_mps2);
   EXPECT_FALSE(planner->add({{0, 0, 1}, plumb::SensorSet(3U), 100.0}));
@@ -121,7 +121,7 @@ TEST(StationPlanner, BeatsAsManyRandomStations) {
 }
 
 /// So few samples that they weigh nothing, and so many that no number holds what they would tell.
-TEST(StationPlanner, SamplesOfNoWeightAndBeyondAllNumbersTellNothing) {
+TEST(StationPlanner, SamplesOfNoWeightAndBeyondAllNumbersAddNothing) {
   plumb::Datasheet d = paper_tool(kSigma);
   for (int i = 0; i < d.size; ++i) d.sensor[at(i)].prior.bias_mps2 = 50.0;
   const auto planner = std::make_unique<plumb::StationPlanner>(d, plumb::kG0_mps2);

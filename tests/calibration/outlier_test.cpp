@@ -122,7 +122,7 @@ TEST(Outliers, FifteenPercentAndThreeSensorsAndMore) {
   }
 }
 
-TEST(Outliers, CleanDataPayNothing) {
+TEST(Outliers, DataWithoutOutliersLoseNothing) {
   for (const int n : {3, 4}) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       Noise noise(seed);

@@ -126,7 +126,7 @@ TEST(RollRows, RanksAsMeasured) {
   }
 }
 
-TEST(RollRows, AWobbleThatIsToldCostsLittle) {
+TEST(RollRows, AnAxisDeviationThatIsStatedCostsLittle) {
   const RollSet set = {{0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0}, 5, 0.05};
   double told = 0.0, untold = 0.0;
   constexpr int kRuns = 60;
@@ -169,7 +169,7 @@ TEST(RollRows, AnyAxisWillDo) {
   }
 }
 
-TEST(RollRows, GroupsOfOneStationSayNothing) {
+TEST(RollRows, GroupsOfOneStationChangeNothing) {
   const RollSet set = {{0.0, 45.0, 90.0}, 8};
   Noise noise(6);
   const plumb::Datasheet d = paper_tool(kSigma);
@@ -245,7 +245,7 @@ TEST(RollRows, GroupsOfOneAreCounted) {
   EXPECT_EQ(c->report.rank, 15);
 }
 
-TEST(RollRows, RefusesAWobbleThatIsNone) {
+TEST(RollRows, RefusesAnInvalidAxisDeviation) {
   const RollSet set = {{0.0, 45.0, 90.0}, 8};
   Noise noise(10);
   const plumb::Datasheet d = paper_tool(kSigma);

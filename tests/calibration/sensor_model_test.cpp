@@ -150,7 +150,7 @@ TEST(Datasheet, YieldsItsModelAndItsArray) {
   EXPECT_FALSE(bad.array().has_value());
 }
 
-TEST(Datasheet, OfMoreSensorsThanFitTellsTheFirstAndIsNoArray) {
+TEST(Datasheet, OfMoreSensorsThanFitReportsTheFirstAndIsNoArray) {
   Datasheet sheet = paper_tool(kBenchSigma);
   const RowUncertainty four = sheet.uncertainty();
   sheet.size = kCapacity + 5;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace plumb;
 
-TEST(StationList, OnlyTheFirstCanBeLeftOut) {
+TEST(StationList, OnlyTheFirstCanBeOmitted) {
   std::vector<StationMean> means(60);
   StationList list(means.data(), 60, SensorSet::first(4), 4);
   EXPECT_EQ(list.size(), 45);

@@ -205,7 +205,7 @@ TEST(TemperatureFit, CarriesAnUncertaintyForTheWholeSpan) {
   EXPECT_GT(*std::max_element(square.begin(), square.end()) * inflation, 1.05);
 }
 
-TEST(TemperatureFit, SetsASpoiledReadingAside) {
+TEST(TemperatureFit, RejectsASpoiledReading) {
   const plumb::Datasheet d = paper_sheet();
   Noise noise(71);
   const Truth truth = temperature_test::draw_truth(d, noise);

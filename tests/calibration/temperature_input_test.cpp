@@ -168,7 +168,7 @@ TEST(TemperatureInput, GravityThatIsNoNumberHasNoFit) {
 
 /// Two channels that hold one sensor's readings, a constant apart.
 // Negative: REQ-034
-TEST(TemperatureInput, TwinsAreNamedOverTemperatureToo) {
+TEST(TemperatureInput, TwinsAreReportedOverTemperatureToo) {
   Scene s;
   for (plumb::Station& station : s.stations) station.mean[2] = station.mean[0] + 1e-4;
   plumb::TemperatureOptions options = options_of(1);

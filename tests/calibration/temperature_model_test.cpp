@@ -33,7 +33,7 @@ struct Scene {
   }
 };
 
-TEST(TemperatureModel, TheRankIsThatOfWhatIsAboveTheFloor) {
+TEST(TemperatureModel, TheRankCountsTheEigenvaluesAboveTheFloor) {
   Scene s;
   ASSERT_TRUE(plumb::fit::find_rank(s.analysis(1e-10), *s.work, s.report));
   EXPECT_EQ(s.report.gauge, 3);

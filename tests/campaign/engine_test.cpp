@@ -234,7 +234,7 @@ struct Bad {
   std::array<const char*, 3> words;
 };
 
-TEST(CampaignFile, SaysWhatIsWrongWhereAndHowToMendIt) {
+TEST(CampaignFile, SaysWhatIsWrongWhereAndHowToCorrectIt) {
   const std::array<Bad, 16> all = {{
       {"scenarios = 3000", "scenarios = 0", {"test.toml:3: scenarios", "out of range", "Remedy: "}},
       {"scenarios = 3000", "scenarioz = 3000", {"scenarioz", "scenarios", "Remedy: "}},
@@ -301,7 +301,7 @@ TEST(CampaignFile, TheStabilityOfTheSensorsReachesTheirMonitor) {
   EXPECT_NE(case_text(file->plan, spec).find("stability_per_day = \"0.001 m/s^2/day\""), std::string::npos);
 }
 
-TEST(CampaignFile, TheHashTellsPlansApart) {
+TEST(CampaignFile, TheHashDistinguishesPlans) {
   const CampaignFile file = small_campaign(100);
   std::set<std::uint64_t> hashes = {hash_of(file.plan)};
   const auto with = [&](auto change) {

@@ -70,7 +70,7 @@ TEST(CampaignKernel, AScenarioDoesNotRememberTheOneBefore) {
   }
 }
 
-TEST(CampaignKernel, FromPowerOnTheSameHoldsAndTrustComesLater) {
+TEST(CampaignKernel, FromPowerOnTheSameHoldsAndValidationComesLater) {
   CampaignFile file = campaign_from(small_text() + "\n");
   file.plan.start = Start::power_on;
   const auto kernel = kernel_of(file.plan);
@@ -90,7 +90,7 @@ TEST(CampaignKernel, PlansThatNoMonitorCanPlayAreRefusedWithARemedy) {
   file.plan.validation_stations = 1;  // one attitude proves nothing
   const auto refused = make_kernel(file.plan);
   ASSERT_FALSE(refused.has_value());
-  EXPECT_NE(refused.error().find("within 1 stations: its state is suspect"), std::string::npos) << refused.error();
+  EXPECT_NE(refused.error().find("within 1 station: its state is suspect"), std::string::npos) << refused.error();
   EXPECT_NE(refused.error().find("Remedy: "), std::string::npos);
   file = small_campaign(1);
   file.plan.window = 1000;

@@ -46,7 +46,7 @@ std::uint64_t counted(const Outcome& outcome, Count what, double mdb = 0.0) {
   return tally.total(what);
 }
 
-TEST(Tally, AQuietScenarioRaisesNothing) {
+TEST(Tally, AScenarioWithoutEventsRaisesNothing) {
   for (int k = 1; k < kCounts; ++k) {
     EXPECT_EQ(counted(quiet(), static_cast<Count>(k)), 0U) << to_string(static_cast<Count>(k));
   }

@@ -162,7 +162,7 @@ TEST(BadLog, BadRowsAreSkippedWhereAskedFor) {
   change_line(where, 41, [](const std::string& line) { return line.substr(0, line.rfind(',')); });
   const Outcome outcome = calibrate(where, {"--on-bad-row", "skip"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"9599 rows used, 1 bad rows skipped", "accepted"}));
+  EXPECT_TRUE(says(outcome.out, {"9599 rows used, 1 bad row skipped", "accepted"}));
 }
 
 // Negative: REQ-175

@@ -133,7 +133,7 @@ TEST(BadRecording, AScaleOfZeroOrOfTheWrongSign) {
   refused(where.calibrate(), {"a1", "sign"});
 }
 
-TEST(BadRecording, SaturatedReadingsAreLeftOutAndTold) {
+TEST(BadRecording, SaturatedReadingsAreNotUsedAndReported) {
   StationBench where;
   std::string array = where.text("array.toml");
   for (int k = 0; k < 4; ++k) array = with(array, "full_scale = \"5 V\"", "full_scale = \"3.2 V\" ");
@@ -158,7 +158,7 @@ TEST(BadRecording, ReadingsThatNoSensorGives) {
     where.rows[6][2] = value;
     const Outcome outcome = where.calibrate();  // beyond full scale, which the array file knows
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_TRUE(says(outcome.out, {"at full scale", "1 readings of a3, not used"}));
+    EXPECT_TRUE(says(outcome.out, {"at full scale", "1 reading of a3, not used"}));
     forget(where, {"full_scale"});
     refused(where.calibrate(),
             {"station 7 holds a reading that no sensor gives (a3 reads", "e+308 V)", "correct or remove the row"});
@@ -186,7 +186,7 @@ TEST(BadRecording, EmptyLogs) {
   }
 }
 
-TEST(BadRecording, AnotherUnitIsNamed) {
+TEST(BadRecording, AnotherUnitIsReported) {
   const struct {
     double factor;  ///< of the numbers, which are V at 3 V/g0
     const char* unit;
@@ -209,7 +209,7 @@ TEST(BadRecording, AnotherUnitIsNamed) {
   refused(volts.calibrate(), {"are not in count", "are they volts?"});
 }
 
-TEST(BadRecording, TheFaultySensorIsNamedByParityAndByOutliers) {
+TEST(BadRecording, TheFaultySensorIsReportedByParityAndByOutliers) {
   StationBench where;
   for (std::size_t k = 20; k < where.rows.size(); ++k) where.rows[k][2] += 0.06;  // 20 mg0 from station 21 on
   refused(where.calibrate(), {"a3"});
@@ -217,10 +217,10 @@ TEST(BadRecording, TheFaultySensorIsNamedByParityAndByOutliers) {
   for (std::size_t k = 0; k < spikes.rows.size(); k += 12) spikes.rows[k][1] += 0.3;
   const Outcome outcome = spikes.calibrate();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"set aside", "station 1 (", "of it from a2", "station 37 ("}));
+  EXPECT_TRUE(says(outcome.out, {"rejected", "station 1 (", "of it from a2", "station 37 ("}));
 }
 
-TEST(BadRecording, MoreOutliersThanAreListedAreLeftOutOfEverything) {
+TEST(BadRecording, MoreOutliersThanAreListedAreAllRejected) {
   StationBench where;
   const Table once = where.rows;
   for (int copy = 1; copy < 3; ++copy) {
@@ -242,10 +242,10 @@ TEST(BadRecording, MoreOutliersThanAreListedAreLeftOutOfEverything) {
   EXPECT_EQ(json["outliers"]["listed"].size(), 16U);
   EXPECT_EQ(json["hold_out"]["judged"], where.rows.size() - spikes);
   EXPECT_LT(json["hold_out"]["sigmas"].get<double>(), 3.0);
-  EXPECT_TRUE(says(flat(where.calibrate().out), {"set aside", "and " + std::to_string(spikes - 16) + " more"}));
+  EXPECT_TRUE(says(flat(where.calibrate().out), {"rejected", "and " + std::to_string(spikes - 16) + " more"}));
 }
 
-TEST(BadRecording, NoiseFiveTimesAsDeclaredOfOneSensorIsToldByName) {
+TEST(BadRecording, NoiseFiveTimesAsDeclaredOfOneSensorIsReportedByName) {
   StationBench where;
   const double wiggle[] = {0.9, -1.2, 0.3, 1.4, -0.7, -1.0, 1.1, -0.2, 0.5, -1.3, 0.1};
   for (std::size_t k = 0; k < where.rows.size(); ++k) where.rows[k][1] += 3e-4 * wiggle[k % 11];

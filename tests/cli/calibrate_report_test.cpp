@@ -225,7 +225,7 @@ TEST(CalibrateReport, NamesTheOutlierStation) {
   inject(where, "a2:bias=50mg0@60s+10s");
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, {"set aside", "station ", "of it from a2", "the values come from the other stations"}));
+  EXPECT_TRUE(says(outcome.out, {"rejected", "station ", "of it from a2", "the values come from the other stations"}));
   const nlohmann::json json = report_of(where, {"--paper"});
   EXPECT_TRUE(json["paper"][0]["sound"]) << "the paper's fits get the same stations";
   const auto count = json["outliers"]["count"].get<std::size_t>();
@@ -245,7 +245,7 @@ TEST(KeepOutliersOption, LetsThemSpoilTheFit) {
   inject(where, "a2:bias=50mg0@60s+10s");
   const Outcome outcome = calibrate(where, {"--keep-outliers"});
   EXPECT_EQ(outcome.code, 4);
-  EXPECT_EQ(outcome.out.find("set aside"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("rejected  "), std::string::npos) << outcome.out;
 }
 
 TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {

@@ -355,7 +355,7 @@ TEST(Model, ThePictureInTheDocsIsOfThisTable) {
   EXPECT_EQ(titles, 2 * arrows) << "each arrow once as a comment, once as a title";
 }
 
-TEST(Model, EveryTargetSaysWhatItDependsOn) {
+TEST(Model, EveryTargetStatesItsCondition) {
   const Directory where;
   const auto json = nlohmann::json::parse(run(where, {"model", "--format", "json"}).out);
   std::map<std::string, std::vector<nlohmann::json>> rows;

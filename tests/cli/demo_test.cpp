@@ -198,7 +198,7 @@ void commands_give_the_same_bytes(const std::string& id, const json& facts) {
   EXPECT_GE(files_below(where.path() / id).size(), kDrillFiles.size());
 }
 
-TEST(Demo, TellsTheTruthAboutWhatItDid) {
+TEST(Demo, ReportsWhatTheMonitorDid) {
   const json facts = json::parse(read_text(demo() / "demo.json"));
   EXPECT_EQ(facts["seed"], 1);
   EXPECT_FALSE(facts["version"].get<std::string>().empty());

@@ -77,7 +77,7 @@ TEST(InjectCatalogue, RefusesAnEntryThatThereIsNot) {
   EXPECT_TRUE(says(outcome.err, {"--fault", "F30", "Remedy: ", "fault catalogue"}));
 }
 
-TEST(InjectCatalogue, SaysWhereALogHasNoThermometerToTellWrong) {
+TEST(InjectCatalogue, SaysWhereALogHasNoThermometer) {
   const Workshop where;
   const Outcome outcome = run(where, injecting("log:F17@12s", "faulty.csv"));
   EXPECT_EQ(outcome.code, 0);

@@ -82,7 +82,7 @@ TEST(RollGroups, GiveTheInclinationItself) {
             << std::sqrt(without) << '\n';
 }
 
-TEST(RollGroups, StandInTheReportAndInTheFile) {
+TEST(RollGroups, AreInTheReportAndInTheFile) {
   const RollBench where;
   const Outcome outcome = where.calibrate({"--roll-axis-deviation-deg", "0.05"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -111,7 +111,7 @@ TEST(RollGroups, TheAxisIsTheOneThatInclinationIsCountedFrom) {
   EXPECT_EQ(json["fit"]["roll_axis"], Json({0.0, 0.0, 1.0}));
 }
 
-TEST(RollGroups, AWrongAxisIsNamedWithTheRightOne) {
+TEST(RollGroups, AWrongAxisIsReportedWithTheRightOne) {
   const RollBench where;
   for (const char* axis : {"1,0,0", "0,1,0"}) {
     const Outcome outcome = where.calibrate({"--roll-axis", axis});
@@ -122,7 +122,7 @@ TEST(RollGroups, AWrongAxisIsNamedWithTheRightOne) {
 }
 
 /// By 5 deg the nominal axes, known to 2 deg each, can only ask; by 10 deg they contradict.
-TEST(RollGroups, AnAxisThatIsOffIsToldAndThenRefused) {
+TEST(RollGroups, AnAxisThatIsOffIsReportedAndThenRefused) {
   const RollBench where;
   const Outcome right = where.calibrate();
   EXPECT_TRUE(says(right.out, {"roll axis", "turned together by", "sigma", "accepted"}));
@@ -183,7 +183,7 @@ TEST(RollGroups, AStationInTheWrongGroupIsFoundByItsGroup) {
   EXPECT_EQ(where.report()["refusal"]["would_settle"]["without_roll_group"], Json::array({0}));
 }
 
-TEST(RollGroups, AnEmptyColumnIsTold) {
+TEST(RollGroups, AnEmptyColumnIsReported) {
   const RollBench where;
   std::istringstream in(where.text("calibration.csv"));
   std::string line, log;
@@ -200,7 +200,7 @@ TEST(RollGroups, AnEmptyColumnIsTold) {
   EXPECT_EQ(json["columns"][0]["of"], "roll_group");
 }
 
-TEST(RollGroups, OfOneStationAreTold) {
+TEST(RollGroups, OfOneStationAreReported) {
   const RollBench where;
   std::string log = where.text("calibration.csv");
   // The last station gets a group of its own: its rows hold ",3," after the number of the station.

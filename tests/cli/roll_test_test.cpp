@@ -85,7 +85,7 @@ bool is_unproven(const Json& verdict) {
 }
 
 // Verifies: REQ-172
-TEST(RollTest, AToolThatStandsStillIsValidatedFromItsFirstRowOn) {
+TEST(RollTest, AToolThatStaysStillIsValidatedFromItsFirstRowOn) {
   const Field where;
   Outcome alone, after;
   const std::vector<Json> without = where.verdicts({}, alone);
@@ -116,7 +116,7 @@ TEST(RollTest, AToolThatStandsStillIsValidatedFromItsFirstRowOn) {
 
 /// The monitor's own request is told, and what was shown counts: the run goes on, not validated.
 // Negative: REQ-172
-TEST(RollTest, TheTurnThatIsMissingIsNamed) {
+TEST(RollTest, TheTurnThatIsMissingIsReported) {
   const Field where;
   Outcome outcome;
   const std::vector<Json> verdicts = where.verdicts({"--roll-test", "rolled.csv"}, outcome);
@@ -193,7 +193,7 @@ TEST(RollTest, ARecordingThatCannotBeReadEndsTheRunBeforeItBegins) {
   where.put("bad.csv", torn);
   const Outcome skipped = where.monitor({"--roll-test", "bad.csv", "--on-bad-row", "skip"});
   EXPECT_EQ(skipped.code, 0) << skipped.err;
-  EXPECT_TRUE(says(skipped.err, {"700 samples", "1 bad rows skipped", "validated: a1, a2, a3, a4"}));
+  EXPECT_TRUE(says(skipped.err, {"700 samples", "1 bad row skipped", "validated: a1, a2, a3, a4"}));
 }
 
 TEST(RollTest, OptionsThatMakeNoSenseAreRefused) {
@@ -217,7 +217,7 @@ TEST(RollTest, OptionsThatMakeNoSenseAreRefused) {
   EXPECT_TRUE(says(paper.err, {"--roll-test", "paper"}));
 }
 
-TEST(RollTest, MachinesAndTheReportAreTold) {
+TEST(RollTest, IsInTheJsonAndInTheReport) {
   const Field where;
   const Outcome outcome =
       where.monitor({"--roll-test", "turned.csv", "--json", "--report", "r.html", "--snapshot-out", "state.bin"});

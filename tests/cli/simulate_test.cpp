@@ -91,7 +91,7 @@ TEST(Simulate, SameSeedSameBytes) {
   EXPECT_NE(once.out, other.out);
 }
 
-TEST(Simulate, ToFileTellsWhatWasPlayed) {
+TEST(Simulate, ToFileReportsWhatWasPlayed) {
   const Directory& where = bench();
   const Outcome outcome = run(where, {"simulate", "drilling.toml", "--out", "d.csv", "--truth", "t.csv"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;

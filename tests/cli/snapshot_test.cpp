@@ -49,7 +49,7 @@ TEST(MonitorSnapshot, TwoPartsWithASnapshotBetweenThemAreOneRun) {
 
 /// Refused with the name of the file, of the cause and of the way out; nothing runs as if nothing had been asked.
 // Negative: REQ-163
-TEST(MonitorSnapshot, WhatCannotBeBelievedIsRefusedByName) {
+TEST(MonitorSnapshot, ImplausibleValuesAreRefusedByName) {
   const Workshop where;
   ASSERT_EQ(run(where, monitor("drilling.csv", {"--snapshot-out", "state.bin"})).code, 0);
   const std::string good = where.text("state.bin");

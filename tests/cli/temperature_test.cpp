@@ -156,7 +156,7 @@ TEST(ToolTemperature, ATemperatureThatFollowsTheInclinationIsRefusedByName) {
   EXPECT_TRUE(says(lower.out, {"21 of 24", "the temperature follows the inclination", "accepted"}));
 }
 
-TEST(ToolTemperature, ARangeFarBeyondTheLevelsIsTold) {
+TEST(ToolTemperature, ARangeFarBeyondTheLevelsIsReported) {
   const Oven where(62.0);
   const Json near = where.report({"--temperature-order", "3"});
   const Json far = where.report({"--temperature-order", "3", "--use-range-degc", "20,150"});
@@ -200,7 +200,7 @@ TEST(ToolTemperature, ATemperatureThatNoToolHasIsRefusedByStation) {
   }
 }
 
-TEST(ToolTemperature, ARampIsToldUnlessItComesBack) {
+TEST(ToolTemperature, ARampIsReportedUnlessItComesBack) {
   const Oven up;
   EXPECT_TRUE(says(up.calibrate().out, {"drift in time", "cannot be separated from drift with temperature",
                                         "record some attitudes again near 20"}));

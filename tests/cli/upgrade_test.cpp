@@ -6,7 +6,7 @@ namespace {
 
 using namespace plumb_test;
 
-TEST(UpgradeCommand, TellsWithoutWritingAndThenWritesInPlace) {
+TEST(UpgradeCommand, ReportsWithoutWritingAndThenWritesInPlace) {
   const Workshop where;
   const std::string today = where.text("array.toml");
   const std::string old = today + "[monitor]\npatience = 9  # attitudes\n";
@@ -55,7 +55,7 @@ TEST(UpgradeCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(run(where, {"upgrade", "array.toml", "--output", "array.toml"}).code, 2);
 }
 
-TEST(UpgradeCommand, ARenamedOptionIsNamed) {
+TEST(UpgradeCommand, ARenamedOptionIsReported) {
   const Workshop where;
   EXPECT_TRUE(
       says(run(where, {"verify", "--positions", "x.csv"}).err, {"\"--positions\" was renamed to \"--stations\""}));

@@ -72,7 +72,7 @@ TEST(VerifyCommand, ADirectoryStandsAlone) {
   std::filesystem::current_path("/");
 }
 
-TEST(VerifyCommand, ALimitThatTheArrayCannotMeetIsNamed) {
+TEST(VerifyCommand, ALimitThatTheArrayCannotMeetIsReported) {
   Directory where;
   with_tool(where);
   write_text(where / "limits.toml", "[limits]\nalert_limit = \"0.01 deg\"\nfaults = 2\n");
@@ -313,7 +313,7 @@ TEST(VerifyCommand, ALongerCampaignIsTakenIn) {
           {"tool.toml", "is not the result of a campaign"});
 }
 
-TEST(VerifyCommand, TheStaticAnalysisBecomesSarifAndTheTargetIsTold) {
+TEST(VerifyCommand, TheStaticAnalysisBecomesSarifAndTheTargetIsReported) {
   Directory where;
   with_tool(where);
   write_text(where / "tidy.log", "/src/a.cpp:3:7: warning: narrowing [bugprone-narrowing,-warnings-as-errors]\n");

@@ -55,7 +55,7 @@ Json report(const Directory& where, std::vector<std::string> more = {}) {
 /// t_s, station, a1 .. a4
 constexpr std::size_t kA1 = 2, kA3 = 4, kA4 = 5;
 
-TEST(WrongColumns, AnEmptyOneIsNamed) {
+TEST(WrongColumns, AnEmptyOneIsReported) {
   const Workshop where;
   where.put("array.toml", with(where.text("array.toml"), "id = \"a3\"\n", "id = \"a3\"\ncolumn = \"third\"\n"));
   rewrite(where, "calibration.csv", [](std::size_t row, Cells& cells) { cells[kA3] = row == 0 ? "third" : ""; });
@@ -71,7 +71,7 @@ TEST(WrongColumns, AnEmptyOneIsNamed) {
   EXPECT_TRUE(json["columns"][0]["dead"]);
 }
 
-TEST(WrongColumns, AConstantOneIsNamed) {
+TEST(WrongColumns, AConstantOneIsReported) {
   const Workshop where;
   rewrite(where, "calibration.csv", [](std::size_t row, Cells& cells) {
     if (row > 0) cells[kA3] = "0.25";
@@ -125,14 +125,14 @@ class WarmBench : public Workshop {
   std::size_t total;
 };
 
-TEST(WrongColumns, ATemperatureThatIsHalfEmptyIsCountedAndWhatItCannotSayLeftOut) {
+TEST(WrongColumns, ATemperatureThatIsHalfEmptyIsCountedAndUsedWhereItIsKnown) {
   const WarmBench where([](double part) { return part <= 0.5 ? "25" : ""; });
   const Outcome outcome = calibrate(where);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(says(flat(outcome.out),
                    {"24 stations", "`T` (temperature) is empty in",
                     "of " + std::to_string(where.total) + " rows (50 %), which use the value of the row before",
-                    "stations are excluded"}));
+                    "stations are not used"}));
   const Json json = report(where);
   EXPECT_EQ(json["stations"].size(), 24U);
   EXPECT_EQ(json["stations_without_temperature"], 24);
@@ -169,7 +169,7 @@ TEST(WrongColumns, KelvinAndFahrenheitAreAskedFor) {
   EXPECT_TRUE(report(fahrenheit)["temperature_unit"].is_null());
 }
 
-TEST(WrongColumns, ATemperatureThatFollowsADirectionIsTold) {
+TEST(WrongColumns, ATemperatureThatFollowsADirectionIsReported) {
   const Workshop where;
   where.put("array.toml", with(where.text("array.toml"), "[input]\n", "[input]\ntemperature = \"T\"\n"));
   rewrite(where, "calibration.csv", [](std::size_t row, Cells& cells) {
@@ -189,7 +189,7 @@ TEST(WrongColumns, ATemperatureThatFollowsADirectionIsTold) {
   EXPECT_TRUE(report(steady)["temperature"]["follows_direction"].is_null());
 }
 
-TEST(WrongColumns, ExchangedOnesAreNamedAsAPair) {
+TEST(WrongColumns, ExchangedOnesAreReportedAsAPair) {
   const Workshop where;
   std::string array = with(where.text("array.toml"), "id = \"a1\"\n", "id = \"a1\"\ncolumn = \"a4\"\n");
   where.put("array.toml", with(array, "id = \"a4\"\n", "id = \"a4\"\ncolumn = \"a1\"\n"));
@@ -200,7 +200,7 @@ TEST(WrongColumns, ExchangedOnesAreNamedAsAPair) {
   EXPECT_EQ(report(where)["refusal"]["would_settle"]["columns_exchanged"], Json::parse(R"([["a1", "a4"]])"));
 }
 
-TEST(WrongColumns, AReversedSignIsNamed) {
+TEST(WrongColumns, AReversedSignIsReported) {
   const Workshop where;
   where.put("array.toml", with(where.text("array.toml"), "scale = \"3 V/g0\"", "scale = \"-3 V/g0\""));
   const Outcome outcome = calibrate(where);
@@ -221,7 +221,7 @@ TEST(WrongColumns, WhatNoExchangeExplainsPointsToTheKeys) {
   EXPECT_NE(json["refusal"]["next"].get<std::string>().find("`column`"), std::string::npos) << json["refusal"];
 }
 
-TEST(WrongColumns, ArraysWithWiringsThatNothingTellsApartSaySo) {
+TEST(WrongColumns, ArraysWithUnobservablePermutationsSaySo) {
   const Workshop where;
   EXPECT_TRUE(says(flat(calibrate(where).out), {"wiring", "mistakes of wiring", "see `plumb geometry`"}));
   const Json geometry = Json::parse(run(where, {"geometry", "array.toml", "--json"}).out);

@@ -180,7 +180,7 @@ TEST(Archive, TooFewBytesAreRefusedAtEveryLength) {
   }
 }
 
-TEST(Archive, WritesNoByteBeyondItsRoom) {
+TEST(Archive, WritesNoByteBeyondItsStorage) {
   std::vector<std::uint8_t> bytes(20, 0xEE);
   ArchiveWriter out(bytes.data(), 10, kSensors);
   out.put(example());

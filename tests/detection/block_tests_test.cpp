@@ -107,7 +107,7 @@ TEST(BlockTests, TheLeastLimitOfThreeThatReadZeroIsBelowEveryError) {
 
 /// Two pairs: without one of the single axes the others are a plane, so nothing corroborates it.
 // Negative: REQ-060
-TEST(BlockTests, ALengthThatNobodyChecksIsNotCorroborated) {
+TEST(BlockTests, ALengthThatNoSensorChecksIsNotCorroborated) {
   AxisList axes{};
   axes[0] = {1.0, 0.0, 0.0};
   axes[1] = {0.0, 1.0, 0.0};

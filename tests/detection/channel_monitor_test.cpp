@@ -83,7 +83,7 @@ TEST(ChannelGate, AGlitchBetweenGoodSamplesNeverAddsUp) {
 }
 
 // Verifies: REQ-141
-TEST(ChannelGate, ASilentBusIsAGapAndLosesNobody) {
+TEST(ChannelGate, ASilentBusIsAGapAndLosesNoChannel) {
   ChannelMonitor gate = monitor_of_four();
   Sample silent = full_sample();
   silent.delivered = SensorSet{};
@@ -93,7 +93,7 @@ TEST(ChannelGate, ASilentBusIsAGapAndLosesNobody) {
 
 /// Hours without the end of a block: the count stands still before it could run over.
 // Serves: REQ-144
-TEST(ChannelGate, AMillionSamplesWithoutABlockLoseNobody) {
+TEST(ChannelGate, AMillionSamplesWithoutABlockLoseNoChannel) {
   ChannelMonitor channels;
   std::array<double, kCapacity> full_scale{};
   channels.configure(3, full_scale, 8);

@@ -94,7 +94,7 @@ int breaks(const SensorArray& array, int faults, int trials) {
 }
 
 // Verifies: REQ-071
-TEST(GradeSearch, NoColludersWithinThePublishedGradeGetAHealthySensorNamed) {
+TEST(GradeSearch, NoColludersWithinThePublishedGradeGetAHealthySensorIsolated) {
   const std::vector<SensorArray> arrays = {
       plumb_test::tetrahedron(kSigma),
       plumb_test::cone_array(5, kSigma),
@@ -117,7 +117,7 @@ TEST(GradeSearch, NoColludersWithinThePublishedGradeGetAHealthySensorNamed) {
 /// Two opposite axes of the cone and the one in its middle lie in one plane: the pair that breaks two breaks no more
 /// than the grade of one that is published.
 // Negative: REQ-071
-TEST(GradeSearch, TwoColludersBreakAnAxisAndAConeOfFourWhichPublishesOne) {
+TEST(GradeSearch, TwoColludersDefeatAnAxisAndAConeOfFourWhoseGradeIsOne) {
   if (kCapacity < 5) GTEST_SKIP() << "five sensors";
   const SensorArray array = axis_and_cone(4);
   Isolation isolation;

@@ -19,7 +19,7 @@ constexpr double kSigma = 2e-4 * kG0_mps2;
 /// Every byte of what it remembers set to zero in turn: it answers, excludes nobody of a sound block, and counts no
 /// more sets than there are.
 // Negative: REQ-166
-TEST(IsolationDamage, WithAnyByteLostASoundBlockIsolatesNobody) {
+TEST(IsolationDamage, WithAnyByteLostASoundBlockIsolatesNoSensor) {
   const SensorArray array = plumb_test::cone_array(6, kSigma);
   const GravityReference gravity{kG0_mps2, 1e-3, GravityModel::value};
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);

@@ -27,7 +27,7 @@ TrialCount strict_over_eight(int n, int m, double least, double most, std::uint6
 }
 
 // Verifies: REQ-074
-TEST(IsolationRates, NobodyHealthyIsNamedWhateverTheFaultsAndWithinTheBounds) {
+TEST(IsolationRates, NoHealthySensorIsIsolatedWhateverTheFaultsWithinTheBounds) {
   TrialNoise pool(11);
   Soundness sum;
   for (int n = 4; n <= kCapacity; ++n) {
@@ -50,7 +50,7 @@ TEST(IsolationRates, NobodyHealthyIsNamedWhateverTheFaultsAndWithinTheBounds) {
 }
 
 // Verifies: REQ-070
-TEST(IsolationRates, StrictOverEightAttitudesNamesTheFaultyAndNobodyElse) {
+TEST(IsolationRates, ConfirmedGradeOverEightAttitudesIsolatesTheFaultyAndNoOther) {
   for (int n = 4; n <= kCapacity; ++n) {
     for (int m = 1; m <= n - 3; ++m) {
       if (n == 5 && m == 2) continue;  // below
@@ -67,7 +67,7 @@ TEST(IsolationRates, StrictOverEightAttitudesNamesTheFaultyAndNobodyElse) {
 /// Two faults among five that pass for a healthy set of four look like one fault and a reference that is off, and are
 /// taken for that.
 // Negative: REQ-070
-TEST(IsolationRates, TwoFaultsAmongFiveStayUndecidedWhereOneAndAWrongReferenceExplainThem) {
+TEST(IsolationRates, TwoFaultsAmongFiveStayUndecidedWhereOneAndAWrongGravityExplainThem) {
   const TrialCount small = strict_over_eight(5, 2, 10.0, 30.0, trials(300));
   EXPECT_EQ(small.wrong, 0U);
   EXPECT_GE(100 * small.correct, 75 * small.trials);
@@ -75,7 +75,7 @@ TEST(IsolationRates, TwoFaultsAmongFiveStayUndecidedWhereOneAndAWrongReferenceEx
 }
 
 // Verifies: REQ-072
-TEST(IsolationRates, ParityGradeAtOneStationNamesStuckSensorsAndNobodyElse) {
+TEST(IsolationRates, ProvisionalGradeAtOneStationIsolatesStuckSensorsAndNoOther) {
   for (int n = 5; n <= kCapacity; ++n) {
     const TrialTool tool = exact_tool(n);
     for (int m = 1; m <= n - 4; ++m) {
@@ -99,7 +99,7 @@ TEST(IsolationRates, ParityGradeAtOneStationNamesStuckSensorsAndNobodyElse) {
 }
 
 // Verifies: REQ-073
-TEST(IsolationRates, OneAssertedFaultAmongFourIsNamedAtOneBlockOrStaysAmbiguous) {
+TEST(IsolationRates, OneAssumedFaultAmongFourIsIsolatedAtOneBlockOrStaysAmbiguous) {
   const TrialTool tool = exact_tool(4);
   TrialNoise noise(4);
   TrialCount count;

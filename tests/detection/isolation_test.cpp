@@ -284,7 +284,7 @@ TEST(Isolation, LosingAChannelProjectsTheHypotheses) {
 
 // Verifies: REQ-070
 // Negative: REQ-121
-TEST(Isolation, ScanNamesTheFewestFaults) {
+TEST(Isolation, ScanFindsTheMinimumFaultCount) {
   Case c(plumb_test::cone_array(6, kSigma), 29);
   std::array<double, kCapacity> fault{};
   fault[2] = 1.0;

@@ -68,7 +68,7 @@ TEST(MaeLimit, WithoutRoomNothingIsWithinIt) {
 }
 
 // Verifies: REQ-054
-TEST(MaeLimit, TheRateIsSharedByTheTriplesThatVote) {
+TEST(MaeLimit, TheRateIsSharedByTheMonitoredTriples) {
   EXPECT_EQ(voting_triples(plumb_test::tetrahedron()), 4);
   EXPECT_DOUBLE_EQ(triple_share(plumb_test::tetrahedron(), 1e-3), 2.5e-4);
   AxisList axes{};
@@ -84,7 +84,7 @@ TEST(MaeLimit, TheRateIsSharedByTheTriplesThatVote) {
 
 /// An array of which no three axes are apart enough to vote.
 // Serves: REQ-005
-TEST(MaeLimit, WithoutATripleThatVotesTheRateIsNotShared) {
+TEST(MaeLimit, WithoutAMonitoredTripleTheRateIsNotShared) {
   AxisList axes{};
   axes[0] = {1.0, 0.0, 0.0};
   axes[1] = {0.0, 1.0, 0.0};

@@ -93,7 +93,7 @@ TEST(MirrorAttitudes, ParityDetectsEveryOneAndIsolatesNoSensorThere) {
 /// The rule is sound for sensors healthy throughout the episode while enough of them are. Here, exactly as proved,
 /// it is not: the fault moves from a1 to a2 between two stations, only a3 and a4 are healthy at both, and the rule
 /// names a3. That is why the monitor asks for more stations before it excludes, and says "throughout".
-TEST(MirrorAttitudes, AFaultThatMovesDefeatsTheStrictRuleAsProved) {
+TEST(MirrorAttitudes, AFaultThatMovesDefeatsTheConfirmedGradeAsProved) {
   AxisList axes{};
   const std::array<Vec3, 4> raw = {{{2, 1, 3}, {-2, 2, -1}, {0, 2, 0}, {1, -3, -3}}};
   for (std::size_t i = 0; i < 4; ++i) axes[i] = scaled(raw[i], 1.0 / norm(raw[i]));

@@ -63,7 +63,7 @@ TEST(ReferenceClaims, AreRefutedWhereNoOneGravityExplainsThem) {
 /// Gravity is off upward at one block and downward at the next: no one gravity explains both. That counts once the
 /// second has been heard, and not while it is only held against the record.
 // Verifies: REQ-061
-TEST(ReferenceClaims, AreHeardAtAVoteAndOnlyRecalledAtOtherQuestions) {
+TEST(ReferenceClaims, AreUpdatedAtAVoteAndOnlyReadOtherwise) {
   const SensorArray array = plumb_test::cone_array(6, 2e-4 * kG0_mps2);
   const TestLimits limits = TestLimits::from_rates(6, 1e-5, 1e-6);
   const BlockEvidence block = plumb_test::block_at(array, plumb_test::direction_at(60, 30));

@@ -84,7 +84,7 @@ TEST(OneAttitude, MapFiguresAreThoseOfTheIntervals) {
   EXPECT_NEAR(one.at(scaled(plane, 1.0 / norm(plane))).nearest_mirror_mps2, 0.0, 1e-12);
 }
 
-TEST(OneAttitude, ASensorWithoutAVotingTripleIsNeverIsolated) {
+TEST(OneAttitude, ASensorWithoutAMonitoredTripleIsNeverIsolated) {
   const Vec3 up = {0.0, 0.0, 1.0};
   const double s = 0.02, c = std::sqrt(1.0 - s * s);
   AxisList axes{};
@@ -102,7 +102,7 @@ TEST(OneAttitude, ASensorWithoutAVotingTripleIsNeverIsolated) {
 /// The vote itself: outside the intervals, and where parity sees it, exactly the faulty sensor is suspected at this one
 /// attitude, whatever the noise below k_e sigmas.
 // Verifies: REQ-017
-RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolatedByTheVote, ()) {
+RC_GTEST_PROP(OneAttitudeLaw, AnErrorOutsideTheIntervalsIsIsolated, ()) {
   const SensorArray array = drawn_array();
   RC_PRE(coplanarity(array, array.all()) == 2 && figures_of_merit(array).near_singular_triples == 0);
   const TestSettings settings;

@@ -26,7 +26,7 @@ BlockEvidence block_at(const SensorArray& array, const Vec3& direction, double g
 }
 
 // Negative: REQ-022
-TEST(RequirementLimits, WithoutTheSigmaOfGravityAHealthySetDies) {
+TEST(RequirementLimits, WithoutTheSigmaOfGravityAHealthySetIsRejected) {
   const SensorArray array = plumb_test::cone_array(5, kSigma);
   const TestLimits limits = TestLimits::from_rates(5, 1e-5, 1e-6);
   const double sigma_g = kDefaultGravitySigma_mps2;
@@ -39,7 +39,7 @@ TEST(RequirementLimits, WithoutTheSigmaOfGravityAHealthySetDies) {
 }
 
 // Negative: REQ-056
-TEST(RequirementLimits, WithoutTheCalibrationBoundAHealthySetDies) {
+TEST(RequirementLimits, WithoutTheCalibrationBoundAHealthySetIsRejected) {
   SensorArray array = plumb_test::cone_array(5, kSigma);
   const TestLimits limits = TestLimits::from_rates(5, 1e-5, 1e-6);
   const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};
@@ -137,7 +137,7 @@ TEST(RequirementNoConsistentHypothesis, WithoutAConsistentHypothesisItReportsSoA
 }
 
 // Negative: REQ-075
-RC_GTEST_PROP(RequirementEpisodeLaw, WhatDiedStaysDeadWhateverFollows, ()) {
+RC_GTEST_PROP(RequirementEpisodeLaw, ARejectedHypothesisStaysRejectedWhateverFollows, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
   const SensorArray array = plumb_test::cone_array(n, kSigma);

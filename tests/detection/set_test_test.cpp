@@ -64,7 +64,7 @@ TEST(SetTest, MirrorOfTheoremT1PassesATripleExactly) {
 }
 
 // Verifies: REQ-070
-TEST(SetTest, UntestedSetsAreAlive) {
+TEST(SetTest, UntestedSetsAreConsistent) {
   const SensorArray array = plumb_test::tetrahedron();
   const TestLimits limits = TestLimits::from_rates(4, 1e-5, 1e-6);
   BlockEvidence block = exact_block(array, {0, 0, 1});

@@ -45,7 +45,7 @@ struct Stream {
 const Vec3 kDown = {0.0, 0.0, 1.0}, kAcross = {1.0, 0.0, 0.0};
 
 // Verifies: REQ-039
-TEST(StationFinder, FindsQuietStretchesBetweenMotionAndKeepsTheirMeans) {
+TEST(StationFinder, FindsStretchesAtRestBetweenMotionAndKeepsTheirMeans) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   StationFinder finder(array, kG0_mps2, {});
   Noise noise(9);
@@ -167,7 +167,7 @@ TEST(StationFinder, AStretchThatIsTooShortIsNoStation) {
 }
 
 // Negative: REQ-039
-TEST(StationFinder, AChannelThatDoesNotDeliverIsLeftOut) {
+TEST(StationFinder, AChannelThatDoesNotDeliverIsNotUsed) {
   Stream s;
   EXPECT_EQ(s.feed(kDown, 320, SensorSet::first(5).without(3)), 0);
   ASSERT_TRUE(s.finder.finish(s.last));

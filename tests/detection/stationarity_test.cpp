@@ -35,7 +35,7 @@ BlockAccumulator fill(const SensorArray& array, Noise& noise, const Vec3& vibrat
 }
 
 // Verifies: REQ-058
-TEST(Stationarity, QuietIsQuiet) {
+TEST(Stationarity, AToolAtRestCountsAsAtRest) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const double factor = scatter_factor(4, 32, 1e-6);
   Noise noise(1);
@@ -105,7 +105,7 @@ TEST(Stationarity, VibrationIsMotionAndNeverOneChannelsNoise) {
 }
 
 // Verifies: REQ-058
-TEST(Stationarity, AShakingChannelInAQuietToolIsNamed) {
+TEST(Stationarity, AScatteringChannelInAToolAtRestIsFound) {
   const SensorArray array = plumb_test::tetrahedron(kSigma);
   const double factor = scatter_factor(4, 32, 1e-6);
   Noise noise(6);

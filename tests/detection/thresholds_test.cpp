@@ -158,7 +158,7 @@ TEST(DetectableBias, IsMissedOnceInAThousandOnEveryGeometry) {
 
 /// The provisional grade sets a fault of that size aside with its first block; three quarters of it is not enough
 /// everywhere.
-TEST(SetAsideBias, IsIsolatedByTheVoteOnEveryGeometry) {
+TEST(ProvisionalExclusionBias, IsIsolatedOnEveryGeometry) {
   Noise noise(6);
   for (const SensorArray& array : sample_arrays(2e-4 * kG0_mps2)) {
     const Thresholds t = thresholds_of(array, kExact, TestSettings{});
@@ -244,7 +244,7 @@ RC_GTEST_PROP(SureFaultLaw, IsDetectedAndFaultyInEveryConsistentHypothesis, ()) 
 }
 
 // Verifies: REQ-016
-RC_GTEST_PROP(SureFaultLaw, IsToldFromEveryOtherWhereTwiceTheFaultsAreAllowedFor, ()) {
+RC_GTEST_PROP(SureFaultLaw, IsIsolatedWhereTwiceTheFaultsAreAllowedFor, ()) {
   // Of full size: the first cases that are drawn are small, with too few sensors.
   const SensorArray array = *rc::gen::resize(rc::kNominalSize, rc::gen::exec([] { return drawn_array(); }));
   const int n = array.size();

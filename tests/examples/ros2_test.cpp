@@ -55,7 +55,7 @@ TEST(Ros2Imu, orientationAndRatesAreMarkedAsNotEstimated) {
   EXPECT_EQ(imu.angular_velocity_covariance[0], -1.0);
 }
 
-TEST(Ros2Imu, onlyAVectorThatMayBeUsedIsToldAndTheOthersAreZeroWithMinusOne) {
+TEST(Ros2Imu, onlyAVectorThatMayBeUsedIsPublishedAndTheOthersAreZeroWithMinusOne) {
   for (const Validity validity : example_test::kAllValidities) {
     for (const bool accept_degraded : {false, true}) {
       plumb::Verdict v = good();
@@ -90,7 +90,7 @@ TEST(Ros2Imu, aBrokenClockMakesNoStamp) {
   EXPECT_EQ(imu.header.stamp.nanosec, 999999999U) << "a whole second would belong to sec";
 }
 
-TEST(Ros2Imu, whatIsNotFiniteIsNeverTold) {
+TEST(Ros2Imu, whatIsNotFiniteIsNeverPublished) {
   for (std::size_t i = 0; i < 3; ++i) {
     plumb::Verdict v = good();
     v.gravity_mps2[i] = kNan;
@@ -123,7 +123,7 @@ TEST(Ros2Imu, theStampIsThatOfTheBlock) {
   EXPECT_EQ(imu.header.stamp.nanosec, 750000000U);
 }
 
-TEST(Ros2Imu, throughAFailureNoWrongVectorIsTold) {
+TEST(Ros2Imu, throughAFailureNoWrongVectorIsPublished) {
   Body body(30.0);
   int told_count = 0;
   for (const plumb::Verdict& v : example_test::run()) {
@@ -157,7 +157,7 @@ TEST(Ros2Status, levelsFollowTheValidity) {
   }
 }
 
-TEST(Ros2Status, aValidVectorOfFewerSensorsWarnsAndNamesTheOneThatIsOut) {
+TEST(Ros2Status, aValidVectorOfFewerSensorsWarnsAndNamesTheExcludedOne) {
   plumb::Verdict v = good();
   v.state = plumb::HealthState::isolated;
   v.in_service = v.in_service.without(1);

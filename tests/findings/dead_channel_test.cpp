@@ -21,7 +21,7 @@ std::vector<Sample> samples() {
   return out;
 }
 
-TEST(DeadChannel, IsOneThatSaysNothingOrAlwaysTheSame) {
+TEST(DeadChannel, IsOneThatIsEmptyOrAlwaysTheSame) {
   const io::LogStatistics log = findings::statistics_of(samples(), 3);
   EXPECT_EQ(log.rows, 4U);
   EXPECT_EQ(log.not_finite[2], 4U);
@@ -30,7 +30,7 @@ TEST(DeadChannel, IsOneThatSaysNothingOrAlwaysTheSame) {
   EXPECT_TRUE(findings::dead_channel(log, 2));
 }
 
-TEST(DeadChannel, IsNotToldFromASingleRow) {
+TEST(DeadChannel, IsNotReportedFromASingleRow) {
   const io::LogStatistics log = findings::statistics_of({samples().front()}, 3);
   EXPECT_FALSE(findings::dead_channel(log, 1));
 }

@@ -55,7 +55,7 @@ Station between(double begin_s, double end_s) {
   return out;
 }
 
-TEST(TemperatureGaps, CoverAStationThatLiesInAGapWithADifferentTemperatureBehindIt) {
+TEST(TemperatureGaps, CoverAStationInAGapWithADifferentTemperatureBehindIt) {
   findings::TemperatureGaps gaps;
   gaps.add(0.0, 20.0, false);
   gaps.add(1.0, 20.0, true);

@@ -25,7 +25,7 @@ findings::GeometrySubject subject_of(const AxisList& axes, int n) {
   return out;
 }
 
-TEST(GeometryStudy, OfThreeAxesFindsThatNoFaultCanBeTold) {
+TEST(GeometryStudy, OfThreeAxesFindsThatNoFaultCanBeIsolated) {
   AxisList axes{};
   const int n = orthogonal_triad(axes);
   const findings::GeometryStudy study = findings::study_geometry(subject_of(axes, n));

@@ -71,7 +71,7 @@ TEST(RefusalFindings, ColumnsThatLackNumbersFollowWhereTooLittleWasRecorded) {
   EXPECT_EQ(list[1].limit, 100.0);
 }
 
-TEST(RefusalFindings, DeadColumnsComeBeforeAnyValueThatTheySpoil) {
+TEST(RefusalFindings, StuckColumnsComeBeforeAnyValueThatTheySpoil) {
   const io::ArrayFile file = array();
   CalibrationRun run = run_of(file, 12, Errc::implausible);
   run.log.not_finite[1] = 100;
@@ -84,7 +84,7 @@ TEST(RefusalFindings, DeadColumnsComeBeforeAnyValueThatTheySpoil) {
   EXPECT_EQ(list[1].sensor, 3);
 }
 
-TEST(RefusalFindings, AGravityThatIsNotTheEarthsComesBeforeDeadColumns) {
+TEST(RefusalFindings, AGravityThatIsNotTheEarthsComesBeforeStuckColumns) {
   const io::ArrayFile file = array();
   CalibrationRun run = run_of(file, 12, Errc::implausible);
   run.log.missing[1] = 100;
@@ -93,7 +93,7 @@ TEST(RefusalFindings, AGravityThatIsNotTheEarthsComesBeforeDeadColumns) {
   EXPECT_EQ(findings::refusal_of(run, file).front().code, FindingCode::gravity_out_of_range);
 }
 
-TEST(RefusalFindings, TheMistakeThatWouldExplainAnOddValueFollowsIt) {
+TEST(RefusalFindings, TheMistakeThatWouldExplainAnImplausibleValueFollowsIt) {
   const io::ArrayFile file = array();
   CalibrationRun run = run_of(file, 12, Errc::poor_fit);
   run.concern = Concern::inconsistent_sensor;
@@ -109,7 +109,7 @@ TEST(RefusalFindings, TheMistakeThatWouldExplainAnOddValueFollowsIt) {
   EXPECT_EQ(list[2].sensor, 2);
 }
 
-TEST(RefusalFindings, AFitThatRanAwayNamesTheReadingThatDidIt) {
+TEST(RefusalFindings, AFitThatDivergedReportsTheReadingThatCausedIt) {
   const io::ArrayFile file = array();
   CalibrationRun run = run_of(file, 12, Errc::diverged);
   run.refusal.index = 4;
@@ -123,7 +123,7 @@ TEST(RefusalFindings, AFitThatRanAwayNamesTheReadingThatDidIt) {
   EXPECT_EQ(findings::refusal_of(run, file).front().code, FindingCode::station_temperature_impossible);
 }
 
-TEST(RefusalFindings, SensorsThatWereAbsentAreNamedWhereNothingElseIsWrong) {
+TEST(RefusalFindings, SensorsThatWereAbsentAreReportedWhereNothingElseIsWrong) {
   const io::ArrayFile file = array();
   CalibrationRun run = run_of(file, 12, Errc::diverged);
   EXPECT_EQ(findings::refusal_of(run, file).front().code, FindingCode::not_converged);

@@ -141,7 +141,7 @@ RC_GTEST_PROP(AccelerationBoundLaw, EverySteadyAccelerationWithinItIsCovered, ()
 
 /// The length shows all of an acceleration along gravity, and no more is forgiven than was stated.
 // Negative: REQ-129
-TEST(AccelerationBound, AlongGravityALittleMoreThanStatedIsReference) {
+TEST(AccelerationBound, AlongGravityALittleMoreThanStatedIsANormMismatch) {
   for (const double share : {0.95, 1.1}) {
     MonitorConfig config = allowing(kThirtyMg_mps2);
     config.alert_limit_rad = rad_from_deg(3.0);
@@ -157,7 +157,7 @@ TEST(AccelerationBound, AlongGravityALittleMoreThanStatedIsReference) {
 
 /// A length that no acceleration within the bound explains is studied as before, and the direction that is then called
 /// usable is so within what the acceleration may turn it too.
-TEST(AccelerationBound, WhatTheLengthMeansIsToldBeyondItAlone) {
+TEST(AccelerationBound, ANormMismatchIsReportedBeyondItOnly) {
   for (const AlarmForm form : {AlarmForm::every_tool, AlarmForm::average_tool}) {
     for (const double alert_deg : {6.0, 0.2}) {
       MonitorConfig config = allowing(5e-3 * kG0_mps2);

@@ -87,7 +87,7 @@ TEST(Attack, LosingAnExcludedChannelDoesNotFail) {
 }
 
 // Verifies: REQ-141
-TEST(Attack, ADropoutPerBlockDoesNotBlindTheTests) {
+TEST(Attack, ADropoutPerBlockDoesNotDisableTheTests) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int k) {
@@ -154,7 +154,7 @@ TEST(Attack, SigmasTooFarApartAreRefused) {
 }
 
 // Verifies: REQ-097
-TEST(Attack, GravityOffByWhatItsSigmaAllowsDoesNotLockTrustOut) {
+TEST(Attack, GravityOffByWhatItsSigmaAllowsDoesNotPreventValidation) {
   for (int n : {4, 6}) {
     Rig rig(n == 4 ? plumb_test::tetrahedron(1e-4 * kG0_mps2) : plumb_test::cone_array(n, 1e-4 * kG0_mps2));
     const double off = 1.0 + 2.8 * rig.setup.gravity.sigma_mps2 / kG0_mps2;
@@ -183,7 +183,7 @@ TEST(Attack, OneHotSampleTaintsItsBlock) {
 /// Three of seven hang together at a mirror image of gravity, anew at every station, and the tool shakes now and then:
 /// the calm three are no witness that the other four are noisy.
 // Negative: REQ-059
-TEST(Attack, SensorsThatHangTogetherDoNotPassAShakenBlockForAQuietOne) {
+TEST(Attack, SensorsThatHangTogetherDoNotMakeAShakenBlockCountAsAtRest) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Rig rig(plumb_test::cone_array(7), {}, seed);
     rig.prove();

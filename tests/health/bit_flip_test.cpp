@@ -159,7 +159,7 @@ TEST(BitFlips, AReportIsTheEndUntilTheMonitorIsConfiguredAnew) {
 
 /// Were a figure of the evidence no number after all, it would be beyond its limit.
 // Negative: REQ-166
-TEST(BitFlips, WhatIsNotANumberIsNeverClean) {
+TEST(BitFlips, AFigureThatIsNotANumberNeverPasses) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (int figure = 0; figure < 5; ++figure) {
     Rig rig(plumb_test::tetrahedron());

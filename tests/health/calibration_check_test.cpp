@@ -118,7 +118,7 @@ TEST(CalibrationCheck, NoSensorIsExcludedAtTheFirstThreeAttitudes) {
 }
 
 // Negative: REQ-041
-TEST(CalibrationCheck, HealthyToolsAreNotTold) {
+TEST(CalibrationCheck, HealthyToolsAreNotReported) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const int n = 4 + static_cast<int>(seed % 5);
     if (n > kCapacity) continue;

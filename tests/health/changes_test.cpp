@@ -27,7 +27,7 @@ bool until_excluded(Rig& rig, SensorSet whom, std::uint64_t seed) {
 }
 
 // Verifies: REQ-092
-TEST(Changes, TheStepThatExcludesSpeaksOfTheSurvivors) {
+TEST(Changes, TheVectorOfTheStepThatExcludesIsThatOfTheSurvivors) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   MonitorConfig config;
   config.assumed_faults = 1;
@@ -89,7 +89,7 @@ TEST(Changes, OneExcludedOfTwoAssumedFaultsLeavesOne) {
 
 /// The key returns those that deliver: a silent channel is not among them, whoever is named.
 // Negative: REQ-095
-TEST(Changes, TheKeyReturnsNobodyWhoIsSilent) {
+TEST(Changes, TheKeyReturnsNoSilentSensor) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   SensorSet silent = SensorSet::of(0).with(3);
@@ -141,7 +141,7 @@ TEST(Changes, AnOfferedCalibrationIsDroppedWithALostChannel) {
 
 /// Both were learnt from all six: the kind of the norm mismatch, and which way a sensor goes.
 // Verifies: REQ-062
-TEST(Changes, WhatWasLearntOfTheReferenceAndOfADriftEndsWithALostChannel) {
+TEST(Changes, TheStudiesOfTheNormAndOfADriftEndWithALostChannel) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   for (const bool drifts : {false, true}) {
     Rig rig(plumb_test::cone_array(6));

@@ -130,7 +130,7 @@ void for_every_event_taken(Law&& law) {
 /// An isolation timeout that ran out stands until somebody is excluded, the coefficients are other ones, or the key is
 /// turned.
 // Verifies: REQ-098
-TEST(Decision, ExhaustionStandsUntilSomethingIsDecided) {
+TEST(Decision, TimedOutHoldsUntilSomethingIsDecided) {
   for_every_event_taken([](Mode mode, HealthEvent event) {
     const bool ends = is_one_of(event, {HealthEvent::exclusion, HealthEvent::fit_accepted, HealthEvent::reset});
     const bool begins = event == HealthEvent::isolation_timeout && mode == Mode::suspect;
@@ -143,7 +143,7 @@ TEST(Decision, ExhaustionStandsUntilSomethingIsDecided) {
 
 /// Passed blocks are counted anew where other coefficients or the key make the past void, and by who serves (below).
 // Verifies: REQ-097
-TEST(Decision, CleanBlocksCountAnewAfterAFitAndAfterTheKey) {
+TEST(Decision, PassedBlocksCountAnewAfterAFitAndAfterTheKey) {
   for_every_event_taken([](Mode mode, HealthEvent event) {
     const bool anew = is_one_of(event, {HealthEvent::fit_accepted, HealthEvent::reset});
     EXPECT_EQ(stepped(mode, event, false, 2).clean_run, anew ? 0 : 2) << to_string(mode) << ", " << to_string(event);
@@ -151,7 +151,7 @@ TEST(Decision, CleanBlocksCountAnewAfterAFitAndAfterTheKey) {
 }
 
 // Verifies: REQ-097
-TEST(Decision, CleanBlocksCountAnewForOtherSensors) {
+TEST(Decision, PassedBlocksCountAnewForOtherSensors) {
   DecisionState state;
   state.mode = Mode::nominal;
   state.not_yet_validated = false;

@@ -68,7 +68,7 @@ TEST(DirectionRecord, TakesWhatThePlainRuleTakesFarFromTheAngleAndAtIt) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(DirectionRecord, ADirectionThatIsNoneIsNoNews) {
+TEST(DirectionRecord, AZeroVectorIsNoNewDirection) {
   DirectionRecord record;
   EXPECT_FALSE(record.add({0.0, 0.0, 0.0}, 0.1)) << "sensors that all read zero";
   EXPECT_FALSE(record.add({std::nan(""), 0.0, 9.8}, 0.1));

@@ -20,7 +20,7 @@ using plumb_test::Rig;
 using plumb_test::tetrahedron;
 
 // Verifies: REQ-125
-TEST(FaultsCovered, SuspicionPutsThePriorsNumberOnTopAsFarAsTheGradeBearsIt) {
+TEST(FaultsCovered, SuspicionAddsThePriorsNumberUpToTheConfirmedGrade) {
   const auto covered = [](int prior, int suspected, int grade) {
     return faults_covered({prior, 5.0, 0, false, false}, suspected, grade);
   };
@@ -44,7 +44,7 @@ TEST(FaultsCovered, SuspicionPutsThePriorsNumberOnTopAsFarAsTheGradeBearsIt) {
 /// Three of an orthogonal triad, without the third: gravity lies in the plane by 60 deg, its mirror image 60 deg
 /// beyond.
 // Verifies: REQ-122
-TEST(FaultsCovered, TwoSensorsLeaveTheMirroredVector) {
+TEST(FaultsCovered, TwoSensorsLeaveTheMirrorVector) {
   AxisList axes{};
   const SensorArray array = plumb_test::make_array(axes, orthogonal_triad(axes), 1e-9);
   const GravityReference gravity{kG0_mps2, 0.0, GravityModel::value};

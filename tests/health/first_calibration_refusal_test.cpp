@@ -67,7 +67,7 @@ TEST(FirstCalibrationRefusal, AttitudesInOnePlaneAskNothingOfASilentSensor) {
 
 /// "No more faults" is said of a calibrated tool: by a datasheet nothing refutes it.
 // Negative: REQ-136
-TEST(FirstCalibrationRefusal, AnAlarmByTheDatasheetRefutesNoAssertion) {
+TEST(FirstCalibrationRefusal, AnAlarmByTheDatasheetRefutesNoAssumption) {
   MonitorConfig config;
   config.assumed_faults = 0;
   UncalibratedTool tool(5, 37, 1.0, config);

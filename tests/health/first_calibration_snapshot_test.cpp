@@ -136,7 +136,7 @@ TEST(FirstCalibrationSnapshot, AForgedOneIsRefusedOrHarmless) {
 
 /// Nobody serves whom the monitor has not calibrated, whichever set of sensors the snapshot says otherwise.
 // Negative: REQ-163
-TEST(FirstCalibrationSnapshot, WithASmallerSetInItNobodyServesUncalibrated) {
+TEST(FirstCalibrationSnapshot, WithASmallerSetInItNoSensorServesUncalibrated) {
   UncalibratedTool tool(4, 3);
   tool.start();
   tool.follow(40);

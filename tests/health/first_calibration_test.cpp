@@ -244,7 +244,7 @@ TEST(FirstCalibration, AResetWithoutACalibrationLeadsBackToIt) {
 
 /// Who was not in service when the monitor calibrated itself does not come back by a reset either.
 // Negative: REQ-136
-TEST(FirstCalibration, AResetReturnsNobodyWithoutACalibration) {
+TEST(FirstCalibration, AResetReturnsNoSensorWithoutACalibration) {
   UncalibratedTool tool(6, 40);
   tool.start();
   tool.silent = SensorSet::of(5);

@@ -155,7 +155,7 @@ bool lead_to(Tool& tool, RecalibrationPhase phase) {
 }
 
 // Negative: REQ-163
-TEST(ForgedFields, OfAProvenMonitorInTheMiddleOfABlock) {
+TEST(ForgedFields, OfAValidatedMonitorInTheMiddleOfABlock) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   for (int k = 0; k < 11; ++k) rig.step(rig.sample(direction_at(20, 30), kG0_mps2));

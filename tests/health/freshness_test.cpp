@@ -218,7 +218,7 @@ TEST(Freshness, AgeLimitsAreTheHosts) {
 
 /// Two in three rows bring nothing, never three in a row: the block does not fill, and its age in samples ends it.
 // Negative: REQ-128
-TEST(Freshness, AStutteringBusDoesNotKeepAnOldVectorAlive) {
+TEST(Freshness, AStutteringBusDoesNotKeepAnOldVectorValid) {
   MonitorConfig config;
   config.max_age_s = 1e9;
   Slow tool(0.01, config);

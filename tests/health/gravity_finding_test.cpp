@@ -25,7 +25,7 @@ const Verdict& visit(Rig& rig, Noise& noise, int attitudes, double off_mg) {
 }
 
 // Verifies: REQ-063
-TEST(GravityFinding, IsToldWithTheValueToConfigureAndTheToolIsOfUseAgain) {
+TEST(GravityFinding, IsReportedWithTheValueToConfigureAndTheToolIsUsableAgain) {
   for (const int n : {4, 5, 6}) {
     for (const double off_mg : {-2.7, -1.0, 0.8, 2.7, 8.0}) {
       Rig rig(array_of(n));
@@ -53,7 +53,7 @@ TEST(GravityFinding, IsToldWithTheValueToConfigureAndTheToolIsOfUseAgain) {
 
 /// Within the limit of every block, and beyond three sigma of the stated gravity.
 // Verifies: REQ-063
-TEST(GravityFinding, AnOffsetBelowEveryLimitIsToldOverManyAttitudes) {
+TEST(GravityFinding, AnOffsetBelowEveryLimitIsReportedOverManyAttitudes) {
   Rig rig(array_of(6));
   rig.setup.gravity.sigma_mps2 = 2e-5 * kG0_mps2;
   rig.restart();
@@ -67,7 +67,7 @@ TEST(GravityFinding, AnOffsetBelowEveryLimitIsToldOverManyAttitudes) {
 }
 
 // Negative: REQ-063
-TEST(GravityFinding, WithinThreeSigmaNothingIsTold) {
+TEST(GravityFinding, WithinThreeSigmaNothingIsReported) {
   for (const double off_mg : {-0.3, 0.0, 0.3}) {
     Rig rig(array_of(6));
     rig.prove();

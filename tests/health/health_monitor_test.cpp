@@ -98,7 +98,7 @@ TEST(HealthMonitor, AStuckSensorOfFourIsExcludedAfterFourAttitudesAndLeavesDegra
 }
 
 // Verifies: REQ-072
-TEST(HealthMonitor, SevenSensorsSetTheFaultAsideAtOnceAndStayUsable) {
+TEST(HealthMonitor, SevenSensorsProvisionallyExcludeTheFaultAtOnceAndStayUsable) {
   Rig rig(plumb_test::cone_array(7));
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 5 ? r + 0.3 : r; };
@@ -120,7 +120,7 @@ TEST(HealthMonitor, SevenSensorsSetTheFaultAsideAtOnceAndStayUsable) {
 }
 
 // Verifies: REQ-073
-TEST(HealthMonitor, AnAssertedSingleFaultIsLatchedAtOneStation) {
+TEST(HealthMonitor, AnAssumedSingleFaultIsExcludedAtOneStation) {
   MonitorConfig config;
   config.assumed_faults = 1;
   Rig rig(plumb_test::tetrahedron(), config);
@@ -248,7 +248,7 @@ TEST(HealthMonitor, TheKeyUsesUpNoProbation) {
 
 /// A loss names who is lost now, and nobody who was lost before.
 // Verifies: REQ-141
-TEST(HealthMonitor, ALossNamesTheLostOneAlone) {
+TEST(HealthMonitor, ALossRecordsTheLostChannelOnly) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   SensorSet silent;
@@ -284,7 +284,7 @@ TEST(HealthMonitor, RefusedTimesChangeNothingButHoldTheOutput) {
 
 // Verifies: REQ-141
 // Negative: REQ-120
-TEST(HealthMonitor, WithoutAQuietBlockForTAgeNothingIsValid) {
+TEST(HealthMonitor, WithoutABlockAtRestForTAgeNothingIsValid) {
   MonitorConfig config;
   config.max_age_s = 2.0;
   Rig rig(plumb_test::tetrahedron(), config);
@@ -301,7 +301,7 @@ TEST(HealthMonitor, WithoutAQuietBlockForTAgeNothingIsValid) {
 
 /// Given up for its share and not for a silence: as soon as it speaks again it is back, though on trial.
 // Verifies: REQ-141
-TEST(HealthMonitor, AChannelGivenUpForItsGapsComesBack) {
+TEST(HealthMonitor, AChannelLostForItsGapsComesBack) {
   Rig rig(plumb_test::cone_array(5));
   rig.prove();
   for (int k = 0; k < 4 * rig.setup.config.window; ++k) {
@@ -351,7 +351,7 @@ TEST(HealthMonitor, SpecificForceIsGravityTheOtherWayRound) {
 
 /// Turning so slowly that nothing shows of it, and faster; known, and with a channel that is silent.
 // Verifies: REQ-065
-TEST(HealthMonitor, ARateThatIsKnownAndSmallLocksNothing) {
+TEST(HealthMonitor, AKnownSmallRateStopsNoEvidence) {
   const auto locked_at = [](double rate_radps, bool arms) {
     Rig rig(plumb_test::cone_array(5));
     rig.setup.lever_arms_known = arms;

@@ -367,7 +367,7 @@ TEST(Induction, EveryPlantedDefectIsFound) {
 /// Found by the induction: a sensor isolated while recalibrating went by size, also where recalibration had been
 /// entered from a suspect that had not earned its trust.
 // Negative: REQ-092
-TEST(Induction, FoundThatAnExclusionWhileRecalibratingSkippedTheProof) {
+TEST(Induction, FoundThatAnExclusionWhileRecalibratingSkippedTheValidation) {
   DecisionState state;
   state.mode = Mode::recalibrating;
   state.base = Mode::suspect;
@@ -383,7 +383,7 @@ TEST(Induction, FoundThatAnExclusionWhileRecalibratingSkippedTheProof) {
 /// Found by an attack: who was provisionally excluded after a return was to stay out, and the next exclusion of others
 /// latched it out with them. Setting aside is no exclusion, and a healthy sensor may meet it twice.
 // Negative: REQ-099
-TEST(Induction, FoundThatAnExclusionLatchedOutASensorProvisionallyExcludedTwice) {
+TEST(Induction, FoundThatAnExclusionTookASensorProvisionallyExcludedTwice) {
   DecisionState state;
   state.mode = Mode::suspect;
   state.not_yet_validated = false;
@@ -407,7 +407,7 @@ TEST(Induction, FoundThatAnExclusionLatchedOutASensorProvisionallyExcludedTwice)
 /// Who was excluded after a return stays out; who was provisionally excluded after one waits for an acquittal, not for
 /// probation.
 // Verifies: REQ-099
-TEST(Induction, ProbationBringsNobodyBackTwice) {
+TEST(Induction, ProbationReinstatesNoSensorTwice) {
   DecisionState state;
   state.mode = Mode::isolated;
   state.not_yet_validated = false;

@@ -125,7 +125,7 @@ TEST(Rotation, WithKnownArmsAndRateItIsTakenOff) {
 }
 
 // Verifies: REQ-065
-TEST(Rotation, WithoutThemEvidenceIsLockedOut) {
+TEST(Rotation, WithoutThemRowsAreNoEvidence) {
   Rig rig = turning(false, 0.5);
   const Rig::Distort spun = rig.distort;
   rig.distort = [](int, double r, int) { return r; };
@@ -145,7 +145,7 @@ TEST(Rotation, WithoutThemEvidenceIsLockedOut) {
 }
 
 // Negative: REQ-065
-TEST(Rotation, NotToldItLooksLikeAFault) {
+TEST(Rotation, NotStatedItLooksLikeAFault) {
   Rig rig = turning(false, 0.5);
   const Rig::Distort spun = rig.distort;
   rig.distort = [](int, double r, int) { return r; };
@@ -224,7 +224,7 @@ TEST(RotationRequest, TheTurnThatIsAskedForResolvesTheMirror) {
 }
 
 // Verifies: REQ-108
-TEST(RotationRequest, UnprovenAsksForWhatIsStillMissing) {
+TEST(RotationRequest, NotYetValidatedAsksForWhatIsStillMissing) {
   Rig rig(plumb_test::tetrahedron());
   for (int k = 0; k < 12; ++k) rig.stay(direction_at(40, 30.0 * k));  // about the axis of sensor 4
   const RotationRequest& r = rig.monitor.verdict().rotation;
@@ -246,7 +246,7 @@ TEST(RotationRequest, NothingIsAskedForWhereNoTurnHelps) {
 }
 
 // Verifies: REQ-127
-TEST(Trend, ADriftBelowTheLimitIsToldWithItsSignAndRate) {
+TEST(Trend, ADriftBelowTheLimitIsReportedWithItsSignAndRate) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   const double per_h = 20e-3;  // over the 160 s of the run 0.9 mm/s^2, a quarter of what parity finds
@@ -276,7 +276,7 @@ TEST(Trend, ADriftHasTheSignOfTheSensorsOwnReadingWhereItCountsSpecificForce) {
 }
 
 // Negative: REQ-127
-TEST(Trend, WithoutDriftNoneIsTold) {
+TEST(Trend, WithoutDriftNoneIsReported) {
   int told = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Rig rig(plumb_test::cone_array(6), {}, seed);

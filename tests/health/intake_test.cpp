@@ -108,7 +108,7 @@ TEST(ReadingsOf, AnotherModelIsTakenUpOnceTheOldOneIsForgotten) {
   EXPECT_EQ(readings_of(model, kept, sample, 25.0, gate)[0], 3.0);
 }
 
-TEST(SilenceCounter, NamesChannelsThatAreSilentBlockAfterBlock) {
+TEST(SilenceCounter, FindsChannelsThatAreSilentBlockAfterBlock) {
   SilenceCounter counter;
   const SensorSet others = SensorSet::first(4).without(1);
   EXPECT_TRUE(counter.note(others, 4, 3).empty());

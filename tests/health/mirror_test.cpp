@@ -55,7 +55,7 @@ TEST(MirrorFault, StuckInAVerticalToolIsAmbiguousAtEveryToolfaceAndIsolatedByFiv
 }
 
 // Negative: REQ-071
-TEST(MirrorFault, WithoutAnAssertionTheStuckSensorTakesFourStations) {
+TEST(MirrorFault, WithoutAnAssumptionTheStuckSensorTakesFourStations) {
   Rig rig = stuck_in_a_vertical_tool({});
   for (int toolface = 0; toolface < 360; toolface += 60) rig.stay(direction_at(0, toolface), 2);
   EXPECT_TRUE(rig.ever_blamed.empty());
@@ -79,7 +79,7 @@ TEST(MirrorFault, AnExactMirrorBiasIsAmbiguousUntilTheToolfaceTurnsByTenDegrees)
 }
 
 // Negative: REQ-103
-TEST(MirrorFault, WithoutAnAssertionTheMirrorBiasTakesFourStations) {
+TEST(MirrorFault, WithoutAnAssumptionTheMirrorBiasTakesFourStations) {
   Rig rig = biased_into_the_mirror({}, 45);
   rig.stay(direction_at(20, 45), 6);
   // The directions of stations have to differ by 5 deg: at 20 deg of inclination that is a quarter of the toolface.

@@ -186,7 +186,7 @@ TEST(NoiseStudy, LearnsNoMoreThanThreeSigmasAndForgetsSlowly) {
 
 /// A sensor that leaves service takes nothing along of what the others have shown.
 // Verifies: REQ-066
-TEST(NoiseStudy, AnotherSetOfSensorsBeginsWithWhatIsKnown) {
+TEST(NoiseStudy, AnotherSetOfSensorsBeginsWithTheStatedNoise) {
   Bench bench(6, 23);
   bench.factor.fill(2.0);
   bench.blocks(16);
@@ -335,7 +335,7 @@ TEST(NoiseStudy, ADeadSensorInAToolThatShakesTeachesNoNoise) {
 /// Without a word about the steps the same tool seems to contradict its calibration: the bound is not there for
 /// nothing.
 // Negative: REQ-067
-TEST(NoiseStudy, StepsThatNobodyStatedAreMistakenForMore) {
+TEST(NoiseStudy, AResolutionThatIsNotStatedIsMistakenForMore) {
   Rig rig = stepping(6, 6.0, 53);
   rig.setup.resolution_raw = {};
   rig.restart();

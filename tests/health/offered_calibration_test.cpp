@@ -48,7 +48,7 @@ int until_decided(Tool& tool, int most = 40) {
 }
 
 // Verifies: REQ-135
-TEST(OfferedCalibration, IsToldAtTheNextSampleThoughAnInhibitKeepsItWaiting) {
+TEST(OfferedCalibration, IsReportedAtTheNextSampleThoughAnInhibitKeepsItWaiting) {
   Drifted tool(4);
   tool.rig.monitor.inhibit(true);
   tool.visit(1);
@@ -124,7 +124,7 @@ TEST(OfferedCalibration, WhatIsAdoptedIsBiasesAndScales) {
 /// The mount of a sensor has moved by 1 deg and a full fit has taken that for its axis: refused at sight. The same fit
 /// told with the old axes is refused by the stations.
 // Negative: REQ-135
-TEST(OfferedCalibration, AMountThatHasMovedIsNotLaundered) {
+TEST(OfferedCalibration, AMountThatHasMovedIsRefused) {
   Drifted tool(6);
   Offer shifted(tool);
   AxisList axes{};

@@ -185,7 +185,7 @@ TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
   EXPECT_GT(accepted, 0);
 }
 
-TEST(Recalibrating, ASlowlyDriftingSensorIsNotLaundered) {
+TEST(Recalibrating, ASlowlyDriftingSensorIsNotFittedAway) {
   constexpr double kStability_mps2 = 2e-3;
   Tool tool(6, {}, 6);
   tool.rig.setup.stability.fill({kStability_mps2, 0.0, 0.0, 0.0});

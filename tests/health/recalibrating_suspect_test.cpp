@@ -21,7 +21,7 @@ struct Drifted : Tool {
   }
 };
 
-TEST(RecalibratingSuspect, AFitForAContradictionIsMadeAndAdoptedThoughTheContradictionGoesOn) {
+TEST(RecalibratingSuspect, WithNoConsistentHypothesisAFitIsMadeAndAdopted) {
   Drifted tool;
   ASSERT_EQ(tool.state(), HealthState::suspect);
   ASSERT_EQ(tool.rig.monitor.verdict().consistent_hypotheses, 0);
@@ -41,7 +41,7 @@ TEST(RecalibratingSuspect, AFitForAContradictionIsMadeAndAdoptedThoughTheContrad
   EXPECT_TRUE(tool.rig.ever_blamed.empty());
 }
 
-TEST(RecalibratingSuspect, TheTimeoutGivesWayToTheAlarmAndTheFitIsDiscarded) {
+TEST(RecalibratingSuspect, TheAlarmRanksAboveTheTimeoutAndTheFitIsDiscarded) {
   MonitorConfig config;
   config.isolation_timeout = Drifted().rig.monitor.verdict().stations_on_record + 1;
   Drifted tool(config);

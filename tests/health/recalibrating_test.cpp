@@ -47,7 +47,7 @@ TEST(Recalibrating, AfterAnExclusionTheSurvivorsAreCalibratedAnew) {
   }
 }
 
-TEST(Recalibrating, TheSurvivorsMustBeTrustedFirst) {
+TEST(Recalibrating, TheSurvivorsMustBeValidatedFirst) {
   MonitorConfig config = after_exclusion();
   config.assumed_faults = 1;
   Tool tool(6, config);
@@ -58,7 +58,7 @@ TEST(Recalibrating, TheSurvivorsMustBeTrustedFirst) {
   EXPECT_EQ(tool.rig.stay(direction_at(40, 300), 2).state, HealthState::recalibrating);
 }
 
-TEST(Recalibrating, ByDefaultNobodyRecalibratesUnasked) {
+TEST(Recalibrating, ByDefaultNoRecalibrationBeginsUnasked) {
   Tool tool(6);
   tool.drift(2e-3);
   tool.rig.prove();

@@ -57,7 +57,7 @@ TEST(RecalibrationResume, CoefficientsBeyondTheBoundsAreNotTakenUp) {
 /// Scales and the factor that widens the covariance of a fit are 1 here: less than that, or no number, is believed of
 /// none of them.
 // Negative: REQ-163
-TEST(RecalibrationResume, AnAcceptedFitThatWouldClaimToKnowMoreIsNotTakenUp) {
+TEST(RecalibrationResume, AnAcceptedFitOfASmallerUncertaintyIsNotTakenUp) {
   constexpr int kSensors = 5;
   Shadow s(kSensors, 21);
   s.drift(5e-4 * kG0_mps2, 1e-4);

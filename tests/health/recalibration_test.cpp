@@ -44,7 +44,7 @@ TEST(Recalibration, FindsTheBiasesAndScalesAndLeavesAxesAndTemperatureAlone) {
 
 /// docs/theory.md, section 9.8: a fit that may turn the axes hides a shifted mount; this one must not.
 // Negative: REQ-130
-TEST(Recalibration, AShiftedMountIsRefusedNotLaundered) {
+TEST(Recalibration, AShiftedMountIsRefusedNotFittedAway) {
   for (int n = 3; n <= std::min(6, kCapacity); ++n) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       Shadow s(n, seed);
@@ -335,7 +335,7 @@ TEST(Recalibration, WithoutACovarianceNoFitIsAcceptedAndNoneIsSurer) {
 
 /// A scale of which next to nothing is said to be known: beside what the stations tell of it they tell no bias.
 // Negative: REQ-131
-TEST(Recalibration, AParameterThatTheStationsDoNotTellRefusesTheFit) {
+TEST(Recalibration, AParameterThatTheStationsDoNotDetermineRefusesTheFit) {
   Shadow s(5, 25);
   s.drift_sigmas.scale = 10.0;
   s.fit->configure(s.model, alike(s.drift_sigmas), rad_from_deg(2.0));

@@ -16,7 +16,7 @@ using plumb_test::random_direction;
 using plumb_test::Rig;
 
 // Verifies: REQ-062
-TEST(ReferenceStudy, AWrongGravityIsToldAndTheDirectionStaysUsable) {
+TEST(ReferenceStudy, AWrongGravityIsReportedAndTheDirectionStaysUsable) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   Noise noise(4);
@@ -33,7 +33,7 @@ TEST(ReferenceStudy, AWrongGravityIsToldAndTheDirectionStaysUsable) {
 }
 
 // Verifies: REQ-062
-TEST(ReferenceStudy, ASharedBiasOfAConeIsToldWithItsDirection) {
+TEST(ReferenceStudy, ASharedBiasOfAConeIsReportedWithItsDirection) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   rig.distort = [](int, double r, int) { return r + 0.03 * kG0_mps2; };  // no parity: it is in the range of the axes
@@ -47,7 +47,7 @@ TEST(ReferenceStudy, ASharedBiasOfAConeIsToldWithItsDirection) {
 }
 
 // Negative: REQ-062
-TEST(ReferenceStudy, OneCircleOfRollsCannotTellAndSaysSo) {
+TEST(ReferenceStudy, OneCircleOfRollsIsReportedAsUndecided) {
   for (const double scale : {1.004, 1.0}) {
     Rig rig(plumb_test::cone_array(6));
     rig.prove();
@@ -60,7 +60,7 @@ TEST(ReferenceStudy, OneCircleOfRollsCannotTellAndSaysSo) {
 
 /// Only a forged snapshot has one: nothing is known so well.
 // Negative: REQ-062
-TEST(ReferenceStudy, ABoundWhoseSquareVanishesTellsNothing) {
+TEST(ReferenceStudy, ABoundWhoseSquareVanishesDecidesNothing) {
   ReferenceStudy study;
   Noise noise(4);
   for (int k = 0; k < 12; ++k) study.add(random_direction(noise), 0.05, 1e-200, 0.0);
@@ -142,7 +142,7 @@ TEST(ReferenceStudy, ConfidentAnswersAreGivenWhereTheyAreRight) {
 }
 
 // Negative: REQ-062
-TEST(ReferenceStudy, WhatIsNoAttitudeIsNotTaken) {
+TEST(ReferenceStudy, AZeroVectorIsNotTakenForAnAttitude) {
   ReferenceStudy study;
   study.add({0.0, 0.0, 0.0}, 0.01, 0.001, 0.1);
   study.add({0.0, 0.0, 1.0}, 0.01, 0.0, 0.1);

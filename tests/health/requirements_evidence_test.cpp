@@ -74,7 +74,7 @@ TEST(RequirementGivenDeltaF, IsTheLimitOfEveryTriple) {
 }
 
 // Negative: REQ-052, REQ-053
-TEST(RequirementGivenDeltaF, DoesNotBlindParity) {
+TEST(RequirementGivenDeltaF, DoesNotChangeParity) {
   MonitorConfig config;
   config.delta_f_mps2 = 0.05 * kG0_mps2;
   Rig rig(plumb_test::tetrahedron(), config);
@@ -128,7 +128,7 @@ TEST(RequirementPassedBlocks, AboveSevenTenthsSuspicionStaysThoughNothingAlarms)
 }
 
 // Negative: REQ-097
-TEST(RequirementPassedBlocks, ABlockThatIsNotCleanStartsTheCountAnew) {
+TEST(RequirementPassedBlocks, ABlockThatDoesNotPassStartsTheCountAnew) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 0 ? r + 0.3 : r; };
@@ -182,7 +182,7 @@ TEST(RequirementVotes, HundredsOfBlocksAtOneAttitudeAreOneStation) {
 }
 
 // Verifies: REQ-024
-TEST(RequirementGravityBetweenSteps, TheNewLengthCountsAndTheDeadLiveAgain) {
+TEST(RequirementGravityBetweenSteps, TheNewLengthCountsAndRejectedHypothesesAreConsistentAgain) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.5 : r; };

@@ -46,7 +46,7 @@ TEST(RequirementConfirmed, ThreeSurvivorsNeedTwoStationsEvenWhereOneIsConfigured
 }
 
 // Negative: REQ-072
-TEST(RequirementProvisionalGrade, FourSensorsHaveNoneAndSetNobodyAside) {
+TEST(RequirementProvisionalGrade, FourSensorsHaveNoneAndProvisionallyExcludeNone) {
   for (const double fault : {0.01, 0.1, 1.0, 20.0}) {
     Rig rig(plumb_test::tetrahedron());
     rig.prove();
@@ -158,7 +158,7 @@ Rig four_after_an_alarm() {
 }
 
 // Verifies: REQ-104
-TEST(RequirementEpisode, EndsAfterCleanStationsAtThreeAttitudes) {
+TEST(RequirementEpisode, EndsAfterPassedBlocksAtThreeAttitudes) {
   Rig rig = four_after_an_alarm();
   for (int k = 0; k < 6; ++k) rig.stay(direction_at(30 + 15 * k, 60 * k));
   EXPECT_EQ(rig.monitor.verdict().state, HealthState::nominal);
@@ -167,7 +167,7 @@ TEST(RequirementEpisode, EndsAfterCleanStationsAtThreeAttitudes) {
 }
 
 // Negative: REQ-104
-TEST(RequirementEpisode, DoesNotEndByCleanBlocksAtOneAttitude) {
+TEST(RequirementEpisode, DoesNotEndByPassedBlocksAtOneAttitude) {
   Rig rig = four_after_an_alarm();
   const int live = rig.monitor.verdict().consistent_hypotheses;
   ASSERT_LT(live, 4);

@@ -20,7 +20,7 @@ using plumb_test::Noise;
 using plumb_test::Rig;
 
 // Verifies: REQ-091
-TEST(RequirementRank, EventsStandInTheOrderOfTheHandWrittenTable) {
+TEST(RequirementRank, EventsAreInTheOrderOfTheHandWrittenTable) {
   std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/model/state_table.txt");
   std::string line;
   int rank = 0;
@@ -51,7 +51,7 @@ TEST(RequirementNoConsistentHypothesis, NoCellExcludesOrProvisionallyExcludesOrF
 }
 
 // Negative: REQ-093
-TEST(RequirementValidation, ASensorWhosePredictionNeverMovedIsNotProven) {
+TEST(RequirementValidation, ASensorWhosePredictionNeverMovedIsNotValidated) {
   // Rolled about the axis of sensor 4, the other three move and it does not: stuck, it would look the same.
   Rig rig(plumb_test::tetrahedron());
   for (int k = 0; k < 24; ++k) {
@@ -127,7 +127,7 @@ TEST(RequirementRecords, OnlyTheRecordOfAnExclusionHasAGrade) {
 }
 
 // Negative: REQ-122
-TEST(RequirementNoRedundancy, ATriadIsDegradedFromTheStartAndItsBoundHoldsTheMirroredVector) {
+TEST(RequirementNoRedundancy, ATriadIsDegradedFromTheStartAndItsBoundHoldsTheMirrorVector) {
   AxisList axes{};
   Rig rig(plumb_test::make_array(axes, orthogonal_triad(axes), 2e-4 * kG0_mps2));
   const Verdict& v = rig.prove();

@@ -122,7 +122,7 @@ TEST(RetryAfterTimeout, ChannelsThatFallSilentInThePauseAreNotTriedAgain) {
 }
 
 // Negative: REQ-167
-TEST(RetryAfterTimeout, AWrongKeyIsToldOnceAndNotTriedAgain) {
+TEST(RetryAfterTimeout, AWrongKeyIsReportedOnceAndNotTriedAgain) {
   RetryPolicy wrong = policy(0.5);
   wrong.key = 1;
   Failing tool(wrong);

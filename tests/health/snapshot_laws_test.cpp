@@ -80,7 +80,7 @@ bool is_fresh_but_for(const HealthMonitor& monitor, const MonitorSetup& setup, E
 }
 
 // Negative: REQ-163
-RC_GTEST_PROP(SnapshotLaw, AnyDamageIsSeenAndLeavesTheMonitorUnproven, ()) {
+RC_GTEST_PROP(SnapshotLaw, AnyDamageIsDetectedAndLeavesTheMonitorNotYetValidated, ()) {
   Life life(*rc::gen::inRange(4, kCapacity + 1), *rc::gen::arbitrary<std::uint64_t>());
   live(life, *rc::gen::inRange(0, 1500));
   HealthMonitor& monitor = life.tool.rig.monitor;

@@ -227,7 +227,7 @@ TEST(Snapshot, EveryKindOfWrongBytesHasItsName) {
 
 /// A version that only differs in the library is told, not judged.
 // Serves: REQ-163
-TEST(Snapshot, TellsWhoWroteIt) {
+TEST(Snapshot, StatesWhatWroteIt) {
   Isolated tool;
   Bytes bytes = snapshot_of(tool.rig.monitor);
   const Expected<SnapshotHeader> header = snapshot_header(bytes.data(), bytes.size());
@@ -286,7 +286,7 @@ TEST(Snapshot, IsBoundToEverySetting) {
 
 /// Intact bytes that would make a bad calibration look like the commissioned one.
 // Negative: REQ-163
-TEST(Snapshot, AScaleFactorThatNobodyFittedIsRefused) {
+TEST(Snapshot, AScaleFactorThatWasNotFittedIsRefused) {
   Isolated tool;
   const Bytes good = snapshot_of(tool.rig.monitor);
   Bytes bytes = good;

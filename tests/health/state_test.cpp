@@ -53,7 +53,7 @@ TEST(StateWords, EveryEventHasACause) {
 }
 
 // Negative: REQ-092
-TEST(StateWords, WhatIsNoValueTrustsNothing) {
+TEST(StateWords, AnInvalidValueIsReportedAsUnusable) {
   const auto event = static_cast<HealthEvent>(kEventCount);
   EXPECT_EQ(cause_of(event, Cause::parity), Cause::none);
   EXPECT_EQ(state_of(static_cast<Mode>(kModeCount)), HealthState::failed);

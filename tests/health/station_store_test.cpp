@@ -97,7 +97,7 @@ TEST(StationStore, TheSameAttitudeIsRefinedNotCountedAgain) {
   EXPECT_EQ(store.station(0).raw[0], 7.0) << "the latest that has been entered";
 }
 
-TEST(StationStore, BlocksOfOneStationArePooledWhileTheToolStands) {
+TEST(StationStore, BlocksOfOneStationArePooledWhileTheToolIsStill) {
   StationStore store;
   visit(store, direction_at(30, 0), 1.0);
   store.add_block(block_at(direction_at(30.02, 0), 3.0));

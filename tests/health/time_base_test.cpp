@@ -153,7 +153,7 @@ TEST(TimeBase, WhatRecordedRowsValidatedIsValidatedFromTheFirstRowOfTheRunOn) {
 
 /// Rolled about the axis of the fourth sensor, as the run is: that sensor may be stuck for all the rows say.
 // Negative: REQ-093
-TEST(TimeBase, RowsThatLeaveASensorWhereItIsValidateNobody) {
+TEST(TimeBase, RowsThatLeaveASensorWhereItIsValidateNoSensor) {
   Rig rig(tetrahedron());
   for (int k = 0; k < 24; ++k) rig.stay(direction_at(40, 15.0 * k));
   const RotationRequest asked = rig.monitor.verdict().rotation;

@@ -69,7 +69,7 @@ TEST(TransitionTable, TheTimeoutFailsOnlyBeyondTheAlertLimit) {
 }
 
 // Verifies: REQ-092
-TEST(TransitionTable, UnprovenSuspectExcludesButStays) {
+TEST(TransitionTable, ANotYetValidatedSuspectExcludesButStays) {
   TargetFacts facts;
   facts.size = SizeClass::reduced;
   facts.not_yet_validated = true;

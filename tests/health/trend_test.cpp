@@ -27,7 +27,7 @@ BlockEvidence block_of(const SensorArray& array, const Vec3& x_mps2, double off_
 }
 
 /// 0.36 m/s^2 an hour, of which the others check a quarter, under a scatter of a tenth of what it comes to in a block.
-TEST(Trend, TellsASlopeThatItsScatterDoesNotExplain) {
+TEST(Trend, ReportsASlopeThatItsScatterDoesNotExplain) {
   const SensorArray array = plumb_test::tetrahedron();
   const Vec3 x = {0.0, 0.0, kG0_mps2};
   Trend trend;
@@ -66,7 +66,7 @@ std::vector<Trend> read_back_with(const Trend& trend, int sensors, double value)
 
 /// Four sums tell a slope: how much was seen, how far times and residuals scattered, and both together. Without one of
 /// them nothing is told, a line without scatter among that: it has no sigma. The others change nothing.
-TEST(Trend, WithoutOneOfItsSumsNothingIsTold) {
+TEST(Trend, WithoutOneOfItsSumsNothingIsReported) {
   const SensorArray array = plumb_test::tetrahedron();
   const Vec3 x = {0.0, 0.0, kG0_mps2};
   Trend trend;

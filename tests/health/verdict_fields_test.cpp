@@ -27,7 +27,7 @@ const Verdict& heated(Rig& rig, double minutes, double degc_per_min) {
   return rig.monitor.verdict();
 }
 
-TEST(VerdictFields, TheRateOfTheTemperatureIsTold) {
+TEST(VerdictFields, TheRateOfTheTemperatureIsGiven) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   EXPECT_EQ(rig.monitor.verdict().temperature_rate_degc_per_min, 0.0) << "not known yet";

@@ -128,16 +128,16 @@ void expect_borne(const char* name, const Outcome& o) {
 }
 
 // Verifies: REQ-059
-TEST(Vibration, FourSensorsBearIt) { expect_borne("four sensors", shake(plumb_test::tetrahedron(), 11)); }
+TEST(Vibration, OfFourSensorsItExcludesNone) { expect_borne("four sensors", shake(plumb_test::tetrahedron(), 11)); }
 
 // Verifies: REQ-059
-TEST(Vibration, SixSensorsBearIt) { expect_borne("six sensors", shake(plumb_test::cone_array(6), 12)); }
+TEST(Vibration, OfSixSensorsItExcludesNone) { expect_borne("six sensors", shake(plumb_test::cone_array(6), 12)); }
 
 // Verifies: REQ-059
-TEST(Vibration, EightSensorsBearIt) { expect_borne("eight sensors", shake(plumb_test::cone_array(8), 13)); }
+TEST(Vibration, OfEightSensorsItExcludesNone) { expect_borne("eight sensors", shake(plumb_test::cone_array(8), 13)); }
 
 // Verifies: REQ-059
-TEST(Vibration, TwoTriadsBearIt) {
+TEST(Vibration, OfTwoTriadsItExcludesNone) {
   AxisList axes{};
   for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = 1.0;
   expect_borne("two triads", shake(plumb_test::make_array(axes, 6, 2e-4 * kG0_mps2), 14));
@@ -146,7 +146,7 @@ TEST(Vibration, TwoTriadsBearIt) {
 /// Three sensors have no parity: a reading off the length of gravity cannot be told from a fault, and motion that hides
 /// behind the sampling looks like one. Nobody is excluded all the same.
 // Verifies: REQ-059
-TEST(Vibration, ThreeSensorsExcludeNobody) {
+TEST(Vibration, OfThreeSensorsItExcludesNone) {
   AxisList axes{};
   for (std::size_t i = 0; i < 3; ++i) axes[i][i] = 1.0;
   const SensorArray array = plumb_test::make_array(axes, 3, 2e-4 * kG0_mps2);
@@ -165,7 +165,7 @@ TEST(Vibration, ThreeSensorsExcludeNobody) {
 
 /// Blocks too short to show slow motion, or any: what looks like another length of gravity excludes nobody either.
 // Verifies: REQ-059
-TEST(Vibration, ShortBlocksExcludeNobody) {
+TEST(Vibration, InShortBlocksItExcludesNoSensor) {
   Noise noise(16);
   for (const int window : {1, 4}) {
     for (const int n : {4, 6}) {
@@ -190,7 +190,7 @@ TEST(Vibration, ShortBlocksExcludeNobody) {
 /// A tool as it comes from a stand: scales and offsets a little off, by what its calibration says of itself, and
 /// gravity by two of its sigmas. Vibration times a scale error is a parity residual.
 // Verifies: REQ-059
-TEST(Vibration, AnImperfectCalibrationBearsIt) {
+TEST(Vibration, WithAnImperfectCalibrationItExcludesNoSensor) {
   const double s_scale = 2e-4, s_offset_mps2 = 1e-3;
   Noise noise(17);
   Outcome out;
@@ -233,7 +233,7 @@ TEST(Vibration, AnImperfectCalibrationBearsIt) {
 
 /// Quiet and the length off: the reference is wrong, or faults that parity cannot see. An alarm, never valid.
 // Verifies: REQ-060
-TEST(QuietAndNormOff, GravityWrongByOnePercentIsNeverValid) {
+TEST(AtRestWithNormOff, GravityWrongByOnePercentIsNeverValid) {
   for (const int n : {4, 6, 8}) {
     for (const double share : {0.99, 1.01}) {
       for (const bool from_the_start : {true, false}) {
@@ -256,7 +256,7 @@ TEST(QuietAndNormOff, GravityWrongByOnePercentIsNeverValid) {
 
 /// +0.2 g and -0.2 g on two sensors of the paper's tool cancel in parity (1, 1, 1, -1)/2.
 // Verifies: REQ-060
-TEST(QuietAndNormOff, TwoFaultsThatParityCannotSeeAreNeverValidWhereTheLengthIsOff) {
+TEST(AtRestWithNormOff, TwoFaultsThatParityCannotSeeAreNeverValidWhereTheLengthIsOff) {
   const int stations = plumb_test::long_run() ? 20000 : 300;
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
@@ -288,7 +288,7 @@ TEST(QuietAndNormOff, TwoFaultsThatParityCannotSeeAreNeverValidWhereTheLengthIsO
 /// show that theirs is as stated.
 // Verifies: REQ-143
 // Negative: REQ-143
-TEST(Vibration, ASensorThatScattersFromPowerOnIsNamedAtRest) {
+TEST(Vibration, ASensorThatScattersFromPowerOnIsFoundAtRest) {
   for (const int n : {5, 6}) {
     for (const double times : {4.0, 6.0, 20.0}) {
       for (std::uint64_t seed = 1; seed <= 10; ++seed) {

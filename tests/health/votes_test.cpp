@@ -17,7 +17,7 @@ using plumb_test::Rig;
 /// The estimate with a faulty sensor in it is another direction, of the survivors it is not: between two votes of a
 /// station (blocks 1, 2, 4, 8, 16) nothing seems to have turned.
 // Negative: REQ-105
-TEST(Votes, BetweenThemTheToolPointsWhereTheSurvivorsSay) {
+TEST(Votes, BetweenThemTheVectorIsThatOfTheSurvivors) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 5.0 : r; };
@@ -33,7 +33,7 @@ TEST(Votes, BetweenThemTheToolPointsWhereTheSurvivorsSay) {
 /// Who scatters by itself for certain speaks against the others' faults where so many may be asserted that parity would
 /// tell: the answer does not wait for a calm block. Beyond that grade its scatter may be a push that liars hide.
 // Verifies: REQ-073
-TEST(Votes, OneThatScattersForCertainIsAWitnessWithinTheParityGrade) {
+TEST(Votes, OneThatScattersForCertainCorroboratesWithinTheProvisionalGrade) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   MonitorConfig config;
   for (const int n : {5, 6}) {
@@ -134,7 +134,7 @@ TEST(Votes, ALostChannelStartsTheAnswerAnew) {
 
 /// A fault while a fit is made: the record names the faulty one, not those whose fit is dropped.
 // Verifies: REQ-101
-TEST(Votes, TheRecordOfADroppedFitNamesTheFaultyOne) {
+TEST(Votes, TheRecordOfADroppedFitNamesTheSuspectedSensor) {
   if (kCapacity < 6) GTEST_SKIP() << "six sensors";
   plumb_test::Tool tool(6);
   tool.begin();
@@ -282,7 +282,7 @@ TEST(Votes, AFaultThatParityAloneSeesIsConfirmedByEveryStation) {
 
 /// Who scatters is the answer only where the others agree with gravity: else it is not the only one.
 // Negative: REQ-143
-TEST(Votes, WhoScattersIsNotTheAnswerWhereTheOthersAreOff) {
+TEST(Votes, AScatteringSensorIsNotIsolatedWhereTheOthersAreOff) {
   Rig rig(plumb_test::tetrahedron());
   rig.prove();
   Noise noise(9), directions(4);
@@ -318,7 +318,7 @@ TEST(Votes, AForgottenEpisodeLeavesNothingBehind) {
 /// One long station over which the tool creeps: what was answered in an episode is no answer in the next, though no
 /// vote comes in between.
 // Negative: REQ-071
-TEST(Votes, AForgottenContradictionIsNotToldAgain) {
+TEST(Votes, AForgottenCaseWithoutAConsistentHypothesisIsNotReportedAgain) {
   MonitorConfig config;
   config.station_angle_rad = 1.5;
   config.passed_blocks = 2;
@@ -343,7 +343,7 @@ TEST(Votes, AForgottenContradictionIsNotToldAgain) {
 
 /// More blocks at one station than are counted: it stays the station that it was.
 // Negative: REQ-106
-TEST(Votes, AThousandBlocksAtOneStationExcludeNobody) {
+TEST(Votes, AThousandBlocksAtOneStationExcludeNoSensor) {
   MonitorConfig config;
   config.window = 8;
   Rig rig(plumb_test::tetrahedron(), config);
@@ -356,7 +356,7 @@ TEST(Votes, AThousandBlocksAtOneStationExcludeNobody) {
 
 /// Two faults are asserted, which of four sensors nobody could tell apart: the votes of the stations exclude one alone.
 // Verifies: REQ-070
-TEST(Votes, WhatTheAssertionCannotNameTheyMay) {
+TEST(Votes, AFaultThatTheAssumptionCannotIsolateTheyMay) {
   MonitorConfig config;
   config.assumed_faults = 2;
   Rig rig(plumb_test::tetrahedron(), config);

@@ -40,7 +40,7 @@ TEST_F(WindowRows, TheFirstRowJoinsWhoeverDelivers) {
 }
 
 // Verifies: REQ-078
-TEST_F(WindowRows, ARowThatLacksASensorIsLeftOut) {
+TEST_F(WindowRows, ARowThatLacksASensorIsNotUsed) {
   add(all());
   EXPECT_EQ(window_.place_of(all(), all()), RowPlace::joins);
   EXPECT_EQ(window_.place_of(all().without(1), all()), RowPlace::left_out);

@@ -49,7 +49,7 @@ TEST(ArrayFile, ReadsHowTheToolTurnsAndWhereTheSensorsSit) {
   refused("[\"wx\", \"wy\", \"wz\"]", "[\"wx\", \"wy\", 3]", "input.rotation_radps");
 }
 
-TEST(ArrayFile, ReadsWhereTheDepthStands) {
+TEST(ArrayFile, ReadsTheColumnOfTheDepth) {
   EXPECT_TRUE(array_of().input.depth_column.empty());
   const std::string text = changed("time = \"t_s\"", "time = \"t_s\"\ndepth = \"MD\"\ndepth_unit = \"ft\"");
   EXPECT_EQ(array_of(text).input.depth_column, "MD");

@@ -143,7 +143,7 @@ TEST(CalibrationFile, KeepsContext) {
 }
 
 // Verifies: REQ-040
-TEST(CalibrationFile, DateAndSerialNumberGoAlongWhereTheyAreTold) {
+TEST(CalibrationFile, DateAndSerialNumberAreKeptWhereTheyAreGiven) {
   const ArrayFile array = array_of();
   CalibrationContext context = context_of(array);
   const std::string plain = calibration_json(*calibration_of(array, &third), array, context);

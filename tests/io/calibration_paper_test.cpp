@@ -158,7 +158,7 @@ TEST(CalibrationFilePaperRefuses, AnotherVersionAndOtherSensors) {
   expect_words(refused([](Json& r) { r["paper"] = 7; }), "version", "is missing");
 }
 
-TEST(CalibrationFilePaperRefuses, CoefficientsThatContradictTheCalibrationBesideThem) {
+TEST(CalibrationFilePaperRefuses, CoefficientsThatDifferFromTheCalibrationBesideThem) {
   const ArrayFile array = array_of();
   const std::string json = json_of(array, paper_of(array).get());
   const auto refused = [&json](auto edit) { return refusal_of(resealed(json, edit)); };

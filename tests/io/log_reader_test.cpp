@@ -127,7 +127,7 @@ TEST(LogReader, StationsCountsTemperatureAndFilters) {
 }
 
 // Verifies: REQ-065
-TEST(LogReader, HowTheToolTurnsIsToldRowByRow) {
+TEST(LogReader, TheRotationRateIsReadRowByRow) {
   const char* const kColumns = "time = \"t_s\"\nrotation_radps = [\"wx\", \"wy\", \"wz\"]";
   const ArrayFile array = array_of(changed("time = \"t_s\"", kColumns));
   const std::string path =

@@ -55,7 +55,7 @@ TEST(OutputFile, ALinkStaysALinkAndPermissionsStayAsTheyWere) {
   EXPECT_EQ(status.st_mode & 0777U, 0600U);
 }
 
-TEST(OutputFile, WhatLiesUnderTheTemporaryNameIsNotFollowed) {
+TEST(OutputFile, ALinkUnderTheTemporaryNameIsNotFollowed) {
   const std::string victim = written("victim", "untouched"), path = written("result.json", "old");
   const std::string beside = path + ".part" + std::to_string(::getpid());
   ASSERT_EQ(::symlink(victim.c_str(), beside.c_str()), 0);

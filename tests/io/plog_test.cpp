@@ -224,7 +224,7 @@ TEST(BinaryLog, BytesAreAsTheContractSays) {
   EXPECT_EQ(crc32_of("123456789", 9), 0xCBF43926U) << "the check value of CRC-32";
 }
 
-TEST(BinaryLog, ForeignHeadersAreNamed) {
+TEST(BinaryLog, ForeignHeadersAreReported) {
   const std::string log = bytes_of(written_plog(array_of(), some_samples(3)));
   std::string text_copy = log;
   text_copy.erase(5, 1);  // "\r\n" became "\n"
@@ -241,7 +241,7 @@ TEST(BinaryLog, ForeignHeadersAreNamed) {
   expect_refused_log(with_header(log, 12, u32_text(2)), "header", {"version 2, this plumb reads version 1"});
   std::string size = log;
   size.replace(16, 4, u32_text(70000));
-  expect_refused_log(size, "header", {"70000 bytes long"});
+  expect_refused_log(size, "header", {"70000 bytes"});
   std::string name = log;
   name[48] = 'x';
   expect_refused_log(name, "header", {"check sum is wrong"});
@@ -301,7 +301,7 @@ TEST(BinaryLog, WhatIsCutOffIsSaid) {
   }
 }
 
-TEST(BinaryLog, ADamagedBlockIsLeftOutWhole) {
+TEST(BinaryLog, ADamagedBlockIsSkippedWhole) {
   const ArrayFile array = array_of();
   std::string log = bytes_of(written_plog(array, some_samples(1500)));
   const std::size_t second = header_size(log) + kPlogBlockHead + 512 * 48;
@@ -314,7 +314,7 @@ TEST(BinaryLog, ADamagedBlockIsLeftOutWhole) {
   EXPECT_EQ(rest->samples[512].time_s, 0.01 * 1025);
 }
 
-TEST(BinaryLog, ForgedBlocksAreNamed) {
+TEST(BinaryLog, ForgedBlocksAreReported) {
   const ArrayFile array = array_of();
   const std::string log = bytes_of(written_plog(array, some_samples(600)));
   const std::size_t first = header_size(log);
@@ -335,7 +335,7 @@ TEST(BinaryLog, ForgedBlocksAreNamed) {
       read_log(written("empty.plog", bytes_of(written_plog(array, {}))), array, BadRowPolicy::stop).has_value());
 }
 
-TEST(BinaryLog, BadRowsAreNamedByNumberAndColumn) {
+TEST(BinaryLog, BadRowsAreReportedByNumberAndColumn) {
   const ArrayFile array = array_of(changed("time = \"t_s\"", "time = \"t_s\"\nstation = \"att\""));
   std::vector<Sample> samples = some_samples(3);
   samples[2].time_s = samples[1].time_s;

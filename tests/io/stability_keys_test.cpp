@@ -75,7 +75,7 @@ TEST(StabilityKeys, WhatIsNoStabilityIsRefused) {
 }
 
 // Negative: REQ-123
-TEST(StabilityKeys, KeysOfVersionOneAreRefusedWithWhatStandsInTheirPlace) {
+TEST(StabilityKeys, KeysOfVersionOneAreRefusedWithTheirReplacement) {
   for (const std::string key : {"drift_bias", "drift_scale", "common_drift"}) {
     const auto answer = parse_array_text(changed("window = 16", "window = 16\n" + key + " = \"0.1 mg\""), "array.toml");
     ASSERT_FALSE(answer.has_value()) << key;

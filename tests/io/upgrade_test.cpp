@@ -146,7 +146,7 @@ TEST(Upgrade, RefusesAFileThatHasAKeyByBothNames) {
       << json.error().what;
 }
 
-TEST(Upgrade, RefusesWhereAnOldNameCannotBeToldFromOtherText) {
+TEST(Upgrade, RefusesWhereAnOldNameCannotBeDistinguishedFromOtherText) {
   const std::string one_line = "sensor = []\nx = {a = {patience = 1}, monitor = {patience = 9}}\n";
   const auto out = upgrade_text(one_line, "f");
   ASSERT_FALSE(out.has_value());

@@ -47,7 +47,7 @@ LawCase bias_of_a_tenth(const TrialTool& tool, double gravity_sigmas, TrialNoise
 /// Gravity wrong by two and three of its sigmas, and by seven; one bias of 0.1 g0. Without a systematic term 30 to 83 %
 /// of these ended in a wrong exclusion for five and more sensors. By seven sigmas the length of gravity is no evidence
 /// any more: what is left is parity, which takes the faulty one out provisionally.
-TEST(CounterExample, OneFaultAndASlightlyWrongGravityExcludeNobodyHealthy) {
+TEST(CounterExample, OneFaultAndASlightlyWrongGravityExcludeNoHealthySensor) {
   struct Row {
     double sigma_g0, gravity_mg0;
     int fewest_sensors;
@@ -70,7 +70,7 @@ TEST(CounterExample, OneFaultAndASlightlyWrongGravityExcludeNobodyHealthy) {
 }
 
 /// What a fit leaves, and blocks of 1024 samples that make it stand out: 55 to 82 % wrong without the term.
-TEST(CounterExample, WhatCalibrationLeavesExcludesNobodyHealthyHoweverManySamplesABlockHas) {
+TEST(CounterExample, CalibrationErrorsExcludeNoHealthySensorHoweverManySamplesABlockHas) {
   for (int n = 5; n <= kCapacity; ++n) {
     TrialNoise noise(static_cast<std::uint64_t>(n));
     int right = 0;
@@ -86,7 +86,7 @@ TEST(CounterExample, WhatCalibrationLeavesExcludesNobodyHealthyHoweverManySample
 
 /// As many faults as the confirmed grade bears, n - 3. A search that stopped at fault sets one smaller was wrong in
 /// all.
-TEST(CounterExample, AsManyFaultsAsTheStrictGradeBearsAreTold) {
+TEST(CounterExample, AsManyFaultsAsTheConfirmedGradeAreIsolated) {
   for (const int n : {6, 7, 8}) {
     const TrialTool tool = exact_tool(n);
     TrialNoise noise(static_cast<std::uint64_t>(n));
@@ -187,7 +187,7 @@ TEST(CounterExample, OneSpikeIsOneBlocksAlarm) {
 
 /// At one attitude, or rolling near the vertical, one fault may never be told: then nobody else is, and the tool does
 /// not fail. It is noticed there, and told as soon as the tool is turned.
-TEST(CounterExample, AtAttitudesThatTellNothingNobodyHealthyIsOut) {
+TEST(CounterExample, AtAttitudesThatIsolateNothingNoHealthySensorIsExcluded) {
   for (int n = 4; n <= kCapacity; ++n) {
     const TrialTool tool = exact_tool(n, 0, 5e-4 * kG0_mps2);
     TrialNoise noise(static_cast<std::uint64_t>(n));

@@ -40,7 +40,7 @@ void expect_some_told(std::uint64_t told, const LawCount& count, double share) {
   EXPECT_GE(static_cast<double>(told), share * static_cast<double>(count.cases));
 }
 
-TEST(Law, OneNobodyHealthyIsExcludedWithinTheGradeAndTheBounds) {
+TEST(Law, OneNoHealthySensorIsExcludedWithinTheGradeAndTheBounds) {
   std::uint64_t told = 0;
   const LawCount count = run_law(1, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
@@ -145,7 +145,7 @@ TEST(Law, EightLinearFaultsEndExcludedOrOpenAndNeverInAWrongExclusion) {
   EXPECT_GT(3 * end.excluded, end.unseen) << "a monitor that sees nothing would pass as well";
 }
 
-TEST(Law, EightTheSwapThatNobodySees) {
+TEST(Law, EightTheUnobservablePermutation) {
   AxisList axes{};
   const int n = paper_tetrahedron(axes);
   const TrialTool tool = exact_tool(axes, n);
@@ -251,7 +251,7 @@ class TroubledRun {
   int channel_ = 0;
 };
 
-TEST(Law, SevenTroubleThatIsNoSensorsFaultExcludesNobody) {
+TEST(Law, SevenMotionAndGapsExcludeNoSensor) {
   static std::uint64_t common = 0, misread = 0;
   common = misread = 0;
   const LawCount count = run_law(7, kLawCases, [](std::uint64_t number, TrialNoise& noise) {

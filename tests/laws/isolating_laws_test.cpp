@@ -71,7 +71,7 @@ MonitorConfig patient() {
   return config;
 }
 
-TEST(Law, TwoFaultsThatCanBeToldAreExcludedAndNobodyElse) {
+TEST(Law, TwoIsolableFaultsAreExcludedAndNoOtherSensor) {
   const LawCount count = run_law(2, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
@@ -113,7 +113,7 @@ TEST(Law, ThreeCorrelatedFaultsOfAnAssumedNumberAreExcludedAndNoOtherSensor) {
 /// Beyond every grade nothing is guaranteed but the isolation timeout: E stations before anybody is excluded, and
 /// rarely wrong. With E = 1 three survivors, who have no parity, still need two; how often that is wrong is not
 /// asserted.
-TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
+TEST(Law, FiveMoreFaultsThanAnyGradeAreIsolatedLateAndSeldomWrong) {
   static std::uint64_t hasty = 0, contradicted = 0, not_failed = 0, wrong = 0;
   hasty = contradicted = not_failed = wrong = 0;
   const LawCount count = run_law(5, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
@@ -164,7 +164,7 @@ TEST(Law, FiveMoreFaultsThanAnyGradeBearsAreJudgedLateAndSeldomWrong) {
 }
 
 /// Faults too small to be sure of: what is published is within its bound.
-TEST(Law, SixSmallFaultsExcludeNobodyHealthyAndTheBoundHolds) {
+TEST(Law, SixSmallFaultsExcludeNoHealthySensorAndTheBoundHolds) {
   static std::uint64_t bounded = 0;
   bounded = 0;
   const LawCount count = run_law(6, kLawCases, [](std::uint64_t number, TrialNoise& noise) {

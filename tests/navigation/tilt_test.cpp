@@ -90,7 +90,7 @@ TEST(Tilt, AlongThePoleTheWorstHorizontalDirectionCountsAndToolfaceIsUnknown) {
   EXPECT_EQ(t.toolface_rad, 0.0);
 }
 
-TEST(Tilt, ACovarianceThatIsNoneGivesTheSigmaOfNothingKnown) {
+TEST(Tilt, AnInvalidCovarianceGivesTheSigmaOfAnUnknownAngle) {
   Mat3 c = kWhite;
   c[0] = std::numeric_limits<double>::quiet_NaN();
   const Tilt t = tilt_of(gravity_at(1.0, 2.0), c);

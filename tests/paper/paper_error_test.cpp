@@ -213,7 +213,7 @@ TEST(PaperError, VanishingScaleFactorIsNoReading) {
 }
 
 /// Stations that do not count, parameters at which nothing can be said: the sums are those of the rest, or none.
-TEST(PaperError, StationsThatDoNotCountAreLeftOut) {
+TEST(PaperError, StationsThatDoNotCountAreNotUsed) {
   Bench b;
   const auto error = PaperError::make(b.sheet, b.gravity, SensorSet::first(4));
   ASSERT_TRUE(error.has_value());

@@ -111,7 +111,7 @@ TEST(PaperMonitor, FailedIsLatchedUntilTheKeyedReset) {
   EXPECT_EQ(rig.tour(4).state, HealthState::nominal);
 }
 
-TEST(PaperMonitor, ResetIsServedThoughTheClockStands) {
+TEST(PaperMonitor, ResetIsServedThoughTheClockIsStopped) {
   PaperRig rig(4);
   rig.prove();
   rig.stick(0, kNan);

@@ -64,7 +64,7 @@ RC_GTEST_PROP(PaperMonitorLaw, IsTotalPartitionsTheSensorsAndReplaysBitForBit, (
   }
 }
 
-RC_GTEST_PROP(PaperMonitorLaw, WhatAnExcludedSensorSaysReachesNothing, ()) {
+RC_GTEST_PROP(PaperMonitorLaw, TheReadingsOfAnExcludedSensorChangeNothing, ()) {
   const int faulty = *rc::gen::inRange(0, 5);
   const auto seed = *rc::gen::inRange<std::uint64_t>(1, 1000);
   calibration_test::Noise noise(seed);

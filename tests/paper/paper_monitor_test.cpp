@@ -112,7 +112,7 @@ TEST(PaperMonitor, Steps4To8OneFaultOfFourLeavesThree) {
   }
 }
 
-TEST(PaperMonitor, Step9TheRestMustHoldOrNobodyIsExcluded) {
+TEST(PaperMonitor, Step9TheRestMustHoldOrNoSensorIsExcluded) {
   for (const bool spoiled : {false, true}) {
     PaperRig rig(5);
     // Every triple has its own fit; only the fit of all, by which four that remain are read, is off.

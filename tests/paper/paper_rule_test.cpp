@@ -46,7 +46,7 @@ Datasheet tool_of(int n) {
   return calibration_test::datasheet_of(axes, n, kSigma);
 }
 
-TEST(PaperRule, SaysNothingWithoutSamples) {
+TEST(PaperRule, DecidesNothingWithoutSamples) {
   const Bench bench(tool_of(4));
   const PaperFinding f = bench.finding(SensorSet::first(4));
   EXPECT_FALSE(f.detected);
@@ -108,7 +108,7 @@ TEST(PaperRule, TheLimitItselfFails) {
   EXPECT_FALSE(bench.rule.finding(bench.fits(), mae * (1.0 + 1e-12), bench.array.all()).detected);
 }
 
-TEST(PaperRule, ATripleWithoutASoundFitHasNoSay) {
+TEST(PaperRule, ATripleWithoutASoundFitDoesNotCount) {
   Bench bench(tool_of(4));
   bench.calibration->triple[3].rank = 8;  // of 1, 2, 3: the only one that would pass
   Noise noise(5);
@@ -149,7 +149,7 @@ TEST(PaperRule, TheRestIsReadByItsOwnFitOnceItHasOne) {
   EXPECT_EQ(paper_vector_in_use(bench.fits(), raw, 25.0, in_use), paper_vector(bench.array, bench.rest, raw, 25.0));
 }
 
-TEST(PaperRule, NothingThatAnExcludedSensorSaysGetsIn) {
+TEST(PaperRule, TheReadingsOfAnExcludedSensorDoNotCount) {
   Bench bench(tool_of(5));
   for (std::size_t k = 0; k < kCapacity; ++k) bench.calibration->all.model.misalignment[k * kCapacity + 2] = 0.03;
   const SensorSet in_use = SensorSet::first(5).without(2);
@@ -232,7 +232,7 @@ RC_GTEST_PROP(PaperRuleLaw, OneFaultOfFourOverManyAttitudesIsIsolated, ()) {
 }
 
 /// Table 2, rows 18 to 23: two random sensors of four are detected, and none is named.
-RC_GTEST_PROP(PaperRuleLaw, TwoFaultsOfFourAreDetectedAndNobodyIsNamed, ()) {
+RC_GTEST_PROP(PaperRuleLaw, TwoFaultsOfFourAreDetectedAndNoSensorIsIsolated, ()) {
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
   const int first = *rc::gen::inRange(0, 3);
   const int second = *rc::gen::inRange(first + 1, 4);
@@ -304,7 +304,7 @@ TEST(PaperRuleLimit, AtOneAttitudeTwoFaultsThatAgreeIsolateAHealthySensor) {
 
 /// A fit that is not sound reads nobody, nor do triples that were not fitted.
 // Negative: REQ-190
-TEST(PaperRule, WithoutASoundFitNobodyIsReadByHisOwn) {
+TEST(PaperRule, WithoutASoundFitNoTripleUsesItsOwn) {
   Bench bench(tool_of(4));
   PaperCalibration& made = *bench.calibration;
   EXPECT_EQ(bench.fits().own(SensorSet::first(4)), &made.all);

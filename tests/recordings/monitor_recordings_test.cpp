@@ -61,7 +61,7 @@ class MikoffZ : public testing::Test {
   std::unique_ptr<Mikoff> data_;
 };
 
-TEST_F(MikoffZ, TheNearlyCoplanarTriplesAreFoundAndTheStrictGradeIsOne) {
+TEST_F(MikoffZ, TheNearlyCoplanarTriplesAreFoundAndTheConfirmedGradeIsOne) {
   const auto m = monitor();
   const SensorArray& array = m->array();
   EXPECT_EQ(coplanarity(array, array.all()), 3);

@@ -76,7 +76,7 @@ TEST(CalibrationNotes, ARunBeforeTheCalibrationIsRefused) {
 }
 
 // Negative: REQ-040
-TEST(CalibrationNotes, WithoutADateGrowthPerDayIsToldAsLeftOut) {
+TEST(CalibrationNotes, WithoutADateGrowthPerDayIsReportedAsNotCounted) {
   const Workshop where;
   calibrate(where, kGrows, {});
   EXPECT_FALSE(nlohmann::json::parse(where.text("cal.json"))["provenance"].contains("date"));
@@ -100,7 +100,7 @@ TEST(CalibrationNotes, WhereNoStabilityIsStatedEveryPlaceSaysSo) {
   EXPECT_TRUE(says(run(where, {"geometry", "array.toml"}).out, {"no stability is stated"}));
 }
 
-TEST(CalibrationNotes, TheNoiseOfTheArrayFileCountsAndADifferenceIsTold) {
+TEST(CalibrationNotes, TheNoiseOfTheArrayFileCountsAndADifferenceIsReported) {
   const Workshop where;
   const auto limits = [&where] {
     return run(where, {"monitor", "--array", "array.toml", "--calibration", "calibration.json", "--limits"});
@@ -129,7 +129,7 @@ void forget_uncertainty(const Workshop& where, int sensors) {
 }
 
 // Negative: REQ-123
-TEST(CalibrationNotes, ACalibrationThatStatesNoUncertaintyIsToldAsItIsLoaded) {
+TEST(CalibrationNotes, ACalibrationThatStatesNoUncertaintyIsReportedAsItIsLoaded) {
   const Workshop where;
   calibrate(where, "stability = \"0.05 mg\"\n", {});
   EXPECT_EQ(monitor(where, {"--log", "drilling.csv"}).err, "");

@@ -14,7 +14,7 @@ bool says(const std::string& text, const std::string& what) { return text.find(w
 
 TEST(RunFindings, NothingIsSaidOfARunAsStated) { EXPECT_EQ(render::findings_text(Verdict{}), ""); }
 
-TEST(RunFindings, GravityIsToldWithTheValueToConfigure) {
+TEST(RunFindings, GravityIsReportedWithTheValueToConfigure) {
   Verdict v;
   v.norm_mismatch.length_mps2 = 2.7e-3 * kG0_mps2;
   v.norm_mismatch.length_bound_mps2 = 2e-4 * kG0_mps2;
@@ -24,7 +24,7 @@ TEST(RunFindings, GravityIsToldWithTheValueToConfigure) {
   EXPECT_TRUE(says(text, "value = \"9.83313 m/s^2\"")) << text;
 }
 
-TEST(RunFindings, NoiseIsToldWithWhatToWrite) {
+TEST(RunFindings, NoiseIsReportedWithWhatToWrite) {
   Verdict v;
   v.noise_factor = 2.1;
   v.noise_correlation = 20.0;
@@ -33,7 +33,7 @@ TEST(RunFindings, NoiseIsToldWithWhatToWrite) {
   EXPECT_TRUE(says(text, "20 samples carry the information of one")) << text;
 }
 
-TEST(RunFindings, AContradictedCalibrationIsToldWithItsRemedy) {
+TEST(RunFindings, AContradictedCalibrationIsReportedWithItsRemedy) {
   Verdict v;
   v.calibration.contradicted = true;
   v.calibration.attitudes = 7;

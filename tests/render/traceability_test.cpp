@@ -43,7 +43,7 @@ std::string result_of(const render::TestResults& tests, const std::optional<rend
   return render::traceability_section(small(), tests, assurance).section["requirements"][0]["result"];
 }
 
-TEST(Traceability, TheBuiltInOneIsWholeAndMeetsBothWays) {
+TEST(Traceability, TheBuiltInOneIsCompleteInBothDirections) {
   const Json out = section(built_in());
   EXPECT_EQ(out["orphans"].size(), 0U) << out["orphans"].dump();
   EXPECT_GE(out["counts"]["requirements"].get<int>(), 90);

@@ -64,7 +64,7 @@ std::set<std::string> strangers(const Json& report, const Json& other) {
   return out;
 }
 
-TEST(VerificationPage, EveryFigureInATableStandsInTheJson) {
+TEST(VerificationPage, EveryFigureInATableIsInTheJson) {
   // Words of the page itself: "(95 % ...)", "rank < 3" come from the JSON or from heads, which are no cells.
   const std::set<std::string> found = strangers(paper_report(), paper_report());
   EXPECT_TRUE(found.empty()) << "not in the JSON: " << *found.begin() << " and " << found.size() - 1 << " more";
@@ -113,7 +113,7 @@ TEST(VerificationPage, NamesCannotBreakOut) {
   EXPECT_NE(html.find("a&lt;b&amp;"), std::string::npos);
 }
 
-TEST(VerificationPage, ACampaignThatWasNotPlayedIsTold) {
+TEST(VerificationPage, ACampaignThatWasNotPlayedIsReported) {
   Json report = paper_report();
   report["campaign"] = {{"healthy", {{"played", false}, {"reason", "no monitor"}}},
                         {"faults", {{"played", false}, {"reason", "no monitor"}}},

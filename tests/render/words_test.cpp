@@ -19,7 +19,7 @@ TEST(Words, SayWhatBecameOfACalibration) {
   }
 }
 
-TEST(Words, TellAConfirmedExclusionFromAProvisionalOne) {
+TEST(Words, DistinguishAConfirmedExclusionFromAProvisionalOne) {
   EXPECT_NE(explain(Cause::isolated_fault, Grade::provisional).find("provisionally excluded"), std::string::npos);
   EXPECT_NE(explain(Cause::isolated_fault, Grade::confirmed).find("faulty and excluded"), std::string::npos);
 }

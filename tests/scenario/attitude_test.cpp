@@ -106,7 +106,7 @@ TEST(Passage, GoesTheShortWayAtUnitLength) {
   }
 }
 
-TEST(Passage, StandsStillAndTurnsRound) {
+TEST(Passage, HoldsStillAndTurnsRound) {
   const Vec3 down = {0.0, 0.0, 1.0};
   EXPECT_EQ(Passage(down, down).angle_rad(), 0.0);
   EXPECT_EQ(Passage(down, down).at(0.5), down);

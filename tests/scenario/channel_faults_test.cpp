@@ -78,7 +78,7 @@ TEST(ChannelFault, SpikesHaveTheirSizeAndTheirRate) {
   EXPECT_GT(down, 20);
 }
 
-TEST(ChannelFault, ChatterComesAndGoesAndWarmUpDiesAway) {
+TEST(ChannelFault, ChatterComesAndGoesAndWarmUpFadesAway) {
   const Simulator chatter = play(still("a2:chatter=50mg0*2s@4s"));
   const Simulator warm = play(still("a2:warmup=2mg0*3s@4s"));
   const double whole = mps2(chatter, 0);

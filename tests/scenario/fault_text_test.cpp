@@ -308,6 +308,15 @@ TEST(FaultText, ASensorThatIsCalledLogIsASensor) {
   EXPECT_EQ(parsed("log:bias=1mg0@1s", context).sensor, 2);
 }
 
+TEST(FaultText, ACountOfOneIsSingularInASentence) {
+  const auto words = [](const char* text) { return describe(parsed(text, volts()), volts()); };
+  EXPECT_EQ(words("a2:late=1@#5"), "a2 arrives 1 row late from row 5 on");
+  EXPECT_EQ(words("a2:late=3@#5"), "a2 arrives 3 rows late from row 5 on");
+  EXPECT_EQ(words("a2:slow=1@#5+#1"), "a2 has a new value every 1 row only from row 5 on, for 1 row");
+  EXPECT_EQ(words("a2:stuck=0V@station2+station1"), "a2 is stuck at 0 V from station 2 on, for 1 station");
+  EXPECT_EQ(words("a2:stuck=0V@station2+station3"), "a2 is stuck at 0 V from station 2 on, for 3 stations");
+}
+
 RC_GTEST_PROP(FaultTextLaw, AnyTextIsParsedOrRefusedWithARemedy, ()) {
   static const std::string kLetters = "a123:=@+-#.Vsg0mgSFLBtuckscalebiasdriftrandomstation/ ^e";
   std::string text;

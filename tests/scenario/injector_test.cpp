@@ -123,7 +123,7 @@ TEST(Injector, StationsAreCountedByTheirTags) {
   }
 }
 
-TEST(Injector, SaysWhichFaultsShowedNoEffect) {
+TEST(Injector, ReportsWhichFaultsHadNoEffect) {
   Fault late = make(FaultKind::stuck_level, 0, 100.0, 0.0);
   Fault over = make(FaultKind::stuck_level, 0, -5.0, 0.0);
   over.duration = 1.0;

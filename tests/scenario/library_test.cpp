@@ -54,7 +54,7 @@ double scatter(const Simulator& run, std::uint64_t begin, std::uint64_t end, std
   return std::sqrt((square - sum * sum / n) / (n - 1.0));
 }
 
-TEST(Library, DrillingRunAlternatesQuietAndMotion) {
+TEST(Library, DrillingRunAlternatesRestAndMotion) {
   const auto run = *Simulator::make(drilling_run(paper_tool(1), 1));
   ASSERT_EQ(run.size(), 14U * 200U + 13U * 100U);
   EXPECT_NEAR(run.duration_s(), 40.99, 1e-9);
@@ -90,7 +90,7 @@ TEST(Library, MotionJoinsTheStationsSmoothly) {
   }
 }
 
-TEST(Library, SensorDiesAtItsStationForGood) {
+TEST(Library, SensorGetsStuckAtItsStationForGood) {
   const auto run = *Simulator::make(drilling_run(paper_tool(1), 1, {dead_at_station(1, 6)}));
   const std::uint64_t onset = 5 * 300;
   for (std::uint64_t row = 0; row < run.size(); ++row) {

@@ -59,7 +59,7 @@ TEST(Stream, ValuesDoNotDependOnTheOrderOfDrawing) {
   }
 }
 
-TEST(Stream, SeedPurposeAndSubStreamTellStreamsApart) {
+TEST(Stream, SeedPurposeAndSubStreamGiveDifferentStreams) {
   const Stream base(5, Purpose::noise, 0);
   EXPECT_NE(base.bits(0), Stream(6, Purpose::noise, 0).bits(0));
   EXPECT_NE(base.bits(0), Stream(5ULL << 32U, Purpose::noise, 0).bits(0));

@@ -93,7 +93,7 @@ TEST(Simulator, FaultsInASimulationAreThoseInjectedIntoItsLog) {
 }
 
 // Negative: REQ-180
-TEST(Simulator, SeedsTellRunsApartAndFaultsDoNotDisturbTheRest) {
+TEST(Simulator, SeedsGiveDifferentRunsAndFaultsDoNotDisturbTheRest) {
   const Tool tool = paper_tool(1);
   Simulator one = simulator(drilling_run(tool, 1));
   Simulator other = simulator(drilling_run(tool, 2));

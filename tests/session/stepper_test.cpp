@@ -136,7 +136,7 @@ void expect_alike(const Compared& compared, int sensors, int least_changes) {
   EXPECT_GE(compared.changes, least_changes);
 }
 
-TEST(Stepper, FourSensorsOfWhichOneDiesAreToldAlikeByEveryCapacity) {
+TEST(Stepper, FourSensorsOfWhichOneGetsStuckGiveTheSameAtEveryCapacity) {
   ASSERT_GE(plumb::stepping::stepper_capacities().size(), 2U);
   const Workshop where;
   Files files = read_files(where / "array.toml", where / "calibration.json");
@@ -146,13 +146,13 @@ TEST(Stepper, FourSensorsOfWhichOneDiesAreToldAlikeByEveryCapacity) {
   expect_alike(compare(files.array, &files.calibration.calibration, log), 4, 3);
 }
 
-TEST(Stepper, AMonitorThatCalibratesItselfIsToldAlikeByEveryCapacity) {
+TEST(Stepper, AMonitorThatCalibratesItselfGivesTheSameAtEveryCapacity) {
   const Workshop where;
   const Files files = read_files(where / "array.toml", where / "calibration.json");
   expect_alike(compare(files.array, nullptr, where / "calibration.csv"), 4, 1);
 }
 
-TEST(Stepper, SixSensorsAreToldAlikeByEveryCapacity) {
+TEST(Stepper, SixSensorsGiveTheSameAtEveryCapacity) {
   const Directory where;
   const std::string examples = PLUMB_SOURCE_DIR "/examples/";
   const std::vector<std::vector<std::string>> steps = {
@@ -167,7 +167,7 @@ TEST(Stepper, SixSensorsAreToldAlikeByEveryCapacity) {
   expect_alike(compare(files.array, &files.calibration.calibration, where / "drill.csv"), 6, 3);
 }
 
-TEST(Stepper, ARecordingIsToldAlikeByEveryCapacity) {
+TEST(Stepper, ARecordingGivesTheSameAtEveryCapacity) {
   const std::string log = recording_path("mikoff5_static_means.csv");
   if (!std::filesystem::exists(log)) GTEST_SKIP() << "no " << log;
   const Directory where;
@@ -207,7 +207,7 @@ void spoil(std::vector<plumb::Sample>& samples, int sensors) {
   for (std::size_t k = std::min(from + count, samples.size()); k < samples.size(); ++k) samples[k].time_s += 20.0;
 }
 
-RC_GTEST_PROP(StepperLaw, AnythingThatBefallsALogIsToldAlikeByEveryCapacity, ()) {
+RC_GTEST_PROP(StepperLaw, AnyDamagedLogGivesTheSameAtEveryCapacity, ()) {
   static const Workshop where;
   static const Files files = read_files(where / "array.toml", where / "calibration.json");
   static const auto log = plumb::io::read_log(where / "drilling.csv", files.array, plumb::io::BadRowPolicy::stop);

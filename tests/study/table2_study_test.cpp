@@ -55,7 +55,7 @@ TEST(Table2Study, SameVerdictsAsPrintedForEverySeed) {
   EXPECT_LT(extremes.most_healthy, 7.63e-4) << "the largest healthy figure that the paper prints";
 }
 
-TEST(Table2Study, TheMonitorExcludesTheFaultyOneAndNobodyElse) {
+TEST(Table2Study, TheMonitorExcludesTheFaultyOneAndNoOther) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Bench bench = bench_of(seed);
     const auto study = table2_study(bench.fits, bench.tool, seed);
@@ -103,7 +103,7 @@ TEST(OneAttitudeStudy, ThePapersRuleErrsWherePlumbHoldsBack) {
   EXPECT_LT(study->own.largest_silent_tilt_rad, plumb::rad_from_deg(0.1));
 }
 
-TEST(OneAttitudeStudy, PlumbNamesNoHealthySensorWhateverIsDrawn) {
+TEST(OneAttitudeStudy, PlumbIsolatesNoHealthySensorWhateverIsDrawn) {
   std::uint64_t trials = 0;
   for (std::uint64_t seed = 2; seed <= 11; ++seed) {
     const Bench bench = bench_of(seed);

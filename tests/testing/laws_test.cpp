@@ -93,7 +93,7 @@ RC_GTEST_PROP(TestingLaw, TheTomlOfACaseReplaysItBitForBit, ()) {
   for (std::uint64_t row = 0; row < one->size(); row += 37) RC_ASSERT(one->at(row).raw == two->at(row).raw);
 }
 
-RC_GTEST_PROP(TestingLaw, RandomArraysKeepTheirFloorAndFaultsTheirNumber, ()) {
+RC_GTEST_PROP(TestingLaw, RandomArraysKeepTheirLeastDeterminantAndFaultsTheirNumber, ()) {
   const SensorArray array = *random_arrays(5, 0.2);
   for (int k = 0; k < array.triple_count(); ++k) RC_ASSERT(std::abs(array.triple(k).det) >= 0.2);
   const auto drawn = *faults(array, 2, 12);

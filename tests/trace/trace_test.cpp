@@ -138,7 +138,7 @@ TEST(TraceCheck, ReportsWhatARequirementLacks) {
 }
 
 // Negative: REQ-182
-TEST(TraceCheck, ReportsATestOfASafetyRoomWithoutAnId) {
+TEST(TraceCheck, ReportsATestOfASafetyModuleWithoutAnId) {
   Evidence broken = repository();
   TaggedTest orphan;
   orphan.name = "Orphan.HasNoTag";
@@ -153,7 +153,7 @@ TEST(TraceCheck, ReportsATestOfASafetyRoomWithoutAnId) {
 }
 
 // Negative: REQ-182
-TEST(TraceCheck, AnOpenRequirementOwesNoTestYet) {
+TEST(TraceCheck, AnOpenRequirementNeedsNoTestYet) {
   Evidence copy = repository();
   for (TaggedTest& test : copy.tests) {
     erase_tag(test.negative, "REQ-071");

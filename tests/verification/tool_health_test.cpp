@@ -91,7 +91,7 @@ TEST(ToolHealthRule, GreenIsAStationWithNothingAgainstIt) {
 }
 
 // Negative: REQ-179
-TEST(ToolHealthRule, EveryThingThatCanBeWrongIsNamed) {
+TEST(ToolHealthRule, EveryThingThatCanBeWrongIsReported) {
   const auto lacking = [](std::uint16_t bit) {
     return but([bit](Verdict& v) { v.usable = static_cast<std::uint16_t>(v.usable & ~bit); });
   };

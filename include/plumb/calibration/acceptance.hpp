@@ -16,11 +16,11 @@ inline constexpr double kEarthGravityMax_mps2 = 9.87;
 
 struct AcceptanceLimits {
   double max_common_scale_sigmas = 4.0;   ///< `CommonScale::sigmas`: implausible beyond; 4 % for four sensors of 2 %
-  double told_common_scale_sigmas = 1.0;  ///< told beyond it
+  double told_common_scale_sigmas = 1.0;  ///< reported beyond it
   /// `CommonTurn::sigmas`, of a turn that no single axis explains better: implausible beyond it. By chance the nominal
   /// axes of a right roll axis lie so far off in exp(-8), 3 of 10 000 tools.
   double max_common_turn_sigmas = 4.0;
-  double told_common_turn_sigmas = 2.0;  ///< told beyond it: so do 14 of 100 tools with a right roll axis
+  double told_common_turn_sigmas = 2.0;  ///< reported beyond it: so do 14 of 100 tools with a right roll axis
   double max_parity_rms_mps2 = 0.05;
   double max_hold_out_mps2 = 0.05;   ///< norm or parity rms of stations not used
   double max_hold_out_sigmas = 3.0;  ///< rms of what was predicted, in sigmas that the fit claims

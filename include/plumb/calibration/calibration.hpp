@@ -38,7 +38,7 @@ inline constexpr int kMaxNullDirections = 16;
 /// Stations with one roll group tag each (`Station::roll_group`) that a fit can tell apart.
 inline constexpr int kMaxRollGroups = 16;
 
-/// A station that the fit left out, because its residual is not noise.
+/// A station that the fit rejected, because its residual is not noise.
 struct Outlier {
   int station = -1;
   double standardised = 0.0;  ///< length of its residual in standard deviations, n - 2 dimensions together
@@ -88,7 +88,7 @@ inline constexpr double kPlausibleMax_degc = 400.0;
 
 /// The figures by which a fit is judged.
 struct FitFigures {
-  int stations = 0;         ///< used: outliers left out
+  int stations = 0;         ///< used: without outliers
   int parameters = 0;       ///< 4n
   int rank = 0;             ///< of the prior-scaled information of the data alone
   int gauge = 0;            ///< of the missing rank: common rotations (3, or 1 where roll groups see the others)
@@ -107,8 +107,8 @@ struct FitFigures {
   double excitation = 0.0;            ///< least eigenvalue of the Gram matrix of the 9 harmonics, uniform sphere = 1
   double temperature_min_degc = 0.0;  ///< span of the stations: beyond it by > 5 degC a monitor confirms nothing
   double temperature_max_degc = 0.0;
-  int outliers = 0;               ///< stations left out; at most kMaxOutliers are kept, in order
-  int clipped = 0;                ///< readings at or beyond the full scale, left out
+  int outliers = 0;               ///< stations rejected; at most kMaxOutliers are kept, in order
+  int clipped = 0;                ///< readings at or beyond the full scale, not used
   SensorSet clipped_sensors;      ///< whose they were
   int roll_groups = 0;            ///< groups of stations that share an inclination
   int single_station_groups = 0;  ///< of them those with a single station, which say nothing
@@ -232,18 +232,18 @@ class Calibrator {
   /// Where the fit stands: per sensor W and b [m/s^2], in the frame it has drifted to (`finish` turns it back).
   std::array<double, kFitParameters> parameters() const noexcept;
 
-  /// Whether the fit has set this station aside as an outlier: for any number of them, where a report lists only
+  /// Whether the fit has rejected this station as an outlier: for any number of them, where a report lists only
   /// kMaxOutliers.
   bool sets_aside(const Station& station) const noexcept;
 
   /// Ranks, covariances, residuals and acceptance. Errors, in this order: those of `Datasheet::array`; not_finite
   /// (index = sensor: scale factor 0 or no number); out_of_range (index 0: roll axis not of unit length, 1: more than
-  /// kMaxRollGroups roll groups, 2: wobble negative or no number); too_few_stations; diverged (not finite; gravity, a
+  /// kMaxRollGroups roll groups, 2: deviation negative or NaN); too_few_stations; diverged (not finite; gravity, a
   /// sigma or a prior but 0 outside 1e-100 .. 1e100; a temperature outside kPlausibleMin_degc .. kPlausibleMax_degc:
-  /// index = station where one is to blame; or not converged); unobservable (value = rank, limit = needed); implausible
+  /// index = station of the cause, if one; or not converged); unobservable (value = rank, limit = needed); implausible
   /// (index = sensor, -1 where it is one of report.suspects, or where roll groups turned all axes beyond what the
   /// nominal ones allow, value = turn; value = limit = 0 where it holds the same numbers as another); poor_fit (index =
-  /// sensor where one is to blame, else -1). `report`, where given, is filled as far as the stations allow. May be
+  /// sensor where one is the cause, else -1). `report`, where given, is filled as far as the stations allow. May be
   /// called again.
   Expected<Calibration> finish(const Station* stations, int count, FitReport* report = nullptr) const noexcept;
   /// `finish` after `iterate_held`: the same judgement without the covariance, on a small stack. The datasheet must
@@ -299,7 +299,7 @@ class Calibrator {
   std::array<double, kFitParameters> theta_{};   ///< deviation from the datasheet in units of the prior
   std::array<double, kFitParameters> step_{};    ///< the last step, same units
   std::array<double, kFitParameters> best_{};    ///< where the cost was lowest, same units
-  std::array<double, kFitParameters> screen_{};  ///< W and b by which the outliers were told from the rest
+  std::array<double, kFitParameters> screen_{};  ///< W and b by which the outliers were separated from the rest
   double cost_ = 0.0;
   double damping_ = 0.0;  ///< Levenberg-Marquardt, relative to the diagonal; 0 unless the cost rose
   double misfit_mps2_ = 0.0;

@@ -1,4 +1,4 @@
-/// A fit judged by what it did not use: stations held out, sensors left out. The caller owns all storage; the work is a
+/// A fit judged by what it did not use: stations held out, sensors omitted. The caller owns all storage; the work is a
 /// bounded number of fits.
 #pragma once
 
@@ -60,9 +60,9 @@ struct OddSensor {
   double ratio = 1.0;         ///< chi^2 per degree of freedom without it, over the least without any other
 };
 
-/// Leaves out one sensor after the other. A sensor stands out if chi^2 per degree of freedom without it is at most
+/// Omits one sensor after the other. A sensor stands out if chi^2 per degree of freedom without it is at most
 /// kOddRatio of the least without any other, with at least kOddFreedom degrees of freedom left; a fit that does not
-/// settle within the physical bounds of `options` is the worst. No station is set aside as an outlier: leave those out
+/// settle within the physical bounds of `options` is the worst. No station is rejected as an outlier: omit those
 /// that must not speak. n fits; `scratch` holds `count` stations.
 inline constexpr double kOddRatio = 0.1;
 inline constexpr int kOddFreedom = 4;

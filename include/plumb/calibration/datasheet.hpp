@@ -47,7 +47,7 @@ struct Datasheet {
 
   SensorModel model() const noexcept;            ///< nominal coefficients, no misalignment
   Expected<SensorArray> array() const noexcept;  ///< nominal axes, checked
-  /// What the priors leave in every reading, told as if a calibration had left it: the sensors apart from each other.
+  /// What the priors leave in every reading, stated as if a calibration had left it: the sensors apart from each other.
   RowUncertainty uncertainty() const noexcept;
 
   static constexpr auto fields() noexcept {

@@ -25,7 +25,7 @@ struct NullTerm {
 struct NullCombination {
   NullDirection direction;  ///< unit length, prior units, common rotations left in where that needs fewer values
   int terms = 0;
-  std::array<NullTerm, std::size_t{3} * kCapacity> term{};  ///< the largest first; below kNullTermShare left out
+  std::array<NullTerm, std::size_t{3} * kCapacity> term{};  ///< the largest first; below kNullTermShare omitted
   bool rotates_all = false;                                 ///< the axis terms are one rotation of all sensors
   Vec3 rotation{};                                          ///< then its unit vector
 };

@@ -37,7 +37,7 @@ struct TemperatureLevels {
   double highest_degc = 0.0;
 };
 TemperatureLevels temperature_levels(const Station* stations, int count) noexcept;
-/// From the lowest to the highest station [degC], those aside that are alone at their level: a single station, or a
+/// From the lowest to the highest station [degC], without those that are alone at their level: a single station, or a
 /// slip of the thermometer, confirms nothing.
 ChebyshevSpan confirmed_span(const Station* stations, int count, const TemperatureLevels& levels) noexcept;
 /// The same, of the level that has the most stations.
@@ -83,7 +83,7 @@ struct TemperatureTerm {
 inline constexpr int kMaxTemperatureTerms = 8;
 struct TemperatureNull {
   int terms = 0;                                             ///< the largest are kept, from kNullTermShare up
-  std::array<TemperatureTerm, kMaxTemperatureTerms> term{};  ///< the one by which it is told apart first
+  std::array<TemperatureTerm, kMaxTemperatureTerms> term{};  ///< the one by which it is distinguished first
 };
 
 /// What the calibration is expected to leave at one temperature, 1 sigma.
@@ -95,13 +95,13 @@ struct TemperatureForecast {
 };
 
 struct TemperatureReport {
-  int order = 0;  ///< of the fit that is told of
+  int order = 0;  ///< of the fit that is reported
   TemperatureLevels levels;
   ChebyshevSpan use_degc{0.0, 0.0};
   /// Levels that the order asked for still needs; of the automatic choice, those of the next order above.
   int missing = 0;
   std::array<double, kMaxTemperatureOrder + 1> missing_degc{};
-  /// The temperature of the stations is a function of their inclination, so that the two cannot be told apart.
+  /// The temperature of the stations is a function of their inclination, so that the two cannot be distinguished.
   bool follows_inclination = false;
   /// The temperature only rose, or only fell, from station to station: a fit of an order above 0 cannot tell what time
   /// did from what temperature did.

@@ -101,7 +101,7 @@ struct Spec {
   int cell = 0, tool = 0, attitude = 0;
   int stations = 0;
   double gravity_sigmas = 0.0, calibration_mps2 = 0.0;
-  double largest_mdb = 0.0;  ///< of a lone constant shift; 0 = something else
+  double largest_mdb = 0.0;  ///< of a single constant shift; 0 = something else
   int faults = 0;
   std::array<SpecFault, kMostFaults> fault{};
 };
@@ -109,7 +109,7 @@ struct Spec {
 /// Scenario `number` of the plan: counter-based, so any number may be asked for in any order.
 Spec spec_of(const Plan& plan, std::uint64_t number);
 
-/// Sensors of the spec that lie at any time, as bits.
+/// Sensors of the spec that are faulty at any time, as bits.
 std::uint32_t faulty_of(const Spec& spec) noexcept;
 
 }  // namespace campaign

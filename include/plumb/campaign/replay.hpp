@@ -20,13 +20,13 @@ namespace campaign {
 bool fails(const Plan& plan, Count what, const Outcome& outcome) noexcept;
 
 /// The simplest scenario found in which `what` still happens: fewest faults, fewest stations, no error of gravity or
-/// calibration, round numbers, earliest onset. The spec itself where nothing can be left out.
+/// calibration, round numbers, earliest onset. The spec itself where nothing can be omitted.
 Spec shrunk(const Plan& plan, Kernel& kernel, const Spec& spec, Count what);
 
 /// The scenario file, array included; its array has the name of the plan's tool.
 std::string case_text(const Plan& plan, const Spec& spec);
 
-/// Plays the stations of trust, then the scenario; `look` sees every verdict of the latter. `tool` is an index of the
+/// Plays the validation, then the scenario; `look` sees every verdict of the latter. `tool` is an index of the
 /// plan. `step_ns`, where given, gets how long every call of `HealthMonitor::step` took, by std::chrono::steady_clock.
 /// Errors: those of the simulator and of the monitor's configuration.
 tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scenario::Scenario& scenario,

@@ -1,6 +1,6 @@
-/// Build-wide settings of plumb. Every public header of floors 1 to 4 includes this one. The number of sensors that fit
+/// Build-wide settings of plumb. Every public header of layers 1 to 4 includes this one. The number of sensors that fit
 /// (the *capacity*) is part of every type: it selects an inline namespace, so that a mixture of two fails to link. So
-/// is what a build leaves out to spare an instrument's memory, and single precision (docs/embedding.md).
+/// is what a build omits to spare an instrument's memory, and single precision (docs/embedding.md).
 #pragma once
 
 #ifndef PLUMB_CAPACITY
@@ -67,7 +67,7 @@ inline constexpr int kCapacity = PLUMB_CAPACITY;
 inline constexpr bool kRecalibrates = PLUMB_RECALIBRATION != 0;
 inline constexpr bool kCalibratesItself = PLUMB_FIRST_CALIBRATION != 0;
 
-/// Largest number of sensors for which the strict isolation grade is decided (docs/theory.md, section 5.1).
+/// Largest number of sensors for which the confirmed isolation grade is decided (docs/theory.md, section 5.1).
 inline constexpr int kStrictCapacity = kCapacity < 16 ? kCapacity : 16;
 
 /// Fault sets of up to this many members are scanned one by one.

@@ -1,5 +1,5 @@
 /// Errors as values: a code, the index of what was wrong, and the figure that broke the rule.
-/// Nothing in floors 1 to 4 throws, aborts or allocates; bad input comes back as an `Error`.
+/// Nothing in layers 1 to 4 throws, aborts or allocates; bad input comes back as an `Error`.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 /// What the host hands to plumb: one reading of every channel (`Sample`), and what plumb makes of a
-/// quiet stretch at one attitude (`Station`).
+/// stretch at rest at one attitude (`Station`).
 #pragma once
 
 #include <array>

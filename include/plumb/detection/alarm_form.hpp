@@ -13,7 +13,7 @@ inline namespace PLUMB_ABI {
 /// A calibration errs by the same amount at every block of an attitude, so a rate can be kept in two senses.
 enum class AlarmForm : std::uint8_t {
   /// At most the rate in every single tool: noise limit plus the bound on what is systematic. The same floor as that of
-  /// the tests that kill hypotheses, so that no alarm is raised which nothing could ever explain.
+  /// the tests that reject hypotheses, so that no alarm is raised which nothing could ever explain.
   every_tool,
   /// The rate on average over tools that are calibrated alike: noise and systematic errors are one variance. More
   /// sensitive; an unlucky tool alarms more often than the rate at the attitudes at which its calibration errs.

@@ -53,7 +53,7 @@ class CombinationMae {
   /// `in_service` is the estimate of the sensors in service (null: slot absent).
   void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service,
            double g_mps2) noexcept;
-  /// The same with no more lanes than told, which the processor must have: for tests and benchmarks.
+  /// The same with no more lanes than given, which the processor must have: for tests and benchmarks.
   void add(const SensorArray& array, const Readings& y_mps2, SensorSet usable, const Vec3* in_service, double g_mps2,
            Lanes lanes) noexcept;
 #if PLUMB_SINGLE

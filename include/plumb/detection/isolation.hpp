@@ -33,9 +33,9 @@ struct IsolationAnswer {
   SensorSet strict;    ///< found faulty at the confirmed grade; empty where the survivors are not consistent
   SensorSet parity;    ///< found faulty at the provisional grade, by this station alone
   SensorSet asserted;  ///< found faulty under "at most M faults"
-  int live = 0;        ///< voting sets still consistent
-  int voting = 0;      ///< voting sets in all
-  bool no_consistent_hypothesis = false;  ///< some sensor is redundant and no voting set is consistent
+  int live = 0;        ///< test subsets still consistent
+  int voting = 0;      ///< test subsets in all
+  bool no_consistent_hypothesis = false;  ///< some sensor is redundant and no test subset is consistent
   bool norm_void = false;  ///< a well-checked set agrees with itself and not with gravity: the norm excuses it here
   bool full_consistent = false;  ///< the empty fault set still explains everything
 
@@ -50,9 +50,9 @@ struct IsolationAnswer {
 /// Outcome of scanning the fault sets of at most kScanDepth members.
 struct FaultSetScan {
   std::array<std::uint8_t, kCapacity> minimum_faults{};  ///< s_i, 255 = none found
-  SensorSet suspects;                                    ///< union of the live fault sets of least size
-  SensorSet asserted;  ///< intersection of the live fault sets of at most `assumed_faults` members
-  int least = 255;     ///< size of the smallest live fault set
+  SensorSet suspects;                                    ///< union of the consistent fault sets of least size
+  SensorSet asserted;  ///< intersection of the consistent fault sets of at most `assumed_faults` members
+  int least = 255;     ///< size of the smallest consistent fault set
   Flag protection_available;
   int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many members
   Flag bears_more = true;       ///< that is the priors' number on top of what an alarm on record takes to explain
@@ -69,7 +69,8 @@ struct FaultSetScan {
 class Isolation {
  public:
   /// Poses the problem on the sensors `monitored` (those not excluded). Rejected sets stay rejected as long as
-  /// the voting size is unchanged and they consist of monitored sensors (projection); otherwise none is rejected.
+  /// the size of the test subsets is unchanged and they consist of monitored sensors (projection); otherwise none is
+  /// rejected.
   void pose(const SensorArray& array, SensorSet monitored) noexcept;
   /// After the rejected sets have been read back: poses the problem to which they belong.
   void resume(const SensorArray& array, SensorSet monitored) noexcept;
@@ -90,13 +91,13 @@ class Isolation {
   /// is the largest separation from the estimate of `in_service` over the consistent fault sets of at most
   /// `faults_covered` members (solution separation; of those in service alone, too, where some are provisionally
   /// excluded). Where the sensors that a fault set leaves measure in one plane only, the mirrored vector counts. For
-  /// the asserted answer a fault set that leaves others than `corroborating`, or too few to be tested, stays
+  /// the assumed answer a fault set that leaves others than `corroborating`, or too few to be tested, stays
   /// consistent.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,
                     const ProtectionTerms& protect,
                     SensorSet corroborating = SensorSet::first(kCapacity)) const noexcept;
 
-  /// Whether the sensors in service that nobody suspects would be right within `limit_rad`, by the terms of `scan`,
+  /// Whether the unsuspected sensors in service would be right within `limit_rad`, by the terms of `scan`,
   /// over every explanation of up to as many faults as it takes, or as `protect` covers. False where they determine no
   /// vector, where an explanation leaves too few to determine one, and where nothing explains the block.
   bool bounded_without(const BlockTests& tests, SensorSet in_service, const FaultSetScan& scan,
@@ -132,7 +133,7 @@ class Isolation {
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> rejected_{};
   ReferenceClaims claims_;
   SensorSet monitored_;
-  int voting_ = 0;               ///< voting sets within the monitored sensors
+  int voting_ = 0;               ///< test subsets within the monitored sensors
   std::int8_t universe_ = 0;     ///< configured sensors, over which sets are numbered
   std::int8_t voting_size_ = 3;  ///< c + 1
   std::int8_t coplanarity_ = 2;

@@ -14,8 +14,8 @@ inline namespace PLUMB_ABI {
 /// The triples that may raise an alarm.
 int voting_triples(const SensorArray& array) noexcept;
 
-/// What is asked of each voting triple so that all of them together alarm at most at `false_alarm_rate` per block. The
-/// triples of n sensors share n readings, so together they stay below it: at 70 to 84 % of it for the paper's four
+/// What is asked of each monitored triple so that all of them together alarm at most at `false_alarm_rate` per block.
+/// The triples of n sensors share n readings, so together they stay below it: at 70 to 84 % of it for the paper's four
 /// sensors, 52 to 63 % for eight (1 to 32 samples, rates 1e-3 and 1e-4).
 double triple_share(const SensorArray& array, double false_alarm_rate) noexcept;
 

@@ -1,4 +1,4 @@
-/// What the length of gravity isolates at a single attitude, and where it is blind (theorem T8): a triple
+/// What the length of gravity isolates at a single attitude, and where it hides faults (theorem T8): a triple
 /// with one faulty sensor passes near two errors, zero and the mirror value of `mirror_error`.
 #pragma once
 
@@ -16,8 +16,8 @@ struct AttitudeFigures {
   double clear_from_mps2 = 0.0;
   /// Least mirror value: a fault of this size has a second explanation of the right length [m/s^2].
   double nearest_mirror_mps2 = 0.0;
-  /// Sensors with a triple whose two blind intervals have grown together: gravity lies nearly in the plane of the
-  /// other two axes, and not even small faults are told from none.
+  /// Sensors with a triple whose two undetected intervals have grown together: gravity lies nearly in the plane of the
+  /// other two axes, and not even small faults are distinguished from none.
   SensorSet blind;
 };
 
@@ -31,7 +31,7 @@ class OneAttitude {
   double blind_half_width_mps2(int i) const noexcept;
   /// Beyond this no attitude has a mirror within reach: (2 G + d) / |w|, worst triple [m/s^2].
   double any_attitude_mps2(int i) const noexcept;
-  /// True where an error f of sensor i fails every voting triple with it, for gravity g = G times `down`.
+  /// True where an error f of sensor i fails every monitored triple with it, for gravity g = G times `down`.
   bool isolates(const Vec3& down, int i, double f_mps2) const noexcept;
   AttitudeFigures at(const Vec3& down) const noexcept;
 

@@ -1,4 +1,4 @@
-/// What one block of quiet samples says about one set of sensors: can a single acceleration of
+/// What one block of samples at rest says about one set of sensors: can a single acceleration of
 /// gravity's length still explain their readings? Parity residual and norm residual with limits that
 /// carry both noise and what is systematic (docs/theory.md, section 3.2).
 #pragma once
@@ -86,7 +86,7 @@ struct SetTest {
   double parity_systematic = 0.0;  ///< b_S of the parity rows alone
   double norm_systematic = 0.0;    ///< b_S of the norm row alone
   double systematic = 0.0;         ///< b_S of all rows together
-  double least_leverage = 0.0;     ///< min over members of the parity projector's diagonal: 0 = a member nobody checks
+  double least_leverage = 0.0;     ///< min over members of the parity projector's diagonal: 0 = an unchecked member
   int parity_rows = 0;
 
   double combined() const noexcept;  ///< sqrt(parity^2 + norm^2)
@@ -107,7 +107,7 @@ struct SetTest {
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;
 /// The same into `out`, which must not have been used. `uncertainty` null: calibration leaves nothing open in the rows,
-/// and what would only add up zeros is left out.
+/// and what would only add up zeros is omitted.
 void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const GravityReference& gravity,
               const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept;
 /// The same as if calibration had left another uncertainty in the rows.

@@ -1,4 +1,4 @@
-/// Quiet or moving: blocks of samples, their scatter, and the stations they make up.
+/// At rest or moving: blocks of samples, their scatter, and the stations they make up.
 #pragma once
 
 #include <array>
@@ -82,12 +82,12 @@ BlockNoise noise_of(const SensorArray& array, double factor = 1.0,
 struct BlockJudgement {
   bool quiet = false;
   SensorSet scattering;         ///< channels whose scatter is above their own noise limit
-  SensorSet noisy;              ///< restless ones that the quiet others contradict: a channel, not the tool, moves
+  SensorSet noisy;              ///< scattering ones that the others at rest contradict: a channel, not the tool, moves
   SensorSet noisy_for_certain;  ///< noisy whichever others may be faulty, up to the provisional grade and three
   BlockEvidence evidence;
 };
 
-/// What the residuals of restless channels have shown over the last blocks. The noise of a channel at twice its sigma
+/// What the residuals of scattering channels have shown over the last blocks. The noise of a channel at twice its sigma
 /// hides in the residual of one block, which carries the noise of the others too; over a few it does not.
 struct ScatterRecord {
   std::array<double, kCapacity> residual{};  ///< sum over blocks of variance / expected variance * degrees of freedom
@@ -111,15 +111,15 @@ struct ScatterRecord {
 /// one exceeds it in a block of `size` samples is `rate`. 0 where a block has no scatter (size < 2).
 double scatter_factor(int n, int size, double rate) noexcept;
 
-/// Judges a finished block. A block is quiet when no channel is restless, or when the channels that
-/// are not restless have rank 3 and the residual of every restless one against their estimate is itself
-/// restless: then it is the channel that shakes, not the tool (docs/theory.md, section 6.2). But where the calm ones
-/// are no more than the confirmed grade and the restless ones have rank 3, the calm ones may all be at fault: then it
-/// is not quiet. A block of one sample (a station mean) has no scatter and is quiet. Only channels in `considered` are
+/// Judges a finished block. A block is at rest when no channel scatters, or when the channels that
+/// do not scatter have rank 3 and the residual of every scattering one against their estimate scatters
+/// beyond its noise too: then it is the channel that shakes, not the tool (docs/theory.md, section 6.2). Where those at
+/// rest are no more than the confirmed grade and the scattering ones have rank 3, they may all be faulty: then it
+/// is not at rest. A block of one sample (a station mean) has no scatter: at rest. Only channels in `considered` are
 /// judged, so that an excluded one cannot stop the evidence. `factor` comes from `scatter_factor`. With a `record` of
-/// the blocks before, a channel is noisy as well where its residual is restless over all of them, and at least half of
+/// the blocks before, a channel is noisy as well where its residual scatters over all of them, and at least half of
 /// its scatter is found in the residual: of a movement of the tool the others would have predicted it. `known`: a map
-/// at hand, used where it is that of the calm channels. `noise`: what is expected of the channels.
+/// at hand, used where it is that of the channels at rest. `noise`: what is expected of the channels.
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
                            double g_mps2, const BlockNoise& noise, ScatterRecord* record = nullptr,
                            const LeastSquares* known = nullptr) noexcept;
@@ -127,19 +127,19 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
 BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
                            double g_mps2) noexcept;
 
-/// For a block that is not quiet: whether every restless channel of `considered` does what the others of them predict,
+/// For a block not at rest: whether every scattering channel of `considered` does what the others of them predict,
 /// so that the tool moves and no channel by itself. Where it does, `out.evidence` holds the spread of their vector.
-/// With fewer than four sensors nobody can tell.
+/// With fewer than four sensors this is not known.
 bool moves_together(const SensorArray& array, const BlockAccumulator& block, SensorSet considered, double factor,
                     double g_mps2, const BlockNoise& noise, BlockJudgement& out) noexcept;
 
-/// Turns a stream of samples into stations: quiet stretches at one attitude, told apart by tag, by roll group or by a
-/// change of direction. Serves calibration from continuous logs. The first and the last quiet block of
-/// a stretch are left out: they hold the settling and the onset of motion that noise still covers.
+/// Turns a stream of samples into stations: stretches at rest at one attitude, split by tag, by roll group or by a
+/// change of direction. Serves calibration from continuous logs. The first and the last block at rest of
+/// a stretch are omitted: they hold the settling and the onset of motion that noise still covers.
 class StationFinder {
  public:
   struct Settings {
-    int block = 32;  ///< samples per quiet test
+    int block = 32;  ///< samples per test for rest
     double restless_rate = 1e-6;
     double station_angle_rad = rad_from_deg(2.0);
     double max_gap_s = 5.0;
@@ -149,13 +149,13 @@ class StationFinder {
   StationFinder(const SensorArray& array, double g_mps2, const Settings& settings) noexcept;
 
   /// Feeds one sample with its readings by the nominal model; channels that did not deliver a finite
-  /// value must be left out of `usable`. True where a station has ended and was written to `finished`.
+  /// value must be missing in `usable`. True where a station has ended and was written to `finished`.
   bool add(const Sample& sample, const Readings& y_mps2, SensorSet usable, Station& finished) noexcept;
   /// Ends the stream; true where a last station was written.
   bool finish(Station& finished) noexcept;
 
  private:
-  /// One quiet block in raw units.
+  /// One block at rest in raw units.
   struct Block {
     std::array<double, kCapacity> origin{};    ///< first raw value: sums about it do not cancel
     std::array<double, kCapacity> mean{};      ///< of raw - origin while collecting, of raw when done

@@ -1,4 +1,4 @@
-/// What an array can find: least faults that are detected and told apart, and how far the direction can be off before
+/// What an array can find: least faults that are detected and isolated, and how far the direction can be off before
 /// anything shows. For a geometry under design, or for a host at start-up; nothing of it runs per sample.
 #pragma once
 

@@ -18,7 +18,7 @@ namespace findings {
 struct CalibrationRun {
   std::vector<Station> stations;
   io::LogStatistics log;
-  int without_temperature = 0;  ///< stations left out because nothing says how hot they were
+  int without_temperature = 0;  ///< stations not used because their temperature is not known
   bool interrupted = false;     ///< Ctrl-C: the stations up to then were used
   FitOptions options;
   FitReport report;

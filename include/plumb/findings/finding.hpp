@@ -37,7 +37,7 @@ enum class FindingCode : std::uint8_t {
   log_too_short,        ///< value = rows, limit = least
   vector_length_wrong,  ///< value = length of the vector over gravity, median; limit = factor
   row_step_beyond_gap,  ///< [s]; every row begins anew
-  noise_at_rest,        ///< [m/s^2] in the quietest tenth, limit = declared; other = sensors that exceed theirs
+  noise_at_rest,        ///< [m/s^2] in the tenth of least scatter, limit = declared; other = sensors that exceed theirs
   tool_not_at_rest,     ///< nothing stands out: the tool did not rest
 
   // Too little was recorded.
@@ -97,7 +97,7 @@ enum class FindingCode : std::uint8_t {
   paper_too_few_stations,  ///< value = stations with all sensors, limit = needed
   paper_refused,           ///< by the error in `CalibrationRun::paper_refusal`
 
-  // What is told of a fit, accepted or not.
+  // What is reported of a fit, accepted or not.
   few_attitudes,              ///< value = attitudes, limit = enough
   few_inclinations,           ///< value = inclinations, limit = enough
   narrow_inclinations,        ///< [rad] span
@@ -127,7 +127,7 @@ inline constexpr std::size_t kFindingCodes = static_cast<std::size_t>(FindingCod
 
 struct Finding {
   FindingCode code = FindingCode::not_converged;
-  int sensor = -1;     ///< whose it is; -1 where it is nobody's in particular
+  int sensor = -1;     ///< whose it is; -1 where it is of no single sensor
   double value = 0.0;  ///< found
   double limit = 0.0;  ///< allowed
   int other = -1;      ///< the second sensor or the station, from 0, where there is one; else as stated

@@ -1,4 +1,4 @@
-/// What is told of a fit beside its figures, whether it was accepted or not.
+/// What is reported of a fit beside its figures, whether it was accepted or not.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-/// Everything that is said about a fit beside the fit: held-out stations, sensors left out, coverage, what to record
+/// Everything that is said about a fit beside the fit: held-out stations, sensors omitted, coverage, what to record
 /// next, the paper's parameters, how it converged. One source for the text, the JSON and the pictures.
 #pragma once
 
@@ -29,7 +29,7 @@ struct FitStudy {
   HoldOutPlan plan;
   HoldOut held_out;
   std::vector<StationPrediction> predicted;  ///< by station; empty: none held out; outliers are not judged
-  std::vector<int> kept;                     ///< stations that an accepted fit did not set aside; else all
+  std::vector<int> kept;                     ///< stations that an accepted fit did not reject; else all
   std::vector<int> set_aside;                ///< the others
   bool odd_sought = false;
   OddSensor odd;

@@ -10,7 +10,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace findings {
 
-/// The reason first; behind it what goes with it: further columns that are dead, columns that lacked numbers where too
+/// The reason first; behind it what goes with it: further columns that are stuck, columns that lacked numbers where too
 /// little was recorded, or the one mistake that would explain values that do not fit. Of a run that was not accepted.
 std::vector<Finding> refusal_of(const CalibrationRun& run, const io::ArrayFile& array);
 

@@ -1,5 +1,5 @@
 /// A refused fit tried again with one mistake of the array file mended at a time: columns exchanged, a sign reversed, a
-/// roll group left out, another roll axis. What then settles is named.
+/// roll group omitted, another roll axis. What then settles is named.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct SecondLook {
   std::vector<std::pair<int, int>> exchanged;
   std::vector<std::int64_t> groups;  ///< roll groups, as in the log, without any one of which it settles
   std::optional<Vec3> roll_axis;     ///< about which it settles
-  bool without_groups = false;       ///< settles only with all roll groups left out
+  bool without_groups = false;       ///< settles only with all roll groups omitted
 
   bool found() const { return !exchanged.empty() || !groups.empty() || roll_axis || without_groups; }
 };

@@ -1,6 +1,6 @@
 /// Does the calibration keep what its covariance promises? Asked of the first attitudes after power-on or adoption,
 /// before anybody is excluded by limits that rest on it: one faulty sensor leaves the others consistent everywhere, a
-/// covariance that is ten times too small leaves nobody so.
+/// covariance that is ten times too small leaves no sensor so.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// What is told of a calibration that its first attitudes contradict.
+/// What is reported of a calibration that its first attitudes contradict.
 struct CalibrationFinding {
   Flag contradicted;
   Flag refused;                 ///< no tolerance up to `kMostLearnedTolerance_mps2` explains them: nothing is valid
@@ -61,7 +61,7 @@ class CalibrationCheck {
 
   /// Until enough attitudes agree to close it: exclusions ask for more than the limits, and attitudes are added.
   bool open() const noexcept { return !closed_; }
-  /// What is on record is seldom seen of a calibration that is right, and does not rest on enough to be told; or it is
+  /// What is on record is seldom seen of a calibration that is right, and does not rest on enough to be reported; or is
   /// refused.
   bool doubted() const noexcept { return doubted_; }
   /// Something agreed with the calibration, if only at a few attitudes.
@@ -114,7 +114,7 @@ class CalibrationCheck {
     int tests = 0;  ///< of a set at an attitude: the work that it was
     bool within(double mean_square) const noexcept;
   };
-  /// Where the residuals come to more than `most` per degree of freedom, the rest of them may be left out.
+  /// Where the residuals come to more than `most` per degree of freedom, the rest of them may be omitted.
   static constexpr double kAll = 1e300;
   Fit fit(const Terms& terms, SensorSet set, double tolerance_mps2, double most = kAll) const noexcept;
   /// How many numbers, drawn once for a tool, its errors at the attitudes on record amount to.

@@ -91,7 +91,7 @@ class HealthMonitor {
   /// at rest. What the monitor has learned stays: validation, exclusions, suspicions.
   void begin_time_base() noexcept;
 
-  /// Freezes exclusion, setting aside, reinstatement, and the start and the adoption of a recalibration, until
+  /// Freezes exclusion, provisional exclusion, reinstatement, and the start and the adoption of a recalibration, until
   /// released. Never held back: a lost channel, rank < 3, failed. The isolation timeout goes on, too: who freezes the
   /// way out of a doubt has not ended it, and beyond the alert limit nothing else would warn. Either is recorded as a
   /// notice.
@@ -164,7 +164,7 @@ class HealthMonitor {
   void take_span(const StationStore& store) noexcept;
   void follow_suspicion(HealthEvent event, Mode from) noexcept;
 
-  // memory.cpp: storage that changed though nobody wrote to it
+  // memory.cpp: storage that changed though no program wrote to it
   bool core_holds() const noexcept;
   bool steady_holds() const noexcept;
   std::uint64_t steady_now() const noexcept;

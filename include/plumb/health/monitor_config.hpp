@@ -26,7 +26,7 @@ struct MonitorConfig {
   int window = 32;                 ///< samples per block and length of the sliding MAE window, 1 .. kWindowCapacity
   double delta_f_mps2 = 0.0;       ///< given MAE limit (the paper's); 0 = computed from noise and geometry
   double false_alarm_rate = 1e-5;  ///< per block: of parity, of the norm, of all triples' MAE together; 1e-9 .. 1e-2
-  double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may die
+  double rejection_rate = 1e-6;    ///< per block and hypothesis: how seldom the true one may be rejected
   int assumed_faults = -1;         ///< the integrator's claim "never more than M faults"; -1 = no claim
   int isolation_stations = 4;      ///< E: excited stations over which an answer must stay unique before it is latched
   int isolation_timeout = 6;       ///< P: distinct attitudes under suspicion before suspect must be bounded
@@ -36,24 +36,24 @@ struct MonitorConfig {
   int missing_confirm = 3;         ///< samples in a row without a usable value: the channel is lost
   int max_age_samples = 0;  ///< T_age in samples, those refused and those that brought nothing included; 0 = two blocks
   double max_gap_s = 5.0;   ///< a longer gap between samples empties windows and ends the station
-  /// T_age: without a quiet block for this long nothing is published as valid; 0 = 1 s, or two blocks where they take
+  /// T_age: without a block at rest for this long nothing is published as valid; 0 = 1 s, or two blocks where they take
   /// longer.
   double max_age_s = 0.0;
   double station_angle_rad = rad_from_deg(2.0);            ///< change of direction that begins a new station
   double distinct_attitude_angle_rad = rad_from_deg(5.0);  ///< directions at least this far apart count as excited
   double clear_fraction = 0.7;                 ///< clean means below this fraction of the limit while in suspect
   double alert_limit_rad = rad_from_deg(1.0);  ///< largest tilt error that the user can bear
-  double integrity_risk = 1e-6;                ///< allocation to fault sets that the protection level leaves out
+  double integrity_risk = 1e-6;                ///< allocation to fault sets that the protection level omits
   double fault_prior = 1e-4;                   ///< probability that one given sensor is faulty
   std::uint64_t reset_key = 0x706c756d62ULL;   ///< what `reset` must be called with
   double temperature_min_degc = -1e9;          ///< calibrated span; beyond it by > 5 degC output is unconfirmed
   double temperature_max_degc = 1e9;
   int isolation_timeout_blocks = 0;              ///< W: the same in blocks at any attitude; 0 = attitudes alone count
   AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
-  bool recalibrate_after_exclusion = false;      ///< estimate biases and scales anew once the survivors are trusted
+  bool recalibrate_after_exclusion = false;      ///< estimate biases and scales anew once the survivors are validated
   /// Largest steady acceleration of the tool, in any direction. Gravity and a steady acceleration are one vector to
   /// every accelerometer: across gravity it changes the length by a^2 / 2 G only, which no test sees. 0: the tool
-  /// stands still whenever its readings are quiet, and every verdict says that this was assumed (`standstill_assumed`).
+  /// stands still whenever it counts as at rest, and every verdict says that this was assumed (`standstill_assumed`).
   double acceleration_bound_mps2 = 0.0;
   double triple_false_alarm_rate = 0.0;  ///< per block, of each triple's MAE alone; 0 = its share of the above
 

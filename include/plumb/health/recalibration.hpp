@@ -6,7 +6,7 @@
 ///
 /// The first calibration of a monitor that was given none goes the same way too, but is a full fit: axes, scales and
 /// biases, the datasheet as prior, the axes turned onto the datasheet's (recalibration_first.cpp). What it cannot see
-/// is told in docs/guide.md: a constant error of a sensor is what it takes off.
+/// is reported in docs/guide.md: a constant error of a sensor is what it takes off.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class Recalibration {
   enum class Outcome : std::uint8_t { none, accepted, rejected };
 
   static constexpr int kHeldOutNeeded = 2;
-  /// A calibration that was offered is tried at so many stations, all of them visited after the offer: nobody can have
+  /// A calibration that was offered is tried at so many stations, all of them visited after the offer: none can have
   /// made it from them.
   static constexpr int kOfferStations = 8;
 
@@ -79,7 +79,7 @@ class Recalibration {
   Outcome step(const InForce& in_force, double time_s) noexcept;
   /// Writes the accepted fit into model and array, both those that were in force when it was made: coefficients of the
   /// fitted sensors, and the uncertainty that the fit and the held axes leave. `doubted`: the fit was asked for because
-  /// the length of gravity was off, and the sensors need not be to blame; then the whole change counts as one more
+  /// the length of gravity was off, and the sensors need not be faulty; then the whole change counts as one more
   /// uncertainty, of 1 sigma, so that limits and protection level cover both readings of it. Of an offer the part of
   /// the change that parity cannot see counts so: the length alone has tried it. Stops.
   void apply(SensorModel& model, SensorArray& array, const GravityReference& gravity, double time_s,

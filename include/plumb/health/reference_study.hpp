@@ -41,7 +41,7 @@ struct NormMismatch {
   }
 };
 
-/// What the monitor widens its gravity by for an offset that it has found; farther off it is told and not believed.
+/// What the monitor widens its gravity by for an offset that it has found; farther off it is reported and not believed.
 inline constexpr double kMostGravityOffset_mps2 = 1e-2 * kG0_mps2;
 
 /// |x| - G at up to kMax attitudes against kappa G + a.u. Errors are taken as bounded, not as random: what calibration
@@ -57,7 +57,7 @@ class ReferenceStudy {
   bool agrees(double length_error_mps2, double bound_mps2) const noexcept;
   bool empty() const noexcept { return size_ == 0; }
   /// `bound_mps2`: largest error of |x| - G that noise and calibration explain. An attitude nearer than `apart_rad` to
-  /// one on record is not news: true where it was.
+  /// one on record is no change: true where it was.
   /// `noise_mps2`: the part of the bound that is noise, and averages away over the attitudes.
   bool add(const Vec3& direction, double length_error_mps2, double bound_mps2, double apart_rad,
            double noise_mps2 = 0.0) noexcept;

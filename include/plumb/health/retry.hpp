@@ -19,7 +19,7 @@ struct RetryPolicy {
   std::uint64_t key = 0;   ///< `MonitorConfig::reset_key`
 };
 
-/// What an offer led to. All but `none` are told once each, and belong into the log.
+/// What an offer led to. All but `none` are reported once each, and belong into the log.
 enum class RetryAction : std::uint8_t {
   none,
   pause_began,  ///< failed by timeout: the pause has begun

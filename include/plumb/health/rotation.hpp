@@ -7,7 +7,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Told by the host between steps; holds until told otherwise. A sensor at r feels w x (w x r) beside gravity, which
+/// Set by the host between steps; holds until set again. A sensor at r feels w x (w x r) beside gravity, which
 /// parity cannot tell from a fault. A changing rate is not modelled: then say that it is not known.
 struct Rotation {
   bool turning = false;
@@ -20,7 +20,7 @@ struct Rotation {
 };
 
 /// "Rotate the tool", for a machine: gravity has to change by `change_mps2` along `along` before the explanations that
-/// are still consistent can be told apart (theorem T9: a wrong one that passes at one attitude misses its length at
+/// are still consistent can be distinguished (theorem T9: a wrong one that passes at one attitude misses its length at
 /// another by the fault times that change over G).
 struct RotationRequest {
   bool wanted = false;

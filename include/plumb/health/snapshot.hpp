@@ -1,10 +1,10 @@
-/// What a monitor writes down before its power goes, and how it is told whether that may be believed afterwards.
+/// What a monitor writes down before its power goes, and how it finds out whether that may be used afterwards.
 ///
 ///   offset  size  what (all little-endian)
 ///        0     8  "plumbSNP"
 ///        8     2  format: which fields in which order; grows with every change of `fields()` or of its meaning
 ///       10     2  capacity of the build
-///       12     4  version of plumb that wrote it; told, not judged
+///       12     4  version of plumb that wrote it; reported, not judged
 ///       16     8  identity: CRC-64 of configuration, axes, noise, calibration, ranges, codes, frame, lever arms
 ///       24     4  bytes of the whole snapshot
 ///       28     .  the fields of `HealthMonitor`, doubles as IEEE 754

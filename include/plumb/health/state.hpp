@@ -54,7 +54,7 @@ enum class Cause : std::uint8_t {
   time_fault,    ///< time not increasing; the sample was refused
   gap,
   passed_block,
-  noisy,             ///< a channel scatters by itself: the others are quiet
+  noisy,             ///< a channel scatters by itself: the others are at rest
   stuck,             ///< a channel repeats one value while the others predict a change
   clipped,           ///< a channel is at full scale while the others predict it inside its range
   rotating,          ///< the tool turns and what that does to the readings is not known

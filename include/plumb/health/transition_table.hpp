@@ -90,7 +90,7 @@ struct Entry {
   constexpr Entry does(Action::Bits actions) const { return {event, {cell.kind, cell.target, actions}}; }
   constexpr Entry ignored() const { return {event, {CellKind::ignored, Target::stay, Action::none}}; }
   constexpr Entry held() const { return {event, {CellKind::held, Target::stay, Action::none}}; }
-  /// Not reachable; were it reached, the monitor would trust nothing.
+  /// Not reachable; were it reached, the monitor would fail.
   constexpr Entry impossible() const { return {event, {CellKind::impossible, Target::failed, Action::none}}; }
 };
 constexpr Entry on(HealthEvent event) { return {event, {}}; }

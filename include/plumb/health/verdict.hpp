@@ -42,7 +42,7 @@ struct TransitionRecord {
   }
 };
 
-/// s_i value that stands for "no live hypothesis keeps sensor i healthy".
+/// s_i value that stands for "no consistent hypothesis keeps sensor i healthy".
 inline constexpr std::uint8_t kNoHypothesis = 255;
 
 /// What of a verdict may be used, one bit each; `validity` says how far.
@@ -85,7 +85,7 @@ struct Verdict {
   Grade grade = Grade::none;                             ///< of the last exclusion
   int confirmed_grade = 0;                               ///< m_strict of the sensors not excluded
   int provisional_grade = 0;
-  int consistent_hypotheses = 0;  ///< voting sets still consistent in this episode
+  int consistent_hypotheses = 0;  ///< test subsets still consistent in this episode
   int stations_on_record = 0;     ///< distinct attitudes under suspicion, which count towards the timeout
   bool wants_rotation = false;    ///< another attitude would help: `rotation` says which
   RotationRequest rotation;
@@ -94,7 +94,7 @@ struct Verdict {
 
   // Figures of the paper: sliding MAE over the window, m/s^2.
   double mae_all_mps2 = 0.0;    ///< of the sensors in service
-  double mae_worst_mps2 = 0.0;  ///< largest over the voting triples in service
+  double mae_worst_mps2 = 0.0;  ///< largest over the monitored triples in service
   double mae_worst_limit_mps2 = 0.0;
   TripleSet triples_tested,
       triples_passed;   ///< of the last block: in service, well-conditioned, window full; within limit
@@ -117,7 +117,7 @@ struct Verdict {
   int block_fill = 0;                          ///< samples of the block that is being collected
 
   // Which way is down.
-  Vec3 gravity_mps2{};  ///< last quiet block, sensors in service, positive down, output frame
+  Vec3 gravity_mps2{};  ///< last block at rest, sensors in service, positive down, output frame
   Mat3 covariance{};    ///< [(m/s^2)^2], noise and calibration; no acceleration of the tool
   double age_s = 0.0;   ///< since the block that gave the vector
   Vec3 latest_mps2{};   ///< this one sample, no claim made

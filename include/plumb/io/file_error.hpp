@@ -42,7 +42,7 @@ using FileExpected = tl::expected<T, FileError>;
 /// A path or text as a shell takes it for one word: quoted where it must be.
 std::string shell_word(const std::string& text);
 
-/// An error of floors 1 to 4 in the words of `describe` and `remedy`, with its figures. `code` says
+/// An error of layers 1 to 4 in the words of `describe` and `remedy`, with its figures. `code` says
 /// what the tool shall exit with.
 FileError from_error(const Error& error, ExitCode code = ExitCode::invalid_input);
 

@@ -27,7 +27,7 @@ enum class Quantity : std::uint8_t {
 };
 const char* to_string(Quantity quantity) noexcept;
 
-/// "12 mg" -> 0.1176798. Finite numbers only; the blank before the unit may be left out.
+/// "12 mg" -> 0.1176798. Finite numbers only; the blank before the unit may be omitted.
 FileExpected<double> parse_quantity(Quantity quantity, std::string_view text);
 
 /// The inverse, in the named unit, with as many digits as the double holds. An unknown unit is an error.

@@ -154,7 +154,7 @@ struct PaperFit {
 /// Errors: out_of_range (index 0 damping, 1 stop, 2 max_iterations); those of `PaperError::make`; too_few_stations
 /// (fewer than kPaperRank usable); not_finite (index = station: temperature, raw value, or SF* = 0 at the start).
 /// A fit that did not converge is returned with `converged` false, at its last finite parameters: showing that is what
-/// this room is for. `trace`, where given, ends with the parameters returned.
+/// this storage is for. `trace`, where given, ends with the parameters returned.
 Expected<void> paper_calibrate(const Datasheet& datasheet, const GravityReference& gravity, const Station* stations,
                                int count, SensorSet used, const PaperOptions& options, PaperFit& out,
                                PaperTrace* trace = nullptr) noexcept;
@@ -164,7 +164,7 @@ Expected<void> paper_calibrate(const Datasheet& datasheet, const GravityReferenc
 Vec3 paper_vector(const SensorArray& nominal, const PaperFit& fit, const std::array<double, kCapacity>& raw,
                   double temperature_degc) noexcept;
 
-/// The same over those of `of` alone that the fit holds; the cross terms of the others are left out with them.
+/// The same over those of `of` alone that the fit holds; the cross terms of the others are omitted with them.
 Vec3 paper_vector(const SensorArray& nominal, const PaperFit& fit, const std::array<double, kCapacity>& raw,
                   double temperature_degc, SensorSet of) noexcept;
 

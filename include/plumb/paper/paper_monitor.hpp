@@ -5,7 +5,7 @@
 /// A class of its own, because its calibration (a fit of all sensors and one per triple, 65 kB at capacity 8) must not
 /// burden `HealthMonitor`; in a library of its own (`plumb::paper`), for no instrument needs it. It is meant for
 /// comparison on a host and not for bare metal: everything in `step` is bounded and free of heap, but a step that ends
-/// a recalibration runs one whole fit (at most kMaxPaperIterations iterations, 100 kB of stack), and every quiet block
+/// a recalibration runs one whole fit (at most kMaxPaperIterations iterations, 100 kB of stack); every block at rest
 /// after an alarm reads every triple by its own coefficients.
 #pragma once
 
@@ -31,7 +31,7 @@ struct PaperSetup {
   PaperCalibration paper;  ///< step 1
 };
 
-/// Attitudes that differ from each other. They are told apart by the distance of their vectors rather than by an angle:
+/// Attitudes that differ from each other, by the distance of their vectors rather than by an angle:
 /// a sensor that stands still adds nothing to a difference, however far off it stands, and does not hide a turn.
 class AttitudeRecord {
  public:
@@ -55,14 +55,14 @@ class AttitudeRecord {
 };
 
 /// Where the paper leaves a choice:
-/// - Steps 2 to 5: the gate is the MAE of a block (`window` quiet samples) over all sensors in use. A block that moves
+/// - Steps 2 to 5: the gate is the MAE of a block (`window` samples at rest) over all sensors used. A block that moves
 ///   is no evidence, as in `HealthMonitor`.
-/// - Step 3: from the block that trips the gate on, all quiet samples are pooled, until the tool has been at
+/// - Step 3: from the block that trips the gate on, all samples at rest are pooled, until the tool has been at
 ///   `isolation_stations` attitudes. Then steps 4 to 8 judge the pool once, and a new pool begins.
 ///   Until then a block below the limit does not end the suspicion unless the whole pool is below it (step 5).
-/// - Step 9: the MAE of those that would remain, over the means of the pooled attitudes. Where it fails nobody is
+/// - Step 9: the MAE of those that would remain, over the means of the pooled attitudes. Where it fails no sensor is
 ///   excluded: a contradiction, as where no triple passes (Table 2, rows 18 to 23).
-/// - Step 10: more than three that remain get a fit of their own: recalibrating. One quiet block per attitude is
+/// - Step 10: more than three that remain get a fit of their own: recalibrating. One block at rest per attitude is
 ///   collected; at 12, 18 and 24 attitudes the fit is tried, and after the last it is refused. Until then, and after a
 ///   refusal, they are read by the fit of all.
 /// - Step 11: three that remain are read by the fit of their triple: degraded.
@@ -179,9 +179,9 @@ class PaperMonitor {
   BlockAccumulator block_;
   std::array<Kept, kWindowCapacity> kept_{};
   int kept_count_ = 0;
-  Kept mean_;                  ///< of the last quiet block
+  Kept mean_;                  ///< of the last block at rest
   double mean_samples_ = 0.0;  ///< raw samples behind it
-  Vec3 vector_mps2_{};         ///< of the last quiet block
+  Vec3 vector_mps2_{};         ///< of the last block at rest
   Vec3 attitude_mps2_{};       ///< the same without the channels that shake by themselves: tells attitudes apart
   SensorSet clipped_, not_finite_;
 

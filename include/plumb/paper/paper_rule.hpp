@@ -1,7 +1,7 @@
 /// The paper's detection and isolation, steps 2 to 9 of its algorithm, as it is printed: a gate on the mean absolute
 /// error of all sensors, then of every triple with coefficients of its own, one limit delta_F for all, the union of the
 /// passing triples. Kept so that it can be run and compared; plumb's own decisions are in `isolation.hpp`. Where its
-/// claims stop holding: one attitude (blind directions, mirrors), faults below delta_F, more faults than n - 3.
+/// claims stop holding: one attitude (undetected directions, mirrors), faults below delta_F, more faults than n - 3.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ struct CalibrationPart {
 
 /// Of a file that `plumb calibrate` wrote.
 io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, const io::ArrayFile& array);
-/// Of a log of quiet attitudes.
+/// Of a log of attitudes at rest.
 io::FileExpected<CalibrationPart> calibration_of_stations(const std::string& path, const io::ArrayFile& array);
 /// Of a simulated stand: sensors drawn within the priors of the array file, at random attitudes.
 CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t seed);

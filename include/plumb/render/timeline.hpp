@@ -1,4 +1,4 @@
-/// What a monitored run looked like: rows (one per change), points (one per quiet block) and phases (stretches in which
+/// What a monitored run looked like: rows (one per change), points (one per block at rest), phases (stretches in which
 /// nothing that a lane of the picture shows has changed).
 #pragma once
 
@@ -45,7 +45,7 @@ bool inclination_of(const Vec3& gravity_mps2, const Mat3& frame, double& inclina
 std::string table_header();
 std::string table_line(const TimelineRow& row);
 
-/// One quiet block. NaN = not known.
+/// One block at rest. NaN = not known.
 struct TimelinePoint {
   double time_s = 0.0;
   HealthState state = HealthState::suspect;
@@ -56,7 +56,7 @@ struct TimelinePoint {
   double limit = 0.0;
   double inclination_true_deg = 0.0;
   double inclination_plumb_deg = 0.0;
-  double inclination_plain_deg = 0.0;  ///< least squares over all sensors, nobody watched
+  double inclination_plain_deg = 0.0;  ///< least squares over all sensors, without a monitor
   double norm_error_plumb_mps2 = 0.0;  ///< |g| - G
   double norm_error_plain_mps2 = 0.0;
   double protection_level_deg = 0.0;
@@ -70,10 +70,10 @@ struct TimelinePhase {
   Cause cause = Cause::none;
   bool moving = false;
   SensorSet in_service, provisionally_excluded, excluded, absent;
-  SensorSet faulty;  ///< what is really in fault, which the monitor is not told
+  SensorSet faulty;  ///< what is really in fault, which the monitor does not know
 };
 
-/// Something that the run is known to hold, to be marked in the plot ("a2 dies").
+/// Something that the run is known to hold, to be marked in the plot ("a2 stuck").
 struct TimelineMark {
   double time_s = 0.0;
   std::string text;

@@ -30,7 +30,7 @@ std::vector<std::string> verification_picture_names(const Json& report, const Ge
 /// Where the pictures and their data lie, relative to the page.
 inline constexpr const char* kChartFolder = "charts";
 
-/// A picture that is not among `pictures` is told to be missing.
+/// A picture that is not among `pictures` is reported to be missing.
 std::string verification_html(const Json& report, const PagePictures& pictures);
 
 }  // namespace render

@@ -81,7 +81,7 @@ class Passage {
 };
 
 /// The tool turns about an axis of its own at a constant rate for a while, on top of the attitude law, and keeps the
-/// angle that it has then. What starting and stopping accelerate is left out.
+/// angle that it has then. What starting and stopping accelerate is omitted.
 struct Turning {
   double rate_radps = 0.0;
   Vec3 axis{0.0, 0.0, 1.0};  ///< unit vector, tool frame

@@ -1,5 +1,5 @@
 /// The course: one standard run over which faults are judged. A tool whose calibration is exact stands at station after
-/// station, earns the monitor's trust, and then something happens.
+/// station, is validated by the monitor, and then something happens.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct CourseResult {
   int first_doubt_block =
       -1;  ///< blocks of samples from the onset until the output was no longer plainly valid; -1 never
   HealthState state = HealthState::suspect;  ///< at the end
-  SensorSet out;                             ///< ever excluded for cause, or set aside
+  SensorSet out;                             ///< ever excluded for cause, or provisionally excluded
   SensorSet excluded;                        ///< at the end, for cause or lost
   SensorSet faulty;                          ///< ever in fault
   double worst_tilt_rad = 0.0;               ///< error of the vector while published as valid or degraded

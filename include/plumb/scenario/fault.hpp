@@ -24,7 +24,7 @@ enum class FaultKind : std::uint8_t {
   noise,         ///< white noise of `magnitude` rms [m/s^2] on top
   spikes,        ///< a row in `1/upper` is off by +-`magnitude` [m/s^2]; upper = chance per row, 0 .. 1
   chatter,       ///< a bias of `magnitude` [m/s^2] that is there for `upper` s, gone for `upper` s, and so on
-  warm_up,       ///< an error of `magnitude` [m/s^2] at onset that dies away with the time constant `upper` [s]
+  warm_up,       ///< an error of `magnitude` [m/s^2] at onset that fades away with the time constant `upper` [s]
   clip,          ///< the output is limited to [`magnitude`, `upper`] [raw unit]
   coarse,        ///< the output is rounded to multiples of `magnitude` [raw unit]: low bits are lost
   bit_flip,      ///< bit number `magnitude` of the code is inverted; without a known resolution nothing happens
@@ -38,8 +38,8 @@ enum class FaultKind : std::uint8_t {
   ghost,         ///< as if gravity were turned by `magnitude` [rad] about the axis (cos upper, sin upper, 0)
   mirror,        ///< as if gravity were mirrored in the plane of the axes number `magnitude` and `upper`
   shake,         ///< whole log: white vibration of the body, `magnitude` rms per axis [m/s^2]
-  gravity,       ///< whole log: gravity is longer by `magnitude` [m/s^2] than the monitor is told
-  temperature,   ///< whole log: the temperature is told wrong by `magnitude` [degC]
+  gravity,       ///< whole log: gravity is longer by `magnitude` [m/s^2] than is stated to the monitor
+  temperature,   ///< whole log: the temperature is reported wrong by `magnitude` [degC]
   drop,          ///< whole log: rows are lost, a share `magnitude` of them (1 = all)
   repeat,        ///< whole log: every row comes twice
   swap,          ///< whole log: rows come in pairs, the second of a pair first

@@ -11,7 +11,7 @@
 ///   a2:noise=5mg0@10s         white noise on top
 ///   a2:spikes=0.5g0*1%@10s    one row in a hundred is off by so much
 ///   a2:chatter=50mg0*10s@60s  a bias that comes and goes every ten seconds
-///   a2:warmup=2mg0*5min@0s    an error that dies away
+///   a2:warmup=2mg0*5min@0s    an error that fades away
 ///   a2:clip=-1V..4V@10s       limited, not alike on both sides
 ///   a2:coarse=16LSB@10s       low bits lost; bit=12 inverts bit 12; pattern=nan, inf, huge, denormal, -0
 ///   a2:missing=30%@10s        does not deliver; late=5 comes five rows late, slow=10 changes every tenth row only

@@ -69,7 +69,7 @@ void Host::before(double time_s, Monitor& monitor) {
     const bool reset = request.kind == HostRequest::Kind::reset;
     const Expected<void> done = reset ? monitor.reset(request.key, request.sensors) : monitor.request_recalibration();
     Errc refusal = done ? Errc::ok : done.error().code;
-    // The monitor ignores such a reset without a word; whoever asked for it is told.
+    // The monitor ignores such a reset without a word; whoever asked for it gets the reason.
     if (reset && done && monitor.verdict().state != HealthState::failed) refusal = Errc::wrong_state;
     answers_.push_back({time_s, request, refusal});
   }

@@ -38,7 +38,7 @@ Tool hexad_tool(std::uint64_t seed) noexcept;
 /// Calibration on a stand: `stations` random attitudes of 2 s at 100 Hz, tagged, motion not recorded.
 Scenario calibration_run(const Tool& tool, std::uint64_t seed, int stations = 48);
 
-/// Fourteen survey stations: quiet windows of 2 s at 100 Hz (pumps off), 1 s of motion with vibration of
+/// Fourteen survey stations: windows at rest of 2 s at 100 Hz (pumps off), 1 s of motion with vibration of
 /// 0.1 g0 rms per axis between them, inclination from 5 to 60 deg while the toolface turns. Without tags:
 /// the stations are to be found. About 41 s.
 Scenario drilling_run(const Tool& tool, std::uint64_t seed, std::vector<Fault> faults = {});
@@ -52,12 +52,12 @@ struct Drill {
   std::vector<HostRequest> requests;  ///< in order of time
 };
 
-/// For the paper's tool; thirty stations. a2 dies at station 6 and is sound again at station 21; a3 stands at 3 V from
+/// For the paper's tool; thirty stations. a2 is stuck from station 6 and sound from station 21; a3 stands at 3 V from
 /// station 12 on. At station 22 the host asks for a reset that names a2, first with a wrong key.
 Drill drill_a(const Tool& tool, std::uint64_t seed);
 
 /// For the tool of six sensors; forty-four stations. a2 reads 50 mg0 too much from station 6 to station 25; the host
-/// asks for a recalibration at station 13; a5 dies at station 30.
+/// asks for a recalibration at station 13; a5 gets stuck at station 30.
 Drill drill_b(const Tool& tool, std::uint64_t seed);
 
 }  // namespace scenario

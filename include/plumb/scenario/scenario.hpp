@@ -59,7 +59,7 @@ struct Scenario {
 
 /// What is really the case at one sample.
 struct Truth {
-  Vec3 gravity_mps2{};            ///< in the tool frame, positive down; vibration left out
+  Vec3 gravity_mps2{};            ///< in the tool frame, positive down; vibration omitted
   Vec3 body_acceleration_mps2{};  ///< vibration, in the tool frame
   Vec3 rate_radps{};              ///< how the tool turns (`Scenario::turning` alone), tool frame
   double depth_m = 0.0;           ///< below the first station

@@ -1,4 +1,4 @@
-/// A true tool drawn from a datasheet: what the sensors really are, which plumb is not told.
+/// A true tool drawn from a datasheet: what the sensors really are, which plumb does not know.
 #pragma once
 
 #include <array>

@@ -38,7 +38,7 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
 CalibrationRun run_calibration(const io::ArrayFile& array, const std::vector<Sample>& samples,
                                const CalibrationChoice& choice = {});
 
-/// What only the user can tell of a calibration; empty where not told.
+/// What only the user can tell of a calibration; empty where not given.
 struct CalibrationTag {
   std::string date;    ///< "2026-03-31"
   std::string serial;  ///< of the tool

@@ -74,7 +74,7 @@ class VerdictsFile : public VerdictSink {
 struct MonitorRun {
   Verdict last;
   std::uint64_t samples = 0;
-  std::uint64_t blocks = 0;  ///< quiet blocks, each judged once
+  std::uint64_t blocks = 0;  ///< blocks at rest, each judged once
   std::uint64_t transitions = 0;
   double last_time_s = 0.0;
   io::LogStatistics log;

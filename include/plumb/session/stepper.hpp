@@ -1,6 +1,6 @@
 /// The inner loop of `plumb monitor`: steps a monitor over rows of a log and hands back the verdicts that somebody
 /// wants. Built once per capacity, so that four sensors are stepped by the monitor for four; nothing here depends on a
-/// capacity (private to this room).
+/// capacity (private to this module).
 #pragma once
 
 #include <array>

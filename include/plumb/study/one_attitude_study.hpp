@@ -19,8 +19,8 @@ const char* to_string(FaultGroup group) noexcept;
 
 /// What a rule made of one block of samples.
 enum class Answer : std::uint8_t {
-  right,          ///< silent where nothing is wrong; the one faulty sensor named; two faulty: alarm, nobody named
-  alarm_only,     ///< one faulty: alarm, nobody named
+  right,          ///< silent where nothing is wrong; the one faulty sensor isolated; two faulty: alarm, none isolated
+  alarm_only,     ///< one faulty: alarm, none isolated
   silent_small,   ///< no alarm, no sensor off by the paper's limit of 0.05 g0
   silent_large,   ///< no alarm, a sensor off by 0.05 g0 or more
   names_healthy,  ///< a healthy sensor is named

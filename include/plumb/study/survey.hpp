@@ -15,7 +15,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace study {
 
-/// Errors of this room are texts that say what was found and what to do.
+/// Errors of this module are texts that say what was found and what to do.
 template <class T>
 using StudyExpected = tl::expected<T, std::string>;
 

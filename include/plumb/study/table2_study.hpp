@@ -21,7 +21,7 @@ struct Table2Result {
   HealthState state = HealthState::suspect;
   SensorSet excluded;    ///< for good or provisionally
   SensorSet ever_named;  ///< at any time
-  int named_after = 0;   ///< attitudes until the first was named; 0: nobody was
+  int named_after = 0;   ///< attitudes until the first exclusion; 0: none
   int silent = 0;        ///< attitudes at whose end the output was valid and not suspect with a faulty sensor in use
 };
 
@@ -40,7 +40,7 @@ StudyExpected<Table2Study> table2_study(const Fits& fits, const scenario::Tool& 
 /// The table again with other tools, other noise and other attitudes: how many of `tools` give all verdicts as printed.
 StudyExpected<Proportion> all_verdicts_as_printed(std::uint64_t seed, int tools);
 
-/// A monitor with plumb's calibration that has earned its trust: nominal, after healthy samples at several attitudes.
+/// A monitor with plumb's calibration that is validated: nominal, after healthy samples at several attitudes.
 struct ProvenMonitor {
   std::unique_ptr<HealthMonitor> monitor;  ///< 2 MB: on the heap
   double last_time_s = 0.0;

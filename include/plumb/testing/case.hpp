@@ -15,7 +15,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace testing {
 
-/// Stations at which a monitor earns trust before anything happens; a fault's onset is counted behind them.
+/// Stations at which a monitor is validated before anything happens; a fault's onset is counted behind them.
 inline constexpr int kTrustStations = 8;
 /// Blocks of samples at every station.
 inline constexpr int kStationBlocks = 2;
@@ -30,22 +30,22 @@ enum class Walk : std::uint8_t {
 struct Case {
   SensorArray array;
   MonitorConfig config;
-  int stations = 12;                    ///< behind those of trust
-  std::vector<scenario::Fault> faults;  ///< Clock::station; onset 1 = the first station behind those of trust
+  int stations = 12;                    ///< behind those of validation
+  std::vector<scenario::Fault> faults;  ///< Clock::station; onset 1 = the first station behind those of validation
   double noise = 1.0;                   ///< times the array's
-  double gravity_error = 0.0;           ///< true gravity less told, in sigmas of the reference (0.1 mg0)
+  double gravity_error = 0.0;           ///< true minus stated gravity, in sigmas of the reference (0.1 mg0)
   double calibration_mps2 = 0.0;        ///< 1 sigma of what calibration has left in every sensor, known to the monitor
   std::uint64_t seed = 1;               ///< of attitudes, noise and errors
   Walk walk = Walk::random;
   double inclination_rad = rad_from_deg(90.0);  ///< of a rolling tool, and of the first stand of a drilling one
 };
 
-/// Sensors that the case makes lie at any time.
+/// Sensors that the case makes faulty at any time.
 SensorSet faulty_of(const Case& c) noexcept;
 
 /// What the simulator plays; raw values are m/s^2.
 scenario::Scenario scenario_of(const Case& c);
-/// What the monitor is told.
+/// What is stated to the monitor.
 MonitorSetup setup_of(const Case& c);
 
 /// "7 sensors, 12 stations: a2 reads 50 mg0 too much from station 3 on".

@@ -21,7 +21,7 @@ struct LawResult {
 /// grade (design, S1).
 LawResult never_excludes_a_healthy_sensor(const Case& c);
 /// Constant and held faults, at most n - 3 of them, are excluded at the end, and no other sensor. Other faults of the
-/// case and its systematic errors are left out, and the attitudes are random ones. Applies where every three axes are
+/// case and its systematic errors are omitted, and the attitudes are random ones. Applies where every three axes are
 /// independent and every triple that holds a faulty sensor misses the length of gravity by far at one of the stations
 /// between the last onset and that from which an answer can still stand at four stations before the isolation timeout
 /// is over
@@ -44,7 +44,7 @@ LawResult snapshot_is_transparent(const Case& c);
 LawResult replay_is_exact(const Case& c);
 /// State, validity and bits of a verdict do not contradict one another, and its numbers are finite.
 LawResult verdict_agrees_with_itself(const Case& c);
-/// Vibration of the whole tool excludes no sensor and fails nothing (the faults of the case are left out).
+/// Vibration of the whole tool excludes no sensor and fails nothing (the faults of the case are omitted).
 LawResult motion_excludes_no_sensor(const Case& c);
 
 struct Law {

@@ -19,7 +19,7 @@ struct UserLimits {
   std::string faults_from;
   double acceleration_bound_mps2 = 0.0;        ///< of the array file: 0 = a standstill is assumed
   double acceleration_turn_rad = 0.0;          ///< most that it turns what the sensors feel
-  std::string drift;                           ///< what of it the limits allow for; empty: not told
+  std::string drift;                           ///< what of it the limits allow for; empty: not given
   std::optional<double> false_alarm_rate;      ///< per block
   std::optional<double> misleading_rate;       ///< per scenario with faults: error above the alert limit, no alert
   std::optional<double> wrong_exclusion_rate;  ///< per scenario with faults
@@ -31,7 +31,7 @@ struct UserLimits {
 /// Those of the array file alone.
 UserLimits limits_of(const io::ArrayFile& array);
 
-/// A limits file (TOML, table [limits]); what it leaves out is taken from the array file. Refuses unknown keys, values
+/// A limits file (TOML, table [limits]); what it omits is taken from the array file. Refuses unknown keys, values
 /// out of range and missing units, with line and remedy.
 io::FileExpected<UserLimits> read_limits(const std::string& path, const io::ArrayFile& array);
 io::FileExpected<UserLimits> parse_limits(const std::string& text, const std::string& path, const io::ArrayFile& array);

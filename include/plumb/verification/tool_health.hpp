@@ -24,13 +24,13 @@ const char* to_string(Colour colour) noexcept;
 enum class StationReason : std::uint8_t {
   failed,        ///< FAILED (latched): the fault could not be isolated
   no_direction,  ///< the output is invalid, or there is no vector
-  alarm,         ///< a test is beyond its limit and nobody could be excluded
+  alarm,         ///< a test is beyond its limit and no sensor could be excluded
   common_bias,   ///< the sensors share a bias
   length_far,    ///< |G| off by more than twice its limit
   last_red = length_far,
   length,         ///< |G| beyond its limit
   norm_mismatch,  ///< the monitor doubts the length of gravity
-  unconfirmed,    ///< the monitor has not yet earned trust, or doubts
+  unconfirmed,    ///< the monitor is not yet validated, or in doubt
   degraded,       ///< no redundancy left
   no_bound,       ///< nothing bounds the error
   wide_bound,     ///< the bound is beyond the alert limit
@@ -98,7 +98,7 @@ const char* to_string(SurveyUse use) noexcept;
 class ToolHealth {
  public:
   /// `each_block`: every row of the log is a station. `frame`: from the tool's to the output frame.
-  /// `acceleration_mps2`: the bound that the monitor was told.
+  /// `acceleration_mps2`: the bound that was stated to the monitor.
   ToolHealth(const Mat3& frame, bool each_block, double acceleration_mps2 = 0.0)
       : frame_(frame), each_block_(each_block), acceleration_mps2_(acceleration_mps2) {}
 

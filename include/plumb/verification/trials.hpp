@@ -41,7 +41,7 @@ struct Trial {
   std::uint32_t faulty = 0, excluded = 0, ever_excluded = 0, ever_provisionally_excluded = 0;  ///< bits of sensors
   int blocks = 0, first_fault_block = -1, alarm_block = -1, isolated_block = -1;
   bool failed = false, misleading = false, beyond_protection = false;
-  double largest_mdb = 0.0;  ///< of a lone constant shift
+  double largest_mdb = 0.0;  ///< of a single constant shift
   double tilt_before_alarm_rad = 0.0;
   double tilt_usable_rad = 0.0;  ///< largest error while published as usable and without an alert
   double excess_rad = 0.0;       ///< largest error less its protection level, where above it

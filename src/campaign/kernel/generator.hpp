@@ -19,7 +19,7 @@ class Generator final : private scenario::Injector::Past {
   /// Memory for the longest scenario of the plan.
   explicit Generator(const Plan& plan);
 
-  /// Prepares all rows of the scenario. The spec must stay alive.
+  /// Prepares all rows of the scenario. The spec must stay in scope.
   void lay(const Spec& spec, double from_s) noexcept;
 
   int rows() const noexcept { return rows_; }

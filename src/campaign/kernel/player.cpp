@@ -1,4 +1,5 @@
 #include "player.hpp"
+#include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -112,7 +113,7 @@ std::string Player::prepare() {
       const bool three = state == HealthState::degraded_3_sensor && monitor_.array().size() == 3;
       if (state != HealthState::nominal && !three) {
         return "the monitor did not validate the healthy sensors of tool " + name + " within " +
-               std::to_string(plan_.validation_stations) + " stations: its state is " + to_string(state) +
+               count_text(plan_.validation_stations, "station") + ": its state is " + to_string(state) +
                ". Remedy: raise [run] validation_stations, or use another seed";
       }
     }

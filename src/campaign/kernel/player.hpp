@@ -12,7 +12,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace campaign_kernel {
 
-/// Follows one scenario sample by sample. What it is told comes from the spec alone, never from the monitor.
+/// Follows one scenario sample by sample. What it is given comes from the spec alone, never from the monitor.
 class Judge {
  public:
   void begin(const Plan& plan, const Spec& spec, campaign::Outcome& outcome) noexcept;
@@ -35,7 +35,7 @@ class Player final : public campaign::Kernel {
  public:
   explicit Player(const Plan& plan) : plan_(plan), generator_(plan_), from_s_(start_s(plan_)) {}
 
-  /// Configures a monitor for every tool and has it earn its trust. Empty, or why it cannot.
+  /// Configures a monitor for every tool and has it be validated. Empty, or why it cannot.
   std::string prepare();
   void play(const Spec& spec, campaign::Outcome& outcome) noexcept override;
   int capacity() const noexcept override { return kCapacity; }

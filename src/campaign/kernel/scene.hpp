@@ -1,4 +1,4 @@
-/// A plan and a spec in the words of the scenario room: what the simulator plays, and what the monitor is told. Built
+/// A plan and a spec as scenarios: what the simulator plays, and what is stated to the monitor. Built
 /// for every capacity (private to src/campaign).
 #pragma once
 
@@ -27,16 +27,16 @@ scenario::Fault fault_of(const campaign::SpecFault& fault) noexcept;
 /// Where gravity points at a station counted from 0, in the tool frame.
 Vec3 direction_at(const AttitudePlan& attitude, int station, int stations, const scenario::Stream& stream) noexcept;
 
-/// Time of the first sample: after the stations of trust, where a scenario begins with a proven monitor.
+/// Time of the first sample: after the stations of validation, where a scenario begins with a validated monitor.
 double start_s(const Plan& plan) noexcept;
 
-/// The stations at which a tool earns trust before a scenario begins, noise and all.
+/// The stations at which a tool is validated before a scenario begins, noise and all.
 Spec trust_spec(const Plan& plan, int tool) noexcept;
 
 /// The whole scenario for `scenario::Simulator`, directions spelled out.
 scenario::Scenario scenario_of(const Plan& plan, const Spec& spec, double from_s);
 
-/// What the monitor of this tool is told.
+/// What the monitor of this tool gets as configuration.
 Expected<MonitorSetup> setup_of(const Plan& plan, int tool) noexcept;
 
 /// How the calibrated axes have turned together beside the true ones: unobservable, so no claim is made about it. To

@@ -1,5 +1,5 @@
 /// The stations of a fit: as the host keeps them, or made one by one from the means that a monitor remembers, so that
-/// nobody needs room for all of them.
+/// none needs storage for all of them.
 #pragma once
 
 #include <cstdint>

@@ -251,7 +251,7 @@ void transfer_some(Archive& archive, T& array, const Check& check, int count) no
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) transfer(archive, array[k], check);
 }
 
-/// The list of a class as a constant: nobody builds it at run time, whatever the compiler optimises for.
+/// The list of a class as a constant: it is not built at run time, whatever the compiler optimises for.
 template <class T>
 inline constexpr auto kListOf = FieldsOf::list<T>();
 

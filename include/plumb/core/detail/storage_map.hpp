@@ -1,5 +1,5 @@
-/// Which bytes of an object are members and which are padding, told at compile time by the `fields()` of its classes,
-/// and a sum over some of them: it tells whether storage has changed though nobody wrote to it.
+/// Which bytes of an object are members and which are padding, known at compile time by the `fields()` of its classes,
+/// and a sum over some of them: it tells whether storage has changed though no program wrote to it.
 ///
 /// Beside `fields()` a class may have two lists of members, private where those are:
 ///

@@ -21,7 +21,7 @@ class BlockTests {
   const TestLimits& limits() const noexcept { return limits_; }
   const BlockEvidence& block() const noexcept { return block_; }
 
-  /// Up to four sensors every set has a place of its own, and what was told of it stays: no copy on the stack. Else a
+  /// Up to four sensors every set has a place of its own, and its result stays: no copy on the stack. Else a
   /// later set may take the place of an earlier one.
   static constexpr bool kOwnPlaces = kCapacity <= 4;
   using Told = std::conditional_t<kOwnPlaces, const SetTest&, SetTest>;
@@ -30,7 +30,7 @@ class BlockTests {
 
   /// True where `set`, which passes parity, may speak about gravity: the parity of the others checks every member
   /// (leverage of at least 0.05), or the others do not deny it: the length is off without that member too, or may be,
-  /// both by the rejection limit. Otherwise a member that nobody checks may be at fault: mikoff5's z axes, four of them
+  /// both by the rejection limit. Otherwise an unchecked member may be faulty: mikoff5's z axes, four of them
   /// with three coplanar, pass parity whatever the fourth reads. `test` is that of the set.
   bool corroborates_norm(SensorSet set, const SetTest& test) const noexcept;
 

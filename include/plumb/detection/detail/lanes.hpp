@@ -10,7 +10,7 @@
 
 /// More than two at a time: on x86-64 under Linux, where GCC and Clang compile one function for another processor.
 #if defined(__x86_64__) && defined(__gnu_linux__)
-#define PLUMB_WIDE_LANES 1  // NOLINT(cppcoreguidelines-macro-usage): the preprocessor leaves out what does not compile
+#define PLUMB_WIDE_LANES 1  // NOLINT(cppcoreguidelines-macro-usage): the preprocessor omits what does not compile
 #else
 #define PLUMB_WIDE_LANES 0  // NOLINT(cppcoreguidelines-macro-usage)
 #endif

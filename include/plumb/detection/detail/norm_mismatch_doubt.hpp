@@ -1,6 +1,6 @@
 /// When may the length of gravity speak against a set of sensors? Not where other sensors, more of them and checked by
 /// each other, agree among themselves and disagree with gravity too: then it may be gravity that is off, or the tool
-/// moves steadily, and a norm test would kill whichever healthy set measures the length best.
+/// moves steadily, and a norm test would reject whichever healthy set measures the length best.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class NormMismatchDoubt {
   static constexpr int kMax = 64;
   void add(SensorSet set) noexcept;
   bool any() const noexcept { return count_ > 0; }
-  /// With more sets than fit, everything is excused: nothing dies that should not.
+  /// With more sets than fit, everything is excused: nothing is rejected that should not be.
   bool excuses(SensorSet set) const noexcept;
 
  private:

@@ -19,7 +19,7 @@ struct BlockReport {
   double parity_ratio = 0.0, norm_ratio = 0.0, mae_ratio = 0.0;
   double mae_worst_mps2 = 0.0, mae_limit_mps2 = 0.0;
   TripleSet triples_tested, triples_passed;
-  bool mae_clean = true;  ///< all voting triples below clear_fraction of their noise limit, systematic part on top
+  bool mae_clean = true;  ///< all monitored triples below clear_fraction of their noise limit, systematic part on top
   double statistic = 0.0, limit = 0.0;
 
   /// An alarm, or in suspect a block that is not clean enough to end it.

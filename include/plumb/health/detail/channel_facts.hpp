@@ -39,11 +39,11 @@ class ChannelFacts {
   SensorSet stuck() const noexcept { return stuck_; }
   SensorSet full_scale() const noexcept { return full_scale_; }
   SensorSet doubted() const noexcept { return noisy_ | stuck_ | full_scale_; }
-  /// Noisy for certain, whichever others may be faulty, in the last block: and in so many on end that it may be set
-  /// aside for that.
+  /// Noisy for certain, whichever others may be faulty, in the last block: and in so many on end that it may be
+  /// provisionally excluded for that.
   SensorSet noisy_for_certain() const noexcept { return noisy_for(1); }
   SensorSet noisy_long_enough() const noexcept { return noisy_for(kConfirm); }
-  /// A noisy channel is provisionally excluded after so many quiet blocks in a row, or after so many stations at each
+  /// A noisy channel is provisionally excluded after so many blocks at rest in a row, or after so many stations at each
   /// of which it alone scattered in one block at least.
   static constexpr int kConfirm = 3;
   const std::array<Cause, kCapacity>& causes() const noexcept { return cause_; }
@@ -53,7 +53,7 @@ class ChannelFacts {
   void note_stuck(const Terms& terms, const BlockEvidence& evidence, SensorSet repeating) noexcept;
 
   std::array<Cause, kCapacity> cause_{};
-  std::array<std::uint8_t, kCapacity> noisy_run_{};  ///< quiet blocks in a row for certain
+  std::array<std::uint8_t, kCapacity> noisy_run_{};  ///< blocks at rest in a row for certain
   std::array<double, kCapacity> stuck_since_{};      ///< what the others predicted when the reading stopped changing
   SensorSet noisy_, stuck_, full_scale_;             ///< the others insist on it
   SensorSet stuck_watch_;                            ///< readings that repeat, of which the others are asked

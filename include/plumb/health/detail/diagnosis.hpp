@@ -29,7 +29,7 @@ constexpr bool may_accuse(Mode mode) noexcept {
 struct Conclusion {
   SensorSet isolated;    ///< to be excluded
   SensorSet aside;       ///< to be provisionally excluded
-  bool refuted = false;  ///< the integrator asserted no more faults, and here is one
+  bool refuted = false;  ///< the integrator assumed no more faults, and here is one
 };
 
 class Diagnosis {
@@ -79,7 +79,7 @@ class Diagnosis {
   void end_rest() noexcept { rest_.clear(); }
   void end_turn() noexcept { drift_rad_ = 0.0; }
   void forget_episode() noexcept;
-  void forget_votes() noexcept;  ///< gravity is another: what died under the former may have died of it
+  void forget_votes() noexcept;  ///< gravity is another: what the former rejected may be consistent with it
   void forget_predictions() noexcept { have_predictions_ = false; }
   void forget_probation() noexcept;
   void forget_probation_of(SensorSet sensors) noexcept { on_probation_ = on_probation_ - sensors; }
@@ -112,7 +112,7 @@ class Diagnosis {
   SensorSet aside() const noexcept { return aside_; }
   SensorSet on_probation() const noexcept { return on_probation_; }
   bool probation_passed(const MonitorConfig& config) const noexcept;
-  /// Convicted at the confirmed or the assumed grade, over the stations that it takes.
+  /// Isolated at the confirmed or the assumed grade, over the stations that it takes.
   SensorSet isolated(const Terms& terms) const noexcept;
   /// Those that scatter by themselves for long enough.
   SensorSet noise_confirmed(const ChannelFacts& facts) const noexcept;
@@ -120,7 +120,7 @@ class Diagnosis {
   bool bounded(double alert_limit_rad) const noexcept {
     return scan_.protection_available && scan_.protection_rad <= alert_limit_rad;
   }
-  /// The condition for which the host asked for a fit is no news while that is being made.
+  /// The condition for which the host asked for a fit is no change while that is being made.
   bool expected(HealthEvent event, const DecisionState& machine) const noexcept;
   /// Which turn would validate the sensors, or tell the explanations apart.
   RotationRequest rotation_request(const Terms& terms) const noexcept;
@@ -151,11 +151,11 @@ class Diagnosis {
   RestReference rest_;
   IsolationAnswer answer_;
   FaultSetScan scan_;
-  int consistent_ = 0;      ///< voting sets consistent
-  int asserted_left_ = -1;  ///< faults that the integrator still asserts; -1 = none asserted
+  int consistent_ = 0;      ///< test subsets consistent
+  int asserted_left_ = -1;  ///< faults that the integrator still assumes; -1 = none assumed
   int unbounded_run_ = 0;   ///< blocks in a row without a bound within the alert limit, and without a way out
   double drift_rad_ = 0.0;  ///< turn since the block before, at one station
-  SensorSet aside_;         ///< those that the provisional grade, or their own scatter, accuses
+  SensorSet aside_;         ///< those that the provisional grade, or their own scatter, isolates
   SensorSet on_probation_;
   DirectionRecord probation_;
   std::array<float, kCapacity> least_prediction_{}, most_prediction_{};  ///< over passed blocks before validation

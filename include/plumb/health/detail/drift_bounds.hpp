@@ -14,7 +14,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 /// How far a sensor may have drifted since it was calibrated, 1 sigma. The defaults are for sensors whose stability
-/// nobody stated: the yearly repeatability of a borehole servo accelerometer with margin. MEMS need more.
+/// no array file states: the yearly repeatability of a borehole servo accelerometer with margin. MEMS need more.
 struct DriftSigmas {
   double bias_mps2 = 2e-3 * kG0_mps2;
   double scale = 5e-4;  ///< relative

@@ -60,7 +60,7 @@ struct Episode {
   std::uint8_t most_suspected = 0;
   DirectionRecord stations;  ///< distinct attitudes in doubt (isolation timeout); kept without an alarm too
   int doubtful_blocks = 0;   ///< blocks in doubt at any attitude, where the timeout counts them
-  SensorSet candidate;       ///< the unique strict answer so far
+  SensorSet candidate;       ///< the unique confirmed answer so far
   DirectionRecord agreeing;  ///< excited stations at which it was the answer (E)
   DirectionRecord clean;     ///< excited stations that were clean since the last alarm (M)
 
@@ -96,7 +96,7 @@ struct Episode {
 };
 
 /// The attitude at which blocks are being taken. Blocks of one station are not pooled: between them the tool may have
-/// turned by up to the station angle, and a mean over that is no gravity vector (it killed the truth in a test).
+/// turned by up to the station angle, and a mean over that is no gravity vector (it rejected the truth in a test).
 struct StationTrack {
   bool open = false;
   bool asked = false;     ///< a vote was taken here

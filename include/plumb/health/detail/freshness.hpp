@@ -1,4 +1,4 @@
-/// Whether the vector of the last quiet block still speaks of the sample at hand: samples keep arriving, every sensor
+/// Whether the vector of the last block at rest still speaks of the sample at hand: samples keep arriving, every sensor
 /// in service delivers, and what they read now is what they read then.
 #pragma once
 
@@ -23,7 +23,7 @@ class Freshness {
   /// The same of the vector of one row, in roots of the trace of its covariance: 2e-5 per block at most.
   static constexpr double kVectorSigmas = 5.0;
 
-  /// From here on nothing is known of now, until a block is quiet: at power-on, behind a gap, on a new time base.
+  /// From here on nothing is known of now, until a block is at rest: at power-on, behind a gap, on a new time base.
   void lapse() noexcept { anchored_ = false; }
   /// The first sample of a block.
   void begin_block(double time_s) noexcept { block_begin_s_ = time_s; }
@@ -32,7 +32,7 @@ class Freshness {
   /// sensors of `noisy`, whom the others contradict, it is. The mean is as good as that of `independent` samples.
   void measure(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& expected, double independent,
                const std::array<float, kCapacity>& resolution_mps2, SensorSet noisy) noexcept;
-  /// The block that ends at `time_s` was quiet, and its vector is published. The bound holds motion that some sensor
+  /// The block that ends at `time_s` was at rest, and its vector is published. The bound holds motion that some sensor
   /// feels by `motion_mps2` at least, whatever its direction: more than that on any one, and it may have been exceeded.
   void anchor(const MonitorConfig& config, double time_s, double motion_mps2) noexcept;
   /// The same of a block in slow motion: the bound holds `motion_mps2` of motion, as the vector of every row is then

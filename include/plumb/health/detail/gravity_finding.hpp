@@ -1,4 +1,4 @@
-/// What the length of the vector over many attitudes says of gravity, what has been told of it, and by how much gravity
+/// What the length of the vector over many attitudes says of gravity, what has been reported, and by how much gravity
 /// is taken to be known worse for it.
 #pragma once
 

@@ -25,13 +25,13 @@ struct LastBlock {
   bool partial = false;       ///< a sensor in service was silent or doubted in it: no other sensor corroborates it
   Cause cause = Cause::none;  ///< of what the monitor did last
 
-  /// What is kept of the rows of a block: who delivered, who was calm.
+  /// What is kept of the rows of a block: which delivered, which were at rest.
   void note_rows(const BlockAccumulator& block, SensorSet delivered, const BlockNoise& noise,
                  double scatter_factor) noexcept {
     usable = delivered;
     calm = SensorSet{};
     for (int i = 0; i < kCapacity; ++i) {
-      if (!usable.has(i)) continue;  // silent when the tool moved, it is no witness that it rested
+      if (!usable.has(i)) continue;  // silent when the tool moved, it does not show that it rested
       if (block.size() < 2 || block.covariance(i, i) <= scatter_factor * noise.of(i)) calm = calm.with(i);
     }
   }

@@ -31,7 +31,7 @@ class OfferedCalibration {
     return !(waited_s >= 0.0 && waited_s <= kLife_s);
   }
   /// Axes of `sensors` as sure as they were in `array`; biases and scales as sure as the offer says, whose tests have
-  /// confirmed it. What the two share is not known here and left out.
+  /// confirmed it. What the two share is not known here and omitted.
   void uncertainty(const SensorArray& array, SensorSet sensors, RowUncertainty& out) const noexcept;
   /// What was read back can only be what `read` has let pass.
   bool plausible(int configured, SensorSet sensors, const DriftBounds& bounds) const noexcept;

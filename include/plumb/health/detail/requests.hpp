@@ -1,5 +1,5 @@
 /// What waits for its step: what the host asked for, what a block said beside an event that came first, and what is to
-/// be told without a change of state.
+/// be reported without a change of state.
 #pragma once
 
 #include "plumb/core/sensor_set.hpp"
@@ -24,7 +24,7 @@ struct Requests {
   Cause alarm_notice = Cause::none;  ///< of an alarm that opened an episode and is not on record yet
   NormMismatchKind reference_notice = NormMismatchKind::none;
 
-  /// Something is to be told though nothing has changed.
+  /// Something is to be reported though nothing has changed.
   bool has_notice() const noexcept {
     return inhibit_notice || calibration_notice || alarm_notice != Cause::none ||
            reference_notice != NormMismatchKind::none;

@@ -21,13 +21,13 @@ struct Settings {
   std::array<StabilityNow, kCapacity> stability{};
   std::array<Vec3, kCapacity> lever_arm_m{};
   TestLimits limits;
-  double scatter_factor = 0.0;    ///< scatter of a channel over its noise, beyond which it is restless
+  double scatter_factor = 0.0;    ///< scatter of a channel over its noise, at rest up to this
   double mae_quantile = 0.0;      ///< of the mean absolute error of one triple, in sigmas
   double k_integrity = 0.0;       ///< sigmas that the integrity risk leaves
   int protection_faults = 1;      ///< K of the priors
   bool stability_stated = false;  ///< of every sensor
   Flag lever_arms_known;          ///< read in every row, before the storage has been compared
-  std::uint64_t identity = 0;     ///< of the setup, gravity left out
+  std::uint64_t identity = 0;     ///< of the setup, gravity omitted
 
   static constexpr auto fields() noexcept {
     using S = Settings;

@@ -15,7 +15,7 @@ inline namespace PLUMB_ABI {
 class Trend {
  public:
   static constexpr double kMemoryBlocks = 256.0;
-  /// A slope is told when it is so many of its own sigmas, the scatter of the residuals taken as found.
+  /// A slope is reported when it is so many of its own sigmas, the scatter of the residuals taken as found.
   static constexpr double kToldSigmas = 6.0;
   static constexpr int kLeastBlocks = 32;
 
@@ -23,7 +23,7 @@ class Trend {
   /// One passed block: readings of the sensors `used`, and the vector that they gave.
   void add(const SensorArray& array, const BlockEvidence& block, SensorSet used, const Vec3& x_mps2,
            double time_s) noexcept;
-  /// Drift of sensor i were it the only one to drift [m/s^2 per hour]; 0 where nothing is told. `check`: part of its
+  /// Drift of sensor i were it the only one to drift [m/s^2 per hour]; 0 where none is found. `check`: part of its
   /// reading that the others check (diagonal of the parity projector).
   double rate_mps2_per_h(int i, double check) const noexcept;
 

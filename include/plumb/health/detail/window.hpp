@@ -30,7 +30,7 @@ struct Window {
   SensorSet clipped, not_finite;  ///< channels that did so in the block at hand
 
   /// A block is made of rows in which the same sensors in service deliver: where one was silent the tool may have
-  /// moved, and means over other rows cannot be held against one another. A row that lacks a sensor is left out; one
+  /// moved, and means over other rows cannot be held against one another. A row that lacks a sensor is omitted; one
   /// that brings a sensor which the block lacks begins it anew.
   RowPlace place_of(SensorSet usable, SensorSet in_service) const noexcept {
     const SensorSet now = usable & in_service, before = block.seen() & in_service;

@@ -1,5 +1,5 @@
 /// Verdicts and setups as bytes, the same whatever the capacity: what one build packs another one unpacks. Within one
-/// process, so that nothing is checked and numbers are as the machine has them (private to this room).
+/// process, so that nothing is checked and numbers are as the machine has them (private to this module).
 #pragma once
 
 #include <algorithm>
@@ -97,7 +97,7 @@ inline void pack(const Verdict& verdict, std::vector<std::uint8_t>& bytes) {
   bytes.resize(static_cast<std::size_t>(packer.end() - bytes.data()));
 }
 
-/// Leads either of them over all that a monitor is built from. The misalignment is left out: a monitor takes a model
+/// Leads either of them over all that a monitor is built from. The misalignment is omitted: a monitor takes a model
 /// without any. `rows` and `uncertainty` are those of the array.
 template <class Pipe, class Setup, class Rows, class Uncertainty>
 void lead(Pipe& pipe, Setup& setup, Rows& rows, Uncertainty& uncertainty) noexcept {

@@ -1,4 +1,4 @@
-/// Rows through a monitor of whichever kind and capacity (private to this room).
+/// Rows through a monitor of whichever kind and capacity (private to this module).
 #pragma once
 
 #include <cstring>

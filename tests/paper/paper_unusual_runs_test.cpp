@@ -8,7 +8,7 @@
 
 #include "paper/paper_rig.hpp"
 
-namespace paper_odd_lives_test {
+namespace paper_unusual_runs_test {
 namespace {
 
 using namespace plumb;
@@ -16,7 +16,7 @@ using namespace paper_test;
 
 /// Temperatures at which a polynomial has no number: no vector, and no harm.
 // Negative: REQ-190
-TEST(PaperMonitorOddLife, OutlivesReadingsThatAreNoNumber) {
+TEST(PaperMonitorUnusualRun, ReadingsThatAreNotNumbersDoNoHarm) {
   for (const double degc : {1e150, 1e200, 1e308, -1e160}) {
     PaperRig rig(4);
     rig.prove();
@@ -33,7 +33,7 @@ TEST(PaperMonitorOddLife, OutlivesReadingsThatAreNoNumber) {
 }
 
 // Negative: REQ-190
-TEST(PaperMonitorOddLife, RefusesFitsOfOtherSensors) {
+TEST(PaperMonitorUnusualRun, RefusesFitsOfOtherSensors) {
   const std::vector<std::function<void(PaperSetup&)>> wrong = {
       [](PaperSetup& s) { s.paper.all.used = SensorSet::first(3); },
       [](PaperSetup& s) { s.paper.triples = 1; },
@@ -52,4 +52,4 @@ TEST(PaperMonitorOddLife, RefusesFitsOfOtherSensors) {
 }
 
 }  // namespace
-}  // namespace paper_odd_lives_test
+}  // namespace paper_unusual_runs_test

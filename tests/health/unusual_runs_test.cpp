@@ -9,7 +9,7 @@
 #include "health/first_calibration_support.hpp"
 #include "health/recalibration_support.hpp"
 
-namespace odd_lives_test {
+namespace unusual_runs_test {
 namespace {
 
 using namespace plumb;
@@ -28,7 +28,7 @@ void expect_sound(const Verdict& v) {
 
 /// One sensor at fault from the third attitude on, another that delivers one sample of three in some blocks.
 // Negative: REQ-074
-TEST(OddLife, AStutteringChannelHidesNoFaultAndIsNotExcludedForOne) {
+TEST(UnusualRun, AStutteringChannelHidesNoFaultAndIsNotExcludedForOne) {
   int told = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const int n = 4 + static_cast<int>(seed % 5);
@@ -59,7 +59,7 @@ TEST(OddLife, AStutteringChannelHidesNoFaultAndIsNotExcludedForOne) {
 
 /// A channel that shakes at its full scale, one that fails into it, and a tool that reaches it by itself.
 // Negative: REQ-148
-TEST(OddLife, AtFullScaleOnlyWhoTheOthersDenyIsNamed) {
+TEST(UnusualRun, AtFullScaleOnlyASensorThatTheOthersContradictIsReported) {
   bool clipped = false;
   int told = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
@@ -94,7 +94,7 @@ TEST(OddLife, AtFullScaleOnlyWhoTheOthersDenyIsNamed) {
 
 /// Up to two faults are asserted, and three come one after the other.
 // Verifies: REQ-073
-TEST(OddLife, AnAssertionIsUsedUpByTheFaultsThatItCovers) {
+TEST(UnusualRun, AnAssumptionIsUsedUpByTheFaultsThatItCovers) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     MonitorConfig config;
     config.assumed_faults = seed % 2 == 0 ? 3 : 2;
@@ -114,7 +114,7 @@ TEST(OddLife, AnAssertionIsUsedUpByTheFaultsThatItCovers) {
 
 /// No fault is ever expected, or so many that no set covers them.
 // Verifies: REQ-121
-TEST(OddLife, TheProtectionCoversAtLeastOneFaultAndSaysWhereItCannot) {
+TEST(UnusualRun, TheProtectionLevelCoversAtLeastOneFaultOrIsUnavailable) {
   const auto available = [](double prior, double risk) {
     MonitorConfig config;
     config.fault_prior = prior;
@@ -131,7 +131,7 @@ TEST(OddLife, TheProtectionCoversAtLeastOneFaultAndSaysWhereItCannot) {
 /// The first calibration under the settings that do not concern it: the span that was stated is kept, and the average
 /// form waits for a calibration.
 // Verifies: REQ-136
-TEST(OddLife, AFirstCalibrationKeepsTheSpanThatWasStated) {
+TEST(UnusualRun, AFirstCalibrationKeepsTheSpanThatWasStated) {
   for (const bool stated : {false, true}) {
     MonitorConfig config;
     config.alarm_form = AlarmForm::average_tool;
@@ -151,7 +151,7 @@ TEST(OddLife, AFirstCalibrationKeepsTheSpanThatWasStated) {
 
 /// A sensor that never spoke is left out of it, and takes nothing of it.
 // Verifies: REQ-136
-TEST(OddLife, AFirstCalibrationOfThoseThatSpeak) {
+TEST(UnusualRun, AFirstCalibrationOfTheSensorsThatDeliver) {
   UncalibratedTool tool(6, 5);
   tool.silent = SensorSet::of(2);
   tool.start();
@@ -163,7 +163,7 @@ TEST(OddLife, AFirstCalibrationOfThoseThatSpeak) {
 
 /// A scale far beyond what the datasheet leaves open is never adopted.
 // Negative: REQ-137
-TEST(OddLife, ASensorOfAnotherScaleThanItsDatasheetIsNotTakenForIt) {
+TEST(UnusualRun, ASensorOfAnotherScaleThanItsDatasheetIsNotTakenForIt) {
   for (const double scale : {1.0, 1.15}) {
     UncalibratedTool tool(5, 6);
     tool.truth(1).w = scaled(tool.truth(1).w, scale);
@@ -175,7 +175,7 @@ TEST(OddLife, ASensorOfAnotherScaleThanItsDatasheetIsNotTakenForIt) {
 
 /// Attitudes at which one sensor was silent are no part of the record by which gravity is judged.
 // Verifies: REQ-062
-TEST(OddLife, ALengthThatIsOffIsStudiedWhereAllDeliver) {
+TEST(UnusualRun, ALengthThatIsOffIsStudiedWhereAllDeliver) {
   Rig rig(plumb_test::cone_array(6));
   rig.prove();
   Noise luck(4);
@@ -192,4 +192,4 @@ TEST(OddLife, ALengthThatIsOffIsStudiedWhereAllDeliver) {
 }
 
 }  // namespace
-}  // namespace odd_lives_test
+}  // namespace unusual_runs_test
