@@ -159,6 +159,7 @@ std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
   add("--resources", options.resources);
   if (options.days_since_calibration > 0.0)
     add("--days-since-calibration", io::shortest(options.days_since_calibration));
+  for (const std::string& known : options.known_attitudes) add("--known-attitude", known);
   for (const std::string& path : options.reuse) add("--reuse", path);
   add("--compare", options.compare);
   return out + fmt::format(" --scenarios {} --seed {}", scenarios, options.seed);
@@ -180,6 +181,7 @@ void judge_all(const VerifyInputs& inputs, const render::CalibrationPart& part, 
   facts.samples_per_row = part.samples_per_row;
   facts.array = std::move(array);
   facts.calibration = part.facts;
+  facts.wiring = part.wiring;
   facts.trace = trace;
   if (inputs.analysis) facts.analysis_findings = inputs.analysis->findings;
   if (inputs.resources) facts.target = inputs.resources->items;

@@ -65,8 +65,10 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
       return fmt::format("a bias common to all sensors is invisible in parity and moves the vector by {:.2f} of it",
                          f.value);
     case Code::unobservable_permutations:
-      return fmt::format("{} wiring errors are not detectable at any attitude; check one known attitude by hand",
-                         study.hidden.size());
+      return fmt::format(
+          "{} wiring errors are not detectable at any attitude; give plumb calibrate one known attitude "
+          "(--known-attitude)",
+          study.hidden.size());
     case Code::many_sensors:
       return fmt::format("above {} sensors the monitor has no confirmed grade, and no provisional grade above {}",
                          kStrictCapacity, kScanDepth);

@@ -37,6 +37,13 @@ Section answer_view(const Json& report) {
   std::vector<std::string> actions;
   for (const Json& action : a["actions"]) actions.push_back(action);
   out.list("What to do", actions);
+  std::vector<std::string> open;
+  for (const Json& item : a["open_items"])
+    open.push_back(item["name"].get<std::string>() + ": " + item["text"].get<std::string>());
+  if (!open.empty()) {
+    out.notice("What this run cannot show is still open. Inclination and toolface rest on it.", "open");
+    out.list("Open items", open);
+  }
   out.figures({{"Usable for survey", a["usable_for_survey"], "the tool as it is at the end of the run"},
                {"Green stations", a["green"].dump(), "use them"},
                {"Orange stations", a["orange"].dump(), "for orientation only"},
@@ -159,6 +166,7 @@ Section basis_view(const Json& report) {
             "From [gravity] of the array file.");
   out.text("Drift since the calibration: " + basis["drift"]["text"].get<std::string>() +
            ". What a reading drifts by beyond that is in no limit and in no bound on the direction.");
+  out.text("Wiring: " + basis["wiring"]["text"].get<std::string>() + ".");
   if (c.is_null()) {
     out.text("There was no calibration file: the run began by calibrating itself.");
     return out;

@@ -23,6 +23,8 @@ std::string distrust_of(const Facts& facts) {
   out +=
       "any output during an alert or with only three sensors in use; several sensors that all show the same wrong "
       "gravity";
+  if (facts.wiring.state != WiringFacts::State::confirmed)
+    out += "; inclination and toolface as a whole: no known attitude confirms the wiring";
   if (facts.calibration.predicted())
     out += "; every figure here, because the tool was not calibrated: they come from a simulated calibration";
   if (!facts.calibration.accepted)

@@ -118,6 +118,18 @@ void judge_calibration(const CalibrationFacts& calibration, Criteria& out) {
             "the calibration was refused: " + calibration.reason);
 }
 
+/// Gravity shows no exchange or reversal that amounts to a turn or a mirror image of the array, so that nothing but a
+/// known attitude can close this.
+void judge_wiring(const WiringFacts& wiring, Criteria& out) {
+  using State = WiringFacts::State;
+  const Result result = wiring.state == State::confirmed ? Result::met
+                        : wiring.state == State::open    ? Result::open
+                                                         : Result::not_met;
+  out.add(CriterionId::wiring_confirmed, {"a station of known attitude that excludes every other wiring"},
+          wiring.found.empty() ? "no station of known attitude" : wiring.found, result,
+          wiring.state == State::confirmed ? "" : wiring.reason);
+}
+
 /// Seconds within which 95 % of the detected faults raised their alarm; negative where none did.
 double detected_within_s(const FaultCampaign& faults) {
   std::uint64_t total = 0, below = 0;
@@ -208,6 +220,7 @@ std::vector<Criterion> judge_criteria(const UserLimits& limits, const Facts& fac
   Criteria out;
   judge_array(limits, facts, out);
   judge_calibration(facts.calibration, out);
+  judge_wiring(facts.wiring, out);
   judge_campaign(limits, facts, out);
   judge_requirements(facts.trace, out);
   judge_evidence(facts, out);
