@@ -167,7 +167,8 @@ std::string verification_html(const Json& report, const PagePictures& pictures) 
        fmt::format("{} sensors, judged by plumb {} ({}). Every figure stands in report.json beside this page.",
                    report["subject"]["sensors"].dump(), build["version"].get<std::string>(),
                    build["commit"].get<std::string>()),
-       "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.",
+       "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson (97.5 % bounds "
+       "at 0 and at all), rounded outwards.",
        run_words(report["run"])},
       {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
        campaign_view(report, pictures), machine_view(report), trace_view(report), identity_view(report),

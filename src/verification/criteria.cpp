@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "plumb/study/proportion.hpp"
 #include "plumb/verification/verdict.hpp"
 
 namespace plumb {
@@ -13,9 +14,10 @@ namespace {
 
 double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
-/// "3 of 20000, 95 % interval 3.1e-05 to 0.00044".
+/// "3 of 20000, 95 % interval 3.09e-05 to 0.000439".
 std::string rate_words(const Rate& rate) {
-  return fmt::format("{} of {}, 95 % interval {:.3g} to {:.3g}", rate.count, rate.of, rate.low, rate.high);
+  return fmt::format("{} of {}, {}", rate.count, rate.of,
+                     study::interval_words({rate.count, rate.of, rate.low, rate.high}));
 }
 
 /// Scenarios without any case that show a rate below the limit: 1 - (1 - limit)^n >= 97.5 %.

@@ -209,7 +209,7 @@ TEST(VerificationVerdict, TheFirstPageAnswersTheFourQuestionsInWords) {
   };
   EXPECT_EQ(answer("How many faults?")["value"], "1");
   EXPECT_TRUE(plumb_test::says(answer("How large?")["value"], {"mg0"}));
-  EXPECT_TRUE(plumb_test::says(answer("How sure?")["label"], {"healthy sensor", "95 % confidence"}));
+  EXPECT_TRUE(plumb_test::says(answer("How sure?")["label"], {"healthy sensor", "at most", "97.5 % confidence"}));
   EXPECT_TRUE(plumb_test::says(answer("What not to trust?")["label"],
                                {"more than 1 of 4", "three sensors", "same wrong gravity", "not calibrated"}));
   const Json& isolated = paper_report()["campaign"]["faults"]["rates"]["isolated"];
