@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/render/figures.hpp"
+#include "plumb/render/measured_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -21,10 +24,8 @@ std::string fixed(const Json& value, double factor, int decimals) {
 }
 /// Three decimals, however large.
 std::string seconds(const Json& value) { return fixed(value, 1.0, 3); }
-std::string degrees(const Json& value) { return fixed(value, 1.0, 3); }
-std::string with_sigma(const Json& value, const Json& sigma) {
-  return value.is_number() ? degrees(value) + " ± " + shown(sigma) : "-";
-}
+double number(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+std::string with_sigma(const Json& value, const Json& sigma) { return angle_with_sigma(number(value), number(sigma)); }
 std::string why(const Json& station) {
   const std::string out = joined_list(station["reasons"], "text");
   return out == "-" ? "" : out;
@@ -62,8 +63,9 @@ ViewRows station_rows(const Json& report) {
   ViewRows rows;
   for (const Json& s : report["stations"]) {
     const std::string colour = s["colour"];
-    rows.push_back({s["number"], seconds(s["begin_s"]), s["depth_m"], ViewCell(colour, tone_of_colour(colour)),
-                    fixed(s["length_mps2"], kMg0, 3), shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
+    rows.push_back({s["number"], seconds(s["begin_s"]), depth_words(number(s["depth_m"])),
+                    ViewCell(colour, tone_of_colour(colour)), fixed(s["length_mps2"], kMg0, 3),
+                    shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
                     with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
                     with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), s["protection_level_deg"],
                     joined_list(s["used"]), why(s)});
