@@ -37,7 +37,7 @@ class TrialWatch {
  public:
   TrialWatch(std::string what, std::uint64_t of) : what_(std::move(what)), of_(of), on_(::isatty(STDERR_FILENO) != 0) {}
   ~TrialWatch() {
-    if (on_) print_error("\r\033[K");
+    if (on_) print_status("\r\033[K");
   }
   TrialWatch(const TrialWatch&) = delete;
   TrialWatch& operator=(const TrialWatch&) = delete;
@@ -45,8 +45,8 @@ class TrialWatch {
     if (on_) {
       const double elapsed_s = seconds_since(start_);
       const double left_s = done > 0 ? elapsed_s * static_cast<double>(of_ - done) / static_cast<double>(done) : 0.0;
-      print_error(fmt::format("\r{}: {} of {}{}\033[K", what_, done, of_,
-                              done > 0 ? fmt::format(", {:.0f} s left", left_s) : std::string()));
+      print_status(fmt::format("\r{}: {} of {}{}\033[K", what_, done, of_,
+                               done > 0 ? fmt::format(", {:.0f} s left", left_s) : std::string()));
     }
     return !interrupted();
   }

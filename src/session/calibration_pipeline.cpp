@@ -126,6 +126,13 @@ bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) 
   return true;
 }
 
+/// Without the columns that no fit reads: a log of a bench need not have them.
+io::ArrayFile with_what_a_fit_reads(io::ArrayFile array) {
+  array.input.depth_column.clear();
+  array.input.rotation_columns.clear();
+  return array;
+}
+
 /// The stations as they would have been at one temperature, by the calibration.
 std::vector<Station> at_one_temperature(std::vector<Station> stations, const Calibration& calibration) {
   const double degc = calibration.model.sensor[0].reference_degc;
@@ -227,7 +234,8 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
             sensors + " (their misalignments grow as the square of the number)",
         "leave out --paper and mode = \"paper\", or describe a part of the sensors in another file"});
   }
-  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  const io::ArrayFile asked = with_what_a_fit_reads(array);
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, asked, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->hash_bytes();
   reader->stop_when(interrupt_flag());
