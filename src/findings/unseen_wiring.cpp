@@ -11,7 +11,7 @@ inline namespace PLUMB_ABI {
 namespace findings {
 namespace {
 
-/// An accepted fit turns no axis further (docs/calibration.md, "a value implausible").
+/// An accepted fit turns no axis further (docs/calibration.md).
 constexpr double kMostAxis_deg = 15.0;
 /// Two axes closer than this are the same: nominal axes are written with some digits.
 constexpr double kLeastAxis_rad = 1e-4;

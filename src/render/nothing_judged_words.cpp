@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "finding_words.hpp"
+#include "plumb/render/figures.hpp"
 #include "plumb/render/words.hpp"
 
 namespace plumb {
@@ -12,14 +13,15 @@ namespace {
 
 using findings::NothingJudged;
 
-std::string columns(SensorSet sensors, const io::ArrayFile& array) {
+/// "the columns `x` (a1) and `y` (a2) have"
+std::string columns_with(const char* singular, const char* plural, SensorSet sensors, const io::ArrayFile& array) {
   std::vector<std::string> names;
   for (int i = 0; i < array.array.size(); ++i) {
     if (sensors.has(i))
-      names.push_back("`" + array.input.sensor_columns[static_cast<std::size_t>(i)] + "` (" +
-                      array.array.row(i).id.data() + ")");
+      names.push_back("`" + array.input.sensor_columns[at(i)] + "` (" + array.array.row(i).id.data() + ")");
   }
-  return listed(names);
+  const bool one = names.size() == 1;
+  return (one ? "the column " : "the columns ") + listed(names) + (one ? singular : plural);
 }
 
 /// By what the rows look like.
@@ -37,6 +39,13 @@ Refusal at_rest_words(const findings::NothingJudgedStudy& study, const io::Array
       if (study.log.size() == 1)
         return {fmt::format("the tool did not rest for a block of {} samples in {} rows", window, study.rows), hold};
       return {log_words(study.log[1], array), "correct the array file, or " + hold};
+    case findings::FindingCode::noise_at_rest: {
+      const double mg0 = kMg0 * first.value, declared_mg0 = kMg0 * first.limit;
+      return {fmt::format("the tool was not at rest for a block of {} samples: {} scatters by {:.3g} mg0 even in the "
+                          "quietest tenth of the log, {:.3g} times the {:.3g} mg0 declared",
+                          window, array.array.row(first.sensor).id.data(), mg0, mg0 / declared_mg0, declared_mg0),
+              hold + fmt::format("; if it was still, `noise` in {} is too small: declare it as it is", array.path)};
+    }
     default: return {log_words(first, array), "correct the array file where it is wrong; else " + hold};
   }
 }
@@ -47,9 +56,8 @@ Refusal nothing_judged_words(const findings::NothingJudgedStudy& study, const io
   const int window = array.monitor.window;
   switch (study.cause) {
     case NothingJudged::too_few_sensors:
-      return {"the column " + columns(study.sensors, array) +
-                  " has no number in most rows, and a direction needs three "
-                  "sensors",
+      return {columns_with(" has", " have", study.sensors, array) +
+                  " no number in most rows, and a direction needs three sensors",
               "look at how the log was written, and at `column` of these sensors in " + array.path};
     case NothingJudged::rows_are_stations:
       return {fmt::format("every row is a station (rows = \"stations\"), and [monitor] window joins {} of them to one "
@@ -67,7 +75,7 @@ Refusal nothing_judged_words(const findings::NothingJudgedStudy& study, const io
           "state `lever_arm_m` of every [[sensor]] in " + array.path +
               ", hold the tool still, or remove `rotation_radps` if the columns are not rates of turn in rad/s"};
     case NothingJudged::full_scale:
-      return {"the column " + columns(study.sensors, array) + " is at full scale in most rows",
+      return {columns_with(" is", " are", study.sensors, array) + " at full scale in most rows",
               "check `full_scale`, `scale` and `unit` in " + array.path +
                   " against the log; if they are right, the channel is overloaded or dead"};
     case NothingJudged::never_at_rest: break;

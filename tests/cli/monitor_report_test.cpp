@@ -137,6 +137,7 @@ TEST(MonitorReport, TakesDepthFromTheLog) {
     EXPECT_GT(s["depth_m"].get<double>(), before_m);
     before_m = s["depth_m"];
     EXPECT_NEAR(before_m / 0.3048, 1000.0 + s["end_s"].get<double>(), 1.0);
+    EXPECT_TRUE(says(read_text(shop / "r.html"), {fmt::format(">{:.2f}<", before_m)}));
   }
   shop.put("bad.csv", with(out, ",1003", ",deep"));
   const Outcome bad = run(shop, reported("bad.csv"));

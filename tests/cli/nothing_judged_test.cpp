@@ -44,12 +44,12 @@ TEST(NothingJudged, NamesItsCauseAndARemedyThatWorks) {
   monitored(
       {"nothing was judged in 20 samples", "the log has 20 rows, and a block has 32", "Remedy: record at least 32"});
   where.put("log.csv", changed([](double) { return std::string(); }));
-  monitored({"`a1` (a1), `a2` (a2), `a3` (a3) and `a4` (a4) has no number", "Remedy", "`column`"});
+  monitored({"`a1` (a1), `a2` (a2), `a3` (a3) and `a4` (a4) have no number", "Remedy", "`column`"});
   where.put("log.csv", changed([](double) { return std::string("5"); }));
-  monitored({"is at full scale in most rows", "Remedy: check `full_scale`, `scale` and `unit`"});
+  monitored({"are at full scale in most rows", "Remedy: check `full_scale`, `scale` and `unit`"});
   int row = 0;
   where.put("log.csv", changed([&row](double v) { return std::to_string(v + (++row / 4 % 2 == 0 ? 0.3 : -0.3)); }));
-  monitored({"Remedy", "hold the tool still for at least 32 samples"});
+  monitored({"was not at rest for a block of 32", "Remedy: hold the tool still for at least 32 samples", "`noise`"});
   where.put("log.csv", log.substr(0, log.find(line_of(log, 22))));
   where.put("array.toml", with(array, "[input]\n", "[input]\nrows = \"stations\"\n"));
   monitored({"every row is a station", "joins 32 of them", "Remedy: set window = 1"});
