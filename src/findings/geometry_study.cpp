@@ -203,17 +203,17 @@ TestSettings settings_of(const io::ArrayFile& array, double days_since_calibrati
 
 int hidden_wiring_count(const io::ArrayFile& array) {
   const ErrorBudget budget = error_budget(array.array, array.gravity, settings_of(array));
-  return static_cast<int>(hidden_wirings(array.array, array.gravity, budget, unseen_axis_tolerance_rad(array)).size());
+  return static_cast<int>(hidden_wirings(array.array, array.gravity, budget, kUnseenAxis_rad).size());
 }
 
 namespace {
 
 /// By the axes of the datasheet: those of a calibration have been fitted to whatever the wiring was.
 std::vector<HiddenWiring> hidden_wirings_of(const GeometrySubject& subject, const ErrorBudget& budget) {
-  if (!subject.file) return hidden_wirings(subject.array, subject.gravity, budget, 0.0);
+  if (!subject.file) return hidden_wirings(subject.array, subject.gravity, budget, kUnseenAxis_rad);
   const SensorArray& nominal = subject.file->array;
   return hidden_wirings(nominal, subject.gravity, error_budget(nominal, subject.gravity, subject.settings),
-                        unseen_axis_tolerance_rad(*subject.file));
+                        kUnseenAxis_rad);
 }
 
 }  // namespace

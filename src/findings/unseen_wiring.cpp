@@ -11,12 +11,13 @@ inline namespace PLUMB_ABI {
 namespace findings {
 namespace {
 
-/// An accepted fit turns no axis further (docs/calibration.md).
-constexpr double kMostAxis_deg = 15.0;
-/// Two axes closer than this are the same: nominal axes are written with some digits.
-constexpr double kLeastAxis_rad = 1e-4;
-constexpr double kPriorSigmas = 3.0;
+/// Turns nearer to one another than this are one, and those nearer to none are none: a known attitude of the usual
+/// tolerance does not tell them apart.
+const double kSameTurn_rad = rad_from_deg(io::kKnownAttitudeTolerance_deg);
+/// Turns to try that are as near as this are tried once.
+constexpr double kTriedTurn = 0.02;
 constexpr double kSingular = 1e-9;
+constexpr double kSameAngle_rad = 1e-9;
 constexpr int kPolarSteps = 60;
 constexpr int kGridStep_deg = 5;
 
@@ -67,62 +68,87 @@ Vec3 wired_axis(const SensorArray& array, const Wiring& wiring, int i) noexcept 
 }
 
 /// Which sensor, and which way round, each channel would have to carry for the array to be turned by `turn`: a perfect
-/// matching of axes, its own sensor first where several are parallel.
+/// matching of axes, the nearest first, and of parallel ones its own.
 class Matching {
  public:
-  Matching(const SensorArray& array, const Mat3& turn, double tolerance_rad)
-      : array_(array), back_(transposed(turn)), tolerance_rad_(tolerance_rad) {
+  Matching(const SensorArray& array, const Mat3& turn, double tolerance_rad) : n_(array.size()) {
     carrier_.fill(-1);
+    const Mat3 back = transposed(turn);
+    for (int i = 0; i < n_; ++i) {
+      const Vec3 wanted = times(back, array.axis(i));
+      for (int k = 0; k < n_; ++k) {
+        const int j = (i + k) % n_;
+        const int sign = dot(wanted, array.axis(j)) < 0.0 ? -1 : 1;
+        const double off_rad = angle_between_rad(wanted, scaled(array.axis(j), sign));
+        if (off_rad <= tolerance_rad)
+          near_[at(i)].push_back({kSameAngle_rad * std::round(off_rad / kSameAngle_rad), j, sign});
+      }
+      std::stable_sort(near_[at(i)].begin(), near_[at(i)].end(),
+                       [](const Near& a, const Near& b) { return a.off_rad < b.off_rad; });
+    }
   }
 
   std::optional<Wiring> find() {
-    for (int i = 0; i < array_.size(); ++i) {
+    for (int i = 0; i < n_; ++i) {
       seen_.fill(false);
       if (!place(i)) return std::nullopt;
     }
     Wiring out = Wiring::correct();
-    for (int j = 0; j < array_.size(); ++j) {
-      const int i = carrier_[at(j)];
-      out.source[at(i)] = static_cast<std::uint8_t>(j);
-      out.sign[at(i)] = static_cast<signed char>(sign_of(i, j));
+    for (int i = 0; i < n_; ++i) {
+      for (const Near& one : near_[at(i)]) {
+        if (carrier_[at(one.sensor)] != i) continue;
+        out.source[at(i)] = static_cast<std::uint8_t>(one.sensor);
+        out.sign[at(i)] = static_cast<signed char>(one.sign);
+      }
     }
     return out;
   }
 
  private:
-  int sign_of(int i, int j) const { return dot(times(back_, array_.axis(i)), array_.axis(j)) < 0.0 ? -1 : 1; }
-  bool near(int i, int j) const {
-    const Vec3 wanted = times(back_, array_.axis(i));
-    return angle_between_rad(wanted, scaled(array_.axis(j), sign_of(i, j))) <= tolerance_rad_;
-  }
+  struct Near {
+    double off_rad;
+    int sensor, sign;
+  };
+
   bool place(int i) {  // NOLINT(misc-no-recursion) no deeper than there are sensors
-    const int n = array_.size();
-    for (int k = 0; k < n; ++k) {
-      const int j = (i + k) % n;
-      if (seen_[at(j)] || !near(i, j)) continue;
-      seen_[at(j)] = true;
-      if (carrier_[at(j)] < 0 || place(carrier_[at(j)])) {
-        carrier_[at(j)] = i;
+    for (const Near& one : near_[at(i)]) {
+      const std::size_t j = at(one.sensor);
+      if (seen_[j]) continue;
+      seen_[j] = true;
+      if (carrier_[j] < 0 || place(carrier_[j])) {
+        carrier_[j] = i;
         return true;
       }
     }
     return false;
   }
 
-  const SensorArray& array_;
-  Mat3 back_;
-  double tolerance_rad_;
+  int n_;
+  std::array<std::vector<Near>, kCapacity> near_;
   std::array<int, kCapacity> carrier_{};  ///< the channel that carries a sensor
   std::array<bool, kCapacity> seen_{};
 };
 
 bool alike(const Mat3& a, const Mat3& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < 1e-9; });
+  return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < kTriedTurn; });
 }
 
-bool same(const Wiring& a, const Wiring& b, int n) {
-  return std::equal(a.source.begin(), a.source.begin() + n, b.source.begin()) &&
-         std::equal(a.sign.begin(), a.sign.begin() + n, b.sign.begin());
+Mat3 product(const Mat3& a, const Mat3& b) noexcept {
+  Mat3 out{};
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c)
+      out[3 * r + c] = a[3 * r] * b[c] + a[3 * r + 1] * b[3 + c] + a[3 * r + 2] * b[6 + c];
+  }
+  return out;
+}
+
+/// How far the worst axis lies from where the wiring puts it.
+double misfit_rad(const SensorArray& array, const UnseenWiring& one) noexcept {
+  const Mat3 back = transposed(one.turn);
+  double out = 0.0;
+  for (int i = 0; i < array.size(); ++i)
+    out = std::fmax(out, angle_between_rad(times(back, array.axis(i)), wired_axis(array, one.wiring, i)));
+  return out;
 }
 
 /// The three axes that span space best.
@@ -180,10 +206,20 @@ class Search {
     tried_.push_back(turn);
     const std::optional<Wiring> wiring = Matching(array_, turn, 2.0 * tolerance_rad_).find();
     if (!wiring) return;
-    const auto known = [this, &wiring](const UnseenWiring& one) { return same(one.wiring, *wiring, array_.size()); };
-    if (std::any_of(found_.begin(), found_.end(), known)) return;
-    if (const std::optional<Mat3> exact = unseen_turn(array_, *wiring, tolerance_rad_))
-      found_.push_back({*wiring, *exact});
+    if (const std::optional<Mat3> exact = unseen_turn(array_, *wiring, tolerance_rad_)) keep({*wiring, *exact});
+  }
+
+  /// Of wirings that amount to about the same turn the one that fits best.
+  void keep(const UnseenWiring& fresh) {
+    const auto same_turn = [&fresh](const UnseenWiring& one) {
+      return angle_of_turn(product(transposed(one.turn), fresh.turn)) <= kSameTurn_rad;
+    };
+    const auto known = std::find_if(found_.begin(), found_.end(), same_turn);
+    if (known == found_.end()) {
+      found_.push_back(fresh);
+    } else if (misfit_rad(array_, fresh) < misfit_rad(array_, *known) - kSameAngle_rad) {
+      *known = fresh;
+    }
   }
 
   const SensorArray& array_;
@@ -224,24 +260,13 @@ bool explains(const Mat3& turn, const std::vector<MeasuredAttitude>& measured, c
 
 }  // namespace
 
-double unseen_axis_tolerance_rad(const io::ArrayFile& array) noexcept {
-  double prior_rad = 0.0;
-  for (int i = 0; i < array.datasheet.size; ++i)
-    prior_rad = std::fmax(prior_rad, array.datasheet.sensor[at(i)].prior.axis_rad);
-  return std::clamp(kPriorSigmas * prior_rad, kLeastAxis_rad, rad_from_deg(kMostAxis_deg));
-}
-
 std::optional<Mat3> unseen_turn(const SensorArray& nominal, const Wiring& wiring, double tolerance_rad) noexcept {
   Mat3 sum{};
   for (int i = 0; i < nominal.size(); ++i) add_outer(nominal.axis(i), wired_axis(nominal, wiring, i), sum);
   if (!(std::fabs(det_of(sum)) > kSingular)) return std::nullopt;
   const Mat3 turn = nearest_orthogonal(sum);
-  const Mat3 back = transposed(turn);
-  for (int i = 0; i < nominal.size(); ++i) {
-    if (angle_between_rad(times(back, nominal.axis(i)), wired_axis(nominal, wiring, i)) > tolerance_rad)
-      return std::nullopt;
-  }
-  return angle_of_turn(turn) > tolerance_rad ? std::optional<Mat3>(turn) : std::nullopt;
+  if (misfit_rad(nominal, {wiring, turn}) > tolerance_rad) return std::nullopt;
+  return angle_of_turn(turn) > kSameTurn_rad ? std::optional<Mat3>(turn) : std::nullopt;
 }
 
 std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, double tolerance_rad) {
@@ -259,7 +284,7 @@ const char* to_string(WiringStatus status) noexcept {
 
 WiringCheck check_wiring(const io::ArrayFile& array, std::vector<MeasuredAttitude> measured) {
   WiringCheck out;
-  out.unseen = unseen_wirings(array.array, unseen_axis_tolerance_rad(array));
+  out.unseen = unseen_wirings(array.array, kUnseenAxis_rad);
   out.measured = std::move(measured);
   for (std::size_t k = 0; k < out.unseen.size(); ++k) {
     if (explains(out.unseen[k].turn, out.measured, array.output_frame)) out.left.push_back(k);

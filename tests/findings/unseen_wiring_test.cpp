@@ -75,6 +75,36 @@ TEST(UnseenWiring, WithinThePriorOfTheAxesAreUnseenAsWell) {
   EXPECT_EQ(findings::unseen_wirings(array, rad_from_deg(6.0)).size(), 47U);
 }
 
+/// Cones whose a2 is turned out of its place: an exchange with a3 is unseen as long as a fit accepts the axes that it
+/// comes out with, 15 deg from their nominal ones at most, each of the two half of the turn.
+TEST(UnseenWiring, WhatAFitAcceptsIsUnseen) {
+  const auto listed = [](double degrees) {
+    AxisList axes{};
+    const int n = paper_tetrahedron(axes);
+    const double azimuth = rad_from_deg(120.0 + degrees), across = std::sqrt(8.0) / 3.0;
+    axes[1] = {across * std::cos(azimuth), across * std::sin(azimuth), 1.0 / 3.0};
+    const SensorArray array = array_of(axes, n);
+    for (const findings::UnseenWiring& one : findings::unseen_wirings(array, findings::kUnseenAxis_rad)) {
+      if (render::wiring_words(one.wiring, array) == "a2 and a3 exchanged") return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(listed(0.0));
+  EXPECT_TRUE(listed(12.0));
+  EXPECT_TRUE(listed(26.0));
+  EXPECT_FALSE(listed(34.0));
+}
+
+/// Twelve on a cone: twelve turns, twelve mirrors, and each of them reversed. The neighbours are nearer than the width
+/// in which a sensor is sought.
+TEST(UnseenWiring, OfManyNeighboursNoneIsLostWithinThePrior) {
+  AxisList axes{};
+  const int n = cone(axes, 12);
+  const SensorArray array = array_of(axes, n);
+  EXPECT_EQ(findings::unseen_wirings(array, kExact_rad).size(), 47U);
+  EXPECT_EQ(findings::unseen_wirings(array, rad_from_deg(6.0)).size(), 47U);
+}
+
 TEST(UnseenWiring, EachLeavesNoResidualInAnyRecording) {
   const io::ArrayFile array = paper_tool();
   for (const findings::UnseenWiring& one : findings::unseen_wirings(array.array, kExact_rad)) {

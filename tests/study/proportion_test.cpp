@@ -41,7 +41,7 @@ TEST(Proportion, NonsenseIsTamed) {
   EXPECT_EQ(proportion(5, 10, std::nan("")).low, proportion(5, 10).low);
 }
 
-// Verifies: REQ-181
+// Verifies: REQ-184
 TEST(Proportion, IntervalsAreRoundedOutwards) {
   const auto text = [](std::uint64_t k, std::uint64_t n) { return interval_text(proportion(k, n)); };
   EXPECT_EQ(text(20000, 20000), "[0.999815, 1]");  // 0.99981557...
@@ -56,6 +56,7 @@ TEST(Proportion, IntervalsAreRoundedOutwards) {
   EXPECT_EQ(interval_text(proportion(0, 200), 3, 100.0), "[0, 1.83]");
 }
 
+// Verifies: REQ-184
 TEST(Proportion, AOneSidedBoundIsNamedAsOne) {
   const auto words = [](std::uint64_t k, std::uint64_t n) { return interval_words(proportion(k, n)); };
   EXPECT_EQ(words(0, 20000), "at most 0.000185 with 97.5 % confidence");
@@ -65,7 +66,7 @@ TEST(Proportion, AOneSidedBoundIsNamedAsOne) {
   EXPECT_EQ(words(0, 0), "no trials");
 }
 
-// Negative: REQ-181
+// Negative: REQ-184
 TEST(Proportion, AShareIsNeverPrintedAsAllOrNoneWhereItIsNot) {
   const auto share = [](std::uint64_t k, std::uint64_t n) { return rounded_share(proportion(k, n)); };
   EXPECT_EQ(share(20000, 20000), "1");
@@ -76,6 +77,7 @@ TEST(Proportion, AShareIsNeverPrintedAsAllOrNoneWhereItIsNot) {
 }
 
 /// Read back, what is printed holds what was computed.
+// Verifies: REQ-184
 RC_GTEST_PROP(ProportionLaw, WhatIsPrintedHoldsTheInterval, ()) {
   const auto trials = *rc::gen::inRange<std::uint64_t>(1, 3000000);
   const auto count = *rc::gen::oneOf(rc::gen::inRange<std::uint64_t>(0, trials + 1), rc::gen::just<std::uint64_t>(0),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plumb/array/wiring.hpp"
+#include "plumb/calibration/calibration.hpp"
 #include "plumb/core/vec3.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
@@ -22,16 +23,16 @@ struct UnseenWiring {
   Mat3 turn{};  ///< orthogonal: where down is d, such a tool shows turn * d
 };
 
-/// How far an axis may lie from where a wiring puts it, so that a calibration takes it for an error of mounting: three
-/// sigmas of the largest prior, at most what an accepted fit may turn an axis.
-double unseen_axis_tolerance_rad(const io::ArrayFile& array) noexcept;
+/// How far an axis may lie from where a wiring puts it, so that a calibration takes that for an error of mounting: what
+/// an accepted fit may turn an axis, whatever its prior (docs/calibration.md).
+inline const double kUnseenAxis_rad = FitOptions{}.max_axis_change_rad;
 
 /// The turn or mirror image that `wiring` amounts to; nothing where an axis lies further than the tolerance from it, so
-/// that a calibration refuses it, and where the turn itself is within the tolerance.
+/// that a calibration refuses it, and where the turn itself is too small for a known attitude to show.
 std::optional<Mat3> unseen_turn(const SensorArray& nominal, const Wiring& wiring, double tolerance_rad) noexcept;
 
-/// All of them but the right one: every combination of exchanged and reversed channels is tried. That all channels are
-/// reversed (`reads` the wrong way round) is always among them.
+/// All of them but the right one, one for each turn or mirror image: every combination of exchanged and reversed
+/// channels is tried. That all channels are reversed (`reads` the wrong way round) is always among them.
 std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, double tolerance_rad);
 
 /// A station of known attitude, and what the fit shows there.
