@@ -25,9 +25,7 @@ struct Settings {
 /// "99.87 [99.79, 99.92]", percent.
 std::string share(std::uint64_t k, std::uint64_t n) {
   const plumb::study::Proportion p = plumb::study::proportion(k, n);
-  char text[96];
-  std::snprintf(text, sizeof text, "%.4g [%.4g, %.4g]", 100.0 * p.share(), 100.0 * p.low, 100.0 * p.high);
-  return text;
+  return plumb::study::rounded_share(p, 4, 100.0) + " " + plumb::study::interval_text(p, 4, 100.0);
 }
 
 const char* name(Rule rule) {

@@ -51,6 +51,7 @@ Calibration calibrate(const Array& array, const Log& log, const std::string& hol
   out.context.stations = run.report.stations;
   out.context.plumb_version = PLUMB_VERSION;
   out.context.gravity = array->gravity;
+  plumb::session::note_attitudes(run, out.context);
   out.fit = std::move(run.accepted);
   return out;
 }

@@ -53,14 +53,14 @@ double share(std::uint64_t k, std::uint64_t n) {
 
 std::string bounded(std::uint64_t k, std::uint64_t n) {
   const Proportion p = plumb::study::proportion(k, n);
-  if (k == 0) return fmt::format("0 (< {:.2g})", p.high);
-  return fmt::format("{} ([{:.2g}, {:.2g}])", k, p.low, p.high);
+  if (k == 0) return fmt::format("0 (< {})", plumb::study::rounded_up(p.high, 2));
+  return fmt::format("{} ({})", k, plumb::study::interval_text(p, 2));
 }
 
 /// Percent, with bounds.
 std::string bounded_share(std::uint64_t k, std::uint64_t n) {
   const Proportion p = plumb::study::proportion(k, n);
-  return fmt::format("{:.1f} % [{:.1f}, {:.1f}]", 100.0 * p.share(), 100.0 * p.low, 100.0 * p.high);
+  return plumb::study::rounded_share(p, 3, 100.0) + " % " + plumb::study::interval_text(p, 3, 100.0);
 }
 
 std::string blocks(std::size_t median) {

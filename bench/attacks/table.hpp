@@ -12,7 +12,8 @@ namespace plumb_bench {
 /// each, empty where all hold.
 std::string broken_promises(const Progress& progress);
 
-/// As Markdown, with 95 % Clopper-Pearson bounds; `every_n` gives each number of sensors its row in every family.
+/// As Markdown, with Clopper-Pearson bounds, 95 % and for a count of 0 or all 97.5 %, rounded outwards; `every_n` gives
+/// each number of sensors its row in every family.
 std::string table_text(const Progress& progress, bool every_n);
 /// The same rows and figures as JSON.
 std::string table_json(const Progress& progress);

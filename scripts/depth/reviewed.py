@@ -47,6 +47,9 @@ def clopper_pearson(k, n, miss=0.05):
 
 
 def share(k, n):
-    """`k of n (95 %: a to b %)`."""
+    """`k of n (95 %: a to b %)`, rounded outwards; `(97.5 %: at most b %)` where k is 0, `at least` where it is n."""
     low, high = clopper_pearson(k, n)
-    return f"{k} of {n} (95 %: {100 * low:.2f} to {100 * high:.2f} %)"
+    low, high = math.floor(1e4 * low) / 100, math.ceil(1e4 * high) / 100
+    if k in (0, n) and n > 0:
+        return f"{k} of {n} (97.5 %: " + (f"at most {high:.2f} %)" if k == 0 else f"at least {low:.2f} %)")
+    return f"{k} of {n} (95 %: {low:.2f} to {high:.2f} %)"

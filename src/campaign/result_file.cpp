@@ -185,13 +185,14 @@ std::string summary_text(const CampaignFile& file, const Progress& progress) {
   std::string out = fmt::format("{}: {} of {}, {}, seed {}\n", file.plan.name, progress.done,
                                 count_text(file.plan.scenarios, "scenario"),
                                 count_text(file.plan.cells.size(), "combination"), file.plan.seed);
-  out += fmt::format("{:<28}{:>10}  {:<12}{:<26}{}\n", "", "count", "rate", "95 % Clopper-Pearson", "");
+  out += fmt::format("{:<28}{:>10}  {:<12}{:<26}{}\n", "", "count", "rate", "Clopper-Pearson*", "");
   for (int k = 1; k < kCounts; ++k) {
     const auto count = static_cast<Count>(k);
     const study::Proportion p = study::proportion(tally.total(count), trials);
-    out += fmt::format("{:<28}{:>10}  {:<12.4g}{:<26}{}\n", to_string(count), p.count, p.share(),
-                       fmt::format("[{:.3g}, {:.3g}]", p.low, p.high), words_of(count));
+    out += fmt::format("{:<28}{:>10}  {:<12}{:<26}{}\n", to_string(count), p.count, study::rounded_share(p),
+                       study::interval_text(p), words_of(count));
   }
+  out += fmt::format("* {}\n", study::kIntervalNote);
   const double block_s = file.plan.window / file.plan.rate_hz;
   const auto times = [&out, block_s](const char* what, const std::array<std::uint64_t, kMostBlocks>& histogram) {
     out += fmt::format("{}: median {}, 95 % {}, 99 % {} blocks of {:.3g} s\n", what, quantile_blocks(histogram, 0.5),

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fit_pictures.hpp"
+#include "known_attitude_option.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/words.hpp"
@@ -27,6 +28,7 @@ struct CalibrateOptions {
   session::CalibrationChoice choice;
   std::string plots;
   session::CalibrationTag tag;
+  std::vector<std::string> known_attitudes;  ///< as written
   bool suggest = false;
   bool json = false;
   bool verbose = false;
@@ -106,8 +108,9 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
+  take_known_attitudes(options.known_attitudes, *array);
   if (options.rolls && array->input.roll_group_column.empty()) {
     return report(
         io::FileError{options.array, 0, "input.roll_group",
@@ -171,6 +174,7 @@ Command add_calibrate(const Options& tool) {
       .check(serial_refusal)
       .type_name("TEXT");
   add_bad_row_option(command, options->log.on_bad_row);
+  add_known_attitude_option(command, options->known_attitudes);
   command.add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
   command
       .add_option(

@@ -246,10 +246,10 @@ std::string hessian_note(const study::Proportion& ends) {
   return fmt::format(
       "The paper's cost uses only the length of gravity, so it determines 9 of the 20 parameters of four sensors (9 "
       "of the 12 of a triple) and the Hessian of eq (11) is singular. As printed, with its plain inverse, the "
-      "iteration met its stop rule within 100 steps in {} of {} simulated tools ({:.0f} %, 95 % interval {:.1f} to "
-      "{:.1f} %; which ones depends on the rounding of the machine). The paper's method as shown here therefore "
+      "iteration met its stop rule within 100 steps in {} of {} simulated tools ({} %, {}; "
+      "which ones depends on the rounding of the machine). The paper's method as shown here therefore "
       "takes the smallest step that satisfies the nine observable directions; it always ends.",
-      ends.count, ends.trials, 100.0 * ends.share(), 100.0 * ends.low, 100.0 * ends.high);
+      ends.count, ends.trials, study::rounded_share(ends, 2, 100.0), study::interval_words(ends, 3, 100.0));
 }
 
 nlohmann::ordered_json facts_of(const std::vector<FitHistory>& histories, const study::Proportion& ends) {

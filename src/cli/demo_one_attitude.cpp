@@ -109,8 +109,8 @@ std::string script_of(const std::vector<Line>& lines) {
 }
 
 std::string interval(const study::Proportion& p) {
-  return fmt::format("{} of {}, {:.2f} % ({:.2f} to {:.2f})", p.count, p.trials, 100.0 * p.share(), 100.0 * p.low,
-                     100.0 * p.high);
+  return fmt::format("{} of {}, {} % ({} to {})", p.count, p.trials, study::rounded_share(p, 3, 100.0),
+                     study::rounded_down(100.0 * p.low, 3, 100.0), study::rounded_up(100.0 * p.high, 3, 100.0));
 }
 
 render::Table table_of(const std::vector<Line>& lines) {

@@ -9,6 +9,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/render/measured_words.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/scenario/fault_text.hpp"
@@ -288,11 +289,11 @@ render::Table changes_table(const Timeline& timeline) {
   table.state_column = 1;
   for (const TimelineRow& row : timeline.rows) {
     const bool tested = row.limit > 0.0;
-    table.rows.push_back({fmt::format("{:.2f}", row.time_s), to_string(row.state), to_string(row.cause), row.sensors,
-                          tested ? fmt::format("{:.4g}", row.statistic) : "–",
-                          tested ? fmt::format("{:.4g}", row.limit) : "–",
-                          row.has_inclination ? fmt::format("{:.2f}", row.inclination_deg) : "–",
-                          to_string(row.validity), row.explanation});
+    table.rows.push_back(
+        {fmt::format("{:.2f}", row.time_s), to_string(row.state), to_string(row.cause), row.sensors,
+         tested ? fmt::format("{:.4g}", row.statistic) : "–", tested ? fmt::format("{:.4g}", row.limit) : "–",
+         row.has_inclination ? render::angle_words(row.inclination_deg, row.inclination_sigma_deg) : "–",
+         to_string(row.validity), row.explanation});
   }
   table.note =
       "An alarm is a statistic above its limit; both are in standard deviations of the noise (for cause mae: in "

@@ -9,6 +9,7 @@
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/monitor_limits.hpp"
 #include "plumb/render/monitor_summary.hpp"
+#include "plumb/render/nothing_judged_words.hpp"
 #include "plumb/render/roll_test_words.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/session/days_since.hpp"
@@ -43,18 +44,39 @@ io::FileExpected<void> keep(const std::string& snapshot_path, const HealthMonito
 /// `run` has refused the options: there is nothing to keep.
 io::FileExpected<void> keep(const std::string&, const PaperMonitor&) { return {}; }
 
+/// The log once more, to see why; nothing where it cannot be read again.
+std::optional<findings::NothingJudgedStudy> looked_at_again(const MonitorOptions& options, const io::ArrayFile& array) {
+  if (options.log.path == "-") return std::nullopt;
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log.path, array, io::BadRowPolicy::skip);
+  if (!reader) return std::nullopt;
+  findings::NothingJudgedStudent student(array);
+  Sample sample;
+  while (reader->next(sample) == io::LogReader::Next::row && !interrupted())
+    student.add(sample, reader->rotation().turning);
+  return student.study();
+}
+
 /// A run without one block at rest says nothing about any sensor, which is not the same as finding none at fault.
 io::FileError nothing_judged(const MonitorOptions& options, const io::ArrayFile& array,
                              const session::MonitorRun& run) {
-  return {options.log.path,
-          0,
-          "",
-          fmt::format("nothing was judged: none of its {} is in a block of {} at rest",
-                      count_text(run.samples, "sample"), array.monitor.window),
-          fmt::format("hold the tool still for at least {} at each attitude; if it was still, check the unit of "
-                      "[input] and the noise of each [[sensor]] in {}",
-                      count_text(array.monitor.window, "sample"), array.path),
-          io::ExitCode::nothing_judged};
+  io::FileError out{options.log.path,
+                    0,
+                    "",
+                    fmt::format("nothing was judged in {}", count_text(run.samples, "sample")),
+                    "",
+                    io::ExitCode::nothing_judged};
+  const std::optional<findings::NothingJudgedStudy> study = looked_at_again(options, array);
+  if (study) {
+    const render::Refusal words = render::nothing_judged_words(*study, array);
+    out.what += ": " + words.reason;
+    out.remedy = words.next;
+    return out;
+  }
+  out.what += fmt::format(": none belong to a block of {} at rest", array.monitor.window);
+  out.remedy =
+      fmt::format("record the stream to a file and give it with --log, to be told why; a block needs {} at rest",
+                  count_text(array.monitor.window, "sample"));
+  return out;
 }
 
 /// What the run goes on from.

@@ -14,6 +14,7 @@
 #include "plumb/render/basis_json.hpp"
 #include "plumb/render/health_page.hpp"
 #include "plumb/render/identity.hpp"
+#include "plumb/render/wiring_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -159,6 +160,9 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
     calibration = *std::move(read);
   }
   report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);
+  const findings::WiringCheck wiring = findings::check_wiring_of(calibration ? &*calibration : nullptr, array_);
+  report["basis"]["wiring"] = render::wiring_json(wiring, array_);
+  report["answer"]["open_items"] = render::wiring_items(wiring, array_);
   const char* const ended = run.stopped ? "in an error" : (run.interrupted ? "by an interruption" : "log complete");
   report["identity"] =
       io::object({{"name", array_.name},

@@ -26,6 +26,7 @@ using command::overwritten;
 using command::print;
 using command::print_error;
 using command::print_now;
+using command::print_status;
 using command::Reading;
 using command::report;
 using command::seed_refusal;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "known_attitude_option.hpp"
 #include "plot_files.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
@@ -180,6 +181,7 @@ Command add_verify(const Options& tool) {
       .type_name("N");
   command.add_option("--stations", options->stations, "a log of attitudes held still, to calibrate from")
       .type_name("LOG.csv");
+  add_known_attitude_option(command, options->known_attitudes);
   command
       .add_option("--scenarios", options->scenarios,
                   "of each campaign; by default 20000 up to 6 sensors, 10000 up to 8, 2000 up to 12, 500 above")

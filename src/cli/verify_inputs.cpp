@@ -1,5 +1,6 @@
 #include "verify_inputs.hpp"
 
+#include "known_attitude_option.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/change.hpp"
@@ -36,6 +37,7 @@ io::FileExpected<VerifyInputs> read_inputs(const VerifyOptions& options, Verific
   std::optional<io::FileError> error;
   const auto fail = [&error] { return tl::unexpected<io::FileError>(*error); };
   if (!take(io::read_array_file(options.array), out.array, error)) return fail();
+  take_known_attitudes(options.known_attitudes, out.array);
   inputs.limits = verification::limits_of(out.array);
   if (!options.limits.empty() && !take(verification::read_limits(options.limits, out.array), inputs.limits, error))
     return fail();

@@ -37,7 +37,7 @@ class TrialWatch {
  public:
   TrialWatch(std::string what, std::uint64_t of) : what_(std::move(what)), of_(of), on_(::isatty(STDERR_FILENO) != 0) {}
   ~TrialWatch() {
-    if (on_) print_error("\r\033[K");
+    if (on_) print_status("\r\033[K");
   }
   TrialWatch(const TrialWatch&) = delete;
   TrialWatch& operator=(const TrialWatch&) = delete;
@@ -45,8 +45,8 @@ class TrialWatch {
     if (on_) {
       const double elapsed_s = seconds_since(start_);
       const double left_s = done > 0 ? elapsed_s * static_cast<double>(of_ - done) / static_cast<double>(done) : 0.0;
-      print_error(fmt::format("\r{}: {} of {}{}\033[K", what_, done, of_,
-                              done > 0 ? fmt::format(", {:.0f} s left", left_s) : std::string()));
+      print_status(fmt::format("\r{}: {} of {}{}\033[K", what_, done, of_,
+                               done > 0 ? fmt::format(", {:.0f} s left", left_s) : std::string()));
     }
     return !interrupted();
   }
@@ -159,6 +159,7 @@ std::string command_of(const VerifyOptions& options, std::uint64_t scenarios) {
   add("--resources", options.resources);
   if (options.days_since_calibration > 0.0)
     add("--days-since-calibration", io::shortest(options.days_since_calibration));
+  for (const std::string& known : options.known_attitudes) add("--known-attitude", known);
   for (const std::string& path : options.reuse) add("--reuse", path);
   add("--compare", options.compare);
   return out + fmt::format(" --scenarios {} --seed {}", scenarios, options.seed);
@@ -180,6 +181,7 @@ void judge_all(const VerifyInputs& inputs, const render::CalibrationPart& part, 
   facts.samples_per_row = part.samples_per_row;
   facts.array = std::move(array);
   facts.calibration = part.facts;
+  facts.wiring = part.wiring;
   facts.trace = trace;
   if (inputs.analysis) facts.analysis_findings = inputs.analysis->findings;
   if (inputs.resources) facts.target = inputs.resources->items;

@@ -21,7 +21,8 @@ using Json = nlohmann::ordered_json;
 struct VerifyOptions {
   std::string array, limits, calibration, stations, out = "verification", compare, test_results, assurance,
                                                     traceability, analysis, resources;
-  std::vector<std::string> reuse;  ///< finished results of the campaigns, larger than those played here
+  std::vector<std::string> known_attitudes;  ///< as written
+  std::vector<std::string> reuse;            ///< finished results of the campaigns, larger than those played here
   std::uint64_t seed = 1;
   std::optional<std::uint64_t>
       scenarios;  ///< of each campaign; by default fewer for larger arrays, so that it takes minutes

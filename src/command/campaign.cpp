@@ -14,6 +14,7 @@
 #include "plumb/campaign/result_file.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/io/printable.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/render/timeline.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -67,7 +68,7 @@ class Watch {
   Watch(const CampaignOptions& options, const CampaignFile& file, std::uint64_t before)
       : options_(options), file_(file), before_(before), on_terminal_(::isatty(STDERR_FILENO) != 0) {}
   ~Watch() {
-    if (shown_) print_error("\r\033[K");
+    if (shown_) print_status("\r\033[K");
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -87,9 +88,10 @@ class Watch {
     const double rate = static_cast<double>(progress.done - before_) / std::max(elapsed_s, 1e-3);
     const double left_s = static_cast<double>(file_.plan.scenarios - progress.done) / std::max(rate, 1e-9);
     shown_ = true;
-    print_error(fmt::format("\r{}: {} of {}, {:.0f}/s, {} left; wrong exclusions {}\033[K", file_.plan.name,
-                            progress.done, count_text(file_.plan.scenarios, "scenario"), rate, duration(left_s),
-                            progress.tally.total(Count::wrong_exclusion)));
+    print_status(fmt::format("\r{}: {} of {}, {:.0f}/s, {} left; wrong exclusions {}\033[K",
+                             io::printable_line(file_.plan.name), progress.done,
+                             count_text(file_.plan.scenarios, "scenario"), rate, duration(left_s),
+                             progress.tally.total(Count::wrong_exclusion)));
   }
 
   const CampaignOptions& options_;

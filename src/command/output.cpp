@@ -1,6 +1,9 @@
 #include "output.hpp"
 
 #include <cstdio>
+#include <string>
+
+#include "plumb/io/printable.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -12,7 +15,8 @@ bool g_output_failed = false;
 }  // namespace
 
 void print(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) g_output_failed = true;
+  const std::string shown = io::printable(text);
+  if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) g_output_failed = true;
 }
 
 void print_now(std::string_view text) {
@@ -20,7 +24,9 @@ void print_now(std::string_view text) {
   if (std::fflush(stdout) != 0) g_output_failed = true;
 }
 
-void print_error(std::string_view text) {
+void print_error(std::string_view text) { print_status(io::printable(text)); }
+
+void print_status(std::string_view text) {
   // What was said before on standard output comes first, also where both go to one file.
   std::fflush(stdout);
   std::fwrite(text.data(), 1, text.size(), stderr);

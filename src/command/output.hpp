@@ -14,6 +14,9 @@ namespace command {
 void print(std::string_view text);
 void print_now(std::string_view text);  ///< and flushes: for what someone is waiting for
 void print_error(std::string_view text);
+/// A line that is written over and over on a terminal, with its control characters; names in it must be `printable`.
+/// All others write control characters out.
+void print_status(std::string_view text);
 /// "plumb: <text>" on standard error; returns the code of the error.
 io::ExitCode report(const io::FileError& error);
 bool output_is_sound();

@@ -5,6 +5,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/detection/isolation.hpp"
+#include "plumb/findings/unseen_wiring.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -59,9 +60,10 @@ void find_remounts(const SensorArray& array, std::vector<SensorStudy>& sensors) 
   }
 }
 
-/// Reversals, exchanges of two, turns of three: those that stay below the limits of a block.
+/// Reversals, exchanges of two, turns of three: those that stay below the limits of a block, and those that a
+/// calibration takes for errors of mounting within `axis_tolerance_rad`.
 std::vector<HiddenWiring> hidden_wirings(const SensorArray& array, const GravityReference& gravity,
-                                         const ErrorBudget& budget) {
+                                         const ErrorBudget& budget, double axis_tolerance_rad) {
   const int n = array.size();
   double noise = 0.0;
   for (int i = 0; i < n; ++i) noise = std::fmax(noise, budget.noise_mps2[at(i)] + budget.systematic_mps2[at(i)]);
@@ -72,7 +74,8 @@ std::vector<HiddenWiring> hidden_wirings(const SensorArray& array, const Gravity
   using Kind = HiddenWiring::Kind;
   const auto consider = [&](const Wiring& wiring, Kind kind, const std::array<int, 3>& sensor) {
     const WiringEffect effect = wiring_effect(array, wiring);
-    if (effect.unseen(parity + 1e-12, length) && effect.turn_rad > kHarmless_rad) out.push_back({kind, sensor, effect});
+    const bool unseen = effect.unseen(parity + 1e-12, length) || unseen_turn(array, wiring, axis_tolerance_rad);
+    if (unseen && effect.turn_rad > kHarmless_rad) out.push_back({kind, sensor, effect});
   };
   for (int i = 0; i < n; ++i) {
     consider(Wiring::reversed(i), Kind::reversed, {i, -1, -1});
@@ -200,8 +203,20 @@ TestSettings settings_of(const io::ArrayFile& array, double days_since_calibrati
 
 int hidden_wiring_count(const io::ArrayFile& array) {
   const ErrorBudget budget = error_budget(array.array, array.gravity, settings_of(array));
-  return static_cast<int>(hidden_wirings(array.array, array.gravity, budget).size());
+  return static_cast<int>(hidden_wirings(array.array, array.gravity, budget, kUnseenAxis_rad).size());
 }
+
+namespace {
+
+/// By the axes of the datasheet: those of a calibration have been fitted to whatever the wiring was.
+std::vector<HiddenWiring> hidden_wirings_of(const GeometrySubject& subject, const ErrorBudget& budget) {
+  if (!subject.file) return hidden_wirings(subject.array, subject.gravity, budget, kUnseenAxis_rad);
+  const SensorArray& nominal = subject.file->array;
+  return hidden_wirings(nominal, subject.gravity, error_budget(nominal, subject.gravity, subject.settings),
+                        kUnseenAxis_rad);
+}
+
+}  // namespace
 
 GeometryStudy study_geometry(const GeometrySubject& subject) {
   const SensorArray& array = subject.array;
@@ -216,7 +231,7 @@ GeometryStudy study_geometry(const GeometrySubject& subject) {
   out.correlated_grade = spare > 0 ? spare / 2 : 0;
   out.sensors = sensors_of(subject);
   find_remounts(array, out.sensors);
-  out.hidden = hidden_wirings(array, subject.gravity, out.budget);
+  out.hidden = hidden_wirings_of(subject, out.budget);
   out.levels = levels_of(subject);
   if (out.merit.confirmed_grade > 0) {
     const auto one = std::make_unique<OneAttitude>(array, subject.gravity, out.budget);

@@ -22,9 +22,9 @@ const std::vector<std::string>& known_sections() {
 }
 
 const std::vector<std::string>& known_input_keys() {
-  static const std::vector<std::string> names = {"rows",       "time",           "time_unit", "rate",        "station",
-                                                 "roll_group", "count",          "where",     "temperature", "reads",
-                                                 "unit",       "rotation_radps", "depth",     "depth_unit"};
+  static const std::vector<std::string> names = {
+      "rows",        "time",  "time_unit", "rate",           "station", "roll_group", "count",          "where",
+      "temperature", "reads", "unit",      "rotation_radps", "depth",   "depth_unit", "known_attitudes"};
   return names;
 }
 
@@ -78,6 +78,21 @@ void read_depth(const TomlTable& table, InputSpec& input) {
   input.depth_unit_m = table.checked(parse_quantity(Quantity::length, "1 " + text), "depth_unit", value);
   if (input.depth_column.empty())
     table.fail(value.line, "depth_unit", "needs a depth column", "add depth = \"<column>\", or remove this key");
+}
+
+void read_known_attitudes(const TomlTable& table, InputSpec& input) {
+  const TomlNode* list = table.find("known_attitudes");
+  if (list == nullptr) return;
+  const std::string form =
+      "list stations of the calibration log with inclination and toolface in deg: known_attitudes = [\"7:60,40\"]";
+  if (list->kind != TomlNode::Kind::array) table.fail(list->line, "known_attitudes", "must be a list of texts", form);
+  for (const TomlNode& item : list->items) {
+    if (item.kind != TomlNode::Kind::text)
+      table.fail(list->line, "known_attitudes", "holds an entry that is not a text", form);
+    const tl::expected<KnownAttitude, std::string> one = parse_known_attitude(item.text);
+    if (!one) table.fail(list->line, "known_attitudes", one.error(), form);
+    input.known_attitudes.push_back(*one);
+  }
 }
 
 void read_where(const TomlTable& table, InputSpec& input) {
@@ -200,6 +215,7 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   input.temperature_column = table.text("temperature", "");
   read_rotation(table, input);
   read_depth(table, input);
+  read_known_attitudes(table, input);
   read_where(table, input);
   return input;
 }

@@ -22,6 +22,8 @@ const std::vector<std::string>& known_keys() {
 
 constexpr std::size_t kLongestId = 15;
 constexpr double kLongestArm_m = 100.0;
+/// A tenth of a ng0: the best there are reach some ng0 in a second.
+constexpr double kLeastNoise_mps2 = 1e-9;
 
 /// Everything that reading one sensor needs besides its table.
 struct Surroundings {
@@ -155,6 +157,13 @@ DatasheetSensor read_sensor(const TomlTable& table, const Surroundings& around) 
   const std::string text = table.text_with_unit(noise, "noise", accepted_raw_units());
   const double sigma_mps2 = table.checked(parse_as_acceleration(text, around.unit, std::abs(scale)), "noise", noise);
   refuse_unless_positive(table, "noise", sigma_mps2, remedy);
+  if (sigma_mps2 < kLeastNoise_mps2)
+    table.fail(noise.line, "noise",
+               "is " + brief(sigma_mps2) +
+                   " m/s^2, below 1e-9 m/s^2 (0.1 ng0): no accelerometer is that quiet, and every "
+                   "limit follows from it",
+               "give the noise as the datasheet or a recording at rest states it, 1 sigma of one sample: noise = \"0.5 "
+               "mg\"");
   sensor.row.sigma_mps2 = sigma_mps2;
   sensor.full_scale_raw = read_raw(table, "full_scale", around.unit, scale);
   sensor.resolution_raw = read_raw(table, "resolution", around.unit, scale);

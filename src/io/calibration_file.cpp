@@ -106,6 +106,19 @@ Json from_misalignment(const SensorModel& model, std::size_t n) {
   return rows;
 }
 
+/// The stations: where the fit shows down, and what is known of them from elsewhere.
+void put_attitudes(const CalibrationContext& context, Json& root) {
+  if (context.down.empty()) return;
+  Json down = Json::array(), known = Json::array();
+  for (const Vec3& one : context.down) down.push_back(from_array(one, 3));
+  for (const KnownAttitude& one : context.known_attitudes)
+    known.push_back(object({{"station", one.station},
+                            {"inclination_rad", from_double(one.inclination_rad)},
+                            {"toolface_rad", from_double(one.toolface_rad)},
+                            {"tolerance_rad", from_double(one.tolerance_rad)}}));
+  root["attitudes"] = object({{"down", std::move(down)}, {"known", std::move(known)}});
+}
+
 /// Objects one member a line, lists of plain values on one line: readable, and 4n lines rather than 8n^2.
 void print(const Json& value, int indent, std::string& out) {  // NOLINT(misc-no-recursion) five levels
   const bool nested = value.is_object() ||
@@ -167,6 +180,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
                                {"plumb_version", context.plumb_version}});
   if (!context.date.empty()) root["provenance"]["date"] = context.date;
   if (!context.serial.empty()) root["provenance"]["serial"] = context.serial;
+  put_attitudes(context, root);
   root["report"] = from_report(calibration.report, n);
   root["sensors"] = from_sensors(calibration);
   root["paper_parameters"] = from_paper_parameters(array.array, calibration);

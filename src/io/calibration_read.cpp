@@ -226,6 +226,29 @@ Calibration read_content(const Source& source, const Json& root, const ArrayFile
   return out;
 }
 
+void read_attitudes(const Source& source, const Json& object, CalibrationContext& context) {
+  const Json& down = source.member(object, "down");
+  const Json& known = source.member(object, "known");
+  if (!down.is_array() || !known.is_array())
+    source.fail(source.line_of("attitudes", "\"down\""), "attitudes", "is not a list", kMakeAnew);
+  for (const Json& one : down) {
+    context.down.emplace_back();
+    source.numbers(one, "down", context.down.back().data(), 3);
+  }
+  for (const Json& one : known) {
+    KnownAttitude& to = context.known_attitudes.emplace_back();
+    to.station = source.whole_of<int>(one, "station");
+    to.inclination_rad = source.number_of(one, "inclination_rad");
+    to.toolface_rad = source.number_of(one, "toolface_rad");
+    to.tolerance_rad = source.number_of(one, "tolerance_rad");
+    const bool there = to.station >= 1 && static_cast<std::size_t>(to.station) <= context.down.size();
+    const bool finite = std::isfinite(to.inclination_rad) && std::isfinite(to.toolface_rad);
+    if (!there || !finite || !(to.tolerance_rad > 0.0 && to.tolerance_rad < 1.0))
+      source.fail(source.line_of("attitudes", "\"known\""), "attitudes.known", "is not of a station of this file",
+                  kMakeAnew);
+  }
+}
+
 CalibrationContext read_context(const Source& source, const Json& root) {
   CalibrationContext context;
   const Json& gravity = source.member(root, "gravity");
@@ -244,6 +267,7 @@ CalibrationContext read_context(const Source& source, const Json& root) {
     const FileExpected<int> day = day_number(context.date);
     if (!day) source.fail(source.line_of("provenance", "\"date\""), "provenance.date", day.error().what, kMakeAnew);
   }
+  if (root.contains("attitudes")) read_attitudes(source, root["attitudes"], context);
   if (provenance.contains("serial")) context.serial = source.text_of(provenance, "serial");
   return context;
 }

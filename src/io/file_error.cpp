@@ -1,5 +1,6 @@
 #include "plumb/io/file_error.hpp"
 
+#include "plumb/io/printable.hpp"
 #include "text_tools.hpp"
 
 namespace plumb {
@@ -7,13 +8,13 @@ inline namespace PLUMB_ABI {
 namespace io {
 
 std::string FileError::text() const {
-  std::string out = file;
+  std::string out = printable_line(file);
   if (line > 0) out += (out.empty() ? "line " : ":") + std::to_string(line);
   if (!out.empty()) out += ": ";
-  if (!field.empty()) out += field + ": ";
-  out += what;
+  if (!field.empty()) out += printable_line(field) + ": ";
+  out += printable(what);
   if (!out.empty() && out.back() != '.' && out.back() != '?') out += '.';
-  if (!remedy.empty()) out += " Remedy: " + remedy + (remedy.back() == '.' ? "" : ".");
+  if (!remedy.empty()) out += " Remedy: " + printable(remedy) + (remedy.back() == '.' ? "" : ".");
   return out;
 }
 

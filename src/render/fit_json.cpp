@@ -10,6 +10,7 @@
 #include "plumb/findings/geometry_study.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/fit_report.hpp"
+#include "plumb/render/wiring_words.hpp"
 #include "sensor_fields.hpp"
 #include "temperature_json.hpp"
 
@@ -236,6 +237,7 @@ std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& a
   const std::string unit = temperature_unit_words(run, array);
   out["temperature_unit"] = unit.empty() ? Json() : Json(unit);
   out["unobservable_permutation_count"] = findings::hidden_wiring_count(array);
+  out["wiring"] = run.study.shown ? wiring_json(run.wiring, array) : Json();
   out["stations"] = stations_json(run);
   out["fit"] = fit_object(run);
   out["outliers"] = outliers_json(run, array);

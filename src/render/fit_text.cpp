@@ -9,9 +9,9 @@
 #include "plumb/core/units.hpp"
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/fit_remarks.hpp"
-#include "plumb/findings/geometry_study.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
+#include "plumb/render/wiring_words.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "sensor_fields.hpp"
@@ -108,11 +108,9 @@ std::string fit_section(const findings::CalibrationRun& run, const io::ArrayFile
   out += line("rank", rank);
   if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
   if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
-  if (const int hidden = findings::hidden_wiring_count(array); hidden > 0) {
-    out += line("wiring", fmt::format("{} (exchanged or reversed channels) {} in no recording of "
-                                      "this array: see `plumb geometry`, and check one known attitude by hand",
-                                      count_text(hidden, "mistake of wiring", "mistakes of wiring"),
-                                      by_count(hidden, "shows", "show")));
+  if (run.study.shown) {
+    const bool open = run.wiring.status == findings::WiringStatus::open;
+    out += line("wiring", (open ? "OPEN: " : "") + wiring_text(run.wiring, array));
   }
   if (const std::string axis = roll_axis_words(r); !axis.empty()) out += line("roll axis", axis);
   const std::vector<std::string> unseen = unobservable(run, array);

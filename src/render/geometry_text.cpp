@@ -140,7 +140,10 @@ std::string bias_text(const GeometrySubject& subject, const GeometryStudy& study
 
 std::string wiring_text(const SensorArray& array, const GeometryStudy& study) {
   std::string out = "\nwiring and mounting\n";
-  if (study.hidden.empty()) out += "  every reversed sensor, exchange of two and permutation of three is detected\n";
+  if (study.hidden.empty())
+    out +=
+        "  every reversed sensor, exchange of two and permutation of three is detected (not all sensors reversed at "
+        "once)\n";
   std::size_t listed = 0;
   for (const HiddenWiring& h : study.hidden) {
     if (listed++ == kMostListed) {

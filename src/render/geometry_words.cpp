@@ -67,8 +67,9 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
       return fmt::format("a bias common to all sensors is invisible in parity and moves the vector by {:.2f} of it",
                          f.value);
     case Code::unobservable_permutations:
-      return fmt::format("{} {} not detectable at any attitude; check one known attitude by hand",
-                         count_text(study.hidden.size(), "wiring error"), by_count(study.hidden.size(), "is", "are"));
+      return fmt::format(
+          "{} {} not detectable at any attitude; give plumb calibrate one known attitude (--known-attitude)",
+          count_text(study.hidden.size(), "wiring error"), by_count(study.hidden.size(), "is", "are"));
     case Code::many_sensors:
       return fmt::format("above {} sensors the monitor has no confirmed grade, and no provisional grade above {}",
                          kStrictCapacity, kScanDepth);

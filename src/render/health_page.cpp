@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/render/figures.hpp"
+#include "plumb/render/measured_words.hpp"
 #include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
@@ -22,10 +25,8 @@ std::string fixed(const Json& value, double factor, int decimals) {
 }
 /// Three decimals, however large.
 std::string seconds(const Json& value) { return fixed(value, 1.0, 3); }
-std::string degrees(const Json& value) { return fixed(value, 1.0, 3); }
-std::string with_sigma(const Json& value, const Json& sigma) {
-  return value.is_number() ? degrees(value) + " ± " + shown(sigma) : "-";
-}
+double number(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+std::string with_sigma(const Json& value, const Json& sigma) { return angle_with_sigma(number(value), number(sigma)); }
 std::string why(const Json& station) {
   const std::string out = joined_list(station["reasons"], "text");
   return out == "-" ? "" : out;
@@ -38,6 +39,13 @@ Section answer_view(const Json& report) {
   std::vector<std::string> actions;
   for (const Json& action : a["actions"]) actions.push_back(action);
   out.list("What to do", actions);
+  std::vector<std::string> open;
+  for (const Json& item : a["open_items"])
+    open.push_back(item["name"].get<std::string>() + ": " + item["text"].get<std::string>());
+  if (!open.empty()) {
+    out.notice("What this run cannot show is still open. Inclination and toolface rest on it.", "open");
+    out.list("Open items", open);
+  }
   out.figures({{"Usable for survey", a["usable_for_survey"], "the tool as it is at the end of the run"},
                {"Green stations", a["green"].dump(), "use them"},
                {"Orange stations", a["orange"].dump(), "for orientation only"},
@@ -56,8 +64,9 @@ ViewRows station_rows(const Json& report) {
   ViewRows rows;
   for (const Json& s : report["stations"]) {
     const std::string colour = s["colour"];
-    rows.push_back({s["number"], seconds(s["begin_s"]), s["depth_m"], ViewCell(colour, tone_of_colour(colour)),
-                    fixed(s["length_mps2"], kMg0, 3), shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
+    rows.push_back({s["number"], seconds(s["begin_s"]), depth_words(number(s["depth_m"])),
+                    ViewCell(colour, tone_of_colour(colour)), fixed(s["length_mps2"], kMg0, 3),
+                    shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
                     with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
                     with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), s["protection_level_deg"],
                     joined_list(s["used"]), why(s)});
@@ -160,6 +169,7 @@ Section basis_view(const Json& report) {
             "From [gravity] of the array file.");
   out.text("Drift since the calibration: " + basis["drift"]["text"].get<std::string>() +
            ". What a reading drifts by beyond that is in no limit and in no bound on the direction.");
+  out.text("Wiring: " + basis["wiring"]["text"].get<std::string>() + ".");
   if (c.is_null()) {
     out.text("There was no calibration file: the run began by calibrating itself.");
     return out;

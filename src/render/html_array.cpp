@@ -59,11 +59,13 @@ void limits_tables(const Json& array, Section& out) {
   for (const Json& h : array["unobservable_permutations"])
     hidden.push_back({h["what"], h["turn_deg"], h["inclination_deg"]});
   if (hidden.empty()) {
-    out.text("Every reversed sensor, exchange of two and turn of three shows in a recording.");
+    out.text(
+        "Every reversed sensor, exchange of two and turn of three shows in a recording. That all sensors are reversed "
+        "at once does not.");
   } else {
     out.table("Wiring errors that are not detectable at any attitude",
               {"mistake", "vector turned by, deg", "inclination off by, deg"}, hidden,
-              "Check one known attitude by hand.", true);
+              "By the axes of the datasheet. One station of known attitude excludes them: --known-attitude.", true);
   }
 }
 

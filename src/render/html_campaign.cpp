@@ -7,6 +7,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "plumb/study/proportion.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -15,7 +16,7 @@ namespace {
 
 /// k of n and the interval, behind what was counted.
 std::vector<ViewCell> rate_row(const std::string& words, const Json& rate) {
-  return {words, shown(rate["count"]), shown(rate["of"]), shown(rate["low"], 100.0), shown(rate["high"], 100.0)};
+  return {words, shown(rate["count"]), shown(rate["of"]), lower_end(rate), upper_end(rate)};
 }
 
 /// Rates that bring their words.
@@ -27,8 +28,8 @@ ViewRows rate_rows(const Json& rates) {
 
 void rates_table(const Json& rates, Section& out) {
   out.table("All scenarios of the fault campaign", {"results", "k", "of n", "from, %", "to, %"}, rate_rows(rates),
-            "A scenario may count in several rows; those drawn without a fault count too. Every rate with its 95 % "
-            "Clopper-Pearson interval.");
+            "A scenario may count in several rows; those drawn without a fault count too. " +
+                std::string(study::kIntervalNote) + ".");
 }
 
 /// The unit of the campaign's sizes, which is not the size that section 2 guarantees.
@@ -70,11 +71,12 @@ void fault_table(const Json& faults, Section& out) {
       {"fault", "sensors", "detected", "isolated exactly", "healthy one excluded", "misleading",
        "tilt before alarm, deg", "tilt while usable, deg"},
       rows,
-      std::string(
-          "k/n (95 % interval). Names as in plumb inject: stuck at a level, last value held, random, noise, missing, "
-          "drift, scale, "
-          "axis turned, spikes, bias in multiples of the minimal detectable one (MDB), ghost = a gravity that is "
-          "turned.") +
+      "k/n (interval): " + std::string(study::kIntervalNote) +
+          std::string(
+              ". Names as in plumb inject: stuck at a level, last value held, random, noise, missing, "
+              "drift, scale, "
+              "axis turned, spikes, bias in multiples of the minimal detectable one (MDB), ghost = a gravity that is "
+              "turned.") +
           mdb_words(faults["mdb_mps2"]));
   out.table("Times from the onset, s",
             {"fault", "sensors", "detected", "median", "95 %", "last", "isolated", "median", "95 %", "last"}, times, "",
@@ -188,8 +190,9 @@ void healthy_part(const Json& healthy, Section& out) {
         {"failed", "ended in failed"}})
     rows.push_back(rate_row(words, healthy[key]));
   out.table("Healthy tool", {"what", "k", "of n", "from, %", "to, %"}, rows,
-            "95 % Clopper-Pearson intervals; with the right gravity value and with one wrong by three sigma, in "
-            "equal shares.");
+            std::string(study::kIntervalNote) +
+                "; with the right gravity value and with one wrong by three sigma, in "
+                "equal shares.");
   reused_table(healthy, out);
   worst_table(healthy["worst"], "Worst scenarios without faults", out);
 }
@@ -224,7 +227,7 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
           "Detection and isolation by size", picture_of(pictures, "by-size.svg"),
           "Share of single constant errors detected and isolated, by size in multiples of the minimal detectable "
           "bias, with intervals.",
-          "Single constant errors; bars are 95 % intervals.", "by-size.csv");
+          "Single constant errors; bars are 95 % intervals (97.5 % bounds at 0 and at all).", "by-size.csv");
       out.table("Detection and isolation by size, the data", {"from, MDB", "to, MDB", "detected", "isolated"}, sizes,
                 "", true);
     }

@@ -164,16 +164,16 @@ std::string run_words(const Json& run) {
 
 std::string verification_html(const Json& report, const PagePictures& pictures) {
   const Json& build = report["identity"]["build"];
-  return sections_html(
-      {"Verification of " + report["subject"]["name"].get<std::string>(),
-       fmt::format("{}, judged by plumb {} ({}). Every figure is in report.json beside this page.",
-                   count_text(report["subject"]["sensors"].get<std::uint64_t>(), "sensor"),
-                   build["version"].get<std::string>(), build["commit"].get<std::string>()),
-       "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % Clopper-Pearson.",
-       run_words(report["run"])},
-      {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
-       campaign_view(report, pictures), machine_view(report), trace_view(report), identity_view(report),
-       change_view(report)});
+  return sections_html({"Verification of " + report["subject"]["name"].get<std::string>(),
+                        fmt::format("{}, judged by plumb {} ({}). Every figure is in report.json beside this page.",
+                                    count_text(report["subject"]["sensors"].get<std::uint64_t>(), "sensor"),
+                                    build["version"].get<std::string>(), build["commit"].get<std::string>()),
+                        "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % "
+                        "Clopper-Pearson (97.5 % bounds at 0 and at all), rounded outwards.",
+                        run_words(report["run"])},
+                       {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
+                        campaign_view(report, pictures), machine_view(report), trace_view(report),
+                        identity_view(report), change_view(report)});
 }
 
 }  // namespace render

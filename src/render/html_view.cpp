@@ -8,6 +8,7 @@
 #include "markup.hpp"
 #include "page_template.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/study/proportion.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -49,9 +50,12 @@ std::string shown(const Json& value, double factor) {
   return value.is_string() ? value.get<std::string>() : "-";
 }
 
+std::string lower_end(const Json& rate) { return study::rounded_down(100.0 * rate["low"].get<double>(), 3, 100.0); }
+
+std::string upper_end(const Json& rate) { return study::rounded_up(100.0 * rate["high"].get<double>(), 3, 100.0); }
+
 std::string shown_rate(const Json& rate) {
-  return fmt::format("{}/{} ({} to {} %)", rate["count"].dump(), rate["of"].dump(), shown(rate["low"], 100.0),
-                     shown(rate["high"], 100.0));
+  return fmt::format("{}/{} ({} to {} %)", rate["count"].dump(), rate["of"].dump(), lower_end(rate), upper_end(rate));
 }
 
 const char* tone_of(const std::string& result) {

@@ -19,7 +19,10 @@ namespace render {
 /// Four significant digits; "-" for null. All numbers of the page go through here.
 std::string shown(double value);
 std::string shown(const Json& value, double factor = 1.0);
-/// "3/714, 0.087 to 1.2 %": k of n and the interval.
+/// The ends of its interval in percent, rounded outwards.
+std::string lower_end(const Json& rate);
+std::string upper_end(const Json& rate);
+/// "3/714 (0.0866 to 1.23 %)": k of n and the interval.
 std::string shown_rate(const Json& rate);
 /// A cell of a table; `tone` is "good", "bad", "open" or nothing; `colour` that of the state which it names. What
 /// stands in a Json is shown as above.

@@ -6,6 +6,7 @@
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
 #include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/measured_words.hpp"
 #include "plumb/render/run_findings.hpp"
 #include "plumb/render/timeline.hpp"
 #include "plumb/render/words.hpp"
@@ -62,7 +63,8 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
   out += recalibration_text(v, sensors, frame);
   double inclination_deg = 0.0;
   const bool known = inclination_of(v.gravity_mps2, frame, inclination_deg);
-  out += fmt::format("inclination {}, {} ({})\n", known ? fmt::format("{:.3f} deg", inclination_deg) : "not known",
+  out += fmt::format("inclination {}, {} ({})\n",
+                     known ? angle_words(inclination_deg, inclination_sigma_of(v, frame)) + " deg" : "not known",
                      to_string(v.validity), meaning(v.validity));
   out += "protection  ";
   out += v.protection_available

@@ -12,6 +12,7 @@
 #include "plumb/findings/refusal.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
+#include "plumb/render/wiring_words.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "second_look_words.hpp"
@@ -292,6 +293,8 @@ Refusal dead_columns_words(const std::vector<Finding>& dead, const CalibrationRu
 }  // namespace
 
 Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
+  if (run.wiring.status == findings::WiringStatus::contradicted && run.refusal.code == Errc::ok)
+    return {wiring_reason(run.wiring, array), wiring_remedy(run.wiring, array)};
   const std::vector<Finding> list = findings::refusal_of(run, array);
   if (is_of_column(list.front().code)) return dead_columns_words(list, run, array);
   Refusal out = reason_of(list, run, array);

@@ -11,6 +11,7 @@
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/machine_tables.hpp"
 #include "plumb/render/trials_json.hpp"
+#include "plumb/render/wiring_words.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/library.hpp"
 #include "plumb/scenario/scenario.hpp"
@@ -87,11 +88,22 @@ CalibrationPart part_with(verification::CalibrationFacts facts) {
   return out;
 }
 
+/// What is known of the wiring goes along.
+void put_wiring(const findings::WiringCheck& check, const io::ArrayFile& array, CalibrationPart& out) {
+  using State = verification::WiringFacts::State;
+  const State state = check.status == findings::WiringStatus::confirmed ? State::confirmed
+                      : check.status == findings::WiringStatus::open    ? State::open
+                                                                        : State::contradicted;
+  out.wiring = {state, wiring_found(check), wiring_text(check, array)};
+  out.section["wiring"] = wiring_json(check, array);
+}
+
 /// Of a fit that was made here.
 CalibrationPart part_of(session::CalibrationRun run, const io::ArrayFile& array, const char* mode) {
   const Refusal refusal = run.accepted ? Refusal{} : render::refusal_of(run, array);
   CalibrationPart out = part_with({run.accepted != nullptr, mode, refusal.reason, ""});
   if (!run.accepted) out.section["remedy"] = refusal.next;
+  put_wiring(run.study.shown ? run.wiring : findings::check_wiring(array, {}), array, out);
   out.section["fit"] = io::parsed(fit_json(run, array));
   out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
@@ -145,6 +157,8 @@ scenario::TruthSpans smallest_priors(const Datasheet& datasheet) {
 io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, const io::ArrayFile& array) {
   const io::FileExpected<io::CalibrationFile> file = io::read_calibration(path, array);
   if (!file) return tl::unexpected<io::FileError>(file.error());
+  const io::FileExpected<findings::WiringCheck> wiring = wiring_of(*file, array);
+  if (!wiring) return tl::unexpected<io::FileError>(wiring.error());
   const SensorArray& rows = file->calibration.array;
   const FitReport& report = file->calibration.report;
   CalibrationPart out = part_with(
@@ -166,10 +180,23 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
                                     {"log", file->context.log_file},
                                     {"made_by", file->context.plumb_version}});
   out.section["sensors"] = sensors_of(file->calibration);
+  put_wiring(*wiring, array, out);
   if (!out.facts.taken_for_exact.empty()) out.section["taken_for_exact"] = out.facts.taken_for_exact;
   out.e_cal_mps2 = worst_of(file->calibration);
   out.calibration = std::make_unique<const Calibration>(file->calibration);
   return out;
+}
+
+io::FileExpected<findings::WiringCheck> wiring_of(const io::CalibrationFile& file, const io::ArrayFile& array) {
+  std::vector<io::KnownAttitude> known = file.context.known_attitudes;
+  io::add_known(array.input.known_attitudes, known);
+  auto measured = findings::measured_attitudes(known, file.context.down);
+  if (measured) return findings::check_wiring(array, *std::move(measured));
+  if (!file.context.down.empty())
+    return tl::unexpected<io::FileError>(session::unknown_station(measured.error(), file.context.down.size()));
+  return tl::unexpected<io::FileError>(
+      io::FileError{"--known-attitude", 0, "", "the calibration file does not keep the attitudes of its stations",
+                    "run plumb calibrate again with this plumb, or give the log (--stations)", io::ExitCode::usage});
 }
 
 io::FileExpected<CalibrationPart> calibration_of_stations(const std::string& path, const io::ArrayFile& array) {
@@ -184,7 +211,9 @@ io::FileExpected<CalibrationPart> calibration_of_stations(const std::string& pat
   return out;
 }
 
-CalibrationPart predicted_calibration(const io::ArrayFile& array, std::uint64_t seed) {
+CalibrationPart predicted_calibration(const io::ArrayFile& tool, std::uint64_t seed) {
+  io::ArrayFile array = tool;
+  array.input.known_attitudes.clear();  // of stations of a log, and this stand is none
   const scenario::Scenario stand = planned_stand(array, seed);
   const double dwell_s = stand.dwell_s;
   auto simulator = scenario::Simulator::make(stand);

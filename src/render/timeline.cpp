@@ -11,6 +11,7 @@
 #include "plumb/io/records.hpp"
 #include "plumb/io/units.hpp"
 #include "plumb/navigation/tilt.hpp"
+#include "plumb/render/measured_words.hpp"
 #include "plumb/render/words.hpp"
 
 namespace plumb {
@@ -65,6 +66,12 @@ bool inclination_of(const Vec3& gravity_mps2, const Mat3& frame, double& inclina
   return tilt.inclination_valid;
 }
 
+double inclination_sigma_of(const Verdict& verdict, const Mat3& frame) {
+  const Tilt tilt =
+      tilt_of(io::in_frame(frame, verdict.gravity_mps2), io::covariance_in_frame(frame, verdict.covariance));
+  return tilt.inclination_valid ? deg_from_rad(tilt.inclination_sigma_rad) : 0.0;
+}
+
 TimelineRow power_on_row(double time_s, HealthState state) {
   TimelineRow row;
   row.time_s = time_s;
@@ -86,6 +93,7 @@ TimelineRow restored_row(double time_s, const Verdict& verdict, const Mat3& fram
   row.statistic = verdict.statistic;
   row.limit = verdict.limit;
   row.has_inclination = inclination_of(verdict.gravity_mps2, frame, row.inclination_deg);
+  row.inclination_sigma_deg = inclination_sigma_of(verdict, frame);
   return row;
 }
 
@@ -105,6 +113,7 @@ TimelineRow row_of(const Verdict& verdict, const SensorArray& array, const Mat3&
   row.statistic = record.statistic;
   row.limit = record.limit;
   row.has_inclination = inclination_of(verdict.gravity_mps2, frame, row.inclination_deg);
+  row.inclination_sigma_deg = inclination_sigma_of(verdict, frame);
   return row;
 }
 
@@ -118,10 +127,11 @@ std::string table_header() {
 
 std::string table_line(const TimelineRow& row) {
   const bool tested = row.limit > 0.0;
-  return fmt::format(
-      "{:>10.3f}  {:<13}  {:<17}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n", row.time_s, to_string(row.state),
-      to_string(row.cause), row.sensors, figure_or_dash(row.statistic, tested), figure_or_dash(row.limit, tested),
-      row.has_inclination ? fmt::format("{:.3f}", row.inclination_deg) : "-", to_string(row.validity), row.explanation);
+  return fmt::format("{:>10.3f}  {:<13}  {:<17}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n", row.time_s,
+                     to_string(row.state), to_string(row.cause), row.sensors, figure_or_dash(row.statistic, tested),
+                     figure_or_dash(row.limit, tested),
+                     row.has_inclination ? angle_words(row.inclination_deg, row.inclination_sigma_deg) : "-",
+                     to_string(row.validity), row.explanation);
 }
 
 int timeline_column(const char* name) {

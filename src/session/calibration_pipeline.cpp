@@ -126,6 +126,13 @@ bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) 
   return true;
 }
 
+/// Without the columns that no fit reads: a log of a bench need not have them.
+io::ArrayFile with_what_a_fit_reads(io::ArrayFile array) {
+  array.input.depth_column.clear();
+  array.input.rotation_columns.clear();
+  return array;
+}
+
 /// The stations as they would have been at one temperature, by the calibration.
 std::vector<Station> at_one_temperature(std::vector<Station> stations, const Calibration& calibration) {
   const double degc = calibration.model.sensor[0].reference_degc;
@@ -162,6 +169,31 @@ void fit_by_paper(const io::ArrayFile& array, CalibrationRun& run) {
   run.paper = std::move(paper);
 }
 
+/// Where the fit shows down, by station.
+std::vector<Vec3> shown_down(const CalibrationRun& run) {
+  std::vector<Vec3> out;
+  for (const SeenAttitude& one : run.study.attitudes) out.push_back(one.direction);
+  return out;
+}
+
+/// Compares the fit with what is known of its stations; one that stands otherwise is of a tool that is wired otherwise.
+void judge_wiring(const io::ArrayFile& array, CalibrationRun& run) {
+  const std::vector<Vec3> down = shown_down(run);
+  std::vector<findings::MeasuredAttitude> measured;
+  for (const io::KnownAttitude& one : array.input.known_attitudes) {
+    if (const auto found = findings::measured_attitudes({one}, down)) measured.push_back(found->front());
+  }
+  run.wiring = findings::check_wiring(array, std::move(measured));
+  if (run.wiring.status == findings::WiringStatus::contradicted) run.accepted.reset();
+}
+
+/// A known attitude of a station that the fit does not show: a wrong number, or a station that was set aside.
+std::optional<io::FileError> station_not_shown(const io::ArrayFile& array, const CalibrationRun& run) {
+  if (!run.accepted) return std::nullopt;
+  const auto found = findings::measured_attitudes(array.input.known_attitudes, shown_down(run));
+  return found ? std::nullopt : std::optional<io::FileError>(unknown_station(found.error(), run.stations.size()));
+}
+
 /// Fits the stations of `run` and judges the fit.
 void fit_stations(const io::ArrayFile& array, const CalibrationChoice& choice, CalibrationRun& run) {
   run.options = choice.fit;
@@ -186,6 +218,7 @@ void fit_stations(const io::ArrayFile& array, const CalibrationChoice& choice, C
   }
   // That without roll groups the axis does not matter is no change.
   if (run.concern == Concern::roll_axis && run.second_look.without_groups) run.second_look = findings::SecondLook{};
+  if (run.study.shown) judge_wiring(array, run);
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
 }
 
@@ -201,7 +234,8 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
             sensors + " (their misalignments grow as the square of the number)",
         "leave out --paper and mode = \"paper\", or describe a part of the sensors in another file"});
   }
-  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  const io::ArrayFile asked = with_what_a_fit_reads(array);
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, asked, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->hash_bytes();
   reader->stop_when(interrupt_flag());
@@ -223,7 +257,24 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
   collector.finish(run);
   run.log = reader->statistics();
   fit_stations(array, choice, run);
+  if (const std::optional<io::FileError> wrong = station_not_shown(array, run))
+    return tl::unexpected<io::FileError>(*wrong);
   return run;
+}
+
+io::FileError unknown_station(const io::KnownAttitude& known, std::size_t stations) {
+  return io::FileError{"--known-attitude",
+                       0,
+                       "",
+                       "station " + std::to_string(known.station) + " has no direction in the calibration, which has " +
+                           std::to_string(stations) + " stations",
+                       "give the number under which plumb calibrate --verbose lists a station that it uses",
+                       io::ExitCode::usage};
+}
+
+void note_attitudes(const CalibrationRun& run, io::CalibrationContext& context) {
+  context.down = shown_down(run);
+  for (const findings::MeasuredAttitude& one : run.wiring.measured) context.known_attitudes.push_back(one.stated);
 }
 
 CalibrationRun run_calibration(const io::ArrayFile& array, const std::vector<Sample>& samples,
@@ -248,6 +299,7 @@ io::FileExpected<void> save_calibration(const std::string& path, const Calibrati
   context.stations = run.report.stations;
   context.plumb_version = PLUMB_VERSION;
   context.gravity = array.gravity;
+  note_attitudes(run, context);
   return io::write_calibration(path, *run.accepted, array, context, run.paper.get());
 }
 

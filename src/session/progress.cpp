@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+
 #include <utility>
+#include "plumb/io/printable.hpp"
 
 #include "plumb/scenario/count_text.hpp"
 
@@ -23,7 +25,8 @@ void show(const std::string& text) {
 
 }  // namespace
 
-Progress::Progress(std::string what) : what_(std::move(what)), on_terminal_(::isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(const std::string& what)
+    : what_(io::printable_line(what)), on_terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
   if (shown_) show("\r\033[K");

@@ -68,7 +68,7 @@ io::FileExpected<void> ScenarioPlay::run(const std::string& log_path, const std:
     io::FileExpected<void> done = truth_->head();
     if (!done) return done;
   }
-  io::FileExpected<io::LogWriter> log = io::LogWriter::create(log_path, file_.array);
+  io::FileExpected<io::LogWriter> log = io::LogWriter::create(log_path, file_.array, io::LogWriter::Columns::all);
   if (!log) return tl::unexpected<io::FileError>(log.error());
   io::FileExpected<void> done = play(*log);
   if (done) done = log->commit();
@@ -115,7 +115,8 @@ io::FileExpected<void> ScenarioPlay::play(io::LogWriter& log) {
 
 io::FileExpected<void> ScenarioPlay::put(io::LogWriter& log, const Sample& sample, const scenario::Truth& truth) {
   ++rows_;
-  io::FileExpected<void> done = log.write(sample, {false, Rotation{}, truth.depth_m});
+  const bool turning = norm(truth.rate_radps) > 0.0;
+  io::FileExpected<void> done = log.write(sample, {false, {turning, true, truth.rate_radps}, truth.depth_m});
   return done && truth_ ? truth_->write(sample.time_s, truth) : done;
 }
 

@@ -6,6 +6,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "plumb/study/proportion.hpp"
 #include "plumb/verification/verdict.hpp"
 
 namespace plumb {
@@ -25,6 +26,8 @@ std::string distrust_of(const Facts& facts) {
   out +=
       "any output during an alert or with only three sensors in use; several sensors that all show the same wrong "
       "gravity";
+  if (facts.wiring.state != WiringFacts::State::confirmed)
+    out += "; inclination and toolface as a whole: no known attitude confirms the wiring";
   if (facts.calibration.predicted())
     out += "; every figure here, because the tool was not calibrated: they come from a simulated calibration";
   if (!facts.calibration.accepted)
@@ -71,9 +74,9 @@ std::vector<Answer> answers_of(const Facts& facts) {
     const Rate &wrong = facts.faults.wrong_exclusion, &isolated = facts.faults.isolated;
     out.push_back(
         {"How sure?", fmt::format("{} of {}", wrong.count, wrong.of),
-         fmt::format("simulated scenarios of the fault campaign excluded a healthy sensor; with 95 % confidence "
-                     "the rate is below {:.2g} of such scenarios",
-                     wrong.high)});
+         fmt::format("simulated scenarios of the fault campaign excluded a healthy sensor: a rate of such scenarios "
+                     "of {}",
+                     study::interval_words({wrong.count, wrong.of, wrong.low, wrong.high}))});
     out.push_back({"How often isolated?", fmt::format("{} of {}", isolated.count, isolated.of),
                    fmt::format("of the same scenarios, small faults among them, end with exactly the faulty sensors "
                                "excluded; {} end in an alarm without an exclusion",

@@ -5,6 +5,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "plumb/study/proportion.hpp"
 #include "plumb/verification/verdict.hpp"
 
 namespace plumb {
@@ -14,9 +15,10 @@ namespace {
 
 double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
-/// "3 of 20000, 95 % interval 3.1e-05 to 0.00044".
+/// "3 of 20000, 95 % interval 3.09e-05 to 0.000439".
 std::string rate_words(const Rate& rate) {
-  return fmt::format("{} of {}, 95 % interval {:.3g} to {:.3g}", rate.count, rate.of, rate.low, rate.high);
+  return fmt::format("{} of {}, {}", rate.count, rate.of,
+                     study::interval_words({rate.count, rate.of, rate.low, rate.high}));
 }
 
 /// Scenarios without any case that show a rate below the limit: 1 - (1 - limit)^n >= 97.5 %.
@@ -119,6 +121,18 @@ void judge_calibration(const CalibrationFacts& calibration, Criteria& out) {
             "the calibration was refused: " + calibration.reason);
 }
 
+/// Gravity shows no exchange or reversal that amounts to a turn or a mirror image of the array, so that nothing but a
+/// known attitude can close this.
+void judge_wiring(const WiringFacts& wiring, Criteria& out) {
+  using State = WiringFacts::State;
+  const Result result = wiring.state == State::confirmed ? Result::met
+                        : wiring.state == State::open    ? Result::open
+                                                         : Result::not_met;
+  out.add(CriterionId::wiring_confirmed, {"a station of known attitude that excludes every other wiring"},
+          wiring.found.empty() ? "no station of known attitude" : wiring.found, result,
+          wiring.state == State::confirmed ? "" : wiring.reason);
+}
+
 /// Seconds within which 95 % of the detected faults raised their alarm; negative where none did.
 double detected_within_s(const FaultCampaign& faults) {
   std::uint64_t total = 0, below = 0;
@@ -210,6 +224,7 @@ std::vector<Criterion> judge_criteria(const UserLimits& limits, const Facts& fac
   Criteria out;
   judge_array(limits, facts, out);
   judge_calibration(facts.calibration, out);
+  judge_wiring(facts.wiring, out);
   judge_campaign(limits, facts, out);
   judge_requirements(facts.trace, out);
   judge_evidence(facts, out);

@@ -96,8 +96,8 @@ TEST(VerifyCommand, ThreeSensorsAreNotFitAndSayWhy) {
 TEST(VerifyCommand, AnOrphanEndsWithSix) {
   const Workshop shop;
   const auto traced = [&shop](const std::string& trace, const std::string& out) {
-    return verify(
-        shop, {"--array", "array.toml", "--calibration", "calibration.json", "--traceability", trace, "--out", out});
+    return verify(shop, {"--array", "array.toml", "--calibration", "calibration.json", "--known-attitude",
+                         kKnownStation, "--traceability", trace, "--out", out});
   };
   Json trace = Json::parse(read_text(verified_paper_tool() / "report" / "traceability.json"));
   write_text(shop / "same.json", trace.dump());
@@ -112,8 +112,10 @@ TEST(VerifyCommand, AnOrphanEndsWithSix) {
 
 TEST(VerifyCommand, TheCalibrationThatIsGivenIsTheOneThatIsJudged) {
   const Workshop shop;
-  const Outcome file = verify(shop, {"--array", "array.toml", "--calibration", "calibration.json", "--out", "a"});
-  const Outcome log = verify(shop, {"--array", "array.toml", "--stations", "calibration.csv", "--out", "b"});
+  const Outcome file = verify(shop, {"--array", "array.toml", "--calibration", "calibration.json", "--known-attitude",
+                                     kKnownStation, "--out", "a"});
+  const Outcome log = verify(shop, {"--array", "array.toml", "--stations", "calibration.csv", "--known-attitude",
+                                    kKnownStation, "--out", "b"});
   ASSERT_EQ(file.code, 0) << file.err;
   ASSERT_EQ(log.code, 0) << log.err;
   const Json a = report_in(shop / "a"), b = report_in(shop / "b");

@@ -223,7 +223,7 @@ TEST(WrongColumns, WhatNoExchangeExplainsPointsToTheKeys) {
 
 TEST(WrongColumns, ArraysWithUnobservablePermutationsSaySo) {
   const Workshop where;
-  EXPECT_TRUE(says(flat(calibrate(where).out), {"wiring", "mistakes of wiring", "see `plumb geometry`"}));
+  EXPECT_TRUE(says(flat(calibrate(where).out), {"wiring", "OPEN", "47 other wirings", "--known-attitude"}));
   const Json geometry = Json::parse(run(where, {"geometry", "array.toml", "--json"}).out);
   EXPECT_EQ(report(where)["unobservable_permutation_count"], geometry["unobservable_permutations"].size());
 }

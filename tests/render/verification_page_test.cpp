@@ -10,6 +10,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/render/change.hpp"
+#include "plumb/study/proportion.hpp"
 #include "verify_support.hpp"
 
 namespace verification_page_test {
@@ -38,6 +39,11 @@ void collect(const Json& json, std::set<std::string>& out) {
     if (json.is_array()) out.insert(std::to_string(json.size()));
     for (const auto& [key, value] : json.items()) {
       out.merge(numbers_in(json.is_object() ? key : ""));
+      if (value.is_number() && (key == "low" || key == "high")) {  // ends of intervals are rounded outwards, in percent
+        const double percent = 100.0 * value.get<double>();
+        out.merge(
+            numbers_in(key == "low" ? study::rounded_down(percent, 3, 100.0) : study::rounded_up(percent, 3, 100.0)));
+      }
       collect(value, out);
     }
   }

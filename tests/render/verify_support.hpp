@@ -9,6 +9,9 @@ namespace plumb_test {
 
 using Json = nlohmann::ordered_json;
 
+/// A station of examples/stand.toml as it was simulated: one that excludes every other wiring of the paper's tool.
+inline constexpr const char* kKnownStation = "5:33.5,13.2";
+
 /// Runs `plumb verify` with few scenarios.
 inline Outcome verify(const Directory& where, std::vector<std::string> more, const std::string& scenarios = "200") {
   std::vector<std::string> arguments = {"verify", "--scenarios", scenarios};

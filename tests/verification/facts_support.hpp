@@ -13,6 +13,7 @@ inline plumb::verification::Facts calibrated_facts() {
   out.array.gravity_mps2 = 9.81;
   out.array.sensors.assign(4, {0.02, 0.1});
   out.calibration = {true, "stations", "", ""};
+  out.wiring = {plumb::verification::WiringFacts::State::confirmed, "confirmed by station 7", ""};
   out.healthy = {true, "", plumb::verification::rate_of(0, 9600), plumb::verification::rate_of(0, 600)};
   out.faults.played = true;
   out.faults.wrong_exclusion = out.faults.misleading = plumb::verification::rate_of(0, 600);

@@ -88,6 +88,22 @@ TEST(VerificationVerdict, EveryLimitIsMetMissedOrOpen) {
   EXPECT_EQ(result_of(with("detect_within = \"1 s\""), CriterionId::time_to_detect), Result::met);
 }
 
+// Negative: REQ-183
+TEST(VerificationVerdict, WithoutAKnownAttitudeNothingIsFit) {
+  verification::Facts facts = calibrated_facts();
+  facts.wiring = {};  // what a caller gets that says nothing of it
+  const verification::Report open = verification::judge(limits(""), facts);
+  EXPECT_EQ(open.fit, Result::open);
+  EXPECT_EQ(result_of(open, CriterionId::wiring_confirmed), Result::open);
+  EXPECT_TRUE(plumb_test::says(open.sentence, {"INCONCLUSIVE"}));
+  EXPECT_EQ(verification::result_of(verification::Strategy::calibration, open.criteria), Result::open);
+  EXPECT_TRUE(plumb_test::says(open.answers.back().label, {"no known attitude confirms the wiring"}));
+  facts.wiring = {verification::WiringFacts::State::contradicted, "contradicted", "station 3 stands otherwise"};
+  const verification::Report refuted = verification::judge(limits(""), facts);
+  EXPECT_EQ(refuted.fit, Result::not_met);
+  EXPECT_TRUE(plumb_test::says(refuted.sentence, {"not fit", "station 3 stands otherwise"}));
+}
+
 /// What no test can find broken stands first among the assumptions.
 TEST(VerificationVerdict, AStandstillOrTheAccelerationAllowedForIsSaidFirst) {
   verification::UserLimits given = limits("");
@@ -193,7 +209,7 @@ TEST(VerificationVerdict, TheFirstPageAnswersTheFourQuestionsInWords) {
   };
   EXPECT_EQ(answer("How many faults?")["value"], "1");
   EXPECT_TRUE(plumb_test::says(answer("How large?")["value"], {"mg0"}));
-  EXPECT_TRUE(plumb_test::says(answer("How sure?")["label"], {"healthy sensor", "95 % confidence"}));
+  EXPECT_TRUE(plumb_test::says(answer("How sure?")["label"], {"healthy sensor", "at most", "97.5 % confidence"}));
   EXPECT_TRUE(plumb_test::says(answer("What not to trust?")["label"],
                                {"more than 1 of 4", "three sensors", "same wrong gravity", "not calibrated"}));
   const Json& isolated = paper_report()["campaign"]["faults"]["rates"]["isolated"];

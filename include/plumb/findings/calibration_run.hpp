@@ -8,6 +8,7 @@
 #include "plumb/findings/finding.hpp"
 #include "plumb/findings/fit_study.hpp"
 #include "plumb/findings/second_look.hpp"
+#include "plumb/findings/unseen_wiring.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/paper/paper_calibration.hpp"
 
@@ -31,6 +32,7 @@ struct CalibrationRun {
   std::unique_ptr<Calibration> accepted;  ///< null where it was not
   /// The paper's own fits, where they were asked for and plumb's was accepted; null where they could not be made.
   std::unique_ptr<PaperCalibration> paper;
+  WiringCheck wiring;   ///< of the fit that is shown
   Error paper_refusal;  ///< why there are none, or why nothing can be monitored with them
 
   /// Of the fit whose figures are shown: a fit that was refused early has only part of them in `report`.

@@ -14,6 +14,7 @@
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/stability.hpp"
 #include "plumb/io/file_error.hpp"
+#include "plumb/io/known_attitude.hpp"
 #include "plumb/io/units.hpp"
 
 namespace plumb {
@@ -46,6 +47,7 @@ struct InputSpec {
   std::string depth_column;                   ///< measured depth, for reports; empty: not logged
   double depth_unit_m = 1.0;                  ///< metres per unit of that column
   std::vector<ColumnFilter> where;
+  std::vector<KnownAttitude> known_attitudes;  ///< stations of the calibration log
   RawUnit unit;
   std::vector<std::string> sensor_columns;  ///< one per sensor, in the order of the array
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/gravity/gravity.hpp"
@@ -33,6 +34,8 @@ struct CalibrationContext {
   std::string date;          ///< of the log, "2026-03-31"; empty: not given
   std::string serial;        ///< of the tool; empty: not given
   GravityReference gravity;  ///< that the fit assumed
+  std::vector<Vec3> down;    ///< by station of the log, as the fit shows it, tool frame; 0 where it shows none
+  std::vector<KnownAttitude> known_attitudes;  ///< what was stated of those stations
 };
 
 struct CalibrationFile {

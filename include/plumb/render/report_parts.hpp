@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 struct CalibrationPart {
   std::unique_ptr<const Calibration> calibration;  ///< null where it was refused
   verification::CalibrationFacts facts;
+  verification::WiringFacts wiring;
   Json section;
   double e_cal_mps2 = 0.0;            ///< of the worst sensor; 0 where there is none
   std::uint32_t samples_per_row = 1;  ///< fewest behind a station of the log, where its rows are means that say so
@@ -28,6 +29,8 @@ struct CalibrationPart {
 
 /// Of a file that `plumb calibrate` wrote.
 io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, const io::ArrayFile& array);
+/// What its known attitudes and those of the array file say of the wiring.
+io::FileExpected<findings::WiringCheck> wiring_of(const io::CalibrationFile& file, const io::ArrayFile& array);
 /// Of a log of attitudes at rest.
 io::FileExpected<CalibrationPart> calibration_of_stations(const std::string& path, const io::ArrayFile& array);
 /// Of a simulated stand: sensors drawn within the priors of the array file, at random attitudes.

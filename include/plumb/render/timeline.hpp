@@ -28,6 +28,7 @@ struct TimelineRow {
   double limit = 0.0;
   bool has_inclination = false;
   double inclination_deg = 0.0;
+  double inclination_sigma_deg = 0.0;  ///< of noise and calibration; 0 = not known
 };
 
 /// The row of power-on, before the first sample has been judged.
@@ -40,6 +41,9 @@ TimelineRow row_of(const Verdict& verdict, const SensorArray& array, const Mat3&
 
 /// Inclination of a vector in the output frame; false where there is none.
 bool inclination_of(const Vec3& gravity_mps2, const Mat3& frame, double& inclination_deg);
+
+/// Its standard deviation in deg by the covariance of the vector; 0 where there is none.
+double inclination_sigma_of(const Verdict& verdict, const Mat3& frame);
 
 /// Text table for terminals: the header, then one line a row.
 std::string table_header();

@@ -44,6 +44,12 @@ struct CalibrationTag {
   std::string serial;  ///< of the tool
 };
 
+/// What is said of a known attitude whose station the calibration does not show.
+io::FileError unknown_station(const io::KnownAttitude& known, std::size_t stations);
+
+/// The attitudes of the stations, and what was stated of them, for the calibration file.
+void note_attitudes(const CalibrationRun& run, io::CalibrationContext& context);
+
 /// Writes the accepted calibration with its provenance.
 io::FileExpected<void> save_calibration(const std::string& path, const CalibrationRun& run, const io::ArrayFile& array,
                                         const std::string& log_path, const CalibrationTag& tag = {});

@@ -13,7 +13,7 @@ namespace session {
 /// A line of progress on standard error, only where that is a terminal; it is wiped at the end.
 class Progress {
  public:
-  explicit Progress(std::string what);
+  explicit Progress(const std::string& what);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

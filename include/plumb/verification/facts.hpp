@@ -45,6 +45,14 @@ struct CalibrationFacts {
   bool predicted() const { return mode == "predicted"; }
 };
 
+/// What is known of the wirings that gravity cannot see. Open until a known attitude has spoken.
+struct WiringFacts {
+  enum class State : std::uint8_t { open, confirmed, contradicted };
+  State state = State::open;
+  std::string found;   ///< in a few words
+  std::string reason;  ///< why it is open or contradicted, and what to do
+};
+
 /// The rates are of the long campaign where its result was given.
 struct HealthyCampaign {
   bool played = false;
@@ -109,6 +117,7 @@ struct Facts {
   std::uint64_t samples_per_row = 1;
   ArrayFacts array;
   CalibrationFacts calibration;
+  WiringFacts wiring;
   HealthyCampaign healthy;
   FaultCampaign faults;
   std::optional<Replay> replay;

@@ -1,0 +1,75 @@
+/// Wirings that gravity cannot see: exchanged and reversed channels that amount to a turn or a mirror image of the
+/// whole array. A calibration fits them as well as the right one, so that only a station of known attitude shows them.
+/// Computed for the datasheet axes: those of a fit come out wherever the wiring puts them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "plumb/array/wiring.hpp"
+#include "plumb/calibration/calibration.hpp"
+#include "plumb/core/vec3.hpp"
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/calibration_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace findings {
+
+struct UnseenWiring {
+  Wiring wiring;
+  Mat3 turn{};  ///< orthogonal: where down is d, such a tool shows turn * d
+};
+
+/// How far an axis may lie from where a wiring puts it, so that a calibration takes that for an error of mounting: what
+/// an accepted fit may turn an axis, whatever its prior (docs/calibration.md).
+inline const double kUnseenAxis_rad = FitOptions{}.max_axis_change_rad;
+
+/// The turn or mirror image that `wiring` amounts to; nothing where an axis lies further than the tolerance from it, so
+/// that a calibration refuses it, and where the turn itself is too small for a known attitude to show.
+std::optional<Mat3> unseen_turn(const SensorArray& nominal, const Wiring& wiring, double tolerance_rad) noexcept;
+
+/// All of them but the right one, one for each turn or mirror image: every combination of exchanged and reversed
+/// channels is tried. That all channels are reversed (`reads` the wrong way round) is always among them.
+std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, double tolerance_rad);
+
+/// A station of known attitude, and what the fit shows there.
+struct MeasuredAttitude {
+  io::KnownAttitude stated;
+  Vec3 down{};  ///< by the fit, in the frame of the tool
+};
+
+/// `open`: another wiring explains the fit as well. `contradicted`: the right one does not.
+enum class WiringStatus : std::uint8_t { open, confirmed, contradicted };
+const char* to_string(WiringStatus status) noexcept;
+
+/// An attitude at which every wiring that is left shows another direction.
+struct SeparatingAttitude {
+  double inclination_deg = 0.0, toolface_deg = 0.0;
+  double separation_deg = 0.0;  ///< between what the right wiring shows there and any other
+};
+
+struct WiringCheck {
+  WiringStatus status = WiringStatus::open;
+  std::vector<UnseenWiring> unseen;        ///< for the datasheet axes
+  std::vector<std::size_t> left;           ///< of those, the ones that no station contradicts
+  std::vector<MeasuredAttitude> measured;  ///< the stations that were given
+  SeparatingAttitude take;                 ///< what to record
+};
+
+WiringCheck check_wiring(const io::ArrayFile& array, std::vector<MeasuredAttitude> measured);
+
+/// The known attitudes with the directions of their stations in a fit (`down`, by station). The error is the first
+/// station that has none.
+tl::expected<std::vector<MeasuredAttitude>, io::KnownAttitude> measured_attitudes(
+    const std::vector<io::KnownAttitude>& known, const std::vector<Vec3>& down);
+
+/// What a calibration file knows of the wiring, with those known attitudes of the array file that it has a station for.
+/// Null, or a file that keeps no attitudes: nothing is known.
+WiringCheck check_wiring_of(const io::CalibrationFile* file, const io::ArrayFile& array);
+
+}  // namespace findings
+}  // namespace PLUMB_ABI
+}  // namespace plumb
