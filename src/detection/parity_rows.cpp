@@ -1,4 +1,4 @@
-#include "plumb/detection/parity_rows.hpp"
+#include "plumb/detection/detail/parity_rows.hpp"
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include "reach.hpp"
 
-#include "plumb/detection/parity_rows.hpp"
+#include "plumb/detection/detail/parity_rows.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {

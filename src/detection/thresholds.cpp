@@ -5,10 +5,10 @@
 
 #include "largest_eigenvalue.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/detection/detail/parity_rows.hpp"
 #include "plumb/detection/detectable.hpp"
 #include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/isolation.hpp"
-#include "plumb/detection/parity_rows.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {

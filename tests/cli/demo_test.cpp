@@ -85,7 +85,7 @@ std::vector<std::string> changes_of(const json& drill) {
 void states_come_in_order(const json& sections) {
   EXPECT_EQ(changes_of(sections["drill_a"]),
             (std::vector<std::string>{"suspect", "nominal", "suspect", "degraded a2", "suspect", "failed", "suspect a2",
-                                      "suspect a3", "degraded"}));
+                                      "suspect", "suspect a3", "degraded"}));
   EXPECT_EQ(changes_of(sections["drill_b"]),
             (std::vector<std::string>{"suspect", "nominal", "suspect a2", "isolated", "isolated a2",
                                       "recalibrating a1, a3, a4, a5, a6", "suspect a1, a3, a4, a5, a6", "isolated",

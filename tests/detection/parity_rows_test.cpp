@@ -1,6 +1,6 @@
 // What a calibration leaves in parity over all attitudes: the bound, its quantile, and when the tighter one may be
 // used.
-#include "plumb/detection/parity_rows.hpp"
+#include "plumb/detection/detail/parity_rows.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

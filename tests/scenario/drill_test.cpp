@@ -99,6 +99,7 @@ TEST(Drill, AGoesThroughFailedAndComesBackWithWhatHasRecovered) {
               "alarm -> suspect\n"
               "isolation_timeout -> failed\n"
               "reset a2 -> suspect\n"
+              "alarm -> suspect\n"
               "exclusion a3 -> suspect\n"
               "passed_block -> degraded\n")
         << "seed " << seed;
