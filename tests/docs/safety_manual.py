@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds docs/safety-manual.md to the project: every row of every table ends with requirements, hazards and evidence, each of which
 exists; a hazard and a requirement of one row belong together; a measured figure stands, with its interval, in the document that the
-cell links to; and every hazard of docs/requirements has a row.
+cell links to, figures of other columns (WITH_FIGURES) in one that the evidence links to; and every hazard of docs/requirements has a row.
 
 safety_manual.py ROOT        the manual of the project
 safety_manual.py --self-test each rule refuses what breaks it
@@ -14,6 +14,7 @@ import tempfile
 
 MANUAL = "docs/safety-manual.md"
 LINK_COLUMNS = ["requirements", "hazards", "evidence"]
+WITH_FIGURES = ["where it is broken", "within", "limit", "open", "what there is"]  # columns whose figures the evidence holds
 PARTS = "ACFIQKO"  # first letters of the row ids, in the order of the parts
 EVIDENCE = re.compile(r"\[[^\]]*\]\(([^)#\s]*)(?:#([^)\s]+))?\)|`([^`]+)`(?: \((Coq|spin|defect|ctest|assure)\))?")
 NUMBER = re.compile(r"(?<![\w.])\d{1,3}(?: \d{3})+(?![\d.])|(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w])")
@@ -139,6 +140,14 @@ def wrong_evidence(project, cell):
             yield f"no {kind or 'test'} {name}"
 
 
+def figures_that_stand_nowhere(project, words, links):
+    """Numbers that no linked document holds; one that is rounded may differ by less than one of its last digit."""
+    there = [v for m in links for v, _ in numbers_of(text_of(project.root / "docs" / m.group(1)))]
+    for value, unit in numbers_of(words):
+        if not any(math.isclose(value, x, rel_tol=1e-12) or abs(x - value) < unit * (1 - 1e-9) for x in there):
+            yield f"the figure {value:g} stands in no linked document"
+
+
 def wrong_figures(project, cell):
     """A measured figure stands in the document that the cell links to; a rate has its interval or its bound."""
     if cell == "-":
@@ -153,10 +162,7 @@ def wrong_figures(project, cell):
         if wrong:
             yield wrong
             return
-    there = [v for m in links for v, _ in numbers_of(text_of(project.root / "docs" / m.group(1)))]
-    for value, unit in numbers_of(words):
-        if not any(math.isclose(value, x, rel_tol=1e-12) or abs(x - value) < unit * (1 - 1e-9) for x in there):
-            yield f"the figure {value:g} does not stand in {links[0].group(1)}"
+    yield from figures_that_stand_nowhere(project, words, links)
     if re.search(r"\bof\b|%", words) and not re.search(r"\[|97\.5 %|no interval", words):
         yield "a rate without its interval or bound"
 
@@ -172,6 +178,9 @@ def wrong_row(project, header, cells):
     for name, cell in zip(header, cells):
         if name == "measured":
             yield from wrong_figures(project, cell)
+        elif name in WITH_FIGURES:
+            links = [m for m in EVIDENCE.finditer(cells[-1]) if m.group(3) is None]
+            yield from figures_that_stand_nowhere(project, cell, links)
 
 
 def check(root):
@@ -240,10 +249,12 @@ def broken_manuals():
         (row(evidence="[p](gone.md#a)"), "gone.md, which does not exist"),
         (row(evidence="[p](page.md#gone)"), "no section #gone"), (row(evidence="[p](page.md)"), "without a section"),
         (row(measured="0 of 12 345 [0, 3.1e-4]"), "without the document"),
-        (row(measured=FIGURE.replace("12 345", "12 346")), "the figure 12346 does not stand"),
-        (row(measured=FIGURE.replace("3.1e-4", "2.1e-4")), "the figure 0.00021 does not stand"),
+        (row(measured=FIGURE.replace("12 345", "12 346")), "the figure 12346 stands in no linked"),
+        (row(measured=FIGURE.replace("3.1e-4", "2.1e-4")), "the figure 0.00021 stands in no linked"),
         (row(measured="0 of 12 345 ([page](page.md#a-section))"), "without its interval"),
         (row(measured=FIGURE.replace("#a-section", "#gone")), "no section #gone"),
+        (manual("| A1 | 12 346 cases | REQ-001 | HAZ-01 | [p](page.md#a-section) |", HEAD.replace("measured", "open")),
+         "the figure 12346 stands in no linked"),
         (row(uid="A2"), "'A2' is not the next row id"), (row(uid="X1"), "'X1' is not the next row id"),
         (row(measured=""), "has an empty cell"), (row(hazards="HAZ-01 | HAZ-01"), "cells under 5 columns"),
         (manual(head=HEAD.replace("evidence", "proof")), "does not end with requirements"),
