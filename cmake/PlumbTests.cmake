@@ -213,6 +213,12 @@ if(PLUMB_PYTHON3)
   add_test(NAME docs.broken_floors_are_found
     COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/floors.py" --self-test)
   set_tests_properties(docs.floors_hold docs.broken_floors_are_found docs.citations_resolve docs.broken_citations_are_found PROPERTIES LABELS trace TIMEOUT 120)
+  # Every row of the safety manual names requirements, hazards and evidence, and all of them exist.
+  add_test(NAME docs.safety_manual_holds
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/safety_manual.py" "${PROJECT_SOURCE_DIR}")
+  add_test(NAME docs.broken_safety_manual_is_found
+    COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/tests/docs/safety_manual.py" --self-test)
+  set_tests_properties(docs.safety_manual_holds docs.broken_safety_manual_is_found PROPERTIES LABELS "trace;quick" TIMEOUT 60)
 endif()
 
 # The manual page as man reads it, the completion as the shells do, and the guided tour as it is printed.
