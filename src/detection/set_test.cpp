@@ -221,6 +221,7 @@ TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejecti
 
 TestLimits TestLimits::of(const SensorArray& array) const noexcept {
   TestLimits out = *this;
+  if constexpr (kCapacity <= 4) return out;  // one row: the factors are the same
   const int rows = array.size() - 3;
   if (rows > 1) out.parity_calibration = parity_rows_alike(array) ? kLikeRows * roys_root(rows) : parity_factor(rows);
   return out;
