@@ -135,7 +135,7 @@ io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubj
   if (!options.calibration.empty()) {
     const io::FileExpected<io::CalibrationFile> found = io::read_calibration(options.calibration, *file);
     if (!found) return tl::unexpected<io::FileError>(found.error());
-    subject.array = session::calibrated_array(*file, found->calibration);
+    subject.array = session::array_to_certify(*file, found->calibration);
     subject.model = found->calibration.model;
     subject.calibrated = true;
     subject.visited = found->context.down;

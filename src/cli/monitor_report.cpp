@@ -58,7 +58,7 @@ io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayF
 
 /// Of the tool that was monitored, before any fault shows.
 Json sizes_of(const io::ArrayFile& array, const io::CalibrationFile& calibration, double days) {
-  const SensorArray sensors = session::calibrated_array(array, calibration.calibration);
+  const SensorArray sensors = session::array_to_certify(array, calibration.calibration);
   return render::sizes_json(
       findings::size_table(sensors, array.gravity, findings::settings_of(array, days), true, calibration.context.down),
       sensors.size());

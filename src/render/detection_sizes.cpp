@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "plumb/scenario/count_text.hpp"
 #include "size_fields.hpp"
 
@@ -39,12 +41,11 @@ std::string visited_words(const SizeTable& table) {
          "calibrate again";
 }
 
-/// What the sizes mean, from what the JSON holds.
-std::string meaning_of(double missed, double false_alarms, double rejection, double attitudes) {
-  return fmt::format(
-      "minimum detectable bias: P_MD {:.3g}, P_FA {:.3g} per block; guaranteed: the noise in parity exceeds what is "
-      "allowed for in {:.3g} of blocks; E = {:.0f}",
-      missed, false_alarms, rejection, attitudes);
+/// What the sizes mean, sentence by sentence, from what the JSON holds.
+std::array<std::string, 2> meaning_of(double missed, double false_alarms, double rejection, double attitudes) {
+  return {fmt::format("minimum detectable bias: P_MD {:.3g}, P_FA {:.3g} per block", missed, false_alarms),
+          fmt::format("guaranteed: unless the noise of a block is beyond its quantile at {:.3g}; E = {:.0f}", rejection,
+                      attitudes)};
 }
 
 }  // namespace
@@ -57,7 +58,9 @@ std::string sizes_text(const SizeTable& table, int sensors) {
   out += fmt::format("  {:<18}", "tool") + text_head(kSizeFields, &SizeField::below);
   for (const auto& row : kConditions)
     out += fmt::format("  {:<18}", row.words) + text_row(kSizeFields, sizes_at(table, row.condition));
-  out += "  " + meaning_of(s.missed_detection, s.false_alarm_rate, s.rejection_rate, s.isolation_attitudes) + "\n";
+  for (const std::string& one :
+       meaning_of(s.missed_detection, s.false_alarm_rate, s.rejection_rate, s.isolation_attitudes))
+    out += "  " + one + "\n";
   out +=
       fmt::format("  as stated: drift of {:.3g} mg0 and acceleration of {:.3g} mg0 allowed for; else acceleration 0\n",
                   in_mg0(table.tolerance_mps2(SizeCondition::as_stated, sensors)),
@@ -86,13 +89,13 @@ Json sizes_json(const SizeTable& table, int sensors) {
 
 void put_sizes(const Json& sizes, Section& out) {
   if (sizes.is_null()) return out.text("Detection sizes: none without a calibration file.");
+  const std::array<std::string, 2> meaning = meaning_of(sizes["missed_detection"], sizes["false_alarm_rate"],
+                                                        sizes["rejection_rate"], sizes["isolation_attitudes"]);
   ViewRows rows;
   for (const auto& row : kConditions) rows.push_back(page_row(row.words, kSizeFields, sizes[row.key]));
   out.table(fmt::format("Detection sizes, one block of {} samples at rest, the worst sensor", shown(sizes["samples"])),
             page_head("tool", kSizeFields), rows,
-            "As in docs/sizes.md. " +
-                meaning_of(sizes["missed_detection"], sizes["false_alarm_rate"], sizes["rejection_rate"],
-                           sizes["isolation_attitudes"]) +
+            "As in docs/sizes.md. " + meaning[0] + "; " + meaning[1] +
                 ". As stated: with the stability and the acceleration of the array file; else acceleration 0. " +
                 sizes["visited_text"].get<std::string>() + ".");
 }
