@@ -228,10 +228,13 @@ if(TARGET plumb_tool)
   if(PLUMB_PYTHON3)
     add_test(NAME cli.tour COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/tour" --check
       "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/tour_test")
+    add_test(NAME docs.sizes COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/sizes" --check
+      "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/sizes_test")
   else()
     add_test(NAME cli.tour COMMAND bash -c "echo 'skipped: no python3'; exit 77")
+    add_test(NAME docs.sizes COMMAND bash -c "echo 'skipped: no python3'; exit 77")
   endif()
-  set_tests_properties(cli.manual cli.tour PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+  set_tests_properties(cli.manual cli.tour docs.sizes PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
 endif()
 
 # Campaigns: a program of their own, because it is linked with monitors of several capacities.

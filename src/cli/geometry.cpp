@@ -54,7 +54,9 @@ constexpr const char* kGeometryNotes =
     "Words: det = determinant of three unit axes (1 = orthogonal, 0 = in one plane); near singular = |det| below\n"
     "0.05, such a triple raises no alarm. Coplanarity c = most axes in one plane. Confirmed grade = faults that can\n"
     "be excluded; provisional grade = faults that can be excluded provisionally, without knowing gravity.\n"
-    "Minimum detectable: missed in at most 0.1 % of blocks. Guaranteed: whatever the noise does within its bound.\n"
+    "Minimum detectable bias: missed in at most 0.1 % of blocks. Guaranteed: whatever the noise does within its "
+    "bound.\n"
+    "The four sizes have these names in every command and report; docs/sizes.md has them for five arrays.\n"
     "Angles in deg.\n"
     "docs/guide.md explains every line. --check ends with 6 where there is a warning.\n\n";
 
@@ -133,9 +135,10 @@ io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubj
   if (!options.calibration.empty()) {
     const io::FileExpected<io::CalibrationFile> found = io::read_calibration(options.calibration, *file);
     if (!found) return tl::unexpected<io::FileError>(found.error());
-    subject.array = session::calibrated_array(*file, found->calibration);
+    subject.array = session::array_to_certify(*file, found->calibration);
     subject.model = found->calibration.model;
     subject.calibrated = true;
+    subject.visited = found->context.down;
   }
   subject.file = std::make_unique<const io::ArrayFile>(*std::move(file));
   return {};

@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "plot_files.hpp"
+#include "plumb/findings/geometry_study.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/basis_json.hpp"
+#include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/health_page.hpp"
 #include "plumb/render/identity.hpp"
 #include "plumb/render/wiring_words.hpp"
@@ -52,6 +54,14 @@ io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayF
                             {"bytes", run.log.bytes},
                             {"fnv1a", fmt::format("{:016x}", run.log.hash)}}));
   return out;
+}
+
+/// Of the tool that was monitored, before any fault shows.
+Json sizes_of(const io::ArrayFile& array, const io::CalibrationFile& calibration, double days) {
+  const SensorArray sensors = session::array_to_certify(array, calibration.calibration);
+  return render::sizes_json(
+      findings::size_table(sensors, array.gravity, findings::settings_of(array, days), true, calibration.context.down),
+      sensors.size());
 }
 
 /// A directory of its own, removed with all that is in it.
@@ -160,6 +170,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
     calibration = *std::move(read);
   }
   report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);
+  report["detection_sizes"] = calibration ? sizes_of(array_, *calibration, days_) : Json();
   const findings::WiringCheck wiring = findings::check_wiring_of(calibration ? &*calibration : nullptr, array_);
   report["basis"]["wiring"] = render::wiring_json(wiring, array_);
   report["answer"]["open_items"] = render::wiring_items(wiring, array_);

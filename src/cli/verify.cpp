@@ -8,6 +8,7 @@
 #include "plot_files.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/evidence.hpp"
 #include "plumb/render/plot.hpp"
 #include "plumb/render/verification_exports.hpp"
@@ -65,10 +66,12 @@ std::optional<io::FileError> misused(const VerifyOptions& options) {
 }
 
 /// What a terminal shows.
-std::string summary(const verification::Report& verdict, const std::string& out) {
+std::string summary(const Verification& found, const std::string& out) {
+  const verification::Report& verdict = found.verdict;
   std::string text = verdict.sentence + "\n\n";
   for (const verification::Criterion& c : verdict.criteria)
     text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result), entry_of(c.id).title, c.found);
+  text += render::sizes_text(found.sizes, found.array.array.size());
   const verification::RequirementCounts& n = verdict.requirements;
   text += fmt::format("\nrequirements: {} ({} active): {} verified, {} failed, {} open, {} traced without results\n",
                       n.requirements, n.active, n.verified, n.failed, n.open, n.traced);
@@ -159,7 +162,7 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   if (folder.failure()) return report(*folder.failure());
   folder.leave_out("report.pdf");
   if (options.pdf) print_pdf(options.out, render::verification_html(found->report, *pictures));
-  print(options.json ? text : summary(found->verdict, options.out));
+  print(options.json ? text : summary(*found, options.out));
   const bool fit = found->verdict.fit == verification::Result::met;
   if (!fit) print_error("plumb: " + found->verdict.sentence + "\n");
   return fit ? io::ExitCode::done : io::ExitCode::verification_failed;

@@ -215,6 +215,7 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
   const findings::GeometrySubject subject = render::subject_of(out.array, *part, options.days_since_calibration);
   const findings::GeometryStudy study = study_geometry(subject);
   out.geometry = render::geometry_pictures(subject, study);
+  out.sizes = study.sizes;
   const render::Traceability trace = render::traceability_section(out.traceability, inputs->tests, inputs->assurance);
   judge_all(*inputs, *part, render::array_facts(subject, study), trace.facts, out);
 

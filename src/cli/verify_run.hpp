@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/findings/detection_sizes.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/geometry_plot.hpp"
@@ -41,6 +42,7 @@ struct Verification {
   Json report;
   Json traceability;  ///< as it was read
   render::GeometryPictures geometry;
+  findings::SizeTable sizes;
   verification::Facts facts;
   verification::Report verdict;  ///< on them
   std::optional<verification::Trials> healthy, faults;

@@ -80,13 +80,49 @@ double OneAttitude::any_attitude_mps2(int i) const noexcept {
   return worst > 0.0 ? worst : std::numeric_limits<double>::infinity();
 }
 
+double OneAttitude::mirror_of(const Entry& entry, const Vec3& down) const noexcept {
+  return -2.0 * g_mps2_ * dot(down, entry.weight) / dot(entry.weight, entry.weight);
+}
+
+/// The errors that pass at one attitude are one or two closed intervals, so that those that pass at all of them end at
+/// an end of one of these.
+double OneAttitude::passes_all(const Entry& entry, const Vec3* down, int count) const noexcept {
+  constexpr double kRounding = 1e-9;
+  const auto passes = [&](double f) {
+    for (int k = 0; k < count; ++k) {
+      if (std::fabs(f) * std::fabs(f - mirror_of(entry, down[k])) > entry.reach * (1.0 + kRounding)) return false;
+    }
+    return true;
+  };
+  double largest = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double half = 0.5 * mirror_of(entry, down[k]);
+    for (const double square : {half * half + entry.reach, half * half - entry.reach}) {
+      if (square < 0.0) continue;
+      for (const double end : {half - std::sqrt(square), half + std::sqrt(square)})
+        if (std::fabs(end) > largest && passes(end)) largest = std::fabs(end);
+    }
+  }
+  return largest;
+}
+
+double OneAttitude::clear_over_mps2(const Vec3* down, int count, int i) const noexcept {
+  double worst = 0.0;
+  bool any = false;
+  for_each([&](int sensor, const Entry& e) {
+    if (sensor != i) return;
+    any = true;
+    worst = std::fmax(worst, passes_all(e, down, count));
+  });
+  return any && count > 0 ? worst : std::numeric_limits<double>::infinity();
+}
+
 bool OneAttitude::isolates(const Vec3& down, int i, double f_mps2) const noexcept {
   bool all_fail = true, any = false;
   for_each([&](int sensor, const Entry& e) {
     if (sensor != i) return;
     any = true;
-    const double mirror = -2.0 * g_mps2_ * dot(down, e.weight) / dot(e.weight, e.weight);
-    if (!(std::fabs(f_mps2) * std::fabs(f_mps2 - mirror) > e.reach)) all_fail = false;
+    if (!(std::fabs(f_mps2) * std::fabs(f_mps2 - mirror_of(e, down)) > e.reach)) all_fail = false;
   });
   return any && all_fail;
 }
@@ -95,7 +131,7 @@ AttitudeFigures OneAttitude::at(const Vec3& down) const noexcept {
   AttitudeFigures out;
   out.nearest_mirror_mps2 = std::numeric_limits<double>::infinity();
   for_each([&](int sensor, const Entry& e) {
-    const double mirror = std::fabs(2.0 * g_mps2_ * dot(down, e.weight) / dot(e.weight, e.weight));
+    const double mirror = std::fabs(mirror_of(e, down));
     const double square = mirror * mirror;
     out.clear_from_mps2 = std::fmax(out.clear_from_mps2, 0.5 * (mirror + std::sqrt(square + 4.0 * e.reach)));
     out.nearest_mirror_mps2 = std::fmin(out.nearest_mirror_mps2, mirror);

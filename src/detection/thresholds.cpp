@@ -190,6 +190,16 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
   return out;
 }
 
+/// Shifted by the fault, parity stays above limit + b_S whatever the noise and what is systematic take off it.
+double guaranteed_detection_mps2(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget,
+                                 int i) noexcept {
+  const int dof = array.size() - 3;
+  if (dof < 1) return kInfinity;
+  const double limit = budget.limits.parity_alarm[index(dof)] + budget.parity_systematic;
+  const double against = budget.limits.reject[index(dof)] + budget.parity_systematic;
+  return (limit + against) * unit_bias(array, array.all().without(i), i, settings.samples);
+}
+
 double protection_level_rad(const SensorArray& array, const GravityReference& gravity,
                             const TestSettings& settings) noexcept {
   if (array.size() < 3) return kPi;
@@ -222,7 +232,7 @@ Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravi
   const SetAside provisionally_excluded(array, settings, budget);
   for (int i = 0; i < n; ++i) {
     out.sensor[index(i)].provisional_exclusion_mps2 = provisionally_excluded.of(i);
-    out.sensor[index(i)].guaranteed_detection_mps2 = out.sure.fault[1][index(i)];
+    out.sensor[index(i)].guaranteed_detection_mps2 = plumb::guaranteed_detection_mps2(array, settings, budget, i);
   }
   out.protection_rad = protection_level(array, gravity, settings, out.sensor);
   return out;

@@ -196,6 +196,7 @@ TestSettings settings_of(const io::ArrayFile& array, double days_since_calibrati
   out.false_alarm_rate = array.monitor.false_alarm_rate;
   out.rejection_rate = array.monitor.rejection_rate;
   out.integrity_risk = array.monitor.integrity_risk;
+  out.isolation_attitudes = array.monitor.isolation_stations;
   out.acceleration_mps2 = array.monitor.acceleration_bound_mps2;
   out.tolerance_mps2 = io::tolerance_mps2(array, days_since_calibration);
   return out;
@@ -233,14 +234,18 @@ GeometryStudy study_geometry(const GeometrySubject& subject) {
   find_remounts(array, out.sensors);
   out.hidden = hidden_wirings_of(subject, out.budget);
   out.levels = levels_of(subject);
+  out.sizes = size_table(array, subject.gravity, subject.settings, subject.calibrated, subject.visited);
+  std::unique_ptr<const OneAttitude> one;
   if (out.merit.confirmed_grade > 0) {
-    const auto one = std::make_unique<OneAttitude>(array, subject.gravity, out.budget);
+    one = std::make_unique<const OneAttitude>(array, subject.gravity, out.budget);
     for (int i = 0; i < array.size(); ++i) {
       out.sensors[at(i)].blind_half_width_mps2 = one->blind_half_width_mps2(i);
       out.sensors[at(i)].any_attitude_mps2 = one->any_attitude_mps2(i);
     }
     map_attitudes(*one, out);
   }
+  const Readings isolated = guaranteed_isolation_mps2(array, subject.settings, out.thresholds, one.get());
+  for (int i = 0; i < array.size(); ++i) out.sensors[at(i)].guaranteed_isolation_mps2 = isolated[at(i)];
   out.worst = worst_cases(array, out);
   find_warnings(out);
   find_limits(array, out);

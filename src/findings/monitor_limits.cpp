@@ -6,6 +6,7 @@
 
 #include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/mae_test.hpp"
+#include "plumb/findings/detection_sizes.hpp"
 #include "plumb/numeric/tails.hpp"
 
 namespace plumb {
@@ -19,10 +20,7 @@ constexpr int kSearched = kSearchedAttitudes;
 constexpr double kLargestFault_mps2 = 2.0 * kG0_mps2;
 constexpr double kFaultStep = 1.02;  ///< ratio of one fault looked at to the next
 
-Vec3 attitude(int k) {
-  const double z = 1.0 - (2.0 * k + 1.0) / kSearched, a = k * kPi * (3.0 - std::sqrt(5.0)), r = std::sqrt(1.0 - z * z);
-  return {r * std::cos(a), r * std::sin(a), z};
-}
+Vec3 attitude(int k) { return spread_direction(k, kSearched); }
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + kSearched / 2, values.end());

@@ -84,7 +84,7 @@ struct Branch {
 };
 
 std::string geometry_words(const Json& array) {
-  const Json& level = array["protection_level_deg"];
+  const Json& level = array["detection_sizes"]["as_stated"]["protection_level_at_rest_deg"];
   return fmt::format("section 2: confirmed grade {}, protection level {}",
                      array["figures_of_merit"]["confirmed_grade"].get<int>(),
                      level.is_number() ? fmt::format("{:.3g} deg", level.get<double>()) : "none");

@@ -4,6 +4,7 @@
 #include "geometry_fields.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/geometry_report.hpp"
 
 namespace plumb {
@@ -100,8 +101,7 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
                                         {"near_singular_triples", f.near_singular_triples}});
   out["critical_sensors"] = ids_of(critical_sensors(array, array.all()), array);
   out["worst_case"] = worst_json(study);
-  const double level = study.thresholds.protection_rad;
-  out["protection_level_deg"] = level < kPi ? Json(deg_from_rad(level)) : Json(nullptr);
+  out["detection_sizes"] = sizes_json(study.sizes, array.size());
   Json levels = Json::array();
   for (const auto& l : study.levels)
     levels.push_back(

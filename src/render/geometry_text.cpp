@@ -6,6 +6,7 @@
 #include "geometry_fields.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -86,11 +87,8 @@ std::string worst_text(const GeometryStudy& study) {
 
 std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& study) {
   const TestSettings& s = subject.settings;
-  std::string out = fmt::format(
-      "\n"
-      "minimum detectable bias, mg0, in one block of {:.0f} samples at any attitude (false alarms {:.0e}, missed "
-      "{:.0e})\n",
-      s.samples, s.false_alarm_rate, s.missed_detection);
+  std::string out =
+      fmt::format("\nsizes by sensor, mg0, in one block of {:.0f} samples at any attitude, as stated\n", s.samples);
   out += fmt::format("  {:<15}", "") + text_head(kThresholdFields, &ThresholdField::above);
   out += fmt::format("  {:<15}", "sensor") + text_head(kThresholdFields, &ThresholdField::below);
   for (int i = 0; i < subject.array.size(); ++i)
@@ -100,11 +98,9 @@ std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& 
 }
 
 std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& study) {
-  std::string out = "\nundetected tilt error (one bias at its worst, noise, calibration, drift; one block)\n";
-  const bool known = study.thresholds.protection_rad < kPi;
-  out += line("  protection level of this array",
-              known ? fmt::format("{:.4f} deg", deg_from_rad(study.thresholds.protection_rad)) : "not available");
+  std::string out;
   if (!study.levels.empty()) {
+    out += "\nprotection level at rest, as stated, by the noise of a sample\n";
     out += fmt::format("  {:>22}", "noise of a sample, mg0");
     for (const auto& level : study.levels) out += fmt::format(" {:>8.2f}", level.sigma_mg0);
     out += fmt::format("\n  {:>22}", "one sample, deg");
@@ -198,8 +194,9 @@ std::string triple_text(const SensorArray& array) {
 
 std::string geometry_text(const GeometrySubject& subject, const GeometryStudy& study) {
   return reading_text(subject, study) + merit_text(subject, study) + worst_text(study) +
-         threshold_text(subject, study) + attitude_text(subject, study) + bias_text(subject, study) +
-         wiring_text(subject.array, study) + finding_text(subject, study) + triple_text(subject.array);
+         sizes_text(study.sizes, subject.array.size()) + threshold_text(subject, study) +
+         attitude_text(subject, study) + bias_text(subject, study) + wiring_text(subject.array, study) +
+         finding_text(subject, study) + triple_text(subject.array);
 }
 
 }  // namespace render

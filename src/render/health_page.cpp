@@ -10,6 +10,7 @@
 #include "plumb/render/figures.hpp"
 #include "plumb/render/measured_words.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "size_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -170,6 +171,7 @@ Section basis_view(const Json& report) {
   out.text("Drift since the calibration: " + basis["drift"]["text"].get<std::string>() +
            ". What a reading drifts by beyond that is in no limit and in no bound on the direction.");
   out.text("Wiring: " + basis["wiring"]["text"].get<std::string>() + ".");
+  put_sizes(report.value("detection_sizes", Json()), out);
   if (c.is_null()) {
     out.text("There was no calibration file: the run began by calibrating itself.");
     return out;

@@ -11,6 +11,7 @@
 #include "plumb/render/verification_exports.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "sensor_fields.hpp"
+#include "size_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -33,10 +34,9 @@ void sensor_tables(const Json& array, Section& out) {
   }
   out.table("Sensors", {"sensor", "x", "y", "z", "noise of a sample, mg0", "nearest mirror axis, deg"}, axes,
             "A sensor mounted on its mirror axis would pass in a group of three at every attitude.");
-  out.table("Minimum detectable bias, mg0, in one block at any attitude", page_head("sensor", kThresholdFields), least,
-            "Mostly: missed in at most one block of a thousand. Surely: whatever the noise does within its bound. The "
-            "last two "
-            "are what the length of gravity tells at a single attitude; more attitudes remove the rest.");
+  out.table("Sizes by sensor, mg0, in one block at any attitude, as stated", page_head("sensor", kThresholdFields),
+            least,
+            "The last two are what the length of gravity tells at a single attitude; more attitudes remove the rest.");
 }
 
 void limits_tables(const Json& array, Section& out) {
@@ -139,6 +139,7 @@ Section array_view(const Json& report, const PagePictures& pictures) {
   out.picture("Axes", {axes_svg(a), ""},
               "The axes of the sensors, drawn in space; the table below lists their components.",
               "Seen from above the xy plane; z points down the tool. Dashed: down to the xy plane.");
+  put_sizes(a["detection_sizes"], out);
   sensor_tables(a, out);
   out.table("Figures of merit", {"figure", "value"},
             {{"noise gain of the vector (GDOP)", f["gdop"]},
@@ -149,8 +150,7 @@ Section array_view(const Json& report, const PagePictures& pictures) {
              {"faulty sensors isolated with confirmation (confirmed grade)", f["confirmed_grade"]},
              {"faulty sensors excluded provisionally (provisional grade)", f["provisional_grade"]},
              {"correlated faulty sensors that can be isolated", f["correlated_grade"]},
-             {"sensors without which there is no vector", joined_list(a["critical_sensors"])},
-             {"protection level, deg", a["protection_level_deg"]}});
+             {"sensors without which there is no vector", joined_list(a["critical_sensors"])}});
   const char* map = "geometry-attitudes.svg";
   if (!a["attitude_map"]["rows"].empty()) {
     out.picture("Attitudes that hide a fault, and mirror attitudes", picture_of(pictures, map),

@@ -51,6 +51,9 @@ std::string limits_text(const MonitorLimits& l) {
   if (l.sensors > 3) out += row("parity", l.parity, true);
   out += row("length of the vector", l.length, true);
   out += row(l.delta_f_mps2 > 0.0 ? "triples (given delta_f)" : "triple, the widest", l.triple, false);
+  out +=
+      "bias at limit: shows in every second block; what plumb detects and isolates for certain: plumb geometry "
+      "--calibration\n";
   out += fmt::format("\nnoise of a sample {}, left by calibration {}\n", mg(l.noise_mps2), mg(l.left_mps2));
   out += drift_line(l);
   if (l.useful_samples > 0.0) {

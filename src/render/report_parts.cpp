@@ -109,6 +109,7 @@ CalibrationPart part_of(session::CalibrationRun run, const io::ArrayFile& array,
   if (run.accepted) {
     out.section["sensors"] = sensors_of(*run.accepted);
     out.e_cal_mps2 = worst_of(*run.accepted);
+    for (const auto& attitude : run.study.attitudes) out.visited.push_back(attitude.direction);
     out.calibration = std::move(run.accepted);
   }
   return out;
@@ -183,6 +184,7 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
   put_wiring(*wiring, array, out);
   if (!out.facts.taken_for_exact.empty()) out.section["taken_for_exact"] = out.facts.taken_for_exact;
   out.e_cal_mps2 = worst_of(file->calibration);
+  out.visited = file->context.down;
   out.calibration = std::make_unique<const Calibration>(file->calibration);
   return out;
 }
@@ -238,6 +240,7 @@ findings::GeometrySubject subject_of(const io::ArrayFile& array, const Calibrati
   out.array = part.calibration ? session::array_to_certify(array, *part.calibration) : array.array;
   out.model = part.calibration ? part.calibration->model : array.datasheet.model();
   out.calibrated = part.calibration != nullptr;
+  out.visited = part.visited;
   out.gravity = array.gravity;
   out.settings = findings::settings_of(array, days_since_calibration);
   out.settings.samples *= part.samples_per_row;
@@ -263,11 +266,13 @@ verification::ArrayFacts array_facts(const findings::GeometrySubject& subject, c
   verification::ArrayFacts out;
   out.confirmed_grade = study.merit.confirmed_grade;
   out.provisional_grade = study.merit.provisional_grade;
-  const double level_rad = study.thresholds.protection_rad;
+  const double level_rad =
+      study.sizes.at[static_cast<std::size_t>(findings::SizeCondition::as_stated)].protection_level_at_rest_rad;
   out.protection_level_deg = known(deg_from_rad(level_rad), level_rad < kPi);
   out.gravity_mps2 = subject.gravity.g_mps2;
   for (int i = 0; i < subject.array.size(); ++i) {
-    const double least = study.thresholds.sensor[at(i)].detectable_mps2, sure = study.thresholds.sure.fault[2][at(i)];
+    const double least = study.thresholds.sensor[at(i)].detectable_mps2,
+                 sure = study.sensors[at(i)].guaranteed_isolation_mps2;
     out.sensors.push_back({known(least, std::isfinite(least)), known(sure, std::isfinite(sure))});
   }
   for (const std::vector<findings::Finding>* list : {&study.warnings, &study.limits}) {

@@ -49,10 +49,9 @@ Answer how_large(const ArrayFacts& array) {
   const std::optional<double> least = worst(array, &SensorFacts::detectable_mps2);
   const std::optional<double> sure = worst(array, &SensorFacts::sure_isolation_mps2);
   if (!least) return {"How large?", "never", "nothing checks every sensor"};
-  return {
-      "How large?", fmt::format("{:.3g} mg0", mg0(*least)),
-      "constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
-          (sure ? fmt::format("; the sensor is isolated with certainty above {:.3g} mg0", mg0(*sure)) : std::string())};
+  return {"How large?", fmt::format("{:.3g} mg0", mg0(*least)),
+          "minimum detectable bias: constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
+              (sure ? fmt::format("; guaranteed isolation threshold {:.3g} mg0", mg0(*sure)) : std::string())};
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ std::vector<Answer> answers_of(const Facts& facts) {
   out.push_back(how_large(array));
   const std::optional<double>& level = array.protection_level_deg;
   out.push_back({"Protection level?", level ? fmt::format("{:.3g} deg", *level) : "unbounded",
-                 std::string("tilt error that can stay without an alarm (protection level)") +
+                 std::string("protection level at rest: tilt error that can stay without an alarm") +
                      (facts.calibration.accepted ? "" : ", if the array file were exact")});
   if (facts.faults.played) {
     const Rate &wrong = facts.faults.wrong_exclusion, &isolated = facts.faults.isolated;

@@ -24,6 +24,8 @@ bool named(const json& findings, const std::string& name) {
   return false;
 }
 
+const json& as_stated(const json& out) { return out["detection_sizes"]["as_stated"]; }
+
 /// The array of the examples with other axes.
 std::string file_with(const std::vector<std::string>& axes) {
   std::string out =
@@ -69,9 +71,9 @@ TEST(GeometryCommand, HasTheFiguresOfTheTetrahedron) {
   EXPECT_TRUE(out["worst_case"][0]["told_apart_e"].is_null());
   EXPECT_NEAR(out["worst_case"][0]["vector_error_e"].get<double>(), 6.0, 1e-9);
   const double mg0 = 9.80665e-3;
-  EXPECT_NEAR(out["sensors"][1]["thresholds_mps2"]["detectable"].get<double>() / mg0, 15.0, 0.1);
+  EXPECT_NEAR(out["sensors"][1]["thresholds_mps2"]["minimum_detectable_bias"].get<double>() / mg0, 15.0, 0.1);
   EXPECT_TRUE(out["sensors"][1]["thresholds_mps2"]["provisional_exclusion"].is_null());
-  EXPECT_NEAR(out["protection_level_deg"].get<double>(), 0.89, 0.02);
+  EXPECT_NEAR(as_stated(out)["protection_level_at_rest_deg"].get<double>(), 0.89, 0.02);
   EXPECT_EQ(out["figures_of_merit"]["correlated_grade"], 0);
   EXPECT_EQ(out["common_bias"]["reverse"], json::array({"a4"}));
   EXPECT_NEAR(out["common_bias"]["with_these_reversed"]["visibility"].get<double>(), 1.0, 1e-12);
@@ -88,17 +90,17 @@ TEST(GeometryCommand, TextAndJsonAgree) {
   const json out = judged(where, {"--name", "cone:5"});
   const Outcome text = run(where, {"geometry", "--name", "cone:5"});
   char level[32];
-  std::snprintf(level, sizeof level, "%.4f deg", out["protection_level_deg"].get<double>());
+  std::snprintf(level, sizeof level, "%.4f deg", as_stated(out)["protection_level_at_rest_deg"].get<double>());
   EXPECT_TRUE(
       says(text.out, {"with confirmation", " 2 ", "parity alone", " 1 ", "correlated faults", " 1 ", "worst case",
-                      "10.47 e", "protection level of this array", level, "known limits", "common_bias_unobservable"}));
+                      "10.47 e", "protection level", level, "known limits", "common_bias_unobservable"}));
 }
 
 TEST(GeometryCommand, MoreSamplesFindLess) {
   const Directory where;
   const auto detectable = [&where](const char* samples) {
     const json out = judged(where, {"--name", "cone:6", "--samples", samples});
-    return out["sensors"][0]["thresholds_mps2"]["detectable"].get<double>();
+    return out["sensors"][0]["thresholds_mps2"]["minimum_detectable_bias"].get<double>();
   };
   EXPECT_NEAR(detectable("4") / detectable("100"), 5.0, 1e-6);
 }
@@ -109,7 +111,24 @@ TEST(GeometryCommand, ACalibrationWidensTheFigures) {
   const json fitted = judged(where, {"array.toml", "--calibration", "calibration.json"});
   EXPECT_FALSE(nominal["calibrated"].get<bool>());
   EXPECT_TRUE(fitted["calibrated"].get<bool>());
-  EXPECT_GT(fitted["protection_level_deg"].get<double>(), 1.2 * nominal["protection_level_deg"].get<double>());
+  EXPECT_GT(as_stated(fitted)["protection_level_at_rest_deg"].get<double>(),
+            1.2 * as_stated(nominal)["protection_level_at_rest_deg"].get<double>());
+}
+
+/// A file of an earlier plumb does not keep the attitudes of its stations: no figure, and why.
+TEST(GeometryCommand, SaysWhichAttitudesTheCalibrationVisited) {
+  const Workshop where;
+  const json nominal = judged(where, {"array.toml"})["detection_sizes"];
+  EXPECT_TRUE(nominal["visited_attitudes"].is_null());
+  EXPECT_TRUE(nominal["stability_0"]["guaranteed_detection_visited_mps2"].is_null());
+  EXPECT_NE(nominal["visited_text"].dump().find("without a calibration"), std::string::npos);
+  const json fitted = judged(where, {"array.toml", "--calibration", "calibration.json"})["detection_sizes"];
+  EXPECT_GT(fitted["visited_attitudes"].get<int>(), 10);
+  const json& still = fitted["stability_0"];
+  EXPECT_LE(still["guaranteed_detection_visited_mps2"], still["guaranteed_detection_any_mps2"]);
+  EXPECT_GT(still["guaranteed_detection_visited_mps2"].get<double>(), 0.0);
+  EXPECT_EQ(fitted["stability_0_2_mg0"]["acceleration_mps2"], 0.0);
+  EXPECT_GT(fitted["stability_0_2_mg0"]["minimum_detectable_bias_mps2"], still["minimum_detectable_bias_mps2"]);
 }
 
 TEST(GeometryCommand, NearSingularTriplesAreWarnedOfAndRefusedOnRequest) {
@@ -142,9 +161,9 @@ TEST(GeometryCommand, IsolationThatNeedsMoreThanFortyErrorsIsWarnedOf) {
 TEST(GeometryCommand, ATriadPromisesNothing) {
   const Directory where;
   const json out = judged(where, {"--name", "triad"});
-  EXPECT_TRUE(out["protection_level_deg"].is_null());
+  EXPECT_TRUE(as_stated(out)["protection_level_at_rest_deg"].is_null());
   EXPECT_TRUE(out["one_attitude"].is_null());
-  EXPECT_TRUE(out["sensors"][0]["thresholds_mps2"]["detectable"].is_null());
+  EXPECT_TRUE(out["sensors"][0]["thresholds_mps2"]["minimum_detectable_bias"].is_null());
   EXPECT_EQ(out["critical_sensors"].size(), 3U);
   EXPECT_TRUE(named(out["known_limits"], "no_isolation"));
   EXPECT_TRUE(named(out["known_limits"], "critical_sensors"));

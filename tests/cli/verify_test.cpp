@@ -154,7 +154,9 @@ TEST(VerifyCommand, ARowThatIsAMeanIsJudgedByItsOwnNoise) {
   EXPECT_EQ(report["subject"]["samples_per_row"], 200);
   EXPECT_EQ(single["subject"]["samples_per_row"], 1);
   EXPECT_NEAR(block_noise(report), block_noise(single) / std::sqrt(200.0), 1e-9);
-  EXPECT_LT(report["array"]["protection_level_deg"], single["array"]["protection_level_deg"]);
+  const char* const level = "protection_level_at_rest_deg";
+  EXPECT_LT(report["array"]["detection_sizes"]["as_stated"][level],
+            single["array"]["detection_sizes"]["as_stated"][level]);
   EXPECT_NE(report["campaign"]["faults"]["plan"]["plan_hash"], single["campaign"]["faults"]["plan"]["plan_hash"]);
   EXPECT_NE(read_text(where / "r" / "faults.toml").find("samples_per_row = 200"), std::string::npos);
   EXPECT_EQ(report["campaign"]["replayed"]["agree"], report["campaign"]["replayed"]["scenarios"]);

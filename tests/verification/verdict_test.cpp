@@ -184,7 +184,8 @@ TEST(VerificationVerdict, IsOnTheFiguresThatTheSectionsShow) {
   EXPECT_EQ(found(CriterionId::faults_isolated),
             report["array"]["figures_of_merit"]["confirmed_grade"].dump() + " (confirmed grade)");
   EXPECT_EQ(found(CriterionId::protection_level),
-            fmt::format("{:.4g} deg", report["array"]["protection_level_deg"].get<double>()));
+            fmt::format("{:.4g} deg",
+                        report["array"]["detection_sizes"]["as_stated"]["protection_level_at_rest_deg"].get<double>()));
   EXPECT_EQ(found(CriterionId::calibration_accepted), report["calibration"]["mode"].get<std::string>() + ", accepted");
   const auto counted = [](const Json& rate) { return rate["count"].dump() + " of " + rate["of"].dump() + ","; };
   const Json& campaign = report["campaign"];

@@ -31,6 +31,9 @@ class OneAttitude {
   double blind_half_width_mps2(int i) const noexcept;
   /// Beyond this no attitude has a mirror within reach: (2 G + d) / |w|, worst triple [m/s^2].
   double any_attitude_mps2(int i) const noexcept;
+  /// Over `count` attitudes together: every larger error of sensor i, of either sign, fails each triple with it at one
+  /// of them at least [m/s^2]. Infinite where sensor i is in no triple that votes.
+  double clear_over_mps2(const Vec3* down, int count, int i) const noexcept;
   /// True where an error f of sensor i fails every monitored triple with it, for gravity g = G times `down`.
   bool isolates(const Vec3& down, int i, double f_mps2) const noexcept;
   AttitudeFigures at(const Vec3& down) const noexcept;
@@ -41,6 +44,10 @@ class OneAttitude {
     Vec3 weight{};       ///< column of the inverse
     double reach = 0.0;  ///< (2 G d + d^2) / |w|^2 [(m/s^2)^2]
   };
+  /// f*: the error that has a second explanation of the right length [m/s^2].
+  double mirror_of(const Entry& entry, const Vec3& down) const noexcept;
+  /// The largest error that passes at every attitude.
+  double passes_all(const Entry& entry, const Vec3* down, int count) const noexcept;
   /// Calls f(sensor, entry) for every entry; `f` returns nothing.
   template <class F>
   void for_each(F&& f) const noexcept;

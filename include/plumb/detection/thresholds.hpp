@@ -17,6 +17,7 @@ struct TestSettings {
   double rejection_rate = 1e-6;    ///< per block and hypothesis
   double missed_detection = 1e-3;  ///< how often a fault of just the detectable size may be missed, per block
   double integrity_risk = 1e-6;    ///< of the noise in the protection level, two-sided
+  int isolation_attitudes = 4;     ///< E: distinct attitudes over which an isolation is confirmed
   double acceleration_mps2 = 0.0;  ///< largest steady acceleration of the tool
   Readings tolerance_mps2{};       ///< tau_i: drift of each sensor that the limits allow for, of either sign
 };
@@ -41,7 +42,8 @@ struct SensorThresholds {
   /// Single fault that the provisional grade provisionally excludes with its first block at any attitude, but for
   /// `missed_detection`.
   double provisional_exclusion_mps2 = 0.0;
-  /// Detected whatever the noise does below `noise_factor` sigmas (T7, k = 1).
+  /// Raises the parity alarm with every block, at any attitude, while the noise in parity stays below its quantile at
+  /// the rejection rate.
   double guaranteed_detection_mps2 = 0.0;
   /// Vector error per unit of bias, |column of H^+|.
   double gain = 0.0;
@@ -57,6 +59,11 @@ struct Thresholds {
   /// not check every sensor.
   double protection_rad = 0.0;
 };
+
+/// `SensorThresholds::guaranteed_detection_mps2` of sensor i, with `ErrorBudget::parity_systematic` for what parity may
+/// be off by: at single attitudes it is less than at any.
+double guaranteed_detection_mps2(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget,
+                                 int i) noexcept;
 
 /// `Thresholds::protection_rad` alone: cheap enough for a sweep.
 double protection_level_rad(const SensorArray& array, const GravityReference& gravity,

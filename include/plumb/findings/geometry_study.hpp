@@ -11,6 +11,7 @@
 #include "plumb/array/wiring.hpp"
 #include "plumb/detection/one_attitude.hpp"
 #include "plumb/detection/thresholds.hpp"
+#include "plumb/findings/detection_sizes.hpp"
 #include "plumb/findings/finding.hpp"
 #include "plumb/io/array_file.hpp"
 
@@ -25,6 +26,7 @@ struct GeometrySubject {
   SensorArray array;                          ///< calibrated, where a calibration was given
   SensorModel model;                          ///< of a file: raw values to m/s^2
   bool calibrated = false;
+  Visited visited;  ///< attitudes of the stations of the calibration, where it keeps them
   GravityReference gravity;
   TestSettings settings;
 };
@@ -70,7 +72,8 @@ struct SensorStudy {
   ExpectedReading expected;
   double blind_half_width_mps2 = 0.0;
   double any_attitude_mps2 = 0.0;
-  double nearest_remount_rad = 0.0;  ///< from the axis to its nearest mirror axis; 0 where there is none
+  double guaranteed_isolation_mps2 = 0.0;  ///< over E attitudes
+  double nearest_remount_rad = 0.0;        ///< from the axis to its nearest mirror axis; 0 where there is none
 };
 
 /// The worst case of so many faulty sensors, in errors e of a healthy reading (T7): any attitude, any values of the
@@ -87,6 +90,7 @@ struct GeometryStudy {
   FaultBounds constants;  ///< in units of e
   ErrorBudget budget;
   Thresholds thresholds;
+  SizeTable sizes;
   CommonBias common;
   PolarityPlan polarity;
   int correlated_grade = 0;      ///< largest m with n >= 2m + c + 1

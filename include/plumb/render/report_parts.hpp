@@ -23,6 +23,7 @@ struct CalibrationPart {
   verification::CalibrationFacts facts;
   verification::WiringFacts wiring;
   Json section;
+  findings::Visited visited;          ///< attitudes of its stations
   double e_cal_mps2 = 0.0;            ///< of the worst sensor; 0 where there is none
   std::uint32_t samples_per_row = 1;  ///< fewest behind a station of the log, where its rows are means that say so
 };

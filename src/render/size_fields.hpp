@@ -1,0 +1,42 @@
+/// The four sizes as they are reported everywhere (private to src/render).
+#pragma once
+
+#include <limits>
+
+#include "field_table.hpp"
+#include "html_view.hpp"
+#include "plumb/findings/detection_sizes.hpp"
+#include "plumb/render/figures.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+
+inline constexpr double kDegrees = 180.0 / kPi;
+
+/// pi bounds nothing.
+inline double bounded_angle(double rad) { return rad < kPi ? rad : std::numeric_limits<double>::infinity(); }
+
+using SizeField = FieldOf<findings::DetectionSizes>;
+
+// clang-format off
+inline constexpr SizeField kSizeFields[] = {
+    {"minimum_detectable_bias_mps2",      [](const auto& s) { return s.minimum_detectable_bias_mps2; },
+     1.0, "minimum detectable", "bias", kMg0, "{:.3f} mg0", 18, "minimum detectable bias, mg0", kMg0},
+    {"guaranteed_detection_visited_mps2", [](const auto& s) { return s.guaranteed_detection_visited_mps2; },
+     1.0, "guaranteed detection", "visited attitudes", kMg0, "{:.3f} mg0", 20, "guaranteed detection threshold at the attitudes that calibration visited, mg0", kMg0},
+    {"guaranteed_detection_any_mps2",     [](const auto& s) { return s.guaranteed_detection_any_mps2; },
+     1.0, "guaranteed detection", "any attitude", kMg0, "{:.3f} mg0", 20, "guaranteed detection threshold at any attitude, mg0", kMg0},
+    {"guaranteed_isolation_mps2",         [](const auto& s) { return s.guaranteed_isolation_mps2; },
+     1.0, "guaranteed isolation", "over E attitudes", kMg0, "{:.3f} mg0", 20, "guaranteed isolation threshold over E attitudes, mg0", kMg0},
+    {"protection_level_at_rest_deg",      [](const auto& s) { return bounded_angle(s.protection_level_at_rest_rad); },
+     kDegrees, "protection level", "at rest", kDegrees, "{:.4f} deg", 16, "protection level at rest, deg", 1.0},
+};
+// clang-format on
+
+/// The table on a page; `sizes` null: why there is none stands in its place.
+void put_sizes(const Json& sizes, Section& out);
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb
