@@ -126,6 +126,18 @@ Kept kept_back(const HeldAxisFit& fit, const Sums& sums) noexcept {
   return out;
 }
 
+double packed(const RowUncertainty& u, int a, int b) noexcept {
+  return a >= b ? u.covariance[at(a * (a + 1) / 2 + b)] : u.covariance[at(b * (b + 1) / 2 + a)];
+}
+
+/// 1 sigma of the scale that all rows share, in every number of theirs.
+Line common_scale_of(const SensorArray& array) noexcept {
+  Line out{};
+  for (int a = 0; a < 4 * array.size(); ++a)
+    out[at(a)] = a % 4 < 3 ? array.uncertainty().common_scale * array.axis(a / 4)[at(a % 4)] : 0.0;
+  return out;
+}
+
 /// Not inlined, nor is the next: neither needs its room while the other works.
 [[gnu::noinline]] void add_stations(const SensorArray& array, const HeldAxisFit& fit, double g_mps2,
                                     Sums& sums) noexcept {
@@ -147,12 +159,17 @@ Kept kept_back(const HeldAxisFit& fit, const Sums& sums) noexcept {
   for (int i = 0; i < sums.k; ++i) place[at(sums.sensor[at(i)])] = i;
   const double common = gravity.sigma_mps2 / gravity.g_mps2;
   const Kept kept = kept_back(fit, sums);
+  const RowUncertainty& old = array.uncertainty();
+  const Line shared = common_scale_of(array);
   for (int a = 0; a < 4 * array.size(); ++a) {
     const int i = place[at(a / 4)];
     const Line line = line_of(array, sums, a / 4, i, a % 4);
     Line carried{};
+    double along = 0.0;
+    for (int d = 0; d < 4 * array.size(); ++d) along += shared[at(d)] * line[at(d)];
     for (int c = 0; c < 4 * array.size(); ++c) {
-      for (int d = 0; d < 4 * array.size(); ++d) carried[at(c)] += array.row_covariance(c, d) * line[at(d)];
+      carried[at(c)] = shared[at(c)] * along;
+      for (int d = 0; d < 4 * array.size(); ++d) carried[at(c)] += packed(old, c, d) * line[at(d)];
     }
     for (int b = 0; b <= a; ++b) {
       const int l = place[at(b / 4)];
