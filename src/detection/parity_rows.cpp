@@ -71,15 +71,19 @@ double largest_over_directions(const Mat3& a, const Vec3& b, double c) noexcept 
   const auto along_of = [&](size_t k) { return vectors[k] * b[0] + vectors[3 + k] * b[1] + vectors[6 + k] * b[2]; };
   const Vec3 along = {along_of(0), along_of(1), along_of(2)};
   const double largest = values[2];
-  const auto excess = [&](double mu) {  // |(mu - A)^-1 b|^2 - 1
+  const auto excess = [&](double mu) {  // |(mu - A)^-1 b|^2 - 1; positive at an eigenvalue, where mu is too low
     double sum = -1.0;
-    for (size_t k = 0; k < 3; ++k) sum += along[k] * along[k] / ((mu - values[k]) * (mu - values[k]));
+    for (size_t k = 0; k < 3; ++k) {
+      if (!(mu > values[k])) return 1.0;
+      const double solved = along[k] / (mu - values[k]);
+      sum += solved * solved;
+    }
     return sum;
   };
   double low = largest, high = largest + norm(b);  // |(mu - A)^-1 b| <= |b| / (mu - largest)
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
-    (excess(middle) <= 0.0 ? high : low) = middle;  // not a number at an eigenvalue: it is too low
+    (excess(middle) <= 0.0 ? high : low) = middle;
   }
   double bound = high + c;
   for (size_t k = 0; k < 3; ++k) bound += high > values[k] ? along[k] * along[k] / (high - values[k]) : 0.0;
@@ -147,7 +151,8 @@ double roys_root(int rows) noexcept {
                                             5.694751, 5.864097, 6.024298, 6.176712, 6.322386, 6.462153, 6.596685,
                                             6.726535, 6.852165, 6.973964, 7.092265, 7.207356, 7.319487, 7.428876};
   static_assert(kCapacity - 3 <= static_cast<int>(kRoot.size()), "no more sensors than the table has");
-  return rows >= 1 && rows <= static_cast<int>(kRoot.size()) ? kRoot[at(rows - 1)] : kInfinity;
+  if (rows < 1 || rows > static_cast<int>(kRoot.size())) return kInfinity;
+  return kRoot[at(rows - 1)];
 }
 
 }  // namespace PLUMB_ABI
