@@ -95,9 +95,9 @@ class InPlane {
 }  // namespace
 
 int faults_covered(const ProtectionTerms& terms, int suspected, int confirmed_grade) noexcept {
-  const int possible = suspected + (terms.unvalidated ? 1 : 0);
-  if (possible < 1) return terms.faults;
-  return std::max({terms.faults, suspected, std::min({possible + terms.faults, confirmed_grade, 3})});
+  const int bearable = std::min(confirmed_grade, 3);
+  if (suspected > 0) return std::max({terms.faults, suspected, bearable});
+  return terms.unvalidated ? std::max(terms.faults, std::min(terms.faults + 1, bearable)) : terms.faults;
 }
 
 double separation_rad(const BlockTests& tests, const Vec3& x_mps2, SensorSet rest, const SetTest& test,

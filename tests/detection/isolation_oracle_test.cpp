@@ -183,10 +183,9 @@ struct Rule {
   int covers(const ProtectionTerms& terms, int least) const {
     int known = terms.provisional;
     if (terms.doubted) known = std::max(known, least);
-    const int more = terms.unvalidated ? 1 : 0;
-    if (known + more == 0) return terms.faults;
-    const int on_top = std::min(known + more + terms.faults, std::min(strict(), 3));
-    return std::max(terms.faults, std::max(known, on_top));
+    const int grade = std::min(strict(), 3);
+    if (known > 0) return std::max({terms.faults, known, grade});
+    return std::max(terms.faults, terms.unvalidated ? std::min(terms.faults + 1, grade) : 0);
   }
 
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int asserted,

@@ -21,9 +21,9 @@ struct ProtectionTerms {
   }
 };
 
-/// K: so many faults the protection level covers where `suspected` are, and no fewer. The priors' number comes on top
-/// of those, and of one more where some sensor is not validated, as far as the array can bear it, which is its
-/// confirmed grade: with four sensors one is all. Nothing suspected and all validated: the priors' number.
+/// K: so many faults the protection level covers (docs/theory.md, section 7.3). The priors' number; where some are
+/// suspected, the confirmed grade, at most three, and no fewer than those; where some sensor is not validated, one more
+/// than the priors' number, as far as that grade goes. With four sensors one is all.
 int faults_covered(const ProtectionTerms& terms, int suspected, int confirmed_grade) noexcept;
 
 /// Largest angle between `x_mps2` and the truth if the sensors `rest`, with their test, are the healthy ones: their own
