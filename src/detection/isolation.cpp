@@ -1,5 +1,7 @@
 #include "plumb/detection/isolation.hpp"
 
+#include "plumb/detection/detail/one_gravity.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
@@ -63,7 +65,7 @@ bool may_be_healthy(SensorSet set, const SetTest& t, const TestLimits& limits,
 
 void Isolation::clear() noexcept {
   rejected_.fill(0);
-  claims_.clear();
+  record_.clear();
 }
 
 void Isolation::pose(const SensorArray& array, SensorSet monitored) noexcept {
@@ -148,18 +150,21 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet corroborating
   IsolationAnswer out;
   out.voting = voting_;
   const ReferencePanel panel = panel_of(tests);
-  const NormMismatchDoubt doubt =
-      corroborating.contains(monitored_) ? hear_doubt(tests, panel, claims_) : recall_doubt(tests, panel, claims_);
+  const bool hears = corroborating.contains(monitored_);
+  const NormMismatchDoubt doubt = hears ? hear_doubt(tests, panel, record_) : recall_doubt(tests, panel, record_);
   out.norm_void = doubt.any();
   out.parity = exclude_by_parity(tests, corroborating);
   const auto consistent_here = [&](SensorSet s) { return may_be_healthy(s, tests.of(s), limits, doubt); };
   out.full_consistent = (!any_rejected() || !has_rejected_subset(monitored_)) && consistent_here(monitored_);
   if (strict_ < 1) return out;
 
+  const bool delivered = panel.delivered == monitored_;
+  const bool one_gravity = delivered && holds_one_gravity(tests, panel, hears, record_);
   SensorSet innocent;
   for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
     if (!monitored_.contains(s) || is_rejected(index)) return;
     if (!corroborating.contains(s) || consistent_here(s)) {
+      if (one_gravity && contradicts_one_gravity(tests, s, hears, record_)) return;
       innocent = innocent | s;
       ++out.live;
     } else {
@@ -266,7 +271,7 @@ void note_explanation(const Hypothesis& h, FaultSetScan& out) noexcept {
 }  // namespace
 
 Isolation::Grounds Isolation::grounds(const BlockTests& tests) const noexcept {
-  return {recall_doubt(tests, panel_of(tests), claims_), any_rejected()};
+  return {recall_doubt(tests, panel_of(tests), record_), any_rejected()};
 }
 
 bool Isolation::explains(const TestLimits& limits, const Grounds& grounds, SensorSet rest,

@@ -70,18 +70,19 @@ class Questions {
 
 /// What a set of sensors says of gravity.
 struct Testimony {
-  bool heard = false;        ///< it agrees with itself, and its members are checked
-  bool doubts = false;       ///< gravity
-  int claim = -1;            ///< its number on the episode's record, -1 where it is believed without
-  double error_mps2 = 0.0;   ///< what a claim is off gravity by, ...
-  double margin_mps2 = 0.0;  ///< ... known to so much
+  bool heard = false;   ///< it agrees with itself, and its members are checked
+  bool doubts = false;  ///< gravity
+  int claim = -1;       ///< its number on the episode's record, -1 where it is believed without
+  LengthError off;      ///< what it claims
 };
 
-Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, SensorSet set, int rank) noexcept {
+Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, const ParitySums& sums, SensorSet set,
+                       int rank) noexcept {
   const TestLimits& limits = tests.limits();
   Testimony out;
   const SetTest& t = tests.of(set);
   if (!t.tested || !t.parity_consistent(limits)) return out;  // four or more: there is parity
+  if (!sums.agrees(tests.array(), limits, set)) return out;
   if (t.least_leverage < kMinLeverage && !tests.corroborates_norm(set, t)) return out;
   const double off = t.norm < 0.0 ? -t.norm : t.norm;
   const double limit = t.norm_reject_limit(limits);
@@ -92,23 +93,21 @@ Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, Sen
   // left.
   if (panel.monitored.size() - set.size() < 2) return out;
   out.claim = ReferenceClaims::index_of(set, rank, panel.universe);
-  const double unit = t.norm_sigma_mps2 / std::sqrt(tests.block().samples);
-  out.error_mps2 = t.norm_error_mps2;
-  out.margin_mps2 = limit * unit - TestLimits::gravity * tests.gravity().sigma_mps2;
+  out.off = length_error(tests, t);
   return out;
 }
 
 struct Hear {
-  ReferenceClaims& record;
+  VoteRecord& record;
   bool refutes(const Testimony& t) const noexcept {
-    record.hear(t.claim, t.error_mps2, t.margin_mps2);
-    return record.refuted(t.claim);
+    record.claims.hear(t.claim, t.off);
+    return record.claims.refuted(t.claim);
   }
 };
 
 struct Recall {
-  const ReferenceClaims& record;
-  bool refutes(const Testimony& t) const noexcept { return record.refuted(t.claim); }
+  const VoteRecord& record;
+  bool refutes(const Testimony& t) const noexcept { return record.claims.refuted(t.claim); }
 };
 
 /// `claims` is what is done with a claim, Hear or Recall.
@@ -117,7 +116,7 @@ NormMismatchDoubt doubt_reference(const BlockTests& tests, const ReferencePanel&
   NormMismatchDoubt doubt;
   bool agrees = false;
   for (Questions asked(panel); asked.open(); asked.advance(agrees)) {
-    const Testimony t = testimony_of(tests, panel, asked.set(), asked.rank());
+    const Testimony t = testimony_of(tests, panel, claims.record.parity, asked.set(), asked.rank());
     if (!t.heard) continue;
     agrees = agrees || !t.doubts;
     const bool refuted = t.claim >= 0 && claims.refutes(t);
@@ -141,20 +140,33 @@ bool NormMismatchDoubt::excuses(SensorSet set) const noexcept {
   return false;
 }
 
-void ReferenceClaims::hear(int index, double error_mps2, double margin_mps2) noexcept {
-  const auto from = static_cast<float>(error_mps2 - margin_mps2), to = static_cast<float>(error_mps2 + margin_mps2);
+void ReferenceClaims::hear(int index, const LengthError& off) noexcept {
+  const auto from = static_cast<float>(off.error_mps2 - off.margin_mps2);
+  const auto to = static_cast<float>(off.error_mps2 + off.margin_mps2);
   const bool first = !heard_[slot(index)];
   if (first || from > low_[slot(index)]) low_[slot(index)] = from;
   if (first || to < high_[slot(index)]) high_[slot(index)] = to;
   heard_[slot(index)] = true;
 }
 
-NormMismatchDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept {
+double constant_length_error_mps2(const BlockTests& tests) noexcept {
+  const double scale = tests.array().perfectly_known() ? 0.0 : tests.array().uncertainty().common_scale;
+  return TestLimits::gravity * (tests.gravity().sigma_mps2 + scale * tests.gravity().g_mps2);
+}
+
+LengthError length_error(const BlockTests& tests, const SetTest& test) noexcept {
+  const double unit = test.norm_sigma_mps2 / std::sqrt(test.samples);
+  const double margin = test.norm_reject_limit(tests.limits()) * unit - constant_length_error_mps2(tests);
+  return {test.norm_error_mps2, margin > 0.0 ? margin : 0.0};
+}
+
+NormMismatchDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, VoteRecord& record) noexcept {
+  if (panel.delivered == panel.monitored) record.parity.add(tests, panel.monitored);
   return doubt_reference(tests, panel, Hear{record});
 }
 
 NormMismatchDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
-                               const ReferenceClaims& record) noexcept {
+                               const VoteRecord& record) noexcept {
   return doubt_reference(tests, panel, Recall{record});
 }
 

@@ -34,7 +34,7 @@ struct Rows {
   bool tolerant = false;                      ///< some of them is not zero
 };
 
-Rows gather(const SensorArray& array, const BlockEvidence& block, SensorSet set) noexcept {
+Rows gather(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept {
   Rows rows;
   double sigma = 0.0, inverse = 0.0;
   for (int i = 0; i < array.size(); ++i) {
@@ -46,16 +46,29 @@ Rows gather(const SensorArray& array, const BlockEvidence& block, SensorSet set)
     }
     rows.sensor[k] = i;
     rows.a[k] = scaled(array.axis(i), inverse);
-    rows.z[k] = block.mean_mps2[static_cast<size_t>(i)] * inverse;
+    rows.z[k] = y_mps2[static_cast<size_t>(i)] * inverse;
     rows.inverse_sigma[k] = inverse;
-    const auto tolerance_mps2 = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(i)]);
-    if (tolerance_mps2 > 0.0) {
-      rows.tolerance[k] = tolerance_mps2 * inverse;
-      rows.tolerant = true;
-    }
     ++rows.count;
   }
   return rows;
+}
+
+void add_tolerances(const BlockEvidence& block, Rows& rows) noexcept {
+  for (int k = 0; k < rows.count; ++k) {
+    const auto a = static_cast<size_t>(k);
+    const auto tolerance_mps2 = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(rows.sensor[a])]);
+    if (!(tolerance_mps2 > 0.0)) continue;
+    rows.tolerance[a] = tolerance_mps2 * rows.inverse_sigma[a];
+    rows.tolerant = true;
+  }
+}
+
+/// C times the sum of a_i z_i: weighted least squares, C from `invert_normal`.
+Vec3 solve(const Rows& rows, const Mat3& c) noexcept {
+  Vec3 right{};
+  for (int k = 0; k < rows.count; ++k)
+    right = plus(right, scaled(rows.a[static_cast<size_t>(k)], rows.z[static_cast<size_t>(k)]));
+  return times(c, right);
 }
 
 /// Inverse of the symmetric 3x3 normal matrix; false where the set has no rank 3.
@@ -207,10 +220,10 @@ Systematic tolerance_bound(const Rows& rows, const Projection& p, const Vec3& u,
 TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejection_rate,
                                   double acceleration_mps2) noexcept {
   TestLimits limits;
-  for (int nu = 1; nu <= kCapacity; ++nu) {
-    limits.reject[static_cast<size_t>(nu)] = std::sqrt(chi2_tail_quantile(rejection_rate, nu));
-    limits.parity_alarm[static_cast<size_t>(nu)] = std::sqrt(chi2_tail_quantile(false_alarm_rate, nu));
-  }
+  for (size_t nu = 1; nu < limits.reject.size(); ++nu)
+    limits.reject[nu] = std::sqrt(chi2_tail_quantile(rejection_rate, static_cast<int>(nu)));
+  for (size_t nu = 1; nu < limits.parity_alarm.size(); ++nu)
+    limits.parity_alarm[nu] = std::sqrt(chi2_tail_quantile(false_alarm_rate, static_cast<int>(nu)));
   limits.norm_alarm = limits.parity_alarm[1];
   limits.calibration = std::sqrt(chi2_tail_quantile(2.0 * kBeyond, 4 * n - 3));
   limits.parity_calibration = parity_factor(n - 3);
@@ -244,6 +257,21 @@ double SetTest::norm_reject_limit(const TestLimits& limits) const noexcept {
   return limits.reject[1] + norm_systematic;
 }
 
+double parity_residual(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept {
+  if (set.size() < 4 || !array.all().contains(set)) return 0.0;
+  const Rows rows = gather(array, y_mps2, set);
+  Mat3 c{};
+  if (!invert_normal(rows, c)) return 0.0;
+  const Vec3 x = solve(rows, c);
+  double square = 0.0;
+  for (int k = 0; k < rows.count; ++k) {
+    const auto i = static_cast<size_t>(k);
+    const double r = rows.z[i] - dot(rows.a[i], x);
+    square += r * r;
+  }
+  return std::sqrt(square);
+}
+
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept {
   SetTest out;
@@ -254,14 +282,12 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
 void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const GravityReference& gravity,
               const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept {
   if (set.size() < 3 || !array.all().contains(set) || !block.usable.contains(set) || !(block.samples > 0.0)) return;
-  const Rows rows = gather(array, block, set);
+  Rows rows = gather(array, block.mean_mps2, set);
   Mat3 c{};
   if (!invert_normal(rows, c)) return;
+  add_tolerances(block, rows);
 
-  Vec3 right{};
-  for (int k = 0; k < rows.count; ++k)
-    right = plus(right, scaled(rows.a[static_cast<size_t>(k)], rows.z[static_cast<size_t>(k)]));
-  const Vec3 x = times(c, right);
+  const Vec3 x = solve(rows, c);
   const double length = norm(x);
   const Vec3 u = length > 0.0 ? scaled(x, 1.0 / length) : Vec3{0.0, 0.0, 1.0};
   const Vec3 cu = times(c, u);

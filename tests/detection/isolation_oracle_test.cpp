@@ -44,6 +44,9 @@ struct Rule {
   int universe = 0, c = 2, size = 3;
   std::set<std::uint32_t> rejected;
   std::map<std::uint32_t, Claim> claims;
+  Readings sum{};  ///< of root N times the means of the votes
+  double sum_bound = 0.0;
+  int sum_votes = 0;
 
   int strict() const { return std::max(0, monitored.size() - 1 - c); }
   int parity() const { return std::max(0, monitored.size() - 2 - c); }
@@ -51,6 +54,9 @@ struct Rule {
   void clear() {
     rejected.clear();
     claims.clear();
+    sum = Readings{};
+    sum_bound = 0.0;
+    sum_votes = 0;
   }
   void pose(const SensorArray& array, SensorSet set) {
     const int now = coplanarity(array, set);
@@ -80,26 +86,83 @@ struct Rule {
       return std::any_of(sets.begin(), sets.end(), [&](SensorSet s) { return s.contains(set); });
     }
   };
+  void add_up(const BlockTests& tests) {
+    const SetTest all = tests.of(monitored);
+    if (!all.tested || !tests.block().usable.contains(monitored)) return;
+    ++sum_votes;
+    sum_bound += all.parity_systematic;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += std::sqrt(tests.block().samples) * tests.block().mean_mps2[i];
+  }
+  /// What the votes add up to, against noise and all that is systematic in them.
+  bool agrees_in_sum(const BlockTests& tests, SensorSet set) const {
+    const LeastSquares fit = least_squares(tests.array(), set);
+    if (sum_votes < 2 || !fit.valid) return true;
+    const Vec3 x = fit.estimate(sum);
+    double square = 0.0;
+    for (int i = 0; i < universe; ++i) {
+      const double r = (sum[static_cast<std::size_t>(i)] - dot(tests.array().axis(i), x)) / tests.array().sigma_mps2(i);
+      if (set.has(i)) square += r * r;
+    }
+    const double quantile = tests.limits().reject[static_cast<std::size_t>(set.size() - 3)];
+    return std::sqrt(square) <= quantile * std::sqrt(sum_votes) + sum_bound;
+  }
+  static double constant_error(const BlockTests& tests) {
+    const double scale = tests.array().uncertainty().common_scale * tests.gravity().g_mps2;
+    return 3.0 * (tests.gravity().sigma_mps2 + scale);
+  }
+  static double margin_of(const BlockTests& tests, const SetTest& t) {
+    const double limit = t.norm_reject_limit(tests.limits());
+    return std::max(0.0, limit * (t.norm_sigma_mps2 / std::sqrt(tests.block().samples)) - constant_error(tests));
+  }
+  /// What a set is off by goes on record, beside what is the same everywhere.
+  void note_length(const BlockTests& tests, SensorSet set) {
+    const SetTest t = tests.of(set);
+    const double margin = margin_of(tests, t);
+    const bool first = claims.count(set.bits) == 0;
+    Claim& claim = claims[set.bits];
+    const auto low = static_cast<float>(t.norm_error_mps2 - margin);
+    const auto high = static_cast<float>(t.norm_error_mps2 + margin);
+    claim.low = first ? low : std::max(claim.low, low);
+    claim.high = first ? high : std::min(claim.high, high);
+  }
+  /// No gravity within its bounds explains what the set was off by at all votes.
+  bool contradicts(const BlockTests& tests, SensorSet set, bool record) {
+    if (record && tests.of(set).tested) note_length(tests, set);
+    const auto known = claims.find(set.bits);
+    if (known == claims.end()) return false;
+    const double most = constant_error(tests), low = static_cast<double>(known->second.low);
+    const auto high = static_cast<double>(known->second.high);
+    return low > high || low > most || high < -most;
+  }
+  bool one_gravity(const BlockTests& tests, bool record) {
+    bool holds = tests.limits().acceleration_mps2 > 0.0 && tests.block().usable.contains(monitored);
+    for (int i = 0; i < universe; ++i)
+      holds = holds && (!monitored.has(i) || tests.block().tolerance_mps2[static_cast<std::size_t>(i)] > 0.0F);
+    if (!holds) return false;
+    for (const SensorSet s : subsets(monitored, 4, 4)) {
+      const SetTest t = tests.of(s);
+      if (!t.tested || !t.parity_consistent(tests.limits()) || !agrees_in_sum(tests, s)) continue;
+      if (record) note_length(tests, s);
+      const double most = constant_error(tests);
+      const auto known = claims.find(s.bits);
+      const double low = known == claims.end() ? -most : std::max(-most, static_cast<double>(known->second.low));
+      const double high = known == claims.end() ? most : std::min(most, static_cast<double>(known->second.high));
+      if (high - low < margin_of(tests, t)) holds = false;
+    }
+    return holds;
+  }
   /// One set of four or more: may it doubt gravity, and does it?
   void ask(const BlockTests& tests, SensorSet set, bool record, bool& agrees, Doubt& doubt) {
     const TestLimits& limits = tests.limits();
     const SetTest t = tests.of(set);
-    if (!t.tested || !t.parity_consistent(limits)) return;
+    if (!t.tested || !t.parity_consistent(limits) || !agrees_in_sum(tests, set)) return;
     if (t.least_leverage < 0.002 && !tests.corroborates_norm(set, t)) return;
     const double limit = t.norm_reject_limit(limits);
     const bool doubts = std::fabs(t.norm) > 0.5 * limit;
     if (!doubts) agrees = true;
     if (monitored.size() - set.size() >= 2) {
-      const double margin = limit * (t.norm_sigma_mps2 / std::sqrt(tests.block().samples)) -
-                            TestLimits::gravity * tests.gravity().sigma_mps2;
-      const bool first = claims.count(set.bits) == 0;
-      if (record) {
-        Claim& claim = claims[set.bits];
-        const auto low = static_cast<float>(t.norm_error_mps2 - margin);
-        const auto high = static_cast<float>(t.norm_error_mps2 + margin);
-        claim.low = first ? low : std::max(claim.low, low);
-        claim.high = first ? high : std::min(claim.high, high);
-      }
+      if (record) note_length(tests, set);
       const auto known = claims.find(set.bits);
       if (known != claims.end() && known->second.low > known->second.high) return;
     }
@@ -138,7 +201,9 @@ struct Rule {
     const TestLimits& limits = tests.limits();
     IsolationAnswer out;
     out.voting = voting();
-    const Doubt doubted = doubt(tests, corroborating.contains(monitored));
+    const bool record = corroborating.contains(monitored);
+    if (record) add_up(tests);
+    const Doubt doubted = doubt(tests, record);
     const auto consistent = [&](SensorSet s) {
       const SetTest t = tests.of(s);
       return t.parity_consistent(limits) && (t.consistent(limits) || doubted.excuses(s));
@@ -147,16 +212,17 @@ struct Rule {
     out.parity = by_parity(tests, corroborating);
     out.full_consistent = !died(monitored) && consistent(monitored);
     if (strict() < 1) return out;
+    const bool one = one_gravity(tests, record);
     SensorSet innocent;
     for (const SensorSet s : subsets(monitored, size, size)) {
       if (rejected.count(s.bits) != 0) continue;
       if (corroborating.contains(s) && !consistent(s)) {
         rejected.insert(s.bits);
-      } else {
+      } else if (!one || !contradicts(tests, s, record)) {
         innocent = innocent | s;
+        ++out.live;
       }
     }
-    out.live = live();
     out.no_consistent_hypothesis = out.live == 0;
     const SensorSet suspected = monitored - innocent, left = monitored - suspected;
     if (!out.no_consistent_hypothesis && !suspected.empty() && suspected.size() <= strict() && tests.of(left).tested &&
@@ -337,7 +403,9 @@ void play(const SensorArray& array, std::uint64_t seed, int stations) {
   Noise& luck = episode.luck;
   // At the second pair of rates noise alone lies about the limits: what one set allows its part does not.
   const bool sharp = luck.uniform() < 0.7;
-  const TestLimits limits = TestLimits::from_rates(array.size(), sharp ? 1e-5 : 0.3, sharp ? 1e-6 : 0.2);
+  const bool steady = luck.uniform() < 0.5;
+  const TestLimits limits =
+      TestLimits::from_rates(array.size(), sharp ? 1e-5 : 0.3, sharp ? 1e-6 : 0.2, steady ? 0.0 : 1e-4);
   const GravityReference gravity{kG0_mps2, luck.uniform() < 0.5 ? 1e-3 : 1e-2, GravityModel::value};
   Isolation code;
   Rule rule;
@@ -348,7 +416,9 @@ void play(const SensorArray& array, std::uint64_t seed, int stations) {
     BlockEvidence block = episode.station();
     const float drift_mps2 =
         luck.uniform() < 0.5 ? 0.0F : static_cast<float>(std::pow(10.0, 3.0 * luck.uniform() - 4.0));
-    for (float& tau : block.tolerance_mps2) tau = drift_mps2 * static_cast<float>(luck.uniform());
+    const bool some_exact = luck.uniform() < 0.3;
+    for (float& tau : block.tolerance_mps2)
+      tau = some_exact && luck.uniform() < 0.5 ? 0.0F : drift_mps2 * static_cast<float>(luck.uniform());
     const BlockTests tests(array, gravity, limits, block);
     const SensorSet corroborating = luck.uniform() < 0.7 ? array.all() : episode.some(0.8);
     if (luck.uniform() < 0.7) expect_same(code.vote(tests, corroborating), rule.vote(tests, corroborating));

@@ -45,18 +45,18 @@ TEST(NormMismatchDoubtSets, ExcusesEverythingOnlyBeyondTheSetsThatItHasRoomFor) 
 TEST(ReferenceClaims, AreRefutedWhereNoOneGravityExplainsThem) {
   const int told = static_cast<int>(kTold.bits), other = static_cast<int>(kOther.bits);
   ReferenceClaims claims;
-  claims.hear(told, 0.50, 0.25);
-  claims.hear(other, -3.0, 0.25);
-  claims.hear(told, 1.00, 0.25);  // from 0.75, where the first one ends
+  claims.hear(told, {0.50, 0.25});
+  claims.hear(other, {-3.0, 0.25});
+  claims.hear(told, {1.00, 0.25});  // from 0.75, where the first one ends
   EXPECT_FALSE(claims.refuted(told));
-  claims.hear(told, 0.50, 1.00);  // says less
+  claims.hear(told, {0.50, 1.00});  // says less
   EXPECT_FALSE(claims.refuted(told));
-  claims.hear(told, 1.25, 0.25);
+  claims.hear(told, {1.25, 0.25});
   EXPECT_TRUE(claims.refuted(told));
   EXPECT_FALSE(claims.refuted(other));
   claims.clear();
   EXPECT_FALSE(claims.refuted(told));
-  claims.hear(told, 1.25, 0.25);
+  claims.hear(told, {1.25, 0.25});
   EXPECT_FALSE(claims.refuted(told));
 }
 
@@ -72,13 +72,13 @@ TEST(ReferenceClaims, AreUpdatedAtAVoteAndOnlyReadOtherwise) {
   const BlockTests above(array, low, limits, block), below(array, high, limits, block);
   const ReferencePanel panel = {array.all(), array.all(), array.size(), coplanarity(array, array.all())};
   const int told = static_cast<int>(kTold.bits);
-  ReferenceClaims record;
+  VoteRecord record;
   EXPECT_TRUE(hear_doubt(above, panel, record).excuses(array.all()));
-  EXPECT_FALSE(record.refuted(told));
+  EXPECT_FALSE(record.claims.refuted(told));
   EXPECT_TRUE(recall_doubt(below, panel, record).excuses(array.all()));
-  EXPECT_FALSE(record.refuted(told));
+  EXPECT_FALSE(record.claims.refuted(told));
   EXPECT_TRUE(hear_doubt(below, panel, record).excuses(array.all()));
-  EXPECT_TRUE(record.refuted(told));
+  EXPECT_TRUE(record.claims.refuted(told));
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ class Isolation {
   SensorSet exclude_by_parity(const BlockTests& tests, SensorSet corroborating) const noexcept;
 
   std::array<std::uint64_t, static_cast<std::size_t>(kVotingCapacity + 63) / 64U> rejected_{};
-  ReferenceClaims claims_;
+  VoteRecord record_;
   SensorSet monitored_;
   int voting_ = 0;               ///< test subsets within the monitored sensors
   std::int8_t universe_ = 0;     ///< configured sensors, over which sets are numbered
@@ -143,7 +143,7 @@ class Isolation {
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
     using I = Isolation;
-    return field_list(&I::rejected_, &I::claims_, not_stored(&I::monitored_), not_stored(&I::voting_),
+    return field_list(&I::rejected_, &I::record_, not_stored(&I::monitored_), not_stored(&I::voting_),
                       not_stored(&I::universe_), not_stored(&I::voting_size_), not_stored(&I::coplanarity_),
                       not_stored(&I::strict_), not_stored(&I::parity_));
   }

@@ -48,8 +48,8 @@ struct BlockEvidence {
 
 /// Quantiles in standard deviations, precomputed from the rates of the configuration.
 struct TestLimits {
-  std::array<double, kCapacity + 1> reject{};        ///< [nu]: sqrt of chi^2_nu quantile at the rejection rate
-  std::array<double, kCapacity + 1> parity_alarm{};  ///< [nu]: the same at the false-alarm rate
+  std::array<double, kCapacity - 1> reject{};        ///< [nu]: sqrt of chi^2_nu quantile at the rejection rate
+  std::array<double, kCapacity - 2> parity_alarm{};  ///< [nu]: the same at the false-alarm rate, of parity rows alone
   double norm_alarm = 0.0;                           ///< one degree of freedom, false-alarm rate
   /// What 99 of 100 calibrations stay below at every attitude, in standard deviations of what they leave
   /// (docs/theory.md, section 3.3). Of parity and norm together; of parity alone and of one norm alone, both at the
@@ -103,6 +103,10 @@ struct SetTest {
     return !tested || parity_rows == 0 || !(parity > parity_reject_limit(limits));
   }
 };
+
+/// |parity residual| of the readings `y_mps2` of a set, in standard deviations of one sample; 0 where it is not
+/// determined: fewer than four, or no rank 3.
+double parity_residual(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept;
 
 SetTest test_set(const SensorArray& array, const GravityReference& gravity, const TestLimits& limits,
                  const BlockEvidence& block, SensorSet set) noexcept;

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/detail/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/detection/detail/block_tests.hpp"
+#include "plumb/detection/detail/parity_sums.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -30,6 +32,16 @@ class NormMismatchDoubt {
   int count_ = 0;
 };
 
+/// What a set of sensors is off gravity by, beside what is the same at every attitude: a wrong gravity and a common
+/// scale.
+struct LengthError {
+  double error_mps2 = 0.0;
+  double margin_mps2 = 0.0;  ///< known to so much
+};
+LengthError length_error(const BlockTests& tests, const SetTest& test) noexcept;
+/// What is the same at every attitude: three sigmas of gravity where it is used, and where it calibrated.
+double constant_length_error_mps2(const BlockTests& tests) noexcept;
+
 /// What the sets that doubt gravity have claimed during an episode. A wrong gravity and a common scale are the
 /// same at every attitude; what a chance set of faulty sensors is off by turns with the tool. A claim that was not the
 /// same everywhere is refuted.
@@ -45,10 +57,16 @@ class ReferenceClaims {
   }
 
   void clear() noexcept { *this = ReferenceClaims{}; }
-  /// The set, which agrees with itself, is off gravity by `error`, known to `margin` (both m/s^2).
-  void hear(int index, double error_mps2, double margin_mps2) noexcept;
+  void hear(int index, const LengthError& off) noexcept;
   /// No one wrong gravity explains what the set was off by.
   bool refuted(int index) const noexcept { return low_[slot(index)] > high_[slot(index)]; }
+  /// Width of the range of gravities, off by `most_mps2` or less, that explain what the set was off by: below zero where
+  /// there is none.
+  double left_mps2(int index, double most_mps2) const noexcept {
+    if (!heard_[slot(index)]) return 2.0 * most_mps2;
+    const double low = std::fmax(static_cast<double>(low_[slot(index)]), -most_mps2);
+    return std::fmin(static_cast<double>(high_[slot(index)]), most_mps2) - low;
+  }
 
  private:
   static constexpr std::size_t slot(int index) noexcept { return static_cast<std::size_t>(index); }
@@ -65,6 +83,18 @@ class ReferenceClaims {
   }
 };
 
+/// What the votes of an episode have put on record.
+struct VoteRecord {
+  ReferenceClaims claims;
+  ParitySums parity;
+
+  void clear() noexcept {
+    claims.clear();
+    parity.clear();
+  }
+  static constexpr auto fields() noexcept { return field_list(&VoteRecord::claims, &VoteRecord::parity); }
+};
+
 /// Who is asked about gravity at one block.
 struct ReferencePanel {
   SensorSet monitored;  ///< the sensors that are not excluded
@@ -73,11 +103,11 @@ struct ReferencePanel {
   int coplanarity = 0;
 };
 
-/// The sets that doubt gravity at a vote: what they claim goes on record, and each is judged by all of its claims.
-NormMismatchDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, ReferenceClaims& record) noexcept;
+/// The sets that doubt gravity at a vote: what they claim goes on record, and each is judged by all of its claims. A
+/// set whose parity the record contradicts is not heard.
+NormMismatchDoubt hear_doubt(const BlockTests& tests, const ReferencePanel& panel, VoteRecord& record) noexcept;
 /// The same at any other question: judged by what is on record, to which nothing is added.
-NormMismatchDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel,
-                               const ReferenceClaims& record) noexcept;
+NormMismatchDoubt recall_doubt(const BlockTests& tests, const ReferencePanel& panel, const VoteRecord& record) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb
