@@ -14,8 +14,8 @@ bool is_stated(const BlockTests& tests, const ReferencePanel& panel) noexcept {
   return true;
 }
 
-/// Whether less than half is left of the gravities that the set allows at one vote. Noise alone takes up less; a triple of
-/// a healthy set that feels more than gravity may be contradicted before the set is.
+/// Whether less than half is left of the gravities that the set allows at one vote. Noise alone takes up less; a triple
+/// of a healthy set that feels more than gravity may be contradicted before the set is.
 bool doubts_one_gravity(const BlockTests& tests, SensorSet set, const SetTest& test, bool hears,
                         VoteRecord& record) noexcept {
   if (!test.tested) return false;

@@ -46,7 +46,8 @@ TrialCount isolated(int n, double size_mg, int episodes, const Trouble& trouble 
     IsolationAnswer answer;
     bool blamed = false;
     for (int k = 0; k < kAttitudes; ++k) {
-      const Vec3 felt = plus(scaled(noise.direction(), length_mps2), scaled(noise.direction(), trouble.acceleration_mps2));
+      const Vec3 felt =
+          plus(scaled(noise.direction(), length_mps2), scaled(noise.direction(), trouble.acceleration_mps2));
       BlockEvidence block = episode.block(felt, noise);
       for (int i = 0; i < n; ++i) {
         block.mean_mps2[slot(i)] += drift[slot(i)];
@@ -65,8 +66,9 @@ auto interval_of(const TrialCount& count) {
 }
 
 void tell(int n, double size_mg, const TrialCount& count) {
-  std::cout << "[ measured ] n = " << n << ", " << size_mg << " mg: isolated " << count.correct << " of " << count.trials
-            << " (" << interval_of(count).low << " .. " << interval_of(count).high << "), wrong " << count.wrong << '\n';
+  std::cout << "[ measured ] n = " << n << ", " << size_mg << " mg: isolated " << count.correct << " of "
+            << count.trials << " (" << interval_of(count).low << " .. " << interval_of(count).high << "), wrong "
+            << count.wrong << '\n';
 }
 
 // Verifies: REQ-070
@@ -89,7 +91,7 @@ TEST(FittedIsolation, ABiasOfTwoMilliGIsIsolatedOverEightAttitudes) {
 }
 
 /// Where drift and an acceleration are stated, lengths that no one gravity explains speak against a set.
-// Verifies: REQ-061
+// Verifies: REQ-069
 TEST(FittedIsolation, OneGravityIsolatesABiasOfOneMilliGAmongFour) {
   const int episodes = long_run() ? 20000 : 1000;
   const double drift_mps2 = 1e-4 * kG0_mps2, acceleration_mps2 = 1e-5 * kG0_mps2;
@@ -106,7 +108,7 @@ TEST(FittedIsolation, OneGravityIsolatesABiasOfOneMilliGAmongFour) {
 
 /// A tool that moves by sixty or two hundred times the stated acceleration: four healthy sensors agree with each other
 /// and with no one gravity, so that lengths blame nobody.
-// Negative: REQ-061
+// Negative: REQ-069
 TEST(FittedIsolation, AToolThatMovesMoreThanStatedHasNobodyHealthyBlamed) {
   const int episodes = long_run() ? 20000 : 500;
   const double drift_mps2 = 1e-4 * kG0_mps2, stated_mps2 = 1e-5 * kG0_mps2;

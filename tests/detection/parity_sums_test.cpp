@@ -1,4 +1,5 @@
-// Parity added up over the votes of an episode: no healthy set is contradicted, and a fault below what one block shows is.
+// Parity added up over the votes of an episode: no healthy set is contradicted, and a fault below what one block shows
+// is.
 #include "plumb/detection/detail/parity_sums.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,7 @@
 #include "detection/still_block.hpp"
 #include "support/simulated_tool.hpp"
 
-// Serves: REQ-061
+// Serves: REQ-069
 
 namespace parity_sums_test {
 namespace {

@@ -160,8 +160,8 @@ TEST(FaultsCovered, ASuspectWhoseExclusionTurnsTheVectorByLessThanTheAlertLimitL
   EXPECT_TRUE(v.alert);
 }
 
-/// Sensors on a cone, some of which show gravity mirrored in the plane of two others: the odd one out is healthy, and is
-/// provisionally excluded. The level must hold what those in league would have to be guilty of.
+/// Sensors on a cone, some of which show gravity mirrored in the plane of two others: the odd one out is healthy, and
+/// is provisionally excluded. The level must hold what those in league would have to be guilty of.
 void expect_no_colluders_turn_the_alert_off(int n, SensorSet plane, SensorSet colluders, SensorSet odd) {
   int provisional = 0;
   const int first = plane.lowest(), second = plane.without(first).lowest();
@@ -203,7 +203,8 @@ TEST(FaultsCovered, TwoColludersOfFiveNeverTurnTheAlertOff) {
 // Verifies: REQ-125
 // Negative: REQ-125
 TEST(FaultsCovered, ThreeColludersOfSixNeverTurnTheAlertOff) {
-  expect_no_colluders_turn_the_alert_off(6, SensorSet::of(0).with(3), SensorSet::of(1).with(4).with(5), SensorSet::of(2));
+  expect_no_colluders_turn_the_alert_off(6, SensorSet::of(0).with(3), SensorSet::of(1).with(4).with(5),
+                                         SensorSet::of(2));
 }
 
 /// The same fault of one of four, seen first at an attitude that was not passed before it: a second sensor may be at

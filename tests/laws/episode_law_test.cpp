@@ -41,6 +41,7 @@ void expect_some_excluded(std::uint64_t told, const LawCount& count, double shar
 }
 
 /// An acceleration is stated, and the tool accelerates by up to fifty times as much, anew at every station.
+// Verifies: REQ-069
 TEST(Law, SeventeenLengthsBlameNobodyHealthyThoughTheToolMovesMoreThanStated) {
   std::uint64_t told = 0;
   const LawCount count = run_law(17, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
@@ -71,6 +72,7 @@ TEST(Law, SeventeenLengthsBlameNobodyHealthyThoughTheToolMovesMoreThanStated) {
 
 /// Gravity off by ten sigma: only a healthy set that doubts it keeps its subsets from being rejected. Drift within its
 /// tolerance is the same at every station, and adds up in the parity of that set.
+// Verifies: REQ-069
 TEST(Law, EighteenDriftThatAddsUpTakesNoHealthySetItsWord) {
   std::uint64_t told = 0;
   const LawCount count = run_law(18, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
@@ -85,8 +87,8 @@ TEST(Law, EighteenDriftThatAddsUpTakesNoHealthySetItsWord) {
     c.draw(noise);
     const double length_mps2 = kG0_mps2 + gravity * tool.tool.gravity.sigma_mps2;
     Watch watch = fresh_watch(tool, config, 301, kSigma_mps2);
-    const LawOutcome outcome = never_blames_the_healthy(tool, c, watch, noise,
-                                                        [&] { return scaled(noise.direction(), length_mps2); });
+    const LawOutcome outcome =
+        never_blames_the_healthy(tool, c, watch, noise, [&] { return scaled(noise.direction(), length_mps2); });
     told += watch.verdict().excluded.empty() ? 0U : 1U;
     return outcome;
   });

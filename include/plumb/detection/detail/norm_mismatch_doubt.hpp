@@ -60,8 +60,8 @@ class ReferenceClaims {
   void hear(int index, const LengthError& off) noexcept;
   /// No one wrong gravity explains what the set was off by.
   bool refuted(int index) const noexcept { return low_[slot(index)] > high_[slot(index)]; }
-  /// Width of the range of gravities, off by `most_mps2` or less, that explain what the set was off by: below zero where
-  /// there is none.
+  /// Width of the range of gravities, off by `most_mps2` or less, that explain what the set was off by: below zero
+  /// where there is none.
   double left_mps2(int index, double most_mps2) const noexcept {
     if (!heard_[slot(index)]) return 2.0 * most_mps2;
     const double low = std::fmax(static_cast<double>(low_[slot(index)]), -most_mps2);

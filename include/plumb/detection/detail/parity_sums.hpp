@@ -15,8 +15,8 @@ class ParitySums {
   void clear() noexcept { *this = ParitySums{}; }
   /// One vote, at which all of `monitored` delivered and none scattered. Beyond `kMostVotes` it is left out.
   void add(const BlockTests& tests, SensorSet monitored) noexcept;
-  /// Whether a set of sensors that were monitored at every vote, healthy at all of them, may read their sum: noise grows
-  /// with the root of the votes, and what is systematic adds up at most (docs/theory.md, section 5.3).
+  /// Whether a set of sensors that were monitored at every vote, healthy at all of them, may read their sum: noise
+  /// grows with the root of the votes, and what is systematic adds up at most (docs/theory.md, section 5.3).
   bool agrees(const SensorArray& array, const TestLimits& limits, SensorSet set) const noexcept;
 
   bool plausible() const noexcept {
