@@ -74,7 +74,7 @@ std::vector<HiddenWiring> hidden_wirings(const SensorArray& array, const Gravity
   using Kind = HiddenWiring::Kind;
   const auto consider = [&](const Wiring& wiring, Kind kind, const std::array<int, 3>& sensor) {
     const WiringEffect effect = wiring_effect(array, wiring);
-    const bool unseen = effect.unseen(parity + 1e-12, length) || unseen_turn(array, wiring, axis_tolerance_rad);
+    const bool unseen = effect.unseen(parity + 1e-12, length) || unseen_turn(array, array, wiring, axis_tolerance_rad);
     if (unseen && effect.turn_rad > kHarmless_rad) out.push_back({kind, sensor, effect});
   };
   for (int i = 0; i < n; ++i) {

@@ -71,11 +71,12 @@ Vec3 wired_axis(const SensorArray& array, const Wiring& wiring, int i) noexcept 
 /// matching of axes, the nearest first, and of parallel ones its own.
 class Matching {
  public:
-  Matching(const SensorArray& array, const Mat3& turn, double tolerance_rad) : n_(array.size()) {
+  Matching(const SensorArray& array, const SensorArray& shown, const Mat3& turn, double tolerance_rad)
+      : n_(array.size()) {
     carrier_.fill(-1);
     const Mat3 back = transposed(turn);
     for (int i = 0; i < n_; ++i) {
-      const Vec3 wanted = times(back, array.axis(i));
+      const Vec3 wanted = times(back, shown.axis(i));
       for (int k = 0; k < n_; ++k) {
         const int j = (i + k) % n_;
         const int sign = dot(wanted, array.axis(j)) < 0.0 ? -1 : 1;
@@ -143,11 +144,11 @@ Mat3 product(const Mat3& a, const Mat3& b) noexcept {
 }
 
 /// How far the worst axis lies from where the wiring puts it.
-double misfit_rad(const SensorArray& array, const UnseenWiring& one) noexcept {
+double misfit_rad(const SensorArray& array, const SensorArray& shown, const UnseenWiring& one) noexcept {
   const Mat3 back = transposed(one.turn);
   double out = 0.0;
   for (int i = 0; i < array.size(); ++i)
-    out = std::fmax(out, angle_between_rad(times(back, array.axis(i)), wired_axis(array, one.wiring, i)));
+    out = std::fmax(out, angle_between_rad(times(back, shown.axis(i)), wired_axis(array, one.wiring, i)));
   return out;
 }
 
@@ -168,11 +169,16 @@ std::array<int, 3> best_base(const SensorArray& array) {
   return out;
 }
 
+/// Whether two of them show about the same direction at every attitude.
+bool same_turn(const UnseenWiring& a, const UnseenWiring& b) noexcept {
+  return angle_of_turn(product(transposed(a.turn), b.turn)) <= kSameTurn_rad;
+}
+
 /// Every way to put three signed axes in the place of the base that keeps the angles between them.
 class Search {
  public:
-  Search(const SensorArray& array, double tolerance_rad)
-      : array_(array), tolerance_rad_(tolerance_rad), base_(best_base(array)) {}
+  Search(const SensorArray& array, const SensorArray& shown, double tolerance_rad)
+      : array_(array), shown_(shown), tolerance_rad_(tolerance_rad), base_(best_base(shown)) {}
 
   std::vector<UnseenWiring> find() {
     const int n = array_.size();
@@ -195,7 +201,7 @@ class Search {
       wired[a] = scaled(array_.axis(image[a]), (signs >> static_cast<unsigned>(a)) % 2 == 0 ? 1.0 : -1.0);
     Mat3 sum{};
     for (std::size_t a = 0; a < 3; ++a) {
-      const Vec3 &here = array_.axis(base_[a]), &next = array_.axis(base_[(a + 1) % 3]);
+      const Vec3 &here = shown_.axis(base_[a]), &next = shown_.axis(base_[(a + 1) % 3]);
       const double off = angle_between_rad(wired[a], wired[(a + 1) % 3]) - angle_between_rad(here, next);
       if (std::fabs(off) > 2.0 * tolerance_rad_) return;
       add_outer(here, wired[a], sum);
@@ -204,25 +210,24 @@ class Search {
     const Mat3 turn = nearest_orthogonal(sum);
     if (std::any_of(tried_.begin(), tried_.end(), [&turn](const Mat3& t) { return alike(t, turn); })) return;
     tried_.push_back(turn);
-    const std::optional<Wiring> wiring = Matching(array_, turn, 2.0 * tolerance_rad_).find();
+    const std::optional<Wiring> wiring = Matching(array_, shown_, turn, 2.0 * tolerance_rad_).find();
     if (!wiring) return;
-    if (const std::optional<Mat3> exact = unseen_turn(array_, *wiring, tolerance_rad_)) keep({*wiring, *exact});
+    if (const std::optional<Mat3> exact = unseen_turn(array_, shown_, *wiring, tolerance_rad_)) keep({*wiring, *exact});
   }
 
   /// Of wirings that amount to about the same turn the one that fits best.
   void keep(const UnseenWiring& fresh) {
-    const auto same_turn = [&fresh](const UnseenWiring& one) {
-      return angle_of_turn(product(transposed(one.turn), fresh.turn)) <= kSameTurn_rad;
-    };
-    const auto known = std::find_if(found_.begin(), found_.end(), same_turn);
+    const auto known =
+        std::find_if(found_.begin(), found_.end(), [&fresh](const UnseenWiring& one) { return same_turn(one, fresh); });
     if (known == found_.end()) {
       found_.push_back(fresh);
-    } else if (misfit_rad(array_, fresh) < misfit_rad(array_, *known) - kSameAngle_rad) {
+    } else if (misfit_rad(array_, shown_, fresh) < misfit_rad(array_, shown_, *known) - kSameAngle_rad) {
       *known = fresh;
     }
   }
 
   const SensorArray& array_;
+  const SensorArray& shown_;
   double tolerance_rad_;
   std::array<int, 3> base_;
   std::vector<Mat3> tried_;  ///< parallel axes give the same turn many times
@@ -260,17 +265,18 @@ bool explains(const Mat3& turn, const std::vector<MeasuredAttitude>& measured, c
 
 }  // namespace
 
-std::optional<Mat3> unseen_turn(const SensorArray& nominal, const Wiring& wiring, double tolerance_rad) noexcept {
+std::optional<Mat3> unseen_turn(const SensorArray& nominal, const SensorArray& shown, const Wiring& wiring,
+                                double tolerance_rad) noexcept {
   Mat3 sum{};
-  for (int i = 0; i < nominal.size(); ++i) add_outer(nominal.axis(i), wired_axis(nominal, wiring, i), sum);
+  for (int i = 0; i < nominal.size(); ++i) add_outer(shown.axis(i), wired_axis(nominal, wiring, i), sum);
   if (!(std::fabs(det_of(sum)) > kSingular)) return std::nullopt;
   const Mat3 turn = nearest_orthogonal(sum);
-  if (misfit_rad(nominal, {wiring, turn}) > tolerance_rad) return std::nullopt;
+  if (misfit_rad(nominal, shown, {wiring, turn}) > tolerance_rad) return std::nullopt;
   return angle_of_turn(turn) > kSameTurn_rad ? std::optional<Mat3>(turn) : std::nullopt;
 }
 
-std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, double tolerance_rad) {
-  return Search(nominal, tolerance_rad).find();
+std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, const SensorArray& shown, double tolerance_rad) {
+  return Search(nominal, shown, tolerance_rad).find();
 }
 
 const char* to_string(WiringStatus status) noexcept {
@@ -282,9 +288,16 @@ const char* to_string(WiringStatus status) noexcept {
   return "?";
 }
 
-WiringCheck check_wiring(const io::ArrayFile& array, std::vector<MeasuredAttitude> measured) {
+WiringCheck check_wiring(const io::ArrayFile& array, const SensorArray* fitted,
+                         std::vector<MeasuredAttitude> measured) {
   WiringCheck out;
-  out.unseen = unseen_wirings(array.array, kUnseenAxis_rad);
+  out.unseen = unseen_wirings(array.array, array.array, kUnseenAxis_rad);
+  if (fitted != nullptr && fitted->size() == array.array.size()) {
+    for (const UnseenWiring& one : unseen_wirings(array.array, *fitted, kUnseenAxis_rad)) {
+      if (std::none_of(out.unseen.begin(), out.unseen.end(), [&one](const auto& k) { return same_turn(k, one); }))
+        out.unseen.push_back(one);
+    }
+  }
   out.measured = std::move(measured);
   for (std::size_t k = 0; k < out.unseen.size(); ++k) {
     if (explains(out.unseen[k].turn, out.measured, array.output_frame)) out.left.push_back(k);
@@ -318,7 +331,7 @@ WiringCheck check_wiring_of(const io::CalibrationFile* file, const io::ArrayFile
       if (const auto found = measured_attitudes({one}, file->context.down)) measured.push_back(found->front());
     }
   }
-  return check_wiring(array, std::move(measured));
+  return check_wiring(array, file != nullptr ? &file->calibration.array : nullptr, std::move(measured));
 }
 
 }  // namespace findings

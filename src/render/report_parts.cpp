@@ -103,7 +103,7 @@ CalibrationPart part_of(session::CalibrationRun run, const io::ArrayFile& array,
   const Refusal refusal = run.accepted ? Refusal{} : render::refusal_of(run, array);
   CalibrationPart out = part_with({run.accepted != nullptr, mode, refusal.reason, ""});
   if (!run.accepted) out.section["remedy"] = refusal.next;
-  put_wiring(run.study.shown ? run.wiring : findings::check_wiring(array, {}), array, out);
+  put_wiring(run.study.shown ? run.wiring : findings::check_wiring(array, nullptr, {}), array, out);
   out.section["fit"] = io::parsed(fit_json(run, array));
   out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
@@ -193,7 +193,7 @@ io::FileExpected<findings::WiringCheck> wiring_of(const io::CalibrationFile& fil
   std::vector<io::KnownAttitude> known = file.context.known_attitudes;
   io::add_known(array.input.known_attitudes, known);
   auto measured = findings::measured_attitudes(known, file.context.down);
-  if (measured) return findings::check_wiring(array, *std::move(measured));
+  if (measured) return findings::check_wiring(array, &file.calibration.array, *std::move(measured));
   if (!file.context.down.empty())
     return tl::unexpected<io::FileError>(session::unknown_station(measured.error(), file.context.down.size()));
   return tl::unexpected<io::FileError>(

@@ -99,7 +99,9 @@ std::string contradiction(const WiringCheck& check, const io::ArrayFile& array) 
       "deg away (tolerance {:.2g} deg)",
       m.stated.station, deg_from_rad(m.stated.inclination_rad), deg_from_rad(m.stated.toolface_rad),
       deg_from_rad(off_rad(m, array.output_frame)), deg_from_rad(m.stated.tolerance_rad));
-  if (check.left.empty()) return out + ", which no exchange or reversal of sensors explains";
+  if (check.left.empty())
+    return out +
+           ", and no exchange or reversal that leaves every axis within 15 deg of its datasheet axis explains that";
   return out + ", as if the sensors were wired otherwise (" + named(check, array.array) + ")";
 }
 

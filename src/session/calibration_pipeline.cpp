@@ -183,7 +183,7 @@ void judge_wiring(const io::ArrayFile& array, CalibrationRun& run) {
   for (const io::KnownAttitude& one : array.input.known_attitudes) {
     if (const auto found = findings::measured_attitudes({one}, down)) measured.push_back(found->front());
   }
-  run.wiring = findings::check_wiring(array, std::move(measured));
+  run.wiring = findings::check_wiring(array, run.accepted ? &run.accepted->array : nullptr, std::move(measured));
   if (run.wiring.status == findings::WiringStatus::contradicted) run.accepted.reset();
 }
 

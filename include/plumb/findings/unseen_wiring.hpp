@@ -1,6 +1,7 @@
 /// Wirings that gravity cannot see: exchanged and reversed channels that amount to a turn or a mirror image of the
 /// whole array. A calibration fits them as well as the right one, so that only a station of known attitude shows them.
-/// Computed for the datasheet axes: those of a fit come out wherever the wiring puts them.
+/// Sensors have the axes of the datasheet, but for what a fit may turn them; a fit shows where the channels have
+/// theirs.
 #pragma once
 
 #include <cstddef>
@@ -27,13 +28,15 @@ struct UnseenWiring {
 /// an accepted fit may turn an axis, whatever its prior (docs/calibration.md).
 inline const double kUnseenAxis_rad = FitOptions{}.max_axis_change_rad;
 
-/// The turn or mirror image that `wiring` amounts to; nothing where an axis lies further than the tolerance from it, so
-/// that a calibration refuses it, and where the turn itself is too small for a known attitude to show.
-std::optional<Mat3> unseen_turn(const SensorArray& nominal, const Wiring& wiring, double tolerance_rad) noexcept;
+/// The turn or mirror image that `wiring` amounts to, if the channels of a recording show the axes `shown` and the
+/// sensors have those of `nominal`: without a fit the same array. Nothing where an axis lies further than the tolerance
+/// from it, so that a calibration refuses it, and where the turn itself is too small for a known attitude to show.
+std::optional<Mat3> unseen_turn(const SensorArray& nominal, const SensorArray& shown, const Wiring& wiring,
+                                double tolerance_rad) noexcept;
 
 /// All of them but the right one, one for each turn or mirror image: every combination of exchanged and reversed
 /// channels is tried. That all channels are reversed (`reads` the wrong way round) is always among them.
-std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, double tolerance_rad);
+std::vector<UnseenWiring> unseen_wirings(const SensorArray& nominal, const SensorArray& shown, double tolerance_rad);
 
 /// A station of known attitude, and what the fit shows there.
 struct MeasuredAttitude {
@@ -53,13 +56,15 @@ struct SeparatingAttitude {
 
 struct WiringCheck {
   WiringStatus status = WiringStatus::open;
-  std::vector<UnseenWiring> unseen;        ///< for the datasheet axes
+  std::vector<UnseenWiring> unseen;        ///< for the datasheet axes, and for those of the fit
   std::vector<std::size_t> left;           ///< of those, the ones that no station contradicts
   std::vector<MeasuredAttitude> measured;  ///< the stations that were given
   SeparatingAttitude take;                 ///< what to record
 };
 
-WiringCheck check_wiring(const io::ArrayFile& array, std::vector<MeasuredAttitude> measured);
+/// `fitted`: the axes that the channels showed, null without a calibration. With sensors whose true axes lie off the
+/// datasheet's, a wiring may be unseen that is seen of exact ones (docs/theory.md, section 1.5).
+WiringCheck check_wiring(const io::ArrayFile& array, const SensorArray* fitted, std::vector<MeasuredAttitude> measured);
 
 /// The known attitudes with the directions of their stations in a fit (`down`, by station). The error is the first
 /// station that has none.
