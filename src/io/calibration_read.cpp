@@ -46,9 +46,10 @@ void check_envelope(const Source& source, const Json& root) {
                 "give a file that plumb calibrate wrote");
   }
   const Json& version = source.member(root, "version");
-  if (version != kCalibrationVersion) {
+  if (version != kCalibrationVersion && version != kOldestCalibrationVersion) {
     source.fail(source.line_of("version", "version"), "version",
-                "is " + version.dump() + ", this plumb reads version " + std::to_string(kCalibrationVersion),
+                "is " + version.dump() + ", this plumb reads versions " + std::to_string(kOldestCalibrationVersion) +
+                    " and " + std::to_string(kCalibrationVersion),
                 "run plumb calibrate again with this plumb, or use the plumb that wrote the file");
   }
   const std::string stated = source.text_of(root, "checksum");
@@ -211,8 +212,8 @@ Calibration read_content(const Source& source, const Json& root, const ArrayFile
     for (std::size_t i = 0; i < n; ++i)
       source.numbers(mixing[i], "misalignment", &out.model.misalignment[i * kCapacity], n);
   }
-  // A file without it has it in the covariance.
-  if (root.contains("common_scale_sigma")) uncertainty.common_scale = source.number_of(root, "common_scale_sigma");
+  if (root["version"] != kOldestCalibrationVersion || root.contains("common_scale_sigma"))
+    uncertainty.common_scale = source.number_of(root, "common_scale_sigma");
   const Json& covariance = source.list(source.member(root, "covariance"), "covariance", 4 * n);
   for (std::size_t a = 0; a < 4 * n; ++a)
     source.numbers(covariance[a], "covariance", &uncertainty.covariance[a * (a + 1) / 2], a + 1);
@@ -226,6 +227,9 @@ Calibration read_content(const Source& source, const Json& root, const ArrayFile
   return out;
 }
 
+/// Of the length of a direction, for what printing it rounds.
+constexpr double kUnitVector = 1e-6;
+
 void read_attitudes(const Source& source, const Json& object, CalibrationContext& context) {
   const Json& down = source.member(object, "down");
   const Json& known = source.member(object, "known");
@@ -234,6 +238,11 @@ void read_attitudes(const Source& source, const Json& object, CalibrationContext
   for (const Json& one : down) {
     context.down.emplace_back();
     source.numbers(one, "down", context.down.back().data(), 3);
+    const double length = norm(context.down.back());
+    if (length != 0.0 && !(std::fabs(length - 1.0) <= kUnitVector))
+      source.fail(source.line_of("attitudes", "\"down\""), "attitudes.down",
+                  "has the length " + Json(length).dump() + ", must be a unit vector, or 0 where the fit shows none",
+                  kMakeAnew);
   }
   for (const Json& one : known) {
     KnownAttitude& to = context.known_attitudes.emplace_back();
@@ -241,11 +250,15 @@ void read_attitudes(const Source& source, const Json& object, CalibrationContext
     to.inclination_rad = source.number_of(one, "inclination_rad");
     to.toolface_rad = source.number_of(one, "toolface_rad");
     to.tolerance_rad = source.number_of(one, "tolerance_rad");
-    const bool there = to.station >= 1 && static_cast<std::size_t>(to.station) <= context.down.size();
-    const bool finite = std::isfinite(to.inclination_rad) && std::isfinite(to.toolface_rad);
-    if (!there || !finite || !(to.tolerance_rad > 0.0 && to.tolerance_rad < 1.0))
-      source.fail(source.line_of("attitudes", "\"known\""), "attitudes.known", "is not of a station of this file",
-                  kMakeAnew);
+    const int line = source.line_of("attitudes", "\"known\"");
+    if (to.station < 1 || static_cast<std::size_t>(to.station) > context.down.size())
+      source.fail(line, "attitudes.known", "is not of a station of this file", kMakeAnew);
+    if (!to.plausible())
+      source.fail(
+          line, "attitudes.known",
+          "must have an inclination of 0 to 180 deg, a toolface of 0 to 360 deg and a tolerance of 0.01 to 45 deg, "
+          "in rad",
+          kMakeAnew);
   }
 }
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr const char* kForm =
     "write STATION:INCLINATION,TOOLFACE in deg, and ,TOLERANCE where it is not 5 deg: 7:60,40 or 7:60,40,2";
-constexpr double kMostTolerance_deg = 45.0;
 
 /// Reads one number and moves `at` behind it; false where there is none.
 template <class T>
@@ -43,12 +42,20 @@ tl::expected<KnownAttitude, std::string> parse_known_attitude(const std::string&
   if (out.station < 1) return refuse("stations are counted from 1");
   if (!(inclination >= 0.0 && inclination <= 180.0)) return refuse("the inclination must be 0 to 180 deg");
   if (!(std::fabs(toolface) <= 360.0)) return refuse("the toolface must be -360 to 360 deg");
-  if (!(tolerance > 0.0 && tolerance <= kMostTolerance_deg))
-    return refuse("the tolerance must be above 0 and at most 45 deg");
+  if (!(tolerance >= kLeastTolerance_deg && tolerance <= kMostTolerance_deg))
+    return refuse("the tolerance must be 0.01 to 45 deg");
   out.inclination_rad = rad_from_deg(inclination);
   out.toolface_rad = rad_from_deg(toolface < 0.0 ? toolface + 360.0 : toolface);
   out.tolerance_rad = rad_from_deg(tolerance);
   return out;
+}
+
+bool KnownAttitude::plausible() const noexcept {
+  constexpr double kRounding = 1e-9;
+  const double tolerance_deg = deg_from_rad(tolerance_rad);
+  return station >= 1 && inclination_rad >= 0.0 && inclination_rad <= kPi + kRounding && toolface_rad >= 0.0 &&
+         toolface_rad <= 2.0 * kPi + kRounding && tolerance_deg >= kLeastTolerance_deg - kRounding &&
+         tolerance_deg <= kMostTolerance_deg + kRounding;
 }
 
 Vec3 down_of(const KnownAttitude& attitude, const Mat3& output_frame) noexcept {

@@ -89,7 +89,7 @@ TEST(RollGroups, AreInTheReportAndInTheFile) {
   EXPECT_TRUE(says(outcome.out, {"15 of 16 parameters", "about the roll axis", "roll groups", "3 in the log",
                                  "(0, 0, 1) within 0.05 deg", "inclination", "by the stations that share"}));
   const Json file = Json::parse(where.text("new.json"));
-  EXPECT_EQ(file["version"], 1);
+  EXPECT_EQ(file["version"], 2);
   EXPECT_EQ(file["report"]["roll"]["groups"], 3);
   EXPECT_EQ(file["report"]["roll"]["axis"], Json({0.0, 0.0, 1.0}));
   EXPECT_LT(file["report"]["roll"]["inclination_sigma_rad"], 0.5e-3);

@@ -123,7 +123,7 @@ TEST(CalibrationFile, HasTheSameBytesForTheSameContent) {
   const std::string json = calibration_json(*calibration, array, context_of(array));
   EXPECT_EQ(json, calibration_json(*calibration, array, context_of(array)));
   EXPECT_EQ(json.find("somewhere"), std::string::npos) << "paths of one machine do not belong here";
-  EXPECT_EQ(json.substr(0, 49), "{\n \"schema\": \"plumb-calibration\",\n \"version\": 1,\n");
+  EXPECT_EQ(json.substr(0, 49), "{\n \"schema\": \"plumb-calibration\",\n \"version\": 2,\n");
 }
 
 TEST(CalibrationFile, KeepsContext) {
@@ -221,7 +221,7 @@ TEST(CalibrationFileRefuses, UnreadableAndTruncated) {
   expect_refusal(refusal_of(half), line_of(half + "@", "@"), "", {"truncated", "plumb calibrate"});
   const std::string tail_cut = json.substr(0, json.size() - 3);
   expect_refusal(refusal_of(tail_cut), line_of(tail_cut + "@", "@"), "", {"truncated"});
-  expect_refusal(refusal_of(changed("\"version\": 1", "\"version\" 1", json)), 3, "", {"not valid JSON"});
+  expect_refusal(refusal_of(changed("\"version\": 2", "\"version\" 1", json)), 3, "", {"not valid JSON"});
   expect_refusal(refusal_of(std::string(1000, '[') + std::string(1000, ']')), 0, "", {"nested too deeply"});
 }
 
@@ -241,8 +241,8 @@ TEST(CalibrationFileRefuses, OtherSchemasAndVersions) {
   expect_refusal(refusal_of(changed("plumb-calibration", "plumb-report", json)), 2, "schema",
                  {"plumb-report", "plumb calibrate wrote"});
   expect_refusal(refusal_of("[1, 2, 3]"), 0, "schema", {"none"});
-  expect_refusal(refusal_of(changed("\"version\": 1", "\"version\": 2", json)), 3, "version",
-                 {"is 2", "reads version 1"});
+  expect_refusal(refusal_of(changed("\"version\": 2", "\"version\": 3", json)), 3, "version",
+                 {"is 3", "reads versions 1 and 2"});
 }
 
 // Negative: REQ-037
@@ -280,6 +280,42 @@ std::string resealed(const std::string& json, const std::vector<std::string>& pa
   sum << "fnv1a64:" << std::hex << std::setw(16) << std::setfill('0') << fnv1a(text.data(), text.size());
   root["checksum"] = sum.str();
   return root.dump(1);
+}
+
+/// Version 1 has the gravity at which it was calibrated in the covariance; without it a later file would promise more.
+// Negative: REQ-037
+TEST(CalibrationFileRefuses, AFileWithoutTheScaleThatItsVersionHas) {
+  const auto without = [](int version) {
+    nlohmann::ordered_json root = nlohmann::ordered_json::parse(good_json());
+    root.erase("common_scale_sigma");
+    return resealed(root.dump(1), {"version"}, version);
+  };
+  expect_refusal(refusal_of(without(2)), 0, "common_scale_sigma", {"is missing", "plumb calibrate"});
+  EXPECT_TRUE(read_calibration(written("cal.json", without(1)), array_of()).has_value());
+}
+
+// Negative: REQ-037, REQ-183
+TEST(CalibrationFileRefuses, AttitudesThatNoStationHas) {
+  using J = nlohmann::ordered_json;
+  const auto with = [](const J& down, const J& known) {
+    return resealed(good_json(), {"attitudes"}, J{{"down", down}, {"known", known}});
+  };
+  const auto known = [](int station, double inclination, double toolface, double tolerance) {
+    return J::array({J{{"station", station},
+                       {"inclination_rad", inclination},
+                       {"toolface_rad", toolface},
+                       {"tolerance_rad", tolerance}}});
+  };
+  const auto refused = [](const std::string& json, const char* member, const char* field, const char* words) {
+    expect_refusal(refusal_of(json), line_of(json, member), field, {words, "plumb calibrate"});
+  };
+  const J unit = J::array({J::array({0.0, 0.6, 0.8}), J::array({0.0, 0.0, 0.0})});
+  EXPECT_TRUE(read_calibration(written("cal.json", with(unit, known(1, 0.5, 6.0, 0.1))), array_of()).has_value());
+  refused(with(J::array({J::array({0.0, 0.6, 0.7})}), J::array()), "\"down\"", "attitudes.down", "unit vector");
+  refused(with(unit, known(3, 0.5, 6.0, 0.1)), "\"known\"", "attitudes.known", "station of this file");
+  for (const J& wrong : {known(1, 3.2, 6.0, 0.1), known(1, 0.5, 6.3, 0.1), known(1, 0.5, 6.0, 0.99),
+                         known(1, 0.5, 6.0, 1e-300), known(1, -0.5, 6.0, 0.1)})
+    refused(with(unit, wrong), "\"known\"", "attitudes.known", "tolerance of 0.01 to 45 deg");
 }
 
 // Negative: REQ-037

@@ -15,6 +15,7 @@ namespace io {
 
 /// Of a known attitude that states none: what a tool set up by hand and the turn of the datasheet axes leave.
 inline constexpr double kKnownAttitudeTolerance_deg = 5.0;
+inline constexpr double kLeastTolerance_deg = 0.01, kMostTolerance_deg = 45.0;
 
 /// Angles as plumb prints them, in the output frame.
 struct KnownAttitude {
@@ -22,6 +23,8 @@ struct KnownAttitude {
   double inclination_rad = 0.0, toolface_rad = 0.0;
   double tolerance_rad = rad_from_deg(kKnownAttitudeTolerance_deg);  ///< of the direction
 
+  /// Angles and tolerance as `parse_known_attitude` gives them.
+  bool plausible() const noexcept;
   bool operator==(const KnownAttitude& o) const noexcept {
     return station == o.station && inclination_rad == o.inclination_rad && toolface_rad == o.toolface_rad &&
            tolerance_rad == o.tolerance_rad;
