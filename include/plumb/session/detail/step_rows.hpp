@@ -24,6 +24,11 @@ inline void take_row(const stepping::Rows& rows, std::size_t k, Sample& sample) 
   sample.roll_group = row.roll_group;
 }
 
+/// A record that says something and moves nothing: the first alarm of an episode, and what has event `none`.
+inline bool is_notice(const TransitionRecord& record) noexcept {
+  return record.from == record.to && (record.event == HealthEvent::alarm || record.event == HealthEvent::none);
+}
+
 /// `before(time_s)` is called before each step.
 template <class Monitor, class Before>
 void step_rows(Monitor& monitor, const stepping::Rows& rows, bool first, stepping::Wanted wanted, stepping::Said& said,
@@ -42,7 +47,7 @@ void step_rows(Monitor& monitor, const stepping::Rows& rows, bool first, steppin
     const Verdict& verdict = monitor.step(sample);
     const bool changed = verdict.transition.sequence != 0;
     said.blocks += verdict.tick ? 1U : 0U;
-    said.changes += changed ? 1U : 0U;
+    said.changes += changed && !is_notice(verdict.transition) ? 1U : 0U;
     const bool asked_for = changed || (first && k == 0) || wanted == stepping::Wanted::samples ||
                            (wanted == stepping::Wanted::blocks && verdict.tick);
     if (!asked_for) continue;
