@@ -65,9 +65,10 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
   const bool known = inclination_of(v.gravity_mps2, frame, inclination_deg);
   out += fmt::format("inclination {}, {} ({})\n",
                      known ? angle_words(inclination_deg, inclination_sigma_of(v, frame)) + " deg" : "not known",
-                     to_string(v.validity), v.alert && v.validity >= Validity::degraded
-                                                ? "not to be used: the alert is on, the error may be above the alert limit"
-                                                : meaning(v.validity));
+                     to_string(v.validity),
+                     v.alert && v.validity >= Validity::degraded
+                         ? "not to be used: the alert is on, the error may be above the alert limit"
+                         : meaning(v.validity));
   out += "protection  ";
   out += v.protection_available
              ? fmt::format("the direction is within {:.3f} deg of the truth\n", deg_from_rad(v.protection_level_rad))
