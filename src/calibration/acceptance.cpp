@@ -80,14 +80,12 @@ Judgement judge(const Datasheet& datasheet, const GravityReference& gravity, con
                   limits.max_common_scale_sigmas * common.sigma);
   }
   const double parity = calibration.report.parity_rms_mps2;
-  if (!(parity <= limits.max_parity_rms_mps2)) {
-    return refuse(Concern::parity, Errc::poor_fit, -1, parity, limits.max_parity_rms_mps2);
-  }
+  const double most_parity = residual_bound_mps2(limits.max_parity_rms_mps2, calibration.report);
+  if (!(parity <= most_parity)) return refuse(Concern::parity, Errc::poor_fit, -1, parity, most_parity);
   if (held_out.judged == 0) return {};
   const double missed = std::fmax(held_out.norm_rms_mps2, held_out.parity_rms_mps2);
-  if (!(missed <= limits.max_hold_out_mps2)) {
-    return refuse(Concern::hold_out, Errc::poor_fit, -1, missed, limits.max_hold_out_mps2);
-  }
+  const double most_missed = residual_bound_mps2(limits.max_hold_out_mps2, calibration.report);
+  if (!(missed <= most_missed)) return refuse(Concern::hold_out, Errc::poor_fit, -1, missed, most_missed);
   if (!(held_out.sigmas <= limits.max_hold_out_sigmas)) {
     return refuse(Concern::hold_out_claim, Errc::poor_fit, -1, held_out.sigmas, limits.max_hold_out_sigmas);
   }

@@ -277,6 +277,7 @@ Expected<Calibration> Calibrator::finish(const Station* stations, int count, Fit
     out.report.inclination_sigma_rad = r.inclination_sigma_rad;
   }
   Error error = judge(problem, fitted, r);
+  out.report.noise_mps2 = r.noise_mps2;
   if (stop_ != StopReason::converged) error = Error{Errc::diverged, -1, cost_, 0.0};
   if (error.code == Errc::ok) return composed;
   if (error.code != Errc::unobservable) {

@@ -288,7 +288,29 @@ Error implausible(const Datasheet& datasheet, const Roll& roll, const FitOptions
   return best.error;
 }
 
+namespace {
+
+/// Of the noisiest sensor at each station, by the datasheet; rms over the stations that deliver.
+double noise_of_means(const Problem& problem) noexcept {
+  double sum = 0.0;
+  int used = 0;
+  for (int k = 0; k < problem.count; ++k) {
+    const auto& station = problem.stations[k];
+    double most = 0.0;
+    for (int i = 0; i < problem.datasheet.size; ++i) {
+      if (station.delivered.has(i)) most = std::fmax(most, problem.datasheet.sensor[at(i)].row.sigma_mps2);
+    }
+    if (station.count == 0 || most == 0.0) continue;
+    sum += most * most / station.count;
+    ++used;
+  }
+  return used > 0 ? std::sqrt(sum / used) : 0.0;
+}
+
+}  // namespace
+
 Error judge_figures(const Problem& problem, const FitOptions& options, const Fitted& fitted, FitFigures& r) noexcept {
+  r.noise_mps2 = noise_of_means(problem);
   const Error error = implausible(problem.datasheet, problem.roll, options, fitted.theta, r.suspects);
   if (error.code != Errc::ok) return error;
   const double most = options.max_outlier_share * (r.stations + r.outliers);
@@ -303,8 +325,9 @@ Error judge_figures(const Problem& problem, const FitOptions& options, const Fit
   const int highest_variance = fitted.tally.highest_variance(problem.datasheet.size, fitted.tally.freedom(r), excess);
   // Among few stations chance alone reaches the bound; what suspects none as a whole suspects no single sensor.
   const bool singled_out = excess > options.max_sensor_excess && r.p_value < kSuspicious;
-  if (!(r.norm_rms_mps2 <= options.max_norm_rms_mps2)) {
-    return Error{Errc::poor_fit, singled_out ? highest_variance : -1, r.norm_rms_mps2, options.max_norm_rms_mps2};
+  const double most_rms_mps2 = residual_bound_mps2(options.max_norm_rms_mps2, r);
+  if (!(r.norm_rms_mps2 <= most_rms_mps2)) {
+    return Error{Errc::poor_fit, singled_out ? highest_variance : -1, r.norm_rms_mps2, most_rms_mps2};
   }
   if (singled_out) return Error{Errc::poor_fit, highest_variance, excess, options.max_sensor_excess};
   return Error{};

@@ -111,6 +111,7 @@ class Attempt {
     if (descent.stop() != StopReason::converged) return tl::unexpected<Error>(diverged);
     const Error wrong = judge(joint, descent, fitted);
     if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
+    if (out) out->report.noise_mps2 = report_.noise_mps2;
     return out;
   }
 

@@ -104,7 +104,7 @@ Finding poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
   const double most = run.options.max_outlier_share * (r.stations + r.outliers);
   if (static_cast<double>(r.outliers) > most)
     return {FindingCode::too_many_outliers, e.index, static_cast<double>(r.outliers), std::floor(most)};
-  const bool of_length = r.norm_rms_mps2 <= run.options.max_norm_rms_mps2;
+  const bool of_length = r.norm_rms_mps2 <= residual_bound_mps2(run.options.max_norm_rms_mps2, r);
   if (r.parameters == 12 && r.outliers > 0 && of_length) {
     return {FindingCode::outliers_of_three, -1, static_cast<double>(r.outliers),
             static_cast<double>(r.stations + r.outliers)};

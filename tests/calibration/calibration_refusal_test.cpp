@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calibration_support.hpp"
+#include "plumb/calibration/acceptance.hpp"
 #include "plumb/calibration/observability.hpp"
 
 namespace calibration_refusal_test {
@@ -157,10 +158,29 @@ TEST(CalibrationRefusal, ParametersBeyondTheirPhysicalBounds) {
 TEST(CalibrationRefusal, NormBeyondItsBound) {
   Bench b;
   b.options.max_norm_rms_mps2 = 1e-4;
+  for (int i = 0; i < b.sheet.size; ++i) b.sheet.sensor[static_cast<std::size_t>(i)].row.sigma_mps2 *= 0.1;
   const auto c = b.run();
   ASSERT_FALSE(c.has_value());
   EXPECT_EQ(c.error().code, plumb::Errc::poor_fit);
   EXPECT_GT(c.error().value, c.error().limit);
+}
+
+/// Sensors that scatter by 0.5 m/s^2 a sample, as their datasheet says: the means of 32 are off by more than 0.05
+/// m/s^2, and no calibration could be better.
+// Verifies: REQ-034
+TEST(CalibrationRefusal, CoarseSensorsThatKeepTheirDatasheetAreCalibrated) {
+  Bench b;
+  constexpr double kCoarse_mps2 = 0.5;
+  b.sheet = paper_tool(kCoarse_mps2);
+  b.stations = random_stations(b.sheet, b.truth, 96, b.noise, kCoarse_mps2);
+  const auto c = b.run();
+  ASSERT_TRUE(c.has_value()) << (c ? 0.0 : c.error().value);
+  EXPECT_GT(b.report.norm_rms_mps2, b.options.max_norm_rms_mps2);
+  const plumb::Judgement judged = plumb::judge(b.sheet, b.gravity, *c, plumb::HoldOut{}, plumb::OddSensor{});
+  EXPECT_EQ(judged.error.code, plumb::Errc::ok) << plumb::to_string(judged.concern) << ' ' << judged.error.value;
+  // The same scatter from sensors that promise a tenth of it is refused.
+  for (int i = 0; i < b.sheet.size; ++i) b.sheet.sensor[static_cast<std::size_t>(i)].row.sigma_mps2 *= 0.1;
+  EXPECT_EQ(b.refusal(), plumb::Errc::poor_fit);
 }
 
 TEST(CalibrationRefusal, ConvergenceNotReached) {

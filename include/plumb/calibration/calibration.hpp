@@ -100,6 +100,7 @@ struct FitFigures {
   std::array<double, kCapacity> residual_rms_mps2{};  ///< of a - W g - b, per sensor over the stations
   double norm_rms_mps2 = 0.0;                         ///< of |x| - G over the stations
   double parity_rms_mps2 = 0.0;                       ///< of the orthonormal parity residuals; 0 where n = 3
+  double noise_mps2 = 0.0;                            ///< of the noisiest mean of a station, by the datasheet; rms
   double misfit_mps2 = 0.0;                           ///< noise beyond the datasheet's that the residuals ask for
   double chi2 = 0.0;                                  ///< against the datasheet's noise alone
   int degrees_of_freedom = 0;
@@ -156,10 +157,18 @@ struct Calibration {
   FitReport report;
 };
 
+/// Bounds of residuals in m/s^2 are for what a calibration gets wrong. Coarse sensors scatter by more: so many sigmas
+/// of their means are no reason to refuse them.
+inline constexpr double kNoiseRoom = 3.0;
+inline double residual_bound_mps2(double bound_mps2, const FitFigures& figures) noexcept {
+  const double noise = kNoiseRoom * figures.noise_mps2;
+  return noise > bound_mps2 ? noise : bound_mps2;
+}
+
 struct FitOptions {
   int max_iterations = 100;           ///< those that look for outliers included
   double stop_relative = 1.5e-6;      ///< the paper's stop rule, with the prior sigma as absolute floor
-  double max_norm_rms_mps2 = 0.05;    ///< poor_fit beyond it
+  double max_norm_rms_mps2 = 0.05;    ///< poor_fit beyond it and beyond `kNoiseRoom` sigmas
   double max_scale_change = 0.25;     ///< implausible beyond it: max(SF/SF0, SF0/SF) - 1
   double max_axis_change_rad = 0.26;  ///< implausible beyond it (15 deg)
   double max_bias_sigmas = 8.0;       ///< implausible beyond it, in prior sigmas
