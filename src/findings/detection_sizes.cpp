@@ -67,7 +67,8 @@ Readings guaranteed_isolation_mps2(const SensorArray& array, const TestSettings&
   for (int i = 0; i < array.size(); ++i) {
     const double by_parity = thresholds.sure.fault[2][index(i)];
     const bool by_length = array.size() == kFour && one != nullptr && !std::isfinite(by_parity);
-    out[index(i)] = by_length ? one->clear_over_mps2(down.data(), attitudes, i) : by_parity;
+    const double isolated = by_length ? one->clear_over_mps2(down.data(), attitudes, i) : by_parity;
+    out[index(i)] = std::fmax(isolated, thresholds.sensor[index(i)].guaranteed_detection_mps2);
   }
   return out;
 }

@@ -12,8 +12,6 @@ using std::size_t;
 
 namespace {
 
-/// Beyond this ratio of the sigmas the precise sensors alone would decide and the normal matrix loses its digits.
-constexpr double kMaxSigmaRatio = 300.0;
 /// Of a product of two rows of the output frame: a published vector is wrong by no more than as large a part.
 constexpr double kFrameTolerance = 1e-6;
 

@@ -208,9 +208,24 @@ const TomlNode& sensor_list(const TomlNode& root, const std::string& file) {
   return *list;
 }
 
+/// What no monitor takes (`kMaxSigmaRatio`), no other command takes either.
+void refuse_unlike_noise(const std::vector<TomlTable>& tables, const Datasheet& sheet) {
+  const auto sigma = [&sheet](std::size_t i) { return sheet.sensor[i].row.sigma_mps2; };
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < tables.size(); ++i) least = sigma(i) < sigma(least) ? i : least;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (sigma(i) <= kMaxSigmaRatio * sigma(least)) continue;
+    tables[i].fail(tables[i].line_of("noise"), "noise",
+                   "is " + brief(sigma(i) / sigma(least)) + " times that of " + path_of(least) + " (line " +
+                       std::to_string(tables[least].line_of("noise")) + "), at most 300 times can be used together",
+                   "check the unit of both; leave out a sensor that is so much noisier than the others");
+  }
+}
+
 /// The rules of SensorArray, in the words of the file.
 SensorArray built_array(const std::vector<TomlTable>& tables, const Datasheet& sheet) {
   std::array<SensorRow, kCapacity> rows{};
+  refuse_unlike_noise(tables, sheet);
   for (std::size_t i = 0; i < tables.size(); ++i) rows[i] = sheet.sensor[i].row;
   const Expected<SensorArray> array = SensorArray::make(rows.data(), sheet.size);
   if (array) return *array;

@@ -137,6 +137,26 @@ TEST(DetectionSizes, OverSeveralAttitudesNoSmallerFigureWouldDo) {
   EXPECT_TRUE(std::isinf(one.clear_over_mps2(nullptr, 0, 0)));
 }
 
+/// Without an alarm nothing is isolated, however unlike the sensors are.
+// Verifies: REQ-016
+TEST(DetectionSizes, IsolationIsNeverGuaranteedBelowDetection) {
+  for (const double factor : {1.0, 10.0, 100.0}) {
+    for (int n = 4; n <= 8; ++n) {
+      AxisList axes{};
+      cone_with_axis(axes, n);
+      std::array<SensorRow, kCapacity> rows{};
+      for (int i = 0; i < n; ++i) {
+        const auto a = static_cast<std::size_t>(i);
+        rows[a].id = make_id(("a" + std::to_string(i + 1)).c_str());
+        rows[a].axis = axes[a];
+        rows[a].sigma_mps2 = i == 1 ? factor * 0.2 * kMilli : 0.2 * kMilli;
+      }
+      const DetectionSizes sizes = detection_sizes(*SensorArray::make(rows.data(), n), kExact, {});
+      EXPECT_GE(sizes.guaranteed_isolation_mps2, sizes.guaranteed_detection_any_mps2) << n << ' ' << factor;
+    }
+  }
+}
+
 // Verifies: REQ-123
 TEST(SizeTable, StatesTheSameConditionsWhateverTheArrayFileSays) {
   const SensorArray array = cone_array(6);

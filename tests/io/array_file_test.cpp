@@ -240,6 +240,8 @@ TEST(ArrayFileRefuses, ValuesOutOfRange) {
                  {"below gravity plus a margin", "clips"});
   expect_refused(changed("noise = \"0.5 mg\"", "noise = \"1e-300 mg\""), 21, "sensor[1].noise",
                  {"below 1e-9 m/s^2", "noise = "});
+  expect_refused(changed("noise = \"0.5 mg\"", "noise = \"1 g0\""), 21, "sensor[1].noise",
+                 {"times that of sensor[", "at most 300 times", "unit of both"});
   expect_refused(changed("noise = \"0.5 mg\"", "noise = \"0 mg\""), 21, "sensor[1].noise", {"above zero"});
   expect_refused(changed("noise = \"0.5 mg\"", "noise = \"nan mg\""), 21, "sensor[1].noise", {"not finite"});
   expect_refused(changed("id = \"A1\"", "id = \"a name far too long\""), 16, "sensor[1].id", {"longer than 15"});

@@ -86,6 +86,8 @@ struct Triple {
 using TripleForm = std::array<double, 6>;
 
 inline constexpr double kMinTripleDet = 0.05;
+/// Beyond this ratio of the sigmas of an array the precise sensors alone would decide, and normal matrices lose digits.
+inline constexpr double kMaxSigmaRatio = 300.0;
 /// A third axis within this sine of the plane of two others counts as lying in it (coplanarity c).
 inline constexpr double kPlaneTolerance = 0.05;
 inline constexpr double kAxisLengthTolerance = 1e-6;

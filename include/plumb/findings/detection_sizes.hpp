@@ -38,8 +38,8 @@ inline Vec3 spread_direction(int k, int count) noexcept {
 }
 
 /// Of each sensor, by its index. Five sensors and more: T7 at any attitude. Four, which parity cannot tell apart: T8
-/// over `TestSettings::isolation_attitudes` that are spread over the sphere. `one` may be null where nothing can be
-/// isolated.
+/// over `TestSettings::isolation_attitudes` that are spread over the sphere. Never below the guaranteed detection
+/// threshold: without an alarm nothing is isolated. `one` may be null where nothing can be isolated.
 Readings guaranteed_isolation_mps2(const SensorArray& array, const TestSettings& settings, const Thresholds& thresholds,
                                    const OneAttitude* one) noexcept;
 
