@@ -7,7 +7,10 @@ void ParitySums::add(const BlockTests& tests, SensorSet monitored) noexcept {
   const SetTest& all = tests.of(monitored);
   if (!all.tested || votes_ >= kMostVotes) return;
   const double root_n = std::sqrt(all.samples);
-  for (std::size_t i = 0; i < sum_mps2_.size(); ++i) sum_mps2_[i] += root_n * tests.block().mean_mps2[i];
+  for (int i = 0; i < tests.array().size(); ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    if (monitored.has(i)) sum_mps2_[a] += root_n * tests.block().mean_mps2[a];
+  }
   systematic_ += all.parity_systematic;
   ++votes_;
 }

@@ -144,11 +144,11 @@ Mat3 product(const Mat3& a, const Mat3& b) noexcept {
 }
 
 /// How far the worst axis lies from where the wiring puts it.
-double misfit_rad(const SensorArray& array, const SensorArray& shown, const UnseenWiring& one) noexcept {
-  const Mat3 back = transposed(one.turn);
+double misfit_rad(const SensorArray& array, const SensorArray& shown, const Wiring& wiring, const Mat3& turn) noexcept {
+  const Mat3 back = transposed(turn);
   double out = 0.0;
   for (int i = 0; i < array.size(); ++i)
-    out = std::fmax(out, angle_between_rad(times(back, shown.axis(i)), wired_axis(array, one.wiring, i)));
+    out = std::fmax(out, angle_between_rad(times(back, shown.axis(i)), wired_axis(array, wiring, i)));
   return out;
 }
 
@@ -169,10 +169,12 @@ std::array<int, 3> best_base(const SensorArray& array) {
   return out;
 }
 
-/// Whether two of them show about the same direction at every attitude.
-bool same_turn(const UnseenWiring& a, const UnseenWiring& b) noexcept {
-  return angle_of_turn(product(transposed(a.turn), b.turn)) <= kSameTurn_rad;
+double apart_rad(const UnseenWiring& a, const UnseenWiring& b) noexcept {
+  return angle_of_turn(product(transposed(a.turn), b.turn));
 }
+
+/// Whether two of them show about the same direction at every attitude.
+bool same_turn(const UnseenWiring& a, const UnseenWiring& b) noexcept { return apart_rad(a, b) <= kSameTurn_rad; }
 
 /// Every way to put three signed axes in the place of the base that keeps the angles between them.
 class Search {
@@ -212,18 +214,25 @@ class Search {
     tried_.push_back(turn);
     const std::optional<Wiring> wiring = Matching(array_, shown_, turn, 2.0 * tolerance_rad_).find();
     if (!wiring) return;
-    if (const std::optional<Mat3> exact = unseen_turn(array_, shown_, *wiring, tolerance_rad_)) keep({*wiring, *exact});
+    const std::optional<Mat3> exact = unseen_turn(array_, shown_, *wiring, tolerance_rad_);
+    if (exact) keep({*wiring, *exact, std::fmax(kSameTurn_rad, misfit(*wiring, *exact))});
   }
 
-  /// Of wirings that amount to about the same turn the one that fits best.
-  void keep(const UnseenWiring& fresh) {
+  double misfit(const Wiring& wiring, const Mat3& turn) const noexcept {
+    return misfit_rad(array_, shown_, wiring, turn);
+  }
+
+  /// Of wirings that amount to about the same turn the one that fits best, known no better than holds them all.
+  void keep(UnseenWiring fresh) {
     const auto known =
         std::find_if(found_.begin(), found_.end(), [&fresh](const UnseenWiring& one) { return same_turn(one, fresh); });
     if (known == found_.end()) {
       found_.push_back(fresh);
-    } else if (misfit_rad(array_, shown_, fresh) < misfit_rad(array_, shown_, *known) - kSameAngle_rad) {
-      *known = fresh;
+      return;
     }
+    if (misfit(fresh.wiring, fresh.turn) < misfit(known->wiring, known->turn) - kSameAngle_rad)
+      std::swap(*known, fresh);
+    known->known_to_rad = std::fmax(known->known_to_rad, fresh.known_to_rad + apart_rad(*known, fresh));
   }
 
   const SensorArray& array_;
@@ -257,10 +266,23 @@ SeparatingAttitude best_attitude(const WiringCheck& check, const Mat3& frame) {
   return out;
 }
 
-bool explains(const Mat3& turn, const std::vector<MeasuredAttitude>& measured, const Mat3& frame) {
+/// Within the tolerance of each, or `least_rad` where that is more.
+bool explains(const Mat3& turn, double least_rad, const std::vector<MeasuredAttitude>& measured, const Mat3& frame) {
   return std::all_of(measured.begin(), measured.end(), [&](const MeasuredAttitude& m) {
-    return angle_between_rad(m.down, times(turn, down_of(m.stated, frame))) <= m.stated.tolerance_rad;
+    const double most_rad = std::fmax(least_rad, m.stated.tolerance_rad);
+    return angle_between_rad(m.down, times(turn, down_of(m.stated, frame))) <= most_rad;
   });
+}
+
+/// Of the axes of the fit, where there is one, and of the datasheet's.
+std::vector<UnseenWiring> all_unseen(const SensorArray& nominal, const SensorArray* fitted) {
+  std::vector<UnseenWiring> out;
+  if (fitted != nullptr && fitted->size() == nominal.size()) out = unseen_wirings(nominal, *fitted, kUnseenAxis_rad);
+  for (const UnseenWiring& one : unseen_wirings(nominal, nominal, kUnseenAxis_rad)) {
+    if (std::none_of(out.begin(), out.end(), [&one](const UnseenWiring& known) { return same_turn(known, one); }))
+      out.push_back(one);
+  }
+  return out;
 }
 
 }  // namespace
@@ -271,7 +293,7 @@ std::optional<Mat3> unseen_turn(const SensorArray& nominal, const SensorArray& s
   for (int i = 0; i < nominal.size(); ++i) add_outer(shown.axis(i), wired_axis(nominal, wiring, i), sum);
   if (!(std::fabs(det_of(sum)) > kSingular)) return std::nullopt;
   const Mat3 turn = nearest_orthogonal(sum);
-  if (misfit_rad(nominal, shown, {wiring, turn}) > tolerance_rad) return std::nullopt;
+  if (misfit_rad(nominal, shown, wiring, turn) > tolerance_rad) return std::nullopt;
   return angle_of_turn(turn) > kSameTurn_rad ? std::optional<Mat3>(turn) : std::nullopt;
 }
 
@@ -291,18 +313,13 @@ const char* to_string(WiringStatus status) noexcept {
 WiringCheck check_wiring(const io::ArrayFile& array, const SensorArray* fitted,
                          std::vector<MeasuredAttitude> measured) {
   WiringCheck out;
-  out.unseen = unseen_wirings(array.array, array.array, kUnseenAxis_rad);
-  if (fitted != nullptr && fitted->size() == array.array.size()) {
-    for (const UnseenWiring& one : unseen_wirings(array.array, *fitted, kUnseenAxis_rad)) {
-      if (std::none_of(out.unseen.begin(), out.unseen.end(), [&one](const auto& k) { return same_turn(k, one); }))
-        out.unseen.push_back(one);
-    }
-  }
+  out.unseen = all_unseen(array.array, fitted);
   out.measured = std::move(measured);
   for (std::size_t k = 0; k < out.unseen.size(); ++k) {
-    if (explains(out.unseen[k].turn, out.measured, array.output_frame)) out.left.push_back(k);
+    if (explains(out.unseen[k].turn, out.unseen[k].known_to_rad, out.measured, array.output_frame))
+      out.left.push_back(k);
   }
-  if (!explains(io::kIdentity3, out.measured, array.output_frame)) {
+  if (!explains(io::kIdentity3, 0.0, out.measured, array.output_frame)) {
     out.status = WiringStatus::contradicted;
   } else {
     out.status = out.left.empty() ? WiringStatus::confirmed : WiringStatus::open;

@@ -183,6 +183,16 @@ FitReport read_report(const Source& source, const Json& object, std::size_t n) {
   return report;
 }
 
+/// A file of version 1 has the gravity at which it was calibrated in its covariance, or nowhere if somebody took it
+/// out: then that counts once more rather than not at all.
+double common_scale_of(const Source& source, const Json& root) {
+  if (root["version"] != kOldestCalibrationVersion || root.contains("common_scale_sigma"))
+    return source.number_of(root, "common_scale_sigma");
+  const Json& gravity = source.member(root, "gravity");
+  const double g_mps2 = source.number_of(gravity, "g_mps2"), sigma_mps2 = source.number_of(gravity, "sigma_mps2");
+  return g_mps2 > 0.0 ? sigma_mps2 / g_mps2 : 0.0;
+}
+
 Calibration read_content(const Source& source, const Json& root, const ArrayFile& array) {
   Calibration out;
   const auto n = static_cast<std::size_t>(array.datasheet.size);
@@ -212,8 +222,7 @@ Calibration read_content(const Source& source, const Json& root, const ArrayFile
     for (std::size_t i = 0; i < n; ++i)
       source.numbers(mixing[i], "misalignment", &out.model.misalignment[i * kCapacity], n);
   }
-  if (root["version"] != kOldestCalibrationVersion || root.contains("common_scale_sigma"))
-    uncertainty.common_scale = source.number_of(root, "common_scale_sigma");
+  uncertainty.common_scale = common_scale_of(source, root);
   const Json& covariance = source.list(source.member(root, "covariance"), "covariance", 4 * n);
   for (std::size_t a = 0; a < 4 * n; ++a)
     source.numbers(covariance[a], "covariance", &uncertainty.covariance[a * (a + 1) / 2], a + 1);

@@ -1,13 +1,17 @@
 // A tool that is wired otherwise than its array file says, in a way that gravity cannot see: it must never be called
 // fit.
+#include <fmt/format.h>
+
 #include <sstream>
 
 #include "render/verify_support.hpp"
+#include "support/rewired_tool.hpp"
 
 namespace known_attitude_test {
 namespace {
 
 using namespace plumb_test;
+using namespace plumb;
 
 /// The log with two of its columns exchanged.
 std::string exchanged(const std::string& log, const std::string& a, const std::string& b) {
@@ -76,6 +80,86 @@ TEST(KnownAttitude, AMirroredToolIsNeverFit) {
     const std::string argument = read_text(where / "r" / "argument.svg");
     EXPECT_EQ(argument.find("stroke=\"#"), argument.find("stroke=\"#b97a00\"")) << "the goal is green";
   }
+}
+
+/// Six sensors, wired so that exact axes would show it and those mounted a few degrees off do not: the vector is
+/// turned, and neither command may call that fit.
+class Rewired : public Workshop {
+ public:
+  plumb_test::RewiredTool tool;
+
+  Rewired() : tool(first_beyond_the_datasheet()) {
+    std::string array =
+        "name = \"six\"\n[gravity]\nmodel = \"value\"\nvalue = \"9.80665 m/s^2\"\nsigma = \"0.15 mg\"\n"
+        "[input]\nreads = \"gravity\"\nunit = \"m/s^2\"\ntime = \"t_s\"\nstation = \"station\"\n";
+    std::string log = "t_s,station";
+    for (int i = 0; i < 6; ++i) {
+      const Vec3& axis = tool.nominal.axis(i);
+      array += fmt::format("[[sensor]]\nid = \"a{}\"\naxis = [{}, {}, {}]\nscale = \"1\"\nnoise = \"0.2 mg0\"\n", i + 1,
+                           axis[0], axis[1], axis[2]);
+      log += fmt::format(",a{}", i + 1);
+    }
+    log += "\n";
+    Noise noise(5);
+    for (int row = 0; row < 30 * kRows; ++row) {
+      if (row % kRows == 0) down_ = row == 0 ? axis_of_turn() : plumb_test::random_direction(noise);
+      if (row < 2 * kRows) stands_[static_cast<std::size_t>(row / kRows)] = down_;
+      log += fmt::format("{},{}", 0.01 * row, row / kRows + 1);
+      const Vec3 shown = scaled(times(tool.turn, down_), kG0_mps2);
+      for (int i = 0; i < 6; ++i) log += fmt::format(",{}", dot(tool.fitted.axis(i), shown) + 0.002 * noise.normal());
+      log += "\n";
+    }
+    put("six.toml", array);
+    put("six.csv", log);
+  }
+  /// The truth of station 1, which stands along the axis of the turn, or of station 2.
+  std::string known(int station) const {
+    const Vec3& down = stands_[static_cast<std::size_t>(station - 1)];
+    const double toolface_deg = deg_from_rad(std::atan2(-down[0], -down[1]));
+    return fmt::format("{}:{:.3f},{:.3f}", station, deg_from_rad(std::acos(down[2])), toolface_deg);
+  }
+
+ private:
+  static constexpr int kRows = 200;
+  Vec3 down_{};
+  std::array<Vec3, 2> stands_{};
+
+  Vec3 axis_of_turn() const {
+    Vec3 sum = {0.3, 0.5, 0.8};
+    for (int power = 0; power < 40; ++power) sum = plus(sum, times(tool.turn, sum));
+    return scaled(sum, 1.0 / norm(sum));
+  }
+
+  static plumb_test::RewiredTool first_beyond_the_datasheet() {
+    Noise noise(21);
+    for (int k = 0; k < 100000; ++k) {
+      const auto drawn = plumb_test::draw_rewired(6, noise);
+      if (!drawn) continue;
+      const auto exact = findings::unseen_wirings(drawn->nominal, drawn->nominal, findings::kUnseenAxis_rad);
+      if (!drawn->is_listed(exact)) return *drawn;
+    }
+    ADD_FAILURE() << "no such tool was drawn";
+    return {};
+  }
+};
+
+/// Station 1 stands along the axis of the turn, as stated, and excludes every wiring that exact axes would hide.
+// Negative: REQ-183
+TEST(KnownAttitude, AStationOnTheAxisOfTheTurnDoesNotMakeSixRewiredSensorsFit) {
+  const Rewired where;
+  const auto calibrate_with = [&where](const std::string& known) {
+    return run(where, {"calibrate", "--array", "six.toml", "--log", "six.csv", "--out", "six.json", "--known-attitude",
+                       known, "--json"});
+  };
+  const Outcome made = calibrate_with(where.known(1));
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(Json::parse(made.out)["wiring"]["status"], "open");
+  const Outcome judged = verify(where, {"--array", "six.toml", "--calibration", "six.json", "--out", "r"});
+  EXPECT_EQ(judged.code, 6) << judged.out;
+  EXPECT_TRUE(says(judged.out, {"INCONCLUSIVE", "the wiring is not confirmed"}));
+  const Outcome refused = calibrate_with(where.known(2));
+  EXPECT_EQ(refused.code, 4) << refused.out;
+  EXPECT_TRUE(says(refused.err, {"station 2", "as if the sensors were wired otherwise"}));
 }
 
 /// The same station on the same log, straight and swapped.

@@ -282,7 +282,8 @@ std::string resealed(const std::string& json, const std::vector<std::string>& pa
   return root.dump(1);
 }
 
-/// Version 1 has the gravity at which it was calibrated in the covariance; without it a later file would promise more.
+/// Version 1 has the gravity at which it was calibrated in the covariance. A later file without the key, or one that is
+/// passed off as version 1, must not promise more than it did.
 // Negative: REQ-037
 TEST(CalibrationFileRefuses, AFileWithoutTheScaleThatItsVersionHas) {
   const auto without = [](int version) {
@@ -291,7 +292,11 @@ TEST(CalibrationFileRefuses, AFileWithoutTheScaleThatItsVersionHas) {
     return resealed(root.dump(1), {"version"}, version);
   };
   expect_refusal(refusal_of(without(2)), 0, "common_scale_sigma", {"is missing", "plumb calibrate"});
-  EXPECT_TRUE(read_calibration(written("cal.json", without(1)), array_of()).has_value());
+  const auto old = read_calibration(written("cal.json", without(1)), array_of());
+  ASSERT_TRUE(old.has_value());
+  const GravityReference& gravity = old->context.gravity;
+  EXPECT_GT(gravity.sigma_mps2, 0.0);
+  EXPECT_DOUBLE_EQ(old->calibration.array.uncertainty().common_scale, gravity.sigma_mps2 / gravity.g_mps2);
 }
 
 // Negative: REQ-037, REQ-183

@@ -123,6 +123,23 @@ inline const std::vector<LawTool>& every_tool() {
   return all;
 }
 
+/// Broken: a healthy sensor is excluded at station `k`.
+inline LawOutcome blames_the_healthy(const LawTool& tool, const LawCase& c, plumb::SensorSet excluded, int k) {
+  if (c.faulty().contains(excluded)) return {};
+  return {true,
+          "of " + std::to_string(tool.n()) + " sensors (c = " + std::to_string(tool.plane) + ") " + names_of(excluded) +
+              " are excluded, but " + names_of(c.faulty()) + " are faulty; station " + std::to_string(k),
+          {tool.n(), c.faulty().size(), k}};
+}
+
+/// How many of the cases ended with an excluded sensor: a monitor that excludes none would keep these laws as well.
+inline void expect_some_excluded(std::uint64_t told, const LawCount& count, double share) {
+  std::printf("a sensor was excluded in %llu of %llu cases\n", static_cast<unsigned long long>(told),
+              static_cast<unsigned long long>(count.cases));
+  if (count.cases < 100) return;  // PLUMB_LAW_CASE asks for one
+  EXPECT_GE(static_cast<double>(told), share * static_cast<double>(count.cases));
+}
+
 /// A monitor over a tool, one block mean a step: a station is a sample that stands for 32, or for more.
 class Watch {
  public:

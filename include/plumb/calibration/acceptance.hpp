@@ -21,9 +21,10 @@ struct AcceptanceLimits {
   /// axes of a right roll axis lie so far off in exp(-8), 3 of 10 000 tools.
   double max_common_turn_sigmas = 4.0;
   double told_common_turn_sigmas = 2.0;  ///< reported beyond it: so do 14 of 100 tools with a right roll axis
-  double max_parity_rms_mps2 = 0.05;     ///< this and the next: or `kNoiseRoom` sigmas of the means of the stations
-  double max_hold_out_mps2 = 0.05;       ///< norm or parity rms of stations not used
-  double max_hold_out_sigmas = 3.0;      ///< rms of what was predicted, in sigmas that the fit claims
+  double max_parity_rms_mps2 =
+      0.05;  ///< this and the next: or `kResidualNoiseSigmas` sigmas of the means of the stations
+  double max_hold_out_mps2 = 0.05;   ///< norm or parity rms of stations not used
+  double max_hold_out_sigmas = 3.0;  ///< rms of what was predicted, in sigmas that the fit claims
   /// A sensor that stands out is refused where the misfit that it causes, or its mean residual at a temperature level,
   /// exceeds this part of its bias prior, or this many sigmas of a sample, whichever is less.
   double odd_bias_share = 0.05;

@@ -157,18 +157,18 @@ struct Calibration {
   FitReport report;
 };
 
-/// Bounds of residuals in m/s^2 are for what a calibration gets wrong. Coarse sensors scatter by more: so many sigmas
-/// of their means are no reason to refuse them.
-inline constexpr double kNoiseRoom = 3.0;
+/// A residual is too large beyond its bound in m/s^2, and beyond so many standard deviations of a station's mean where
+/// that is more: the means of coarse sensors scatter by more than any calibration can mend.
+inline constexpr double kResidualNoiseSigmas = 3.0;
 inline double residual_bound_mps2(double bound_mps2, const FitFigures& figures) noexcept {
-  const double noise = kNoiseRoom * figures.noise_mps2;
+  const double noise = kResidualNoiseSigmas * figures.noise_mps2;
   return noise > bound_mps2 ? noise : bound_mps2;
 }
 
 struct FitOptions {
   int max_iterations = 100;           ///< those that look for outliers included
   double stop_relative = 1.5e-6;      ///< the paper's stop rule, with the prior sigma as absolute floor
-  double max_norm_rms_mps2 = 0.05;    ///< poor_fit beyond it and beyond `kNoiseRoom` sigmas
+  double max_norm_rms_mps2 = 0.05;    ///< poor_fit beyond it and beyond `kResidualNoiseSigmas` sigmas
   double max_scale_change = 0.25;     ///< implausible beyond it: max(SF/SF0, SF0/SF) - 1
   double max_axis_change_rad = 0.26;  ///< implausible beyond it (15 deg)
   double max_bias_sigmas = 8.0;       ///< implausible beyond it, in prior sigmas

@@ -22,6 +22,9 @@ namespace findings {
 struct UnseenWiring {
   Wiring wiring;
   Mat3 turn{};  ///< orthogonal: where down is d, such a tool shows turn * d
+  /// How far off that may be: 5 deg, for the turn of the datasheet axes; more where an axis lies further from where the
+  /// wiring puts it, or a turn that is listed with this one shows more. A station excludes the wiring beyond this only.
+  double known_to_rad = 0.0;
 };
 
 /// How far an axis may lie from where a wiring puts it, so that a calibration takes that for an error of mounting: what

@@ -20,7 +20,7 @@ namespace io {
 
 inline constexpr const char* kCalibrationSchema = "plumb-calibration";
 inline constexpr int kCalibrationVersion = 2;
-/// The first one has the gravity at which it was calibrated in its covariance; it is read as it was meant.
+/// The first one has the gravity at which it was calibrated in its covariance, and lengths allow for it twice.
 inline constexpr int kOldestCalibrationVersion = 1;
 /// Of the section `paper`, which a file need not have.
 inline constexpr int kPaperSectionVersion = 1;
