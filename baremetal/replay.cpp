@@ -87,8 +87,14 @@ void put_verdict(Answers& out, const plumb::Verdict& v) noexcept {
   plumb::transfer(apart, v, plumb::AnyBits{});
   for (const double x : v.gravity_mps2) out.exact.number(x);
   for (const double x : v.covariance) out.exact.number(x);
-  const double sums[] = {v.time_s,          v.mae_all_mps2,     v.mae_worst_mps2,       v.parity,
-                         v.norm_error_mps2, v.temperature_degc, v.protection_level_rad, v.toolface_protection_rad};
+  const double sums[] = {v.time_s,
+                         v.mae_all_mps2,
+                         v.mae_worst_mps2,
+                         v.parity,
+                         v.norm_error_mps2,
+                         v.temperature_degc,
+                         v.protection_level_calibrated_axes_rad,
+                         v.toolface_protection_housing_rad};
   for (const double x : sums) out.exact.number(x);
 }
 

@@ -53,7 +53,7 @@ inline void demand_sound(const plumb::Verdict& v) {
   const bool usable = v.validity == plumb::Validity::valid || v.validity == plumb::Validity::degraded;
   demand(finite || !usable, "what is usable is finite");
   for (std::size_t k = 0; k < 9 && usable; k += 4) demand(v.covariance[k] >= 0.0, "a variance");
-  demand(!v.protection_available || v.protection_level_rad >= 0.0, "a bound is no less than zero");
+  demand(!v.protection_available || v.protection_level_calibrated_axes_rad >= 0.0, "a bound is no less than zero");
   demand(v.state != plumb::HealthState::failed || v.validity == plumb::Validity::invalid, "failed is invalid");
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "module.hpp"
+#include "plumb/findings/alignment.hpp"
 #include "plumb/io/records.hpp"
 #include "verdict_row.hpp"
 
@@ -19,13 +20,23 @@ const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Cali
   return &*calibration.fit;
 }
 
+/// As the monitor is set up from it, with what is known of the alignment.
+plumb::io::ArrayFile aligned(const plumb::io::ArrayFile& array, const Calibration& calibration) {
+  plumb::io::CalibrationFile file;
+  file.calibration = *calibration.fit;
+  file.context = calibration.context;
+  return plumb::findings::with_alignment(array, &file);
+}
+
 class Monitor {
  public:
   Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot, double days)
       : array_(std::move(array)),
-        monitor_(taken(snapshot ? plumb::session::restore_monitor(*array_, made_for(*array_, calibration), *snapshot,
-                                                                  "snapshot", days)
-                                : plumb::session::make_monitor(*array_, made_for(*array_, calibration), days))) {}
+        monitor_(taken(
+            snapshot
+                ? plumb::session::restore_monitor(aligned(*array_, calibration), made_for(*array_, calibration),
+                                                  *snapshot, "snapshot", days)
+                : plumb::session::make_monitor(aligned(*array_, calibration), made_for(*array_, calibration), days))) {}
 
   py::array_t<VerdictRow> run(const Log& log) {
     const Log::View view(log, *array_);

@@ -114,8 +114,9 @@ void write_vector(const plumb::Verdict& v, const plumb::Mat3& frame, VerdictRow&
   row.age_s = v.age_s;
   copy_to(row.latest_mps2, plumb::io::in_frame(frame, v.latest_mps2));
   row.protection_available = v.protection_available;
-  row.protection_level_rad = v.protection_available ? v.protection_level_rad : kNone;
-  row.toolface_protection_rad = v.protection_available ? v.toolface_protection_rad : kNone;
+  row.protection_level_calibrated_axes_rad = v.protection_available ? v.protection_level_calibrated_axes_rad : kNone;
+  row.protection_level_housing_rad = v.protection_available ? v.protection_level_housing_rad : kNone;
+  row.toolface_protection_housing_rad = v.protection_available ? v.toolface_protection_housing_rad : kNone;
   row.faults_covered = v.faults_covered;
   row.usable = v.usable;
   row.alert = v.alert;

@@ -94,8 +94,9 @@ inline constexpr std::size_t kSensors = plumb::kCapacity;
   COLUMN(double, covariance, [9], "of it, row-major: noise and calibration [(m/s^2)^2]") \
   COLUMN(double, age_s, , "since the block that gave it [s]") \
   COLUMN(double, latest_mps2, [3], "vector of this one sample, for which no claim is made [m/s^2]") \
-  COLUMN(double, protection_level_rad, , "bound on the angle between gravity_mps2 and the truth [rad]; NaN: no bound") \
-  COLUMN(double, toolface_protection_rad, , "what it means for the toolface [rad]; pi near the vertical; NaN: no bound") \
+  COLUMN(double, protection_level_calibrated_axes_rad, , "bound on the angle between gravity_mps2 and the truth in the frame of the calibrated axes [rad]; NaN: no bound") \
+  COLUMN(double, protection_level_housing_rad, , "the same in the frame of the housing, alignment included [rad]; NaN: no bound") \
+  COLUMN(double, toolface_protection_housing_rad, , "what it means for the toolface [rad]; pi near the vertical; NaN: no bound") \
   COLUMN(double, turn_along, [3], "unit vector along which gravity has to change; 0: any turn helps, or none is wanted") \
   COLUMN(double, turn_change_mps2, , "by so much [m/s^2]") \
   COLUMN(double, turn_angle_rad, , "least turn that counts as another attitude [rad]") \

@@ -89,7 +89,7 @@ double Adversary::worth_of(const Verdict& v) const {
     case Aim::error: {
       const bool valid = v.validity == Validity::valid || v.validity == Validity::degraded;
       const double error_rad = angle_between_rad(v.gravity_mps2, player_.tool().seen(player_.direction));
-      return (valid ? 1.0 + 100.0 * (error_rad - v.protection_level_rad) : 0.0) - found;
+      return (valid ? 1.0 + 100.0 * (error_rad - v.protection_level_calibrated_axes_rad) : 0.0) - found;
     }
     case Aim::accuse:
       return 1000.0 * (v.excluded - liars).size() + 100.0 * (v.provisionally_excluded - liars).size() +

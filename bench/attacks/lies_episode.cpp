@@ -308,7 +308,7 @@ void LiesEpisode::note_bounds() {
 
 void LiesEpisode::judge_vector() {
   const Verdict& v = monitor_->verdict();
-  if (!std::isfinite(v.protection_level_rad) || !std::isfinite(norm(v.gravity_mps2))) {
+  if (!std::isfinite(v.protection_level_calibrated_axes_rad) || !std::isfinite(norm(v.gravity_mps2))) {
     return find(count_.broken, "a figure is not finite");
   }
   const bool usable = v.validity == Validity::valid || v.validity == Validity::degraded;
@@ -316,9 +316,10 @@ void LiesEpisode::judge_vector() {
   if (v.validity != Validity::valid || steady_rows_ < setup_.config.window) return;
   const double error_rad = angle_between_rad(v.gravity_mps2, tool_.seen(direction_));
   const bool crowd = (v.in_service & liars_).size() > 1;
-  const std::string said = "error " + decimal(error_rad) + " rad, level " + decimal(v.protection_level_rad) +
-                           (v.alert ? ", alert" : "") + ", in service " + std::to_string(v.in_service.size());
-  if (v.protection_available && error_rad > v.protection_level_rad) {
+  const std::string said = "error " + decimal(error_rad) + " rad, level " +
+                           decimal(v.protection_level_calibrated_axes_rad) + (v.alert ? ", alert" : "") +
+                           ", in service " + std::to_string(v.in_service.size());
+  if (v.protection_available && error_rad > v.protection_level_calibrated_axes_rad) {
     find(crowd ? count_.crowd_beyond_level : count_.beyond_level, said);
   }
   if (!v.alert && error_rad > setup_.config.alert_limit_rad) {

@@ -191,7 +191,7 @@ void Player::judge_sensors() {
   const SensorSet all = v.in_service | v.provisionally_excluded | v.excluded | v.absent;
   const int sum = v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size();
   if (all != v.configured || sum != v.configured.size()) find(Count::broken, true, "the sets do not form a partition");
-  if (!std::isfinite(v.protection_level_rad) || !std::isfinite(norm(v.gravity_mps2))) {
+  if (!std::isfinite(v.protection_level_calibrated_axes_rad) || !std::isfinite(norm(v.gravity_mps2))) {
     find(Count::broken, true, "a figure is not finite");
   }
 }
@@ -218,12 +218,12 @@ void Player::judge_vector() {
   const double sigma_mps2 = std::fmax(noise_factor, 1.0) * setup_.array.sigma_mps2(0) + step_mps2;
   const double unseen_rad = at_rest ? 0.0 : kUnseenSigmas * sigma_mps2 / kG0_mps2 * std::sqrt(n() / 3.0);
   const bool crowd = (v.in_service & faulty).size() > 1;
-  const bool beyond_level = v.protection_available && error_rad > v.protection_level_rad + unseen_rad;
+  const bool beyond_level = v.protection_available && error_rad > v.protection_level_calibrated_axes_rad + unseen_rad;
   const bool hazardous = !v.alert && error_rad > setup_.config.alert_limit_rad + unseen_rad;
   if (!beyond_level && !hazardous) return;
   const std::string said = "error " + decimal(deg_from_rad(error_rad)) + " deg, level " +
-                           decimal(deg_from_rad(v.protection_level_rad)) + " deg" + (v.alert ? ", alert" : "") +
-                           ", in service" + names(v.in_service);
+                           decimal(deg_from_rad(v.protection_level_calibrated_axes_rad)) + " deg" +
+                           (v.alert ? ", alert" : "") + ", in service" + names(v.in_service);
   if (!at_rest) return find(Count::stale, !crowd, said);
   if (beyond_level) find(Count::beyond_level, !crowd, said);
   if (hazardous) find(Count::hazardous, !crowd, said);

@@ -105,8 +105,9 @@ void tell_vector(Trace& trace, const Verdict& v) {
   trace.numbers("covariance", v.covariance, 9);
   trace.number("age", v.age_s);
   trace.numbers("latest", v.latest_mps2, 3);
-  trace.number("protection_level", v.protection_level_rad);
-  trace.number("toolface_protection", v.toolface_protection_rad);
+  trace.number("protection_level", v.protection_level_calibrated_axes_rad);
+  trace.number("protection_level_housing", v.protection_level_housing_rad);
+  trace.number("toolface_protection", v.toolface_protection_housing_rad);
   trace.integer("usable", v.usable);
   trace.integer("faults_covered", v.faults_covered);
   trace.integer("protection_available", v.protection_available ? 1 : 0);

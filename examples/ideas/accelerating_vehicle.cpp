@@ -18,7 +18,8 @@ int main() {
     for (plumb::Sample sample; run->next(sample);) monitor.step(sample);
     const plumb::Verdict& v = monitor.verdict();
     const bool assumed = (v.qualifiers & plumb::Qualifier::standstill_assumed) != 0;
-    std::printf("up to %.2f m/s^2: within %.2f deg%s%s\n", bound_mps2, plumb::deg_from_rad(v.protection_level_rad),
-                assumed ? ", standstill assumed" : "", v.alert ? ", alert" : "");
+    std::printf("up to %.2f m/s^2: within %.2f deg%s%s\n", bound_mps2,
+                plumb::deg_from_rad(v.protection_level_housing_rad), assumed ? ", standstill assumed" : "",
+                v.alert ? ", alert" : "");
   }
 }

@@ -19,6 +19,6 @@ int main() {
     if (v.state == plumb::HealthState::degraded_3_sensor) break;
     if (v.validity == plumb::Validity::valid) before = v;
   }
-  std::printf("valid: within %.2f deg\n", plumb::deg_from_rad(before.protection_level_rad));
-  std::printf("degraded: within %.0f deg\n", plumb::deg_from_rad(monitor.verdict().protection_level_rad));
+  std::printf("valid: within %.2f deg\n", plumb::deg_from_rad(before.protection_level_housing_rad));
+  std::printf("degraded: within %.0f deg\n", plumb::deg_from_rad(monitor.verdict().protection_level_housing_rad));
 }

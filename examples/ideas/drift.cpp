@@ -19,6 +19,6 @@ int main() {
     for (plumb::Sample sample; run->next(sample);) monitor.step(sample);
     const plumb::Verdict& v = monitor.verdict();
     std::printf("after %3.0f days: %s, within %.2f deg\n", days, plumb::to_string(v.state),
-                plumb::deg_from_rad(v.protection_level_rad));
+                plumb::deg_from_rad(v.protection_level_housing_rad));
   }
 }

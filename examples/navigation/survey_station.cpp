@@ -29,7 +29,7 @@ int main() {
     pumps_off_s = -1.0;  // 3 s were given: pumps on
     if (taken.go == Go::go) {
       std::printf("%7d  %11.2f %10.2f  %11.2f  go: %s\n", k / 400, taken.tilt.inclination_rad * kDegrees,
-                  taken.tilt.toolface_rad * kDegrees, taken.protection_level_rad * kDegrees, taken.reason);
+                  taken.tilt.toolface_rad * kDegrees, taken.protection_level_housing_rad * kDegrees, taken.reason);
     } else {
       std::printf("%7d            -          -            -  %s: %s\n", k / 400,
                   taken.go == Go::wait ? "wait" : "no go", taken.reason);

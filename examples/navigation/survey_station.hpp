@@ -10,8 +10,8 @@ enum class Go { go, wait, no_go };
 struct SurveyStation {
   Go go = Go::wait;
   const char* reason = "pumps are on";
-  plumb::Tilt tilt;                 // of the vector in the output frame: z down hole
-  double protection_level_rad = 0;  // bound on the tilt, 0 where go is not
+  plumb::Tilt tilt;                         // of the vector in the output frame: z down hole
+  double protection_level_housing_rad = 0;  // bound on the tilt, 0 where go is not
 };
 
 /// `pumps_off_s`: since when the pumps are off, in the time of the samples; negative = they run.
@@ -41,7 +41,7 @@ inline SurveyStation survey(const plumb::Verdict& v, double pumps_off_s) {
   if (v.alert || !has(Usable::protection_level)) return answer(Go::no_go, "tilt is not bounded well enough");
   station.tilt = plumb::tilt_of(v.gravity_mps2, v.covariance);
   if (!station.tilt.inclination_valid) return answer(Go::no_go, "no vector");
-  station.protection_level_rad = v.protection_level_rad;
+  station.protection_level_housing_rad = v.protection_level_housing_rad;
   return answer(Go::go,
                 station.tilt.toolface_valid ? "inclination and toolface" : "inclination; too steep for toolface");
 }

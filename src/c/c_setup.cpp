@@ -41,6 +41,8 @@ MonitorConfig settings_of(const plumb_config& c) noexcept {
   out.distinct_attitude_angle_rad = c.distinct_attitude_angle_rad;
   out.clear_fraction = c.clear_fraction;
   out.alert_limit_rad = c.alert_limit_rad;
+  out.alert_frame = c.alert_in_calibrated_axes != 0 ? AlertFrame::calibrated_axes : AlertFrame::housing;
+  out.alignment_bound_rad = static_cast<float>(c.alignment_bound_rad);
   out.integrity_risk = c.integrity_risk;
   out.fault_prior = c.fault_prior;
   out.temperature_min_degc = c.temperature_min_degc;
@@ -192,6 +194,8 @@ plumb_error plumb_config_defaults(plumb_config* config) noexcept {
   config->distinct_attitude_angle_rad = d.distinct_attitude_angle_rad;
   config->clear_fraction = d.clear_fraction;
   config->alert_limit_rad = d.alert_limit_rad;
+  config->alert_in_calibrated_axes = d.alert_frame == plumb::AlertFrame::calibrated_axes ? 1 : 0;
+  config->alignment_bound_rad = static_cast<double>(d.alignment_bound_rad);
   config->integrity_risk = d.integrity_risk;
   config->fault_prior = d.fault_prior;
   config->temperature_min_degc = d.temperature_min_degc;

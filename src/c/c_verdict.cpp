@@ -68,8 +68,9 @@ void write_figures(const Verdict& v, plumb_verdict& out) noexcept {
   copy_to(out.covariance, v.covariance);
   out.age_s = v.age_s;
   copy_to(out.latest_mps2, v.latest_mps2);
-  out.protection_level_rad = v.protection_level_rad;
-  out.toolface_protection_rad = v.toolface_protection_rad;
+  out.protection_level_calibrated_axes_rad = v.protection_level_calibrated_axes_rad;
+  out.protection_level_housing_rad = v.protection_level_housing_rad;
+  out.toolface_protection_housing_rad = v.toolface_protection_housing_rad;
   copy_to(out.turn_along, v.rotation.along);
   out.turn_change_mps2 = v.rotation.change_mps2;
   out.turn_angle_rad = v.rotation.angle_rad;
@@ -124,6 +125,7 @@ static_assert(static_cast<int>(Validity::invalid) == PLUMB_INVALID && static_cas
 static_assert(Qualifier::standstill_assumed == PLUMB_STANDSTILL_ASSUMED, "bits alike");
 static_assert(Qualifier::stability_unstated == PLUMB_STABILITY_UNSTATED, "bits alike");
 static_assert(Qualifier::uncertainty_unstated == PLUMB_UNCERTAINTY_UNSTATED, "bits alike");
+static_assert(Qualifier::alignment_unstated == PLUMB_ALIGNMENT_UNSTATED, "bits alike");
 static_assert(Qualifier::not_yet_validated == PLUMB_NOT_YET_VALIDATED && Qualifier::moving == PLUMB_MOVING &&
                   Qualifier::initial_calibration == PLUMB_INITIAL_CALIBRATION &&
                   Qualifier::provisional == PLUMB_PROVISIONAL && Qualifier::no_redundancy == PLUMB_NO_REDUNDANCY &&

@@ -73,7 +73,8 @@ render::TimelinePoint ComparisonSink::point_of(const Verdict& verdict, const sce
   point.inclination_plain_deg = inclination_or_nan(plain_mps2, array_.output_frame);
   point.norm_error_plumb_mps2 = verdict.norm_error_mps2;
   point.norm_error_plain_mps2 = norm(plain_mps2) - array_.gravity.g_mps2;
-  point.protection_level_deg = verdict.protection_available ? deg_from_rad(verdict.protection_level_rad) : std::nan("");
+  point.protection_level_deg =
+      verdict.protection_available ? deg_from_rad(verdict.protection_level_calibrated_axes_rad) : std::nan("");
   return point;
 }
 

@@ -9,6 +9,7 @@
 #include "demo_picture.hpp"
 #include "demo_section.hpp"
 #include "demo_story.hpp"
+#include "plumb/findings/alignment.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/timeline_plot.hpp"
@@ -108,7 +109,8 @@ class DrillSection {
   io::FileExpected<void> monitor_tool() {
     const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(path("calibration.json"), *array_);
     if (!calibration) return passed_on(calibration);
-    const auto monitor = session::make_monitor(*array_, &calibration->calibration);
+    const auto monitor =
+        session::make_monitor(findings::with_alignment(*array_, &*calibration), &calibration->calibration);
     if (!monitor) return passed_on(monitor);
     io::FileExpected<io::OutputFile> events =
         io::OutputFile::create(path("events.jsonl"), io::OutputFile::Mode::stream);

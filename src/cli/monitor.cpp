@@ -6,6 +6,7 @@
 
 #include "monitor_options.hpp"
 #include "monitor_outputs.hpp"
+#include "plumb/render/alignment_words.hpp"
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/monitor_limits.hpp"
 #include "plumb/render/monitor_summary.hpp"
@@ -231,6 +232,8 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
       render::undated_note(*array, *calibration, options.calibration) +
       render::exact_note(*calibration, options.calibration) +
       render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
+  print_error(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)));
+  const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
   if (array->monitor.mode == MonitorMode::paper) {
@@ -240,12 +243,12 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
     return watch(options, *array, **monitor, *days);
   }
   const auto monitor = options.snapshot_in.empty()
-                           ? session::make_monitor(*array, &calibration->calibration, *days)
-                           : session::restore_monitor(*array, &calibration->calibration, options.snapshot_in, *days);
+                           ? session::make_monitor(aligned, &calibration->calibration, *days)
+                           : session::restore_monitor(aligned, &calibration->calibration, options.snapshot_in, *days);
   if (!monitor) return report(monitor.error());
   if (options.limits) return tell_limits(options, *array, (*monitor)->array(), *days);
   if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days);
-  const auto stepper = stepper_of(options, *array, &calibration->calibration, *days);
+  const auto stepper = stepper_of(options, aligned, &calibration->calibration, *days);
   return watch(options, *array, **monitor, *days, past_of(options), stepper.get());
 }
 

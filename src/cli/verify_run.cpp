@@ -182,6 +182,7 @@ void judge_all(const VerifyInputs& inputs, const render::CalibrationPart& part, 
   facts.array = std::move(array);
   facts.calibration = part.facts;
   facts.wiring = part.wiring;
+  facts.alignment = part.alignment;
   facts.trace = trace;
   if (inputs.analysis) facts.analysis_findings = inputs.analysis->findings;
   if (inputs.resources) facts.target = inputs.resources->items;

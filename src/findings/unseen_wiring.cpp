@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "plumb/findings/frame_turn.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -315,8 +316,9 @@ WiringCheck check_wiring(const io::ArrayFile& array, const SensorArray* fitted,
   WiringCheck out;
   out.unseen = all_unseen(array.array, fitted);
   out.measured = std::move(measured);
+  const double turned_rad = fitted != nullptr ? norm(turn_from_datasheet(array.datasheet, *fitted)) : 0.0;
   for (std::size_t k = 0; k < out.unseen.size(); ++k) {
-    if (explains(out.unseen[k].turn, out.unseen[k].known_to_rad, out.measured, array.output_frame))
+    if (explains(out.unseen[k].turn, out.unseen[k].known_to_rad + turned_rad, out.measured, array.output_frame))
       out.left.push_back(k);
   }
   if (!explains(io::kIdentity3, 0.0, out.measured, array.output_frame)) {
@@ -339,7 +341,7 @@ tl::expected<std::vector<MeasuredAttitude>, io::KnownAttitude> measured_attitude
   return out;
 }
 
-WiringCheck check_wiring_of(const io::CalibrationFile* file, const io::ArrayFile& array) {
+std::vector<MeasuredAttitude> measured_attitudes_of(const io::CalibrationFile* file, const io::ArrayFile& array) {
   std::vector<MeasuredAttitude> measured;
   if (file != nullptr) {
     std::vector<io::KnownAttitude> known = file->context.known_attitudes;
@@ -348,7 +350,11 @@ WiringCheck check_wiring_of(const io::CalibrationFile* file, const io::ArrayFile
       if (const auto found = measured_attitudes({one}, file->context.down)) measured.push_back(found->front());
     }
   }
-  return check_wiring(array, file != nullptr ? &file->calibration.array : nullptr, std::move(measured));
+  return measured;
+}
+
+WiringCheck check_wiring_of(const io::CalibrationFile* file, const io::ArrayFile& array) {
+  return check_wiring(array, file != nullptr ? &file->calibration.array : nullptr, measured_attitudes_of(file, array));
 }
 
 }  // namespace findings

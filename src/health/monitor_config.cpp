@@ -46,6 +46,8 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {static_cast<double>(c.isolation_timeout_blocks), 0, kMostIsolationTimeoutBlocks},
       {static_cast<double>(c.alarm_form), 0, 1},
       {0, 0, 0},  // recalibrate_after_exclusion: either
+      {static_cast<double>(c.alert_frame), 0, 1},
+      {static_cast<double>(c.alignment_bound_rad), 0, kPi},
       {c.acceleration_bound_mps2, 0, c.recalibrate_after_exclusion ? 0.0 : kMostAcceleration_mps2},
       {c.triple_false_alarm_rate, 0, 1e-2},
   };

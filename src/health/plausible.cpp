@@ -123,9 +123,11 @@ bool verdict_is_plausible(const MonitorState& s, const Verdict& v) noexcept {
   const Validity now = validity_of(s);
   if (v.validity != now && (v.validity != Validity::held || now == Validity::invalid)) return false;
   if (v.protection_available && !scan.protection_available) return false;
-  if (v.protection_level_rad != (v.protection_available ? scan.protection_rad : 0.0)) return false;
+  if (v.protection_level_calibrated_axes_rad != (v.protection_available ? scan.protection_rad : 0.0)) return false;
+  if (v.protection_level_housing_rad != (v.protection_available ? housing_level_rad(s) : 0.0)) return false;
   if (v.validity == now && v.usable != usable_bits(s, now)) return false;
-  const bool within = v.protection_available && v.protection_level_rad <= s.settings.config.alert_limit_rad;
+  const bool within =
+      v.protection_available && v.protection_level_calibrated_axes_rad <= alert_limit_in_axes_rad(s.settings.config);
   if (!v.alert && (!within || v.validity != Validity::valid)) return false;
   if (!s.last.known) return true;
   const SetTest t = test_set(s.in_force.array, s.in_force.gravity, s.settings.limits, s.last.evidence,

@@ -41,7 +41,8 @@ std::uint16_t qualifiers_of(const MonitorState& s) noexcept {
       when(s.requests.inhibited, Qualifier::inhibited) |
       when(!(s.settings.config.acceleration_bound_mps2 > 0.0), Qualifier::standstill_assumed) |
       when(!s.settings.stability_stated, Qualifier::stability_unstated) |
-      when(!s.in_force.array.taken_for_exact().empty(), Qualifier::uncertainty_unstated));
+      when(!s.in_force.array.taken_for_exact().empty(), Qualifier::uncertainty_unstated) |
+      when(!(s.settings.config.alignment_bound_rad > 0.0F), Qualifier::alignment_unstated));
 }
 
 void publish_sensors(const MonitorState& s, Verdict& v) noexcept {
@@ -83,7 +84,7 @@ Validity validity_of(const MonitorState& s) noexcept {
   if (machine.mode == Mode::failed || s.in_force.owes_calibration() || !s.last.known) return Validity::invalid;
   if (!has_variances(s.last.covariance)) return Validity::invalid;
   if (!s.is_fresh()) return Validity::held;
-  const bool bounded = s.diagnosis.bounded(s.settings.config.alert_limit_rad);
+  const bool bounded = s.diagnosis.bounded(alert_limit_in_axes_rad(s.settings.config));
   if (s.studies.slow_motion.slow() && !bounded) return Validity::held;
   const Mode mode = s.published_mode();
   if (s.intake.temperature_out || s.last.partial) return Validity::unconfirmed;
@@ -100,6 +101,10 @@ Validity validity_of(const MonitorState& s) noexcept {
 bool is_protected(const MonitorState& s, Validity validity) noexcept {
   return s.diagnosis.scan().protection_available && s.last.known && validity != Validity::held &&
          !s.intake.temperature_out && !s.in_force.owes_calibration() && s.machine.mode != Mode::failed;
+}
+
+double housing_level_rad(const MonitorState& s) noexcept {
+  return std::fmin(s.diagnosis.scan().protection_rad + static_cast<double>(s.settings.config.alignment_bound_rad), kPi);
 }
 
 std::uint16_t usable_bits(const MonitorState& s, Validity validity) noexcept {
@@ -198,15 +203,17 @@ void publish(const MonitorState& s, const Sample& sample, bool ticked, bool turn
 void publish_claims(const MonitorState& s, Validity validity, Verdict& v) noexcept {
   v.validity = validity;
   v.protection_available = is_protected(s, validity);
-  v.protection_level_rad = v.protection_available ? s.diagnosis.scan().protection_rad : 0.0;
+  v.protection_level_calibrated_axes_rad = v.protection_available ? s.diagnosis.scan().protection_rad : 0.0;
+  v.protection_level_housing_rad = v.protection_available ? housing_level_rad(s) : 0.0;
   v.faults_covered = static_cast<std::uint8_t>(v.protection_available ? s.diagnosis.scan().covered : 0);
   const Vec3& g = s.last.gravity_mps2;
   const double sine = across_tool(g) / std::fmax(norm(g), 1e-9);
-  const bool told =
-      v.protection_available && v.protection_level_rad < 0.5 * kPi && sine_of(v.protection_level_rad) < sine;
-  v.toolface_protection_rad = told ? angle_with_sine(sine_of(v.protection_level_rad) / sine) : kPi;
+  const double level_rad = v.protection_level_housing_rad;
+  const bool told = v.protection_available && level_rad < 0.5 * kPi && sine_of(level_rad) < sine;
+  v.toolface_protection_housing_rad = told ? angle_with_sine(sine_of(level_rad) / sine) : kPi;
   v.usable = usable_bits(s, validity);
-  const bool within = v.protection_available && v.protection_level_rad <= s.settings.config.alert_limit_rad;
+  const bool within =
+      v.protection_available && v.protection_level_calibrated_axes_rad <= alert_limit_in_axes_rad(s.settings.config);
   v.alert = !within || validity != Validity::valid;
 }
 

@@ -40,6 +40,8 @@ const std::vector<std::string>& known_keys() {
                                                                      "isolation_timeout_blocks",
                                                                      "alarm_form",
                                                                      "recalibrate",
+                                                                     "alert_frame",
+                                                                     "alignment_bound",
                                                                      "acceleration_bound",
                                                                      "triple_false_alarm_rate"});
   return names;
@@ -94,6 +96,10 @@ MonitorConfig filled(const TomlTable& table) {
   config.alarm_form = average ? AlarmForm::average_tool : AlarmForm::every_tool;
   config.triple_false_alarm_rate =
       table.quantity(Quantity::ratio, "triple_false_alarm_rate", config.triple_false_alarm_rate);
+  config.alignment_bound_rad = static_cast<float>(
+      table.quantity(Quantity::angle, "alignment_bound", static_cast<double>(config.alignment_bound_rad)));
+  const bool axes = table.choice("alert_frame", {"housing", "calibrated-axes"}, 0) == 1;
+  config.alert_frame = axes ? AlertFrame::calibrated_axes : AlertFrame::housing;
   return config;
 }
 
@@ -101,7 +107,8 @@ MonitorConfig filled(const TomlTable& table) {
 const char* unit_of(const std::string& key) noexcept {
   if (key == "delta_f" || key == "acceleration_bound") return " m/s^2";
   if (key == "max_gap" || key == "max_age") return " s";
-  if (key == "station_angle" || key == "distinct_attitude_angle" || key == "alert_limit") return " rad";
+  if (key == "station_angle" || key == "distinct_attitude_angle" || key == "alert_limit" || key == "alignment_bound")
+    return " rad";
   if (key == "temperature_min" || key == "temperature_max") return " degC";
   return "";
 }

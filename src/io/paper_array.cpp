@@ -40,6 +40,9 @@ reads = "gravity"        # a sensor that points down reads +1 g0
 unit = "V"               # of the numbers in the log
 time = "t_s"
 station = "station"      # -1: no station known, plumb finds the still stretches by itself
+
+[monitor]
+alert_frame = "calibrated-axes"  # the limit is about the direction in the frame of the axes, not in the housing
 )";
 
 /// Beside id and axis all sensors are alike.

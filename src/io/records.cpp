@@ -141,7 +141,10 @@ void append_vector(Object& object, const Verdict& v, const Mat3& frame) {
   object.number_if(tilt.inclination_valid, "inclination_sigma_deg", deg_from_rad(tilt.inclination_sigma_rad));
   object.number_if(tilt.toolface_valid, "toolface_deg", deg_from_rad(tilt.toolface_rad));
   object.number_if(tilt.toolface_valid, "toolface_sigma_deg", deg_from_rad(tilt.toolface_sigma_rad));
-  object.number_if(v.protection_available, "protection_level_deg", deg_from_rad(v.protection_level_rad));
+  object.number_if(v.protection_available, "protection_level_calibrated_axes_deg",
+                   deg_from_rad(v.protection_level_calibrated_axes_rad));
+  object.number_if(v.protection_available, "protection_level_housing_deg",
+                   deg_from_rad(v.protection_level_housing_rad));
   object.flag("protection_available", v.protection_available);
   object.whole("faults_covered", v.faults_covered);
   object.flag("alert", v.alert);

@@ -208,8 +208,9 @@ void PaperMonitor::publish(const Sample& sample, bool ticked) noexcept {
   // The paper's method takes the length for gravity's and the calibration for true whatever the host allows for.
   v.qualifiers = static_cast<std::uint16_t>(
       Qualifier::standstill_assumed | Qualifier::stability_unstated | Qualifier::uncertainty_unstated |
-      (not_yet_validated_ ? Qualifier::not_yet_validated : 0) | (moving_ ? Qualifier::moving : 0) |
-      (timed_out_ ? Qualifier::timed_out : 0) | (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0));
+      Qualifier::alignment_unstated | (not_yet_validated_ ? Qualifier::not_yet_validated : 0) |
+      (moving_ ? Qualifier::moving : 0) | (timed_out_ ? Qualifier::timed_out : 0) |
+      (size_class_ == SizeClass::critical ? Qualifier::no_redundancy : 0));
   v.configured = array_.all();
   v.in_service = in_service_;
   v.excluded = excluded_;

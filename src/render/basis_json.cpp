@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "plumb/render/alignment_words.hpp"
 #include "plumb/render/calibration_notes.hpp"
 
 namespace plumb {
@@ -48,7 +49,8 @@ Json basis_json(const io::ArrayFile& array, const io::CalibrationFile* file, dou
                                                  {"g_mps2", array.gravity.g_mps2},
                                                  {"sigma_mps2", array.gravity.sigma_mps2}})},
                          {"calibration", Json()},
-                         {"drift", drift_of(array, days)}});
+                         {"drift", drift_of(array, days)},
+                         {"alignment", alignment_json(array, findings::alignment_of(array, file))}});
   if (file == nullptr) return out;
   const FitReport& fit = file->calibration.report;
   out["calibration"] = io::object({{"log", file->context.log_file},

@@ -9,6 +9,7 @@
 #include "plumb/findings/dead_channel.hpp"
 #include "plumb/findings/geometry_study.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/render/alignment_words.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/wiring_words.hpp"
 #include "sensor_fields.hpp"
@@ -238,6 +239,9 @@ std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& a
   out["temperature_unit"] = unit.empty() ? Json() : Json(unit);
   out["unobservable_permutation_count"] = findings::hidden_wiring_count(array);
   out["wiring"] = run.study.shown ? wiring_json(run.wiring, array) : Json();
+  out["alignment"] =
+      run.study.shown ? alignment_json(array, findings::alignment_of(array, run.study.shown.get(), run.wiring.measured))
+                      : Json();
   out["stations"] = stations_json(run);
   out["fit"] = fit_object(run);
   out["outliers"] = outliers_json(run, array);

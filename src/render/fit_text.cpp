@@ -9,6 +9,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/fit_remarks.hpp"
+#include "plumb/render/alignment_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/wiring_words.hpp"
@@ -100,17 +101,21 @@ std::string fit_section(const findings::CalibrationRun& run, const io::ArrayFile
   }
   std::string rank = fmt::format("{} of {} parameters determined by the data", r.rank, r.parameters);
   if (r.gauge > 1) {
-    rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show and the nominal axes fix",
+    rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show: see alignment",
                         r.gauge);
   } else if (r.gauge == 1) {
-    rank += "; 1 is a rotation of all axes about the roll axis, which gravity cannot show and the nominal axes fix";
+    rank += "; 1 is a rotation of all axes about the roll axis, which gravity cannot show: see alignment";
   }
   out += line("rank", rank);
   if (const std::string rolls = roll_words(r); !rolls.empty()) out += line("roll groups", rolls);
-  if (r.inclination_sigma_rad > 0.0 && r.null_directions == 0) out += line("inclination", inclination_words(r));
+  const bool by_nominal_axes = run.wiring.measured.empty();  // else known attitudes say more: the alignment
+  if (by_nominal_axes && r.inclination_sigma_rad > 0.0 && r.null_directions == 0)
+    out += line("inclination", inclination_words(r));
   if (run.study.shown) {
     const bool open = run.wiring.status == findings::WiringStatus::open;
     out += line("wiring", (open ? "OPEN: " : "") + wiring_text(run.wiring, array));
+    out +=
+        line("alignment", alignment_words(findings::alignment_of(array, run.study.shown.get(), run.wiring.measured)));
   }
   if (const std::string axis = roll_axis_words(r); !axis.empty()) out += line("roll axis", axis);
   const std::vector<std::string> unseen = unobservable(run, array);

@@ -134,7 +134,7 @@ std::string bias_text(const GeometrySubject& subject, const GeometryStudy& study
                                                effect(study.polarity.effect)));
 }
 
-std::string wiring_text(const SensorArray& array, const GeometryStudy& study) {
+std::string hidden_wiring_text(const SensorArray& array, const GeometryStudy& study) {
   std::string out = "\nwiring and mounting\n";
   if (study.hidden.empty())
     out +=
@@ -195,7 +195,7 @@ std::string triple_text(const SensorArray& array) {
 std::string geometry_text(const GeometrySubject& subject, const GeometryStudy& study) {
   return reading_text(subject, study) + merit_text(subject, study) + worst_text(study) +
          sizes_text(study.sizes, subject.array.size()) + threshold_text(subject, study) +
-         attitude_text(subject, study) + bias_text(subject, study) + wiring_text(subject.array, study) +
+         attitude_text(subject, study) + bias_text(subject, study) + hidden_wiring_text(subject.array, study) +
          finding_text(subject, study) + triple_text(subject.array);
 }
 

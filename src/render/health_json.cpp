@@ -42,8 +42,10 @@ Json station_json(const verification::StationHealth& s, std::size_t number, cons
        {"inclination_sigma_deg", known(t.inclination_valid, deg_from_rad(t.inclination_sigma_rad))},
        {"toolface_deg", known(t.toolface_valid, deg_from_rad(t.toolface_rad))},
        {"toolface_sigma_deg", known(t.toolface_valid, deg_from_rad(t.toolface_sigma_rad))},
-       {"protection_level_deg", known(bound, deg_from_rad(s.protection_rad))},
-       {"toolface_protection_deg", known(bound && t.toolface_valid, deg_from_rad(s.toolface_protection_rad))},
+       {"protection_level_calibrated_axes_deg", known(bound, deg_from_rad(s.protection_calibrated_axes_rad))},
+       {"protection_level_housing_deg", known(bound, deg_from_rad(s.protection_housing_rad))},
+       {"toolface_protection_housing_deg",
+        known(bound && t.toolface_valid, deg_from_rad(s.toolface_protection_housing_rad))},
        {"alert", s.alert},
        {"used", io::ids_of(s.used, array)},
        {"provisionally_excluded", io::ids_of(s.provisionally_excluded, array)},
@@ -90,7 +92,8 @@ Json extremes_json(const verification::RunExtremes& e, const SensorArray& array)
                      {"statistic_over_limit", e.ratio},
                      {"statistic_over_limit_at_s", known(e.ratio_at_s >= e.first_s, e.ratio_at_s)},
                      {"worst_mae_mps2", e.mae_mps2},
-                     {"protection_level_deg", deg_from_rad(e.protection_rad)},
+                     {"protection_level_calibrated_axes_deg", deg_from_rad(e.protection_calibrated_axes_rad)},
+                     {"protection_level_housing_deg", deg_from_rad(e.protection_housing_rad)},
                      {"sensors", std::move(sensors)}});
 }
 

@@ -69,8 +69,8 @@ ViewRows station_rows(const Json& report) {
                     ViewCell(colour, tone_of_colour(colour)), fixed(s["length_mps2"], kMg0, 3),
                     shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
                     with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
-                    with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), s["protection_level_deg"],
-                    joined_list(s["used"]), why(s)});
+                    with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), s["protection_level_calibrated_axes_deg"],
+                    s["protection_level_housing_deg"], joined_list(s["used"]), why(s)});
   }
   return rows;
 }
@@ -89,10 +89,11 @@ Section stations_view(const Json& report, const PagePictures& pictures) {
   out.table(
       "Stations",
       {"station", "t, s", "depth, m", "verdict", "|G|, mg0", "off by, mg0", "limit, mg0", "inclination, deg",
-       "toolface, deg", "bound, deg", "sensors used", "why"},
+       "toolface, deg", "bound in axes, deg", "bound in housing, deg", "sensors used", "why"},
       station_rows(report),
       "± is one standard deviation of noise and calibration; a fault may do more. Bound: the largest error of the "
-      "direction under any single undetected fault; - where there is no bound. Figures are those of the last block of "
+      "direction under any single undetected fault, in the frame of the calibrated axes and in that of the housing; - "
+      "where there is no bound. Figures are those of the last block of "
       "the station; a toolface needs an inclination of 3 deg.");
   return out;
 }
@@ -145,7 +146,9 @@ Section extremes_view(const Json& report) {
        {"largest error of |G|, mg0", shown(e["off_mps2"], kMg0), seconds(e["off_at_s"])},
        {"largest statistic over its limit", shown(e["statistic_over_limit"]), seconds(e["statistic_over_limit_at_s"])},
        {"largest MAE of a group of three, mg0", shown(e["worst_mae_mps2"], kMg0), "-"},
-       {"largest bound on the direction, deg", shown(e["protection_level_deg"]), "-"}});
+       {"largest bound on the direction in the calibrated axes, deg", shown(e["protection_level_calibrated_axes_deg"]),
+        "-"},
+       {"largest bound on the direction in the housing, deg", shown(e["protection_level_housing_deg"]), "-"}});
   ViewRows rows;
   for (const Json& s : e["sensors"])
     rows.push_back({s["id"], s["blocks_clipped"], s["blocks_scattering"], s["blocks_not_finite"],
@@ -170,6 +173,8 @@ Section basis_view(const Json& report) {
             "From [gravity] of the array file.");
   out.text("Drift since the calibration: " + basis["drift"]["text"].get<std::string>() +
            ". What a reading drifts by beyond that is in no limit and in no bound on the direction.");
+  out.text("Alignment: " + basis["alignment"]["text"].get<std::string>() +
+           ". Inclination and toolface in the housing are off by that much more.");
   out.text("Wiring: " + basis["wiring"]["text"].get<std::string>() + ".");
   put_sizes(report.value("detection_sizes", Json()), out);
   if (c.is_null()) {

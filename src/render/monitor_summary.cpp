@@ -71,7 +71,10 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                          : meaning(v.validity));
   out += "protection  ";
   out += v.protection_available
-             ? fmt::format("the direction is within {:.3f} deg of the truth\n", deg_from_rad(v.protection_level_rad))
+             ? fmt::format(
+                   "the direction is within {:.3f} deg of the truth in the calibrated axes, within {:.3f} deg in "
+                   "the housing\n",
+                   deg_from_rad(v.protection_level_calibrated_axes_rad), deg_from_rad(v.protection_level_housing_rad))
              : std::string("no bound on the error can be given\n");
   return out + findings_text(v) + "drift       " + drift_of(array, days) + "\n";
 }

@@ -6,6 +6,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/render/alignment_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/geometry_report.hpp"
@@ -88,14 +89,21 @@ CalibrationPart part_with(verification::CalibrationFacts facts) {
   return out;
 }
 
-/// What is known of the wiring goes along.
-void put_wiring(const findings::WiringCheck& check, const io::ArrayFile& array, CalibrationPart& out) {
+/// What is known of the wiring and of the alignment goes along. `calibration`: null where there is none.
+void put_housing(const findings::WiringCheck& check, const io::ArrayFile& array, const Calibration* calibration,
+                 CalibrationPart& out) {
   using State = verification::WiringFacts::State;
   const State state = check.status == findings::WiringStatus::confirmed ? State::confirmed
                       : check.status == findings::WiringStatus::open    ? State::open
                                                                         : State::contradicted;
   out.wiring = {state, wiring_found(check), wiring_text(check, array)};
   out.section["wiring"] = wiring_json(check, array);
+  const findings::Alignment alignment = findings::alignment_of(array, calibration, check.measured);
+  const bool known = alignment.bound_rad < kPi;
+  out.alignment = {array.monitor.alert_frame == AlertFrame::housing,
+                   known ? std::optional<double>(deg_from_rad(alignment.bound_rad)) : std::nullopt,
+                   alignment_words(alignment), alignment_remedy()};
+  out.section["alignment"] = alignment_json(array, alignment);
 }
 
 /// Of a fit that was made here.
@@ -103,7 +111,8 @@ CalibrationPart part_of(session::CalibrationRun run, const io::ArrayFile& array,
   const Refusal refusal = run.accepted ? Refusal{} : render::refusal_of(run, array);
   CalibrationPart out = part_with({run.accepted != nullptr, mode, refusal.reason, ""});
   if (!run.accepted) out.section["remedy"] = refusal.next;
-  put_wiring(run.study.shown ? run.wiring : findings::check_wiring(array, nullptr, {}), array, out);
+  put_housing(run.study.shown ? run.wiring : findings::check_wiring(array, nullptr, {}), array, run.study.shown.get(),
+              out);
   out.section["fit"] = io::parsed(fit_json(run, array));
   out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
@@ -181,7 +190,7 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
                                     {"log", file->context.log_file},
                                     {"made_by", file->context.plumb_version}});
   out.section["sensors"] = sensors_of(file->calibration);
-  put_wiring(*wiring, array, out);
+  put_housing(*wiring, array, &file->calibration, out);
   if (!out.facts.taken_for_exact.empty()) out.section["taken_for_exact"] = out.facts.taken_for_exact;
   out.e_cal_mps2 = worst_of(file->calibration);
   out.visited = file->context.down;

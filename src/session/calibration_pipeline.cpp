@@ -7,6 +7,7 @@
 #include "plumb/detection/stationarity.hpp"
 #include "plumb/findings/dead_channel.hpp"
 #include "plumb/findings/followed_direction.hpp"
+#include "plumb/findings/frame_turn.hpp"
 #include "plumb/findings/log_diagnosis.hpp"
 #include "plumb/findings/temperature_gaps.hpp"
 #include "plumb/findings/unit_guess.hpp"
@@ -176,6 +177,18 @@ std::vector<Vec3> shown_down(const CalibrationRun& run) {
   return out;
 }
 
+/// Turns the axes of the fit into the housing, as far as known attitudes say how it lies to them.
+void turn_into_housing(const io::ArrayFile& array, std::vector<findings::MeasuredAttitude>& measured,
+                       CalibrationRun& run) {
+  const Mat3 turn = findings::turn_into_housing(array, run.study.shown->report, measured);
+  if (turn == io::kIdentity3) return;
+  findings::apply_turn(turn, *run.study.shown);
+  if (run.accepted) findings::apply_turn(turn, *run.accepted);
+  run.study.paper = paper_form(array.array, run.study.shown->array, run.study.shown->model);
+  for (SeenAttitude& one : run.study.attitudes) one.direction = times(turn, one.direction);
+  for (findings::MeasuredAttitude& one : measured) one.down = times(turn, one.down);
+}
+
 /// Compares the fit with what is known of its stations; one that stands otherwise is of a tool that is wired otherwise.
 void judge_wiring(const io::ArrayFile& array, CalibrationRun& run) {
   const std::vector<Vec3> down = shown_down(run);
@@ -183,6 +196,7 @@ void judge_wiring(const io::ArrayFile& array, CalibrationRun& run) {
   for (const io::KnownAttitude& one : array.input.known_attitudes) {
     if (const auto found = findings::measured_attitudes({one}, down)) measured.push_back(found->front());
   }
+  turn_into_housing(array, measured, run);
   run.wiring = findings::check_wiring(array, run.accepted ? &run.accepted->array : nullptr, std::move(measured));
   if (run.wiring.status == findings::WiringStatus::contradicted) run.accepted.reset();
 }

@@ -43,7 +43,8 @@ bool same(const Verdict& a, const Verdict& b) {
          a.excluded == b.excluded && a.absent == b.absent && a.suspects == b.suspects && a.usable == b.usable &&
          a.alert == b.alert && same_bits(a.statistic, b.statistic) && same_bits(a.limit, b.limit) &&
          same_bits(a.gravity_mps2, b.gravity_mps2) && same_bits(a.covariance, b.covariance) &&
-         same_bits(a.protection_level_rad, b.protection_level_rad) && same_bits(a.mae_all_mps2, b.mae_all_mps2);
+         same_bits(a.protection_level_calibrated_axes_rad, b.protection_level_calibrated_axes_rad) &&
+         same_bits(a.mae_all_mps2, b.mae_all_mps2);
 }
 
 /// Plays a case; `look(verdict, truth)` returns an empty text as long as all is well.
@@ -91,7 +92,7 @@ StationSpan stations_to_tell(const Case& c) {
 
 bool all_finite(const Verdict& v) {
   bool ok = std::isfinite(v.statistic) && std::isfinite(v.limit) && std::isfinite(v.mae_all_mps2) &&
-            std::isfinite(v.protection_level_rad);
+            std::isfinite(v.protection_level_calibrated_axes_rad);
   for (const double x : v.gravity_mps2) ok = ok && std::isfinite(x);
   for (const double x : v.covariance) ok = ok && std::isfinite(x);
   return ok;

@@ -77,16 +77,29 @@ std::string failing(const List& list, Fails&& fails, Name&& name) {
 void judge_protection(const UserLimits& limits, const Facts& facts, Criteria& out) {
   const double alert_deg = deg_from_rad(limits.alert_limit_rad);
   const std::optional<double>& level = facts.array.protection_level_deg;
-  const Asked asked{fmt::format("at most {:.4g} deg", alert_deg), limits.alert_limit_from};
+  const AlignmentFacts& alignment = facts.alignment;
+  const char* const frame = alignment.in_housing ? "in the housing" : "in the calibrated axes";
+  const Asked asked{fmt::format("at most {:.4g} deg {}", alert_deg, frame), limits.alert_limit_from};
   if (!level)
     return out.add(CriterionId::protection_level, asked, "not available", Result::not_met,
                    "parity does not check every sensor, so the tilt error has no bound");
   if (!facts.calibration.accepted)
     return out.add(CriterionId::protection_level, asked, fmt::format("{:.4g} deg of an exact tool", *level),
                    Result::open, "without an accepted calibration the calibration error is unknown");
-  out.judge(
-      CriterionId::protection_level, *level <= alert_deg, asked, fmt::format("{:.4g} deg", *level),
-      fmt::format("a tilt error of {:.4g} deg can stay undetected, the alert limit is {:.4g} deg", *level, alert_deg));
+  if (!alignment.in_housing) {
+    return out.judge(CriterionId::protection_level, *level <= alert_deg, asked, fmt::format("{:.4g} deg", *level),
+                     fmt::format("a tilt error of {:.4g} deg can stay undetected, the alert limit is {:.4g} deg",
+                                 *level, alert_deg));
+  }
+  const double turned_deg = alignment.bound_deg.value_or(180.0), whole_deg = std::fmin(*level + turned_deg, 180.0);
+  const Result result = whole_deg <= alert_deg ? Result::met : *level <= alert_deg ? Result::open : Result::not_met;
+  out.add(CriterionId::protection_level, asked,
+          fmt::format("{:.4g} deg, and {:.3g} deg of alignment", *level, turned_deg), result,
+          result == Result::met
+              ? std::string()
+              : fmt::format("the direction in the housing may be off by {:.3g} deg, the alert limit is "
+                            "{:.4g} deg: {}; {}",
+                            whole_deg, alert_deg, alignment.text, alignment.remedy));
 }
 
 void judge_array(const UserLimits& limits, const Facts& facts, Criteria& out) {

@@ -52,8 +52,9 @@ void fill(StationHealth& station, const Verdict& v, const Mat3& frame, double ac
   station.tilt = tilt_of(io::in_frame(frame, v.gravity_mps2), io::covariance_in_frame(frame, v.covariance));
   station.protected_by_bound = v.protection_available;
   station.alert = v.alert;
-  station.protection_rad = v.protection_level_rad;
-  station.toolface_protection_rad = v.toolface_protection_rad;
+  station.protection_calibrated_axes_rad = v.protection_level_calibrated_axes_rad;
+  station.protection_housing_rad = v.protection_level_housing_rad;
+  station.toolface_protection_housing_rad = v.toolface_protection_housing_rad;
   station.usable = v.usable;
   station.reference = v.norm_mismatch.kind;
   station.used = v.in_service;
@@ -177,7 +178,11 @@ void ToolHealth::take_extremes(const Sample& sample, const Verdict& v) {
     e.ratio_at_s = v.time_s;
   }
   e.mae_mps2 = std::fmax(e.mae_mps2, v.mae_worst_mps2);
-  if (v.protection_available) e.protection_rad = std::fmax(e.protection_rad, v.protection_level_rad);
+  if (v.protection_available) {
+    e.protection_calibrated_axes_rad =
+        std::fmax(e.protection_calibrated_axes_rad, v.protection_level_calibrated_axes_rad);
+    e.protection_housing_rad = std::fmax(e.protection_housing_rad, v.protection_level_housing_rad);
+  }
   count_sensors(v.clipped, e.clipped);
   count_sensors(v.scattering, e.scattering);
   count_sensors(v.not_finite, e.not_finite);

@@ -78,6 +78,7 @@ std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad) {
   if (config.recalibrate_after_exclusion) out += "recalibrate = \"after-exclusion\"\n";
   number("isolation_timeout_blocks", config.isolation_timeout_blocks, usual.isolation_timeout_blocks);
   quantity("acceleration_bound", config.acceleration_bound_mps2, usual.acceleration_bound_mps2, "m/s^2");
+  out += "alert_frame = \"calibrated-axes\"  # that in which a scenario knows the truth\n";
   if (config.alarm_form == AlarmForm::average_tool) out += "alarm_form = \"average-tool\"\n";
   ratio("triple_false_alarm_rate", config.triple_false_alarm_rate, usual.triple_false_alarm_rate);
   return out;

@@ -144,8 +144,8 @@ inline std::string difference(const plumb_verdict& c, const plumb::Verdict& v) {
   PLUMB_SAME(covariance)
   PLUMB_SAME(age_s)
   PLUMB_SAME(latest_mps2)
-  PLUMB_SAME(protection_level_rad)
-  PLUMB_SAME(toolface_protection_rad)
+  PLUMB_SAME(protection_level_calibrated_axes_rad)
+  PLUMB_SAME(toolface_protection_housing_rad)
 #undef PLUMB_SAME
   if (!same(c.recalibration_phase, v.recalibration.phase)) return "recalibration_phase";
   if (!same(c.stations_wanted, v.recalibration.stations_wanted)) return "stations_wanted";

@@ -259,7 +259,7 @@ TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {
       says(named, {"no stretch at rest", "`unit` and `scale`", "times as long as gravity", "they look like mV"}));
   EXPECT_EQ(named.find("`noise`"), std::string::npos) << "in another unit it is no noise to declare: " << named;
   const Workshop time;
-  time.put("array.toml", with(time.text("array.toml"), "[input]\n", "[monitor]\nmax_gap = \"1 ms\"\n\n[input]\n"));
+  time.put("array.toml", with(time.text("array.toml"), "[monitor]\n", "[monitor]\nmax_gap = \"1 ms\"\n"));
   EXPECT_TRUE(says(calibrate(time).err, {"no stretch at rest", "`time`", "max_gap"}));
   const Workshop brief;
   const std::string log = brief.text("calibration.csv");

@@ -26,7 +26,7 @@ TEST(MonitorLimitsCommand, SaysThemWithoutALog) {
 // Verifies: REQ-178
 TEST(MonitorLimitsCommand, SaysWhatDeltaFHides) {
   const Workshop where;
-  where.put("given.toml", with(where.text("array.toml"), "[input]", "[monitor]\ndelta_f = \"0.05 g0\"\n\n[input]"));
+  where.put("given.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\ndelta_f = \"0.05 g0\"\n"));
   const Outcome outcome =
       run(where, {"monitor", "--array", "given.toml", "--calibration", "calibration.json", "--limits"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -36,7 +36,7 @@ TEST(MonitorLimitsCommand, SaysWhatDeltaFHides) {
 // Negative: REQ-178
 TEST(MonitorLimitsCommand, RefusesPaperMode) {
   const Workshop where;
-  where.put("paper.toml", with(where.text("array.toml"), "[input]", "[monitor]\nmode = \"paper\"\n\n[input]"));
+  where.put("paper.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\nmode = \"paper\"\n"));
   const Outcome fit =
       run(where, {"calibrate", "--array", "paper.toml", "--log", "calibration.csv", "--out", "paper.json"});
   ASSERT_EQ(fit.code, 0) << fit.err;

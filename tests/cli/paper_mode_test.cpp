@@ -13,7 +13,7 @@ using namespace plumb_test;
 class PaperWorkshop : public Workshop {
  public:
   explicit PaperWorkshop(const std::string& more = "") {
-    put("paper.toml", with(text("array.toml"), "[input]", "[monitor]\nmode = \"paper\"\n" + more + "\n[input]"));
+    put("paper.toml", with(text("array.toml"), "[monitor]\n", "[monitor]\nmode = \"paper\"\n" + more));
   }
   Outcome calibrate(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"calibrate",       "--array", "paper.toml", "--log",

@@ -211,7 +211,7 @@ TEST(RollTest, OptionsThatMakeNoSenseAreRefused) {
                                     "--roll-test", "turned.csv"});
   EXPECT_EQ(first.code, 2);
   EXPECT_TRUE(says(first.err, {"--roll-test", "--calibrate-first"}));
-  where.put("array.toml", with(where.text("array.toml"), "[input]", "[monitor]\nmode = \"paper\"\n\n[input]"));
+  where.put("array.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\nmode = \"paper\"\n"));
   const Outcome paper = where.monitor({"--roll-test", "turned.csv"});
   EXPECT_EQ(paper.code, 2) << paper.err;
   EXPECT_TRUE(says(paper.err, {"--roll-test", "paper"}));

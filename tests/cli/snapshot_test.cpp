@@ -67,7 +67,7 @@ TEST(MonitorSnapshot, ImplausibleValuesAreRefusedByName) {
   EXPECT_TRUE(refused(good + "garbage", {"state.bin", "7 bytes behind the end", "leave out --snapshot-in"}));
   EXPECT_TRUE(refused("", {"state.bin", "ends too early"}));
   EXPECT_TRUE(refused(where.text("drilling.csv"), {"state.bin", "not a snapshot"}));
-  where.put("array.toml", where.text("array.toml") + "\n[monitor]\npassed_blocks = 4\n");
+  where.put("array.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\npassed_blocks = 4\n"));
   EXPECT_TRUE(refused(good, {"state.bin", "another configuration"}));
   std::filesystem::remove(where / "state.bin");
   const Outcome missing = run(where, monitor("drilling.csv", {"--snapshot-in", "state.bin"}));

@@ -9,7 +9,7 @@ using namespace plumb_test;
 TEST(UpgradeCommand, ReportsWithoutWritingAndThenWritesInPlace) {
   const Workshop where;
   const std::string today = where.text("array.toml");
-  const std::string old = today + "[monitor]\npatience = 9  # attitudes\n";
+  const std::string old = with(today, "[monitor]\n", "[monitor]\npatience = 9  # attitudes\n");
   where.put("array.toml", old);
   const Outcome refused = run(where, {"geometry", "array.toml"});
   EXPECT_EQ(refused.code, 3);
@@ -22,7 +22,7 @@ TEST(UpgradeCommand, ReportsWithoutWritingAndThenWritesInPlace) {
   const Outcome done = run(where, {"upgrade", "array.toml", "--in-place"});
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_TRUE(says(done.out, {"patience -> isolation_timeout", "written: array.toml"}));
-  EXPECT_EQ(where.text("array.toml"), today + "[monitor]\nisolation_timeout = 9  # attitudes\n");
+  EXPECT_EQ(where.text("array.toml"), with(today, "[monitor]\n", "[monitor]\nisolation_timeout = 9  # attitudes\n"));
   EXPECT_EQ(run(where, {"geometry", "array.toml"}).code, 0);
   const Outcome again = run(where, {"upgrade", "array.toml", "--in-place"});
   EXPECT_EQ(again.code, 0);
@@ -32,8 +32,8 @@ TEST(UpgradeCommand, ReportsWithoutWritingAndThenWritesInPlace) {
 TEST(UpgradeCommand, WritesToAnotherFileOrToStandardOutput) {
   const Workshop where;
   const std::string today = where.text("array.toml");
-  where.put("old.toml", today + "[monitor]\nclean_blocks = 3\n");
-  const std::string now = today + "[monitor]\npassed_blocks = 3\n";
+  where.put("old.toml", with(today, "[monitor]\n", "[monitor]\nclean_blocks = 3\n"));
+  const std::string now = with(today, "[monitor]\n", "[monitor]\npassed_blocks = 3\n");
   EXPECT_EQ(run(where, {"upgrade", "old.toml", "--output", "new.toml"}).code, 0);
   EXPECT_EQ(where.text("new.toml"), now);
   EXPECT_EQ(run(where, {"upgrade", "old.toml", "--output", "-"}).out, now);
@@ -42,7 +42,7 @@ TEST(UpgradeCommand, WritesToAnotherFileOrToStandardOutput) {
 
 TEST(UpgradeCommand, RefusesWhatItCannotDo) {
   const Workshop where;
-  where.put("drift.toml", where.text("array.toml") + "[monitor]\npatience = 3\ndrift_bias = \"1 mg\"\n");
+  where.put("drift.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\npatience = 3\ndrift_bias = \"1 mg\"\n"));
   const std::string drift = where.text("drift.toml");
   const Outcome by_hand = run(where, {"upgrade", "drift.toml", "--in-place"});
   EXPECT_EQ(by_hand.code, 3);

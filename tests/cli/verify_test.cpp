@@ -132,7 +132,7 @@ TEST(VerifyCommand, TheCalibrationThatIsGivenIsTheOneThatIsJudged) {
 Directory& with_means(Directory& where, const std::string& input) {
   std::string tool = read_text(PLUMB_SOURCE_DIR "/examples/paper_tool.toml");
   tool = with(tool, "unit = \"V\"", "rows = \"stations\"\n" + input + "unit = \"V\"");
-  write_text(where / "tool.toml", tool + "\n[monitor]\nwindow = 1\nmax_gap = \"1000 s\"\n");
+  write_text(where / "tool.toml", with(tool, "[monitor]\n", "[monitor]\nwindow = 1\nmax_gap = \"1000 s\"\n"));
   const std::string stand = read_text(PLUMB_SOURCE_DIR "/examples/stand.toml");
   write_text(where / "stand.toml", with(stand, "array = \"paper_tool.toml\"", "array = \"tool.toml\""));
   EXPECT_EQ(run(where, {"simulate", "stand.toml", "--out", "stand.csv"}).code, 0);

@@ -161,9 +161,9 @@ TEST(WrongColumns, KelvinAndFahrenheitAreAskedFor) {
   EXPECT_TRUE(report(kelvin)["temperature_unit"].is_string());
   const WarmBench degc([](double) { return "150"; });
   EXPECT_TRUE(report(degc)["temperature_unit"].is_null());
-  const std::string span = "[monitor]\ntemperature_min = \"15 degC\"\ntemperature_max = \"60 degC\"\n\n[input]\n";
+  const std::string span = "[monitor]\ntemperature_min = \"15 degC\"\ntemperature_max = \"60 degC\"\n";
   const WarmBench fahrenheit([](double part) { return part < 0.5 ? "77" : "86"; });
-  fahrenheit.put("array.toml", with(fahrenheit.text("array.toml"), "[input]\n", span));
+  fahrenheit.put("array.toml", with(fahrenheit.text("array.toml"), "[monitor]\n", span));
   EXPECT_TRUE(says(flat(calibrate(fahrenheit).out), {"`T` reads 77 to 86", "15 to 60 degC: is it in degF?"}));
   fahrenheit.put("array.toml", with(fahrenheit.text("array.toml"), "\"60 degC\"", "\"90 degC\""));
   EXPECT_TRUE(report(fahrenheit)["temperature_unit"].is_null());

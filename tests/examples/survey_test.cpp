@@ -22,7 +22,7 @@ TEST(SurveyStation, goWithTheAnglesOfTheVector) {
   EXPECT_EQ(station.go, Go::go);
   EXPECT_NEAR(station.tilt.inclination_rad, std::atan2(3.0, 9.3), 1e-12);
   EXPECT_NEAR(station.tilt.toolface_rad, std::atan2(3.0, 0.0), 1e-12);
-  EXPECT_EQ(station.protection_level_rad, 1e-3);
+  EXPECT_EQ(station.protection_level_housing_rad, 1e-3);
 }
 
 TEST(SurveyStation, whileThePumpsRunThereIsNoStation) {
@@ -84,7 +84,8 @@ TEST(SurveyStation, throughAFailureEveryGoIsTrueToItsBound) {
     if (!v.tick) continue;  // else the body has turned since
     const Eigen::Vector3d& g = body.gravity_mps2();
     const double inclination_rad = std::atan2(std::hypot(g[0], g[1]), g[2]);
-    EXPECT_LT(std::abs(station.tilt.inclination_rad - inclination_rad), station.protection_level_rad) << v.time_s;
+    EXPECT_LT(std::abs(station.tilt.inclination_rad - inclination_rad), station.protection_level_housing_rad)
+        << v.time_s;
   }
   EXPECT_GT(gos, 1000);
   EXPECT_EQ(late_gos, 0);  // three sensors are left: nothing checks them

@@ -36,7 +36,7 @@ inline plumb::Verdict good() {
   v.usable = 0x1FF;
   v.protection_available = true;
   v.alert = false;
-  v.protection_level_rad = 1e-3;
+  v.protection_level_housing_rad = 1e-3;
   return v;
 }
 

@@ -70,11 +70,11 @@ Attack attack(double bound_mps2, double alert_deg) {
     if (!bounded(v)) continue;
     const double error = angle_between_rad(v.gravity_mps2, u);
     ++out.bounded;
-    out.beyond += error > v.protection_level_rad ? 1 : 0;
+    out.beyond += error > v.protection_level_calibrated_axes_rad ? 1 : 0;
     out.silent += !v.alert && error > config.alert_limit_rad ? 1 : 0;
     out.worst_rad = std::fmax(out.worst_rad, error);
-    out.least_level_rad = std::fmin(out.least_level_rad, v.protection_level_rad);
-    out.most_level_rad = std::fmax(out.most_level_rad, v.protection_level_rad);
+    out.least_level_rad = std::fmin(out.least_level_rad, v.protection_level_calibrated_axes_rad);
+    out.most_level_rad = std::fmax(out.most_level_rad, v.protection_level_calibrated_axes_rad);
   }
   std::printf(
       "bound %.0f mg0, alert limit %.1f deg: %d bounded, %d beyond their level of %.4f to %.4f deg, %d silent\n",
@@ -131,8 +131,8 @@ RC_GTEST_PROP(AccelerationBoundLaw, EverySteadyAccelerationWithinItIsCovered, ()
               v.norm_mismatch.kind != NormMismatchKind::common_bias);
     if (!bounded(v)) continue;
     ++told;
-    RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_rad);
-    RC_ASSERT(v.alert == (v.protection_level_rad > config.alert_limit_rad));
+    RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_calibrated_axes_rad);
+    RC_ASSERT(v.alert == (v.protection_level_calibrated_axes_rad > config.alert_limit_rad));
     RC_ASSERT(v.alert == (v.validity != Validity::valid));
   }
   RC_ASSERT(rig.ever_blamed.empty());
@@ -218,8 +218,8 @@ TEST(AccelerationBound, BeyondGravityTheLevelIsHalfATurnAndTheAlertStays) {
   const Verdict& v = rig.prove();
   EXPECT_EQ(v.state, HealthState::nominal);
   EXPECT_EQ(v.validity, Validity::unconfirmed);
-  EXPECT_GE(v.protection_level_rad, kPi);
-  EXPECT_EQ(v.toolface_protection_rad, kPi);
+  EXPECT_GE(v.protection_level_calibrated_axes_rad, kPi);
+  EXPECT_EQ(v.toolface_protection_housing_rad, kPi);
   EXPECT_TRUE(v.alert);
 }
 

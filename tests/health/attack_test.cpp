@@ -122,7 +122,7 @@ TEST(Attack, AChannelEventDoesNotSwallowTheAlarm) {
   for (int k = 0; k < 30; ++k) {
     const Verdict& v = rig.stay(direction_at(45, 200));
     if (v.validity != Validity::valid || !v.in_service.has(5)) continue;
-    EXPECT_LE(angle_between_rad(v.gravity_mps2, direction_at(45, 200)), v.protection_level_rad);
+    EXPECT_LE(angle_between_rad(v.gravity_mps2, direction_at(45, 200)), v.protection_level_calibrated_axes_rad);
     unsuspected += v.state == HealthState::suspect ? 0 : 1;
   }
   EXPECT_LE(unsuspected, 1);
@@ -209,7 +209,8 @@ TEST(Attack, SensorsThatHangTogetherDoNotMakeAShakenBlockCountAsAtRest) {
     const Verdict& v = rig.monitor.verdict();
     EXPECT_EQ(v.state, HealthState::suspect) << "seen, and nobody named: seed " << seed;
     EXPECT_TRUE((v.qualifiers & Qualifier::timed_out) != 0) << "seed " << seed;
-    EXPECT_TRUE(v.alert || v.protection_level_rad <= rig.setup.config.alert_limit_rad) << "seed " << seed;
+    EXPECT_TRUE(v.alert || v.protection_level_calibrated_axes_rad <= rig.setup.config.alert_limit_rad)
+        << "seed " << seed;
   }
 }
 

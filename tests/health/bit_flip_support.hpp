@@ -49,7 +49,7 @@ inline double angle_between(const plumb::Vec3& a, const plumb::Vec3& b) {
 /// What is published as usable and further off than is said with it.
 inline bool is_beyond_bound(const plumb::Verdict& v, const Truth& truth, double alert_limit_rad) {
   if (v.validity != plumb::Validity::valid && v.validity != plumb::Validity::degraded) return false;
-  const double bound_rad = v.protection_available ? v.protection_level_rad : alert_limit_rad;
+  const double bound_rad = v.protection_available ? v.protection_level_calibrated_axes_rad : alert_limit_rad;
   const double off_rad =
       std::fmin(angle_between(v.gravity_mps2, truth.direction), angle_between(v.gravity_mps2, truth.before));
   return !(off_rad <= bound_rad) || !std::isfinite(plumb::norm(v.gravity_mps2));

@@ -83,7 +83,7 @@ TEST(CalibrationCheck, WidenedTheOutputKeepsItsProtectionLevel) {
       const Verdict& v = rig.stay(u);
       if (!v.calibration.contradicted || v.validity != Validity::valid) continue;
       EXPECT_TRUE(v.protection_available);
-      EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad) << seed;
+      EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad) << seed;
     }
   }
 }
@@ -229,7 +229,8 @@ TEST(CalibrationCheck, WhatWasLearntOutlivesAPowerCycle) {
   ASSERT_TRUE(other->restore(rig.setup, bytes.data(), *size).has_value());
   EXPECT_EQ(other->verdict().calibration.tolerance_mps2, rig.monitor.verdict().calibration.tolerance_mps2);
   const Sample next = rig.sample(random_direction(noise), kG0_mps2);
-  EXPECT_EQ(other->step(next).protection_level_rad, rig.monitor.step(next).protection_level_rad);
+  EXPECT_EQ(other->step(next).protection_level_calibrated_axes_rad,
+            rig.monitor.step(next).protection_level_calibrated_axes_rad);
   rig.restart();
   EXPECT_FALSE(rig.monitor.verdict().calibration.contradicted) << "configured anew";
 }

@@ -37,7 +37,7 @@ TEST(Changes, TheVectorOfTheStepThatExcludesIsThatOfTheSurvivors) {
   ASSERT_TRUE(until_excluded(rig, SensorSet::of(2), 3));
   const Verdict& v = rig.monitor.verdict();
   EXPECT_TRUE(v.protection_available);
-  EXPECT_LT(v.protection_level_rad, rad_from_deg(1.0)) << "the faulty one bounds nothing any more";
+  EXPECT_LT(v.protection_level_calibrated_axes_rad, rad_from_deg(1.0)) << "the faulty one bounds nothing any more";
   EXPECT_LT(v.mae_all_mps2, 0.01) << "nor is it in the window";
   EXPECT_EQ(v.state, HealthState::isolated);
 }

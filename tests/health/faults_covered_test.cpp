@@ -81,7 +81,7 @@ TEST(FaultsCovered, AFaultOfOneOfThreeThatKeepsTheLengthIsWithinTheBound) {
     const Verdict& v = rig.stay(u, 2);
     if (v.validity != Validity::degraded || !v.protection_available) continue;
     ++shown;
-    EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad);
+    EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad);
     EXPECT_TRUE(v.alert);
   }
   EXPECT_GT(shown, 30);
@@ -99,7 +99,7 @@ TEST(FaultsCovered, RollingAtOneInclinationIsValidFromTheFirstBlocksOn) {
         const Verdict& v = rig.stay(u);
         valid += v.validity == Validity::valid ? 1 : 0;
         if (v.validity == Validity::valid) {
-          EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad);
+          EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad);
         }
       }
       EXPECT_GE(valid, 19) << n << " sensors, inclination " << inclination_deg;
@@ -133,8 +133,8 @@ TEST(FaultsCovered, AFaultAtPowerOnIsWithinTheBoundOrNotValid) {
     const Verdict& v = rig.stay(u, 6);
     if (v.validity != Validity::valid) continue;
     ++valid;
-    EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad) << seed;
-    EXPECT_LE(v.protection_level_rad, rig.setup.config.alert_limit_rad);
+    EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad) << seed;
+    EXPECT_LE(v.protection_level_calibrated_axes_rad, rig.setup.config.alert_limit_rad);
   }
   EXPECT_GT(valid, 20) << "what raises no alarm";
   EXPECT_LT(valid, 180);
@@ -152,7 +152,7 @@ TEST(FaultsCovered, ASuspectWhoseExclusionTurnsTheVectorByLessThanTheAlertLimitL
   EXPECT_EQ(v.state, HealthState::suspect);
   EXPECT_EQ(v.validity, Validity::valid);
   EXPECT_EQ(v.faults_covered, 1);
-  EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad);
+  EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad);
   rig.distort = [](int i, double r, int) { return i == 2 ? r + 0.1 * kG0_mps2 : r; };
   rig.stay(u, 3);
   EXPECT_EQ(v.state, HealthState::suspect);
@@ -186,7 +186,7 @@ void expect_no_colluders_turn_the_alert_off(int n, SensorSet plane, SensorSet co
       if (v.provisionally_excluded.empty()) continue;
       EXPECT_EQ(v.faults_covered, v.protection_available ? colluders.size() : 0);
       if (v.protection_available) {
-        EXPECT_LE(error, v.protection_level_rad);
+        EXPECT_LE(error, v.protection_level_calibrated_axes_rad);
       }
     }
   }

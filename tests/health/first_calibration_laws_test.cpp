@@ -31,7 +31,7 @@ RC_GTEST_PROP(FirstCalibrationLaw, EndsAcceptedAndItsTiltIsWithinItsProtectionLe
     const Verdict& v = tool.stay(u, 2);
     RC_ASSERT(v.excluded.empty() && v.provisionally_excluded.empty());
     if (!v.protection_available) continue;
-    RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <= v.protection_level_rad);
+    RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <= v.protection_level_calibrated_axes_rad);
   }
   RC_ASSERT(tool.state() == HealthState::nominal);
 }
@@ -57,7 +57,8 @@ RC_GTEST_PROP(FirstCalibrationLaw, AWrongLengthOfGravityIsTheScalesAndDoesNotTur
     RC_ASSERT(v.excluded.empty() && v.provisionally_excluded.empty() && v.suspects.empty());
     bounded += v.protection_available ? 1 : 0;
     if (v.protection_available)
-      RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <= v.protection_level_rad);
+      RC_ASSERT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)) <=
+                v.protection_level_calibrated_axes_rad);
   }
   RC_ASSERT(bounded > 0);
 }

@@ -59,8 +59,10 @@ TEST(FirstCalibration, WhereItAsksToBeTakenIsEnough) {
     const Vec3 u = direction_at(35, 120);
     const Verdict& v = tool.stay(u, 2);
     EXPECT_EQ(v.validity, n > 3 ? Validity::valid : Validity::unconfirmed) << "nobody has checked a fit of three";
-    EXPECT_LT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)), n > 3 ? v.protection_level_rad : 1e-3);
-    EXPECT_EQ(v.protection_level_rad<rad_from_deg(0.2), n> 3) << n << ": one of three at fault shows another vector";
+    EXPECT_LT(angle_between_rad(v.gravity_mps2, tool.in_calibrated_frame(u)),
+              n > 3 ? v.protection_level_calibrated_axes_rad : 1e-3);
+    EXPECT_EQ(v.protection_level_calibrated_axes_rad<rad_from_deg(0.2), n> 3)
+        << n << ": one of three at fault shows another vector";
   }
 }
 

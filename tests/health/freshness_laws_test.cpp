@@ -79,7 +79,7 @@ RC_GTEST_PROP(FreshnessLaw, ValidIsTrueOfThisSample, ()) {
     const Verdict& v = rig.step(rig.sample(u, kG0_mps2));
     if (v.validity != Validity::valid) continue;
     ++valid;
-    RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_rad + unseen_rad);
+    RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_calibrated_axes_rad + unseen_rad);
   }
   RC_CLASSIFY(valid > 0, "valid at some time");
 }

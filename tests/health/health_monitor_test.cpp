@@ -90,7 +90,8 @@ TEST(HealthMonitor, AStuckSensorOfFourIsExcludedAfterFourAttitudesAndLeavesDegra
   EXPECT_EQ(last.state, HealthState::degraded_3_sensor);
   EXPECT_EQ(last.excluded, SensorSet::of(2));
   EXPECT_EQ(last.validity, Validity::degraded);
-  EXPECT_GT(last.protection_level_rad, rad_from_deg(10.0)) << "one of three at fault may show a mirrored vector";
+  EXPECT_GT(last.protection_level_calibrated_axes_rad, rad_from_deg(10.0))
+      << "one of three at fault may show a mirrored vector";
   EXPECT_EQ(last.faults_covered, 1);
   EXPECT_TRUE(last.alert);
   EXPECT_LT(angle_between_rad(last.gravity_mps2, direction_at(70, 20)), 2e-3);

@@ -120,7 +120,7 @@ TEST(Rotation, WithKnownArmsAndRateItIsTakenOff) {
   for (int k = 0; k < 10; ++k) {
     const Verdict& v = rig.stay({0, 0, 1});
     EXPECT_EQ(v.validity, Validity::valid);
-    EXPECT_LT(angle_between_rad(v.gravity_mps2, {0, 0, 1}), v.protection_level_rad);
+    EXPECT_LT(angle_between_rad(v.gravity_mps2, {0, 0, 1}), v.protection_level_calibrated_axes_rad);
   }
 }
 
@@ -296,7 +296,8 @@ TEST(VerdictFields, SayWhatMayBeUsedAndHowFarTheToolface) {
   EXPECT_EQ(v.usable, all);
   const Vec3& g = v.gravity_mps2;
   const double sine = std::hypot(g[0], g[1]) / norm(g);
-  EXPECT_NEAR(std::sin(v.toolface_protection_rad), std::sin(v.protection_level_rad) / sine, 1e-12);
+  EXPECT_NEAR(std::sin(v.toolface_protection_housing_rad), std::sin(v.protection_level_calibrated_axes_rad) / sine,
+              1e-12);
   EXPECT_EQ(v.reference_mps2, kG0_mps2);
   EXPECT_EQ(v.reference_sigma_mps2, rig.setup.gravity.sigma_mps2);
 }
@@ -309,7 +310,7 @@ TEST(VerdictFields, NearVerticalTheToolfaceIsNotUsable) {
   const Verdict& v = rig.stay(direction_at(2.5, 20), 2);  // a turn of 1 deg is in the bound of the first block
   EXPECT_FALSE(v.usable & Usable::toolface);
   EXPECT_TRUE(v.usable & Usable::inclination);
-  EXPECT_EQ(rig.stay({0, 0, 1}).toolface_protection_rad, kPi);
+  EXPECT_EQ(rig.stay({0, 0, 1}).toolface_protection_housing_rad, kPi);
 }
 
 // Verifies: REQ-124

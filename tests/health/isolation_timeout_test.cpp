@@ -109,7 +109,7 @@ RC_GTEST_PROP(IsolationTimeoutLaw, SuspectEndsOrIsBoundedUnderAnyVerdicts, ()) {
     const bool began = v.state != HealthState::suspect || v.in_service != in_service;  // who is out is an answer, too
     in_service = v.in_service;
     in_doubt = began ? 0 : in_doubt + (kind == 0 ? 0 : 1);
-    const bool bounded = v.protection_available && v.protection_level_rad <= config.alert_limit_rad;
+    const bool bounded = v.protection_available && v.protection_level_calibrated_axes_rad <= config.alert_limit_rad;
     unbounded = bounded ? 0 : unbounded + 1;
     without = bounded || is_isolable(held.rig.setup.array, v) ? 0 : without + 1;
     RC_ASSERT(in_doubt < (n + 1) * config.isolation_timeout || without < config.passed_blocks);
@@ -191,11 +191,11 @@ TEST(IsolationTimeout, TwoMirrorFaultsOfSixStaySuspectAndEndByTheBlockTimeoutOnl
       u = spiral(k);
       rig.stay(u);
       if (v.validity == Validity::valid) {
-        EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad) << k;
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad) << k;
       }
       EXPECT_EQ(v.alert, v.validity != Validity::valid);
       EXPECT_TRUE(v.excluded.empty() && v.provisionally_excluded.empty());
-      if (!(v.protection_available && v.protection_level_rad <= config.alert_limit_rad)) ++beyond;
+      if (!(v.protection_available && v.protection_level_calibrated_axes_rad <= config.alert_limit_rad)) ++beyond;
     }
     EXPECT_GT(beyond, 20) << "no bound holds it";
     EXPECT_EQ(v.state, blocks > 0 ? HealthState::failed : HealthState::suspect);

@@ -55,7 +55,7 @@ Sample wild_sample(Noise& noise, const SensorArray& array, double& time_s) {
 
 bool finite(const Verdict& v) {
   bool ok = std::isfinite(v.statistic) && std::isfinite(v.limit) && std::isfinite(v.mae_all_mps2) &&
-            std::isfinite(v.protection_level_rad);
+            std::isfinite(v.protection_level_calibrated_axes_rad);
   for (double x : v.gravity_mps2) ok = ok && std::isfinite(x);
   for (double x : v.covariance) ok = ok && std::isfinite(x);
   return ok;
@@ -77,7 +77,8 @@ RC_GTEST_PROP(MonitorLaw, IsTotalAndPartitionsTheSensorsOverAnyInput, ()) {
     RC_ASSERT(v.in_service.size() + v.provisionally_excluded.size() + v.excluded.size() + v.absent.size() == n);
     RC_ASSERT(finite(v));
     if (v.validity == Validity::valid) RC_ASSERT(v.protection_available && !v.alert);
-    if (v.validity == Validity::valid) RC_ASSERT(v.protection_level_rad <= rig.setup.config.alert_limit_rad);
+    if (v.validity == Validity::valid)
+      RC_ASSERT(v.protection_level_calibrated_axes_rad <= rig.setup.config.alert_limit_rad);
     if (v.state == HealthState::suspect) RC_ASSERT(v.validity != Validity::degraded);
     if (v.qualifiers & Qualifier::moving) RC_ASSERT(v.validity != Validity::valid);
     if (v.state == HealthState::failed) RC_ASSERT(v.validity == Validity::invalid);
@@ -140,7 +141,7 @@ RC_GTEST_PROP(MonitorLaw, ExcludesOnlyTheFaultySensorAndThenIgnoresIt, ()) {
     // S13: what is published as valid is within its protection level.
     if (v.tick && v.validity == Validity::valid) {
       RC_ASSERT(v.protection_available);
-      RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_rad);
+      RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_calibrated_axes_rad);
     }
   }
   const bool excluded = rig.monitor.verdict().excluded == SensorSet::of(faulty);

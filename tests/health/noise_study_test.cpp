@@ -309,7 +309,7 @@ TEST(NoiseStudy, StepsOfFourSigmasAreNoFault) {
         const Verdict& v = rig.stay(u, 2);
         valid += v.validity == Validity::valid ? 1 : 0;
         ASSERT_TRUE(v.protection_available) << n;
-        EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad) << n << " " << sigmas;
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad) << n << " " << sigmas;
       }
       EXPECT_GE(valid, 39) << n << " " << sigmas;
       EXPECT_TRUE(rig.ever_blamed.empty()) << n << " " << sigmas;

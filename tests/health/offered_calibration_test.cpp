@@ -215,7 +215,7 @@ TEST(OfferedCalibration, WhatItsStationsCannotSeeIsWithinTheProtectionLevel) {
       ++valid;
       const double error_rad = angle_between_rad(v.gravity_mps2, u);
       worst_rad = std::fmax(worst_rad, error_rad);
-      EXPECT_LE(error_rad, v.protection_level_rad) << n << ", station " << station;
+      EXPECT_LE(error_rad, v.protection_level_calibrated_axes_rad) << n << ", station " << station;
     }
     EXPECT_GT(valid, 10) << n;
     EXPECT_GT(worst_rad, 5e-4) << n;

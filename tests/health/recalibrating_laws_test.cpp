@@ -60,7 +60,7 @@ RC_GTEST_PROP(RecalibratingLaw, NoHealthySensorIsExcludedAndValidOutputIsWithinI
       const Verdict& v = tool.rig.step(tool.rig.sample(u, kG0_mps2));
       if (!v.tick || v.validity != Validity::valid) continue;
       RC_ASSERT(v.protection_available);
-      RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_rad);
+      RC_ASSERT(angle_between_rad(v.gravity_mps2, u) <= v.protection_level_calibrated_axes_rad);
     }
     RC_ASSERT((faulty ? SensorSet::of(which) : SensorSet{}).contains(tool.rig.ever_blamed));
   }

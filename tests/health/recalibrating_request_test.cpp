@@ -178,7 +178,8 @@ TEST(Recalibrating, AFitUnderSuspicionOfGravityCarriesTheDoubt) {
       const Verdict& v = tool.rig.monitor.verdict();
       if (v.validity != Validity::valid || !v.protection_available) continue;
       if (tool.count(HealthEvent::fit_accepted) > 0) ++accepted;
-      EXPECT_LE(angle_between_rad(v.gravity_mps2, down), v.protection_level_rad) << "seed " << seed << " station " << k;
+      EXPECT_LE(angle_between_rad(v.gravity_mps2, down), v.protection_level_calibrated_axes_rad)
+          << "seed " << seed << " station " << k;
     }
   }
   EXPECT_GT(adopted, 0);

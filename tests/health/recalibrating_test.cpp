@@ -124,7 +124,7 @@ TEST(Recalibrating, NoShadowValueReachesAnOutput) {
       compared += v.state == HealthState::recalibrating ? 1 : 0;
       ASSERT_EQ(std::memcmp(&v.gravity_mps2, &w.gravity_mps2, sizeof(Vec3)), 0);
       ASSERT_EQ(std::memcmp(&v.covariance, &w.covariance, sizeof(Mat3)), 0);
-      ASSERT_EQ(v.protection_level_rad, w.protection_level_rad);
+      ASSERT_EQ(v.protection_level_calibrated_axes_rad, w.protection_level_calibrated_axes_rad);
       ASSERT_EQ(v.validity, w.validity);
       ASSERT_EQ(v.alert, w.alert);
     }

@@ -135,7 +135,8 @@ TEST(RequirementNoRedundancy, ATriadIsDegradedFromTheStartAndItsBoundHoldsTheMir
   EXPECT_EQ(v.validity, Validity::degraded);
   EXPECT_TRUE(v.qualifiers & Qualifier::no_redundancy);
   EXPECT_TRUE(v.protection_available);
-  EXPECT_GT(v.protection_level_rad, rad_from_deg(30.0)) << "a fault of one may show the vector mirrored";
+  EXPECT_GT(v.protection_level_calibrated_axes_rad, rad_from_deg(30.0))
+      << "a fault of one may show the vector mirrored";
   EXPECT_TRUE(v.alert);
 }
 
@@ -154,7 +155,7 @@ TEST(RequirementFrame, TurnsThePublishedVectorAndNoDecision) {
     ASSERT_EQ(v.state, w.state);
     ASSERT_EQ(v.statistic, w.statistic);
     ASSERT_EQ(v.in_service, w.in_service);
-    ASSERT_EQ(v.protection_level_rad, w.protection_level_rad);
+    ASSERT_EQ(v.protection_level_calibrated_axes_rad, w.protection_level_calibrated_axes_rad);
     EXPECT_EQ(w.gravity_mps2[0], v.gravity_mps2[1]);
     EXPECT_EQ(w.gravity_mps2[1], -v.gravity_mps2[0]);
     EXPECT_EQ(w.covariance[0], v.covariance[4]);

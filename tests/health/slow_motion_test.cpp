@@ -110,7 +110,7 @@ TEST(SlowMotion, TheFirstBlockBehindMotionAllowsForTheTurnThatItsNoiseHides) {
         // The block in which it slowed down, and the one before, hold more.
         if (k < 64 || v.validity != Validity::valid || v.alert) continue;
         ++judged;
-        ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_rad) << n << " " << seed;
+        ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_calibrated_axes_rad) << n << " " << seed;
       }
     }
     EXPECT_GE(judged, 40 * 64) << n;
@@ -146,7 +146,7 @@ TEST(SlowMotion, LearnedNoiseHidesNoMovement) {
       const Verdict& v = rig.step(rig.sample(here, kG0_mps2));
       if (k < 96 || v.validity != Validity::valid || v.alert) continue;
       ++judged;
-      ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_rad) << seed << " " << k;
+      ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_calibrated_axes_rad) << seed << " " << k;
     }
   }
   EXPECT_GE(judged, 40 * 200);
@@ -169,7 +169,8 @@ TEST(SlowMotion, ATurningToolIsValidWithinItsLevelAtEverySample) {
         if (v.validity != Validity::valid) continue;
         ++valid;
         ASSERT_TRUE(v.protection_available);
-        ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_rad) << n << " " << rate_degps;
+        ASSERT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_calibrated_axes_rad)
+            << n << " " << rate_degps;
       }
       EXPECT_GE(100 * valid, 98 * all) << n << " " << rate_degps;
       EXPECT_TRUE(rig.ever_blamed.empty()) << n;
@@ -210,7 +211,7 @@ TEST(SlowMotion, AShakenToolIsValid) {
       const Verdict& v = rig.shake(u, 2.0 * rig.setup.array.sigma_mps2(0));
       if (v.validity != Validity::valid) continue;
       ++valid;
-      EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_rad);
+      EXPECT_LE(angle_between_rad(v.gravity_mps2, u), v.protection_level_calibrated_axes_rad);
     }
     EXPECT_GE(valid, 190) << n;
     EXPECT_TRUE(rig.ever_blamed.empty()) << n;
@@ -267,7 +268,7 @@ TEST(SlowMotion, ATurnThatGrowsIsHeldAtItsFirstLargeReading) {
     const Verdict& v = rig.step(rig.sample(here, kG0_mps2));
     const double hidden_rad = 13.0 * rig.setup.array.sigma_mps2(0) * std::sqrt(2.0) / kG0_mps2;
     if (v.validity == Validity::valid) {
-      EXPECT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_rad + hidden_rad);
+      EXPECT_LE(angle_between_rad(v.gravity_mps2, here), v.protection_level_calibrated_axes_rad + hidden_rad);
     }
   }
   EXPECT_EQ(rig.monitor.verdict().validity, Validity::held);
@@ -339,7 +340,9 @@ TEST(SlowMotion, AFaultySensorThatPullsTheVectorBackIsNotFollowed) {
         const Verdict& v = rig.step(rig.sample(truth.now(), kG0_mps2));
         if (v.alert) continue;
         // What six sigmas of one row hide of it, of four sensors the most.
-        EXPECT_LE(angle_between_rad(v.gravity_mps2, truth.now()), v.protection_level_rad + rad_from_deg(0.25)) << n;
+        EXPECT_LE(angle_between_rad(v.gravity_mps2, truth.now()),
+                  v.protection_level_calibrated_axes_rad + rad_from_deg(0.25))
+            << n;
         EXPECT_LE(angle_between_rad(v.gravity_mps2, truth.now()), rig.setup.config.alert_limit_rad) << n;
       }
     }

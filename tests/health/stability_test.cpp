@@ -43,7 +43,7 @@ Outcome run(double stated_mps2, double drift_mps2, bool shared, int tools) {
       ++out.blocks;
       if (v.validity != Validity::valid || !v.protection_available) continue;
       ++out.valid;
-      if (angle_between_rad(v.gravity_mps2, u) > v.protection_level_rad) ++out.beyond;
+      if (angle_between_rad(v.gravity_mps2, u) > v.protection_level_calibrated_axes_rad) ++out.beyond;
     }
     ++out.tools;
     if (!rig.ever_blamed.empty()) ++out.blamed;

@@ -22,7 +22,7 @@ using plumb_test::UncalibratedTool;
 
 void expect_sound(const Verdict& v) {
   for (const double g : v.gravity_mps2) ASSERT_TRUE(std::isfinite(g));
-  ASSERT_TRUE(std::isfinite(v.protection_level_rad));
+  ASSERT_TRUE(std::isfinite(v.protection_level_calibrated_axes_rad));
   ASSERT_EQ(v.in_service | v.provisionally_excluded | v.excluded | v.absent, v.configured);
 }
 

@@ -32,7 +32,7 @@ Verdict some_verdict() {
   v.minimum_faults = {0, 1, kNoHypothesis, 2};
   v.gravity_mps2 = {0.0, -5.0, 5.0};
   v.covariance = {1.0, 0.5, 0.0, 0.5, 2.0, 0.0, 0.0, 0.0, 3.0};
-  v.protection_level_rad = rad_from_deg(0.5);
+  v.protection_level_calibrated_axes_rad = rad_from_deg(0.5);
   return v;
 }
 

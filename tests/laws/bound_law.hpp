@@ -79,9 +79,10 @@ class BoundLaw {
     if (!is_tried(v) || faults > 1) return "";  // the level is of one fault, by the priors of the default configuration
     ++stations_;
     const double error = plumb::angle_between_rad(v.gravity_mps2, direction);
-    nearest_ = std::max(nearest_, error / v.protection_level_rad);
-    if (error <= v.protection_level_rad) return "";
-    return "tilted by " + std::to_string(1e3 * error) + " mrad, bound " + std::to_string(1e3 * v.protection_level_rad);
+    nearest_ = std::max(nearest_, error / v.protection_level_calibrated_axes_rad);
+    if (error <= v.protection_level_calibrated_axes_rad) return "";
+    return "tilted by " + std::to_string(1e3 * error) + " mrad, bound " +
+           std::to_string(1e3 * v.protection_level_calibrated_axes_rad);
   }
 
   Tried tried_;

@@ -191,10 +191,10 @@ TEST(Law, SixSmallFaultsExcludeNoHealthySensorAndTheBoundHolds) {
       if (m > 1 || !usable || !v.protection_available) continue;
       ++bounded;
       const double error = angle_between_rad(v.gravity_mps2, direction);
-      if (error > v.protection_level_rad) {
+      if (error > v.protection_level_calibrated_axes_rad) {
         return broken(tool, c, k,
                       "tilted by " + std::to_string(1e3 * error) + " mrad, bound " +
-                          std::to_string(1e3 * v.protection_level_rad) + ": " + said(tool, c, v));
+                          std::to_string(1e3 * v.protection_level_calibrated_axes_rad) + ": " + said(tool, c, v));
       }
     }
     return LawOutcome{};

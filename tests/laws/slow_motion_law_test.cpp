@@ -95,9 +95,9 @@ class Judge {
     if (v.validity != Validity::valid || v.alert) return;
     ++valid_;
     const double error = angle_between_rad(v.gravity_mps2, direction);
-    if (error <= v.protection_level_rad) return;
+    if (error <= v.protection_level_calibrated_axes_rad) return;
     say(tool, "valid, and tilted by " + std::to_string(1e3 * error) + " mrad, bound " +
-                  std::to_string(1e3 * v.protection_level_rad));
+                  std::to_string(1e3 * v.protection_level_calibrated_axes_rad));
   }
   LawOutcome outcome(const std::string& under) {
     if (!broken_.broken.empty()) broken_.broken += under;

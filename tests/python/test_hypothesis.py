@@ -50,7 +50,7 @@ class OneFault(unittest.TestCase):
         g = rows["gravity_mps2"][valid]
         cross = np.linalg.norm(np.cross(g, TRUTH[valid]), axis=1)
         angle = np.arctan2(cross, (g * TRUTH[valid]).sum(axis=1))
-        self.assertTrue((angle <= rows["protection_level_rad"][valid]).all())
+        self.assertTrue((angle <= rows["protection_level_calibrated_axes_rad"][valid]).all())
 
 
 if __name__ == "__main__":

@@ -278,7 +278,7 @@ class Errors(unittest.TestCase):
     def test_the_days_since_the_calibration_widen_the_bound(self):
         text = (EXAMPLES / "paper_tool.toml").read_text()
         growing = 'stability = "10 ug"\nstability_per_day = "5 ug"\n'
-        array = plumb.Array.parse(text.replace("[input]", "[monitor]\n" + growing + "[input]", 1))
+        array = plumb.Array.parse(text.replace("[monitor]\n", "[monitor]\n" + growing, 1))
         calibration = plumb.calibrate(array, self.log, date="2026-03-31", serial="0042")
         self.assertEqual((calibration.date, calibration.serial), ("2026-03-31", "0042"))
         with tempfile.TemporaryDirectory() as folder:
@@ -289,7 +289,7 @@ class Errors(unittest.TestCase):
         bounds = []
         for days in (0.0, 30.0):
             monitor = plumb.Monitor(array, calibration, days_since_calibration=days)
-            bounds.append(np.nanmax(monitor.run(self.log)["protection_level_rad"][-1:]))
+            bounds.append(np.nanmax(monitor.run(self.log)["protection_level_calibrated_axes_rad"][-1:]))
         self.assertGreater(bounds[1], bounds[0] + 1e-4)
         self.assertIn("is no date", self.said(plumb.calibrate, array, self.log, date="31.03.2026"))
         self.assertIn("days", self.said(plumb.Monitor, array, calibration, days_since_calibration=-1.0))

@@ -42,7 +42,7 @@ OF_JSON = {
     "inclination_sigma_deg": "covariance",
     "toolface_deg": "gravity_mps2",
     "toolface_sigma_deg": "covariance",
-    "protection_level_deg": "protection_level_rad",
+    "protection_level_deg": "protection_level_calibrated_axes_rad",
     "snapshot_refused": "snapshot_refusal",
 }
 SETS = ("configured", "in_service", "provisionally_excluded", "excluded", "absent", "suspects", "clipped", "scattering", "not_finite",
@@ -190,9 +190,9 @@ class Values(unittest.TestCase):
         self.assertEqual([None if s == 255 else s for s in row["minimum_faults"][:n].tolist()], line["minimum_faults"])
         self.assertEqual([float(d) for d in row["drift_mps2_per_h"][:n]], line["drift_mps2_per_h"])
         if line["protection_level_deg"] is None:
-            self.assertTrue(math.isnan(row["protection_level_rad"]) and math.isnan(row["toolface_protection_rad"]))
+            self.assertTrue(math.isnan(row["protection_level_calibrated_axes_rad"]) and math.isnan(row["toolface_protection_housing_rad"]))
         else:
-            self.assertAlmostEqual(math.degrees(row["protection_level_rad"]), line["protection_level_deg"], 9)
+            self.assertAlmostEqual(math.degrees(row["protection_level_calibrated_axes_rad"]), line["protection_level_deg"], 9)
         self.compare_parts(array, row, line)
 
     def compare_parts(self, array, row, line):
@@ -255,10 +255,10 @@ class Values(unittest.TestCase):
         self.assertEqual(list(rows["sample"]), list(range(1, len(rows) + 1)))
 
     def test_of_what_is_stated_and_of_noise_that_is_not_as_stated(self):
-        keys = '[monitor]\nacceleration_bound = "1 mg0"\nstability = "50 ug0"\nalert_limit = "3 deg"\n\n[input]'
+        keys = '[monitor]\nacceleration_bound = "1 mg0"\nstability = "50 ug0"\nalert_limit = "3 deg"\n'
         noise = np.random.default_rng(7)
         louder = self.changed("stand", lambda raw: raw + noise.normal(0.0, 0.0011, raw.shape))  # 2 sigma of 0.6 mV
-        _, rows, _ = self.both(self.text.replace("[input]", keys, 1), louder)
+        _, rows, _ = self.both(self.text.replace("[monitor]\n", keys, 1), louder)
         bits = {name: 1 << k for k, name in enumerate(plumb.QUALIFIERS)}
         self.assertFalse((rows["qualifiers"] & (bits["standstill_assumed"] | bits["stability_unstated"])).any())
         self.assertGreater(rows["noise_factor"][-1], 1.5)

@@ -13,7 +13,7 @@ using namespace plumb_test;
 
 /// An array whose sensors state a stability, calibrated with `more` options into cal.json.
 void calibrate(const Workshop& where, const std::string& keys, const std::vector<std::string>& more) {
-  where.put("stated.toml", with(where.text("array.toml"), "[input]", "[monitor]\n" + keys + "\n[input]"));
+  where.put("stated.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\n" + keys));
   std::vector<std::string> arguments = {"calibrate",       "--array", "stated.toml", "--log",
                                         "calibration.csv", "--out",   "cal.json"};
   arguments.insert(arguments.end(), more.begin(), more.end());

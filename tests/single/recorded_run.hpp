@@ -109,7 +109,7 @@ inline single_test::Told told_by(const plumb::Verdict& v) {
                static_cast<std::uint64_t>(v.consistent_hypotheses)};
   out.gravity_mps2 = v.gravity_mps2;
   out.latest_mps2 = v.latest_mps2;
-  out.protection_rad = v.protection_level_rad;
+  out.protection_rad = v.protection_level_calibrated_axes_rad;
   out.mae_mps2 = {v.mae_all_mps2, v.mae_worst_mps2};
   return out;
 }

@@ -14,6 +14,7 @@ inline plumb::verification::Facts calibrated_facts() {
   out.array.sensors.assign(4, {0.02, 0.1});
   out.calibration = {true, "stations", "", ""};
   out.wiring = {plumb::verification::WiringFacts::State::confirmed, "confirmed by station 7", ""};
+  out.alignment = {true, 0.1, "the calibrated axes as a whole are within 0.1 deg of the housing", "state it"};
   out.healthy = {true, "", plumb::verification::rate_of(0, 9600), plumb::verification::rate_of(0, 600)};
   out.faults.played = true;
   out.faults.wrong_exclusion = out.faults.misleading = plumb::verification::rate_of(0, 600);

@@ -39,7 +39,7 @@ Verdict good_block(double time_s, double inclination_deg = 30.0, double toolface
   const double i = rad_from_deg(inclination_deg), t = rad_from_deg(toolface_deg);
   v.gravity_mps2 = {-kG_mps2 * std::sin(i) * std::sin(t), -kG_mps2 * std::sin(i) * std::cos(t), kG_mps2 * std::cos(i)};
   v.protection_available = true;
-  v.protection_level_rad = rad_from_deg(0.1);
+  v.protection_level_calibrated_axes_rad = rad_from_deg(0.1);
   v.alert = false;
   v.usable = kAll;
   return v;

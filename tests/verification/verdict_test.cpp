@@ -74,11 +74,14 @@ TEST(VerificationLimits, AreRefusedWithLineAndRemedy) {
 TEST(VerificationVerdict, EveryLimitIsMetMissedOrOpen) {
   const auto with = [](const std::string& keys) { return verification::judge(limits(keys), calibrated_facts()); };
   EXPECT_EQ(with("").fit, Result::met);
+  const verification::Report turned = with("alert_limit = \"0.39 deg\"");
+  EXPECT_EQ(result_of(turned, CriterionId::protection_level), Result::open) << "0.3 deg, and 0.1 deg of alignment";
+  EXPECT_TRUE(plumb_test::says(turned.sentence, {"in the housing", "0.4 deg", "0.39 deg", "state it"}));
   const verification::Report tight = with("alert_limit = \"0.29 deg\"");
   EXPECT_EQ(result_of(tight, CriterionId::protection_level), Result::not_met);
   EXPECT_EQ(tight.fit, Result::not_met);
-  EXPECT_TRUE(plumb_test::says(tight.sentence, {"not fit", "tilt error", "alert limit"}));
-  EXPECT_EQ(result_of(with("alert_limit = \"0.31 deg\""), CriterionId::protection_level), Result::met);
+  EXPECT_TRUE(plumb_test::says(tight.sentence, {"not fit", "0.4 deg", "alert limit"}));
+  EXPECT_EQ(result_of(with("alert_limit = \"0.41 deg\""), CriterionId::protection_level), Result::met);
   EXPECT_EQ(with("faults = 2").fit, Result::not_met);
   EXPECT_TRUE(
       plumb_test::says(with("faults = 2").sentence, {"isolates 1 faulty sensor with confirmation, 2 are required"}));

@@ -107,6 +107,7 @@ typedef struct plumb_config {
   int32_t isolation_timeout_blocks;    /* the same in blocks at any attitude, .. 1000000; 0 = not used */
   int32_t recalibrate_after_exclusion; /* 1: estimate biases and scales anew once the survivors are trusted */
   int32_t alarm_for_average_tool;      /* 0: the false-alarm rate holds for every tool; 1: for the average one */
+  int32_t alert_in_calibrated_axes;    /* 0: alert_limit_rad is about the housing; 1: about the calibrated axes */
   uint64_t reset_key;                  /* what plumb_monitor_reset must be called with */
   double delta_f_mps2;            /* MAE limit of your own [m/s^2], 0 .. 10; 0 = computed from noise and geometry */
   double false_alarm_rate;        /* per block and test, 1e-9 .. 1e-2 */
@@ -125,6 +126,7 @@ typedef struct plumb_config {
   double days_since_calibration;      /* at this power-on, 0 .. 36525; 0 where `calibrated` is 0 */
   double acceleration_bound_mps2;     /* largest steady acceleration of the tool, 0 .. 10 [m/s^2]; 0: a standstill is
                                          assumed */
+  double alignment_bound_rad; /* most that the calibrated axes as a whole are turned by, 0 .. pi [rad]; 0: not stated */
 } plumb_config;
 
 /* Everything but the sensors. Error: null_pointer. */
@@ -165,7 +167,7 @@ enum plumb_validity {
 #define PLUMB_USABLE_VECTOR 1u           /* gravity_mps2 */
 #define PLUMB_USABLE_INCLINATION 2u      /* its inclination */
 #define PLUMB_USABLE_TOOLFACE 4u         /* its toolface: at least 3 deg away from vertical */
-#define PLUMB_USABLE_PROTECTION_LEVEL 8u /* protection_level_rad */
+#define PLUMB_USABLE_PROTECTION_LEVEL 8u /* the two protection levels */
 #define PLUMB_USABLE_MONITORED 16u       /* the sensors in service check one another */
 #define PLUMB_USABLE_STATIONARY 32u      /* the tool stands still */
 #define PLUMB_USABLE_TEMPERATURE 64u     /* within the calibrated span and its margin, and not in a hurry */
@@ -183,6 +185,7 @@ enum plumb_validity {
 #define PLUMB_STANDSTILL_ASSUMED 256u    /* no acceleration bound was stated */
 #define PLUMB_STABILITY_UNSTATED 512u    /* no stability was stated, of some sensor */
 #define PLUMB_UNCERTAINTY_UNSTATED 1024u /* the calibration takes some sensor for exact */
+#define PLUMB_ALIGNMENT_UNSTATED 2048u   /* no alignment bound: the calibrated axes count as those of the housing */
 /* What a step takes, in rank order: `event` of a transition. */
 enum plumb_event {
   PLUMB_EVENT_RESET,
@@ -243,12 +246,12 @@ typedef struct plumb_verdict {
   uint8_t tick;                 /* 1: this sample completed a block */
   uint8_t accepted;             /* 1: the sample was used (time in order, enough channels) */
   uint8_t alert;                /* 0 only where the output is valid and its bound within alert_limit_rad */
-  uint8_t protection_available; /* 1: protection_level_rad is a bound */
+  uint8_t protection_available; /* 1: the protection levels are bounds */
   uint8_t wants_rotation;       /* 1: another attitude would help; turn_... says which */
   uint8_t recalibration_phase;  /* plumb_recalibration_phase */
   uint8_t faults_covered;       /* faulty sensors that the protection level holds for; 0 without a level */
   uint16_t usable;              /* bits PLUMB_USABLE_...: what of this verdict may be used */
-  uint16_t qualifiers;          /* bits, from PLUMB_NOT_YET_VALIDATED to PLUMB_UNCERTAINTY_UNSTATED */
+  uint16_t qualifiers;          /* bits, from PLUMB_NOT_YET_VALIDATED to PLUMB_ALIGNMENT_UNSTATED */
   plumb_transition transition;  /* sequence != 0: something changed at this sample */
 
   uint32_t configured;             /* all sensors: those of the next four sets together */
@@ -289,12 +292,14 @@ typedef struct plumb_verdict {
   double reference_sigma_mps2; /* its 1 sigma [m/s^2] */
   double temperature_degc;     /* last finite one [degC] */
 
-  double gravity_mps2[3];         /* vector of the last quiet block, positive down, output frame [m/s^2] */
-  double covariance[9];           /* of it, row-major [(m/s^2)^2]: noise and calibration, no acceleration of the tool */
-  double age_s;                   /* since the block that gave the vector [s] */
-  double latest_mps2[3];          /* vector of this one sample, for which no claim is made [m/s^2] */
-  double protection_level_rad;    /* bound on the angle to the truth [rad]; 0 = none (`protection_available` 0) */
-  double toolface_protection_rad; /* what it means for the toolface [rad]; pi = no bound, or near vertical */
+  double gravity_mps2[3]; /* vector of the last quiet block, positive down, output frame [m/s^2] */
+  double covariance[9];   /* of it, row-major [(m/s^2)^2]: noise and calibration, no acceleration of the tool */
+  double age_s;           /* since the block that gave the vector [s] */
+  double latest_mps2[3];  /* vector of this one sample, for which no claim is made [m/s^2] */
+  /* Bounds on the angle to the truth [rad]; 0 = none (`protection_available` 0). */
+  double protection_level_calibrated_axes_rad; /* in the frame of the calibrated axes */
+  double protection_level_housing_rad;         /* the alignment of that frame included */
+  double toolface_protection_housing_rad; /* what it means for the toolface [rad]; pi = no bound, or near vertical */
 
   double turn_along[3];    /* unit vector along which gravity should change, output frame; 0: any turn does */
   double turn_change_mps2; /* by how much [m/s^2] */

@@ -66,7 +66,8 @@ struct WiringCheck {
 };
 
 /// `fitted`: the axes that the channels showed, null without a calibration. With sensors whose true axes lie off the
-/// datasheet's, a wiring may be unseen that is seen of exact ones (docs/theory.md, section 1.5).
+/// datasheet's, a wiring may be unseen that is seen of exact ones (docs/theory.md, section 1.5). By how much these axes
+/// have been turned into the housing, a station must tell another wiring apart by more.
 WiringCheck check_wiring(const io::ArrayFile& array, const SensorArray* fitted, std::vector<MeasuredAttitude> measured);
 
 /// The known attitudes with the directions of their stations in a fit (`down`, by station). The error is the first
@@ -74,8 +75,11 @@ WiringCheck check_wiring(const io::ArrayFile& array, const SensorArray* fitted, 
 tl::expected<std::vector<MeasuredAttitude>, io::KnownAttitude> measured_attitudes(
     const std::vector<io::KnownAttitude>& known, const std::vector<Vec3>& down);
 
-/// What a calibration file knows of the wiring, with those known attitudes of the array file that it has a station for.
-/// Null, or a file that keeps no attitudes: nothing is known.
+/// The stations of known attitude that a calibration file states, and those of the array file that it has a station
+/// for. Null, or a file that keeps no attitudes: none.
+std::vector<MeasuredAttitude> measured_attitudes_of(const io::CalibrationFile* file, const io::ArrayFile& array);
+
+/// What a calibration file knows of the wiring, by those stations.
 WiringCheck check_wiring_of(const io::CalibrationFile* file, const io::ArrayFile& array);
 
 }  // namespace findings

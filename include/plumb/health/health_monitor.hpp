@@ -7,7 +7,7 @@
 ///   if (!monitor.configure(setup)) return refused();         // MonitorSetup: calibrated axes, noise, settings
 ///   for (;;) {
 ///     const plumb::Verdict& v = monitor.step(next_sample());
-///     if (v.validity == plumb::Validity::valid) use(v.gravity_mps2, v.protection_level_rad);
+///     if (v.validity == plumb::Validity::valid) use(v.gravity_mps2, v.protection_level_calibrated_axes_rad);
 ///     if (v.transition.sequence != 0) log(v.transition);     // something changed: a good time for a snapshot
 ///   }
 ///

@@ -15,6 +15,9 @@ inline namespace PLUMB_ABI {
 /// Whose decisions: `HealthMonitor` takes plumb, `PaperMonitor` takes paper.
 enum class MonitorMode : std::uint8_t { plumb, paper };
 
+/// Whose direction the alert limit is about: that of the housing, or of the calibrated axes as the sensors show them.
+enum class AlertFrame : std::uint8_t { housing, calibrated_axes };
+
 /// Largest values of settings that bound a counter.
 inline constexpr int kMostConfirm = 60000;
 inline constexpr int kMostPassedBlocks = 1000;
@@ -51,6 +54,10 @@ struct MonitorConfig {
   int isolation_timeout_blocks = 0;              ///< W: the same in blocks at any attitude; 0 = attitudes alone count
   AlarmForm alarm_form = AlarmForm::every_tool;  ///< what false_alarm_rate means with a calibration behind the limits
   bool recalibrate_after_exclusion = false;      ///< estimate biases and scales anew once the survivors are validated
+  AlertFrame alert_frame = AlertFrame::housing;  ///< of `alert_limit_rad`
+  /// Largest angle of the calibrated axes, as a whole, from the frame of the housing, about any axis. Gravity turns
+  /// with it, and no test sees it. 0: the two are taken for one, and every verdict says so (`alignment_unstated`).
+  float alignment_bound_rad = 0.0F;
   /// Largest steady acceleration of the tool, in any direction. Gravity and a steady acceleration are one vector to
   /// every accelerometer: across gravity it changes the length by a^2 / 2 G only, which no test sees. 0: the tool
   /// stands still whenever it counts as at rest, and every verdict says that this was assumed (`standstill_assumed`).
@@ -70,9 +77,16 @@ struct MonitorConfig {
                       &C::integrity_risk, &C::fault_prior, &C::reset_key, &C::temperature_min_degc,
                       &C::temperature_max_degc, within(&C::isolation_timeout_blocks, 0, kMostIsolationTimeoutBlocks),
                       up_to(&C::alarm_form, AlarmForm::average_tool), &C::recalibrate_after_exclusion,
+                      up_to(&C::alert_frame, AlertFrame::calibrated_axes), &C::alignment_bound_rad,
                       &C::acceleration_bound_mps2, &C::triple_false_alarm_rate);
   }
 };
+
+/// What the alert limit leaves for an error in the frame of the calibrated axes; no bound is within a limit below 0.
+inline double alert_limit_in_axes_rad(const MonitorConfig& config) noexcept {
+  const bool turned = config.alert_frame == AlertFrame::housing;
+  return turned ? config.alert_limit_rad - static_cast<double>(config.alignment_bound_rad) : config.alert_limit_rad;
+}
 
 /// Checks every field. Error: out_of_range or not_finite with the index of the field in the order above. An
 /// acceleration bound beside `recalibrate_after_exclusion` is out_of_range (limit 0): a fit takes the length at every

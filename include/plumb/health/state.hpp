@@ -93,6 +93,8 @@ struct Qualifier {
   static constexpr std::uint16_t stability_unstated = 512;  ///< of some sensor: no limit holds its drift
   /// Of some sensor: the calibration states no uncertainty, and every limit and bound takes its row for exact.
   static constexpr std::uint16_t uncertainty_unstated = 1024;
+  /// No alignment bound was stated: the calibrated axes are taken for those of the housing.
+  static constexpr std::uint16_t alignment_unstated = 2048;
 };
 
 /// Grade of an exclusion (docs/theory.md, section 5.1).

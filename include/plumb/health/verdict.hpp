@@ -67,6 +67,7 @@ struct Verdict {
   Cause cause = Cause::none;
   bool tick = false;            ///< this sample completed a block: statistic, s_i and vector are new
   bool accepted = false;        ///< the sample was used (time in order, enough channels)
+  int block_fill = 0;           ///< samples of the block that is being collected
   TransitionRecord transition;  ///< sequence != 0 where something changed at this sample
 
   // The test that decided the last block: parity and norm in standard deviations of the block mean, mae in m/s^2.
@@ -114,24 +115,25 @@ struct Verdict {
   double noise_correlation = 1.0;
   double temperature_degc = 0.0;               ///< last finite one
   double temperature_rate_degc_per_min = 0.0;  ///< over the last half to whole minute; 0 = not known yet
-  int block_fill = 0;                          ///< samples of the block that is being collected
 
   // Which way is down.
   Vec3 gravity_mps2{};  ///< last block at rest, sensors in service, positive down, output frame
   Mat3 covariance{};    ///< [(m/s^2)^2], noise and calibration; no acceleration of the tool
   double age_s = 0.0;   ///< since the block that gave the vector
   Vec3 latest_mps2{};   ///< this one sample, no claim made
-  // Bound on the angle between gravity_mps2 and the truth, both in the frame of the calibrated axes, for every steady
-  // acceleration up to the bound that the host stated. How that frame sits in the housing is not observable from
-  // gravity (a common rotation of all axes) and is not covered.
-  double protection_level_rad = 0.0;
-  double toolface_protection_rad = 0.0;  ///< what it means for the toolface: asin(sin PL / sin I), pi near vertical
-  std::uint16_t usable = 0;              ///< bits of Usable
+  // Bounds on the angle between gravity_mps2 and the truth, for every steady acceleration up to the bound that the host
+  // stated; 0 where `protection_available` is not set. The first is in the frame of the calibrated axes: how that sits
+  // in the housing is not observable from gravity (a common rotation of all axes). The second has `alignment_bound_rad`
+  // on top, and speaks of the housing.
+  double protection_level_calibrated_axes_rad = 0.0;
+  double protection_level_housing_rad = 0.0;
+  double toolface_protection_housing_rad = 0.0;  ///< asin(sin PL / sin I) of the second; pi near the vertical
+  std::uint16_t usable = 0;                      ///< bits of Usable
   /// K: the level holds for every consistent explanation with at most so many faulty sensors among those monitored;
   /// 0 where there is none. It is the priors' number, and more while faults are suspected (`faults_covered`).
   std::uint8_t faults_covered = 0;
   bool protection_available = false;
-  bool alert = true;  ///< protection level beyond the alert limit, or none available where valid
+  bool alert = true;  ///< unless valid, and the level in the frame of the alert limit within that limit
 
   Errc snapshot_refusal = Errc::ok;  ///< why the monitor runs without the history that was offered to it
   /// Of what the monitor was configured with (`SnapshotHeader::identity`): equal setups, gravity apart, have equal
@@ -149,27 +151,30 @@ struct Verdict {
   static constexpr auto core() noexcept {
     using V = Verdict;
     return field_list(&V::state, &V::qualifiers, &V::validity, &V::configured, &V::in_service,
-                      &V::provisionally_excluded, &V::excluded, &V::absent, &V::gravity_mps2, &V::protection_level_rad,
-                      &V::toolface_protection_rad, &V::usable, &V::faults_covered, &V::protection_available, &V::alert);
+                      &V::provisionally_excluded, &V::excluded, &V::absent, &V::gravity_mps2,
+                      &V::protection_level_calibrated_axes_rad, &V::protection_level_housing_rad,
+                      &V::toolface_protection_housing_rad, &V::usable, &V::faults_covered, &V::protection_available,
+                      &V::alert);
   }
   static constexpr auto fields() noexcept {
     using V = Verdict;
     return field_list(
         any(&V::time_s), &V::sample, up_to(&V::state, HealthState::failed), &V::qualifiers,
-        up_to(&V::validity, Validity::valid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted, &V::transition,
-        up_to(&V::decided_by, kLastCause), &V::statistic, &V::limit, &V::margin, &V::configured, &V::in_service,
-        &V::provisionally_excluded, &V::excluded, &V::absent, &V::suspects, &V::clipped, &V::scattering, &V::not_finite,
-        &V::noisy, &V::stuck, &V::contradicted_clip, within(&V::sensor_cause, 0, static_cast<int>(kLastCause)),
-        &V::minimum_faults, up_to(&V::grade, Grade::assumed), within(&V::confirmed_grade, 0, kCapacity),
-        within(&V::provisional_grade, 0, kCapacity), within(&V::consistent_hypotheses, 0, kVotingCapacity),
-        within(&V::stations_on_record, 0, DirectionRecord::kMax), &V::wants_rotation, &V::rotation, &V::recalibration,
-        &V::mae_all_mps2, &V::mae_worst_mps2, &V::mae_worst_limit_mps2, &V::triples_tested, &V::triples_passed,
-        &V::parity, &V::parity_limit, &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2,
-        &V::norm_mismatch, &V::calibration, any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation,
-        &V::temperature_degc, &V::temperature_rate_degc_per_min, within(&V::block_fill, 0, kWindowCapacity),
-        &V::gravity_mps2, &V::covariance, &V::age_s, &V::latest_mps2, &V::protection_level_rad,
-        &V::toolface_protection_rad, &V::usable, &V::faults_covered, &V::protection_available, &V::alert,
-        up_to(&V::snapshot_refusal, kLastErrc), not_stored(&V::config_hash));
+        up_to(&V::validity, Validity::valid), up_to(&V::cause, kLastCause), &V::tick, &V::accepted,
+        within(&V::block_fill, 0, kWindowCapacity), &V::transition, up_to(&V::decided_by, kLastCause), &V::statistic,
+        &V::limit, &V::margin, &V::configured, &V::in_service, &V::provisionally_excluded, &V::excluded, &V::absent,
+        &V::suspects, &V::clipped, &V::scattering, &V::not_finite, &V::noisy, &V::stuck, &V::contradicted_clip,
+        within(&V::sensor_cause, 0, static_cast<int>(kLastCause)), &V::minimum_faults, up_to(&V::grade, Grade::assumed),
+        within(&V::confirmed_grade, 0, kCapacity), within(&V::provisional_grade, 0, kCapacity),
+        within(&V::consistent_hypotheses, 0, kVotingCapacity), within(&V::stations_on_record, 0, DirectionRecord::kMax),
+        &V::wants_rotation, &V::rotation, &V::recalibration, &V::mae_all_mps2, &V::mae_worst_mps2,
+        &V::mae_worst_limit_mps2, &V::triples_tested, &V::triples_passed, &V::parity, &V::parity_limit,
+        &V::norm_error_mps2, &V::reference_mps2, &V::reference_sigma_mps2, &V::norm_mismatch, &V::calibration,
+        any(&V::drift_mps2_per_h), &V::noise_factor, &V::noise_correlation, &V::temperature_degc,
+        &V::temperature_rate_degc_per_min, &V::gravity_mps2, &V::covariance, &V::age_s, &V::latest_mps2,
+        &V::protection_level_calibrated_axes_rad, &V::protection_level_housing_rad, &V::toolface_protection_housing_rad,
+        &V::usable, &V::faults_covered, &V::protection_available, &V::alert, up_to(&V::snapshot_refusal, kLastErrc),
+        not_stored(&V::config_hash));
   }
 };
 

@@ -16,13 +16,16 @@ inline namespace PLUMB_ABI {
 namespace io {
 
 /// The bits of `Verdict::qualifiers`, and those of `Verdict::usable`, by name.
-inline constexpr std::array<const char*, 11> kQualifierNames = {
-    "not_yet_validated", "moving",    "initial_calibration", "provisional",        "no_redundancy",       "timed_out",
-    "three_sensor_fit",  "inhibited", "standstill_assumed",  "stability_unstated", "uncertainty_unstated"};
+inline constexpr std::array<const char*, 12> kQualifierNames = {"not_yet_validated",    "moving",
+                                                                "initial_calibration",  "provisional",
+                                                                "no_redundancy",        "timed_out",
+                                                                "three_sensor_fit",     "inhibited",
+                                                                "standstill_assumed",   "stability_unstated",
+                                                                "uncertainty_unstated", "alignment_unstated"};
 inline constexpr std::array<const char*, 9> kUsableNames = {"vector",           "inclination", "toolface",
                                                             "protection_level", "monitored",   "stationary",
                                                             "temperature",      "calibration", "reference"};
-static_assert(1U << (kQualifierNames.size() - 1) == Qualifier::uncertainty_unstated, "a name for every qualifier");
+static_assert(1U << (kQualifierNames.size() - 1) == Qualifier::alignment_unstated, "a name for every qualifier");
 static_assert(1U << (kUsableNames.size() - 1) == Usable::reference, "a name for every use");
 
 /// Without a newline at the end.

@@ -22,6 +22,7 @@ struct CalibrationPart {
   std::unique_ptr<const Calibration> calibration;  ///< null where it was refused
   verification::CalibrationFacts facts;
   verification::WiringFacts wiring;
+  verification::AlignmentFacts alignment;
   Json section;
   findings::Visited visited;          ///< attitudes of its stations
   double e_cal_mps2 = 0.0;            ///< of the worst sensor; 0 where there is none

@@ -53,6 +53,14 @@ struct WiringFacts {
   std::string reason;  ///< why it is open or contradicted, and what to do
 };
 
+/// How far the calibrated axes, as a whole, may be turned from the housing.
+struct AlignmentFacts {
+  bool in_housing = true;  ///< that is what the alert limit is about
+  std::optional<double> bound_deg;
+  std::string text;    ///< what it is, and by what
+  std::string remedy;  ///< where it is too large
+};
+
 /// The rates are of the long campaign where its result was given.
 struct HealthyCampaign {
   bool played = false;
@@ -118,6 +126,7 @@ struct Facts {
   ArrayFacts array;
   CalibrationFacts calibration;
   WiringFacts wiring;
+  AlignmentFacts alignment;
   HealthyCampaign healthy;
   FaultCampaign faults;
   std::optional<Replay> replay;

@@ -64,7 +64,7 @@ struct StationHealth {
   double length_limit_mps2 = 0.0;  ///< of | |G| - reference |: kLengthSigmas, and the acceleration allowed for
   Tilt tilt;
   bool protected_by_bound = false, alert = true;
-  double protection_rad = 0.0, toolface_protection_rad = 0.0;
+  double protection_calibrated_axes_rad = 0.0, protection_housing_rad = 0.0, toolface_protection_housing_rad = 0.0;
   std::uint16_t usable = 0;
   NormMismatchKind reference = NormMismatchKind::none;
   SensorSet used, provisionally_excluded, excluded, absent;
@@ -87,7 +87,8 @@ struct RunExtremes {
   double first_s = 0.0, last_s = 0.0;
   bool temperature_known = false;
   double temperature_min_degc = 0.0, temperature_max_degc = 0.0, temperature_rate_degc_per_min = 0.0;
-  double off_mps2 = 0.0, ratio = 0.0, mae_mps2 = 0.0, protection_rad = 0.0;  ///< largest of their size
+  double off_mps2 = 0.0, ratio = 0.0, mae_mps2 = 0.0;                         ///< largest of their size
+  double protection_calibrated_axes_rad = 0.0, protection_housing_rad = 0.0;  ///< largest of their size
   double off_at_s = 0.0, ratio_at_s = 0.0;
   std::array<std::uint64_t, kCapacity> clipped{}, scattering{}, not_finite{};  ///< blocks, by sensor
 };

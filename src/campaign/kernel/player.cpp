@@ -61,7 +61,7 @@ void Judge::note(const Verdict& v, const Vec3& truth, bool ends) noexcept {
     campaign::BlockOutcome& block = out.block[static_cast<size_t>(out.blocks)];
     block.tilt_rad = angle_between_rad(v.gravity_mps2, truth);
     block.bounded = v.protection_available;
-    block.protection_rad = v.protection_level_rad;
+    block.protection_rad = v.protection_level_calibrated_axes_rad;
     block.usable = v.validity == Validity::valid || v.validity == Validity::degraded;
     block.alert = v.alert;
     block.alarmed = out.alarm_block >= 0;

@@ -13,6 +13,8 @@ inline namespace PLUMB_ABI {
 Validity validity_of(const MonitorState& state) noexcept;
 /// Whether the protection level is one of this sample: of an older vector the bound says nothing now.
 bool is_protected(const MonitorState& state, Validity validity) noexcept;
+/// The level of the last block in the frame of the housing [rad].
+double housing_level_rad(const MonitorState& state) noexcept;
 std::uint16_t usable_bits(const MonitorState& state, Validity validity) noexcept;
 
 /// Whether anything but what every sample changes is other than `last` says, though neither a block nor an event says
