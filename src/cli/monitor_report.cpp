@@ -16,6 +16,7 @@
 #include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/health_page.hpp"
 #include "plumb/render/identity.hpp"
+#include "plumb/render/sensor_notes.hpp"
 #include "plumb/render/wiring_words.hpp"
 
 namespace plumb {
@@ -160,7 +161,10 @@ io::FileExpected<void> HealthReport::take(const Sample& sample, const Verdict& v
 }
 
 io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
-  Json report = render::health_json(health_, sensors_);
+  beside_ = render::note_actions(run, array_, sensors_);
+  Json report = render::health_json(health_, sensors_, beside_);
+  report["extremes"]["blocks_in_motion"] = run.counts.known ? Json(run.counts.blocks_in_motion) : Json();
+  report["extremes"]["blocks_in_motion_text"] = render::motion_words(run);
   io::FileExpected<Json> inputs = inputs_of(options_, array_, run);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
   std::optional<io::CalibrationFile> calibration;
@@ -184,6 +188,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
                   {"command", command_of(options_)}});
   Json& sensors = report["extremes"]["sensors"];
   for (std::size_t i = 0; i < sensors.size(); ++i) {
+    render::put_sensor_counts(sensors[i], run, array_, sensors_, static_cast<int>(i));
     sensors[i]["cells_empty"] = run.log.missing[i];
     sensors[i]["cells_not_finite"] = run.log.not_finite[i];
   }
@@ -198,7 +203,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
 
 std::string HealthReport::summary() const {
   std::string out = fmt::format("report      {}\n{}\n", options_.report, health_.sentence());
-  for (const std::string& action : health_.actions()) out += "  - " + action + "\n";
+  for (const std::string& action : health_.actions(sensors_, beside_)) out += "  - " + action + "\n";
   return out;
 }
 
