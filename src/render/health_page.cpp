@@ -22,7 +22,7 @@ std::string tone_of_colour(const std::string& colour) {
 }
 
 std::string fixed(const Json& value, double factor, int decimals) {
-  return value.is_number() ? fmt::format("{:.{}f}", factor * value.get<double>(), decimals) : "-";
+  return value.is_number() ? fixed_words(factor * value.get<double>(), decimals) : "-";
 }
 /// Three decimals, however large.
 std::string seconds(const Json& value) { return fixed(value, 1.0, 3); }
