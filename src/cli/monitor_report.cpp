@@ -60,9 +60,9 @@ io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayF
 /// Of the tool that was monitored, before any fault shows.
 Json sizes_of(const io::ArrayFile& array, const io::CalibrationFile& calibration, double days) {
   const SensorArray sensors = session::array_to_certify(array, calibration.calibration);
-  return render::sizes_json(
-      findings::size_table(sensors, array.gravity, findings::settings_of(array, days), true, calibration.context.down),
-      sensors.size());
+  return render::sizes_json(findings::size_table(sensors, array.gravity, findings::settings_of(array, days), true,
+                                                 calibration.context.down, findings::full_scale_of(array)),
+                            sensors.size());
 }
 
 /// A directory of its own, removed with all that is in it.
