@@ -39,7 +39,8 @@ std::string findings_text(const Verdict& last) {
   const CalibrationFinding& calibration = last.calibration;
   if (calibration.contradicted) {
     out += fmt::format(
-        "calibration contradicted at {}: residuals are {:.1f} times what its covariance allows; {}. "
+        "calibration contradicted at {}: residuals are {:.1f} times what its covariance allows, by a drift since the "
+        "calibration or a covariance that is too small; {}. "
         "Remedy: calibrate again\n",
         count_text(calibration.attitudes, "attitude"), calibration.ratio,
         calibration.refused ? std::string("no output is valid")
