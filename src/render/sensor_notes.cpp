@@ -70,19 +70,20 @@ std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::A
     const stepping::SensorCounts counts = counts_of(run, i);
     if (counts.full_scale_in_motion + counts.full_scale_at_rest > 0) out.push_back(full_scale_note_of(run, sensors, i));
   }
-  std::string drifts, drifting;
+  std::string drifts;
+  int drifting = 0;
   for (int i = 0; i < sensors.size(); ++i) {
     const double rate = static_cast<double>(run.last.drift_mps2_per_h[at(i)]);
     if (rate == 0.0) continue;
-    drifts += fmt::format("{}{} {:+.3g} m/s^2/h ({:+.3g} mg0/h)", drifts.empty() ? "" : ", ", id_of(sensors, i), rate,
+    drifts += fmt::format("{}{} {:+.3g} m/s^2/h ({:+.3g} mg0/h)", drifting++ == 0 ? "" : ", ", id_of(sensors, i), rate,
                           in_mg0(rate));
-    drifting += (drifting.empty() ? "" : ", ") + id_of(sensors, i);
   }
-  if (!drifts.empty())
+  if (drifting > 0)
     out.push_back(
         {"drift rate",
-         drifts + "; positive: its reading grows; each as if it alone drifted, 1 sigma at most a sixth of it",
-         "calibrate again before it reaches the limits, and state `stability` of " + drifting + " in " + array.path});
+         drifts + (drifting > 1 ? "; each as if it alone drifted: one of them explains all" : "") +
+             "; positive: its reading grows; 1 sigma at most a sixth of it",
+         "calibrate again before it reaches the limits, and state `stability` as large as the drift in " + array.path});
   return out;
 }
 

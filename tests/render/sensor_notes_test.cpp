@@ -43,8 +43,13 @@ TEST(SensorNotes, ADriftRateHasItsSensorSignUnitAndUncertainty) {
   const std::string text = text_of(run);
   EXPECT_TRUE(says(text, "drift rate  a2 -0.0981 m/s^2/h (-10 mg0/h); positive: its reading grows")) << text;
   EXPECT_TRUE(says(text, "1 sigma at most a sixth of it")) << text;
-  EXPECT_TRUE(says(text, "state `stability` of a2")) << text;
+  EXPECT_TRUE(says(text, "state `stability` as large as the drift")) << text;
+  EXPECT_FALSE(says(text, "one of them explains all")) << text;
   EXPECT_EQ(render::note_actions(run, array(), array().array).size(), 1U);
+  run.last.drift_mps2_per_h[3] = 0.1F;
+  EXPECT_TRUE(
+      says(text_of(run), "a4 +0.1 m/s^2/h (+10.2 mg0/h); each as if it alone drifted: one of them explains all"))
+      << text_of(run);
 }
 
 /// The scale of the array file is 3 V/g0.
