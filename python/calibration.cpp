@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "module.hpp"
+#include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/session/calibration_pipeline.hpp"
 #include "plumb/session/choice_texts.hpp"
@@ -58,6 +59,8 @@ Calibration calibrate(const Array& array, const Log& log, const std::string& hol
 
 Calibration read(const Array& array, const std::string& path) {
   plumb::io::CalibrationFile file = taken(plumb::io::read_calibration(path, *array));
+  const std::string exact = plumb::render::exact_words(file, path);
+  if (!exact.empty() && PyErr_WarnEx(PyExc_UserWarning, exact.c_str(), 1) != 0) throw py::error_already_set();
   Calibration out;
   out.array = array;
   out.fit = std::make_shared<const plumb::Calibration>(file.calibration);

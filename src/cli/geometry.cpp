@@ -13,6 +13,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/geometry_plot.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
@@ -135,6 +136,7 @@ io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubj
   if (!options.calibration.empty()) {
     const io::FileExpected<io::CalibrationFile> found = io::read_calibration(options.calibration, *file);
     if (!found) return tl::unexpected<io::FileError>(found.error());
+    print_error(render::exact_note(*found, options.calibration));
     subject.array = session::array_to_certify(*file, found->calibration);
     subject.model = found->calibration.model;
     subject.calibrated = true;

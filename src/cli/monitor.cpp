@@ -115,7 +115,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
-    print_now(render::summary_json(*done, sensors, array.output_frame, days, past.roll_test));
+    print_now(render::summary_json(*done, array, sensors, days, past.roll_test));
   } else if (outputs.table) {
     print_now(render::summary_text(*done, array, sensors, days) + (outputs.report ? outputs.report->summary() : ""));
   }

@@ -13,9 +13,11 @@
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/basis_json.hpp"
+#include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/health_page.hpp"
 #include "plumb/render/identity.hpp"
+#include "plumb/render/sensor_notes.hpp"
 #include "plumb/render/wiring_words.hpp"
 
 namespace plumb {
@@ -59,9 +61,22 @@ io::FileExpected<Json> inputs_of(const MonitorOptions& options, const io::ArrayF
 /// Of the tool that was monitored, before any fault shows.
 Json sizes_of(const io::ArrayFile& array, const io::CalibrationFile& calibration, double days) {
   const SensorArray sensors = session::array_to_certify(array, calibration.calibration);
-  return render::sizes_json(
-      findings::size_table(sensors, array.gravity, findings::settings_of(array, days), true, calibration.context.down),
-      sensors.size());
+  return render::sizes_json(findings::size_table(sensors, array.gravity, findings::settings_of(array, days), true,
+                                                 calibration.context.down, findings::full_scale_of(array)),
+                            sensors.size());
+}
+
+/// What the verdicts of the run do not hold.
+void put_counts(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
+                Json& extremes) {
+  extremes["blocks_in_motion"] = run.counts.known ? Json(run.counts.blocks_in_motion) : Json();
+  extremes["blocks_in_motion_text"] = render::motion_words(run);
+  Json& by_sensor = extremes["sensors"];
+  for (std::size_t i = 0; i < by_sensor.size(); ++i) {
+    render::put_sensor_counts(by_sensor[i], run, array, sensors, static_cast<int>(i));
+    by_sensor[i]["cells_empty"] = run.log.missing[i];
+    by_sensor[i]["cells_not_finite"] = run.log.not_finite[i];
+  }
 }
 
 /// A directory of its own, removed with all that is in it.
@@ -160,7 +175,6 @@ io::FileExpected<void> HealthReport::take(const Sample& sample, const Verdict& v
 }
 
 io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
-  Json report = render::health_json(health_, sensors_);
   io::FileExpected<Json> inputs = inputs_of(options_, array_, run);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
   std::optional<io::CalibrationFile> calibration;
@@ -169,6 +183,12 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
     if (!read) return tl::unexpected<io::FileError>(read.error());
     calibration = *std::move(read);
   }
+  beside_ = render::note_actions(run, array_, sensors_);
+  if (const std::string exact = calibration ? render::exact_words(*calibration, options_.calibration) : "";
+      !exact.empty())
+    beside_.push_back(exact);
+  Json report = render::health_json(health_, sensors_, beside_);
+  put_counts(run, array_, sensors_, report["extremes"]);
   report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);
   report["detection_sizes"] = calibration ? sizes_of(array_, *calibration, days_) : Json();
   const findings::WiringCheck wiring = findings::check_wiring_of(calibration ? &*calibration : nullptr, array_);
@@ -182,11 +202,6 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
                   {"inputs", *std::move(inputs)},
                   {"log", io::object({{"rows", run.log.rows}, {"rows_bad", run.log.rows_bad}, {"ended", ended}})},
                   {"command", command_of(options_)}});
-  Json& sensors = report["extremes"]["sensors"];
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    sensors[i]["cells_empty"] = run.log.missing[i];
-    sensors[i]["cells_not_finite"] = run.log.not_finite[i];
-  }
   report["run"] = io::object({{"time", now_utc()}, {"host", host_name()}});
   io::FileExpected<void> done = data_.write(report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   if (done) done = data_.commit();
@@ -198,7 +213,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
 
 std::string HealthReport::summary() const {
   std::string out = fmt::format("report      {}\n{}\n", options_.report, health_.sentence());
-  for (const std::string& action : health_.actions()) out += "  - " + action + "\n";
+  for (const std::string& action : health_.actions(sensors_, beside_)) out += "  - " + action + "\n";
   return out;
 }
 

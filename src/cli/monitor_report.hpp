@@ -46,6 +46,7 @@ class HealthReport : public session::VerdictSink {
   double days_;  ///< since the calibration
   io::OutputFile page_, data_;
   verification::ToolHealth health_;
+  std::vector<std::string> beside_;  ///< what else is to be done
   double depth_m_;
 };
 

@@ -74,27 +74,34 @@ Readings guaranteed_isolation_mps2(const SensorArray& array, const TestSettings&
 }
 
 DetectionSizes detection_sizes(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
-                               const Visited& visited) {
+                               const Visited& visited, const Readings& full_scale_mps2) {
   const int n = array.size();
   DetectionSizes out;
+  const auto add = [&full_scale_mps2](double size_mps2, int i, double& worst, bool& beyond) {
+    worst = std::fmax(worst, size_mps2);
+    beyond = beyond || is_beyond_full_scale(size_mps2, full_scale_mps2[index(i)]);
+  };
   ErrorBudget budget = error_budget(array, gravity, settings);
   const Thresholds thresholds = thresholds_of(array, gravity, settings);
   const bool isolable = figures_of_merit(array).confirmed_grade > 0;
   const auto one = isolable ? std::make_unique<OneAttitude>(array, gravity, budget) : nullptr;
   for (int i = 0; i < n; ++i) {
     const SensorThresholds& sensor = thresholds.sensor[index(i)];
-    out.minimum_detectable_bias_mps2 = std::fmax(out.minimum_detectable_bias_mps2, sensor.detectable_mps2);
-    out.guaranteed_detection_any_mps2 = std::fmax(out.guaranteed_detection_any_mps2, sensor.guaranteed_detection_mps2);
+    add(sensor.detectable_mps2, i, out.minimum_detectable_bias_mps2, out.beyond_full_scale.minimum_detectable_bias);
+    add(sensor.guaranteed_detection_mps2, i, out.guaranteed_detection_any_mps2,
+        out.beyond_full_scale.guaranteed_detection_any);
   }
   budget.parity_systematic = systematic_at(array, gravity, settings, budget.limits, visited);
   const bool known = std::isfinite(budget.parity_systematic);
   out.guaranteed_detection_visited_mps2 = known ? 0.0 : std::nan("");
   for (int i = 0; known && i < n; ++i) {
-    out.guaranteed_detection_visited_mps2 =
-        std::fmax(out.guaranteed_detection_visited_mps2, guaranteed_detection_mps2(array, settings, budget, i));
+    add(guaranteed_detection_mps2(array, settings, budget, i), i, out.guaranteed_detection_visited_mps2,
+        out.beyond_full_scale.guaranteed_detection_visited);
   }
-  out.guaranteed_isolation_mps2 =
-      isolable ? largest(guaranteed_isolation_mps2(array, settings, thresholds, one.get()), n) : kInfinity;
+  out.guaranteed_isolation_mps2 = isolable ? 0.0 : kInfinity;
+  const Readings isolated = isolable ? guaranteed_isolation_mps2(array, settings, thresholds, one.get()) : Readings{};
+  for (int i = 0; i < n; ++i)
+    add(isolated[index(i)], i, out.guaranteed_isolation_mps2, out.beyond_full_scale.guaranteed_isolation);
   out.protection_level_at_rest_rad = thresholds.protection_rad;
   return out;
 }
@@ -108,7 +115,7 @@ double SizeTable::acceleration_mps2(SizeCondition condition) const noexcept {
 }
 
 SizeTable size_table(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
-                     bool calibrated, const Visited& visited) {
+                     bool calibrated, const Visited& visited, const Readings& full_scale_mps2) {
   SizeTable out;
   out.settings = settings;
   for (const Vec3& down : visited) out.visited += norm(down) > 0.0 ? 1 : 0;
@@ -117,7 +124,7 @@ SizeTable size_table(const SensorArray& array, const GravityReference& gravity, 
                                  : VisitedKnown::yes;
   for (int c = 0; c < kSizeConditions; ++c) {
     const TestSettings at = settings_at(static_cast<SizeCondition>(c), settings, array.size());
-    out.at[index(c)] = detection_sizes(array, gravity, at, calibrated ? visited : Visited());
+    out.at[index(c)] = detection_sizes(array, gravity, at, calibrated ? visited : Visited(), full_scale_mps2);
   }
   return out;
 }

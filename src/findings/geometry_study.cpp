@@ -202,6 +202,15 @@ TestSettings settings_of(const io::ArrayFile& array, double days_since_calibrati
   return out;
 }
 
+Readings full_scale_of(const io::ArrayFile& array) {
+  Readings out{};
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    const DatasheetSensor& sensor = array.datasheet.sensor[at(i)];
+    out[at(i)] = sensor.full_scale_raw / std::fabs(sensor.coefficients.scale[0]);
+  }
+  return out;
+}
+
 int hidden_wiring_count(const io::ArrayFile& array) {
   const ErrorBudget budget = error_budget(array.array, array.gravity, settings_of(array));
   return static_cast<int>(hidden_wirings(array.array, array.gravity, budget, kUnseenAxis_rad).size());
@@ -234,7 +243,9 @@ GeometryStudy study_geometry(const GeometrySubject& subject) {
   find_remounts(array, out.sensors);
   out.hidden = hidden_wirings_of(subject, out.budget);
   out.levels = levels_of(subject);
-  out.sizes = size_table(array, subject.gravity, subject.settings, subject.calibrated, subject.visited);
+  if (subject.file) out.full_scale_mps2 = full_scale_of(*subject.file);
+  out.sizes =
+      size_table(array, subject.gravity, subject.settings, subject.calibrated, subject.visited, out.full_scale_mps2);
   std::unique_ptr<const OneAttitude> one;
   if (out.merit.confirmed_grade > 0) {
     one = std::make_unique<const OneAttitude>(array, subject.gravity, out.budget);

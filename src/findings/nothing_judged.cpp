@@ -1,5 +1,6 @@
 #include "plumb/findings/nothing_judged.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumb {
@@ -24,6 +25,10 @@ void NothingJudgedStudent::add(const Sample& sample, bool turning) {
     if (number) usable = usable.with(i);
     if (number && full_scale > 0.0 && std::fabs(sample.raw[a]) >= full_scale) ++clipped_[a];
   }
+  rows_empty_ += usable.empty() ? 1U : 0U;
+  rows_lacking_ += usable.size() < array_->datasheet.size ? 1U : 0U;
+  run_ = usable.empty() ? 0 : run_ + 1;
+  longest_run_ = std::max(longest_run_, run_);
   const SensorModel model = array_->datasheet.model();
   diagnosis_.add(sample, model.apply(sample.raw, sample.temperature_degc, usable), usable);
 }
@@ -39,6 +44,9 @@ SensorSet NothingJudgedStudent::mostly(const std::array<std::uint64_t, kCapacity
 NothingJudgedStudy NothingJudgedStudent::study() const {
   NothingJudgedStudy out;
   out.rows = rows_;
+  out.rows_empty = rows_empty_;
+  out.longest_run = longest_run_;
+  out.rows_lacking = rows_lacking_;
   const auto found = [&out](NothingJudged cause, SensorSet sensors = SensorSet()) {
     out.cause = cause;
     out.sensors = sensors;
@@ -50,6 +58,9 @@ NothingJudgedStudy NothingJudgedStudent::study() const {
   if (n - empty.size() < kFewestSensors) return found(NothingJudged::too_few_sensors, empty);
   if (array_->input.rows == io::RowKind::stations && window > 1) return found(NothingJudged::rows_are_stations);
   if (rows_ < window) return found(NothingJudged::too_short);
+  // A row that lacks some sensor is left out of its block; a sensor that never speaks is not waited for.
+  const bool all_speak = empty.empty() && rows_ - rows_lacking_ < window;
+  if (longest_run_ < window || all_speak) return found(NothingJudged::rows_without_numbers);
   if (array_->lever_arm_m.empty() && 2 * turning_ > rows_) return found(NothingJudged::unknown_rotation);
   if (n - (empty | clipped).size() < kFewestSensors) return found(NothingJudged::full_scale, clipped);
   out.log = diagnosis_.findings();

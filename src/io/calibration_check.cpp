@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "calibration_source.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/numeric/symmetric_eigen.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -130,6 +132,47 @@ void check_covariance(const Source& source, const Calibration& calibration, std:
   }
 }
 
+/// The correlations of the parameters that are not exact, row by row; `which` receives their places.
+std::vector<double> correlations(const Calibration& calibration, std::size_t n, std::vector<std::size_t>& which) {
+  const auto& entry = calibration.array.uncertainty().covariance;
+  const auto at = [](std::size_t a, std::size_t b) {
+    return std::max(a, b) * (std::max(a, b) + 1) / 2 + std::min(a, b);
+  };
+  for (std::size_t a = 0; a < 4 * n; ++a) {
+    if (entry[at(a, a)] > 0.0) which.push_back(a);
+  }
+  std::vector<double> out;
+  for (const std::size_t a : which) {
+    for (const std::size_t b : which) out.push_back(entry[at(a, b)] / std::sqrt(entry[at(a, a)] * entry[at(b, b)]));
+  }
+  return out;
+}
+
+/// Every pair may be possible, and the whole none: a sum of the parameters would have a variance below zero.
+void check_positive(const Source& source, const Calibration& calibration, std::size_t n) {
+  std::vector<std::size_t> which;
+  std::vector<double> matrix = correlations(calibration, n, which);
+  if (which.empty()) return;
+  const std::vector<double> kept = matrix;
+  const int size = static_cast<int>(which.size());
+  std::vector<double> values(which.size()), vectors(matrix.size());
+  if (symmetric_eigenvalues(matrix.data(), size, size, values.data()) && values[0] >= -kRounding) return;
+  matrix = kept;
+  const bool told = symmetric_eigen(matrix.data(), size, size, values.data(), vectors.data());
+  if (told && values[0] >= -kRounding) return;
+  const int line = source.line_of("covariance", "covariance");
+  if (!told) source.fail(line, "covariance", "has no eigenvalues", kMakeAnew);
+  std::size_t most = 0;
+  for (std::size_t a = 1; a < which.size(); ++a) {
+    if (std::fabs(vectors[a * which.size()]) > std::fabs(vectors[most * which.size()])) most = a;
+  }
+  source.fail(line, "covariance",
+              "is not positive semidefinite: its correlations have the eigenvalue " + brief(values[0]) +
+                  ", most of it in row " + std::to_string(which[most] + 1) + " (" +
+                  calibration.array.row(static_cast<int>(which[most] / 4)).id.data() + ")",
+              kMakeAnew);
+}
+
 void check_context(const Source& source, const CalibrationContext& context) {
   const Check gravity(source, "gravity");
   gravity.within("g_mps2", context.gravity.g_mps2, 9.0, 10.5);
@@ -149,6 +192,7 @@ void check_content(const Source& source, const CalibrationFile& file) {
     Check(source, "misalignment").within("m_ij", m, -kMostNumber, kMostNumber);
   Check(source, "").within("common_scale_sigma", calibration.array.uncertainty().common_scale, 0.0, 1.0);
   check_covariance(source, calibration, static_cast<std::size_t>(n));
+  check_positive(source, calibration, static_cast<std::size_t>(n));
   check_context(source, file.context);
 }
 

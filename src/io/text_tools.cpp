@@ -77,7 +77,8 @@ std::string did_you_mean(std::string_view given, const std::vector<std::string>&
 
 std::string brief(double value, int digits) {
   std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits);
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0 /* no -0 */,
+                                 std::chars_format::general, digits);
   return {text.data(), end.ptr};
 }
 

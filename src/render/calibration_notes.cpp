@@ -21,14 +21,19 @@ std::string undated_note(const io::ArrayFile& array, const io::CalibrationFile& 
          " has no date: no drift since the calibration is allowed for. Remedy: calibrate with --date YYYY-MM-DD.\n";
 }
 
-std::string exact_note(const io::CalibrationFile& calibration, const std::string& path) {
+std::string exact_words(const io::CalibrationFile& calibration, const std::string& path) {
   const SensorArray& array = calibration.calibration.array;
   const SensorSet exact = array.taken_for_exact();
   if (exact.empty()) return "";
-  return "plumb: note: " + path + " states no uncertainty (covariance 0) of " +
+  return path + " states no uncertainty (covariance 0) of " +
          (exact == array.all() ? "any sensor" : sensor_names(exact, array)) +
          ": every limit and protection level treats its scale, bias and axis as exact, and is too small otherwise. "
-         "Remedy: calibrate again with plumb calibrate, which writes the uncertainty.\n";
+         "Remedy: calibrate again with plumb calibrate, which writes the uncertainty.";
+}
+
+std::string exact_note(const io::CalibrationFile& calibration, const std::string& path) {
+  const std::string words = exact_words(calibration, path);
+  return words.empty() ? "" : "plumb: note: " + words + "\n";
 }
 
 std::string noise_note(const io::ArrayFile& array, SensorSet changed, const std::string& path) {

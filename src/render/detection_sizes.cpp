@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "plumb/scenario/count_text.hpp"
@@ -30,6 +31,11 @@ const findings::DetectionSizes& sizes_at(const SizeTable& table, SizeCondition c
   return table.at[static_cast<std::size_t>(condition)];
 }
 
+/// Of some row.
+bool any_beyond(const SizeTable& table, std::size_t k) {
+  return std::any_of(table.at.begin(), table.at.end(), [k](const auto& sizes) { return is_beyond(sizes, k); });
+}
+
 std::string visited_words(const SizeTable& table) {
   switch (table.known) {
     case VisitedKnown::yes: return "visited: the " + count_text(table.visited, "attitude") + " of the calibration";
@@ -54,10 +60,15 @@ std::string sizes_text(const SizeTable& table, int sensors) {
   const TestSettings& s = table.settings;
   std::string out =
       fmt::format("\ndetection sizes, one block of {:.0f} samples at rest, the worst sensor\n", s.samples);
-  out += fmt::format("  {:<18}", "") + text_head(kSizeFields, &SizeField::above);
-  out += fmt::format("  {:<18}", "tool") + text_head(kSizeFields, &SizeField::below);
-  for (const auto& row : kConditions)
-    out += fmt::format("  {:<18}", row.words) + text_row(kSizeFields, sizes_at(table, row.condition));
+  const std::vector<int> widths =
+      widths_with_words(kSizeFields, [&table](std::size_t k) { return any_beyond(table, k); });
+  out += fmt::format("  {:<18}", "") + text_head(kSizeFields, &SizeField::above, "", widths);
+  out += fmt::format("  {:<18}", "tool") + text_head(kSizeFields, &SizeField::below, "", widths);
+  for (const auto& row : kConditions) {
+    const findings::DetectionSizes& sizes = sizes_at(table, row.condition);
+    const auto instead = [&sizes](std::size_t k) { return is_beyond(sizes, k) ? kBeyondFullScale : nullptr; };
+    out += fmt::format("  {:<18}", row.words) + text_row_or(kSizeFields, widths, instead, sizes);
+  }
   for (const std::string& one :
        meaning_of(s.missed_detection, s.false_alarm_rate, s.rejection_rate, s.isolation_attitudes))
     out += "  " + one + "\n";
@@ -82,7 +93,9 @@ Json sizes_json(const SizeTable& table, int sensors) {
     Json& one = out[row.key];
     one = io::object({{"drift_tolerance_mps2", table.tolerance_mps2(row.condition, sensors)},
                       {"acceleration_mps2", table.acceleration_mps2(row.condition)}});
-    put_fields(one, kSizeFields, sizes_at(table, row.condition));
+    const findings::DetectionSizes& sizes = sizes_at(table, row.condition);
+    put_fields(one, kSizeFields, sizes);
+    one[kBeyondKey] = put_beyond(one, kSizeFields, [&sizes](std::size_t k) { return is_beyond(sizes, k); });
   }
   return out;
 }
@@ -92,7 +105,8 @@ void put_sizes(const Json& sizes, Section& out) {
   const std::array<std::string, 2> meaning = meaning_of(sizes["missed_detection"], sizes["false_alarm_rate"],
                                                         sizes["rejection_rate"], sizes["isolation_attitudes"]);
   ViewRows rows;
-  for (const auto& row : kConditions) rows.push_back(page_row(row.words, kSizeFields, sizes[row.key]));
+  for (const auto& row : kConditions)
+    rows.push_back(page_row(row.words, kSizeFields, sizes[row.key], sizes[row.key][kBeyondKey]));
   out.table(fmt::format("Detection sizes, one block of {} samples at rest, the worst sensor", shown(sizes["samples"])),
             page_head("tool", kSizeFields), rows,
             "As in docs/sizes.md. " + meaning[0] + "; " + meaning[1] +

@@ -4,10 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "plumb/io/json_fields.hpp"
+#include "plumb/render/figures.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -32,29 +36,70 @@ void put_fields(io::Json& out, const Table& table, const Of&... of) {
   for (const auto& field : table) out[field.key] = io::finite_or_null(field.value(of...) * field.of_json);
 }
 
-/// The line of headings that `line` names; `instead` where a field has none.
-template <class Table, class Line>
-std::string text_head(const Table& table, Line line, const std::string& instead = "") {
-  std::string out;
+/// Instead of a size that is beyond the full scale of its sensor: no fault of it is so large.
+inline constexpr const char* kBeyondFullScale = "none (beyond full scale)";
+inline constexpr const char* kBeyondKey = "beyond_full_scale";  ///< of the list of such figures in the JSON
+
+/// Of `table` the figures for which `is_beyond(k)` holds: null in the JSON, and named beside it.
+template <class Table, class IsBeyond>
+io::Json put_beyond(io::Json& figures, const Table& table, IsBeyond is_beyond) {
+  io::Json out = io::Json::array();
+  std::size_t k = 0;
   for (const auto& field : table) {
+    if (!is_beyond(k++)) continue;
+    figures[field.key] = nullptr;
+    out.push_back(field.key);
+  }
+  return out;
+}
+
+/// The width of column k where some figure of it has other words; `has_words(k)` says so.
+template <class Table, class HasWords>
+std::vector<int> widths_with_words(const Table& table, HasWords has_words) {
+  const int room = static_cast<int>(std::string_view(kBeyondFullScale).size());
+  std::vector<int> out;
+  for (const auto& field : table) out.push_back(has_words(out.size()) ? std::max(field.width, room) : field.width);
+  return out;
+}
+
+/// The line of headings that `line` names; `instead` where a field has none. `widths`: empty = those of the table.
+template <class Table, class Line>
+std::string text_head(const Table& table, Line line, const std::string& instead = "",
+                      const std::vector<int>& widths = {}) {
+  std::string out;
+  std::size_t k = 0;
+  for (const auto& field : table) {
+    const int width = widths.empty() ? field.width : widths[k];
+    ++k;
     if (field.above == nullptr) continue;
     const char* const words = field.*line;
-    out += fmt::format(" {:>{}}", words == nullptr ? instead : words, field.width);
+    out += fmt::format(" {:>{}}", words == nullptr ? instead : words, width);
+  }
+  return out + "\n";
+}
+
+/// `instead(k)` is what stands in place of figure k; null: the figure.
+template <class Table, class Instead, class... Of>
+std::string text_row_or(const Table& table, const std::vector<int>& widths, Instead instead, const Of&... of) {
+  std::string out;
+  std::size_t k = 0;
+  for (const auto& field : table) {
+    const char* const words = instead(k);
+    const int width = widths.empty() ? field.width : widths[k];
+    ++k;
+    if (field.above == nullptr) continue;
+    const double value = field.value(of...);
+    const std::string figure =
+        std::isfinite(value) ? unsigned_zero(fmt::format(fmt::runtime(field.format), value * field.of_text)) : "-";
+    out += fmt::format(" {:>{}}", words != nullptr ? std::string(words) : figure, width);
   }
   return out + "\n";
 }
 
 template <class Table, class... Of>
 std::string text_row(const Table& table, const Of&... of) {
-  std::string out;
-  for (const auto& field : table) {
-    if (field.above == nullptr) continue;
-    const double value = field.value(of...);
-    out += fmt::format(" {:>{}}",
-                       std::isfinite(value) ? fmt::format(fmt::runtime(field.format), value * field.of_text) : "-",
-                       field.width);
-  }
-  return out + "\n";
+  return text_row_or(
+      table, std::vector<int>(), [](std::size_t) -> const char* { return nullptr; }, of...);
 }
 
 }  // namespace render

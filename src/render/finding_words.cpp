@@ -37,7 +37,7 @@ std::string gap_words(const Finding& f, const std::string& column, int left_out)
   return out;
 }
 
-std::string range_words(double part) { return fmt::format("{:+.1f} g0", part); }
+std::string range_words(double part) { return unsigned_zero(fmt::format("{:+.1f}", part)) + " g0"; }
 
 std::string inclination_remark(const Finding& f, const Coverage& c) {
   const double least_deg = deg_from_rad(c.inclination_min_rad), most_deg = deg_from_rad(c.inclination_max_rad);

@@ -70,7 +70,8 @@ std::string stations_text(const findings::CalibrationRun& run) {
     const bool predicted = k < run.study.predicted.size() && run.study.predicted[k].judged;
     out += fmt::format(
         "  {:>7}  {:>12.3f} {:>12.3f}  {:>8}  {:>6.1f} degC  {:>9} {:>9} {:>9}\n", k + 1, s.begin_s, s.end_s, s.count,
-        s.temperature_degc, fitted ? fmt::format("{:+.3f}", in_mg0(run.study.residuals[k].norm_error_mps2)) : "-",
+        s.temperature_degc,
+        fitted ? unsigned_zero(fmt::format("{:+.3f}", in_mg0(run.study.residuals[k].norm_error_mps2))) : "-",
         norm(u) > 0.0 ? fmt::format("{:.1f}", deg_from_rad(std::atan2(std::hypot(u[0], u[1]), u[2]))) : "-",
         !kept       ? "rejected"
         : predicted ? fmt::format("{:.2f} s", run.study.predicted[k].sigmas)
@@ -203,11 +204,13 @@ std::string paper_parameters_section(const findings::CalibrationRun& run, const 
   out += "\n";
   for (int i = 0; i < model.size; ++i) {
     const auto a = static_cast<std::size_t>(i);
-    out += fmt::format("  {:<15} {:>10.3f} {:>14.7g}", id_of(array, i), in_mg0(model.sensor[a].bias[0]),
+    out += fmt::format("  {:<15} {:>10} {:>14.7g}", id_of(array, i), fixed_words(in_mg0(model.sensor[a].bias[0]), 3),
                        model.sensor[a].scale[0] * kG0_mps2);
     for (int k = 0; k < model.size; ++k) {
       out += i == k ? fmt::format(" {:>11}", "-")
-                    : fmt::format(" {:>+11.6f}", model.misalignment[static_cast<std::size_t>(i * kCapacity + k)]);
+                    : fmt::format(" {:>11}",
+                                  unsigned_zero(fmt::format(
+                                      "{:+.6f}", model.misalignment[static_cast<std::size_t>(i * kCapacity + k)])));
     }
     out += "\n";
   }

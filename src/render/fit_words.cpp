@@ -36,7 +36,7 @@ std::string about(const Vec3& turn) {
   for (std::size_t p = 0; p < 3; ++p) {
     if (std::fabs(turn[p]) > kNearAxis) return names[p];
   }
-  return fmt::format("({:.1f}, {:.1f}, {:.1f})", turn[0], turn[1], turn[2]);
+  return fmt::format("({}, {}, {})", fixed_words(turn[0], 1), fixed_words(turn[1], 1), fixed_words(turn[2], 1));
 }
 
 /// About which axis of the tool a sensor turns: any one of which the sensor moves as it does.
@@ -136,9 +136,8 @@ std::string attitude_words(const PlannedAttitude& attitude) {
   if (std::fabs(std::sin(attitude.inclination_rad)) > 1e-6)
     out += fmt::format(", toolface {:.0f} deg", deg_from_rad(attitude.toolface_rad));
   const Vec3& d = attitude.direction;
-  // + 0.0: no minus sign before a zero.
-  const auto rounded = [](double v) { return std::round(10.0 * v) / 10.0 + 0.0; };
-  return out + fmt::format(" (down along {:.1f}, {:.1f}, {:.1f})", rounded(d[0]), rounded(d[1]), rounded(d[2]));
+  return out +
+         fmt::format(" (down along {}, {}, {})", fixed_words(d[0], 1), fixed_words(d[1], 1), fixed_words(d[2], 1));
 }
 
 std::string p_value_words(const FitReport& report) {
@@ -170,8 +169,8 @@ std::string common_scale_words(const findings::CalibrationRun& run) {
   if (!run.study.shown) return "";
   const CommonScale& c = run.told().common_scale;
   std::string out = fmt::format(
-      "all scale factors changed together by {:+.3f} % ({:.1f} sigma of what `prior` expects), singly by {:.3f} %",
-      100.0 * c.mean, std::fabs(c.sigmas()), 100.0 * c.scatter);
+      "all scale factors changed together by {} % ({:.1f} sigma of what `prior` expects), singly by {:.3f} %",
+      unsigned_zero(fmt::format("{:+.3f}", 100.0 * c.mean)), std::fabs(c.sigmas()), 100.0 * c.scatter);
   if (findings::has(findings::common_remarks(run.told()), findings::FindingCode::common_scale_reported))
     out += fmt::format(": gravity reference or common scale off by {:.1f} %, or the `unit` is wrong?",
                        100.0 * std::fabs(c.mean));

@@ -39,6 +39,15 @@ inline constexpr ThresholdField kThresholdFields[] = {
      1.0, "one attitude", "found above", kMg0, "{:.1f}", 12, "one attitude: guaranteed above", kMg0},
 };
 
+/// Whether figure k of sensor i is the size from which on a fault is found, and beyond what the sensor can read.
+inline bool is_beyond(const findings::GeometrySubject& subject, const findings::GeometryStudy& study, int i,
+                      std::size_t k) {
+  constexpr bool kFoundFrom[] = {false, false, true, true, true, true, false, true};
+  static_assert(std::size(kFoundFrom) == std::size(kThresholdFields));
+  return kFoundFrom[k] && findings::is_beyond_full_scale(kThresholdFields[k].value(subject, study, i),
+                                                         study.full_scale_mps2[at(i)]);
+}
+
 /// In errors e of a healthy reading.
 inline constexpr FieldOf<findings::WorstCase> kWorstFields[] = {
     {"detected_e",     [](const auto& c) { return c.detected; },     1.0, "detected above",     nullptr, 1.0, "{:.2f} e", 16, "detected above",     1.0},

@@ -36,6 +36,8 @@ Json sensors_json(const GeometrySubject& subject, const GeometryStudy& study) {
                                         {"horizontal_toolface_90", s.expected.raw[2]}});
     }
     put_fields(one["thresholds_mps2"], kThresholdFields, subject, study, i);
+    one[kBeyondKey] = put_beyond(one["thresholds_mps2"], kThresholdFields,
+                                 [&subject, &study, i](std::size_t k) { return is_beyond(subject, study, i, k); });
     one["nearest_mirror_axis_deg"] = deg_from_rad(s.nearest_remount_rad);
     out.push_back(std::move(one));
   }

@@ -7,6 +7,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/detection_sizes.hpp"
+#include "plumb/render/figures.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -45,11 +46,12 @@ std::string reading_text(const GeometrySubject& subject, const GeometryStudy& st
                      "horiz. 0", "horiz. 90");
   for (int i = 0; i < subject.array.size(); ++i) {
     const Vec3& h = subject.array.axis(i);
-    out += fmt::format("  {:<15} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.4f}  ", study.sensors[at(i)].id, h[0], h[1], h[2],
-                       in_mg0(subject.array.sigma_mps2(i)));
+    out += fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9.4f}  ", study.sensors[at(i)].id, fixed_words(h[0], 5),
+                       fixed_words(h[1], 5), fixed_words(h[2], 5), in_mg0(subject.array.sigma_mps2(i)));
     const ExpectedReading& e = study.sensors[at(i)].expected;
     for (std::size_t a = 0; a < 3; ++a)
-      out += fmt::format(" {:>10.4g}", file ? e.raw[a] : g0_from_mps2(e.down_mps2[a]));
+      out +=
+          fmt::format(" {:>10}", unsigned_zero(fmt::format("{:.4g}", file ? e.raw[a] : g0_from_mps2(e.down_mps2[a]))));
     out += "\n";
   }
   return out + "  (vertical: z down; horiz. 0 and 90: z level, toolface 0 and 90 deg)\n";
@@ -89,10 +91,20 @@ std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& 
   const TestSettings& s = subject.settings;
   std::string out =
       fmt::format("\nsizes by sensor, mg0, in one block of {:.0f} samples at any attitude, as stated\n", s.samples);
-  out += fmt::format("  {:<15}", "") + text_head(kThresholdFields, &ThresholdField::above);
-  out += fmt::format("  {:<15}", "sensor") + text_head(kThresholdFields, &ThresholdField::below);
+  const auto instead_of = [&subject, &study](int i) {
+    return
+        [&subject, &study, i](std::size_t k) { return is_beyond(subject, study, i, k) ? kBeyondFullScale : nullptr; };
+  };
+  const std::vector<int> widths = widths_with_words(kThresholdFields, [&subject, &study](std::size_t k) {
+    bool any = false;
+    for (int i = 0; i < subject.array.size(); ++i) any = any || is_beyond(subject, study, i, k);
+    return any;
+  });
+  out += fmt::format("  {:<15}", "") + text_head(kThresholdFields, &ThresholdField::above, "", widths);
+  out += fmt::format("  {:<15}", "sensor") + text_head(kThresholdFields, &ThresholdField::below, "", widths);
   for (int i = 0; i < subject.array.size(); ++i)
-    out += fmt::format("  {:<15}", study.sensors[at(i)].id) + text_row(kThresholdFields, subject, study, i);
+    out += fmt::format("  {:<15}", study.sensors[at(i)].id) +
+           text_row_or(kThresholdFields, widths, instead_of(i), subject, study, i);
   if (subject.file) out += "  drift since the calibration: " + drift_words(*subject.file, 0.0) + "\n";
   return out;
 }
@@ -184,8 +196,8 @@ std::string triple_text(const SensorArray& array) {
   std::string out = fmt::format("\n  {:>9} {:>11}  {:<14}  {}\n", "det", "condition", "", "triple");
   for (int k = 0; k < array.triple_count(); ++k) {
     const Triple& t = array.triple(k);
-    out += fmt::format("  {:>9.5f} {:>11.4g}  {:<14}  {}\n", t.det, t.condition, t.votes ? "" : "near singular",
-                       sensor_names(t.set(), array));
+    out += fmt::format("  {:>9} {:>11.4g}  {:<14}  {}\n", fixed_words(t.det, 5), t.condition,
+                       t.votes ? "" : "near singular", sensor_names(t.set(), array));
   }
   return out;
 }

@@ -57,14 +57,14 @@ Json station_json(const verification::StationHealth& s, std::size_t number, cons
        {"events", s.changes}});
 }
 
-Json event_json_of(const TransitionRecord& e, const SensorArray& array) {
+Json event_json_of(const verification::NamedEvent& e, const SensorArray& array) {
   return io::object({{"sequence", e.sequence},
                      {"t_s", e.time_s},
                      {"from", to_string(e.from)},
                      {"to", to_string(e.to)},
                      {"event", to_string(e.event)},
                      {"cause", to_string(e.cause)},
-                     {"why", explain(e.cause, e.grade, e.event)},
+                     {"why", explain(e, array)},
                      {"sensors", io::ids_of(e.sensors, array)},
                      {"statistic", e.statistic},
                      {"limit", e.limit}});
@@ -97,27 +97,31 @@ Json extremes_json(const verification::RunExtremes& e, const SensorArray& array)
                      {"sensors", std::move(sensors)}});
 }
 
+/// Of a tool that failed none may be used, whatever sensors its monitor has not excluded.
+SensorSet usable_of(const Verdict& last) { return last.state == HealthState::failed ? SensorSet() : last.in_service; }
+
 }  // namespace
 
-Json health_json(const verification::ToolHealth& health, const SensorArray& array) {
+Json health_json(const verification::ToolHealth& health, const SensorArray& array,
+                 const std::vector<std::string>& beside) {
   Json stations = Json::array(), events = Json::array();
   for (std::size_t k = 0; k < health.stations().size(); ++k)
     stations.push_back(station_json(health.stations()[k], k + 1, array));
-  for (const TransitionRecord& event : health.events()) events.push_back(event_json_of(event, array));
+  for (const verification::NamedEvent& event : health.events()) events.push_back(event_json_of(event, array));
   const Verdict& last = health.last();
   return io::object({{"schema", kHealthSchema},
                      {"version", kHealthVersion},
                      {"run", Json::object()},
                      {"answer", io::object({{"usable_for_survey", to_string(health.use())},
                                             {"sentence", health.sentence()},
-                                            {"actions", health.actions()},
+                                            {"actions", health.actions(array, beside)},
                                             {"green", health.count(verification::Colour::green)},
                                             {"orange", health.count(verification::Colour::orange)},
                                             {"red", health.count(verification::Colour::red)},
                                             {"state", to_string(last.state)},
                                             {"state_means", meaning(last.state)},
                                             {"output", to_string(last.validity)},
-                                            {"in_service", io::ids_of(last.in_service, array)},
+                                            {"in_service", io::ids_of(usable_of(last), array)},
                                             {"excluded", io::ids_of(last.excluded, array)},
                                             {"provisionally_excluded", io::ids_of(last.provisionally_excluded, array)},
                                             {"absent", io::ids_of(last.absent, array)}})},

@@ -22,7 +22,7 @@ std::string tone_of_colour(const std::string& colour) {
 }
 
 std::string fixed(const Json& value, double factor, int decimals) {
-  return value.is_number() ? fmt::format("{:.{}f}", factor * value.get<double>(), decimals) : "-";
+  return value.is_number() ? fixed_words(factor * value.get<double>(), decimals) : "-";
 }
 /// Three decimals, however large.
 std::string seconds(const Json& value) { return fixed(value, 1.0, 3); }
@@ -130,6 +130,12 @@ Section events_view(const Json& report) {
   return out;
 }
 
+/// 0 is what the monitor says where it found none.
+std::string drift_words_of(const Json& mps2_per_h) {
+  const double rate = number(mps2_per_h);
+  return rate == 0.0 ? "none found" : fmt::format("{:+.3g}", kMg0 * rate);
+}
+
 Section extremes_view(const Json& report) {
   const Json& e = report["extremes"];
   Section out("extremes", "5 Extremes", "Extreme values of the run.");
@@ -140,6 +146,7 @@ Section extremes_view(const Json& report) {
        {"samples", e["samples"], "-"},
        {"samples refused", e["samples_refused"], "-"},
        {"blocks at rest", e["blocks"], "-"},
+       {"blocks in motion", e["blocks_in_motion_text"], "-"},
        {"lowest temperature, degC", shown(e["temperature_min_degc"]), "-"},
        {"highest temperature, degC", shown(e["temperature_max_degc"]), "-"},
        {"fastest change of temperature, degC/min", shown(e["temperature_rate_degc_per_min"]), "-"},
@@ -152,10 +159,17 @@ Section extremes_view(const Json& report) {
   ViewRows rows;
   for (const Json& s : e["sensors"])
     rows.push_back({s["id"], s["blocks_clipped"], s["blocks_scattering"], s["blocks_not_finite"],
-                    shown(s.value("cells_empty", Json())), shown(s.value("cells_not_finite", Json()))});
+                    shown(s["rows_full_scale_in_motion"]), shown(s["rows_full_scale_at_rest"]),
+                    shown(s["noise_measured_mps2"], kMg0), shown(s["noise_declared_mps2"], kMg0),
+                    drift_words_of(s["drift_mps2_per_h"]), shown(s["cells_empty"]), shown(s["cells_not_finite"])});
   out.table("By sensor",
-            {"sensor", "blocks clipped", "blocks scattering", "blocks not finite", "cells empty", "cells not finite"},
-            rows, "Blocks at rest are counted. Scattering: one sensor scattered more than its noise.");
+            {"sensor", "blocks clipped", "blocks scattering", "blocks not finite", "rows at full scale in motion",
+             "rows at full scale at rest", "scatter of its own, mg0", "noise declared, mg0", "drift rate, mg0/h",
+             "cells empty", "cells not finite"},
+            rows,
+            "Blocks at rest are counted. Scattering: one sensor scattered more than its noise; its own scatter is that "
+            "in these blocks. Drift rate: below every limit, as if this sensor alone drifted; positive where its "
+            "reading grows; 1 sigma is at most a sixth of it.");
   return out;
 }
 

@@ -30,7 +30,7 @@ void sensor_tables(const Json& array, Section& out) {
   for (const Json& s : array["sensors"]) {
     axes.push_back({s["id"], s["axis"][0], s["axis"][1], s["axis"][2], shown(s["sigma_mps2"], kMg0),
                     s["nearest_mirror_axis_deg"]});
-    least.push_back(page_row(s["id"], kThresholdFields, s["thresholds_mps2"]));
+    least.push_back(page_row(s["id"], kThresholdFields, s["thresholds_mps2"], s[kBeyondKey]));
   }
   out.table("Sensors", {"sensor", "x", "y", "z", "noise of a sample, mg0", "nearest mirror axis, deg"}, axes,
             "A sensor mounted on its mirror axis would pass in a group of three at every attitude.");

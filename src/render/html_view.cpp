@@ -1,5 +1,7 @@
 #include "html_view.hpp"
 
+#include "plumb/render/figures.hpp"
+
 #include <fmt/format.h>
 
 #include <cctype>
@@ -42,7 +44,7 @@ data texts(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
+std::string shown(double value) { return std::isfinite(value) ? unsigned_zero(fmt::format("{:.4g}", value)) : "-"; }
 
 std::string shown(const Json& value, double factor) {
   if (value.is_number_integer() && factor == 1.0) return value.dump();

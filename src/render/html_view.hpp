@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "field_table.hpp"
 #include "plumb/render/chapter.hpp"
 #include "plumb/render/verification_page.hpp"
 
@@ -88,10 +89,13 @@ std::vector<std::string> page_head(const char* names, const Table& table) {
   return out;
 }
 template <class Table>
-std::vector<ViewCell> page_row(const std::string& name, const Table& table, const Json& json) {
+std::vector<ViewCell> page_row(const std::string& name, const Table& table, const Json& json,
+                               const Json& beyond = Json::array()) {
   std::vector<ViewCell> out = {name};
   for (const auto& field : table) {
-    if (field.page != nullptr) out.emplace_back(shown(json.at(field.key), field.of_page));
+    if (field.page == nullptr) continue;
+    const bool none = std::find(beyond.begin(), beyond.end(), Json(field.key)) != beyond.end();
+    out.emplace_back(none ? std::string(kBeyondFullScale) : shown(json.at(field.key), field.of_page));
   }
   return out;
 }

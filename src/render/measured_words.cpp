@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/render/figures.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace render {
@@ -26,10 +28,12 @@ int decimals_of(double sigma_deg) {
 
 }  // namespace
 
-std::string depth_words(double depth_m) { return std::isfinite(depth_m) ? fmt::format("{:.2f}", depth_m) : "-"; }
+std::string fixed_words(double value, int decimals) { return unsigned_zero(fmt::format("{:.{}f}", value, decimals)); }
+
+std::string depth_words(double depth_m) { return std::isfinite(depth_m) ? fixed_words(depth_m, 2) : "-"; }
 
 std::string angle_words(double angle_deg, double sigma_deg) {
-  return std::isfinite(angle_deg) ? fmt::format("{:.{}f}", angle_deg, decimals_of(sigma_deg)) : "-";
+  return std::isfinite(angle_deg) ? fixed_words(angle_deg, decimals_of(sigma_deg)) : "-";
 }
 
 std::string angle_with_sigma(double angle_deg, double sigma_deg) {

@@ -8,6 +8,7 @@
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/measured_words.hpp"
 #include "plumb/render/run_findings.hpp"
+#include "plumb/render/sensor_notes.hpp"
 #include "plumb/render/timeline.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -38,6 +39,19 @@ std::string recalibration_text(const Verdict& v, const SensorArray& sensors, con
   return out + "\n";
 }
 
+/// "a1, a3 (noisy)": with the cause where a channel shows one of its own.
+std::string names_with_causes(SensorSet set, const Verdict& v, const SensorArray& sensors) {
+  std::string out;
+  for (int i = 0; i < sensors.size(); ++i) {
+    if (!set.has(i)) continue;
+    const Cause cause = v.sensor_cause[static_cast<std::size_t>(i)];
+    const bool shown = cause == Cause::noisy || cause == Cause::stuck || cause == Cause::clipped;
+    out += (out.empty() ? "" : ", ") + std::string(sensors.row(i).id.data());
+    if (shown) out += fmt::format(" ({})", to_string(cause));
+  }
+  return out.empty() ? "-" : out;
+}
+
 /// What of drift the run allowed for; the paper's method allows for none.
 std::string drift_of(const io::ArrayFile& array, double days) {
   if (array.monitor.mode == MonitorMode::paper) return "none allowed for: the paper's algorithm takes none";
@@ -56,9 +70,9 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                      count_text(run.log.rows_bad, "bad row"));
   const bool failed = v.state == HealthState::failed;
   out += fmt::format("in service  {}\n", failed ? "none" : sensor_names(v.in_service, sensors));
-  out += fmt::format("excluded    {}\n", sensor_names(v.excluded, sensors));
+  out += fmt::format("excluded    {}\n", names_with_causes(v.excluded, v, sensors));
   if (!v.provisionally_excluded.empty())
-    out += fmt::format("provisional {}\n", sensor_names(v.provisionally_excluded, sensors));
+    out += fmt::format("provisional {}\n", names_with_causes(v.provisionally_excluded, v, sensors));
   if (!v.absent.empty()) out += fmt::format("absent      {}\n", sensor_names(v.absent, sensors));
   out += recalibration_text(v, sensors, frame);
   double inclination_deg = 0.0;
@@ -76,23 +90,28 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                    "the housing\n",
                    deg_from_rad(v.protection_level_calibrated_axes_rad), deg_from_rad(v.protection_level_housing_rad))
              : std::string("no bound on the error can be given\n");
-  return out + findings_text(v) + "drift       " + drift_of(array, days) + "\n";
+  return out + notes_text(run, array, sensors) + findings_text(v) + "drift       " + drift_of(array, days) + "\n";
 }
 
-std::string summary_json(const session::MonitorRun& run, const SensorArray& sensors, const Mat3& frame, double days,
-                         const io::Json& roll_test) {
+std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
+                         double days, const io::Json& roll_test) {
   nlohmann::ordered_json s;
   s["state"] = to_string(run.last.state);
   s["output"] = to_string(run.last.validity);
   s["samples"] = run.samples;
   s["blocks"] = run.blocks;
+  s["blocks_in_motion"] = run.counts.known ? io::Json(run.counts.blocks_in_motion) : io::Json();
   s["changes"] = run.transitions;
   s["rows_bad"] = run.log.rows_bad;
   s["last_time_s"] = run.last_time_s;
   s["interrupted"] = run.interrupted;
   s["days_since_calibration"] = days;
+  for (int i = 0; i < sensors.size(); ++i) {
+    io::Json& one = s["sensors"].emplace_back(io::object({{"id", sensors.row(i).id.data()}}));
+    put_sensor_counts(one, run, array, sensors, i);
+  }
   if (!roll_test.is_null()) s["roll_test"] = roll_test;
-  s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, frame));
+  s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, array.output_frame));
   return io::object({{"summary", std::move(s)}}).dump() + "\n";
 }
 

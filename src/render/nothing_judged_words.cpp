@@ -24,6 +24,12 @@ std::string columns_with(const char* singular, const char* plural, SensorSet sen
   return (one ? "the column " : "the columns ") + listed(names) + (one ? singular : plural);
 }
 
+/// "410 of 4100 rows lack a number (NaN or empty cells), 400 of them from every sensor"
+std::string lacking_words(const findings::NothingJudgedStudy& study) {
+  return fmt::format("{} of {} rows lack a number (NaN or empty cells), {} of them from every sensor",
+                     study.rows_lacking, study.rows, study.rows_empty);
+}
+
 /// By what the rows look like.
 Refusal at_rest_words(const findings::NothingJudgedStudy& study, const io::ArrayFile& array) {
   const findings::Finding& first = study.log.front();
@@ -68,6 +74,13 @@ Refusal nothing_judged_words(const findings::NothingJudgedStudy& study, const io
       return {fmt::format("the log has {} rows, and a block has {}", study.rows, window),
               fmt::format("record at least {} rows at rest, or set a smaller `window` below [monitor] in {}", window,
                           array.path)};
+    case NothingJudged::rows_without_numbers:
+      return {lacking_words(study) + (study.longest_run < static_cast<std::uint64_t>(window)
+                                          ? fmt::format(", and at most {} in a row are between those without any; a "
+                                                        "block has {}",
+                                                        study.longest_run, window)
+                                          : fmt::format("; a block has {} with a number from every sensor", window)),
+              "log all sensors in every row: look at how the log was written, and at the connection of the sensors"};
     case NothingJudged::unknown_rotation:
       return {
           "the tool turns in most rows, by the columns of `rotation_radps`, and what that adds to each sensor is not "
@@ -80,7 +93,9 @@ Refusal nothing_judged_words(const findings::NothingJudgedStudy& study, const io
                   " against the log; if they are right, the channel is overloaded or dead"};
     case NothingJudged::never_at_rest: break;
   }
-  return at_rest_words(study, array);
+  Refusal out = at_rest_words(study, array);
+  if (study.rows_lacking > 0) out.reason += "; " + lacking_words(study);
+  return out;
 }
 
 }  // namespace render

@@ -1,4 +1,5 @@
 #include "plumb/render/roll_test_words.hpp"
+#include "plumb/render/figures.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,8 @@ std::string turn_text(const RotationRequest& turn, const SensorArray& array, con
   const Vec3 along = io::in_frame(frame, turn.along);
   const int sensor = sensor_along(turn.along, array);
   const std::string whose = sensor < 0 ? "" : fmt::format(", the axis of {}", array.row(sensor).id.data());
-  return fmt::format("a turn that changes gravity by {:.2f} m/s^2 along ({:.3f}, {:.3f}, {:.3f}){}", turn.change_mps2,
-                     along[0], along[1], along[2], whose);
+  return fmt::format("a turn that changes gravity by {:.2f} m/s^2 along ({}, {}, {}){}", turn.change_mps2,
+                     fixed_words(along[0], 3), fixed_words(along[1], 3), fixed_words(along[2], 3), whose);
 }
 
 std::string missing_text(const session::RollTest& test, const HealthMonitor& monitor, const Mat3& frame) {

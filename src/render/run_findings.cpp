@@ -1,4 +1,5 @@
 #include "plumb/render/run_findings.hpp"
+#include "plumb/render/figures.hpp"
 
 #include <fmt/format.h>
 
@@ -22,9 +23,9 @@ std::string findings_text(const Verdict& last) {
   std::string out;
   const NormMismatch& gravity = last.norm_mismatch;
   if (gravity.configure_mps2 > 0.0) {
-    out +=
-        fmt::format("gravity     off by {:+.2f} mg0, within {:.2f} mg0: configure [gravity] value = \"{:.5f} m/s^2\"\n",
-                    mg0(gravity.length_mps2), mg0(gravity.length_bound_mps2), gravity.configure_mps2);
+    out += fmt::format("gravity     off by {} mg0, within {:.2f} mg0: configure [gravity] value = \"{:.5f} m/s^2\"\n",
+                       unsigned_zero(fmt::format("{:+.2f}", mg0(gravity.length_mps2))), mg0(gravity.length_bound_mps2),
+                       gravity.configure_mps2);
   }
   if (last.noise_factor > 1.0) {
     out += fmt::format("noise       {:.1f} times what is stated: write {:.1f} times the noise into the array file\n",
@@ -38,7 +39,8 @@ std::string findings_text(const Verdict& last) {
   const CalibrationFinding& calibration = last.calibration;
   if (calibration.contradicted) {
     out += fmt::format(
-        "calibration contradicted at {}: residuals are {:.1f} times what its covariance allows; {}. "
+        "calibration contradicted at {}: residuals are {:.1f} times what its covariance allows, by a drift since the "
+        "calibration or a covariance that is too small; {}. "
         "Remedy: calibrate again\n",
         count_text(calibration.attitudes, "attitude"), calibration.ratio,
         calibration.refused ? std::string("no output is valid")

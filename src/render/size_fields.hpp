@@ -34,6 +34,15 @@ inline constexpr SizeField kSizeFields[] = {
 };
 // clang-format on
 
+/// Whether size k of the table is beyond the full scale of a sensor.
+inline bool is_beyond(const findings::DetectionSizes& sizes, std::size_t k) {
+  const findings::DetectionSizes::Beyond& b = sizes.beyond_full_scale;
+  const bool flags[] = {b.minimum_detectable_bias, b.guaranteed_detection_visited, b.guaranteed_detection_any,
+                        b.guaranteed_isolation, false};
+  static_assert(std::size(flags) == std::size(kSizeFields));
+  return flags[k];
+}
+
 /// The table on a page; `sizes` null: why there is none stands in its place.
 void put_sizes(const Json& sizes, Section& out);
 

@@ -109,7 +109,7 @@ TimelineRow row_of(const Verdict& verdict, const SensorArray& array, const Mat3&
   row.cause = record.cause;
   row.named = record.sensors;
   row.sensors = sensor_names(record.sensors, array);
-  row.explanation = explain(record.cause, record.grade, record.event);
+  row.explanation = explain(verification::named_event(verdict), array);
   row.statistic = record.statistic;
   row.limit = record.limit;
   row.has_inclination = inclination_of(verdict.gravity_mps2, frame, row.inclination_deg);

@@ -87,7 +87,43 @@ std::string what_to_record(const WiringCheck& check) {
                            0.4 * take.separation_deg, take.separation_deg);
 }
 
+/// Two known attitudes of which not both can be right, whatever the wiring: no turn changes the angle between them.
+struct Contradiction {
+  const MeasuredAttitude *first = nullptr, *second = nullptr;
+  double stated_rad = 0.0, shown_rad = 0.0;
+};
+
+/// The pair that is furthest beyond the tolerances of both; none: null.
+Contradiction contradicting_pair(const WiringCheck& check, const Mat3& frame) {
+  Contradiction out;
+  double worst = 0.0;
+  for (std::size_t a = 0; a < check.measured.size(); ++a) {
+    for (std::size_t b = a + 1; b < check.measured.size(); ++b) {
+      const MeasuredAttitude &one = check.measured[a], &other = check.measured[b];
+      const double stated_rad = angle_between_rad(down_of(one.stated, frame), down_of(other.stated, frame));
+      const double shown_rad = angle_between_rad(one.down, other.down);
+      const double beyond = std::fabs(stated_rad - shown_rad) - one.stated.tolerance_rad - other.stated.tolerance_rad;
+      if (beyond <= worst) continue;
+      worst = beyond;
+      out = {&one, &other, stated_rad, shown_rad};
+    }
+  }
+  return out;
+}
+
+std::string stated_words(const MeasuredAttitude& m) {
+  return fmt::format("station {} at inclination {:.1f} deg, toolface {:.1f} deg", m.stated.station,
+                     deg_from_rad(m.stated.inclination_rad), deg_from_rad(m.stated.toolface_rad));
+}
+
 std::string contradiction(const WiringCheck& check, const io::ArrayFile& array) {
+  if (const Contradiction pair = contradicting_pair(check, array.output_frame); pair.first != nullptr)
+    return fmt::format(
+        "the known attitudes contradict one another: {} and {} are {:.1f} deg apart, and the calibration "
+        "shows these stations {:.1f} deg apart (tolerances {:.2g} and {:.2g} deg)",
+        stated_words(*pair.first), stated_words(*pair.second), deg_from_rad(pair.stated_rad),
+        deg_from_rad(pair.shown_rad), deg_from_rad(pair.first->stated.tolerance_rad),
+        deg_from_rad(pair.second->stated.tolerance_rad));
   const auto further = [&array](const MeasuredAttitude& a, const MeasuredAttitude& b) {
     return off_rad(a, array.output_frame) / a.stated.tolerance_rad <
            off_rad(b, array.output_frame) / b.stated.tolerance_rad;
@@ -164,6 +200,8 @@ std::string wiring_remedy(const WiringCheck& check, const io::ArrayFile& array) 
   switch (check.status) {
     case WiringStatus::confirmed: return "";
     case WiringStatus::contradicted:
+      if (contradicting_pair(check, array.output_frame).first != nullptr)
+        return "check the stated angles and the numbers of both stations";
       return check.left.empty()
                  ? "check the stated angles, the number of the station, and `axis` and `frame` in the "
                    "array file"

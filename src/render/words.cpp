@@ -79,6 +79,18 @@ std::string explain(Cause cause, Grade grade, HealthEvent event) {
   return "?";
 }
 
+std::string explain(const verification::NamedEvent& event, const SensorArray& array) {
+  const SensorSet scatters = event.noisy | (event.cause == Cause::noisy ? event.sensors : SensorSet());
+  std::string out = explain(event.cause, event.grade, event.event);
+  if (!scatters.empty())
+    out = (event.cause == Cause::noisy ? "" : out + "; ") + sensor_names(scatters, array) +
+          (scatters.size() == 1 ? " scatters" : " scatter") + " while the others are at rest";
+  if (!event.stuck.empty()) out += "; stuck: " + sensor_names(event.stuck, array);
+  if (!event.clipped.empty())
+    out += "; at full scale although the others predict less: " + sensor_names(event.clipped, array);
+  return out;
+}
+
 const char* meaning(HealthState state) noexcept {
   switch (state) {
     case HealthState::nominal: return "all sensors agree and are in use";

@@ -261,6 +261,7 @@ io::FileExpected<MonitorRun> run_stepper(stepping::Stepper& stepper, const io::A
     run.last_time_s = rows->row.back().time_s;
     progress.at(run.samples, run.last_time_s);
   }
+  run.counts = said.counts;
   run.interrupted = interrupted();
   run.stopped = pump.ended() == io::LogReader::Next::error;
   if (run.stopped) run.stop = reader->error();

@@ -44,6 +44,7 @@ void fill(StationHealth& station, const Verdict& v, const Mat3& frame, double ac
   station.decided_by = v.decided_by;
   station.statistic = v.statistic;
   station.limit = v.limit;
+  station.gravity_mps2 = v.gravity_mps2;
   station.length_mps2 = norm(v.gravity_mps2);
   station.reference_mps2 = v.reference_mps2;
   station.length_limit_mps2 =
@@ -57,7 +58,7 @@ void fill(StationHealth& station, const Verdict& v, const Mat3& frame, double ac
   station.toolface_protection_housing_rad = v.toolface_protection_housing_rad;
   station.usable = v.usable;
   station.reference = v.norm_mismatch.kind;
-  station.used = v.in_service;
+  station.used = v.state == HealthState::failed ? SensorSet() : v.in_service;
   station.provisionally_excluded = v.provisionally_excluded;
   station.excluded = v.excluded;
   station.absent = v.absent;
@@ -67,6 +68,22 @@ void fill(StationHealth& station, const Verdict& v, const Mat3& frame, double ac
 }
 
 }  // namespace
+
+NamedEvent named_event(const Verdict& verdict) noexcept {
+  NamedEvent out;
+  static_cast<TransitionRecord&>(out) = verdict.transition;
+  const auto with_cause = [&verdict, &out](Cause cause) {
+    SensorSet set;
+    for (int i = 0; i < kCapacity; ++i) {
+      if (out.sensors.has(i) && verdict.sensor_cause[static_cast<std::size_t>(i)] == cause) set = set.with(i);
+    }
+    return set;
+  };
+  out.noisy = verdict.noisy | with_cause(Cause::noisy);
+  out.stuck = verdict.stuck | with_cause(Cause::stuck);
+  out.clipped = verdict.contradicted_clip | with_cause(Cause::clipped);
+  return out;
+}
 
 const char* to_string(Colour colour) noexcept {
   switch (colour) {
@@ -120,7 +137,7 @@ void ToolHealth::take(const Sample& sample, const Verdict& verdict, double depth
   if (std::isfinite(depth_m)) depth_m_ = depth_m;
   if ((verdict.qualifiers & Qualifier::moving) != 0) moved_ = true;
   if (verdict.transition.sequence != 0) {
-    events_.push_back(verdict.transition);
+    events_.push_back(named_event(verdict));
     ++changes_;
   }
   take_extremes(sample, verdict);

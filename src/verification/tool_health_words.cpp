@@ -17,9 +17,6 @@ const char* action_of(StationReason reason) {
       return "Do not survey or steer with this tool. Pull it, or replace the sensors named in the events and reset it.";
     case StationReason::no_direction:
       return "Re-shoot: hold the tool still for at least one block of samples at every station.";
-    case StationReason::alarm:
-      return "A sensor is faulty but not yet isolated. Roll the tool to other toolfaces and re-shoot: other attitudes "
-             "isolate it.";
     case StationReason::common_bias:
       return "The sensors share an error that turns the direction: recalibrate before any further survey.";
     case StationReason::length_far:
@@ -27,10 +24,7 @@ const char* action_of(StationReason reason) {
     case StationReason::norm_mismatch:
       return "Check the gravity reference of the array file (place, depth, model) and re-shoot; if the norm mismatch "
              "persists, recalibrate.";
-    case StationReason::unconfirmed:
-    case StationReason::changed:
-      return "Re-shoot at another toolface: validation needs blocks that agree at several "
-             "attitudes.";
+    case StationReason::changed: return "Re-shoot the last station: it was not valid from its first block on.";
     case StationReason::degraded:
       return "Go on for orientation only, and change the tool or the sensors out of service at the next trip: a "
              "further "
@@ -43,6 +37,8 @@ const char* action_of(StationReason reason) {
       return "Wait until the temperature is steady and within the calibrated span, or calibrate over a wider one.";
     case StationReason::calibration:
       return "Calibrate the tool on a stand: these coefficients were not checked by a redundant sensor.";
+    case StationReason::alarm:
+    case StationReason::unconfirmed: break;  // by what the sensors have read
   }
   return "?";
 }
@@ -115,7 +111,22 @@ std::string ToolHealth::sentence() const {
   return fmt::format("Usable for survey: {}. At the end of the run: {}.", to_string(use()), why);
 }
 
-std::vector<std::string> ToolHealth::actions() const {
+SeenAttitudes ToolHealth::seen() const {
+  SeenAttitudes out;
+  out.tool_axis = {frame_[6], frame_[7], frame_[8]};
+  for (const StationHealth& station : stations_) out.gravity_mps2.push_back(station.gravity_mps2);
+  return out;
+}
+
+std::vector<std::string> ToolHealth::advice(StationReason reason, const SensorArray& array) const {
+  if (reason == StationReason::alarm) return {isolating_advice(last_, seen())};
+  if (reason != StationReason::unconfirmed) return {action_of(reason)};
+  if ((last_.qualifiers & Qualifier::not_yet_validated) != 0) return validating_advice(array, last_, seen());
+  if (last_.rotation.wanted) return {isolating_advice(last_, seen())};
+  return {"Re-shoot, and hold the tool still for several blocks: the doubt ends where blocks in a row agree."};
+}
+
+std::vector<std::string> ToolHealth::actions(const SensorArray& array, const std::vector<std::string>& beside) const {
   std::vector<std::string> out;
   const auto add = [&out](const std::string& text) {
     if (std::find(out.begin(), out.end(), text) == out.end()) out.push_back(text);
@@ -125,8 +136,11 @@ std::vector<std::string> ToolHealth::actions() const {
   } else if (stations_.empty() || last_.validity == Validity::invalid) {
     add(action_of(StationReason::no_direction));
   } else {
-    for (const StationReason reason : reasons_against(stations_.back())) add(action_of(reason));
-    if (out.empty() && use() != SurveyUse::yes) add(action_of(StationReason::unconfirmed));
+    const auto add_advice = [this, &array, &add](StationReason reason) {
+      for (const std::string& one : advice(reason, array)) add(one);
+    };
+    for (const StationReason reason : reasons_against(stations_.back())) add_advice(reason);
+    if (out.empty() && use() != SurveyUse::yes) add_advice(StationReason::unconfirmed);
   }
   std::string again;
   int listed = 0, left = 0;
@@ -154,6 +168,7 @@ std::vector<std::string> ToolHealth::actions() const {
         "The noise of the rows is correlated: {:.2g} rows carry the information of one. Filter less before they "
         "are recorded, or take fewer of them.",
         last_.noise_correlation));
+  for (const std::string& one : beside) add(one);
   if (use() == SurveyUse::yes) add("Continue.");
   return out;
 }

@@ -216,5 +216,20 @@ TEST(GeometryCommand, RefusesWhatMakesNoSense) {
   }
 }
 
+/// A fault of 1.6 g0 would be found, and the sensor reads 1.67 g0; a noisier one would need more.
+TEST(GeometryCommand, ASizeBeyondTheFullScaleOfASensorIsNone) {
+  const Workshop where;
+  const std::vector<std::string> text = {"geometry", "array.toml"}, as_json = {"geometry", "array.toml", "--json"};
+  EXPECT_EQ(run(where, text).out.find("none (beyond full scale)"), std::string::npos);
+  std::string noisy = where.text("array.toml");
+  for (int k = 0; k < 4; ++k) noisy = with(noisy, "noise = \"200 ug0\"", "noise = \"60 mg0\"");
+  where.put("array.toml", noisy);
+  EXPECT_TRUE(says(run(where, text).out, {"sizes by sensor", "619.0 none (beyond full scale)"}));
+  const auto first = nlohmann::json::parse(run(where, as_json).out)["sensors"][0];
+  EXPECT_TRUE(first["thresholds_mps2"]["guaranteed_above"].is_null());
+  EXPECT_TRUE(first["thresholds_mps2"]["not_guaranteed_below"].is_number());
+  EXPECT_EQ(first["beyond_full_scale"], nlohmann::json::array({"guaranteed_above"}));
+}
+
 }  // namespace
 }  // namespace cli_geometry_test

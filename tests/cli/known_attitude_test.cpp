@@ -253,5 +253,21 @@ TEST(KnownAttitude, GeometryWithACalibrationCountsForTheDatasheetAxes) {
   EXPECT_TRUE(says(text.out, {"not detected at any attitude", "a2 and a3 exchanged"}));
 }
 
+/// Not both can be right, and neither the wiring nor one station alone is to blame.
+TEST(KnownAttitude, TwoThatContradictOneAnotherAreBothNamed) {
+  const Workshop where;
+  const Outcome outcome =
+      calibrate(where, "calibration.csv", "s.json", {"--known-attitude", "1:10,20,1", "--known-attitude", "1:60,20,2"});
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_TRUE(says(outcome.err, {"the known attitudes contradict one another", "station 1 at inclination 10.0 deg",
+                                 "and station 1 at inclination 60.0 deg", "are 50.0 deg apart",
+                                 "shows these stations 0.0 deg apart (tolerances 1 and 2 deg)",
+                                 "Remedy: check the stated angles and the numbers of both stations"}));
+  const Outcome two =
+      calibrate(where, "calibration.csv", "s.json", {"--known-attitude", "2:45,20,1", "--known-attitude", "5:45,20,1"});
+  EXPECT_EQ(two.code, 4);
+  EXPECT_TRUE(says(two.err, {"contradict one another: station 2 at", "and station 5 at", "0.0 deg apart"}));
+}
+
 }  // namespace
 }  // namespace known_attitude_test

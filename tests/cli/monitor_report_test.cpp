@@ -100,7 +100,72 @@ TEST(MonitorReport, AMonitorThatGaveUpMeansNo) {
   const Outcome outcome = run(shop, reported("two.csv"));
   EXPECT_EQ(outcome.code, 5) << outcome.err;
   EXPECT_EQ(report_of(shop)["answer"]["usable_for_survey"], "no");
-  EXPECT_TRUE(says(outcome.out, {"Usable for survey: no", "Do not survey or steer"}));
+  EXPECT_TRUE(says(outcome.out, {"in service  none", "Usable for survey: no", "Do not survey or steer"}));
+  EXPECT_EQ(report_of(shop)["answer"]["state"], "failed");
+  EXPECT_EQ(report_of(shop)["answer"]["in_service"], Json::array()) << "as the summary says";
+}
+
+/// Every output names the sensor, and what to do names the figure to write.
+TEST(MonitorReport, ANoisySensorIsNamedWithItsNoiseAndARemedy) {
+  const Workshop shop;
+  shop.put("clean.csv", clean_log());
+  ASSERT_EQ(run(shop, {"inject", "--array", "array.toml", "--log", "clean.csv", "--fault", "a3:noise=2mg0@20s", "--out",
+                       "noisy.csv"})
+                .code,
+            0);
+  const Outcome outcome = run(shop, reported("noisy.csv", {"--events", "e.jsonl"}));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"a3 scatters while the others are at rest", "excluded", "a3 (noisy)",
+                                 "noisy       a3 scatters by ", " mg0 declared", "cable, connector", "state noise = \"",
+                                 " mg0\" for it in array.toml", "  - a3 scatters by "}));
+  const Json report = report_of(shop);
+  EXPECT_TRUE(says(report["events"].dump(), {"isolated_fault", "a3 scatters while the others are at rest"}));
+  EXPECT_TRUE(says(report["answer"]["actions"].dump(), {"a3 scatters by "}));
+  const Json& sensors = report["extremes"]["sensors"];
+  EXPECT_EQ(sensors[2]["noisy"], true);
+  EXPECT_NEAR(sensors[2]["noise_measured_mps2"].get<double>(), 2e-3 * plumb::kG0_mps2, 2e-4 * plumb::kG0_mps2);
+  EXPECT_EQ(sensors[0]["noisy"], false);
+  EXPECT_TRUE(sensors[0]["noise_measured_mps2"].is_null());
+  EXPECT_TRUE(says(read_text(shop / "e.jsonl"), {"isolated_fault", "\"a3\""}));
+}
+
+/// The readings of a1 in this log, with those within a stretch of time put at full scale.
+std::string at_full_scale(const std::string& log, double from_s, double to_s) {
+  std::istringstream in(log);
+  std::string line, out;
+  std::size_t column = 0;
+  for (int k = 0; std::getline(in, line); ++k) {
+    std::vector<std::string> cells;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (k == 0) column = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), "a1") - cells.begin());
+    if (k > 0 && std::stod(cells[0]) > from_s && std::stod(cells[0]) < to_s) cells.at(column) = "5";
+    for (std::size_t c = 0; c < cells.size(); ++c) out += (c == 0 ? "" : ",") + cells[c];
+    out += '\n';
+  }
+  return out;
+}
+
+TEST(MonitorReport, FullScaleAndBlocksInMotionAreCounted) {
+  const Workshop shop;
+  shop.put("clipped.csv", at_full_scale(clean_log(), 32.2, 32.805));
+  const Outcome outcome = run(shop, reported("clipped.csv"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"blocks in motion: ", " of ", " %)",
+                                 "full scale  a1 was at full scale in 60 rows in motion and "
+                                 "0 rows at rest",
+                                 "shock or vibration", "drift rate  none found"}));
+  const Json extremes = report_of(shop)["extremes"];
+  EXPECT_GT(extremes["blocks_in_motion"].get<int>(), 10);
+  EXPECT_EQ(extremes["sensors"][0]["rows_full_scale_in_motion"], 60);
+  EXPECT_EQ(extremes["sensors"][1]["rows_full_scale_in_motion"], 0);
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"blocks in motion", "rows at full scale in motion"}));
+  const Outcome json = run(shop, {"monitor", "--array", "array.toml", "--calibration", "calibration.json", "--log",
+                                  "clipped.csv", "--json"});
+  const std::string last = json.out.substr(json.out.rfind("{\"summary\""));
+  const Json summary = Json::parse(last)["summary"];
+  EXPECT_EQ(summary["blocks_in_motion"], extremes["blocks_in_motion"]);
+  EXPECT_EQ(summary["sensors"][0]["rows_full_scale_in_motion"], 60);
 }
 
 TEST(MonitorReport, WithoutAStationTheAnswerIsNo) {

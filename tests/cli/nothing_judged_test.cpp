@@ -50,6 +50,12 @@ TEST(NothingJudged, NamesItsCauseAndARemedyThatWorks) {
   int row = 0;
   where.put("log.csv", changed([&row](double v) { return std::to_string(v + (++row / 4 % 2 == 0 ? 0.3 : -0.3)); }));
   monitored({"was not at rest for a block of 32", "Remedy: hold the tool still for at least 32 samples", "`noise`"});
+  int cell = 0;
+  where.put("log.csv", changed([&cell](double v) { return cell++ % 40 < 4 ? "nan" : std::to_string(v); }));
+  monitored(
+      {"100 of 1000 rows lack a number (NaN or empty cells), 100 of them from every sensor, and at most 9 in a row "
+       "are between those without any; a block has 32",
+       "Remedy: log all sensors in every row"});
   where.put("log.csv", log.substr(0, log.find(line_of(log, 22))));
   where.put("array.toml", with(array, "[input]\n", "[input]\nrows = \"stations\"\n"));
   monitored({"every row is a station", "joins 32 of them", "Remedy: set window = 1"});

@@ -55,7 +55,8 @@ std::unique_ptr<Calibration> calibration_of(const ArrayFile& array, Draw draw) {
   RowUncertainty uncertainty;
   for (std::size_t a = 0; a < static_cast<std::size_t>(4 * n); ++a) {
     for (std::size_t b = 0; b <= a; ++b)
-      uncertainty.covariance[a * (a + 1) / 2 + b] = (a == b ? 1.0 : 0.0) + share(draw());
+      uncertainty.covariance[a * (a + 1) / 2 + b] =
+          (a == b ? 4.0 * n : 0.0) + share(draw());  // above the sum of its row
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) uncertainty.misfit_mps2[k] = share(draw());
   out->array.set_uncertainty(uncertainty);
@@ -358,7 +359,7 @@ TEST(CalibrationFileRefuses, FiguresThatNoCalibrationHas) {
                {{"sensors", "1", "fit_sigma", "2"}, {"nan", -1.0, 1e308}, "sensors[2].fit_sigma"},
                {{"sensors", "1", "data_share", "2"}, {"nan", -0.1, 1.1}, "sensors[2].data_share"},
                {{"covariance", "4", "4"}, {"nan", -1.0, 1e308}, "covariance[5][5]"},
-               {{"covariance", "4", "1"}, {"nan", 9.0, -9.0}, "covariance[5][2]"},
+               {{"covariance", "4", "1"}, {"nan", 99.0, -99.0}, "covariance[5][2]"},
                {{"gravity", "g_mps2"}, {"nan", -9.8, 98.0}, "gravity.g_mps2"},
                {{"gravity", "sigma_mps2"}, {"nan", -1.0, 1e308}, "gravity.sigma_mps2"},
                {{"provenance", "stations"}, {-1}, "provenance.stations"}};
@@ -374,6 +375,35 @@ TEST(CalibrationFileRefuses, FiguresThatNoCalibrationHas) {
   for (const char* key : {"stations", "rank", "null_directions"})
     EXPECT_EQ(refusal_of(resealed(json, {"report", key}, 4294967297)).field, key);
   EXPECT_EQ(refusal_of(resealed(json, {"provenance", "log_bytes"}, -1)).field, "log_bytes");
+}
+
+/// Three parameters of which each two may go against one another, and not all three.
+// Negative: REQ-037
+TEST(CalibrationFileRefuses, ACovarianceThatIsNotPositiveSemidefinite) {
+  const auto correlated = [](double by) {
+    std::string json = good_json();
+    for (const auto& [row, column] : {std::pair("5", "4"), {"6", "4"}, {"6", "5"}}) {
+      json = resealed(json, {"covariance", row, row}, 1.0);
+      json = resealed(json, {"covariance", row, column}, by);
+    }
+    json = resealed(json, {"covariance", "4", "4"}, 1.0);
+    for (const char* row : {"4", "5", "6"}) {
+      for (const char* column : {"0", "1", "2", "3"}) json = resealed(json, {"covariance", row, column}, 0.0);
+    }
+    for (const char* row : {"7", "8", "9", "10", "11", "12", "13", "14", "15"}) {
+      for (const char* column : {"4", "5", "6"}) json = resealed(json, {"covariance", row, column}, 0.0);
+    }
+    return json;
+  };
+  const ArrayFile array = array_of();
+  EXPECT_TRUE(read_calibration(written("cal.json", correlated(-0.5)), array).has_value()) << "singular is allowed";
+  const FileError error = refusal_of(correlated(-0.6));
+  EXPECT_EQ(error.field, "covariance");
+  EXPECT_NE(error.what.find("not positive semidefinite: its correlations have the eigenvalue -0.2"), std::string::npos)
+      << error.text();
+  EXPECT_NE(error.what.find(std::string("(") + array.array.row(1).id.data() + ")"), std::string::npos) << error.text();
+  EXPECT_GT(error.line, 0);
+  EXPECT_FALSE(error.remedy.empty());
 }
 
 TEST(CalibrationFileRefuses, RollGroupsThatNoFitHas) {

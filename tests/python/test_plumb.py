@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 import threading
 import unittest
+import warnings
 
 import numpy as np
 
@@ -274,6 +275,24 @@ class Errors(unittest.TestCase):
         self.assertIn("the calibration was made for another array", said)
         snapshot = plumb.Monitor(same, calibration).snapshot()
         self.assertEqual(self.said(plumb.Monitor, other, calibration, snapshot=snapshot), said)
+
+    def test_a_calibration_without_uncertainty_is_warned_of_as_it_is_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "cal.json"
+            plumb.calibrate(self.array, self.log).save(str(path))
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                plumb.Calibration.read(self.array, str(path))
+            root = json.loads(path.read_text())
+            root["covariance"] = [[0.0] * len(row) for row in root["covariance"]]
+            del root["checksum"]
+            hash_of = 0xCBF29CE484222325
+            for byte in json.dumps(root, separators=(",", ":"), ensure_ascii=False).encode():
+                hash_of = (hash_of ^ byte) * 0x100000001B3 % 2**64
+            root["checksum"] = f"fnv1a64:{hash_of:016x}"
+            path.write_text(json.dumps(root))
+            with self.assertWarnsRegex(UserWarning, "states no uncertainty .* of any sensor: .*Remedy: calibrate again"):
+                plumb.Calibration.read(self.array, str(path))
 
     def test_the_days_since_the_calibration_widen_the_bound(self):
         text = (EXAMPLES / "paper_tool.toml").read_text()

@@ -137,6 +137,11 @@ TEST(CalibrationNotes, ACalibrationThatStatesNoUncertaintyIsReportedAsItIsLoaded
   const Outcome one = monitor(where, {"--log", "drilling.csv", "--json"});
   EXPECT_TRUE(says(one.err, {"cal.json states no uncertainty (covariance 0) of a1:", "Remedy"}));
   EXPECT_TRUE(says(one.out, {"\"uncertainty_unstated\""}));
+  const Outcome geometry = run(where, {"geometry", "stated.toml", "--calibration", "cal.json"});
+  EXPECT_TRUE(says(geometry.err, {"plumb: note: cal.json states no uncertainty (covariance 0) of a1:", "Remedy"}));
+  const Outcome report = monitor(where, {"--log", "drilling.csv", "--report", "r.html"});
+  EXPECT_TRUE(says(report.out, {"  - cal.json states no uncertainty (covariance 0) of a1:", "Remedy"}));
+  EXPECT_TRUE(says(where.text("r.json"), {"\"actions\"", "cal.json states no uncertainty"}));
   forget_uncertainty(where, 4);
   EXPECT_TRUE(says(monitor(where, {"--limits"}).err, {"(covariance 0) of any sensor:"}));
 }

@@ -1,4 +1,5 @@
 #include "plumb/render/measured_words.hpp"
+#include "plumb/render/figures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,17 @@ TEST(MeasuredWords, AnAngleHasTheDigitsThatItsSigmaEarns) {
   EXPECT_EQ(angle_with_sigma(65.533, 0.00171), "65.5330 ± 0.0017");
   EXPECT_EQ(angle_with_sigma(65.533, 1.14), "65.5 ± 1.1");
   EXPECT_EQ(angle_with_sigma(65.533, 0.0), "65.533");
+}
+
+TEST(MeasuredWords, AZeroHasNoMinusSign) {
+  EXPECT_EQ(plumb::render::fixed_words(-0.0004, 3), "0.000");
+  EXPECT_EQ(plumb::render::fixed_words(-0.0, 0), "0");
+  EXPECT_EQ(plumb::render::fixed_words(-0.0006, 3), "-0.001");
+  EXPECT_EQ(plumb::render::unsigned_zero("-0.000 mg0"), "0.000 mg0");
+  EXPECT_EQ(plumb::render::unsigned_zero("-10"), "-10");
+  EXPECT_EQ(plumb::render::unsigned_zero("-"), "-") << "no number";
+  EXPECT_EQ(plumb::render::unsigned_zero(""), "");
+  EXPECT_EQ(plumb::render::angle_words(-1e-5, 0.1), "0.00");
 }
 
 }  // namespace

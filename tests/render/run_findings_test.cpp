@@ -41,6 +41,7 @@ TEST(RunFindings, AContradictedCalibrationIsReportedWithItsRemedy) {
   v.calibration.tolerance_mps2 = 1e-3 * kG0_mps2;
   EXPECT_TRUE(says(render::findings_text(v), "at 7 attitudes: residuals are 9.0 times")) << render::findings_text(v);
   EXPECT_TRUE(says(render::findings_text(v), "wider by 1.00 mg0. Remedy: calibrate again")) << render::findings_text(v);
+  EXPECT_TRUE(says(render::findings_text(v), "by a drift since the calibration or")) << render::findings_text(v);
   v.calibration.refused = true;
   EXPECT_TRUE(says(render::findings_text(v), "no output is valid")) << render::findings_text(v);
 }

@@ -4,6 +4,8 @@
 // RapidCheck's header needs what is above.
 #include <rapidcheck/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -23,6 +25,14 @@ namespace {
 
 using namespace plumb_test;
 using plumb::session::VerdictSink;
+
+std::string text_of(const plumb::stepping::RunCounts& counts) {
+  std::string out = fmt::format(" {} {}", counts.known, counts.blocks_in_motion);
+  for (const plumb::stepping::SensorCounts& c : counts.sensor)
+    out += fmt::format(" {} {} {} {} {}", c.named_noisy, c.scattering_blocks, c.scatter_raw_sq, c.full_scale_at_rest,
+                       c.full_scale_in_motion);
+  return out;
+}
 
 /// All that a run may print or write, as text.
 class Transcript : public VerdictSink {
@@ -48,7 +58,8 @@ class Transcript : public VerdictSink {
     std::string out = text_ + plumb::render::health_json(health_, sensors_).dump() + "\n";
     plumb::io::append_verdict_json(out, run.last, sensors_, array_.output_frame);
     return out + std::to_string(run.samples) + " " + std::to_string(run.blocks) + " " +
-           std::to_string(run.transitions) + " " + std::to_string(run.last_time_s) + " " + run.stop.what;
+           std::to_string(run.transitions) + " " + std::to_string(run.last_time_s) + " " + run.stop.what +
+           text_of(run.counts);
   }
 
  private:

@@ -65,6 +65,9 @@ StationHealth station_of(std::vector<Verdict> blocks) {
   return health.stations().back();
 }
 
+/// Three about the tool axis, the fourth along it.
+SensorArray four_sensors() { return io::read_array_file(PLUMB_SOURCE_DIR "/examples/paper_tool.toml")->array; }
+
 using Reasons = std::vector<StationReason>;
 
 Reasons reasons_of(const Verdict& block) { return verification::reasons_against(station_of({block})); }
@@ -250,7 +253,7 @@ TEST(ToolHealthAnswer, IsThatOfTheLastStation) {
   EXPECT_EQ(mended.use(), SurveyUse::yes);
   EXPECT_EQ(mended.count(Colour::red), 1);
   EXPECT_EQ(mended.count(Colour::green), 2);
-  EXPECT_EQ(mended.actions(), (std::vector<std::string>{"Do not use the red stations: 2.", "Continue."}));
+  EXPECT_EQ(mended.actions(four_sensors()), (std::vector<std::string>{"Do not use the red stations: 2.", "Continue."}));
 }
 
 // Negative: REQ-179
@@ -262,12 +265,71 @@ TEST(ToolHealthAnswer, IsNoWithoutAStationOrAfterTheMonitorGaveUp) {
   failed.state = HealthState::failed;
   failed.validity = Validity::invalid;
   EXPECT_EQ(run_of({good_block(1.0), failed}).use(), SurveyUse::no);
-  EXPECT_NE(run_of({good_block(1.0), failed}).actions().front().find("Do not survey"), std::string::npos);
+  EXPECT_NE(run_of({good_block(1.0), failed}).actions(four_sensors()).front().find("Do not survey"), std::string::npos);
   Verdict doubt = good_block(2.0);
   doubt.tick = false;
   doubt.state = HealthState::suspect;
   doubt.validity = Validity::held;
   EXPECT_EQ(run_of({good_block(1.0), doubt}).use(), SurveyUse::orientation_only);
+}
+
+/// Not yet validated at these inclinations and toolfaces, in deg.
+std::string advised(const std::vector<std::pair<double, double>>& attitudes) {
+  std::vector<Verdict> blocks;
+  for (const auto& [inclination_deg, toolface_deg] : attitudes) {
+    blocks.push_back(good_block(1.0 + static_cast<double>(blocks.size()), inclination_deg, toolface_deg));
+    blocks.back().state = HealthState::suspect;
+    blocks.back().validity = Validity::unconfirmed;
+    blocks.back().qualifiers = Qualifier::not_yet_validated;
+  }
+  std::string out;
+  for (const std::string& one : run_of(blocks).actions(four_sensors())) out += one + "\n";
+  return out;
+}
+
+TEST(ToolHealthAnswer, ATangentSectionIsNotSentToAnotherToolface) {
+  const std::string tangent = advised({{60.0, 0.0}, {60.0, 120.0}, {60.0, 240.0}});
+  EXPECT_EQ(tangent.find("toolface and re-shoot"), std::string::npos) << tangent;
+  EXPECT_NE(tangent.find("another inclination, 2 deg or more away from 60.0 deg: the reading of a4"), std::string::npos)
+      << tangent;
+  EXPECT_NE(tangent.find("--roll-test roll.csv"), std::string::npos) << tangent;
+  const std::string held = advised({{60.0, 0.0}, {60.0, 0.0}});
+  EXPECT_NE(held.find("Roll the tool to another toolface and re-shoot: validation needs a change of the reading of a1, "
+                      "a2, a3"),
+            std::string::npos)
+      << held;
+  EXPECT_NE(held.find("the reading of a4"), std::string::npos) << held;
+  const std::string upright = advised({{0.5, 0.0}, {0.5, 180.0}});
+  EXPECT_EQ(upright.find("another toolface and re-shoot"), std::string::npos) << upright;
+  EXPECT_NE(upright.find("the reading of a1, a2, a3, a4"), std::string::npos) << upright;
+  const std::string moved = advised({{20.0, 0.0}, {60.0, 120.0}, {60.0, 240.0}});
+  EXPECT_EQ(moved.find("inclination"), std::string::npos) << moved;
+  EXPECT_NE(moved.find("hold the tool still"), std::string::npos) << moved;
+}
+
+/// The turn that the monitor asks for says whether a roll can isolate the sensor.
+TEST(ToolHealthAnswer, AnAlarmAlongTheAxisAsksForAnotherInclination) {
+  const auto answer = [](const Vec3& along, double change_mps2) {
+    Verdict alarm = good_block(1.0, 60.0);
+    alarm.validity = Validity::unconfirmed;
+    alarm.state = HealthState::suspect;
+    alarm.statistic = 9.0;
+    alarm.rotation.wanted = true;
+    alarm.rotation.along = along;
+    alarm.rotation.change_mps2 = change_mps2;
+    return run_of({alarm}).actions(four_sensors()).front();
+  };
+  EXPECT_NE(answer({1.0, 0.0, 0.0}, 1.0).find("Roll the tool"), std::string::npos);
+  EXPECT_NE(answer({0.0, 0.0, 1.0}, 1.0).find("another inclination"), std::string::npos);
+  EXPECT_NE(answer({1.0, 0.0, 0.0}, 18.0).find("another inclination"), std::string::npos);
+  EXPECT_NE(answer({1.0, 0.0, 0.0}, 30.0).find("too small for any turn"), std::string::npos);
+}
+
+TEST(ToolHealthStations, AFailedToolUsesNoSensor) {
+  Verdict failed = good_block(1.0);
+  failed.state = HealthState::failed;
+  EXPECT_TRUE(station_of({failed}).used.empty());
+  EXPECT_EQ(station_of({good_block(1.0)}).used, SensorSet::first(4));
 }
 
 TEST(ToolHealthAnswer, EveryReasonHasWordsAndSomethingToDo) {

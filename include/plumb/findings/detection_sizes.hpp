@@ -26,6 +26,11 @@ struct DetectionSizes {
   /// (`guaranteed_isolation_mps2`).
   double guaranteed_isolation_mps2 = 0.0;
   double protection_level_at_rest_rad = 0.0;
+  /// Sizes that are beyond the full scale of a sensor: no fault of it is so large.
+  struct Beyond {
+    bool minimum_detectable_bias = false, guaranteed_detection_visited = false, guaranteed_detection_any = false,
+         guaranteed_isolation = false;
+  } beyond_full_scale;
 };
 
 /// Attitudes at rest over which the direction was calibrated: unit vectors of down, zero where a station shows none.
@@ -43,8 +48,14 @@ inline Vec3 spread_direction(int k, int count) noexcept {
 Readings guaranteed_isolation_mps2(const SensorArray& array, const TestSettings& settings, const Thresholds& thresholds,
                                    const OneAttitude* one) noexcept;
 
+/// An infinite size is none at all, whatever the sensor reads.
+inline bool is_beyond_full_scale(double size_mps2, double full_scale_mps2) noexcept {
+  return full_scale_mps2 > 0.0 && std::isfinite(size_mps2) && size_mps2 > full_scale_mps2;
+}
+
+/// `full_scale_mps2` of each sensor; 0 where none is stated.
 DetectionSizes detection_sizes(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
-                               const Visited& visited = {});
+                               const Visited& visited = {}, const Readings& full_scale_mps2 = {});
 
 /// The tool of which they are stated, whatever its array file says of drift and acceleration, and as that says.
 enum class SizeCondition : std::uint8_t { stability_0, stability_0_2_mg0, as_stated };
@@ -67,7 +78,7 @@ struct SizeTable {
 
 /// `calibrated`: the array carries what a calibration left, and `visited` are the attitudes of its stations.
 SizeTable size_table(const SensorArray& array, const GravityReference& gravity, const TestSettings& settings,
-                     bool calibrated, const Visited& visited);
+                     bool calibrated, const Visited& visited, const Readings& full_scale_mps2 = {});
 
 }  // namespace findings
 }  // namespace PLUMB_ABI

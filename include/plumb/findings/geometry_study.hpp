@@ -90,6 +90,7 @@ struct GeometryStudy {
   FaultBounds constants;  ///< in units of e
   ErrorBudget budget;
   Thresholds thresholds;
+  Readings full_scale_mps2{};  ///< of each sensor; 0 where none is stated
   SizeTable sizes;
   CommonBias common;
   PolarityPlan polarity;
@@ -106,6 +107,9 @@ struct GeometryStudy {
 
 /// How the array file has its array judged, so many days after the calibration.
 TestSettings settings_of(const io::ArrayFile& array, double days_since_calibration = 0.0);
+
+/// By the nominal scale; 0 where the array file states none.
+Readings full_scale_of(const io::ArrayFile& array);
 
 /// How many mistakes of wiring show at no attitude, by the nominal axes.
 int hidden_wiring_count(const io::ArrayFile& array);

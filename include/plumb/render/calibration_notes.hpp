@@ -15,6 +15,8 @@ std::string undated_note(const io::ArrayFile& array, const io::CalibrationFile& 
 
 /// A note for standard error: the calibration states no uncertainty of some sensor, so that every figure takes its row
 /// for exact. Else empty.
+std::string exact_words(const io::CalibrationFile& calibration, const std::string& path);
+/// The same as a line for standard error.
 std::string exact_note(const io::CalibrationFile& calibration, const std::string& path);
 
 /// A note for standard error: of the sensors in `changed` the array file states another noise than when the calibration

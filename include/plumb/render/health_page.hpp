@@ -16,8 +16,10 @@ namespace render {
 inline constexpr const char* kHealthSchema = "plumb-health";
 inline constexpr int kHealthVersion = 1;
 
-/// Stations, events, extremes, answer. Identity and what tells of the run are the caller's to add.
-Json health_json(const verification::ToolHealth& health, const SensorArray& array);
+/// Stations, events, extremes, answer. Identity and what tells of the run are the caller's to add. `beside`: what else
+/// is to be done.
+Json health_json(const verification::ToolHealth& health, const SensorArray& array,
+                 const std::vector<std::string>& beside = {});
 
 /// Data and one gnuplot program, kHealthScript, that draws every picture for which there is data.
 std::vector<PlotFile> health_plot_files(const Json& report);

@@ -15,8 +15,8 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                          double days);
 
 /// For --json, as one line; `roll_test` is null where there was none.
-std::string summary_json(const session::MonitorRun& run, const SensorArray& sensors, const Mat3& frame, double days,
-                         const io::Json& roll_test);
+std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
+                         double days, const io::Json& roll_test);
 
 }  // namespace render
 }  // namespace PLUMB_ABI

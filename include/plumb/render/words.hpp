@@ -6,6 +6,7 @@
 
 #include "plumb/array/sensor_array.hpp"
 #include "plumb/health/verdict.hpp"
+#include "plumb/verification/tool_health.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -20,6 +21,9 @@ std::string listed(const std::vector<std::string>& names);
 /// Why the monitor says what it says, for someone who has not read the manual. `grade` is that of an exclusion; `event`
 /// tells what became of a calibration.
 std::string explain(Cause cause, Grade grade = Grade::none, HealthEvent event = HealthEvent::none);
+
+/// The same of an event, with the sensors that are noisy, stuck or at full scale by name.
+std::string explain(const verification::NamedEvent& event, const SensorArray& array);
 
 /// What a state means, in one sentence.
 const char* meaning(HealthState state) noexcept;

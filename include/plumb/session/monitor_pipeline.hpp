@@ -76,6 +76,7 @@ struct MonitorRun {
   std::uint64_t samples = 0;
   std::uint64_t blocks = 0;  ///< blocks at rest, each judged once
   std::uint64_t transitions = 0;
+  stepping::RunCounts counts;
   double last_time_s = 0.0;
   io::LogStatistics log;
   bool interrupted = false;
@@ -135,7 +136,7 @@ class HostedStepper final : public stepping::Stepper {
  public:
   HostedStepper(Monitor& monitor, scenario::Host& host) : monitor_(monitor), host_(host) {}
   void step(const stepping::Rows& rows, bool first, stepping::Wanted wanted, stepping::Said& said) override {
-    stepping_detail::step_rows(monitor_, rows, first, wanted, said,
+    stepping_detail::step_rows(monitor_, rows, first, wanted, counter_, said,
                                [this](double time_s) { host_.before(time_s, monitor_); });
   }
   void now(std::vector<std::uint8_t>& bytes) const override { stepping_detail::pack(monitor_.verdict(), bytes); }
@@ -144,6 +145,7 @@ class HostedStepper final : public stepping::Stepper {
  private:
   Monitor& monitor_;
   scenario::Host& host_;
+  stepping_detail::RunCounter counter_;
 };
 
 template <class Monitor>

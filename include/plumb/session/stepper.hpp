@@ -44,11 +44,27 @@ struct Rows {
   }
 };
 
+/// What a run showed of one sensor.
+struct SensorCounts {
+  bool named_noisy = false;             ///< an event excluded it provisionally for its own scatter
+  std::uint64_t scattering_blocks = 0;  ///< blocks at rest in which it scattered by itself
+  double scatter_raw_sq = 0.0;          ///< the sum of its variances in those
+  std::uint64_t full_scale_at_rest = 0, full_scale_in_motion = 0;  ///< rows
+};
+
+/// What no verdict holds, over the whole run; by the plumb monitor only.
+struct RunCounts {
+  bool known = false;
+  std::uint64_t blocks_in_motion = 0;  ///< those in which the tool turned at an unknown rate among them
+  std::vector<SensorCounts> sensor;
+};
+
 /// What the monitor said to these rows.
 struct Said {
   std::uint64_t blocks = 0, changes = 0;
   std::vector<std::size_t> row;     ///< whose verdict is wanted, in order
   std::vector<std::uint8_t> bytes;  ///< these verdicts, packed (packed.hpp)
+  RunCounts counts;                 ///< of all rows of the run so far
 
   void clear() noexcept {
     blocks = changes = 0;
@@ -64,7 +80,7 @@ class Stepper {
   Stepper& operator=(const Stepper&) = delete;
   virtual ~Stepper() = default;
 
-  /// `first`: these rows begin the run. What `said` held before is gone.
+  /// `first`: these rows begin the run. What `said` held before is gone, but for the counts of a run that goes on.
   virtual void step(const Rows& rows, bool first, Wanted wanted, Said& said) = 0;
   /// What the monitor says now, packed.
   virtual void now(std::vector<std::uint8_t>& bytes) const = 0;

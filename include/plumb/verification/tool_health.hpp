@@ -11,6 +11,7 @@
 #include "plumb/core/sample.hpp"
 #include "plumb/health/verdict.hpp"
 #include "plumb/navigation/tilt.hpp"
+#include "plumb/verification/turn_advice.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -59,6 +60,7 @@ struct StationHealth {
   Cause cause = Cause::none;
   Cause decided_by = Cause::none;
   double statistic = 0.0, limit = 0.0;
+  Vec3 gravity_mps2{};       ///< tool frame
   double length_mps2 = 0.0;  ///< |G|
   double reference_mps2 = 0.0;
   double length_limit_mps2 = 0.0;  ///< of | |G| - reference |: kLengthSigmas, and the acceleration allowed for
@@ -80,6 +82,12 @@ struct StationHealth {
 /// The rule. Empty = green.
 std::vector<StationReason> reasons_against(const StationHealth& station);
 Colour colour_of(const StationHealth& station);
+
+/// A record with what single channels show at that moment: of the sensors that it names, and of those in service.
+struct NamedEvent : TransitionRecord {
+  SensorSet noisy, stuck, clipped;
+};
+NamedEvent named_event(const Verdict& verdict) noexcept;
 
 /// Extremes and counts of the run.
 struct RunExtremes {
@@ -107,7 +115,7 @@ class ToolHealth {
   void take(const Sample& sample, const Verdict& verdict, double depth_m);
 
   const std::vector<StationHealth>& stations() const noexcept { return stations_; }
-  const std::vector<TransitionRecord>& events() const noexcept { return events_; }
+  const std::vector<NamedEvent>& events() const noexcept { return events_; }
   const RunExtremes& extremes() const noexcept { return extremes_; }
   const Verdict& last() const noexcept { return last_; }
 
@@ -116,10 +124,12 @@ class ToolHealth {
   SurveyUse use() const;
   /// Why it is that.
   std::string sentence() const;
-  /// What to do now, the most urgent first.
-  std::vector<std::string> actions() const;
+  /// What to do now, the most urgent first; `beside`: what is known from elsewhere.
+  std::vector<std::string> actions(const SensorArray& array, const std::vector<std::string>& beside = {}) const;
 
  private:
+  SeenAttitudes seen() const;
+  std::vector<std::string> advice(StationReason reason, const SensorArray& array) const;
   bool begins_station(const Sample& sample, const Vec3& direction) const;
   void take_block(const Sample& sample, const Verdict& verdict);
   void take_extremes(const Sample& sample, const Verdict& verdict);
@@ -133,7 +143,7 @@ class ToolHealth {
   double depth_m_ = std::numeric_limits<double>::quiet_NaN();
   Vec3 direction_{};  ///< of the first block of the station
   std::vector<StationHealth> stations_;
-  std::vector<TransitionRecord> events_;
+  std::vector<NamedEvent> events_;
   RunExtremes extremes_;
   Verdict last_;
 };

@@ -21,6 +21,7 @@ class Steps final : public stepping::Stepper {
 
  private:
   HealthMonitor monitor_;
+  RunCounter counter_;
 };
 
 bool Steps::configure(const std::vector<std::uint8_t>& bytes) {
@@ -37,7 +38,7 @@ bool Steps::configure(const std::vector<std::uint8_t>& bytes) {
 }
 
 void Steps::step(const Rows& rows, bool first, Wanted wanted, Said& said) {
-  step_rows(monitor_, rows, first, wanted, said, [](double) {});
+  step_rows(monitor_, rows, first, wanted, counter_, said, [](double) {});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "plumb/core/sample.hpp"
 #include "plumb/session/detail/packed.hpp"
+#include "plumb/session/detail/run_counter.hpp"
 #include "plumb/session/stepper.hpp"
 
 namespace plumb {
@@ -29,11 +30,14 @@ inline bool is_notice(const TransitionRecord& record) noexcept {
   return record.from == record.to && (record.event == HealthEvent::alarm || record.event == HealthEvent::none);
 }
 
-/// `before(time_s)` is called before each step.
+/// `counter` belongs to this monitor and this run. `before(time_s)` is called before each step.
 template <class Monitor, class Before>
-void step_rows(Monitor& monitor, const stepping::Rows& rows, bool first, stepping::Wanted wanted, stepping::Said& said,
-               Before before) {
+void step_rows(Monitor& monitor, const stepping::Rows& rows, bool first, stepping::Wanted wanted, RunCounter& counter,
+               stepping::Said& said, Before before) {
   said.clear();
+  if constexpr (std::is_same_v<Monitor, HealthMonitor>) {
+    if (first) counter.begin(monitor, rows.sensors, said.counts);
+  }
   Sample sample;
   for (std::size_t k = 0; k < rows.row.size(); ++k) {
     take_row(rows, k, sample);
@@ -45,6 +49,7 @@ void step_rows(Monitor& monitor, const stepping::Rows& rows, bool first, steppin
     }
     before(sample.time_s);
     const Verdict& verdict = monitor.step(sample);
+    if constexpr (std::is_same_v<Monitor, HealthMonitor>) counter.add(monitor, verdict, rows.raw_of(k), said.counts);
     const bool changed = verdict.transition.sequence != 0;
     said.blocks += verdict.tick ? 1U : 0U;
     said.changes += changed && !is_notice(verdict.transition) ? 1U : 0U;
