@@ -161,6 +161,26 @@ junit_summary() {
   ' "$1"
 }
 
+# name_build JUNIT HEADER: writes into a JUnit file which build it is a result of, as the build's header says it, for
+# plumb verify --test-results. A build without that header stays unnamed.
+name_build() {
+  [[ -f "$2" ]] || return 0
+  python3 - "$1" "$2" <<'PYTHON'
+import re
+import sys
+from xml.sax.saxutils import quoteattr
+
+junit, header = sys.argv[1:]
+found = dict(re.findall(r'#define (PLUMB_COMMIT|PLUMB_BUILD_COMPILER|PLUMB_BUILD_FLAGS) "(.*)"', open(header).read()))
+names = {"plumb.commit": "PLUMB_COMMIT", "plumb.compiler": "PLUMB_BUILD_COMPILER", "plumb.flags": "PLUMB_BUILD_FLAGS"}
+lines = "".join(f"\n\t\t<property name={quoteattr(name)} value={quoteattr(found.get(macro, ''))}/>" for name, macro in names.items())
+text = open(junit, encoding="utf-8", errors="replace").read()
+end = text.index(">", text.index("<testsuite")) + 1
+with open(junit, "w", encoding="utf-8") as out:
+    out.write(text[:end] + "\n\t<properties>" + lines + "\n\t</properties>" + text[end:])
+PYTHON
+}
+
 # run_ctest BUILDDIR [ctest arguments...]: runs the tests, lists the skipped ones with their reason, sets PASSED,
 # FAILED and SKIPPED. Returns 0 only if something ran and nothing failed.
 run_ctest() {
@@ -172,6 +192,7 @@ run_ctest() {
   ctest --test-dir "$dir" --parallel "$(nproc)" --output-on-failure --no-tests=error --output-junit "$junit" "$@" \
     || status=$?
   [[ -f "$junit" ]] || die "ctest wrote no result in $dir (no tests, or it was stopped)"
+  name_build "$junit" "$dir/generated/build_identity.hpp"
   summary="$(junit_summary "$junit")"
   read -r PASSED FAILED SKIPPED <<<"$summary"
   if [[ "$SKIPPED" -gt 0 ]]; then

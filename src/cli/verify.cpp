@@ -46,7 +46,8 @@ constexpr const char* kVerifyNotes =
     "Without --calibration or --stations what calibration leaves is predicted from a simulated stand, the verdict\n"
     "is `open` at best, and the report lists what to record. The same inputs give the same bytes but for the block\n"
     "`run`. docs/verification-report.md explains every section.\n"
-    "Exit code 6 where the array is not fit, where that is open, or where a requirement is an orphan.\n\n";
+    "Exit code 6 where the array is not fit, where that is open, where the evidence on plumb itself is incomplete\n"
+    "(--test-results, --assurance), or where a requirement is an orphan.\n\n";
 
 std::optional<io::FileError> misused(const VerifyOptions& options) {
   const auto refuse = [](const char* option, const char* what, const char* remedy) {

@@ -44,6 +44,8 @@ io::FileExpected<VerifyInputs> read_inputs(const VerifyOptions& options, Verific
   inputs.limits.drift = render::drift_words(out.array, options.days_since_calibration);
   if (!options.test_results.empty() && !take(render::read_test_results(options.test_results), inputs.tests, error))
     return fail();
+  if (!options.test_results.empty() && !take(render::read_test_build(options.test_results), inputs.tests_build, error))
+    return fail();
   if (!options.assurance.empty() && !take(render::read_assurance(options.assurance), inputs.assurance, error))
     return fail();
   if (!options.analysis.empty() && !take(render::read_analysis(options.analysis), inputs.analysis, error))

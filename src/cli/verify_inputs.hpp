@@ -17,6 +17,7 @@ namespace cli {
 struct VerifyInputs {
   verification::UserLimits limits;
   std::optional<render::TestResults> tests;
+  render::BuildKey tests_build;  ///< of which build those are
   std::optional<render::AssuranceResults> assurance;
   std::optional<io::Json> before;
   std::optional<render::Analysis> analysis;

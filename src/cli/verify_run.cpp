@@ -184,6 +184,12 @@ void judge_all(const VerifyInputs& inputs, const render::CalibrationPart& part, 
   facts.wiring = part.wiring;
   facts.alignment = part.alignment;
   facts.trace = trace;
+  if (inputs.tests) facts.trace.tests_not_of_this = render::not_of_this_build(inputs.tests_build, false);
+  if (inputs.assurance) {
+    facts.trace.proofs_not_of_this = render::not_of_this_build({inputs.assurance->version, "", ""}, true);
+    if (!inputs.assurance->complete)
+      facts.trace.proofs_not_of_this = "they are of a run of scripts/assure that is not complete";
+  }
   if (inputs.analysis) facts.analysis_findings = inputs.analysis->findings;
   if (inputs.resources) facts.target = inputs.resources->items;
   out.verdict = verification::judge(inputs.limits, facts);

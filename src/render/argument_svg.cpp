@@ -131,11 +131,17 @@ Branch branch_of(Strategy strategy, const Json& report) {
   return {"?", "?", "?"};
 }
 
-/// The worst result of its criteria. That no requirement failed does not show that each was tested.
-Result result_of_branch(Strategy strategy, const Json& report, const std::vector<verification::Criterion>& criteria) {
-  const Result out = verification::result_of(strategy, criteria);
-  const Json& n = report["verdict"]["requirements"];
-  return strategy == Strategy::requirements && n["verified"] != n["active"] ? std::max(out, Result::open) : out;
+/// Those of which something was judged: the build is examined elsewhere, and given or not.
+std::vector<Strategy> judged_strategies(const std::vector<verification::Criterion>& criteria) {
+  std::vector<Strategy> out;
+  for (int k = 0; k < verification::kStrategies; ++k) {
+    const auto strategy = static_cast<Strategy>(k);
+    if (std::any_of(criteria.begin(), criteria.end(), [strategy](const verification::Criterion& c) {
+          return verification::entry_of(c.id).strategy == strategy;
+        }))
+      out.push_back(strategy);
+  }
+  return out;
 }
 
 }  // namespace
@@ -143,20 +149,20 @@ Result result_of_branch(Strategy strategy, const Json& report, const std::vector
 std::string argument_svg(const Json& report) {
   const std::string verdict = report["verdict"]["verdict"];
   const std::vector<verification::Criterion> criteria = criteria_of(report);
-  const double width = kStepX * verification::kStrategies + 10.0, middle = 0.5 * width;
+  const std::vector<Strategy> strategies = judged_strategies(criteria);
+  const double width = kStepX * static_cast<double>(strategies.size()) + 10.0, middle = 0.5 * width;
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} 440\" font-family=\"sans-serif\" font-size=\"12.5\" "
       "fill=\"currentColor\">\n",
       width);
   out += shape("g", middle, 45.0, report["subject"]["name"].get<std::string>() + " is fit for purpose: " + verdict,
-               verdict == "fit"    ? Result::met
-               : verdict == "open" ? Result::open
-                                   : Result::not_met);
+               verdict == "fit"       ? Result::met
+               : verdict == "not fit" ? Result::not_met
+                                      : Result::open);
   double x = 0.5 * kStepX + 5.0;
-  for (int k = 0; k < verification::kStrategies; ++k) {
-    const auto strategy = static_cast<Strategy>(k);
+  for (const Strategy strategy : strategies) {
     const Branch branch = branch_of(strategy, report);
-    const Result result = result_of_branch(strategy, report, criteria);
+    const Result result = verification::result_of(strategy, criteria);
     out += arrow(middle, 78.0, x, 137.0) + shape("s", x, 170.0, branch.how, result);
     out += arrow(x, 203.0, x, 247.0) + shape("g", x, 280.0, branch.goal, result);
     out += arrow(x, 313.0, x, 357.0) + shape("e", x, 390.0, branch.evidence, result);

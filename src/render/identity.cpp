@@ -92,6 +92,22 @@ Json build_json() {
                      {"libraries", std::move(libraries)}});
 }
 
+BuildKey this_build() { return {PLUMB_COMMIT, PLUMB_BUILD_COMPILER, PLUMB_BUILD_FLAGS}; }
+
+std::string not_of_this_build(const BuildKey& key, bool sources_alone) {
+  const BuildKey here = this_build();
+  const auto differ = [](const char* what, const std::string& theirs, const std::string& ours) {
+    return fmt::format("{} \"{}\", this build is of \"{}\"", what, theirs, ours);
+  };
+  if (key.commit.empty() || (!sources_alone && key.compiler.empty())) return "they do not say of which build they are";
+  if (key.commit != here.commit) return differ("commit", key.commit, here.commit);
+  if (here.commit == "unknown" || here.commit.find("-dirty") != std::string::npos)
+    return fmt::format("commit \"{}\" names no sources: build from a clean checkout", here.commit);
+  if (sources_alone) return "";
+  if (key.compiler != here.compiler) return differ("compiler", key.compiler, here.compiler);
+  return key.flags == here.flags ? std::string() : differ("flags", key.flags, here.flags);
+}
+
 Json input_json(const char* role, const std::string& path, std::string_view bytes) {
   const std::size_t slash = path.find_last_of('/');
   return io::object({{"role", role},

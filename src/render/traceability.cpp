@@ -119,21 +119,57 @@ io::FileExpected<Json> read_traceability(const std::string& path) {
   return parse_traceability(*text, path);
 }
 
-io::FileExpected<TestResults> read_test_results(const std::string& path) {
+namespace {
+
+constexpr const char* kTestsRemedy = "write it by scripts/test, or by: ctest --output-junit results.xml";
+
+io::FileExpected<boost::property_tree::ptree> read_junit(const std::string& path) {
   const io::FileExpected<std::string> text = io::read_file(path);
   if (!text) return tl::unexpected<io::FileError>(text.error());
-  const std::string remedy = "write it by: ctest --test-dir build/release --output-junit results.xml";
   boost::property_tree::ptree tree;
   try {
     std::istringstream in(*text);
     boost::property_tree::read_xml(in, tree);
   } catch (const boost::property_tree::xml_parser_error& error) {
-    io::FileError refusal{path, static_cast<int>(error.line()), "", "is not XML: " + error.message(), remedy};
+    io::FileError refusal{path, static_cast<int>(error.line()), "", "is not XML: " + error.message(), kTestsRemedy};
     return tl::unexpected<io::FileError>(refusal);
   }
+  return tree;
+}
+
+/// Wherever in the file they stand; the first of each counts.
+void find_build(const boost::property_tree::ptree& node,
+                BuildKey& out) {  // NOLINT(misc-no-recursion) as deep as the file
+  for (const auto& [tag, child] : node) {
+    if (tag != "property") {
+      if (tag != "<xmlattr>" && tag != "testcase") find_build(child, out);
+      continue;
+    }
+    const std::string name = child.get("<xmlattr>.name", ""), value = child.get("<xmlattr>.value", "");
+    for (const auto& [key, to] : {std::pair<const char*, std::string*>{"plumb.commit", &out.commit},
+                                  {"plumb.compiler", &out.compiler},
+                                  {"plumb.flags", &out.flags}}) {
+      if (name == key && to->empty()) *to = value;
+    }
+  }
+}
+
+}  // namespace
+
+io::FileExpected<TestResults> read_test_results(const std::string& path) {
+  const io::FileExpected<boost::property_tree::ptree> tree = read_junit(path);
+  if (!tree) return tl::unexpected<io::FileError>(tree.error());
   TestResults out;
-  collect(tree, out);
-  if (out.empty()) return refuse_trace(path, "holds no test", remedy);
+  collect(*tree, out);
+  if (out.empty()) return refuse_trace(path, "holds no test", kTestsRemedy);
+  return out;
+}
+
+io::FileExpected<BuildKey> read_test_build(const std::string& path) {
+  const io::FileExpected<boost::property_tree::ptree> tree = read_junit(path);
+  if (!tree) return tl::unexpected<io::FileError>(tree.error());
+  BuildKey out;
+  find_build(*tree, out);
   return out;
 }
 

@@ -25,7 +25,7 @@ Json verdict_section(const verification::Report& judged) {
   }
   for (const verification::Note& n : judged.known_limits)
     notes.push_back(io::object({{"name", n.name}, {"text", n.text}}));
-  return io::object({{"verdict", verification::fitness(judged.fit)},
+  return io::object({{"verdict", verification::fitness(judged)},
                      {"sentence", judged.sentence},
                      {"limits_file", judged.limits_file.empty() ? Json() : Json(judged.limits_file)},
                      {"answers", std::move(answers)},

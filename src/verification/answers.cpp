@@ -51,7 +51,8 @@ Answer how_large(const ArrayFacts& array) {
   if (!least) return {"How large?", "never", "nothing checks every sensor"};
   return {"How large?", fmt::format("{:.3g} mg0", mg0(*least)),
           "minimum detectable bias: constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
-              (sure ? fmt::format("; guaranteed isolation threshold {:.3g} mg0", mg0(*sure)) : std::string())};
+              (sure ? fmt::format("; guaranteed isolation threshold {:.3g} mg0", mg0(*sure))
+                    : std::string("; no size of error is sure to be isolated"))};
 }
 
 }  // namespace

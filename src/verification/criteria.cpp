@@ -209,6 +209,31 @@ void judge_requirements(const TraceFacts& trace, Criteria& out) {
                         by_count(trace.counts.failed, "has", "have")));
 }
 
+/// Results are evidence only of the build that they were made by.
+void judge_results(const TraceFacts& trace, Criteria& out) {
+  const auto given = [&out](CriterionId id, bool is_given, const std::string& other, const char* how) {
+    const std::string what =
+        id == CriterionId::tests_of_this_build ? "the results of the tests" : "the results of the proofs";
+    const Asked asked{"given, and of this version, commit and compiler"};
+    if (!is_given) return out.add(id, asked, "not given", Result::open, what + " are not given (" + how + ")");
+    out.add(id, asked, other.empty() ? "of this build" : other, other.empty() ? Result::met : Result::open,
+            other.empty() ? "" : what + " are evidence of another build: " + other);
+  };
+  given(CriterionId::tests_of_this_build, trace.tests_given, trace.tests_not_of_this,
+        "--test-results build/release/junit.xml, which scripts/test writes");
+  if (trace.tests_given) {
+    const RequirementCounts& n = trace.counts;
+    const std::string found = fmt::format("{} of {} active", n.verified, n.active);
+    out.add(CriterionId::requirements_verified, {"every active one"}, found,
+            n.active > 0 && n.verified == n.active ? Result::met : Result::open,
+            n.active > 0 && n.verified == n.active
+                ? ""
+                : "only " + found + " requirements are verified: some of their tests did not run");
+  }
+  given(CriterionId::proofs_of_this_build, trace.proofs.has_value(), trace.proofs_not_of_this,
+        "--assurance build/assure/results.json, which scripts/assure writes");
+}
+
 /// What was measured or found elsewhere and given to the report; nothing is judged where nothing was given.
 void judge_evidence(const Facts& facts, Criteria& out) {
   if (facts.trace.proofs) {
@@ -240,6 +265,7 @@ std::vector<Criterion> judge_criteria(const UserLimits& limits, const Facts& fac
   judge_wiring(facts.wiring, out);
   judge_campaign(limits, facts, out);
   judge_requirements(facts.trace, out);
+  judge_results(facts.trace, out);
   judge_evidence(facts, out);
   return out.take();
 }

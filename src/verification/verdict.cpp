@@ -33,8 +33,16 @@ Result worst(const std::vector<Criterion>& criteria) {
   return out;
 }
 
+/// Whether all that is open is evidence on plumb itself.
+bool lacks_evidence_only(const std::vector<Criterion>& criteria) {
+  return worst(criteria) == Result::open && std::all_of(criteria.begin(), criteria.end(), [](const Criterion& c) {
+           return c.result == Result::met || is_evidence(c.id);
+         });
+}
+
 std::string sentence_of(Result fit, const std::string& name, const UserLimits& limits,
                         const std::vector<Criterion>& criteria) {
+  if (lacks_evidence_only(criteria)) return name + ": fit, evidence incomplete: " + reasons(criteria, fit) + ".";
   switch (fit) {
     case Result::not_met: return name + " is not fit for purpose: " + reasons(criteria, fit) + ".";
     case Result::open: return "INCONCLUSIVE for " + name + ": " + reasons(criteria, fit) + ".";
@@ -46,8 +54,9 @@ std::string sentence_of(Result fit, const std::string& name, const UserLimits& l
 
 }  // namespace
 
-const char* fitness(Result fit) noexcept {
-  return fit == Result::met ? "fit" : fit == Result::open ? "open" : "not fit";
+const char* fitness(const Report& report) noexcept {
+  if (report.lacks_evidence) return "fit, evidence incomplete";
+  return report.fit == Result::met ? "fit" : report.fit == Result::open ? "open" : "not fit";
 }
 
 Result result_of(Strategy strategy, const std::vector<Criterion>& criteria) {
@@ -61,6 +70,7 @@ Report judge(const UserLimits& limits, const Facts& facts) {
   Report out;
   out.criteria = judge_criteria(limits, facts);
   out.fit = worst(out.criteria);
+  out.lacks_evidence = lacks_evidence_only(out.criteria);
   out.sentence = sentence_of(out.fit, facts.name, limits, out.criteria);
   out.answers = answers_of(facts);
   out.assumptions = assumptions_of(limits, facts);

@@ -42,7 +42,8 @@ TEST(UpgradeCommand, WritesToAnotherFileOrToStandardOutput) {
 
 TEST(UpgradeCommand, RefusesWhatItCannotDo) {
   const Workshop where;
-  where.put("drift.toml", with(where.text("array.toml"), "[monitor]\n", "[monitor]\npatience = 3\ndrift_bias = \"1 mg\"\n"));
+  where.put("drift.toml",
+            with(where.text("array.toml"), "[monitor]\n", "[monitor]\npatience = 3\ndrift_bias = \"1 mg\"\n"));
   const std::string drift = where.text("drift.toml");
   const Outcome by_hand = run(where, {"upgrade", "drift.toml", "--in-place"});
   EXPECT_EQ(by_hand.code, 3);

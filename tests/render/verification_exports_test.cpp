@@ -91,7 +91,8 @@ TEST(VerificationExports, TheArgumentTurnsRedWithItsEvidence) {
   Json given = paper_report();
   for (Json& c : given["verdict"]["criteria"]) c["result"] = "met";
   given["verdict"]["verdict"] = "fit";
-  EXPECT_EQ(count_of(render::argument_svg(given), "#2c8f57"), 10U);  // neither proofs, tests nor build were given
+  EXPECT_EQ(count_of(render::argument_svg(given), "#2c8f57"), 16U)
+      << "the goal and five branches; of the build nothing was judged";
   const auto add = [&given](const char* id, const char* result) {
     Json one = given["verdict"]["criteria"][0];
     one["id"] = id;
@@ -101,7 +102,7 @@ TEST(VerificationExports, TheArgumentTurnsRedWithItsEvidence) {
   add("proofs_hold", "not met");
   EXPECT_EQ(count_of(render::argument_svg(given), "#c53a3a"), 3U);
   add("analysis_findings", "met");
-  EXPECT_EQ(count_of(render::argument_svg(given), "#2c8f57"), 13U);
+  EXPECT_EQ(count_of(render::argument_svg(given), "#2c8f57"), 16U);
   Json report = with_a_failure();
   report["verdict"]["verdict"] = "not fit";
   for (Json& c : report["verdict"]["criteria"]) {

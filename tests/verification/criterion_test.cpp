@@ -85,8 +85,6 @@ TEST(Criterion, OneThatIsUnknownIsRefusedRatherThanPassedOver) {
 /// Figures with which everything that can be judged is judged.
 verification::Facts everything() {
   verification::Facts facts = plumb_test::calibrated_facts();
-  facts.trace.tests_given = true;
-  facts.trace.proofs = std::vector<verification::ProofItem>{{"spin", true}};
   facts.analysis_findings = 0;
   facts.target = std::vector<verification::Resource>{{"stack", 1.0, 2.0}};
   return facts;

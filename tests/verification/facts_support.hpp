@@ -22,7 +22,9 @@ inline plumb::verification::Facts calibrated_facts() {
   out.faults.blocks_to_detect = {9, 1};
   out.faults.block_s = 0.5;
   out.replay = plumb::verification::Replay{400, 400};
-  out.trace.counts.requirements = out.trace.counts.active = out.trace.counts.traced = 90;
+  out.trace.counts.requirements = out.trace.counts.active = out.trace.counts.verified = 90;
+  out.trace.tests_given = true;
+  out.trace.proofs = std::vector<plumb::verification::ProofItem>{{"spin", true}};
   return out;
 }
 

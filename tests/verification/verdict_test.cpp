@@ -227,11 +227,37 @@ TEST(VerificationVerdict, RequirementsAreJudgedByResultsThatWereGiven) {
   const auto judged = [&facts] {
     return result_of(verification::judge(limits(""), facts), CriterionId::requirements_failed);
   };
+  facts.trace.tests_given = false;
+  facts.trace.proofs.reset();
   EXPECT_EQ(judged(), std::nullopt);
   facts.trace.tests_given = true;
   EXPECT_EQ(judged(), Result::met);
   facts.trace.counts.failed = 1;
   EXPECT_EQ(judged(), Result::not_met);
+}
+
+// Verifies: REQ-185
+TEST(VerificationVerdict, IsIncompleteWithoutTheResultsOfThisBuild) {
+  using verification::Facts;
+  EXPECT_STREQ(fitness(verification::judge(limits(""), calibrated_facts())), "fit");
+  const std::vector<std::pair<void (*)(Facts&), const char*>> lacking = {
+      {[](Facts& f) { f.trace.tests_given = false; }, "--test-results"},
+      {[](Facts& f) { f.trace.tests_not_of_this = "commit \"a\""; }, "evidence of another build: commit \"a\""},
+      {[](Facts& f) { f.trace.counts.verified = 89; }, "only 89 of 90 active requirements are verified"},
+      {[](Facts& f) { f.trace.proofs.reset(); }, "--assurance"},
+      {[](Facts& f) { f.trace.proofs_not_of_this = "commit \"b\""; }, "evidence of another build: commit \"b\""}};
+  for (const auto& [plant, words] : lacking) {
+    Facts facts = calibrated_facts();
+    plant(facts);
+    const verification::Report report = verification::judge(limits(""), facts);
+    EXPECT_EQ(report.fit, Result::open) << words;
+    EXPECT_STREQ(fitness(report), "fit, evidence incomplete") << words;
+    EXPECT_TRUE(plumb_test::says(report.sentence, {"fit, evidence incomplete", words}));
+    facts.wiring = {verification::WiringFacts::State::open, "", "the wiring is not confirmed"};
+    EXPECT_STREQ(fitness(verification::judge(limits(""), facts)), "open") << "more than evidence is open";
+    facts.array.confirmed_grade = 0;
+    EXPECT_STREQ(fitness(verification::judge(limits(""), facts)), "not fit");
+  }
 }
 
 TEST(VerificationVerdict, EvidenceThatIsGivenIsJudged) {

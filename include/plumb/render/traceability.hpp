@@ -9,6 +9,7 @@
 
 #include "plumb/core/config.hpp"
 #include "plumb/io/file_error.hpp"
+#include "plumb/render/identity.hpp"
 #include "plumb/verification/facts.hpp"
 
 namespace plumb {
@@ -32,6 +33,9 @@ enum class TestResult { passed, failed, not_run };
 /// has failed where any of its instances has.
 using TestResults = std::map<std::string, TestResult>;
 io::FileExpected<TestResults> read_test_results(const std::string& path);
+/// Of which build they are, by the properties plumb.commit, plumb.compiler and plumb.flags of the suite, which
+/// scripts/test writes. Errors: as above.
+io::FileExpected<BuildKey> read_test_build(const std::string& path);
 
 /// What `scripts/assure` wrote: items and their details by name.
 struct AssuranceResults {
@@ -42,7 +46,7 @@ struct AssuranceResults {
     bool listed = false;  ///< an item of its own rather than the detail of one
   };
   std::map<std::string, Item> item;
-  std::string version;
+  std::string version;  ///< the commit of the sources
   bool complete = false;
 };
 io::FileExpected<AssuranceResults> read_assurance(const std::string& path);

@@ -29,6 +29,9 @@ enum class CriterionId : std::uint8_t {
   replay_agrees,
   requirements_traced,
   requirements_failed,
+  tests_of_this_build,
+  requirements_verified,
+  proofs_of_this_build,
   proofs_hold,
   analysis_findings,
   target_resources,
@@ -63,6 +66,9 @@ inline constexpr std::array<CriterionEntry, kCriteria> kCriterionTable = {{
     {CriterionId::replay_agrees,           "replay_agrees",           Strategy::campaign,     "Independent re-run reproduces all results"},
     {CriterionId::requirements_traced,     "requirements_traced",     Strategy::requirements, "Traceability of requirements, hazards and tests"},
     {CriterionId::requirements_failed,     "requirements_failed",     Strategy::requirements, "Requirements failed"},
+    {CriterionId::tests_of_this_build,     "tests_of_this_build",     Strategy::requirements, "Results of the tests of this build"},
+    {CriterionId::requirements_verified,   "requirements_verified",   Strategy::requirements, "Requirements verified"},
+    {CriterionId::proofs_of_this_build,    "proofs_of_this_build",    Strategy::proof,        "Results of the proofs of this build"},
     {CriterionId::proofs_hold,             "proofs_hold",             Strategy::proof,        "Proofs and model checking"},
     {CriterionId::analysis_findings,       "analysis_findings",       Strategy::build,        "Findings of the static analysis"},
     {CriterionId::target_resources,        "target_resources",        Strategy::build,        "Resources on the target"},
@@ -100,6 +106,12 @@ constexpr bool every_strategy_has_a_criterion() {
 
 static_assert(detail::rows_are_distinct(), "a criterion without its row, or a key or title that stands twice");
 static_assert(detail::every_strategy_has_a_criterion(), "a branch of the argument rests on no criterion");
+
+/// Evidence on plumb itself, which a build brings along: it says nothing about the array.
+constexpr bool is_evidence(CriterionId id) {
+  return id == CriterionId::tests_of_this_build || id == CriterionId::requirements_verified ||
+         id == CriterionId::proofs_of_this_build;
+}
 
 enum class Result : std::uint8_t { met, open, not_met };  ///< the later, the worse
 inline constexpr std::array<const char*, 3> kResultWords = {"met", "open", "not met"};

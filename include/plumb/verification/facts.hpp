@@ -109,6 +109,8 @@ struct TraceFacts {
   std::vector<std::string> orphans;
   RequirementCounts counts;
   bool tests_given = false;                      ///< results of the tests
+  std::string tests_not_of_this;                 ///< why those are not of this build; empty: they are
+  std::string proofs_not_of_this;                ///< the same of the proofs
   std::optional<std::vector<ProofItem>> proofs;  ///< where their results were given
 };
 

@@ -18,7 +18,8 @@ struct Answer {
 };
 
 struct Report {
-  Result fit = Result::open;  ///< "not met" where any criterion is not, "open" where one is
+  Result fit = Result::open;    ///< "not met" where any criterion is not, "open" where one is
+  bool lacks_evidence = false;  ///< open, but by nothing than the evidence on plumb itself
   std::string sentence;
   std::vector<Answer> answers;
   std::vector<Criterion> criteria;  ///< those that are judged, in the order of the sections of the report
@@ -29,8 +30,8 @@ struct Report {
   std::string limits_file;  ///< empty: none was given
 };
 
-/// "fit", "open", "not fit".
-const char* fitness(Result fit) noexcept;
+/// "fit", "fit, evidence incomplete", "open", "not fit".
+const char* fitness(const Report& report) noexcept;
 
 Report judge(const UserLimits& limits, const Facts& facts);
 
