@@ -112,8 +112,11 @@ TEST(VerifyCommand, AnOrphanEndsWithSix) {
 
 TEST(VerifyCommand, TheCalibrationThatIsGivenIsTheOneThatIsJudged) {
   const Workshop shop;
-  const Outcome file = verify(shop, {"--array", "array.toml", "--calibration", "calibration.json", "--known-attitude",
-                                     kKnownStation, "--out", "a"});
+  ASSERT_EQ(run(shop, {"calibrate", "--array", "array.toml", "--log", "calibration.csv", "--known-attitude",
+                       kKnownStation, "--out", "known.json"})
+                .code,
+            0);
+  const Outcome file = verify(shop, {"--array", "array.toml", "--calibration", "known.json", "--out", "a"});
   const Outcome log = verify(shop, {"--array", "array.toml", "--stations", "calibration.csv", "--known-attitude",
                                     kKnownStation, "--out", "b"});
   ASSERT_TRUE(says(file.out, {"fit, evidence incomplete"})) << file.err;
