@@ -74,7 +74,7 @@ int family_named(const std::string& name);
 std::vector<int> families_like(const std::string& name);
 
 /// Part of every state and result: a change of what any episode plays, or of what is counted, raises it.
-inline constexpr int kHarnessVersion = 1;
+inline constexpr int kHarnessVersion = 2;
 
 /// One episode that did what it should not.
 struct Finding {

@@ -299,8 +299,10 @@ void LiesEpisode::note_bounds() {
   const double length = norm(plus(scaled(direction_, kG0_mps2), push)) - kG0_mps2;
   const double sigmas = gravity_sigmas_ + length / tool_.law.tool.gravity.sigma_mps2;
   if (std::fabs(sigmas) > std::fabs(hidden_sigmas_)) hidden_sigmas_ = sigmas;
-  // Motion below the noise of every channel is an error of gravity that nobody can see, and beyond the bound on it.
-  within_bounds_ = within_bounds_ && (!v.scattering.empty() || std::fabs(sigmas) <= kGravitySigmas);
+  // Motion below the noise of every healthy channel is an error of gravity that nobody can see, and beyond the bound on
+  // it: what one liar's channel shows alone may be its own noise.
+  const bool seen = !(v.scattering - liars_).empty();
+  within_bounds_ = within_bounds_ && (seen || std::fabs(sigmas) <= kGravitySigmas);
   if (tell_ && length != 0.0) {
     std::printf("    quiet block, gravity as if %.3g sigma off, scattering %x\n", sigmas, v.scattering.bits);
   }

@@ -99,6 +99,7 @@ Validity validity_of(const MonitorState& s) noexcept {
 }
 
 bool is_protected(const MonitorState& s, Validity validity) noexcept {
+  if (validity == Validity::valid) return true;  // all of what follows was asked for it
   return s.diagnosis.scan().protection_available && s.last.known && validity != Validity::held &&
          !s.intake.temperature_out && !s.in_force.owes_calibration() && s.machine.mode != Mode::failed;
 }

@@ -84,7 +84,7 @@ struct MonitorConfig {
 
 /// What the alert limit leaves for an error in the frame of the calibrated axes; no bound is within a limit below 0.
 inline double alert_limit_in_axes_rad(const MonitorConfig& config) noexcept {
-  const bool turned = config.alert_frame == AlertFrame::housing;
+  const bool turned = config.alert_frame == AlertFrame::housing && config.alignment_bound_rad > 0.0F;
   return turned ? config.alert_limit_rad - static_cast<double>(config.alignment_bound_rad) : config.alert_limit_rad;
 }
 
