@@ -105,7 +105,8 @@ Finding poor_fit(const CalibrationRun& run, const io::ArrayFile& array) {
   if (static_cast<double>(r.outliers) > most)
     return {FindingCode::too_many_outliers, e.index, static_cast<double>(r.outliers), std::floor(most)};
   const bool of_length = r.norm_rms_mps2 <= residual_bound_mps2(run.options.max_norm_rms_mps2, r);
-  if (r.parameters == 12 && r.outliers > 0 && of_length) {
+  // Of three sensors it may have been the outliers, though the length is off too: a bound that holds is no reason.
+  if (r.parameters == 12 && r.outliers > 0 && (of_length || !(e.value > e.limit))) {
     return {FindingCode::outliers_of_three, -1, static_cast<double>(r.outliers),
             static_cast<double>(r.stations + r.outliers)};
   }
@@ -145,6 +146,8 @@ std::vector<Finding> explained(std::vector<Finding> out, const SecondLook& look)
   } else if (look.without_groups) {
     out.push_back({FindingCode::accepted_without_roll_groups});
   } else {
+    for (std::size_t k = 0; k < look.turned.size(); ++k)
+      out.push_back({FindingCode::accepted_if_turned, look.turned[k].sensor[0], static_cast<double>(k)});
     for (const auto& [i, j] : look.exchanged) {
       out.push_back(i == j ? Finding{FindingCode::accepted_if_reversed, i}
                            : Finding{FindingCode::accepted_if_exchanged, i, 0.0, 0.0, j});
@@ -171,7 +174,9 @@ std::vector<Finding> refusal_of(const CalibrationRun& run, const io::ArrayFile& 
   std::vector<Finding> dead = dead_columns(run, array);
   if (!dead.empty() && (of_values || of_amount) && run.concern != Concern::gravity) return dead;
   if (const std::optional<Finding> temperature = of_temperature(run)) return {*temperature};
-  if (of_values && run.concern != Concern::gravity && of_another_unit(array, run.stations))
+  // Triads that are mirrored against each other cancel: the vector is short then too.
+  if (of_values && run.concern != Concern::gravity && run.second_look.turned.empty() &&
+      of_another_unit(array, run.stations))
     return {{FindingCode::wrong_unit, -1, length_factor(array, run.stations), 1.0}};
   switch (e.code) {
     case Errc::too_few_stations:

@@ -99,6 +99,27 @@ class Trials {
     }
   }
 
+  /// Turns before mirror images, which no mounting makes.
+  void triads(SecondLook& out) {
+    const std::vector<std::array<int, 3>> all = triads_of(array_.array);
+    if (all.size() < 2) return;  // one alone may be turned as it likes
+    std::vector<std::pair<double, TurnedTriad>> found;
+    for (const bool turns : {true, false}) {
+      for (const std::array<int, 3>& triad : all) {
+        for (const TurnedTriad& one : turns_of(triad)) {
+          if (is_turn(one) != turns) continue;
+          const auto mend = [this, &one](Station& s) { put_right(one, array_.datasheet, s); };
+          if (const std::optional<double> chi2 = fits(options_, mend)) found.emplace_back(*chi2, one);
+        }
+      }
+      if (!found.empty()) break;
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [chi2, one] : found) {
+      if (chi2 <= kAsWell * found.front().first) out.turned.push_back(one);
+    }
+  }
+
   void rolls(SecondLook& out) {
     std::vector<std::uint32_t> tags;
     for (const Station& s : stations_) {
@@ -148,6 +169,7 @@ SecondLook second_look(const io::ArrayFile& array, const std::vector<Station>& s
   Trials trials(array, stations, options);
   trials.rolls(out);
   if (!out.found()) trials.exchanges(refused, out);
+  if (!out.found()) trials.triads(out);
   return out;
 }
 

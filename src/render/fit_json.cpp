@@ -51,8 +51,18 @@ Json second_look_json(const findings::CalibrationRun& run, const io::ArrayFile& 
     if (i == j) reversed.push_back(id_of(array, i));
     if (i != j) exchanged.push_back(Json::array({id_of(array, i), id_of(array, j)}));
   }
+  Json turned = Json::array();
+  for (const findings::TurnedTriad& t : look.turned) {
+    Json sensors = Json::array(), axes = Json::array();
+    for (int k = 0; k < 3; ++k) {
+      sensors.push_back(id_of(array, t.sensor[static_cast<std::size_t>(k)]));
+      axes.push_back(findings::mended_axis(array.array, t, k));
+    }
+    turned.push_back(io::object({{"sensors", std::move(sensors)}, {"axes", std::move(axes)}}));
+  }
   return io::object({{"columns_exchanged", std::move(exchanged)},
                      {"sign_reversed", std::move(reversed)},
+                     {"triads_turned", std::move(turned)},
                      {"without_roll_group", look.groups},
                      {"roll_axis", look.roll_axis ? Json(*look.roll_axis) : Json()},
                      {"without_roll_groups", look.without_groups}});

@@ -10,6 +10,7 @@
 #include "plumb/findings/frame_turn.hpp"
 #include "plumb/findings/log_diagnosis.hpp"
 #include "plumb/findings/temperature_gaps.hpp"
+#include "plumb/findings/turned_triad.hpp"
 #include "plumb/findings/unit_guess.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/session/interrupt.hpp"
@@ -119,7 +120,10 @@ bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) 
   const bool of_values = code == Errc::diverged || code == Errc::implausible || code == Errc::poor_fit;
   const bool of_one_row = code == Errc::diverged && run.refusal.index >= 0;
   const bool open = run.concern == Concern::none || run.concern == Concern::roll_axis;
-  if (!of_values || of_one_row || !open || findings::of_another_unit(array, run.stations)) return false;
+  if (!of_values || of_one_row || !open) return false;
+  // Triads that are mirrored against each other cancel: the vector is short as if in another unit.
+  const bool may_cancel = findings::triads_of(array.array).size() > 1;
+  if (!may_cancel && findings::of_another_unit(array, run.stations)) return false;
   if (findings::followed_direction(run.temperature.order, run.stations, run.study.attitudes).axis != 0) return false;
   for (int i = 0; i < array.array.size(); ++i) {
     if (findings::dead_channel(run.log, i)) return false;

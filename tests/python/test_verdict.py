@@ -42,7 +42,8 @@ OF_JSON = {
     "inclination_sigma_deg": "covariance",
     "toolface_deg": "gravity_mps2",
     "toolface_sigma_deg": "covariance",
-    "protection_level_deg": "protection_level_calibrated_axes_rad",
+    "protection_level_calibrated_axes_deg": "protection_level_calibrated_axes_rad",
+    "protection_level_housing_deg": "protection_level_housing_rad",
     "snapshot_refused": "snapshot_refusal",
 }
 SETS = ("configured", "in_service", "provisionally_excluded", "excluded", "absent", "suspects", "clipped", "scattering", "not_finite",
@@ -189,10 +190,12 @@ class Values(unittest.TestCase):
         self.assertEqual([plumb.CAUSES[c] for c in row["sensor_cause"][:n]], line["sensor_cause"])
         self.assertEqual([None if s == 255 else s for s in row["minimum_faults"][:n].tolist()], line["minimum_faults"])
         self.assertEqual([float(d) for d in row["drift_mps2_per_h"][:n]], line["drift_mps2_per_h"])
-        if line["protection_level_deg"] is None:
-            self.assertTrue(math.isnan(row["protection_level_calibrated_axes_rad"]) and math.isnan(row["toolface_protection_housing_rad"]))
-        else:
-            self.assertAlmostEqual(math.degrees(row["protection_level_calibrated_axes_rad"]), line["protection_level_deg"], 9)
+        for frame in ("calibrated_axes", "housing"):
+            said, column = line[f"protection_level_{frame}_deg"], row[f"protection_level_{frame}_rad"]
+            if said is None:
+                self.assertTrue(math.isnan(column) and math.isnan(row["toolface_protection_housing_rad"]))
+            else:
+                self.assertAlmostEqual(math.degrees(column), said, 9)
         self.compare_parts(array, row, line)
 
     def compare_parts(self, array, row, line):

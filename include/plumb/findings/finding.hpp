@@ -85,6 +85,7 @@ enum class FindingCode : std::uint8_t {
   // The mistake that would explain a refusal: with it mended the fit settles.
   accepted_if_exchanged,         ///< the columns of sensor and other
   accepted_if_reversed,          ///< the sign of the sensor
+  accepted_if_turned,            ///< the triad that begins with the sensor; value = which of SecondLook::turned
   accepted_without_roll_group,   ///< value = its number
   accepted_without_roll_groups,  ///< with none of them
   accepted_about_another_axis,   ///< `SecondLook::roll_axis`
@@ -191,6 +192,7 @@ inline constexpr std::array<FindingId, kFindingCodes> kFindingIds{{
     {FindingCode::refused_otherwise, "refused_otherwise"},
     {FindingCode::accepted_if_exchanged, "accepted_if_exchanged"},
     {FindingCode::accepted_if_reversed, "accepted_if_reversed"},
+    {FindingCode::accepted_if_turned, "accepted_if_turned"},
     {FindingCode::accepted_without_roll_group, "accepted_without_roll_group"},
     {FindingCode::accepted_without_roll_groups, "accepted_without_roll_groups"},
     {FindingCode::accepted_about_another_axis, "accepted_about_another_axis"},
