@@ -291,7 +291,7 @@ TEST(Attack, AmongFourASensorThatScattersAtEveryStationIsExcluded) {
     Noise noise(5);
     bool rests = false;
     rig.distort = [&](int i, double r, int) { return i == 2 && !rests ? r + 0.02 * kG0_mps2 * noise.normal() : r; };
-    const int needed = std::max(2, stations);
+    const int needed = std::max(4, stations);
     for (int station = 1; station < needed; ++station) rig.stay(plumb_test::random_direction(noise));
     rests = true;  // calm at one station: from the start
     rig.stay(plumb_test::random_direction(noise));
@@ -307,9 +307,10 @@ TEST(Attack, AmongFourASensorThatScattersAtEveryStationIsExcluded) {
 }
 
 /// Where four survive, one station is enough if it is configured so; but not for who is suspected by its scatter alone
-/// (`plumb_monitor_attacks --seed 6 --episode 116526`).
+/// (`plumb_monitor_attacks --seed 6 --episode 116526`; two were not enough in four of `--seed 47 --family
+/// lies-motion`).
 // Negative: REQ-143
-TEST(Attack, OneStationOfScatterExcludesNoSensor) {
+TEST(Attack, ThreeStationsOfScatterExcludeNoSensor) {
   const double h = std::sqrt(0.5), t = std::sqrt(1.0 / 3.0);
   AxisList axes{};
   const Vec3 rows[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {h, h, 0}, {t, t, t}};
@@ -322,10 +323,12 @@ TEST(Attack, OneStationOfScatterExcludesNoSensor) {
   rig.prove();
   Noise noise(5);
   rig.distort = [&](int i, double r, int) { return i == 2 ? r + 0.02 * kG0_mps2 * noise.normal() : r; };
+  for (int station = 1; station <= 3; ++station) {
+    rig.stay(plumb_test::random_direction(noise));
+    EXPECT_TRUE(rig.ever_blamed.empty()) << station;
+  }
   rig.stay(plumb_test::random_direction(noise));
-  EXPECT_TRUE(rig.ever_blamed.empty());
-  rig.stay(plumb_test::random_direction(noise));
-  EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(2)) << "the second station is enough";
+  EXPECT_EQ(rig.monitor.verdict().excluded, SensorSet::of(2)) << "the fourth station is enough";
   EXPECT_EQ(rig.ever_blamed, SensorSet::of(2));
 }
 
