@@ -102,8 +102,7 @@ std::string fit_section(const findings::CalibrationRun& run, const io::ArrayFile
   }
   std::string rank = fmt::format("{} of {} parameters determined by the data", r.rank, r.parameters);
   if (r.gauge > 1) {
-    rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show: see alignment",
-                        r.gauge);
+    rank += fmt::format("; {} are a common rotation of all axes, which gravity cannot show: see alignment", r.gauge);
   } else if (r.gauge == 1) {
     rank += "; 1 is a rotation of all axes about the roll axis, which gravity cannot show: see alignment";
   }
