@@ -101,11 +101,11 @@ std::string not_of_this_build(const BuildKey& key, bool sources_alone) {
   };
   if (key.commit.empty() || (!sources_alone && key.compiler.empty())) return "they do not say of which build they are";
   if (key.commit != here.commit) return differ("commit", key.commit, here.commit);
-  if (here.commit == "unknown" || here.commit.find("-dirty") != std::string::npos)
-    return fmt::format("commit \"{}\" names no sources: build from a clean checkout", here.commit);
-  if (sources_alone) return "";
-  if (key.compiler != here.compiler) return differ("compiler", key.compiler, here.compiler);
-  return key.flags == here.flags ? std::string() : differ("flags", key.flags, here.flags);
+  if (!sources_alone && key.compiler != here.compiler) return differ("compiler", key.compiler, here.compiler);
+  if (!sources_alone && key.flags != here.flags) return differ("flags", key.flags, here.flags);
+  const bool clean = here.commit != "unknown" && here.commit.find("-dirty") == std::string::npos;
+  return clean ? std::string()
+               : fmt::format("commit \"{}\" names no sources: build from a clean checkout", here.commit);
 }
 
 Json input_json(const char* role, const std::string& path, std::string_view bytes) {

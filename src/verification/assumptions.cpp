@@ -77,6 +77,10 @@ std::vector<std::string> assumptions_of(const UserLimits& limits, const Facts& f
         "A real tool is worse; correct the calibration before any figure here is used.");
   if (facts.rows_are_stations) out.push_back(row_words(facts.samples_per_row));
   out.push_back(
+      "The campaigns know the truth in the frame of the calibrated axes: their errors, alerts and availability are "
+      "without "
+      "the alignment to the housing, which the protection level of section 1 has on top.");
+  out.push_back(
       "The campaign rates hold for the simulated scenarios: the faults, sizes and attitudes listed, in equal shares. "
       "Rates in the field differ.");
   return out;

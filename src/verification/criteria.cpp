@@ -220,7 +220,7 @@ void judge_results(const TraceFacts& trace, Criteria& out) {
             other.empty() ? "" : what + " are evidence of another build: " + other);
   };
   given(CriterionId::tests_of_this_build, trace.tests_given, trace.tests_not_of_this,
-        "--test-results build/release/junit.xml, which scripts/test writes");
+        "--test-results build/release/junit.xml, which scripts/test --all writes");
   if (trace.tests_given) {
     const RequirementCounts& n = trace.counts;
     const std::string found = fmt::format("{} of {} active", n.verified, n.active);

@@ -59,7 +59,7 @@ inline constexpr std::array<CriterionEntry, kCriteria> kCriterionTable = {{
     {CriterionId::healthy_campaign_played, "healthy_campaign_played", Strategy::campaign,     "Campaign: healthy"},
     {CriterionId::fault_campaign_played,   "fault_campaign_played",   Strategy::campaign,     "Campaign: faults"},
     {CriterionId::false_alarms,            "false_alarms",            Strategy::campaign,     "False alarms"},
-    {CriterionId::available_while_healthy, "available_while_healthy", Strategy::campaign,     "Within the alert limit while healthy"},
+    {CriterionId::available_while_healthy, "available_while_healthy", Strategy::campaign,     "Within the alert limit while healthy, in the axes"},
     {CriterionId::wrong_exclusion,         "wrong_exclusion",         Strategy::campaign,     "Healthy sensors excluded"},
     {CriterionId::misleading,              "misleading",              Strategy::campaign,     "Misleading output"},
     {CriterionId::time_to_detect,          "time_to_detect",          Strategy::campaign,     "Time to detect, 95 % of the detected faults"},
