@@ -42,7 +42,7 @@ MonitorConfig settings_of(const plumb_config& c) noexcept {
   out.clear_fraction = c.clear_fraction;
   out.alert_limit_rad = c.alert_limit_rad;
   out.alert_frame = c.alert_in_calibrated_axes != 0 ? AlertFrame::calibrated_axes : AlertFrame::housing;
-  out.alignment_bound_rad = static_cast<float>(c.alignment_bound_rad);
+  out.alignment_bound_rad = alignment_bound_of(c.alignment_bound_rad);
   out.integrity_risk = c.integrity_risk;
   out.fault_prior = c.fault_prior;
   out.temperature_min_degc = c.temperature_min_degc;

@@ -187,10 +187,12 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
                       "run plumb calibrate --paper and give --calibration, or set mode = \"plumb\" in " + array.path,
                       io::ExitCode::usage});
   }
-  const auto monitor = options.snapshot_in.empty() ? session::make_monitor(array, nullptr)
-                                                   : session::restore_monitor(array, nullptr, options.snapshot_in);
+  print_error(render::alignment_note(array, findings::alignment_of(array, nullptr)));
+  const io::ArrayFile aligned = findings::with_alignment(array, nullptr);
+  const auto monitor = options.snapshot_in.empty() ? session::make_monitor(aligned, nullptr)
+                                                   : session::restore_monitor(aligned, nullptr, options.snapshot_in);
   if (!monitor) return report(monitor.error());
-  return watch(options, array, **monitor, 0.0, past_of(options), stepper_of(options, array, nullptr, 0.0).get());
+  return watch(options, array, **monitor, 0.0, past_of(options), stepper_of(options, aligned, nullptr, 0.0).get());
 }
 
 void warn_of_stations(const io::ArrayFile& array) {
@@ -232,7 +234,8 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
       render::undated_note(*array, *calibration, options.calibration) +
       render::exact_note(*calibration, options.calibration) +
       render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
-  print_error(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)));
+  if (array->monitor.mode == MonitorMode::plumb)  // the paper's method has no bound
+    print_error(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)));
   const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);

@@ -96,7 +96,7 @@ MonitorConfig filled(const TomlTable& table) {
   config.alarm_form = average ? AlarmForm::average_tool : AlarmForm::every_tool;
   config.triple_false_alarm_rate =
       table.quantity(Quantity::ratio, "triple_false_alarm_rate", config.triple_false_alarm_rate);
-  config.alignment_bound_rad = static_cast<float>(
+  config.alignment_bound_rad = alignment_bound_of(
       table.quantity(Quantity::angle, "alignment_bound", static_cast<double>(config.alignment_bound_rad)));
   const bool axes = table.choice("alert_frame", {"housing", "calibrated-axes"}, 0) == 1;
   config.alert_frame = axes ? AlertFrame::calibrated_axes : AlertFrame::housing;

@@ -27,8 +27,9 @@ std::string degrees(double rad) { return fmt::format("{:.3g} deg", deg_from_rad(
 
 std::string alignment_words(const Alignment& alignment) {
   if (!(alignment.bound_rad < kPi)) return "how the calibrated axes as a whole sit in the housing is not known";
-  return fmt::format("the calibrated axes as a whole are within {} of the housing, {}", degrees(alignment.bound_rad),
-                     source_words(alignment.source));
+  const bool wiring_known = alignment.source == AlignmentSource::known_attitudes;  // else it may be a mirror image
+  return fmt::format("the calibrated axes as a whole are within {} of the housing, {}{}", degrees(alignment.bound_rad),
+                     source_words(alignment.source), wiring_known ? "" : ", if the channels are wired as stated");
 }
 
 bool alignment_exceeds_alert(const io::ArrayFile& array, const Alignment& alignment) {

@@ -209,6 +209,7 @@ io::FileExpected<AssuranceResults> read_assurance(const std::string& path) {
     return refuse_trace(path, std::string("has an item that does not follow docs/assurance.md: ") + error.what(),
                         remedy);
   }
+  if (out.item.empty()) return refuse_trace(path, "holds no item", remedy);
   return out;
 }
 

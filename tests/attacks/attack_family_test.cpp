@@ -24,6 +24,12 @@ Tally played(const char* family, std::uint64_t episode) {
   return played(family, episode, findings);
 }
 
+Tally of_seed_47(const char* family, std::uint64_t episode) {
+  const int number = family_named(family);
+  std::vector<Finding> findings;
+  return play_episode({number, 47, episode, stream_of_episode(47, number, episode), false}, findings);
+}
+
 Tally several(const char* family, int episodes) {
   Tally sum;
   for (int k = 0; k < episodes; ++k) sum.add(played(family, static_cast<std::uint64_t>(k)));
@@ -111,6 +117,20 @@ TEST(AttackFamilies, ReportWhatTheyFind) {
   ASSERT_FALSE(findings.empty());
   EXPECT_EQ(findings[0].family, family_named("adaptive-axis-cone"));
   EXPECT_NE(findings[0].text.find("faulty a"), std::string::npos) << findings[0].text;
+}
+
+/// Four of 1 135 000 episodes in motion excluded a healthy sensor for scatter at two stations (docs/attacks.md).
+// Negative: REQ-143
+TEST(AttackFamilies, PushesAtTwoStationsExcludeNoHealthySensor) {
+  for (const std::uint64_t episode : {140412U, 454203U, 694533U, 936085U})
+    EXPECT_EQ(of_seed_47("lies-motion", episode)[Count::wrong_exclusion], 0U) << episode;
+}
+
+/// What one liar's channel shows alone is no motion that healthy ones could see.
+TEST(AttackFamilies, AMotionThatOnlyALiarShowsIsBeyondWhatIsPromised) {
+  const Tally tally = of_seed_47("lies-motion", 32815);
+  EXPECT_EQ(tally[Count::wrong_exclusion], 0U);
+  EXPECT_EQ(tally[Count::unpromised], 1U);
 }
 
 }  // namespace

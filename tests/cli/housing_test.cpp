@@ -78,6 +78,22 @@ TEST(Housing, WithTheDatasheetAloneNothingIsValidAndTheToolSaysWhy) {
       says(judged.out, {"INCONCLUSIVE", "in the housing", "within 6.8 deg of the housing", "--known-attitude"}));
 }
 
+/// A tool that calibrates itself knows no more of its housing than the datasheet does.
+// Negative: REQ-042
+TEST(Housing, AToolThatCalibratesItselfIsNotValidInIt) {
+  const InHousing where;
+  const std::vector<std::string> first = {"monitor", "--array",         "array.toml", "--calibrate-first",
+                                          "--log",   "calibration.csv", "--verdicts", "v.jsonl"};
+  EXPECT_TRUE(says(run(where, first).err, {"within 6.8 deg of the housing", "no output will be valid"}));
+  int in_axes = 0;
+  for (const Json& v : verdicts(where)) {
+    EXPECT_NE(v["validity"], "valid");
+    if (v["protection_level_calibrated_axes_deg"].is_number() && v["protection_level_calibrated_axes_deg"] < 1.0)
+      ++in_axes;
+  }
+  EXPECT_GT(in_axes, 10) << "valid but for the housing";
+}
+
 // Verifies: REQ-042
 TEST(Housing, KnownAttitudesMakeTheOutputValid) {
   const InHousing where;

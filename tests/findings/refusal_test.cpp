@@ -93,6 +93,23 @@ TEST(RefusalFindings, AGravityThatIsNotTheEarthsComesBeforeStuckColumns) {
   EXPECT_EQ(findings::refusal_of(run, file).front().code, FindingCode::gravity_out_of_range);
 }
 
+/// Three sensors whose outliers left too much doubt, by a chance of 1e-5 that was to be 1e-3 at least, and whose length
+/// is off too: the chance is no residual, and holds no bound.
+TEST(RefusalFindings, ABoundThatHoldsIsNotTheReason) {
+  const io::ArrayFile file = array();
+  CalibrationRun run = run_of(file, 12, Errc::poor_fit);
+  run.report.parameters = 12;
+  run.report.stations = 20;
+  run.report.outliers = 3;
+  run.report.norm_rms_mps2 = 0.07;
+  run.refusal.value = 1e-5;
+  run.refusal.limit = 1e-3;
+  EXPECT_EQ(findings::refusal_of(run, file).front().code, FindingCode::outliers_of_three);
+  run.refusal.value = 0.07;
+  run.refusal.limit = 0.05;
+  EXPECT_EQ(findings::refusal_of(run, file).front().code, FindingCode::residual_too_large);
+}
+
 TEST(RefusalFindings, TheMistakeThatWouldExplainAnImplausibleValueFollowsIt) {
   const io::ArrayFile file = array();
   CalibrationRun run = run_of(file, 12, Errc::poor_fit);

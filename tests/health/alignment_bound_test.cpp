@@ -108,5 +108,15 @@ TEST(AlignmentBound, RefusesWhatIsNoAngle) {
   }
 }
 
+/// What a host gives as a double is refused by the same range, however far beyond a float it lies.
+TEST(AlignmentBound, ADoubleBeyondEveryFloatIsRefusedToo) {
+  for (const double bound : {-1e300, 1e300, kPi * 1.001, -1e-3, std::nan(""), HUGE_VAL}) {
+    MonitorConfig config;
+    config.alignment_bound_rad = alignment_bound_of(bound);
+    EXPECT_FALSE(checked(config)) << bound;
+  }
+  EXPECT_EQ(alignment_bound_of(0.25), 0.25F);
+}
+
 }  // namespace
 }  // namespace alignment_bound_test

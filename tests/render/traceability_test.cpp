@@ -124,6 +124,10 @@ TEST(Traceability, FilesAreRefusedInWords) {
   const std::string path = ::testing::TempDir() + "/no.json";
   std::ofstream(path) << "{}";
   EXPECT_NE(render::read_assurance(path).error().text().find("schema 2"), std::string::npos);
+  // Complete, of this commit, and nothing in it: no proof of anything.
+  std::ofstream(path) << R"({"schema": 2, "version": "0", "complete": true, "items": []})";
+  EXPECT_NE(render::read_assurance(path).error().text().find("holds no item"), std::string::npos);
+  std::ofstream(path) << "{}";
   EXPECT_NE(render::read_traceability(path).error().text().find("plumb-traceability"), std::string::npos);
   EXPECT_NE(render::read_test_results(path).error().text().find("not XML"), std::string::npos);
   Json broken = small();

@@ -82,6 +82,12 @@ struct MonitorConfig {
   }
 };
 
+/// `alignment_bound_rad` of any double: what no bound can be comes out beyond the range that `checked` allows.
+inline float alignment_bound_of(double bound_rad) noexcept {
+  if (bound_rad > 4.0) return 4.0F;
+  return bound_rad < -1.0 ? -1.0F : static_cast<float>(bound_rad);
+}
+
 /// What the alert limit leaves for an error in the frame of the calibrated axes; no bound is within a limit below 0.
 inline double alert_limit_in_axes_rad(const MonitorConfig& config) noexcept {
   const bool turned = config.alert_frame == AlertFrame::housing && config.alignment_bound_rad > 0.0F;
