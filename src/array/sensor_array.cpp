@@ -99,6 +99,11 @@ AttitudeProducts::AttitudeProducts(const Vec3& g_mps2) noexcept {
 }
 
 double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const noexcept {
+  const double misfit = i == j ? misfit_mps2[index(i)] : 0.0;
+  return of_parameters_at(i, j, attitude) + misfit * misfit;
+}
+
+double RowUncertainty::of_parameters_at(int i, int j, const AttitudeProducts& attitude) const noexcept {
   const std::size_t rows = 4 * index(i >= j ? i : j), columns = 4 * index(i >= j ? j : i);
   double sum = 0.0;
   for (std::size_t p = 0; p < 4; ++p) {
@@ -110,7 +115,6 @@ double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const 
       sum += attitude.value[5 * p] * covariance[row + p];
     }
   }
-  if (i == j) sum += misfit_mps2[index(i)] * misfit_mps2[index(i)];
   return sum;
 }
 

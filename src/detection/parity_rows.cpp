@@ -93,11 +93,6 @@ double largest_over_directions(const Mat3& a, const Vec3& b, double c) noexcept 
 double worst_parity_variance(const SensorArray& array, double g_mps2) noexcept {
   if (array.size() <= 3 || array.perfectly_known()) return 0.0;
   const ParityBasis basis = parity_basis(array, array.all());
-  double misfit = 0.0;
-  for (int i = 0; i < array.size(); ++i) {
-    const double own = array.uncertainty().misfit_mps2[at(i)] / array.sigma_mps2(i);
-    misfit = std::fmax(misfit, own * own);
-  }
   const double variance = worst_sum(array, g_mps2, [&basis](int i, int j) {
     double projected = 0.0;
     for (int k = 0; k < basis.rows; ++k) projected += basis.weight[at(k)][at(i)] * basis.weight[at(k)][at(j)];
@@ -105,7 +100,7 @@ double worst_parity_variance(const SensorArray& array, double g_mps2) noexcept {
   });
   // The largest eigenvalue is at most their sum, and its share of it where all are one.
   const bool alike = basis.rows > 1 && parity_rows_alike(array);
-  return variance * (alike ? kLikeRows * kLikeRows / basis.rows : 1.0) + misfit;
+  return variance * (alike ? kLikeRows * kLikeRows / basis.rows : 1.0);
 }
 
 double worst_vector_variance(const SensorArray& array, double g_mps2) noexcept {

@@ -142,8 +142,8 @@ Products products_of(const RowUncertainty& uncertainty, const Rows& rows, const 
     const auto a = static_cast<size_t>(i);
     for (int j = 0; j <= i; ++j) {
       const auto b = static_cast<size_t>(j);
-      const double c =
-          uncertainty.at(rows.sensor[a], rows.sensor[b], attitude) * rows.inverse_sigma[a] * rows.inverse_sigma[b];
+      const double c = uncertainty.of_parameters_at(rows.sensor[a], rows.sensor[b], attitude) * rows.inverse_sigma[a] *
+                       rows.inverse_sigma[b];
       out.on_a[a] = plus(out.on_a[a], scaled(rows.a[b], c));
       out.on_ca[a] = plus(out.on_ca[a], scaled(p.ca[b], c));
       out.on_w[a] += c * p.w[b];
@@ -161,31 +161,61 @@ Products products_of(const RowUncertainty& uncertainty, const Rows& rows, const 
   return out;
 }
 
+/// w'C w of the norm row alone, as the square of one vector over the four numbers of every row.
+double norm_row_variance(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p,
+                         const Vec3& x) noexcept {
+  const std::array<double, 4> z = {x[0], x[1], x[2], 1.0};
+  double variance = 0.0;
+  for (int i = 0; i < rows.count; ++i) {
+    const auto a = static_cast<size_t>(i);
+    const double weight = p.w[a] * rows.inverse_sigma[a];
+    std::array<double, 4> along{};  // of the blocks left of the diagonal, and half of that on it
+    for (int j = 0; j <= i; ++j) {
+      const auto b = static_cast<size_t>(j);
+      const double other = p.w[b] * rows.inverse_sigma[b];
+      for (size_t row = 0; row < 4; ++row) {
+        const size_t first = 4 * static_cast<size_t>(rows.sensor[a]) + row;
+        const double* const entry =
+            &uncertainty.covariance[first * (first + 1) / 2 + 4 * static_cast<size_t>(rows.sensor[b])];
+        const size_t columns = j < i ? 4 : row;
+        double sum = j < i ? 0.0 : 0.5 * entry[row] * z[row];
+        for (size_t q = 0; q < columns; ++q) sum += entry[q] * z[q];
+        along[row] += other * sum;
+      }
+    }
+    for (size_t row = 0; row < 4; ++row) variance += 2.0 * weight * z[row] * along[row];
+  }
+  return variance;
+}
+
 /// With P = I - A K', A the rows and K the C a_i, everything about P C follows from products of n x 3 matrices:
 /// tr(PC) = tr C - tr(K'CA), tr(PCPC) = tr CC - 2 tr(K'C CA) + tr(K'CA K'CA), w'C P C w = |Cw|^2 - (A'Cw).(K'Cw).
 Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p,
                              const Vec3& x) noexcept {
   const int s = rows.count;
-  const Products c = products_of(uncertainty, rows, p, x);
-  double norm_row = 0.0, trace = 0.0, square = 0.0, cross_term = 0.0;
-  for (int i = 0; i < s; ++i) norm_row += p.w[static_cast<size_t>(i)] * c.on_w[static_cast<size_t>(i)];
-  if (s > 3) {
-    Mat3 once{}, twice{};  // K'CA and K'C CA
-    Vec3 along_a{}, along_ca{};
-    for (int i = 0; i < s; ++i) {
-      const auto a = static_cast<size_t>(i);
-      add_outer(once, p.ca[a], c.on_a[a]);
-      add_outer(twice, c.on_ca[a], c.on_a[a]);
-      along_a = plus(along_a, scaled(rows.a[a], c.on_w[a]));
-      along_ca = plus(along_ca, scaled(p.ca[a], c.on_w[a]));
-      cross_term += c.on_w[a] * c.on_w[a];
-    }
-    trace = c.trace - (once[0] + once[4] + once[8]);
-    square = c.square - 2.0 * (twice[0] + twice[4] + twice[8]) + trace_of_product(once, once);
-    cross_term -= dot(along_a, along_ca);
-  }
-  // With the norm row: trace adds w'Cw; trace of the square adds (w'Cw)^2 + 2 |P C w|^2 (P is a projector).
   Systematic out;
+  if (s == 3) {
+    const double variance = norm_row_variance(uncertainty, rows, p, x);
+    out.norm = out.both = std::sqrt(variance <= 0.0 ? 0.0 : variance);
+    return out;
+  }
+  const Products c = products_of(uncertainty, rows, p, x);
+  double norm_row = 0.0, cross_term = 0.0;
+  Mat3 once{}, twice{};  // K'CA and K'C CA
+  Vec3 along_a{}, along_ca{};
+  for (int i = 0; i < s; ++i) {
+    const auto a = static_cast<size_t>(i);
+    norm_row += p.w[a] * c.on_w[a];
+    add_outer(once, p.ca[a], c.on_a[a]);
+    add_outer(twice, c.on_ca[a], c.on_a[a]);
+    along_a = plus(along_a, scaled(rows.a[a], c.on_w[a]));
+    along_ca = plus(along_ca, scaled(p.ca[a], c.on_w[a]));
+    cross_term += c.on_w[a] * c.on_w[a];
+  }
+  const double trace = c.trace - (once[0] + once[4] + once[8]);
+  const double square = c.square - 2.0 * (twice[0] + twice[4] + twice[8]) + trace_of_product(once, once);
+  cross_term -= dot(along_a, along_ca);
+  // With the norm row: trace adds w'Cw; trace of the square adds (w'Cw)^2 + 2 |P C w|^2 (P is a projector).
   out.norm = std::sqrt(norm_row <= 0.0 ? 0.0 : norm_row);
   out.parity = std::sqrt(largest_eigenvalue_bound(trace, square, s - 3));
   out.both =
@@ -328,10 +358,25 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   const double moved = block.spread_mps2_sq / (2.0 * gravity.g_mps2) + block.motion_mps2 + limits.acceleration_mps2;
   const double scaled_by = uncertainty != nullptr ? uncertainty->common_scale * gravity.g_mps2 : 0.0;
   const double reference = (TestLimits::gravity * (gravity.sigma_mps2 + scaled_by) + moved) / sigma_norm;
-  out.parity_systematic = root_n * (limits.parity_calibration * cal.parity + drift.parity);
-  out.norm_systematic = root_n * (limits.norm_calibration * cal.norm + drift.norm + reference);
   const double both = out.parity_rows > 0 ? limits.calibration * cal.both : limits.norm_calibration * cal.norm;
-  out.systematic = root_n * (both + drift.both + reference);
+  const double growth = uncertainty != nullptr ? noise_growth(array, *uncertainty, set, block.samples) : 0.0;
+  const auto rows_of_parity = static_cast<size_t>(out.parity_rows);
+  out.parity_systematic =
+      root_n * (limits.parity_calibration * cal.parity + drift.parity) + limits.reject[rows_of_parity] * growth;
+  out.norm_systematic =
+      root_n * (limits.norm_calibration * cal.norm + drift.norm + reference) + limits.reject[1] * growth;
+  out.systematic = root_n * (both + drift.both + reference) + limits.reject[rows_of_parity + 1U] * growth;
+}
+
+double noise_growth(const SensorArray& array, const RowUncertainty& uncertainty, SensorSet set,
+                    double samples) noexcept {
+  double most = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    const double misfit = set.has(i) ? uncertainty.misfit_mps2[static_cast<size_t>(i)] / array.sigma_mps2(i) : 0.0;
+    if (!(misfit >= 0.0)) return misfit;  // not a number: no limit made of it is met
+    if (misfit > most) most = misfit;
+  }
+  return most > 0.0 ? std::sqrt(1.0 + samples * most * most) - 1.0 : 0.0;
 }
 
 SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,

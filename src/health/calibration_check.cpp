@@ -132,7 +132,10 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
     if (!t.tested) continue;
     block.tolerance_mps2.fill(e.tolerance_mps2 + static_cast<float>(tolerance_mps2));
     const ToleranceBound bound = tolerance_bound(terms.array, block, set, t);
-    const double parity_variance = 1.0 + square(t.parity_systematic / limits.parity_calibration);
+    const double growth = noise_growth(terms.array, terms.array.uncertainty(), set, block.samples);
+    const double noise_variance = square(1.0 + growth);
+    const double parity_left = t.parity_systematic - limits.reject[at(t.parity_rows)] * growth;
+    const double parity_variance = noise_variance + square(parity_left / limits.parity_calibration);
     out.sum += square(beyond(t.parity, bound.parity)) / parity_variance;
     out.degrees += t.parity_rows;
     if (out.sum > most * most_degrees) {
@@ -140,9 +143,9 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
       return out;
     }
     const size_t n = at(lengths++);
-    const double norm_variance =
-        1.0 + square((t.norm_systematic - std::sqrt(block.samples) * common_mps2 / t.norm_sigma_mps2) /
-                     limits.norm_calibration);
+    const double norm_left =
+        t.norm_systematic - limits.reject[1] * growth - std::sqrt(block.samples) * common_mps2 / t.norm_sigma_mps2;
+    const double norm_variance = noise_variance + square(norm_left / limits.norm_calibration);
     off[n] = t.norm_error_mps2;
     sigma[n] = t.norm_sigma_mps2 * std::sqrt(norm_variance / block.samples);
     hard[n] = bound.norm_mps2 + static_cast<double>(e.moved_mps2) + terms.limits.acceleration_mps2;

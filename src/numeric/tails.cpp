@@ -149,6 +149,35 @@ double chi2_tail_quantile(double p, int dof) noexcept {
   return x;
 }
 
+namespace {
+
+/// P(chi^2_dof / (chi^2_freedom / freedom) > y): with x = 1 / (1 + y / freedom) and h = freedom / 2, x^h times the sum
+/// of h (h + 1) ... (h + j - 1) (1 - x)^j / j! over j below dof / 2.
+double estimated_chi2_tail(double y, int dof, int freedom) noexcept {
+  const double half = 0.5 * freedom, x = 1.0 / (1.0 + y / freedom);
+  double term = std::exp(-half * std::log1p(y / freedom)), sum = 0.0;
+  for (int j = 0; j < dof / 2; ++j) {
+    sum += term;
+    term *= (half + j) / (j + 1.0) * (1.0 - x);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double estimated_chi2_tail_quantile(double p, int dof, int freedom) noexcept {
+  if (dof < 2 || dof % 2 != 0 || freedom < 1 || std::isnan(p)) return kNan;
+  if (p <= 0.0) return kInfinity;
+  if (p >= 1.0) return 0.0;
+  double low = chi2_tail_quantile(p, dof), high = low;
+  for (int i = 0; i < 200 && estimated_chi2_tail(high, dof, freedom) > p; ++i) high *= 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (estimated_chi2_tail(middle, dof, freedom) > p ? low : high) = middle;
+  }
+  return high;
+}
+
 double half_normal_mean_quantile(int n, double alpha) noexcept {
   if (n < 1 || std::isnan(alpha)) return kNan;
   if (alpha <= 0.0) return kInfinity;

@@ -57,7 +57,7 @@ double variance_at(const SensorArray& array, const Vec3& u) {
         for (int j = 0; j < array.size(); ++j) {
           square[k * r + l] += basis.weight[k][static_cast<std::size_t>(i)] *
                                basis.weight[l][static_cast<std::size_t>(j)] *
-                               array.uncertainty().at(i, j, scaled(u, kG0_mps2));
+                               array.uncertainty().of_parameters_at(i, j, AttitudeProducts(scaled(u, kG0_mps2)));
         }
       }
     }

@@ -107,6 +107,47 @@ TEST(SetTest, APerfectlyKnownArrayIsTestedAsWithZerosWrittenOut) {
   EXPECT_TRUE(array.perfectly_known());
 }
 
+/// docs/theory.md, section 3.3: a misfit is drawn anew at every attitude. The limits keep the rate, whatever its size;
+/// with the factor of what is drawn once for a tool they would not.
+// Verifies: REQ-056
+TEST(SetTest, AMisfitOfAnySizeKeepsTheRateOfAlarms) {
+  constexpr int kAttitudes = 200000;
+  constexpr double kRate = 1e-5, kSamples = 32.0;
+  for (const double misfits : {0.3, 3.0, 100.0}) {  // in standard deviations of a block mean
+    SensorArray array = plumb_test::tetrahedron(kSigma);
+    RowUncertainty left;
+    const double misfit_mps2 = misfits * kSigma / std::sqrt(kSamples);
+    left.misfit_mps2.fill(misfit_mps2);
+    array.set_uncertainty(left);
+    const TestLimits limits = TestLimits::from_rates(4, kRate, 0.1 * kRate);
+    Noise noise(81);
+    int alarms = 0, by_factor = 0;
+    for (int k = 0; k < kAttitudes; ++k) {
+      BlockEvidence block = exact_block(array, plumb_test::random_direction(noise));
+      for (std::size_t a = 0; a < 4; ++a)
+        block.mean_mps2[a] += kSigma / std::sqrt(kSamples) * noise.normal() + misfit_mps2 * noise.normal();
+      const SetTest t = test_set(array, kGravity, limits, block, array.all());
+      if (t.parity > t.parity_alarm_limit(limits)) ++alarms;
+      if (t.parity > limits.parity_alarm[1] + limits.parity_calibration * misfits) ++by_factor;
+    }
+    EXPECT_LE(alarms, 6) << misfits;  // 2 at the rate: 7 or more in 1 of 200
+    if (misfits > 50.0) {
+      EXPECT_GT(by_factor, 6) << "what the factor of 99 of 100 tools would alarm";
+    }
+  }
+}
+
+TEST(NoiseGrowth, CountsTheLargestMisfitOfTheSetAndNoOther) {
+  SensorArray array = plumb_test::tetrahedron(kSigma);
+  RowUncertainty left;
+  left.misfit_mps2[0] = 3.0 * kSigma;
+  left.misfit_mps2[1] = 1.0 * kSigma;
+  array.set_uncertainty(left);
+  EXPECT_DOUBLE_EQ(noise_growth(array, left, array.all(), 1.0), std::sqrt(10.0) - 1.0);
+  EXPECT_DOUBLE_EQ(noise_growth(array, left, array.all().without(0), 15.0), 3.0);
+  EXPECT_EQ(noise_growth(array, left, SensorSet::first(4).without(0).without(1), 1e6), 0.0);
+}
+
 /// docs/theory.md, section 3.5: an error of the gravity reference within three of its sigmas kills nothing.
 // Verifies: REQ-022
 RC_GTEST_PROP(SetTestLaw, GravityErrorWithinItsBoundRejectsNoSet, ()) {

@@ -105,7 +105,7 @@ TEST(ThresholdsOf, CalibrationErrorsWidenEveryOne) {
   SensorArray array = cone_array(6, kMilli);
   const Thresholds ideal = thresholds_of(array, kGravity, TestSettings{});
   RowUncertainty left;
-  for (std::size_t i = 0; i < 6; ++i) left.misfit_mps2[i] = 0.1 * kMilli;
+  for (std::size_t i = 0; i < 6; ++i) left.misfit_mps2[i] = 0.4 * kMilli;
   array.set_uncertainty(left);
   const Thresholds t = thresholds_of(array, kGravity, TestSettings{});
   for (std::size_t i = 0; i < 6; ++i) {

@@ -167,6 +167,28 @@ TEST(Chi2TailQuantile, KnownValuesAndEdges) {
   EXPECT_TRUE(std::isnan(chi2_tail_quantile(std::nan(""), 3)));
 }
 
+TEST(EstimatedChi2TailQuantile, TablesOfFTheClosedFormAndTheLimit) {
+  EXPECT_NEAR(estimated_chi2_tail_quantile(0.01, 4, 80), 4 * 3.5631, 2e-3);
+  EXPECT_NEAR(estimated_chi2_tail_quantile(0.01, 10, 20), 10 * 3.3682, 2e-3);
+  EXPECT_NEAR(estimated_chi2_tail_quantile(0.05, 30, 1), 30 * 250.0951, 0.1);
+  for (const double p : {0.5, 0.01, 1e-6}) {
+    for (const int freedom : {1, 7, 80}) {
+      const double closed = freedom * (std::pow(p, -2.0 / freedom) - 1.0);
+      EXPECT_NEAR(estimated_chi2_tail_quantile(p, 2, freedom), closed, 1e-9 * closed) << p << ' ' << freedom;
+    }
+    EXPECT_NEAR(estimated_chi2_tail_quantile(p, 30, 100000000), chi2_tail_quantile(p, 30), 1e-4);
+  }
+  double before = estimated_chi2_tail_quantile(0.01, 94, 2);
+  for (const int freedom : {3, 5, 10, 100, 10000}) {
+    const double q = estimated_chi2_tail_quantile(0.01, 94, freedom);
+    EXPECT_LT(q, before) << freedom;
+    EXPECT_GT(q, chi2_tail_quantile(0.01, 94)) << freedom;
+    before = q;
+  }
+  EXPECT_TRUE(std::isnan(estimated_chi2_tail_quantile(0.01, 3, 10)));
+  EXPECT_TRUE(std::isnan(estimated_chi2_tail_quantile(0.01, 4, 0)));
+}
+
 TEST(HalfNormalMeanQuantile, TableOfTheNote) {
   const int n[4] = {1, 8, 32, 128};
   const double alpha[4] = {1e-3, 1e-4, 1e-6, 1e-9};

@@ -52,6 +52,8 @@ struct RowUncertainty {
   double at(int i, int j, const Vec3& g_mps2) const noexcept { return at(i, j, AttitudeProducts(g_mps2)); }
   /// The same for many pairs at one attitude.
   double at(int i, int j, const AttitudeProducts& attitude) const noexcept;
+  /// Without the misfit: what the parameters leave, the same in every tool that is at this attitude again.
+  double of_parameters_at(int i, int j, const AttitudeProducts& attitude) const noexcept;
 
   static constexpr int packed_size(int sensors) noexcept { return 4 * sensors * (4 * sensors + 1) / 2; }
   /// True where all that concerns the first `sensors` rows is zero.

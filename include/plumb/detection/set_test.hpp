@@ -104,6 +104,12 @@ struct SetTest {
   }
 };
 
+/// What the misfit of the sensors of a set adds to the standard deviation of their block means, in standard deviations
+/// of the noise: sqrt(1 + N misfit^2 / sigma^2) - 1 for the largest. A misfit is drawn anew at every attitude, so it is
+/// a part of the noise; a limit of q standard deviations grows by q times this (docs/theory.md, section 3.3).
+double noise_growth(const SensorArray& array, const RowUncertainty& uncertainty, SensorSet set,
+                    double samples) noexcept;
+
 /// |parity residual| of the readings `y_mps2` of a set, in standard deviations of one sample; 0 where it is not
 /// determined: fewer than four, or no rank 3.
 double parity_residual(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept;

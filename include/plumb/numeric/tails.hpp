@@ -15,6 +15,10 @@ double normal_tail_quantile(double p) noexcept;
 double chi2_tail(double x, int dof) noexcept;
 /// x with P(chi^2_dof > x) = p. Relative error of p below 1e-9 for dof 1..96, p in [1e-12, 0.999].
 double chi2_tail_quantile(double p, int dof) noexcept;
+/// The same where the standard deviation is estimated from `freedom` residuals: y with
+/// P(chi^2_dof / (chi^2_freedom / freedom) > y) = p, which is dof times the quantile of F. `dof` is even (Abramowitz
+/// and Stegun, 26.6.4), 2 to 96; freedom >= 1. Never less than that of chi^2.
+double estimated_chi2_tail_quantile(double p, int dof, int freedom) noexcept;
 /// q with P(mean of n half-normals |Z| > q) = alpha, by the Lugannani-Rice saddlepoint
 /// (docs/theory.md, section 2.3): within 0.5 % of numerical convolution for n = 1..1024, alpha 1e-2..1e-9.
 /// The limit of a triple's MAE is s_T * q(N, alpha). n = 1 is exact.
