@@ -35,7 +35,7 @@ Expected<MonitorConfig> checked(const MonitorConfig& c) noexcept {
       {c.max_gap_s, 1e-6, 1e9},
       {c.max_age_s, 0, 1e9},
       {c.station_angle_rad, 1e-4, 1.5},
-      {c.distinct_attitude_angle_rad, 1e-4, 1.5},
+      {c.distinct_attitude_angle_rad, 1e-3, 1.5},
       {c.clear_fraction, 0.1, 1.0},
       {c.alert_limit_rad, 1e-6, kPi},
       {c.integrity_risk, 1e-12, 1e-1},

@@ -20,22 +20,21 @@ using plumb_test::Noise;
 class PlainRecord {
  public:
   bool add(const Vec3& direction, double angle_rad) {
-    for (const std::array<float, 3>& kept : kept_) {
-      if (!(angle_between_rad(precise(kept), direction) >= angle_rad)) return false;
+    for (const Vec3& kept : kept_) {
+      if (!(angle_between_rad(kept, direction) >= angle_rad)) return false;
     }
     if (kept_.size() == static_cast<std::size_t>(DirectionRecord::kMax)) return false;
-    kept_.push_back(
-        {static_cast<float>(direction[0]), static_cast<float>(direction[1]), static_cast<float>(direction[2])});
+    Vec3 kept = scaled(direction, 32766.0 / norm(direction));
+    for (double& one : kept) one = std::floor(one + 0.5);
+    EXPECT_LT(angle_between_rad(kept, direction), 3e-5);
+    kept_.push_back(kept);
     return true;
   }
   int size() const { return static_cast<int>(kept_.size()); }
-  Vec3 last() const { return precise(kept_.back()); }
+  Vec3 last() const { return scaled(kept_.back(), 9.8 / norm(kept_.back())); }
 
  private:
-  static Vec3 precise(const std::array<float, 3>& v) {
-    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-  }
-  std::vector<std::array<float, 3>> kept_;
+  std::vector<Vec3> kept_;
 };
 
 /// `direction` turned by `angle_rad` about some axis across it.

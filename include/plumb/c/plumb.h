@@ -116,7 +116,7 @@ typedef struct plumb_config {
   double max_gap_s;               /* a longer gap between samples empties windows, 1e-6 .. 1e9 [s] */
   double max_age_s;         /* time without a quiet block until nothing is valid, .. 1e9 [s]; 0 = 1 s, or two blocks */
   double station_angle_rad; /* change of direction that begins a new station, 1e-4 .. 1.5 [rad] */
-  double distinct_attitude_angle_rad; /* attitudes at least so far apart count as different, 1e-4 .. 1.5 [rad] */
+  double distinct_attitude_angle_rad; /* attitudes at least so far apart count as different, 1e-3 .. 1.5 [rad] */
   double clear_fraction;              /* clean, while in suspect, is below this fraction of the limit, 0.1 .. 1 */
   double alert_limit_rad;             /* largest tilt error that you can bear, 1e-6 .. pi [rad] */
   double integrity_risk;              /* probability that the protection level leaves out, 1e-12 .. 0.1 */

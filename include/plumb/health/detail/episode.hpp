@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "plumb/core/config.hpp"
 #include "plumb/core/detail/fields.hpp"
@@ -14,8 +15,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Directions that differ from each other by at least a given angle. Kept in single precision: 6e-8 rad is nothing to
-/// an angle of degrees, and there are four records in a monitor.
+/// Directions that differ from each other by at least a given angle. Kept to 3e-5 rad: that is nothing to an angle of
+/// degrees, and there are four records in a monitor.
 class DirectionRecord {
  public:
   static constexpr int kMax = 24;
@@ -24,26 +25,30 @@ class DirectionRecord {
   /// Counts the direction if it differs from all on record; true where it did. A full record counts no more, and what
   /// has no length, as of sensors that all read zero, is no direction: on record it would differ from none.
   bool add(const Vec3& direction, double angle_rad) noexcept {
-    if (size_ == kMax || !(norm(direction) > 0.0)) return false;
+    const double length = norm(direction);
+    if (size_ == kMax || !(length > 0.0 && length <= kLongest)) return false;
     // The cosine of an angle is at least 1 - angle^2 / 2: one below that belongs to a larger angle.
-    const double surely = (1.0 - 0.5 * angle_rad * angle_rad - kRounding) * norm(direction);
+    const double surely = (1.0 - 0.5 * angle_rad * angle_rad - kRounding) * length;
     for (int k = 0; k < size_; ++k) {
       const auto& kept = direction_[static_cast<std::size_t>(k)];
-      const Vec3 before = {static_cast<double>(kept[0]), static_cast<double>(kept[1]), static_cast<double>(kept[2])};
+      const Vec3 before = {kept[0] - kZero, kept[1] - kZero, kept[2] - kZero};
       if (dot(before, direction) < surely * norm(before)) continue;  // as most are
       if (!(angle_between_rad(before, direction) >= angle_rad)) return false;
     }
-    direction_[static_cast<std::size_t>(size_)] = {static_cast<float>(direction[0]), static_cast<float>(direction[1]),
-                                                   static_cast<float>(direction[2])};
-    ++size_;
+    auto& kept = direction_[static_cast<std::size_t>(size_++)];
+    for (std::size_t k = 0; k < 3; ++k)
+      kept[k] = static_cast<std::uint16_t>(direction[k] / length * kUnit + kZero + 0.5);
     return true;
   }
 
  private:
   static constexpr double kRounding = 1e-9;  ///< far more than it does to a cosine or to an angle
 
+  static constexpr double kUnit = 32766.0, kZero = 32768.0;
+  static constexpr double kLongest = 1e300;  ///< what is not finite is no direction
+
   int size_ = 0;
-  std::array<std::array<float, 3>, kMax> direction_{};
+  std::array<std::array<std::uint16_t, 3>, kMax> direction_{};  ///< unit vectors times kUnit, plus kZero
 
   friend struct FieldsOf;
   static constexpr auto fields() noexcept {
