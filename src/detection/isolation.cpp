@@ -1,5 +1,7 @@
 #include "plumb/detection/isolation.hpp"
 
+#include <cmath>
+
 #include "plumb/detection/detail/one_gravity.hpp"
 
 namespace plumb {
@@ -52,6 +54,28 @@ bool all_fault_sets(SensorSet monitored, int n, int depth, F&& f) noexcept {
   bool all = true;
   for_each_fault_set(monitored, n, depth, [&](SensorSet set) { all = all && f(set); });
   return all;
+}
+
+/// Axes within 10 deg of one line point in one direction.
+constexpr double kOneDirection = 0.985;
+
+SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis) noexcept {
+  SensorSet out;
+  for (int i = 0; i < array.size(); ++i) {
+    if (set.has(i) && std::fabs(dot(array.axis(i), axis)) > kOneDirection) out = out.with(i);
+  }
+  return out;
+}
+
+/// Calls f(S) for all sensors S of one direction that are `left` where two or more of that direction are out: what
+/// moved those may have moved these.
+template <class F>
+void for_each_common_cause(const SensorArray& array, SensorSet left, SensorSet out, F&& f) noexcept {
+  for (int i = 0; i < array.size(); ++i) {
+    if (!left.has(i)) continue;
+    const SensorSet alike = of_direction(array, left, array.axis(i));
+    if (alike.lowest() == i && of_direction(array, out, array.axis(i)).size() >= 2) f(alike);
+  }
 }
 
 /// Whether nothing in the block speaks against the set: it agrees with itself and with gravity, or is excused from
@@ -308,6 +332,12 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
       if (h.explains) note_explanation(h, out);
     });
   }
+  // A common cause is one fault, whatever the number of sensors that it moves.
+  for_each_common_cause(tests.array(), left, monitored - left, [&](SensorSet alike) {
+    const SensorSet rest = left - alike;
+    const SetTest& test = tests.of(rest);
+    levels.note({SensorSet::of(alike.lowest()), rest, test, explains(limits, by, rest, test)});
+  });
   const int suspected = protect.suspected(out.least <= kScanDepth ? out.least : 0);
   out.covered = faults_covered(protect, suspected, confirmed_grade());
   out.protection_rad = levels.worst_rad(out.covered);

@@ -101,7 +101,7 @@ class Trials {
 
   /// Turns before mirror images, which no mounting makes.
   void triads(SecondLook& out) {
-    const std::vector<std::array<int, 3>> all = triads_of(array_.array);
+    const std::vector<std::array<int, 3>> all = triads_of(array_.array, array_.package);
     if (all.size() < 2) return;  // one alone may be turned as it likes
     std::vector<std::pair<double, TurnedTriad>> found;
     for (const bool turns : {true, false}) {

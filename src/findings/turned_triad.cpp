@@ -33,13 +33,19 @@ int entry(const TurnedTriad& t, int row, int column) noexcept {
 
 }  // namespace
 
-std::vector<std::array<int, 3>> triads_of(const SensorArray& array) {
+std::vector<std::array<int, 3>> triads_of(const SensorArray& array, const std::vector<std::string>& package) {
   std::vector<std::array<int, 3>> out;
-  for (int i = 0; i + 2 < array.size();) {
-    const bool triad =
-        at_right_angles(array, i, i + 1) && at_right_angles(array, i, i + 2) && at_right_angles(array, i + 1, i + 2);
-    if (triad) out.push_back({i, i + 1, i + 2});
-    i += triad ? 3 : 1;
+  const auto named = [&package](int i) { return at(i) < package.size() ? package[at(i)] : std::string(); };
+  for (int i = 0; i < array.size();) {
+    std::vector<int> chip;
+    for (int j = i; j < array.size() && (named(i).empty() ? j < i + 3 : true); ++j) {
+      if (named(j) == named(i)) chip.push_back(j);
+    }
+    const bool first = named(i).empty() || std::find(package.begin(), package.end(), named(i)) == package.begin() + i;
+    const bool triad = first && chip.size() == 3 && at_right_angles(array, chip[0], chip[1]) &&
+                       at_right_angles(array, chip[0], chip[2]) && at_right_angles(array, chip[1], chip[2]);
+    if (triad) out.push_back({chip[0], chip[1], chip[2]});
+    i += triad && named(i).empty() ? 3 : 1;
   }
   return out;
 }

@@ -16,11 +16,12 @@ namespace {
 const std::vector<std::string>& known_keys() {
   static const std::vector<std::string> names =
       with_stability_keys({"id", "column", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref", "noise", "prior",
-                           "full_scale", "resolution", "lever_arm_m"});
+                           "full_scale", "resolution", "lever_arm_m", "package"});
   return names;
 }
 
 constexpr std::size_t kLongestId = 15;
+constexpr std::size_t kLongestPackage = 31;
 constexpr double kLongestArm_m = 100.0;
 /// A tenth of a ng0: the best there are reach some ng0 in a second.
 constexpr double kLeastNoise_mps2 = 1e-9;
@@ -257,6 +258,16 @@ std::vector<Vec3> read_lever_arms(const std::vector<TomlTable>& tables) {
   return out;
 }
 
+/// The chip of each sensor, empty where it states none.
+std::string read_package(const TomlTable& table) {
+  if (!table.has("package")) return {};
+  const std::string form = "name the chip that the sensor is on, alike for all axes of one chip: package = \"imu1\"";
+  const std::string name = table.need_text("package", form);
+  const bool fits = !name.empty() && name.size() <= kLongestPackage;
+  if (!fits) table.fail(table.line_of("package"), "package", "must have 1 to 31 characters", form);
+  return name;
+}
+
 /// Without a temperature in the log, nothing may depend on it, and every row gets the reference.
 void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& sheet, InputSpec& input) {
   if (!input.temperature_column.empty()) return;
@@ -271,6 +282,11 @@ void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& s
 }
 
 }  // namespace
+
+std::string package_of(const ArrayFile& array, int sensor) {
+  const auto at = static_cast<std::size_t>(sensor);
+  return at < array.package.size() ? array.package[at] : std::string();
+}
 
 void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out) {
   const TomlNode& list = sensor_list(root, file);
@@ -291,6 +307,7 @@ void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out)
   out.array = built_array(tables, out.datasheet);
   settle_temperature(tables, out.datasheet, out.input);
   out.lever_arm_m = read_lever_arms(tables);
+  for (const TomlTable& table : tables) out.package.push_back(read_package(table));
   out.input.sensor_columns = columns;
 }
 

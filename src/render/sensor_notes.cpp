@@ -47,6 +47,44 @@ SensorNote noise_note_of(const session::MonitorRun& run, const io::ArrayFile& ar
                       check, id, in_mg0(shown), array.path)};
 }
 
+/// "z1 (imu1), z3 (imu3)": with the chip where it is stated.
+std::string names_with_chips(SensorSet set, const io::ArrayFile& array, const SensorArray& sensors) {
+  std::string out;
+  for (int i = 0; i < sensors.size(); ++i) {
+    if (!set.has(i)) continue;
+    const std::string package = io::package_of(array, i);
+    out += (out.empty() ? "" : ", ") + id_of(sensors, i) + (package.empty() ? "" : " (" + package + ")");
+  }
+  return out;
+}
+
+SensorNote common_note_of(const findings::CommonCause& found, const io::ArrayFile& array, const SensorArray& sensors) {
+  const std::string others = names_with_chips(found.others, array, sensors);
+  const std::string causes = "one cause (temperature, supply voltage, a bent mount)";
+  const std::string check =
+      "look for that cause before you believe in several faults; compare with a known attitude, or calibrate again";
+  if (found.sign == findings::CommonSign::length) {
+    return {"common",
+            fmt::format("the length of gravity is off along the one direction of {}: {} that moved them alike explains "
+                        "it, and parity cannot see it",
+                        others, causes),
+            check};
+  }
+  const std::string moved = names_with_chips(found.moved, array, sensors);
+  if (found.sign == findings::CommonSign::remaining) {
+    return {"common",
+            fmt::format("{} was excluded, and without it the length of gravity is still off: {} that moved {} as well "
+                        "explains that, and a fault of one sensor does not",
+                        moved, causes, others),
+            check};
+  }
+  return {"common",
+          fmt::format("{} were excluded and point in one direction on different chips: {} explains that as well as "
+                      "several faults{}",
+                      moved, causes, others.empty() ? "" : ", and may have moved " + others + " too"),
+          check};
+}
+
 SensorNote full_scale_note_of(const session::MonitorRun& run, const SensorArray& sensors, int i) {
   const stepping::SensorCounts counts = counts_of(run, i);
   return {"full scale",
@@ -60,9 +98,19 @@ SensorNote full_scale_note_of(const session::MonitorRun& run, const SensorArray&
 
 }  // namespace
 
+std::optional<findings::CommonCause> common_cause_of(const session::MonitorRun& run, const io::ArrayFile& array) {
+  findings::CommonEvidence evidence;
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (counts_of(run, i).excluded_by_reading) evidence.excluded = evidence.excluded.with(i);
+  }
+  evidence.length_off_after_exclusion = run.counts.length_off_after_exclusion;
+  return findings::common_cause(array, evidence, run.last);
+}
+
 std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::ArrayFile& array,
                                      const SensorArray& sensors) {
   std::vector<SensorNote> out;
+  if (const auto found = common_cause_of(run, array); found) out.push_back(common_note_of(*found, array, sensors));
   for (int i = 0; i < sensors.size(); ++i) {
     if (is_noisy(run, i)) out.push_back(noise_note_of(run, array, sensors, i));
   }

@@ -122,7 +122,7 @@ bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) 
   const bool open = run.concern == Concern::none || run.concern == Concern::roll_axis;
   if (!of_values || of_one_row || !open) return false;
   // Triads that are mirrored against each other cancel: the vector is short as if in another unit.
-  const bool may_cancel = findings::triads_of(array.array).size() > 1;
+  const bool may_cancel = findings::triads_of(array.array, array.package).size() > 1;
   if (!may_cancel && findings::of_another_unit(array, run.stations)) return false;
   if (findings::followed_direction(run.temperature.order, run.stations, run.study.attitudes).axis != 0) return false;
   for (int i = 0; i < array.array.size(); ++i) {

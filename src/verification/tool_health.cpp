@@ -220,7 +220,7 @@ SurveyUse ToolHealth::use() const {
   }
   // The station was good; what came after it may not be.
   const bool trusted = last_.state == HealthState::nominal || last_.state == HealthState::isolated;
-  return trusted ? SurveyUse::yes : SurveyUse::orientation_only;
+  return trusted && doubt_.empty() ? SurveyUse::yes : SurveyUse::orientation_only;
 }
 
 }  // namespace verification

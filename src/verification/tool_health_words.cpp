@@ -103,6 +103,8 @@ std::string ToolHealth::sentence() const {
     why = explain(StationReason::failed);
   } else if (last_.validity == Validity::invalid) {
     why = explain(StationReason::no_direction);
+  } else if (!doubt_.empty()) {
+    why += (why.empty() ? "" : "; ") + doubt_;
   } else if (reasons.empty() && use() != SurveyUse::yes) {
     why = "the monitor became suspect after the last station";
   } else if (reasons.empty()) {

@@ -307,6 +307,16 @@ struct Rule {
     for (const SensorSet f : subsets(left != there ? left : SensorSet{}, 0, std::min(3, std::max(0, terms.faults)))) {
       note(f.size(), left - f, tests.of(left - f).tested, explains(left - f));
     }
+    for (int i = 0; i < universe; ++i) {
+      SensorSet line;
+      for (int k = 0; k < universe; ++k) {
+        if (norm(cross(tests.array().axis(i), tests.array().axis(k))) < std::sqrt(1.0 - 0.985 * 0.985))
+          line = line.with(k);
+      }
+      const SensorSet moved = line & (there - left), others = line & left;
+      if (left.has(i) && moved.size() > 1)
+        note(1, left - others, tests.of(left - others).tested, explains(left - others));
+    }
     const int least = out.least <= 3 ? out.least : 0;
     out.covered = covers(terms, least);
     const int known = std::max(terms.provisional, terms.doubted ? least : 0);

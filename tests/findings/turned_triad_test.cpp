@@ -101,9 +101,9 @@ TEST(TurnedTriad, TheAxisIsThatAboutWhichTheChipWasTurned) {
 }
 
 TEST(TurnedTriad, ThreeSensorsInARowAtRightAnglesAreOne) {
-  EXPECT_EQ(findings::triads_of(parallel(3).array).size(), 3U);
+  EXPECT_EQ(findings::triads_of(parallel(3).array, {}).size(), 3U);
   const io::ArrayFile cone = *io::read_array_file(PLUMB_SOURCE_DIR "/examples/paper_tool.toml");
-  EXPECT_TRUE(findings::triads_of(cone.array).empty());
+  EXPECT_TRUE(findings::triads_of(cone.array, {}).empty());
 }
 
 /// Every way to mount the second of three: found, that one alone, with the axes that mend the array file.

@@ -27,10 +27,10 @@ using namespace plumb_test;
 using plumb::session::VerdictSink;
 
 std::string text_of(const plumb::stepping::RunCounts& counts) {
-  std::string out = fmt::format(" {} {}", counts.known, counts.blocks_in_motion);
+  std::string out = fmt::format(" {} {} {}", counts.known, counts.length_off_after_exclusion, counts.blocks_in_motion);
   for (const plumb::stepping::SensorCounts& c : counts.sensor)
-    out += fmt::format(" {} {} {} {} {}", c.named_noisy, c.scattering_blocks, c.scatter_raw_sq, c.full_scale_at_rest,
-                       c.full_scale_in_motion);
+    out += fmt::format(" {} {} {} {} {} {}", c.excluded_by_reading, c.named_noisy, c.scattering_blocks,
+                       c.scatter_raw_sq, c.full_scale_at_rest, c.full_scale_in_motion);
   return out;
 }
 

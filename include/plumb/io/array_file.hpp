@@ -63,16 +63,20 @@ struct ArrayFile {
   MonitorConfig monitor;
   InputSpec input;
   std::array<Stability, kCapacity> stability{};  ///< of each sensor since its calibration; all zero: not stated
-  std::vector<Vec3> lever_arm_m;   ///< of each sensor from the axis of rotation, tool frame; empty: not known
-  Mat3 output_frame = kIdentity3;  ///< rows; applied to vectors at output only
-  std::uint64_t fingerprint = 0;   ///< binds a calibration to this array, see fingerprint_of
-  std::string text;                ///< the file as read
+  std::vector<Vec3> lever_arm_m;     ///< of each sensor from the axis of rotation, tool frame; empty: not known
+  std::vector<std::string> package;  ///< the chip that each sensor is on; empty: not stated, of one or of all
+  Mat3 output_frame = kIdentity3;    ///< rows; applied to vectors at output only
+  std::uint64_t fingerprint = 0;     ///< binds a calibration to this array, see fingerprint_of
+  std::string text;                  ///< the file as read
 };
 
 FileExpected<ArrayFile> read_array_file(const std::string& path);
 
 /// The same from text; `path` is used in messages only.
 FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path);
+
+/// Empty where the sensor states none.
+std::string package_of(const ArrayFile& array, int sensor);
 
 /// The sensors that state no stability.
 SensorSet without_stability(const ArrayFile& array) noexcept;

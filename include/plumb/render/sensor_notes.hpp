@@ -2,9 +2,11 @@
 /// motion.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "plumb/findings/common_cause.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 
@@ -18,7 +20,10 @@ struct SensorNote {
   std::string remedy;  ///< empty: none is needed
 };
 
-/// Noisy sensors, readings at full scale and drift rates, in this order; only what was found.
+/// One cause that explains what the run showed as well as faults of several chips.
+std::optional<findings::CommonCause> common_cause_of(const session::MonitorRun& run, const io::ArrayFile& array);
+
+/// A common cause, noisy sensors, readings at full scale and drift rates, in this order; only what was found.
 std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::ArrayFile& array,
                                      const SensorArray& sensors);
 

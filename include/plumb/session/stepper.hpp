@@ -46,6 +46,7 @@ struct Rows {
 
 /// What a run showed of one sensor.
 struct SensorCounts {
+  bool excluded_by_reading = false;     ///< for good or provisionally, for what it read beside the others
   bool named_noisy = false;             ///< an event excluded it provisionally for its own scatter
   std::uint64_t scattering_blocks = 0;  ///< blocks at rest in which it scattered by itself
   double scatter_raw_sq = 0.0;          ///< the sum of its variances in those
@@ -55,7 +56,8 @@ struct SensorCounts {
 /// What no verdict holds, over the whole run; by the plumb monitor only.
 struct RunCounts {
   bool known = false;
-  std::uint64_t blocks_in_motion = 0;  ///< those in which the tool turned at an unknown rate among them
+  bool length_off_after_exclusion = false;  ///< the sensors left agree with each other and not with gravity
+  std::uint64_t blocks_in_motion = 0;       ///< those in which the tool turned at an unknown rate among them
   std::vector<SensorCounts> sensor;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plumb/core/sample.hpp"
@@ -119,6 +120,10 @@ class ToolHealth {
   const RunExtremes& extremes() const noexcept { return extremes_; }
   const Verdict& last() const noexcept { return last_; }
 
+  /// What is known from elsewhere against the sensors at the end of the run, for the sentence; empty: nothing. The tool
+  /// is then usable for orientation at most.
+  void doubt(std::string why) { doubt_ = std::move(why); }
+
   int count(Colour colour) const;
   /// Of the tool as it is at the end of the run.
   SurveyUse use() const;
@@ -137,6 +142,7 @@ class ToolHealth {
   Mat3 frame_;
   bool each_block_;
   double acceleration_mps2_;
+  std::string doubt_;
   bool moved_ = true;  ///< since the last block
   std::uint32_t tag_ = 0;
   int changes_ = 0;  ///< events since the last block

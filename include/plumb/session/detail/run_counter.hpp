@@ -39,6 +39,7 @@ class RunCounter {
     if (!ended) return;
     counts.blocks_in_motion += moving - moving_;
     moving_ = moving;
+    if (verdict.tick) note_exclusions(verdict, counts);
     const bool at_rest = verdict.tick && (verdict.usable & Usable::stationary) != 0;
     for (std::size_t i = 0; i < block_.size(); ++i)
       end_block(monitor, verdict, i, moved, at_rest && rows_ > 1, counts.sensor[i]);
@@ -67,6 +68,16 @@ class RunCounter {
       c.square += off * off;
     }
     ++rows_;
+  }
+
+  static void note_exclusions(const Verdict& verdict, stepping::RunCounts& counts) {
+    const SensorSet out = verdict.provisionally_excluded | verdict.excluded;
+    bool any = false;
+    for (std::size_t i = 0; i < counts.sensor.size(); ++i) {
+      if (!out.has(static_cast<int>(i)) || verdict.sensor_cause[i] != Cause::isolated_fault) continue;
+      counts.sensor[i].excluded_by_reading = any = true;
+    }
+    counts.length_off_after_exclusion |= any && verdict.norm_mismatch.kind != NormMismatchKind::none;
   }
 
   void end_block(const HealthMonitor& monitor, const Verdict& verdict, std::size_t i, bool moved, bool measured,
