@@ -98,7 +98,7 @@ class House:
         """What docs/theory.md says that a machine proved stands in the proofs."""
         proofs = "\n".join(f.read_text(encoding="utf-8") for f in sorted((self.root / "proofs").rglob("*.v")))
         known = set(re.findall(r"\b(?:Theorem|Lemma|Corollary|Remark|Fact|Definition)\s+(\w+)", proofs))
-        for name in re.findall(r"`([TL]\d+_\w+)`", self.page("docs/theory.md") or ""):
+        for name in re.findall(r"`([TLR]\d+_\w+)`", self.page("docs/theory.md") or ""):
             if name not in known:
                 yield f"docs/theory.md: no theorem {name} in proofs/"
 
