@@ -71,6 +71,7 @@ SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis
 /// moved those may have moved these.
 template <class F>
 void for_each_common_cause(const SensorArray& array, SensorSet left, SensorSet out, F&& f) noexcept {
+  if constexpr (kCapacity < 5) return;  // of four sensors no two can be out and two left
   for (int i = 0; i < array.size(); ++i) {
     if (!left.has(i)) continue;
     const SensorSet alike = of_direction(array, left, array.axis(i));
