@@ -36,15 +36,14 @@ class DirectionRecord {
       if (!(angle_between_rad(before, direction) >= angle_rad)) return false;
     }
     auto& kept = direction_[static_cast<std::size_t>(size_++)];
-    for (std::size_t k = 0; k < 3; ++k)
-      kept[k] = static_cast<std::uint16_t>(direction[k] / length * kUnit + kZero + 0.5);
+    for (std::size_t k = 0; k < 3; ++k) kept[k] = static_cast<std::uint16_t>(direction[k] / length * kUnit + kRounded);
     return true;
   }
 
  private:
   static constexpr double kRounding = 1e-9;  ///< far more than it does to a cosine or to an angle
 
-  static constexpr double kUnit = 32766.0, kZero = 32768.0;
+  static constexpr double kUnit = 32766.0, kZero = 32768.0, kRounded = kZero + 0.5;
   static constexpr double kLongest = 1e300;  ///< what is not finite is no direction
 
   int size_ = 0;
