@@ -264,6 +264,15 @@ ParityBasis parity_basis(const SensorArray& array, SensorSet used) noexcept {
   return parity(array, used, Weights::whitened);
 }
 
+SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis) noexcept {
+  constexpr double kCosine = 0.984807753012208;  // of 10 deg
+  SensorSet out;
+  for (int i = 0; i < array.size(); ++i) {
+    if (set.has(i) && std::fabs(dot(array.axis(i), axis)) >= kCosine) out = out.with(i);
+  }
+  return out;
+}
+
 int coplanarity(const SensorArray& array, SensorSet used) noexcept {
   const SensorSet set = used & array.all();
   if (rank_of(array, set) < 3) return set.size();

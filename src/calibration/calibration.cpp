@@ -43,26 +43,9 @@ namespace {
   return Error{};
 }
 
-/// How many times wider limits are because the standard deviation of the residuals is estimated: where they contradict
-/// the noise of the datasheet (docs/theory.md, section 3.3). 1 where the datasheet's may hold.
-struct Widening {
-  double parameters = 1.0, misfit = 1.0;
-};
-
-Widening widening(const FitReport& report, int sensors) noexcept {
-  constexpr double kContradicted = 0.05;  // the datasheet's noise, by residuals that large or larger
-  constexpr double kBeyond = 0.01;        // of calibrations that err more than the limits of a monitor allow for
-  constexpr double kRejection = 1e-6;     // its default rate: a misfit is noise, drawn anew at every attitude
-  Widening out;
-  const int freedom = report.degrees_of_freedom;
-  if (freedom < 1 || !(chi2_tail(report.chi2, freedom) < kContradicted)) return out;
-  const auto of = [freedom](double p, int dof) {
-    return std::sqrt(estimated_chi2_tail_quantile(p, dof, freedom) / chi2_tail_quantile(p, dof));
-  };
-  out.parameters = of(kBeyond, 4 * sensors - 2);
-  out.misfit = of(kRejection, 2);
-  return out;
-}
+/// Tails at which the limits of a monitor take what a calibration leaves: of calibrations that err more, and, at its
+/// default rate of rejection, of a misfit, which is noise of every attitude.
+constexpr double kBeyond = 0.01, kRejection = 1e-6;
 
 }  // namespace
 
@@ -86,18 +69,20 @@ Error compose(const Datasheet& datasheet, const GravityReference& gravity, const
   if (unsound.code != Errc::ok) return unsound;
   // An error of W_i and b_i reaches the reading (r - b_i) / |W_i|, hence both lengths.
   RowUncertainty uncertainty;
-  const Widening wider = widening(report, n);
+  const auto wider = [&report](double p, int numbers) {
+    return estimated_sigma_widening(report.chi2, report.degrees_of_freedom, p, numbers);
+  };
+  const double of_parameters = wider(kBeyond, 4 * n - 2), of_misfit = wider(kRejection, 2);
   const double mean_square = gravity.g_mps2 * gravity.g_mps2 / 3.0;  // of a component of g over the sphere
   for (int a = 0; a < 4 * n; ++a) {
     for (int b = 0; b <= a; ++b) {
       uncertainty.covariance[at(a * (a + 1) / 2 + b)] =
-          wider.parameters * wider.parameters * covariance[a * 4 * n + b] / (length[at(a / 4)] * length[at(b / 4)]);
+          of_parameters * of_parameters * covariance[a * 4 * n + b] / (length[at(a / 4)] * length[at(b / 4)]);
     }
   }
   for (int i = 0; i < n; ++i) {
-    const double misfit = wider.misfit *
-                          (i == report.high_variance_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) /
-                          length[at(i)];
+    const double misfit =
+        of_misfit * (i == report.high_variance_sensor ? report.loud_misfit_mps2 : report.misfit_mps2) / length[at(i)];
     uncertainty.misfit_mps2[at(i)] = misfit;
     double variance = misfit * misfit;
     for (int p = 0; p < 4; ++p) {

@@ -183,7 +183,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
     if (!read) return tl::unexpected<io::FileError>(read.error());
     calibration = *std::move(read);
   }
-  if (render::common_cause_of(run, array_)) health_.doubt("one cause may have moved sensors of several chips");
+  if (render::common_cause_of(run, array_)) health_.doubt("one cause may have moved several sensors of one direction");
   beside_ = render::note_actions(run, array_, sensors_);
   if (const std::string exact = calibration ? render::exact_words(*calibration, options_.calibration) : "";
       !exact.empty())

@@ -1,7 +1,5 @@
 #include "plumb/detection/isolation.hpp"
 
-#include <cmath>
-
 #include "plumb/detection/detail/one_gravity.hpp"
 
 namespace plumb {
@@ -54,17 +52,6 @@ bool all_fault_sets(SensorSet monitored, int n, int depth, F&& f) noexcept {
   bool all = true;
   for_each_fault_set(monitored, n, depth, [&](SensorSet set) { all = all && f(set); });
   return all;
-}
-
-/// Axes within 10 deg of one line point in one direction.
-constexpr double kOneDirection = 0.985;
-
-SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis) noexcept {
-  SensorSet out;
-  for (int i = 0; i < array.size(); ++i) {
-    if (set.has(i) && std::fabs(dot(array.axis(i), axis)) > kOneDirection) out = out.with(i);
-  }
-  return out;
 }
 
 /// Calls f(S) for all sensors S of one direction that are `left` where two or more of that direction are out: what

@@ -11,7 +11,10 @@ void ParitySums::add(const BlockTests& tests, SensorSet monitored) noexcept {
     const auto a = static_cast<std::size_t>(i);
     if (monitored.has(i)) sum_mps2_[a] += root_n * tests.block().mean_mps2[a];
   }
-  systematic_ += all.parity_systematic;
+  // A misfit is noise of an attitude, and the same at all of its votes: over these it adds up, and no root is taken.
+  const double misfit = largest_misfit(tests.array(), tests.array().uncertainty(), monitored, all.samples);
+  const auto rows = static_cast<std::size_t>(all.parity_rows);
+  systematic_ += all.parity_systematic + tests.limits().reject[rows] * (misfit - noise_growth(misfit));
   ++votes_;
 }
 

@@ -1,6 +1,7 @@
 #include "plumb/detection/set_test.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "reach.hpp"
 
@@ -359,7 +360,8 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   const double scaled_by = uncertainty != nullptr ? uncertainty->common_scale * gravity.g_mps2 : 0.0;
   const double reference = (TestLimits::gravity * (gravity.sigma_mps2 + scaled_by) + moved) / sigma_norm;
   const double both = out.parity_rows > 0 ? limits.calibration * cal.both : limits.norm_calibration * cal.norm;
-  const double growth = uncertainty != nullptr ? noise_growth(array, *uncertainty, set, block.samples) : 0.0;
+  const double growth =
+      uncertainty != nullptr ? noise_growth(largest_misfit(array, *uncertainty, set, block.samples)) : 0.0;
   const auto rows_of_parity = static_cast<size_t>(out.parity_rows);
   out.parity_systematic =
       root_n * (limits.parity_calibration * cal.parity + drift.parity) + limits.reject[rows_of_parity] * growth;
@@ -368,15 +370,16 @@ void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const
   out.systematic = root_n * (both + drift.both + reference) + limits.reject[rows_of_parity + 1U] * growth;
 }
 
-double noise_growth(const SensorArray& array, const RowUncertainty& uncertainty, SensorSet set,
-                    double samples) noexcept {
+double largest_misfit(const SensorArray& array, const RowUncertainty& uncertainty, SensorSet set,
+                      double samples) noexcept {
   double most = 0.0;
   for (int i = 0; i < array.size(); ++i) {
-    const double misfit = set.has(i) ? uncertainty.misfit_mps2[static_cast<size_t>(i)] / array.sigma_mps2(i) : 0.0;
-    if (!(misfit >= 0.0)) return misfit;  // not a number: no limit made of it is met
+    if (!set.has(i)) continue;
+    const double misfit = uncertainty.misfit_mps2[static_cast<size_t>(i)] / array.sigma_mps2(i);
+    if (!(misfit >= 0.0)) return std::numeric_limits<double>::quiet_NaN();  // no limit made of it is met
     if (misfit > most) most = misfit;
   }
-  return most > 0.0 ? std::sqrt(1.0 + samples * most * most) - 1.0 : 0.0;
+  return most * std::sqrt(samples);
 }
 
 SetTest test_set(const SensorArray& array, const RowUncertainty& uncertainty, const GravityReference& gravity,

@@ -185,7 +185,7 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
     out.systematic_mps2[index(i)] = out.calibration_mps2[index(i)] + settings.tolerance_mps2[index(i)];
   }
   const double variance = settings.samples * worst_parity_variance(array, gravity.g_mps2);
-  const double growth = noise_growth(array, array.uncertainty(), array.all(), settings.samples);
+  const double growth = noise_growth(largest_misfit(array, array.uncertainty(), array.all(), settings.samples));
   out.parity_systematic = out.limits.parity_calibration * std::sqrt(variance) +
                           (n > 3 ? out.limits.reject[index(n - 3)] * growth : 0.0) +
                           drift_in_parity(array, settings, out.noise_mps2);

@@ -72,21 +72,22 @@ struct AttitudeLimits {
 };
 
 /// `t` of a block with its tolerances, `undrifted` without, `drift` what these add; `calibrated_at_mps2`: 1 sigma of
-/// the gravity at which the array was calibrated; `growth`: `noise_growth` of this block.
+/// the gravity at which the array was calibrated; `misfit`: `largest_misfit` of this
+/// block.
 AttitudeLimits limits_of(const SetTest& t, const SetTest& undrifted, const ToleranceBound& drift,
                          const TestLimits& limits, const GravityReference& gravity, double calibrated_at_mps2,
-                         double growth, AlarmForm form, int window) {
+                         double misfit, AlarmForm form, int window) {
   AttitudeLimits out;
   const double root_n = std::sqrt(window), s = t.norm_sigma_mps2;
-  const double misfit = std::sqrt(((1.0 + growth) * (1.0 + growth) - 1.0) / window);
+  const double growth = noise_growth(misfit);
   const double parity_grown = limits.reject[static_cast<size_t>(t.parity_rows)] * growth;
   const double parity_left =
-      std::hypot((undrifted.parity_systematic - parity_grown) / root_n / limits.parity_calibration, misfit);
+      std::hypot((undrifted.parity_systematic - parity_grown) / root_n / limits.parity_calibration, misfit / root_n);
   const double gravity_bound = TestLimits::gravity * (gravity.sigma_mps2 + calibrated_at_mps2) / s;
   const double pushed = limits.acceleration_mps2 / s;
   const double length_bound = (undrifted.norm_systematic - limits.reject[1] * growth) / root_n;
   const double length_left =
-      std::hypot(std::fmax(length_bound - gravity_bound - pushed, 0.0) / limits.norm_calibration, misfit);
+      std::hypot(std::fmax(length_bound - gravity_bound - pushed, 0.0) / limits.norm_calibration, misfit / root_n);
   const double alarm = limits.parity_alarm[static_cast<size_t>(t.parity_rows)];
   out.left = t.parity_rows > 0 ? parity_left : length_left;
   out.parity_noise = t.parity_rows > 0 ? alarm / root_n : 0.0;
@@ -181,7 +182,7 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
   out.tolerance_mps2 = *std::max_element(tolerance_mps2.begin(), tolerance_mps2.end());
   for (int i = 0; i < n; ++i) out.untold += tolerance_mps2[static_cast<size_t>(i)] > 0.0 ? 0 : 1;
   Collected parity, length, triple;
-  const double growth = noise_growth(array, array.uncertainty(), array.all(), config.window);
+  const double misfit = largest_misfit(array, array.uncertainty(), array.all(), config.window);
   for (int k = 0; k < kSearched; ++k) {
     const Vec3 u = attitude(k);
     const Vec3 g = scaled(u, gravity.g_mps2);
@@ -190,7 +191,7 @@ MonitorLimits monitor_limits(const SensorArray& array, const GravityReference& g
     const SetTest undrifted = test_set(array, gravity, limits, block_at(array, g, config.window, {}), array.all());
     const AttitudeLimits at =
         limits_of(t, undrifted, tolerance_bound(array, block, array.all(), t), limits, gravity,
-                  array.uncertainty().common_scale * gravity.g_mps2, growth, config.alarm_form, config.window);
+                  array.uncertainty().common_scale * gravity.g_mps2, misfit, config.alarm_form, config.window);
     const Visibility seen = visibility(array, map, u);
     if (n > 3) parity.add(at.parity_noise * out.noise_mps2, at.parity * out.noise_mps2, at.parity / seen.parity);
     length.add(at.length_noise_mps2, at.length_mps2, at.length_mps2 / std::fmax(seen.length, 1e-9));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "plumb/core/units.hpp"
 
@@ -35,17 +36,20 @@ int entry(const TurnedTriad& t, int row, int column) noexcept {
 
 std::vector<std::array<int, 3>> triads_of(const SensorArray& array, const std::vector<std::string>& package) {
   std::vector<std::array<int, 3>> out;
-  const auto named = [&package](int i) { return at(i) < package.size() ? package[at(i)] : std::string(); };
-  for (int i = 0; i < array.size();) {
-    std::vector<int> chip;
-    for (int j = i; j < array.size() && (named(i).empty() ? j < i + 3 : true); ++j) {
-      if (named(j) == named(i)) chip.push_back(j);
+  std::vector<std::pair<std::string, std::vector<int>>> chips;  // in the order of the file
+  for (int i = 0; i < array.size(); ++i) {
+    const std::string name = at(i) < package.size() ? package[at(i)] : "";
+    auto chip = std::find_if(chips.begin(), chips.end(), [&name](const auto& one) { return one.first == name; });
+    if (chip == chips.end()) chip = chips.insert(chips.end(), {name, {}});
+    chip->second.push_back(i);
+  }
+  for (const auto& [name, sensor] : chips) {
+    for (std::size_t k = 0; k + 2 < sensor.size();) {
+      const int a = sensor[k], b = sensor[k + 1], c = sensor[k + 2];
+      const bool triad = at_right_angles(array, a, b) && at_right_angles(array, a, c) && at_right_angles(array, b, c);
+      if (triad) out.push_back({a, b, c});
+      k += triad ? 3 : 1;
     }
-    const bool first = named(i).empty() || std::find(package.begin(), package.end(), named(i)) == package.begin() + i;
-    const bool triad = first && chip.size() == 3 && at_right_angles(array, chip[0], chip[1]) &&
-                       at_right_angles(array, chip[0], chip[2]) && at_right_angles(array, chip[1], chip[2]);
-    if (triad) out.push_back({chip[0], chip[1], chip[2]});
-    i += triad && named(i).empty() ? 3 : 1;
   }
   return out;
 }

@@ -132,7 +132,7 @@ CalibrationCheck::Fit CalibrationCheck::fit(const Terms& terms, SensorSet set, d
     if (!t.tested) continue;
     block.tolerance_mps2.fill(e.tolerance_mps2 + static_cast<float>(tolerance_mps2));
     const ToleranceBound bound = tolerance_bound(terms.array, block, set, t);
-    const double growth = noise_growth(terms.array, terms.array.uncertainty(), set, block.samples);
+    const double growth = noise_growth(largest_misfit(terms.array, terms.array.uncertainty(), set, block.samples));
     const double noise_variance = square(1.0 + growth);
     const double parity_left = t.parity_systematic - limits.reject[at(t.parity_rows)] * growth;
     const double parity_variance = noise_variance + square(parity_left / limits.parity_calibration);

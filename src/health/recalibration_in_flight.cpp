@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "plumb/health/detail/held_axis.hpp"
+#include "plumb/numeric/tails.hpp"
 #include "recalibration_kinds.hpp"
 
 namespace plumb {
@@ -79,7 +80,9 @@ void Recalibration::InFlight::iterate(Recalibration& r) noexcept { r.calibrator_
   }
   if (report.rank < needed)
     return Error{Errc::unobservable, -1, static_cast<double>(report.rank), static_cast<double>(needed)};
-  r.inflation_ = std::fmax(1.0, report.chi2_per_freedom());
+  constexpr double kBeyond = 0.01;  // of fits that err more than limits allow for
+  const double wider = estimated_sigma_widening(report.chi2, report.degrees_of_freedom, kBeyond, needed);
+  r.inflation_ = std::fmax(1.0, report.chi2_per_freedom()) * wider * wider;
   int row = 0;
   for (int i = 0; i < kCapacity; ++i) {
     if (!r.sensors_.has(i)) continue;

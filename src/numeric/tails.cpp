@@ -178,6 +178,12 @@ double estimated_chi2_tail_quantile(double p, int dof, int freedom) noexcept {
   return high;
 }
 
+double estimated_sigma_widening(double chi2, int freedom, double p, int dof) noexcept {
+  constexpr double kContradicted = 0.05;
+  if (freedom < 1 || !(chi2_tail(chi2, freedom) < kContradicted)) return 1.0;
+  return std::sqrt(estimated_chi2_tail_quantile(p, dof, freedom) / chi2_tail_quantile(p, dof));
+}
+
 double half_normal_mean_quantile(int n, double alpha) noexcept {
   if (n < 1 || std::isnan(alpha)) return kNan;
   if (alpha <= 0.0) return kInfinity;

@@ -110,6 +110,7 @@ std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& ar
     io::Json& one = s["sensors"].emplace_back(io::object({{"id", sensors.row(i).id.data()}}));
     put_sensor_counts(one, run, array, sensors, i);
   }
+  s["common_cause"] = common_cause_json(run, array, sensors);
   if (!roll_test.is_null()) s["roll_test"] = roll_test;
   s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, array.output_frame));
   return io::object({{"summary", std::move(s)}}).dump() + "\n";

@@ -79,8 +79,7 @@ SensorNote common_note_of(const findings::CommonCause& found, const io::ArrayFil
             check};
   }
   return {"common",
-          fmt::format("{} were excluded and point in one direction on different chips: {} explains that as well as "
-                      "several faults{}",
+          fmt::format("{} were excluded and lie along one direction: {} explains that as well as several faults{}",
                       moved, causes, others.empty() ? "" : ", and may have moved " + others + " too"),
           check};
 }
@@ -104,7 +103,7 @@ std::optional<findings::CommonCause> common_cause_of(const session::MonitorRun& 
     if (counts_of(run, i).excluded_by_reading) evidence.excluded = evidence.excluded.with(i);
   }
   evidence.length_off_after_exclusion = run.counts.length_off_after_exclusion;
-  return findings::common_cause(array, evidence, run.last);
+  return findings::common_cause(array.array, array.output_frame, evidence, run.last);
 }
 
 std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::ArrayFile& array,
@@ -159,6 +158,17 @@ std::string motion_words(const session::MonitorRun& run) {
   if (!run.counts.known) return "";
   const std::uint64_t moving = run.counts.blocks_in_motion, all = moving + run.blocks;
   return all == 0 ? "0 of 0" : fmt::format("{} of {} ({:.0f} %)", moving, all, 1e2 * motion_share(run).get<double>());
+}
+
+io::Json common_cause_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors) {
+  const std::optional<findings::CommonCause> found = common_cause_of(run, array);
+  if (!found) return {};
+  const SensorNote note = common_note_of(*found, array, sensors);
+  return io::object({{"sign", to_string(found->sign)},
+                     {"excluded", io::ids_of(found->moved, sensors)},
+                     {"others", io::ids_of(found->others, sensors)},
+                     {"text", note.text},
+                     {"remedy", note.remedy}});
 }
 
 io::Json motion_share(const session::MonitorRun& run) {

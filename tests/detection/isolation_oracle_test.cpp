@@ -310,7 +310,7 @@ struct Rule {
     for (int i = 0; i < universe; ++i) {
       SensorSet line;
       for (int k = 0; k < universe; ++k) {
-        if (norm(cross(tests.array().axis(i), tests.array().axis(k))) < std::sqrt(1.0 - 0.985 * 0.985))
+        if (norm(cross(tests.array().axis(i), tests.array().axis(k))) < std::sin(rad_from_deg(10.0)))
           line = line.with(k);
       }
       const SensorSet moved = line & (there - left), others = line & left;

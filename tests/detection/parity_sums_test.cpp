@@ -74,6 +74,25 @@ TEST(ParitySums, WhatIsSystematicMayAddUp) {
   EXPECT_FALSE(untold.agrees(untold.array.all())) << "without a tolerance the same errors are a fault";
 }
 
+/// A misfit is drawn anew at every attitude, and is the same at all votes of one. A tool that comes back to an attitude
+/// again and again adds it up like what is systematic: as noise of independent votes it would contradict healthy sets.
+TEST(ParitySums, AMisfitOfOneAttitudeAddsUp) {
+  for (const double misfits : {0.1, 0.3, 1.0, 5.0}) {  // in standard deviations of a block mean
+    int contradicted = 0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+      Votes votes(5, seed);
+      RowUncertainty left;
+      const double misfit_mps2 = misfits * kSigma / std::sqrt(32.0);
+      left.misfit_mps2.fill(misfit_mps2);
+      votes.array.set_uncertainty(left);
+      for (std::size_t i = 0; i < 5; ++i) votes.error_mps2[i] = misfit_mps2 * votes.noise.normal();
+      votes.take(100);
+      if (!votes.agrees(votes.array.all())) ++contradicted;
+    }
+    EXPECT_EQ(contradicted, 0) << misfits;
+  }
+}
+
 TEST(ParitySums, AFaultBelowWhatABlockShowsContradictsTheSetsThatItIsIn) {
   Votes votes(5, 11);
   votes.error_mps2[2] = 0.6 * kSigma;

@@ -137,15 +137,18 @@ TEST(SetTest, AMisfitOfAnySizeKeepsTheRateOfAlarms) {
   }
 }
 
-TEST(NoiseGrowth, CountsTheLargestMisfitOfTheSetAndNoOther) {
+TEST(LargestMisfit, IsThatOfTheSetAndOfNoOther) {
   SensorArray array = plumb_test::tetrahedron(kSigma);
   RowUncertainty left;
   left.misfit_mps2[0] = 3.0 * kSigma;
   left.misfit_mps2[1] = 1.0 * kSigma;
-  array.set_uncertainty(left);
-  EXPECT_DOUBLE_EQ(noise_growth(array, left, array.all(), 1.0), std::sqrt(10.0) - 1.0);
-  EXPECT_DOUBLE_EQ(noise_growth(array, left, array.all().without(0), 15.0), 3.0);
-  EXPECT_EQ(noise_growth(array, left, SensorSet::first(4).without(0).without(1), 1e6), 0.0);
+  EXPECT_DOUBLE_EQ(noise_growth(largest_misfit(array, left, array.all(), 1.0)), std::sqrt(10.0) - 1.0);
+  EXPECT_DOUBLE_EQ(noise_growth(largest_misfit(array, left, array.all().without(0), 15.0)), 3.0);
+  EXPECT_EQ(noise_growth(largest_misfit(array, left, SensorSet::of(2).with(3), 1e6)), 0.0);
+  for (const double none : {-kSigma, std::nan("")}) {
+    left.misfit_mps2[2] = none;
+    EXPECT_TRUE(std::isnan(largest_misfit(array, left, array.all(), 32.0))) << none;
+  }
 }
 
 /// docs/theory.md, section 3.5: an error of the gravity reference within three of its sigmas kills nothing.

@@ -106,6 +106,27 @@ TEST(TurnedTriad, ThreeSensorsInARowAtRightAnglesAreOne) {
   EXPECT_TRUE(findings::triads_of(cone.array, {}).empty());
 }
 
+/// x1 x2 y1 y2 z1 z2: none in a row, and two by their packages.
+// Verifies: REQ-043
+TEST(TurnedTriad, ThePackagesTellTriadsWhereverTheirSensorsStand) {
+  std::vector<SensorRow> rows;
+  std::vector<std::string> package;
+  for (int i = 0; i < 6; ++i) {
+    SensorRow row;
+    row.id = make_id(("s" + std::to_string(i)).c_str());
+    row.axis = {i / 2 == 0 ? 1.0 : 0.0, i / 2 == 1 ? 1.0 : 0.0, i / 2 == 2 ? 1.0 : 0.0};
+    row.sigma_mps2 = 2e-3;
+    rows.push_back(row);
+    package.push_back(i % 2 == 0 ? "imu1" : "imu2");
+  }
+  const SensorArray array = *SensorArray::make(rows.data(), 6);
+  EXPECT_TRUE(findings::triads_of(array, {}).empty());
+  EXPECT_EQ(findings::triads_of(array, package),
+            (std::vector<std::array<int, 3>>{std::array<int, 3>{0, 2, 4}, std::array<int, 3>{1, 3, 5}}));
+  EXPECT_EQ(findings::triads_of(parallel(3).array, std::vector<std::string>(9, "one")).size(), 3U)
+      << "named alike by mistake: as they stand";
+}
+
 /// Every way to mount the second of three: found, that one alone, with the axes that mend the array file.
 // Verifies: REQ-043
 TEST(TurnedTriad, EveryTurnAndMirrorImageOfOneOfThreeIsNamed) {

@@ -15,6 +15,19 @@ using namespace plumb;
 using namespace plumb::io;
 using namespace io_test;
 
+TEST(ArrayFile, ReadsOnWhichChipASensorIs) {
+  EXPECT_EQ(package_of(array_of(), 1), "");
+  const std::string text = changed("id = \"A2\"", "id = \"A2\"\npackage = \"imu1\"");
+  EXPECT_EQ(package_of(array_of(text), 0), "") << "of one or of all";
+  EXPECT_EQ(package_of(array_of(text), 1), "imu1");
+  const std::string wrong[] = {"\"\"", "\"" + std::string(32, 'x') + "\"", "1"};
+  for (const std::string& value : wrong) {
+    const auto answer = parse_array_text(changed("\"imu1\"", value, text), "array.toml");
+    ASSERT_FALSE(answer.has_value()) << value;
+    EXPECT_EQ(answer.error().field, "sensor[2].package") << value;
+  }
+}
+
 // Verifies: REQ-065
 TEST(ArrayFile, ReadsHowTheToolTurnsAndWhereTheSensorsSit) {
   EXPECT_TRUE(array_of().lever_arm_m.empty());

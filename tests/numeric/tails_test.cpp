@@ -189,6 +189,15 @@ TEST(EstimatedChi2TailQuantile, TablesOfFTheClosedFormAndTheLimit) {
   EXPECT_TRUE(std::isnan(estimated_chi2_tail_quantile(0.01, 4, 0)));
 }
 
+TEST(EstimatedSigmaWidening, IsOneUnlessTheResidualsContradictTheStatedNoise) {
+  EXPECT_EQ(estimated_sigma_widening(100.0, 80, 0.01, 14), 1.0) << "6 % of chi-square are larger";
+  EXPECT_NEAR(estimated_sigma_widening(105.0, 80, 0.01, 14), 1.054, 1e-3);
+  EXPECT_NEAR(estimated_sigma_widening(1e6, 8, 0.01, 14), 1.634, 1e-3);
+  EXPECT_EQ(estimated_sigma_widening(0.0, 80, 0.01, 14), 1.0);
+  EXPECT_EQ(estimated_sigma_widening(1e6, 0, 0.01, 14), 1.0) << "no residuals";
+  EXPECT_EQ(estimated_sigma_widening(std::nan(""), 80, 0.01, 14), 1.0);
+}
+
 TEST(HalfNormalMeanQuantile, TableOfTheNote) {
   const int n[4] = {1, 8, 32, 128};
   const double alpha[4] = {1e-3, 1e-4, 1e-6, 1e-9};

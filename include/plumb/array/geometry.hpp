@@ -47,6 +47,9 @@ struct ParityBasis {
 };
 ParityBasis parity_basis(const SensorArray& array, SensorSet used) noexcept;
 
+/// The sensors of `set` whose axes lie within 10 deg of the line of `axis` (unit length), in either sense.
+SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis) noexcept;
+
 /// c(H): the largest number of axes of `used` within kPlaneTolerance of one plane (of any two axes of
 /// the array, in use or not, so that a loss never raises a grade); 2 in general position, |used| where
 /// rank < 3.

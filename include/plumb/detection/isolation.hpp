@@ -92,9 +92,8 @@ class Isolation {
   /// `faults_covered` members (solution separation; of those in service alone, too, where some are provisionally
   /// excluded). Where two or more sensors of one direction are provisionally excluded, all others of it in service are
   /// one fault more: a common cause. Where the sensors that a fault set leaves measure in one plane only, the mirrored
-  /// vector counts. For
-  /// the assumed answer a fault set that leaves others than `corroborating`, or too few to be tested, stays
-  /// consistent.
+  /// vector counts. For the assumed answer a fault set that leaves others than `corroborating`, or too few to be
+  /// tested, stays consistent.
   FaultSetScan scan(const BlockTests& tests, SensorSet in_service, int depth, int assumed_faults,
                     const ProtectionTerms& protect,
                     SensorSet corroborating = SensorSet::first(kCapacity)) const noexcept;

@@ -104,11 +104,13 @@ struct SetTest {
   }
 };
 
-/// What the misfit of the sensors of a set adds to the standard deviation of their block means, in standard deviations
-/// of the noise: sqrt(1 + N misfit^2 / sigma^2) - 1 for the largest. A misfit is drawn anew at every attitude, so it is
-/// a part of the noise; a limit of q standard deviations grows by q times this (docs/theory.md, section 3.3).
-double noise_growth(const SensorArray& array, const RowUncertainty& uncertainty, SensorSet set,
-                    double samples) noexcept;
+/// sqrt(N) misfit / sigma of the sensor of a set whose misfit is the largest: in standard deviations of the noise of a
+/// block mean. 0 where no misfit is known, not a number where one is none.
+double largest_misfit(const SensorArray& array, const RowUncertainty& uncertainty, SensorSet set,
+                      double samples) noexcept;
+/// By how much a limit of one standard deviation grows for it. A misfit is drawn anew at every attitude and is a part
+/// of the noise there: sqrt(1 + misfit^2) - 1 (docs/theory.md, section 3.3).
+inline double noise_growth(double misfit) noexcept { return std::sqrt(1.0 + misfit * misfit) - 1.0; }
 
 /// |parity residual| of the readings `y_mps2` of a set, in standard deviations of one sample; 0 where it is not
 /// determined: fewer than four, or no rank 3.

@@ -1,11 +1,12 @@
-/// Sensors of one direction on several chips that fail together: one cause explains that as well as several faults.
+/// Sensors of one direction that fail together: one cause explains that as well as several faults. Temperature or
+/// supply moves the same axis of all chips alike, and parity compares chips.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "plumb/array/geometry.hpp"
 #include "plumb/health/verdict.hpp"
-#include "plumb/io/array_file.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,10 +14,11 @@ namespace findings {
 
 /// What tells it.
 enum class CommonSign : std::uint8_t {
-  several,    ///< sensors of this direction, and no others, were excluded on two chips or more
-  remaining,  ///< those of one chip were excluded, and the length of gravity was off without them
+  several,    ///< two or more sensors of this direction, and no others, were excluded
+  remaining,  ///< one was excluded, and the length of gravity was off without it
   length      ///< the length of gravity is off along this direction, and no sensor was excluded
 };
+const char* to_string(CommonSign sign) noexcept;
 
 struct CommonCause {
   CommonSign sign = CommonSign::several;
@@ -30,9 +32,9 @@ struct CommonEvidence {
   bool length_off_after_exclusion = false;  ///< the sensors left agreed with each other and not with gravity
 };
 
-/// None where the array has no two sensors of one direction on different chips. Sensors that state no `package` count
-/// as chips of their own.
-std::optional<CommonCause> common_cause(const io::ArrayFile& array, const CommonEvidence& run, const Verdict& last);
+/// `output_frame`: rows, from the tool's frame to that of the verdict. None where no two sensors share a direction.
+std::optional<CommonCause> common_cause(const SensorArray& array, const Mat3& output_frame, const CommonEvidence& run,
+                                        const Verdict& last);
 
 }  // namespace findings
 }  // namespace PLUMB_ABI

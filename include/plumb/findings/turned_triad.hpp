@@ -23,9 +23,8 @@ struct TurnedTriad {
   bool operator==(const TurnedTriad& o) const { return sensor == o.sensor && source == o.source && sign == o.sign; }
 };
 
-/// Three sensors whose axes lie at right angles, within 10 deg each: the three of one `package`, or, of those that
-/// state none, three in a row, as an array file lists a chip. `package`: of each sensor, empty = not stated; may be
-/// empty.
+/// Three sensors whose axes lie at right angles, within 10 deg each: three in a row of one `package`, wherever they
+/// stand in the file, or of the sensors that state none. `package`: of each sensor, empty = not stated; may be empty.
 std::vector<std::array<int, 3>> triads_of(const SensorArray& array, const std::vector<std::string>& package);
 
 /// The 23 turns and 24 mirror images that a triad may be mounted in by mistake; of these the turns first.

@@ -152,7 +152,7 @@ class Recalibration {
   StationStore store_;
   DriftBounds bounds_;
   CoefficientChange change_;  ///< fitted or offered, of `sensors_`
-  double inflation_ = 1.0;    ///< of the fit's covariance: chi^2 per degree of freedom, at least 1
+  double inflation_ = 1.0;    ///< of the fit's covariance: chi^2 per degree of freedom and F, at least 1
   bool untried_ = false;      ///< the store has changed since the last fit
   bool first_ = false;
   RecalibrationPhase phase_ = RecalibrationPhase::idle;

@@ -19,6 +19,10 @@ double chi2_tail_quantile(double p, int dof) noexcept;
 /// P(chi^2_dof / (chi^2_freedom / freedom) > y) = p, which is dof times the quantile of F. `dof` is even (Abramowitz
 /// and Stegun, 26.6.4), 2 to 96; freedom >= 1. Never less than that of chi^2.
 double estimated_chi2_tail_quantile(double p, int dof, int freedom) noexcept;
+/// How many times wider a bound at tail p on `dof` (even) normal numbers is because their standard deviation is
+/// estimated: where residuals with `chi2` of `freedom` contradict the stated one, beyond its 5 % tail. Else 1
+/// (docs/theory.md, section 3.3).
+double estimated_sigma_widening(double chi2, int freedom, double p, int dof) noexcept;
 /// q with P(mean of n half-normals |Z| > q) = alpha, by the Lugannani-Rice saddlepoint
 /// (docs/theory.md, section 2.3): within 0.5 % of numerical convolution for n = 1..1024, alpha 1e-2..1e-9.
 /// The limit of a triple's MAE is s_T * q(N, alpha). n = 1 is exact.

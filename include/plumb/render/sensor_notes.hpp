@@ -20,7 +20,7 @@ struct SensorNote {
   std::string remedy;  ///< empty: none is needed
 };
 
-/// One cause that explains what the run showed as well as faults of several chips.
+/// One cause that explains what the run showed as well as several faults.
 std::optional<findings::CommonCause> common_cause_of(const session::MonitorRun& run, const io::ArrayFile& array);
 
 /// A common cause, noisy sensors, readings at full scale and drift rates, in this order; only what was found.
@@ -33,6 +33,9 @@ std::string notes_text(const session::MonitorRun& run, const io::ArrayFile& arra
 /// As things to do.
 std::vector<std::string> note_actions(const session::MonitorRun& run, const io::ArrayFile& array,
                                       const SensorArray& sensors);
+
+/// For --json; null where there is none.
+io::Json common_cause_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors);
 
 /// "123 of 456 (27 %)"; empty where it was not counted.
 std::string motion_words(const session::MonitorRun& run);

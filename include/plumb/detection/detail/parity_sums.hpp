@@ -30,7 +30,7 @@ class ParitySums {
 
  private:
   Readings sum_mps2_{};      ///< of sqrt(N) times the mean of each block
-  double systematic_ = 0.0;  ///< of b_S of all sensors together: parity of fewer is part of theirs
+  double systematic_ = 0.0;  ///< of b_S of all sensors together, a misfit in full: parity of fewer is part of theirs
   int votes_ = 0;
 
   friend struct FieldsOf;
