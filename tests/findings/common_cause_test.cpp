@@ -9,6 +9,7 @@ namespace common_cause_test {
 namespace {
 
 using namespace plumb;
+using findings::common_cause;
 using findings::CommonSign;
 
 constexpr Mat3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
