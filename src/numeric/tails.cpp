@@ -155,7 +155,7 @@ namespace {
 /// of h (h + 1) ... (h + j - 1) (1 - x)^j / j! over j below dof / 2.
 double estimated_chi2_tail(double y, int dof, int freedom) noexcept {
   const double half = 0.5 * freedom, x = 1.0 / (1.0 + y / freedom);
-  double term = std::exp(-half * std::log1p(y / freedom)), sum = 0.0;
+  double term = std::exp(half * std::log(x)), sum = 0.0;
   for (int j = 0; j < dof / 2; ++j) {
     sum += term;
     term *= (half + j) / (j + 1.0) * (1.0 - x);
