@@ -3,7 +3,7 @@
 
 include(GNUInstallDirs)
 
-set(PLUMB_CORE_ROOMS core numeric array gravity calibration detection navigation health)
+set(PLUMB_CORE_ROOMS core numeric array gravity calibration detection navigation motion health)
 set(PLUMB_CAPACITIES 8)
 if(PLUMB_SCALAR STREQUAL "float")
   list(APPEND PLUMB_CAPACITIES 4)  # those that config.hpp allows

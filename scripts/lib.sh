@@ -4,7 +4,7 @@
 # The same folder by whatever link it was reached, or a build folder would be taken for another checkout's.
 PLUMB_ROOT="$(CDPATH="" cd -P -- "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd -P)"
 PLUMB_STEP=""
-PLUMB_CORE_ROOMS=(core numeric array gravity calibration detection navigation health c)  # floors 1 to 4
+PLUMB_CORE_ROOMS=(core numeric array gravity calibration detection navigation motion health c)  # floors 1 to 4
 export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # without it ccache passes precompiled headers by
 
 # step TEXT...: says what comes next, and how long the script has run; named again if it fails.

@@ -1,0 +1,61 @@
+/// Which faults explain the sets that were rejected in motion: T11, one set of hypotheses for all blocks.
+#pragma once
+
+#include <array>
+
+#include "plumb/motion/motion_setup.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// What fails at once: a sensor, or all sensors of a chip (T12).
+class FaultUnits {
+ public:
+  FaultUnits() noexcept = default;
+  FaultUnits(const SensorArray& array, const MotionSetup& setup) noexcept;
+
+  int size() const noexcept { return size_; }
+  SensorSet operator[](int k) const noexcept { return unit_[static_cast<std::size_t>(k)]; }
+  /// The sensors of several units, given as bits.
+  SensorSet sensors_of(SensorSet units) const noexcept;
+  /// Those that have a member in `sensors`.
+  int count_in(SensorSet sensors) const noexcept;
+  /// The most units at once that parity isolates one of within `sensors`: whatever is taken away beside it leaves a
+  /// vector (T11; n - 2 - c where every sensor is a unit). 0 where a fault is detected at best.
+  int grade(const SensorArray& array, SensorSet sensors) const noexcept;
+
+ private:
+  std::array<SensorSet, static_cast<std::size_t>(kMotionCapacity)> unit_{};
+  int size_ = 0;
+};
+
+/// What the fault sets that explain all rejected sets have in common.
+struct MotionAnswer {
+  SensorSet named;     ///< in every fault set of at most as many units as are searched for
+  SensorSet suspects;  ///< in some of the smallest
+  int least = 0;       ///< units of the smallest; one more than are searched for where none explains them
+};
+
+/// Sets that were rejected: each holds a faulty sensor.
+class RejectedSets {
+ public:
+  /// A set that holds another one says nothing new. Where there is room for no more it is dropped: that loses power and
+  /// adds no error.
+  void add(SensorSet set) noexcept;
+  void clear() noexcept { size_ = 0; }
+  bool empty() const noexcept { return size_ == 0; }
+  /// Every rejected set has a member of `faults`.
+  bool explained_by(SensorSet faults) const noexcept;
+  /// Forgets those with a member outside `sensors`.
+  void keep_within(SensorSet sensors) noexcept;
+  /// Over the fault sets of at most `most` units with members in `sensors`.
+  MotionAnswer answer(const FaultUnits& units, SensorSet sensors, int most) const noexcept;
+
+ private:
+  static constexpr int kMost = 64;
+  std::array<SensorSet, kMost> sets_{};
+  int size_ = 0;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,106 @@
+/// `MotionMonitor`: what of redundant accelerometers may be trusted while the tool moves. Parity of blocks of 1, 4, 32
+/// and 256 samples rejects sets of sensors; what explains all of them is named, and excluded provisionally after a
+/// dwell. At every sample it publishes the specific force of the others and how wrong that can be at most.
+///
+/// It needs neither gravity nor rest, and decides nothing about either: confirmed exclusion, calibration and
+/// readmission stay with `HealthMonitor`. Plain data, no heap, no clock; `step` is total over all bit patterns.
+#pragma once
+
+#include "plumb/motion/motion_evidence.hpp"
+#include "plumb/motion/motion_parity.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Why nobody is named although readings contradict each other, or why nothing is judged.
+enum class MotionCause : std::uint8_t {
+  none,               ///< nothing contradicts, or somebody is named
+  parity,             ///< readings contradict each other and several explanations are left
+  gyro_inconsistent,  ///< a faulty gyro would explain it too
+  too_many_faults,    ///< no fault set of as many units as can be searched for explains it
+  rotation_unknown,   ///< no gyro and no bound of the rate: nothing is judged
+  no_redundancy,      ///< the sensors left do not check each other
+};
+
+enum class ForceValidity : std::uint8_t {
+  none,       ///< too few sensors deliver, or the rotation is unknown
+  unchecked,  ///< the bound holds while no further unit fails: their loss leaves no vector to compare with
+  bounded     ///< the bound holds whichever one further unit fails
+};
+
+/// Specific force at the reference point, tool frame.
+struct SpecificForce {
+  ForceValidity validity = ForceValidity::none;
+  double time_s = 0.0;  ///< the instant that it belongs to: the middle of the samples behind it
+  double span_s = 0.0;  ///< length of each of the two blocks behind it
+  Vec3 force_mps2{};
+  Mat3 covariance_m2ps4{};  ///< of the noise alone
+  double bound_mps2 = 0.0;  ///< of the length of the error
+  SensorSet used;
+};
+
+struct MotionVerdict {
+  SpecificForce sample;  ///< of the last two samples
+  SpecificForce block;   ///< of the last two blocks of 32 samples: tighter and later
+  bool alarm = false;    ///< some rejected set is on record
+  SensorSet rejected;    ///< members of the sets that the last sample's blocks rejected
+  SensorSet suspects;    ///< in some of the smallest explanations
+  SensorSet named;       ///< in every explanation
+  SensorSet excluded;    ///< provisionally, by this monitor
+  int least_faults = 0;  ///< units that it takes at least to explain what is on record
+  MotionCause cause = MotionCause::none;
+};
+
+class MotionMonitor {
+ public:
+  /// Errors: those of `check`.
+  Expected<void> configure(const SensorArray& array, const MotionSetup& setup) noexcept;
+  const MotionVerdict& step(const MotionSample& sample) noexcept;
+  const MotionVerdict& verdict() const noexcept { return verdict_; }
+
+  /// The sensors that others, a monitor at rest above all, leave in service. What this monitor has excluded itself
+  /// stays out; evidence about sensors that leave is dropped.
+  void set_in_service(SensorSet sensors) noexcept;
+  /// Takes back exclusions and evidence: after rest has confirmed or refuted them.
+  void forget() noexcept;
+
+ private:
+  void judge(int scale) noexcept;
+  void decide(double time_s) noexcept;
+  void refit() noexcept;
+  bool reject(const MotionReadings& readings, RejectedSets* record) noexcept;
+  SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings) const noexcept;
+  /// Least squares of the sensors used, and of them without each unit.
+  struct Fits {
+    LeastSquares all;
+    std::array<LeastSquares, static_cast<std::size_t>(kMotionCapacity)> without{};
+  };
+  Fits fits_of(SensorSet sensors) const noexcept;
+  SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings, const Fits& fits) const noexcept;
+  double error_of(const LeastSquares& fit, const MotionReadings& readings, double force_mps2,
+                  double share) const noexcept;
+  double bound_of(const MotionMeans& means, const MotionReadings& readings, const Fits& fits,
+                  SpecificForce* out) const noexcept;
+  SensorSet monitored() const noexcept { return in_service_ - verdict_.excluded; }
+  int most_faults() const noexcept;
+
+  SensorArray array_;
+  MotionSetup setup_;
+  MotionSets sets_;
+  FaultUnits units_;
+  MotionWindow window_;
+  RejectedSets with_gyro_;     ///< sound while the gyro is, or one of two
+  RejectedSets without_gyro_;  ///< sound whatever the gyro reads
+  Fits fits_;                  ///< of the sensors monitored
+  MotionVerdict verdict_;
+  SensorSet in_service_;
+  int grade_ = 0;
+  double noise_quantile_ = 0.0;
+  double force_quantile_ = 0.0;
+  double last_rejection_s_ = 0.0;
+  double named_since_s_ = 0.0;
+  bool configured_ = false;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,72 @@
+/// What a moving tool's sensors may be off by while they are healthy. Every figure is a bound, not a standard
+/// deviation, but for `noise`: limits in motion are sums of bounds (docs/motion.md, theorem T11).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "plumb/array/geometry.hpp"
+#include "plumb/array/sensor_array.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+/// Most sensors that are judged in motion: sets of four are tested one by one.
+inline constexpr int kMotionCapacity = kCapacity < 12 ? kCapacity : 12;
+/// Most faults at once that are searched for.
+inline constexpr int kMotionDepth = 4;
+/// Gyro triads that can be compared with each other.
+inline constexpr int kGyros = 2;
+
+/// Bounds of one accelerometer.
+struct MotionErrors {
+  double lever_m = 0.0;        ///< of each component of its stated position
+  double lag_s = 0.0;          ///< skew against the others, and what its bandwidth differs from theirs by, as a time
+  double rectification = 0.0;  ///< shift of the mean per mean square of the reading [(m/s^2) / (m/s^2)^2]
+  double scale = 0.0;          ///< relative
+  double axis_rad = 0.0;       ///< turn of the axis
+  double bias_mps2 = 0.0;
+};
+
+/// Bounds of a gyro triad.
+struct GyroErrors {
+  double scale = 0.0;  ///< relative
+  double axis_rad = 0.0;
+  double bias_radps = 0.0;
+  double noise_radps = 0.0;  ///< 1 sigma of a sample
+  double lag_s = 0.0;        ///< against the accelerometers
+};
+
+/// All that a `MotionMonitor` is told beside the array, whose sigmas are the noise of a sample.
+struct MotionSetup {
+  double sample_period_s = 0.001;
+  std::array<Vec3, kCapacity> lever_arm_m{};  ///< from the reference point, tool frame
+  std::array<MotionErrors, kCapacity> errors{};
+  int gyros = 0;  ///< triads in `MotionSample`, 0 to 2
+  GyroErrors gyro;
+  double rate_bound_radps = 0.0;    ///< the fastest that the tool turns, 0 = unknown
+  double force_bound_mps2 = 160.0;  ///< the largest specific force that it feels, averaged over two blocks
+  double false_alarms_per_hour = 1e-3;
+  double dwell_s = 0.064;  ///< a sensor is excluded once it has been named for so long
+  double quiet_s = 5.0;    ///< rejected sets are forgotten after so long without a new one
+  /// Sensors of one chip, which may fail together, bear the same number; 0: a unit of its own.
+  std::array<std::uint8_t, kCapacity> chip{};
+  int max_faults = kMotionDepth;  ///< units at once; never more than the geometry allows
+};
+
+/// One reading of all accelerometers and gyros at one instant.
+struct MotionSample {
+  double time_s = 0.0;
+  Readings reading_mps2{};  ///< specific force along each axis, calibrated
+  SensorSet delivered;      ///< those with a reading
+  SensorSet clipped;        ///< those at full scale
+  std::array<Vec3, kGyros> rate_radps{};
+  std::array<bool, kGyros> rate_given{};
+};
+
+/// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity), out_of_range (index = number of the field, in the
+/// order of `MotionSetup`, for bounds of sensors the sensor), not_finite.
+Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept;
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,95 @@
+/// Means over two adjacent blocks, weighted by a triangle: with these weights the mean of a derivative is the
+/// difference of the two block means over the length of a block, exactly (theorem T11), so that what skew, bandwidth
+/// and lever arms do follows from sums. Blocks of 1, 4, 32 and 256 samples; a larger one is put together from smaller
+/// ones.
+#pragma once
+
+#include <array>
+
+#include "plumb/motion/motion_setup.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+
+inline constexpr int kMotionScales = 4;
+inline constexpr std::array<int, kMotionScales> kMotionSamples{1, 4, 32, 256};
+
+/// Symmetric 3 x 3: xx, yy, zz, xy, xz, yz.
+using Symmetric = std::array<double, 6>;
+
+/// What a gyro says of two adjacent blocks.
+struct GyroMeans {
+  bool given = false;                 ///< at every sample
+  Vec3 acceleration_radps2{};         ///< angular, triangle mean
+  Vec3 acceleration_change_radps2{};  ///< against the pair of blocks before; zero where there was none
+  Symmetric rate_product{};           ///< triangle mean of w w'
+};
+
+/// Two adjacent blocks of one scale.
+struct MotionMeans {
+  int samples = 0;          ///< of one block
+  double span_s = 0.0;      ///< length of one block
+  double time_s = 0.0;      ///< of the middle
+  SensorSet usable;         ///< delivered, and not clipped, at every sample
+  Readings reading_mps2{};  ///< triangle mean
+  Readings slope_mps3{};    ///< triangle mean of the derivative
+  Readings square_m2ps4{};  ///< triangle mean of the square
+  std::array<GyroMeans, kGyros> gyro{};
+
+  /// Sum of the squared weights: the variance of a mean of white noise over that of a sample.
+  double noise_share() const noexcept;
+};
+
+class MotionWindow {
+ public:
+  MotionWindow() noexcept = default;
+  MotionWindow(int sensors, int gyros, double sample_period_s) noexcept;
+
+  /// Takes a sample in. Where its time does not follow the last one by about one period, or is not finite, all begins
+  /// anew.
+  void add(const MotionSample& sample) noexcept;
+  /// Bit s is set where a pair of blocks of scale s ended with the last sample.
+  unsigned ended() const noexcept { return ended_; }
+  /// The pair that ended last; zero samples where there was none.
+  MotionMeans means(int scale) const noexcept;
+  /// Forgets all samples.
+  void clear() noexcept;
+
+ private:
+  /// Of one block: sums of x, and of x weighted by (k + 1/2) / N.
+  struct Sums {
+    int count = 0;
+    SensorSet usable;
+    std::array<bool, kGyros> given{};
+    std::array<std::array<double, 2>, kMotionCapacity> reading{};
+    std::array<std::array<double, 2>, kMotionCapacity> square{};
+    std::array<Vec3, kGyros> rate{};
+    std::array<std::array<Symmetric, 2>, kGyros> product{};
+  };
+  struct Scale {
+    Sums filling;
+    Sums last;    ///< block B once it is full
+    Sums before;  ///< block A
+    std::array<Vec3, kGyros> acceleration_before{};
+    bool acceleration_known = false;
+  };
+  static_assert(kMotionSamples[0] == 1);
+
+  Sums sums_of(const MotionSample& sample) const noexcept;
+  void append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept;
+  void close(Scale& scale, double span_s) noexcept;
+  Vec3 acceleration(const Scale& scale, std::size_t gyro, double span_s) const noexcept;
+
+  std::array<Scale, kMotionScales> scales_{};
+  int sensors_ = 0;
+  int gyros_ = 0;
+  double period_s_ = 0.0;
+  double time_s_ = 0.0;
+  bool begun_ = false;
+  unsigned ended_ = 0;
+  int settling_ = 0;  ///< samples during which a channel that was clipped stays out
+  SensorSet clipped_;
+};
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,221 @@
+#include "plumb/motion/motion_monitor.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "plumb/numeric/tails.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kForceTail = 1e-9;  // of the noise in a published force
+constexpr int kBlockScale = 2;       // 32 samples
+
+/// Of a test that is made once per block pair: the hourly rate over all sets, all scales and both rotation terms.
+double quantile_of(const MotionSetup& setup, int sets) noexcept {
+  double tests_per_hour = 0.0;
+  for (const int samples : kMotionSamples) tests_per_hour += 2.0 * sets * 3600.0 / (samples * setup.sample_period_s);
+  return normal_tail_quantile(0.5 * setup.false_alarms_per_hour / (tests_per_hour > 1.0 ? tests_per_hour : 1.0));
+}
+
+}  // namespace
+
+Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSetup& setup) noexcept {
+  if (const Expected<void> sound = check(array, setup); !sound) return sound;
+  *this = MotionMonitor();
+  array_ = array;
+  setup_ = setup;
+  sets_ = MotionSets(array);
+  units_ = FaultUnits(array, setup);
+  window_ = MotionWindow(array.size(), setup.gyros, setup.sample_period_s);
+  noise_quantile_ = quantile_of(setup, sets_.size());
+  force_quantile_ = std::sqrt(chi2_tail_quantile(kForceTail, 3));
+  in_service_ = array.all();
+  configured_ = true;
+  refit();
+  return {};
+}
+
+void MotionMonitor::set_in_service(SensorSet sensors) noexcept {
+  if (!configured_ || (sensors & array_.all()) == in_service_) return;
+  in_service_ = sensors & array_.all();
+  refit();
+}
+
+void MotionMonitor::forget() noexcept {
+  with_gyro_.clear();
+  without_gyro_.clear();
+  verdict_.excluded = SensorSet{};
+  refit();
+}
+
+int MotionMonitor::most_faults() const noexcept {
+  const int left = setup_.max_faults - units_.count_in(verdict_.excluded);
+  const int most = grade_ < left ? grade_ : left;
+  return most < 0 ? 0 : most;
+}
+
+/// After the sensors that are monitored have changed.
+void MotionMonitor::refit() noexcept {
+  const SensorSet sensors = monitored();
+  with_gyro_.keep_within(sensors);
+  without_gyro_.keep_within(sensors);
+  grade_ = units_.grade(array_, sensors);
+  fits_ = fits_of(sensors);
+}
+
+MotionMonitor::Fits MotionMonitor::fits_of(SensorSet sensors) const noexcept {
+  Fits out;
+  out.all = least_squares(array_, sensors);
+  for (int k = 0; k < units_.size(); ++k) {
+    const SensorSet rest = sensors - units_[k];
+    if (rest != sensors) out.without[static_cast<std::size_t>(k)] = least_squares(array_, rest);
+  }
+  return out;
+}
+
+bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record) noexcept {
+  const SensorSet sensors = monitored();
+  MotionReadings asked = readings;
+  asked.usable = readings.usable & sensors;
+  if (asked.usable.size() < 2 || !may_reject(array_, asked, fits_.all)) return false;
+  bool any = false;
+  for (int k = 0; k < sets_.size(); ++k) {
+    if (!rejects(array_, setup_, sets_[k], asked)) continue;
+    const SensorSet set = sets_[k].set();
+    record->add(set);
+    verdict_.rejected = verdict_.rejected | set;
+    any = true;
+  }
+  return any;
+}
+
+void MotionMonitor::judge(int scale) noexcept {
+  const MotionMeans means = window_.means(scale);
+  const RotationTerm gyro = rotation_term(setup_, means, RotationSource::gyro, noise_quantile_);
+  const MotionReadings readings = corrected(array_, setup_, means, gyro, noise_quantile_);
+  bool any = reject(readings, &with_gyro_);
+  if (setup_.gyros == 1) {
+    const RotationTerm bound = rotation_term(setup_, means, RotationSource::bound, noise_quantile_);
+    any = reject(corrected(array_, setup_, means, bound, noise_quantile_), &without_gyro_) || any;
+  }
+  if (any) last_rejection_s_ = means.time_s + means.span_s;
+  if (!gyro.known) verdict_.cause = MotionCause::rotation_unknown;
+  if (scale == 0) verdict_.sample = force_of(means, readings);
+  if (scale == kBlockScale) verdict_.block = force_of(means, readings);
+}
+
+void MotionMonitor::decide(double time_s) noexcept {
+  if (!with_gyro_.empty() && time_s - last_rejection_s_ > setup_.quiet_s) {
+    with_gyro_.clear();
+    without_gyro_.clear();
+  }
+  const SensorSet before = verdict_.named;
+  const int most = most_faults();
+  const MotionAnswer answer = with_gyro_.answer(units_, monitored(), most);
+  verdict_.alarm = !with_gyro_.empty() || !without_gyro_.empty();
+  verdict_.suspects = answer.suspects;
+  verdict_.named = answer.named;
+  verdict_.least_faults = answer.least;
+  const bool unknown = verdict_.cause == MotionCause::rotation_unknown;
+  verdict_.cause = unknown                           ? MotionCause::rotation_unknown
+                   : sets_.size() == 0               ? MotionCause::no_redundancy
+                   : !verdict_.alarm                 ? MotionCause::none
+                   : answer.least > most && most > 0 ? MotionCause::too_many_faults
+                   : answer.named.empty()            ? MotionCause::parity
+                                                     : MotionCause::none;
+  if (setup_.gyros == 1 && verdict_.alarm) {
+    // One gyro is one more unit that may have failed, on top of one unit less.
+    const MotionAnswer beside = without_gyro_.answer(units_, monitored(), most - 1);
+    if (most > 0 && beside.least <= most - 1) {
+      if (!answer.named.empty() && (answer.named & beside.named).empty())
+        verdict_.cause = MotionCause::gyro_inconsistent;
+      verdict_.named = answer.named & beside.named;
+    }
+  }
+  if (verdict_.named != before) named_since_s_ = time_s;
+  if (verdict_.named.empty() || time_s - named_since_s_ < setup_.dwell_s) return;
+  // An exclusion rests on a set rejected within the dwell, not on memory alone.
+  if (last_rejection_s_ <= named_since_s_) return;
+  verdict_.excluded = verdict_.excluded | verdict_.named;
+  verdict_.named = SensorSet{};
+  refit();
+}
+
+const MotionVerdict& MotionMonitor::step(const MotionSample& sample) noexcept {
+  verdict_.rejected = SensorSet{};
+  verdict_.cause = MotionCause::none;
+  if (!configured_) return verdict_;
+  window_.add(sample);
+  const unsigned ended = window_.ended();
+  if (ended == 0) {
+    verdict_.sample = SpecificForce{};
+    verdict_.block = SpecificForce{};
+  }
+  for (int scale = 0; scale < kMotionScales; ++scale) {
+    if ((ended >> static_cast<unsigned>(scale) & 1U) != 0) judge(scale);
+  }
+  if (ended != 0) decide(sample.time_s);
+  return verdict_;
+}
+
+// ---- force and bound ---------------------------------------------------------------------------
+
+/// What noise and the errors of healthy sensors may turn an estimate by.
+double MotionMonitor::error_of(const LeastSquares& fit, const MotionReadings& readings, double force_mps2,
+                               double share) const noexcept {
+  double sum = force_quantile_ * std::sqrt(share * (fit.covariance[0] + fit.covariance[4] + fit.covariance[8]));
+  for (int i = 0; i < array_.size(); ++i) {
+    if (!fit.used.has(i)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    sum += norm(fit.column[k]) * (readings.error_mps2[k] + setup_.errors[k].axis_rad * force_mps2);
+  }
+  return sum;
+}
+
+/// The largest, over no fault and one unit at fault, of what the rest says less what all say, and what the rest may be
+/// wrong by. A unit whose loss leaves no vector is not covered.
+double MotionMonitor::bound_of(const MotionMeans& means, const MotionReadings& readings, const Fits& fits,
+                               SpecificForce* out) const noexcept {
+  const double force = norm(out->force_mps2), share = means.noise_share();
+  double bound = error_of(fits.all, readings, force, share);
+  out->validity = ForceValidity::bounded;
+  for (int k = 0; k < units_.size(); ++k) {
+    const SensorSet unit = units_[k] & out->used;
+    if (unit.empty() || !with_gyro_.explained_by(unit)) continue;
+    const LeastSquares& fit = fits.without[static_cast<std::size_t>(k)];
+    if (!fit.valid) {
+      out->validity = ForceValidity::unchecked;
+      continue;
+    }
+    const Vec3 other = fit.estimate(readings.corrected_mps2);
+    const double reach = norm(minus(other, out->force_mps2)) + error_of(fit, readings, norm(other), share);
+    if (reach > bound) bound = reach;
+  }
+  // Where it takes two units or more to explain what is on record, the rest without one is not right either.
+  return verdict_.least_faults > 1 ? kInfinity : bound;
+}
+
+SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings,
+                                      const Fits& fits) const noexcept {
+  SpecificForce out;
+  out.time_s = means.time_s;
+  out.span_s = means.span_s;
+  out.used = fits.all.used;
+  if (!fits.all.valid) return out;
+  out.force_mps2 = fits.all.estimate(readings.corrected_mps2);
+  for (std::size_t k = 0; k < 9; ++k) out.covariance_m2ps4[k] = means.noise_share() * fits.all.covariance[k];
+  out.bound_mps2 = bound_of(means, readings, fits, &out);
+  if (!std::isfinite(out.bound_mps2)) out.validity = ForceValidity::none;
+  return out;
+}
+
+SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings) const noexcept {
+  const SensorSet used = readings.usable & monitored();
+  return used == fits_.all.used ? force_of(means, readings, fits_) : force_of(means, readings, fits_of(used));
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

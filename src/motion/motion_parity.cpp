@@ -1,0 +1,141 @@
+#include "plumb/motion/motion_parity.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+Mat3 omega_of(const GyroMeans& gyro) noexcept {
+  const Symmetric& p = gyro.rate_product;
+  const Vec3& a = gyro.acceleration_radps2;
+  return {-p[1] - p[2], p[3] - a[2],  p[4] + a[1],  //
+          p[3] + a[2],  -p[0] - p[2], p[5] - a[0],  //
+          p[4] - a[1],  p[5] + a[0],  -p[0] - p[1]};
+}
+
+/// What the term of a healthy gyro is off by: scale and axis, bias, noise, and how fast the acceleration changes. A
+/// quarter of a sample period covers that readings are compared at instants, rates over the intervals between them.
+double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
+  const double square = gyro.rate_product[0] + gyro.rate_product[1] + gyro.rate_product[2];
+  const double rate = std::sqrt(square > 0.0 ? square : 0.0);
+  const double relative = bounds.scale + bounds.axis_rad;
+  const double n = means.samples, period_s = means.span_s / n;
+  const double noise = k * bounds.noise_radps;
+  return relative * (2.0 * square + norm(gyro.acceleration_radps2)) +
+         2.0 * rate * (bounds.bias_radps + noise * std::sqrt(means.noise_share())) +
+         bounds.bias_radps * bounds.bias_radps + 3.0 * bounds.noise_radps * bounds.noise_radps +
+         noise * std::sqrt(2.0 / n) / means.span_s +
+         (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2);
+}
+
+double frobenius(const Mat3& a, const Mat3& b) noexcept {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < 9; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(sum);
+}
+
+/// Omega' h: what a metre along each axis adds to the reading.
+Vec3 per_metre(const Mat3& omega, const Vec3& h) noexcept {
+  return {omega[0] * h[0] + omega[3] * h[1] + omega[6] * h[2], omega[1] * h[0] + omega[4] * h[1] + omega[7] * h[2],
+          omega[2] * h[0] + omega[5] * h[1] + omega[8] * h[2]};
+}
+
+/// A mean of the angular acceleration over two blocks is the difference of two mean rates over the length of one.
+RotationTerm bounded(const MotionSetup& setup, const MotionMeans& means) noexcept {
+  RotationTerm out;
+  const double rate = setup.rate_bound_radps;
+  out.known = rate > 0.0;
+  out.error_per_s2 = rate * rate + 2.0 * rate / means.span_s;
+  return out;
+}
+
+}  // namespace
+
+RotationTerm rotation_term(const MotionSetup& setup, const MotionMeans& means, RotationSource source,
+                           double noise_quantile) noexcept {
+  const RotationTerm bound = bounded(setup, means);
+  if (source == RotationSource::bound || setup.gyros == 0 || !means.gyro[0].given) return bound;
+  RotationTerm out;
+  out.known = true;
+  out.omega_per_s2 = omega_of(means.gyro[0]);
+  out.error_per_s2 = error_of(setup.gyro, means, means.gyro[0], noise_quantile);
+  if (setup.gyros == 2) {
+    if (!means.gyro[1].given) return bound;
+    const Mat3 first = out.omega_per_s2, second = omega_of(means.gyro[1]);
+    const double error = error_of(setup.gyro, means, means.gyro[1], noise_quantile);
+    for (std::size_t k = 0; k < 9; ++k) out.omega_per_s2[k] = 0.5 * (first[k] + second[k]);
+    // The mean is half their difference away from either, and one of them is right within its bound.
+    if (error > out.error_per_s2) out.error_per_s2 = error;
+    out.error_per_s2 += 0.5 * frobenius(first, second);
+    if (bound.known && bound.error_per_s2 < out.error_per_s2) return bound;
+  }
+  return out;
+}
+
+MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, const MotionMeans& means,
+                         const RotationTerm& rotation, double noise_quantile) noexcept {
+  MotionReadings out;
+  if (!rotation.known || means.samples == 0) return out;
+  out.usable = means.usable;
+  out.noise_factor = noise_quantile * std::sqrt(means.noise_share());
+  for (int i = 0; i < array.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const MotionErrors& e = setup.errors[k];
+    const Vec3& arm = setup.lever_arm_m[k];
+    const Vec3 metre = per_metre(rotation.omega_per_s2, array.axis(i));
+    const double y = means.reading_mps2[k];
+    out.corrected_mps2[k] = y - dot(metre, arm);
+    out.error_mps2[k] = e.lever_m * (std::fabs(metre[0]) + std::fabs(metre[1]) + std::fabs(metre[2])) +
+                        rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m) +
+                        e.lag_s * std::fabs(means.slope_mps3[k]) + e.rectification * means.square_m2ps4[k] +
+                        e.scale * std::fabs(y) + e.axis_rad * norm(times(rotation.omega_per_s2, arm)) + e.bias_mps2;
+  }
+  return out;
+}
+
+bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
+             const MotionReadings& readings) noexcept {
+  double parity = 0.0, variance = 0.0, limit = 0.0, axes = 0.0, square = 0.0, error_square = 0.0;
+  for (std::size_t k = 0; k < set.size; ++k) {
+    const auto i = static_cast<std::size_t>(set.sensor[k]);
+    if (!readings.usable.has(static_cast<int>(i))) return false;
+    const double v = set.null[k], y = readings.corrected_mps2[i], e = readings.error_mps2[i];
+    const double sigma = array.sigma_mps2(static_cast<int>(i));
+    parity += v * y;
+    variance += v * v * sigma * sigma;
+    limit += std::fabs(v) * e;
+    axes += std::fabs(v) * setup.errors[i].axis_rad;
+    square += y * y;
+    error_square += e * e;
+  }
+  double force = setup.force_bound_mps2;
+  if (set.size == 4) {
+    const double seen = (std::sqrt(square) + std::sqrt(error_square)) / set.inverse_condition;
+    if (seen < force) force = seen;
+  }
+  limit += readings.noise_factor * std::sqrt(variance) + (axes + norm(set.rest)) * force;
+  return std::fabs(parity) > limit;
+}
+
+bool may_reject(const SensorArray& array, const MotionReadings& readings, const LeastSquares& fit) noexcept {
+  if (!fit.valid || fit.used != readings.usable) return true;
+  const Vec3 force = fit.estimate(readings.corrected_mps2);
+  double square = 0.0, least_error = 0.0, least_sigma = 0.0;
+  bool first = true;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!readings.usable.has(i)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const double rest = readings.corrected_mps2[k] - dot(array.axis(i), force);
+    square += rest * rest;
+    if (first || readings.error_mps2[k] < least_error) least_error = readings.error_mps2[k];
+    if (first || array.sigma_mps2(i) < least_sigma) least_sigma = array.sigma_mps2(i);
+    first = false;
+  }
+  // A unit vector's product with the readings is at most the length of what is left of them, and what nearly parallel
+  // axes add of the force enters statistic and limit alike; sum |v_i| is at least 1.
+  return std::sqrt(square) > least_error + readings.noise_factor * least_sigma;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,64 @@
+#include "plumb/motion/motion_setup.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+struct Bound {
+  double value;
+  double least;
+  double most;
+};
+
+Expected<void> within_range(const Bound& field, int index) noexcept {
+  if (!std::isfinite(field.value)) return fail(Errc::not_finite, index, field.value);
+  if (field.value < field.least) return fail(Errc::out_of_range, index, field.value, field.least);
+  if (field.value > field.most) return fail(Errc::out_of_range, index, field.value, field.most);
+  return {};
+}
+
+}  // namespace
+
+Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept {
+  if (array.size() < 3) return fail(Errc::too_few_sensors, -1, array.size(), 3);
+  if (array.size() > kMotionCapacity) return fail(Errc::too_many_sensors, -1, array.size(), kMotionCapacity);
+  for (int i = 0; i < array.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const MotionErrors& e = setup.errors[k];
+    const Vec3& arm = setup.lever_arm_m[k];
+    const std::array<Bound, 9> fields{{{arm[0], -100.0, 100.0},
+                                       {arm[1], -100.0, 100.0},
+                                       {arm[2], -100.0, 100.0},
+                                       {e.lever_m, 0.0, 1.0},
+                                       {e.lag_s, 0.0, 1.0},
+                                       {e.rectification, 0.0, 1.0},
+                                       {e.scale, 0.0, 0.5},
+                                       {e.axis_rad, 0.0, 0.5},
+                                       {e.bias_mps2, 0.0, 100.0}}};
+    for (const Bound& field : fields) {
+      if (const Expected<void> sound = within_range(field, i); !sound) return sound;
+    }
+  }
+  const GyroErrors& g = setup.gyro;
+  const std::array<Bound, 12> fields{{{setup.sample_period_s, 1e-5, 1.0},
+                                      {static_cast<double>(setup.gyros), 0.0, kGyros},
+                                      {g.scale, 0.0, 0.5},
+                                      {g.axis_rad, 0.0, 0.5},
+                                      {g.bias_radps, 0.0, 10.0},
+                                      {g.noise_radps, 0.0, 10.0},
+                                      {g.lag_s, 0.0, 1.0},
+                                      {setup.rate_bound_radps, 0.0, 1000.0},
+                                      {setup.force_bound_mps2, 0.0, 1e5},
+                                      {setup.false_alarms_per_hour, 1e-9, 1.0},
+                                      {setup.dwell_s, 0.0, 10.0},
+                                      {setup.quiet_s, 0.0, 3600.0}}};
+  for (const Bound& field : fields) {
+    if (const Expected<void> sound = within_range(field, -1); !sound) return sound;
+  }
+  return within_range({static_cast<double>(setup.max_faults), 0.0, kMotionDepth}, -1);
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

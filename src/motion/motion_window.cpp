@@ -1,0 +1,146 @@
+#include "plumb/motion/motion_window.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace {
+
+constexpr int kSettlingSamples = 4;  // after a reading at full scale
+
+Symmetric product_of(const Vec3& w) noexcept {
+  return {w[0] * w[0], w[1] * w[1], w[2] * w[2], w[0] * w[1], w[0] * w[2], w[1] * w[2]};
+}
+
+bool is_finite(const Vec3& v) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+}  // namespace
+
+double MotionMeans::noise_share() const noexcept {
+  const double n = samples;
+  return (4.0 * n * n - 1.0) / (6.0 * n * n * n);
+}
+
+MotionWindow::MotionWindow(int sensors, int gyros, double sample_period_s) noexcept
+    : sensors_(sensors), gyros_(gyros), period_s_(sample_period_s) {}
+
+void MotionWindow::clear() noexcept { *this = MotionWindow(sensors_, gyros_, period_s_); }
+
+MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexcept {
+  Sums out;
+  out.count = 1;
+  for (int i = 0; i < sensors_; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double y = sample.reading_mps2[k];
+    if (!sample.delivered.has(i) || !std::isfinite(y) || clipped_.has(i)) continue;
+    out.usable = out.usable.with(i);
+    out.reading[k] = {y, 0.5 * y};
+    out.square[k] = {y * y, 0.5 * y * y};
+  }
+  for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
+    out.given[g] = sample.rate_given[g] && is_finite(sample.rate_radps[g]);
+    if (!out.given[g]) continue;
+    out.rate[g] = sample.rate_radps[g];
+    out.product[g][0] = product_of(out.rate[g]);
+    for (std::size_t c = 0; c < 6; ++c) out.product[g][1][c] = 0.5 * out.product[g][0][c];
+  }
+  return out;
+}
+
+/// A part of a larger block: (k + 1/2) / N of its members is `first_share` where it begins, and `part_share` of what it
+/// was within the part.
+void MotionWindow::append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept {
+  const auto add = [&](auto& x, const auto& y) {
+    x[0] += y[0];
+    x[1] += first_share * y[0] + part_share * y[1];
+  };
+  to.usable = to.count == 0 ? part.usable : to.usable & part.usable;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
+    add(to.reading[i], part.reading[i]);
+    add(to.square[i], part.square[i]);
+  }
+  for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
+    to.given[g] = (to.count == 0 || to.given[g]) && part.given[g];
+    to.rate[g] = plus(to.rate[g], part.rate[g]);
+    for (std::size_t c = 0; c < 6; ++c) {
+      to.product[g][0][c] += part.product[g][0][c];
+      to.product[g][1][c] += first_share * part.product[g][0][c] + part_share * part.product[g][1][c];
+    }
+  }
+  to.count += part.count;
+}
+
+Vec3 MotionWindow::acceleration(const Scale& scale, std::size_t gyro, double span_s) const noexcept {
+  return scaled(minus(scale.last.rate[gyro], scale.before.rate[gyro]), 1.0 / (scale.last.count * span_s));
+}
+
+void MotionWindow::close(Scale& scale, double span_s) noexcept {
+  scale.acceleration_known = scale.before.count > 0;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_) && scale.acceleration_known; ++g) {
+    scale.acceleration_known = scale.acceleration_known && scale.last.given[g] && scale.before.given[g];
+    scale.acceleration_before[g] = acceleration(scale, g, span_s);
+  }
+  scale.before = scale.last;
+  scale.last = scale.filling;
+  scale.filling = Sums{};
+}
+
+void MotionWindow::add(const MotionSample& sample) noexcept {
+  ended_ = 0;
+  const double step_s = sample.time_s - time_s_;
+  if (begun_ && !(step_s > 0.5 * period_s_ && step_s < 1.5 * period_s_)) clear();
+  if (!std::isfinite(sample.time_s)) return;
+  begun_ = true;
+  time_s_ = sample.time_s;
+  if (!sample.clipped.empty()) {
+    clipped_ = clipped_ | sample.clipped;
+    settling_ = kSettlingSamples + 1;
+  }
+  scales_[0].filling = sums_of(sample);
+  if (settling_ > 0 && --settling_ == 0) clipped_ = SensorSet{};
+  for (std::size_t s = 0; s < kMotionScales; ++s) {
+    Scale& scale = scales_[s];
+    const int samples = kMotionSamples[s];
+    if (s > 0) {
+      const Sums& part = scales_[s - 1].last;
+      append(scale.filling, part, static_cast<double>(scale.filling.count) / samples,
+             static_cast<double>(part.count) / samples);
+    }
+    if (scale.filling.count < samples) return;
+    close(scale, samples * period_s_);
+    if (scale.before.count > 0) ended_ |= 1U << s;
+  }
+}
+
+MotionMeans MotionWindow::means(int index) const noexcept {
+  MotionMeans out;
+  const Scale& scale = scales_[static_cast<std::size_t>(index)];
+  if (scale.before.count == 0) return out;
+  const Sums &a = scale.before, &b = scale.last;
+  const double inverse = 1.0 / b.count;
+  const auto triangle = [&](const auto& x, const auto& y) { return (x[1] + y[0] - y[1]) * inverse; };
+  out.samples = b.count;
+  out.span_s = b.count * period_s_;
+  out.time_s = time_s_ - (b.count - 0.5) * period_s_;
+  out.usable = a.usable & b.usable;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
+    out.reading_mps2[i] = triangle(a.reading[i], b.reading[i]);
+    out.square_m2ps4[i] = triangle(a.square[i], b.square[i]);
+    out.slope_mps3[i] = (b.reading[i][0] - a.reading[i][0]) * inverse / out.span_s;
+  }
+  for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
+    GyroMeans& gyro = out.gyro[g];
+    gyro.given = a.given[g] && b.given[g];
+    gyro.acceleration_radps2 = acceleration(scale, g, out.span_s);
+    if (scale.acceleration_known) {
+      gyro.acceleration_change_radps2 = minus(gyro.acceleration_radps2, scale.acceleration_before[g]);
+    }
+    for (std::size_t c = 0; c < 6; ++c) {
+      gyro.rate_product[c] = (a.product[g][1][c] + b.product[g][0][c] - b.product[g][1][c]) * inverse;
+    }
+  }
+  return out;
+}
+
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,288 @@
+// The monitor in motion: who is named and excluded, when nobody is, and the bound of the published force.
+#include "plumb/motion/motion_monitor.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <type_traits>
+
+#include "motion/rigid_motion.hpp"
+
+// Serves: REQ-200, REQ-204, REQ-205, REQ-207
+
+namespace motion_monitor_test {
+namespace {
+
+using namespace plumb;
+using plumb_test::cone_array;
+using plumb_test::motion_setup;
+using plumb_test::RigidMotion;
+
+static_assert(std::is_trivially_copyable_v<MotionMonitor>);
+
+/// A flight with a monitor on board; `distort` is what happens between the two.
+struct Flight {
+  SensorArray array;
+  MotionSetup setup;
+  RigidMotion motion;
+  MotionMonitor monitor;
+  std::function<void(MotionSample&)> distort = [](MotionSample&) {};
+  SensorSet ever_named, ever_excluded;
+  double named_at_s = -1.0;
+  double worst_ratio = 0.0;  ///< of force error to bound
+  int bounded = 0, samples = 0;
+
+  Flight(const SensorArray& sensors, const MotionSetup& motion_setup_, std::uint64_t seed)
+      : array(sensors), setup(motion_setup_), motion(array, setup, seed) {
+    EXPECT_TRUE(monitor.configure(array, setup).has_value());
+  }
+  void check_force(const SpecificForce& force) {
+    if (force.validity != ForceValidity::bounded) return;
+    ++bounded;
+    const double error = norm(minus(force.force_mps2, motion.force(force.time_s)));
+    worst_ratio = std::max(worst_ratio, error / force.bound_mps2);
+  }
+  void fly(std::uint64_t from, std::uint64_t to) {
+    for (std::uint64_t k = from; k < to; ++k) {
+      MotionSample s = motion.sample(k);
+      distort(s);
+      const MotionVerdict& v = monitor.step(s);
+      ++samples;
+      ever_named = ever_named | v.named;
+      ever_excluded = ever_excluded | v.excluded;
+      if (!v.named.empty() && named_at_s < 0.0) named_at_s = s.time_s;
+      check_force(v.sample);
+    }
+  }
+};
+
+void add_bias_from(Flight& flight, double onset_s, int sensor, double bias_mps2) {
+  flight.distort = [=](MotionSample& s) {
+    if (s.time_s >= onset_s) s.reading_mps2[static_cast<std::size_t>(sensor)] += bias_mps2;
+  };
+}
+
+/// A gyro that vouches for itself: the tool can hardly turn faster than its arms forgive.
+MotionSetup slow_setup(int n, std::uint64_t seed) {
+  MotionSetup setup = motion_setup(n, seed);
+  for (Vec3& arm : setup.lever_arm_m) arm = scaled(arm, 0.05);
+  return setup;
+}
+
+RC_GTEST_PROP(MotionMonitorLaw, HealthyFlightsRaiseNoAlarmAndKeepTheirBound, ()) {
+  const int n = *rc::gen::inRange(4, kCapacity + 1);
+  const std::uint64_t seed = *rc::gen::arbitrary<std::uint32_t>();
+  Flight flight(cone_array(n, 0.01), motion_setup(n, seed), seed);
+  flight.motion.draw_errors(*rc::gen::arbitrary<bool>());
+  flight.fly(0, 700);
+  RC_ASSERT(!flight.monitor.verdict().alarm);
+  RC_ASSERT(flight.ever_named.empty() && flight.ever_excluded.empty());
+  RC_ASSERT(flight.bounded == flight.samples - 1);
+  RC_ASSERT(flight.worst_ratio < 1.0);
+}
+
+RC_GTEST_PROP(MotionMonitorLaw, OneFaultNamesNobodyElseAndTheBoundHoldsThroughout, ()) {
+  const int n = *rc::gen::inRange(5, kCapacity + 1);
+  const std::uint64_t seed = *rc::gen::arbitrary<std::uint32_t>();
+  Flight flight(cone_array(n, 0.01), slow_setup(n, seed), seed);
+  flight.motion.draw_errors(*rc::gen::arbitrary<bool>());
+  const int sensor = *rc::gen::inRange(0, n);
+  const double bias = *rc::gen::element(0.02, 0.1, 0.3, 1.0, 5.0, 30.0) * *rc::gen::element(-1.0, 1.0);
+  add_bias_from(flight, 0.3, sensor, bias);
+  flight.fly(0, 1500);
+  RC_ASSERT(SensorSet::of(sensor).contains(flight.ever_named | flight.ever_excluded));
+  RC_ASSERT(flight.worst_ratio < 1.0);
+}
+
+TEST(MotionMonitor, NamesAndExcludesAFaultOfATenthOfG) {
+  for (int n = 5; n <= kCapacity; ++n) {
+    for (int sensor = 0; sensor < n; ++sensor) {
+      MotionSetup setup = slow_setup(n, 3);
+      setup.max_faults = 2;
+      Flight flight(cone_array(n, 0.01), setup, static_cast<std::uint64_t>(n));
+      add_bias_from(flight, 0.3, sensor, 0.1 * kG0_mps2);
+      flight.fly(0, 1200);
+      EXPECT_EQ(flight.ever_excluded, SensorSet::of(sensor)) << n;
+      EXPECT_EQ(flight.monitor.verdict().excluded, SensorSet::of(sensor)) << n;
+      EXPECT_LT(flight.named_at_s, 0.3 + 0.6) << n;
+      EXPECT_FALSE(flight.monitor.verdict().sample.used.has(sensor));
+      EXPECT_LT(flight.worst_ratio, 1.0);
+    }
+  }
+}
+
+TEST(MotionMonitor, FourSensorsDetectAndNameNobody) {
+  Flight flight(cone_array(4, 0.01), slow_setup(4, 3), 4);
+  add_bias_from(flight, 0.3, 1, 2.0);
+  flight.fly(0, 800);
+  EXPECT_TRUE(flight.monitor.verdict().alarm);
+  EXPECT_TRUE(flight.ever_named.empty());
+  EXPECT_EQ(flight.monitor.verdict().cause, MotionCause::parity);
+  EXPECT_LT(flight.worst_ratio, 1.0) << "bounded, not silent";
+  EXPECT_GT(flight.bounded, 700);
+}
+
+/// With long arms a gyro that died explains what a fault of a sensor would.
+TEST(MotionMonitor, ADeadGyroBlamesNobody) {
+  int inconsistent = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Flight flight(cone_array(6, 0.01), motion_setup(6, seed), seed);
+    flight.distort = [&](MotionSample& s) {
+      if (s.time_s >= 0.3) s.rate_radps[0] = seed % 2 == 0 ? Vec3{} : scaled(s.rate_radps[0], 2.0);
+    };
+    flight.fly(0, 900);
+    EXPECT_TRUE(flight.ever_named.empty()) << seed;
+    inconsistent += flight.monitor.verdict().cause == MotionCause::gyro_inconsistent ? 1 : 0;
+  }
+  EXPECT_GT(inconsistent, 0);
+}
+
+/// With two gyros of which one died the fault is named all the same, and nobody else.
+TEST(MotionMonitor, TwoGyrosOfWhichOneDiedNameTheFault) {
+  int right = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    MotionSetup setup = motion_setup(6, seed);
+    setup.gyros = 2;
+    Flight flight(cone_array(6, 0.01), setup, seed);
+    flight.distort = [](MotionSample& s) {
+      if (s.time_s >= 0.3) s.rate_radps[1] = {};
+      if (s.time_s >= 0.6) s.reading_mps2[2] += 10.0;
+    };
+    flight.fly(0, 1200);
+    EXPECT_TRUE(SensorSet::of(2).contains(flight.ever_named)) << seed;
+    right += flight.ever_excluded == SensorSet::of(2) ? 1 : 0;
+  }
+  EXPECT_GE(right, 18);
+}
+
+TEST(MotionMonitor, AChipOfThreeIsExcludedWhole) {
+  if constexpr (kCapacity < 9) {
+    GTEST_SKIP() << "three triads need a capacity of nine";
+  } else {
+    MotionSetup setup = slow_setup(9, 3);
+    for (std::size_t i = 0; i < 9; ++i) setup.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
+    Flight flight(plumb_test::parallel_triads(3), setup, 3);
+    add_bias_from(flight, 0.3, 4, 2.0);
+    flight.fly(0, 900);
+    EXPECT_EQ(flight.ever_excluded, SensorSet(0b000111000));
+  }
+}
+
+TEST(MotionMonitor, WithoutRotationNothingIsJudged) {
+  MotionSetup setup = motion_setup(5);
+  setup.gyros = 0;
+  setup.rate_bound_radps = 0.0;
+  Flight flight(cone_array(5, 0.01), setup, 1);
+  add_bias_from(flight, 0.0, 1, 50.0);
+  flight.fly(0, 100);
+  EXPECT_EQ(flight.monitor.verdict().cause, MotionCause::rotation_unknown);
+  EXPECT_EQ(flight.monitor.verdict().sample.validity, ForceValidity::none);
+  EXPECT_FALSE(flight.monitor.verdict().alarm);
+}
+
+TEST(MotionMonitor, ForgetsWhatDoesNotComeBack) {
+  Flight flight(cone_array(4, 0.01), slow_setup(4, 3), 4);
+  flight.distort = [](MotionSample& s) {
+    if (s.time_s > 0.3 && s.time_s < 0.4) s.reading_mps2[0] += 5.0;
+  };
+  flight.fly(0, 5000);
+  EXPECT_TRUE(flight.monitor.verdict().alarm);
+  flight.fly(5000, 6500);
+  EXPECT_FALSE(flight.monitor.verdict().alarm);
+}
+
+TEST(MotionMonitor, TakesExclusionsBackWhenTold) {
+  Flight flight(cone_array(6, 0.01), slow_setup(6, 3), 4);
+  add_bias_from(flight, 0.3, 0, 5.0);
+  flight.fly(0, 900);
+  ASSERT_EQ(flight.monitor.verdict().excluded, SensorSet::of(0));
+  flight.distort = [](MotionSample&) {};
+  flight.monitor.forget();
+  flight.fly(900, 1000);
+  EXPECT_TRUE(flight.monitor.verdict().excluded.empty());
+  EXPECT_EQ(flight.monitor.verdict().sample.used, SensorSet::first(6));
+  flight.monitor.set_in_service(SensorSet::first(5));
+  flight.fly(1000, 1010);
+  EXPECT_EQ(flight.monitor.verdict().sample.used, SensorSet::first(5));
+}
+
+/// A channel that is missing for a while costs the channel, not the force.
+TEST(MotionMonitor, GoesOnWithoutAMissingChannel) {
+  Flight flight(cone_array(6, 0.01), slow_setup(6, 3), 4);
+  flight.distort = [](MotionSample& s) {
+    if (s.time_s > 0.3) s.delivered = s.delivered.without(4);
+  };
+  flight.fly(0, 900);
+  EXPECT_EQ(flight.bounded, 899);
+  EXPECT_FALSE(flight.monitor.verdict().sample.used.has(4));
+  EXPECT_FALSE(flight.monitor.verdict().alarm);
+}
+
+RC_GTEST_PROP(MotionMonitorLaw, EveryBitPatternIsTakenAndReplaysBitForBit, ()) {
+  const int n = *rc::gen::inRange(3, kCapacity + 1);
+  MotionSetup setup = motion_setup(n);
+  setup.gyros = *rc::gen::inRange(0, kGyros + 1);
+  MotionMonitor first, second;
+  RC_ASSERT(first.configure(cone_array(n, 0.01), setup).has_value());
+  RC_ASSERT(second.configure(cone_array(n, 0.01), setup).has_value());
+  plumb_test::Noise noise(*rc::gen::arbitrary<std::uint32_t>());
+  const std::array<double, 8> bad{0.0,
+                                  -0.0,
+                                  1e308,
+                                  -1e308,
+                                  5e-324,
+                                  std::numeric_limits<double>::quiet_NaN(),
+                                  std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
+  const auto some = [&] {
+    return noise.uniform() < 0.1 ? bad[static_cast<std::size_t>(8.0 * noise.uniform())] : 20.0 * noise.normal();
+  };
+  for (int k = 0; k < 200; ++k) {
+    MotionSample s;
+    s.time_s = noise.uniform() < 0.02 ? some() : k * setup.sample_period_s;
+    for (double& y : s.reading_mps2) y = some();
+    for (Vec3& w : s.rate_radps) w = {some(), some(), some()};
+    s.rate_given = {noise.uniform() < 0.9, noise.uniform() < 0.9};
+    s.delivered = SensorSet(static_cast<std::uint32_t>(4294967295.0 * noise.uniform()));
+    s.clipped =
+        noise.uniform() < 0.1 ? SensorSet(static_cast<std::uint32_t>(4294967295.0 * noise.uniform())) : SensorSet{};
+    const MotionVerdict& a = first.step(s);
+    const MotionVerdict& b = second.step(s);
+    RC_ASSERT(a.named == b.named && a.excluded == b.excluded && a.cause == b.cause);
+    RC_ASSERT(std::memcmp(&a.sample.force_mps2, &b.sample.force_mps2, sizeof a.sample.force_mps2) == 0);
+    RC_ASSERT(std::memcmp(&a.sample.bound_mps2, &b.sample.bound_mps2, sizeof a.sample.bound_mps2) == 0);
+    if (a.sample.validity != ForceValidity::none)
+      RC_ASSERT(std::isfinite(a.sample.bound_mps2) && a.sample.bound_mps2 > 0.0);
+  }
+}
+
+TEST(MotionMonitor, RefusesWhatItCannotUse) {
+  MotionMonitor monitor;
+  const auto refused = [&](const SensorArray& array, const std::function<void(MotionSetup&)>& spoil) {
+    MotionSetup setup = motion_setup(array.size());
+    spoil(setup);
+    const Expected<void> answer = monitor.configure(array, setup);
+    return answer ? Error{} : answer.error();
+  };
+  const SensorArray five = cone_array(5, 0.01);
+  EXPECT_EQ(refused(five, [](MotionSetup&) {}), Error{});
+  EXPECT_EQ(refused(SensorArray{}, [](MotionSetup&) {}).code, Errc::too_few_sensors);
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.errors[3].lag_s = -1.0; }), (Error{Errc::out_of_range, 3}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.lever_arm_m[2][1] = std::nan(""); }), (Error{Errc::not_finite, 2}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.sample_period_s = 0.0; }).code, Errc::out_of_range);
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyros = 3; }).code, Errc::out_of_range);
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.max_faults = 9; }).code, Errc::out_of_range);
+}
+
+TEST(MotionMonitor, ThatWasNeverConfiguredSaysNothing) {
+  MotionMonitor monitor;
+  const MotionVerdict& v = monitor.step(MotionSample{});
+  EXPECT_EQ(v.sample.validity, ForceValidity::none);
+  EXPECT_TRUE(v.named.empty());
+}
+
+}  // namespace
+}  // namespace motion_monitor_test

@@ -1,0 +1,169 @@
+// T11 as laws: a healthy set within its bounds is never rejected, and nobody but its members and the gyro decide so.
+#include "plumb/motion/motion_parity.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "motion/rigid_motion.hpp"
+
+// Serves: REQ-201, REQ-202, REQ-203
+
+namespace motion_parity_test {
+namespace {
+
+using namespace plumb;
+using plumb_test::cone_array;
+using plumb_test::motion_setup;
+using plumb_test::RigidMotion;
+
+constexpr double kQuantile = 6.5;
+
+struct Flight {
+  SensorArray array;
+  MotionSetup setup;
+  MotionSets sets;
+  MotionWindow window;
+  RigidMotion motion;
+
+  Flight(int n, std::uint64_t seed, double sigma_mps2, double highest_hz = 20.0)
+      : array(cone_array(n, sigma_mps2)),
+        setup(motion_setup(n, seed)),
+        sets(array),
+        window(n, setup.gyros, setup.sample_period_s),
+        motion(array, setup, seed, highest_hz) {}
+  MotionReadings readings(int scale, RotationSource source) const {
+    const MotionMeans means = window.means(scale);
+    return corrected(array, setup, means, rotation_term(setup, means, source, kQuantile), kQuantile);
+  }
+};
+
+int count_rejected(const Flight& flight, const MotionReadings& readings) {
+  int count = 0;
+  for (int k = 0; k < flight.sets.size(); ++k)
+    count += rejects(flight.array, flight.setup, flight.sets[k], readings) ? 1 : 0;
+  return count;
+}
+
+RC_GTEST_PROP(MotionParityLaw, HealthySetsWithinTheirBoundsAreNotRejected, ()) {
+  const int n = *rc::gen::inRange(4, kCapacity + 1);
+  Flight flight(n, *rc::gen::arbitrary<std::uint32_t>(), 0.01, *rc::gen::element(5.0, 20.0, 60.0));
+  flight.motion.draw_errors(*rc::gen::arbitrary<bool>());
+  for (std::uint64_t k = 0; k < 600; ++k) {
+    flight.window.add(flight.motion.sample(k));
+    for (int s = 0; s < kMotionScales; ++s) {
+      if ((flight.window.ended() >> static_cast<unsigned>(s) & 1U) == 0) continue;
+      for (const RotationSource source : {RotationSource::gyro, RotationSource::bound}) {
+        const MotionReadings readings = flight.readings(s, source);
+        RC_ASSERT(readings.usable == flight.array.all());
+        RC_ASSERT(count_rejected(flight, readings) == 0);
+      }
+    }
+  }
+}
+
+/// The law above can fail: errors of ten times the bounds are rejected.
+TEST(MotionParity, ErrorsBeyondTheBoundsAreRejected) {
+  int rejected = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Flight flight(5, seed, 0.01);
+    const MotionSetup stated = flight.setup;
+    for (auto& e : flight.setup.errors)
+      e = {10.0 * e.lever_m, 10.0 * e.lag_s,    10.0 * e.rectification,
+           10.0 * e.scale,   10.0 * e.axis_rad, 10.0 * e.bias_mps2};
+    flight.motion.draw_errors(true);
+    flight.setup = stated;
+    for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+    rejected += count_rejected(flight, flight.readings(2, RotationSource::gyro)) > 0 ? 1 : 0;
+  }
+  EXPECT_GE(rejected, 18);
+}
+
+/// What lever arms do is taken off, not only bounded: without the gyro the same flight leaves far more room.
+TEST(MotionParity, AGyroTakesOffWhatLeverArmsDo) {
+  Flight flight(6, 3, 0.001);
+  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  const MotionReadings with = flight.readings(2, RotationSource::gyro),
+                       without = flight.readings(2, RotationSource::bound);
+  const LeastSquares fit = least_squares(flight.array, flight.array.all());
+  double rest = 0.0, raw = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    rest += std::fabs(with.corrected_mps2[k] - dot(flight.array.axis(i), fit.estimate(with.corrected_mps2)));
+    raw += std::fabs(without.corrected_mps2[k] - dot(flight.array.axis(i), fit.estimate(without.corrected_mps2)));
+    EXPECT_LT(with.error_mps2[k], without.error_mps2[k]);
+  }
+  EXPECT_LT(rest, 0.05 * raw);
+}
+
+RC_GTEST_PROP(MotionParityLaw, WhatOthersReadChangesNoSet, ()) {
+  const int n = *rc::gen::inRange(5, kCapacity + 1);
+  Flight flight(n, *rc::gen::arbitrary<std::uint32_t>(), 0.01);
+  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  MotionReadings readings = flight.readings(*rc::gen::inRange(0, 3), RotationSource::gyro);
+  const int victim = *rc::gen::inRange(0, n);
+  readings.corrected_mps2[static_cast<std::size_t>(victim)] += *rc::gen::element(0.0, 0.02, 0.1, 1.0, 50.0);
+  const MotionSet set = flight.sets[*rc::gen::inRange(0, flight.sets.size())];
+  const bool before = rejects(flight.array, flight.setup, set, readings);
+  for (int i = 0; i < n; ++i) {
+    if (set.set().has(i)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    readings.corrected_mps2[k] = *rc::gen::element(0.0, 1e9, std::nan(""), -40.0);
+    readings.error_mps2[k] = *rc::gen::element(0.0, 1e9, std::nan(""));
+    if (*rc::gen::arbitrary<bool>()) readings.usable = readings.usable.without(i);
+  }
+  RC_ASSERT(rejects(flight.array, flight.setup, set, readings) == before);
+}
+
+RC_GTEST_PROP(MotionParityLaw, TheGateHidesNoRejection, ()) {
+  const int n = *rc::gen::inRange(4, kCapacity + 1);
+  Flight flight(n, *rc::gen::arbitrary<std::uint32_t>(), *rc::gen::element(1e-4, 0.01, 0.3));
+  flight.motion.draw_errors(true);
+  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  MotionReadings readings = flight.readings(*rc::gen::inRange(0, 3), RotationSource::gyro);
+  const double size = *rc::gen::element(0.005, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0);
+  for (int k = 0; k < n; ++k) readings.corrected_mps2[static_cast<std::size_t>(k)] += size * *rc::gen::inRange(-2, 3);
+  const LeastSquares fit = least_squares(flight.array, flight.array.all());
+  if (count_rejected(flight, readings) > 0) RC_ASSERT(may_reject(flight.array, readings, fit));
+}
+
+/// A motion of its own, added to a bias to widen the limits, does not hide it: the limit grows by a hundredth of it.
+TEST(MotionParity, AFaultCannotHideBehindItsOwnLimit) {
+  for (const double swing_mps2 : {0.0, 2.0, 20.0}) {
+    Flight flight(5, 11, 0.01);
+    for (std::uint64_t k = 0; k < 64; ++k) {
+      MotionSample s = flight.motion.sample(k);
+      s.reading_mps2[2] += 0.5 + swing_mps2 * std::sin(2.0 * kPi * 11.0 * s.time_s);
+      flight.window.add(s);
+    }
+    EXPECT_GT(count_rejected(flight, flight.readings(2, RotationSource::gyro)), 0) << swing_mps2;
+  }
+}
+
+/// Two gyros: the limits hold while either is right, and are hardly wider while both are.
+TEST(MotionParity, OneOfTwoGyrosMayFail) {
+  for (const double scale : {1.0, 0.0, 2.0, -1.0}) {
+    Flight flight(6, 5, 0.01);
+    flight.setup.gyros = 2;
+    flight.window = MotionWindow(6, 2, flight.setup.sample_period_s);
+    for (std::uint64_t k = 0; k < 64; ++k) {
+      MotionSample s = flight.motion.sample(k);
+      s.rate_radps[1] = scaled(s.rate_radps[1], scale);
+      flight.window.add(s);
+    }
+    EXPECT_EQ(count_rejected(flight, flight.readings(2, RotationSource::gyro)), 0) << scale;
+    const MotionMeans means = flight.window.means(2);
+    const double error = rotation_term(flight.setup, means, RotationSource::gyro, kQuantile).error_per_s2;
+    EXPECT_EQ(error > 2.0, scale != 1.0) << error;
+  }
+}
+
+TEST(MotionParity, WithoutGyroAndWithoutABoundNothingIsJudged) {
+  Flight flight(5, 5, 0.01);
+  flight.setup.gyros = 0;
+  flight.setup.rate_bound_radps = 0.0;
+  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  EXPECT_TRUE(flight.readings(2, RotationSource::gyro).usable.empty());
+}
+
+}  // namespace
+}  // namespace motion_parity_test
