@@ -45,15 +45,17 @@ int FaultUnits::grade(const SensorArray& array, SensorSet sensors) const noexcep
   return kMotionDepth;
 }
 
-void RejectedSets::add(SensorSet set) noexcept {
+bool RejectedSets::add(SensorSet set) noexcept {
   int kept = 0;
   for (int k = 0; k < size_; ++k) {
     const SensorSet other = sets_[static_cast<std::size_t>(k)];
-    if (set.contains(other)) return;
+    if (set.contains(other)) return false;
     if (!other.contains(set)) sets_[static_cast<std::size_t>(kept++)] = other;
   }
   size_ = kept;
-  if (size_ < kMost) sets_[static_cast<std::size_t>(size_++)] = set;
+  if (size_ == kMost) return false;
+  sets_[static_cast<std::size_t>(size_++)] = set;
+  return true;
 }
 
 bool RejectedSets::explained_by(SensorSet faults) const noexcept {

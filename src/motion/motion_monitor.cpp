@@ -64,6 +64,7 @@ void MotionMonitor::refit() noexcept {
   without_gyro_.keep_within(sensors);
   grade_ = units_.grade(array_, sensors);
   fits_ = fits_of(sensors);
+  news_ = true;
 }
 
 MotionMonitor::Fits MotionMonitor::fits_of(SensorSet sensors) const noexcept {
@@ -85,7 +86,7 @@ bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record)
   for (int k = 0; k < sets_.size(); ++k) {
     if (!rejects(array_, setup_, sets_[k], asked)) continue;
     const SensorSet set = sets_[k].set();
-    record->add(set);
+    news_ = record->add(set) || news_;
     verdict_.rejected = verdict_.rejected | set;
     any = true;
   }
@@ -96,49 +97,61 @@ void MotionMonitor::judge(int scale) noexcept {
   const MotionMeans means = window_.means(scale);
   const RotationTerm gyro = rotation_term(setup_, means, RotationSource::gyro, noise_quantile_);
   const MotionReadings readings = corrected(array_, setup_, means, gyro, noise_quantile_);
+  MotionReadings without_gyro;
   bool any = reject(readings, &with_gyro_);
-  if (setup_.gyros == 1) {
+  if (doubts_gyro()) {
     const RotationTerm bound = rotation_term(setup_, means, RotationSource::bound, noise_quantile_);
-    any = reject(corrected(array_, setup_, means, bound, noise_quantile_), &without_gyro_) || any;
+    without_gyro = corrected(array_, setup_, means, bound, noise_quantile_);
+    any = reject(without_gyro, &without_gyro_) || any;
   }
   if (any) last_rejection_s_ = means.time_s + means.span_s;
   if (!gyro.known) verdict_.cause = MotionCause::rotation_unknown;
-  if (scale == 0) verdict_.sample = force_of(means, readings);
-  if (scale == kBlockScale) verdict_.block = force_of(means, readings);
+  if (scale == 0) verdict_.sample = force_of(means, readings, without_gyro);
+  if (scale == kBlockScale) verdict_.block = force_of(means, readings, without_gyro);
+}
+
+/// What explains the sets on record; a single gyro is one more unit that may have failed, on top of one unit less.
+void MotionMonitor::answer(double time_s) noexcept {
+  const SensorSet before = verdict_.named;
+  const int most = most_faults();
+  const MotionAnswer found = with_gyro_.answer(units_, monitored(), most);
+  verdict_.suspects = found.suspects;
+  verdict_.named = found.named;
+  verdict_.least_faults = found.least;
+  gyro_explains_ = false;
+  if (doubts_gyro() && !with_gyro_.empty()) {
+    const MotionAnswer beside = without_gyro_.answer(units_, monitored(), most > 0 ? most - 1 : 0);
+    gyro_explains_ = most == 0 || beside.least <= most - 1;
+    if (gyro_explains_) verdict_.named = found.named & beside.named;
+  }
+  open_ = MotionCause::none;
+  if (most > 0 && found.least > most) {
+    open_ = MotionCause::too_many_faults;
+  } else if (verdict_.named.empty()) {
+    open_ = found.named.empty() ? MotionCause::parity : MotionCause::gyro_inconsistent;
+  }
+  if (verdict_.named != before) named_since_s_ = time_s;
 }
 
 void MotionMonitor::decide(double time_s) noexcept {
   if (!with_gyro_.empty() && time_s - last_rejection_s_ > setup_.quiet_s) {
     with_gyro_.clear();
     without_gyro_.clear();
+    news_ = true;
   }
-  const SensorSet before = verdict_.named;
-  const int most = most_faults();
-  const MotionAnswer answer = with_gyro_.answer(units_, monitored(), most);
+  if (news_) answer(time_s);
+  news_ = false;
   verdict_.alarm = !with_gyro_.empty() || !without_gyro_.empty();
-  verdict_.suspects = answer.suspects;
-  verdict_.named = answer.named;
-  verdict_.least_faults = answer.least;
-  const bool unknown = verdict_.cause == MotionCause::rotation_unknown;
-  verdict_.cause = unknown                           ? MotionCause::rotation_unknown
-                   : sets_.size() == 0               ? MotionCause::no_redundancy
-                   : !verdict_.alarm                 ? MotionCause::none
-                   : answer.least > most && most > 0 ? MotionCause::too_many_faults
-                   : answer.named.empty()            ? MotionCause::parity
-                                                     : MotionCause::none;
-  if (setup_.gyros == 1 && verdict_.alarm) {
-    // One gyro is one more unit that may have failed, on top of one unit less.
-    const MotionAnswer beside = without_gyro_.answer(units_, monitored(), most - 1);
-    if (most > 0 && beside.least <= most - 1) {
-      if (!answer.named.empty() && (answer.named & beside.named).empty())
-        verdict_.cause = MotionCause::gyro_inconsistent;
-      verdict_.named = answer.named & beside.named;
-    }
-  }
-  if (verdict_.named != before) named_since_s_ = time_s;
-  if (verdict_.named.empty() || time_s - named_since_s_ < setup_.dwell_s) return;
-  // An exclusion rests on a set rejected within the dwell, not on memory alone.
-  if (last_rejection_s_ <= named_since_s_) return;
+  if (sets_.size() == 0) verdict_.cause = MotionCause::no_redundancy;
+  if (verdict_.cause != MotionCause::none || !verdict_.alarm) return;
+  verdict_.cause = open_;
+  exclude(time_s);
+}
+
+/// After the dwell, and on a set rejected within it: not on memory alone.
+void MotionMonitor::exclude(double time_s) noexcept {
+  const bool due = time_s - named_since_s_ >= setup_.dwell_s && last_rejection_s_ > named_since_s_;
+  if (verdict_.named.empty() || !due) return;
   verdict_.excluded = verdict_.excluded | verdict_.named;
   verdict_.named = SensorSet{};
   refit();
@@ -195,7 +208,7 @@ double MotionMonitor::bound_of(const MotionMeans& means, const MotionReadings& r
     if (reach > bound) bound = reach;
   }
   // Where it takes two units or more to explain what is on record, the rest without one is not right either.
-  return verdict_.least_faults > 1 ? kInfinity : bound;
+  return verdict_.least_faults > 1 && !gyro_explains_ ? kInfinity : bound;
 }
 
 SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings,
@@ -212,9 +225,23 @@ SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionRead
   return out;
 }
 
-SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings) const noexcept {
+SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings,
+                                      const MotionReadings& without_gyro) const noexcept {
   const SensorSet used = readings.usable & monitored();
-  return used == fits_.all.used ? force_of(means, readings, fits_) : force_of(means, readings, fits_of(used));
+  const bool usual = used == fits_.all.used;
+  Fits others;
+  if (!usual) others = fits_of(used);
+  const Fits& fits = usual ? fits_ : others;
+  SpecificForce out = force_of(means, readings, fits);
+  out.gyro_assumed = doubts_gyro() && !gyro_explains_;
+  if (!gyro_explains_ || out.validity == ForceValidity::none) return out;
+  // The gyro may be what is wrong: then the readings say what they say without it.
+  const Vec3 other = fits.all.estimate(without_gyro.corrected_mps2);
+  const double reach =
+      norm(minus(other, out.force_mps2)) + error_of(fits.all, without_gyro, norm(other), means.noise_share());
+  if (without_gyro.usable.contains(used) && reach > out.bound_mps2) out.bound_mps2 = reach;
+  if (!without_gyro.usable.contains(used)) out.validity = ForceValidity::unchecked;
+  return out;
 }
 
 }  // namespace PLUMB_ABI

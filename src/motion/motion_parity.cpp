@@ -35,6 +35,15 @@ double frobenius(const Mat3& a, const Mat3& b) noexcept {
   return std::sqrt(sum);
 }
 
+/// How fast a reading changes at the instants of its samples, on average: the difference of block means says so where
+/// the signal is smooth. A shock begins between two samples, and then a part of the second difference comes on top: all
+/// of it for two samples, and for a step behind a filter at a quarter of the sample rate a quarter of it, spread over a
+/// block.
+double slope_bound(const MotionMeans& means, std::size_t sensor) noexcept {
+  const double n = means.samples;
+  return std::fabs(means.slope_mps3[sensor]) + (0.25 + 0.75 / n) * means.bend_mps2[sensor] / means.span_s;
+}
+
 /// Omega' h: what a metre along each axis adds to the reading.
 Vec3 per_metre(const Mat3& omega, const Vec3& h) noexcept {
   return {omega[0] * h[0] + omega[3] * h[1] + omega[6] * h[2], omega[1] * h[0] + omega[4] * h[1] + omega[7] * h[2],
@@ -88,7 +97,7 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
     out.corrected_mps2[k] = y - dot(metre, arm);
     out.error_mps2[k] = e.lever_m * (std::fabs(metre[0]) + std::fabs(metre[1]) + std::fabs(metre[2])) +
                         rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m) +
-                        e.lag_s * std::fabs(means.slope_mps3[k]) + e.rectification * means.square_m2ps4[k] +
+                        e.lag_s * slope_bound(means, k) + e.rectification * means.square_m2ps4[k] +
                         e.scale * std::fabs(y) + e.axis_rad * norm(times(rotation.omega_per_s2, arm)) + e.bias_mps2;
   }
   return out;

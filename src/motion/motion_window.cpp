@@ -58,6 +58,7 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
     add(to.reading[i], part.reading[i]);
     add(to.square[i], part.square[i]);
+    if (part.bend[i] > to.bend[i]) to.bend[i] = part.bend[i];
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     to.given[g] = (to.count == 0 || to.given[g]) && part.given[g];
@@ -88,16 +89,28 @@ void MotionWindow::close(Scale& scale, double span_s) noexcept {
 void MotionWindow::add(const MotionSample& sample) noexcept {
   ended_ = 0;
   const double step_s = sample.time_s - time_s_;
-  if (begun_ && !(step_s > 0.5 * period_s_ && step_s < 1.5 * period_s_)) clear();
+  if (begun_ > 0 && !(step_s > 0.5 * period_s_ && step_s < 1.5 * period_s_)) clear();
   if (!std::isfinite(sample.time_s)) return;
-  begun_ = true;
   time_s_ = sample.time_s;
   if (!sample.clipped.empty()) {
     clipped_ = clipped_ | sample.clipped;
     settling_ = kSettlingSamples + 1;
   }
-  scales_[0].filling = sums_of(sample);
+  const Sums next = sums_of(sample);
   if (settling_ > 0 && --settling_ == 0) clipped_ = SensorSet{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_) && begun_ > 0; ++i) {
+    const double step = next.reading[i][0] - newest_.reading[i][0];
+    if (begun_ > 1) newest_.bend[i] = std::fabs(step - step_mps2_[i]);
+    step_mps2_[i] = step;
+  }
+  if (begun_ > 0) take(newest_);
+  newest_ = next;
+  if (begun_ < 2) ++begun_;
+}
+
+/// Into the blocks of all scales, as far as they fill.
+void MotionWindow::take(const Sums& sample) noexcept {
+  scales_[0].filling = sample;
   for (std::size_t s = 0; s < kMotionScales; ++s) {
     Scale& scale = scales_[s];
     const int samples = kMotionSamples[s];
@@ -121,11 +134,12 @@ MotionMeans MotionWindow::means(int index) const noexcept {
   const auto triangle = [&](const auto& x, const auto& y) { return (x[1] + y[0] - y[1]) * inverse; };
   out.samples = b.count;
   out.span_s = b.count * period_s_;
-  out.time_s = time_s_ - (b.count - 0.5) * period_s_;
+  out.time_s = time_s_ - (b.count + 0.5) * period_s_;
   out.usable = a.usable & b.usable;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
     out.reading_mps2[i] = triangle(a.reading[i], b.reading[i]);
     out.square_m2ps4[i] = triangle(a.square[i], b.square[i]);
+    out.bend_mps2[i] = a.bend[i] > b.bend[i] ? a.bend[i] : b.bend[i];
     out.slope_mps3[i] = (b.reading[i][0] - a.reading[i][0]) * inverse / out.span_s;
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {

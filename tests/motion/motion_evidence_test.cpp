@@ -75,16 +75,20 @@ TEST(RejectedSets, ForgetThoseThatLeave) {
   EXPECT_TRUE(rejected.empty());
 }
 
-/// More than fit are dropped: then a fault set explains too much, never too little.
-TEST(RejectedSets, AreBounded) {
+/// Every set of four that holds one sensor: that sensor, and no other one alone.
+TEST(RejectedSets, HaveRoomForEverySet) {
   const FaultUnits units(cone_array(kMotionCapacity), MotionSetup{});
   RejectedSets rejected;
   for (SensorSet s = SensorSet::first(4); SensorSet::first(kMotionCapacity).contains(s); s = next_of_same_size(s)) {
-    if (s.has(0)) rejected.add(s);
+    if (s.has(0)) {
+      EXPECT_TRUE(rejected.add(s));
+    }
   }
+  EXPECT_FALSE(rejected.add(SensorSet::first(5))) << "it holds one that is known";
   const MotionAnswer answer = rejected.answer(units, SensorSet::first(kMotionCapacity), 2);
   EXPECT_EQ(answer.least, 1);
-  EXPECT_TRUE(answer.suspects.has(0));
+  EXPECT_EQ(answer.named, SensorSet::of(0));
+  EXPECT_EQ(answer.suspects, SensorSet::of(0));
 }
 
 TEST(FaultUnits, OfSensorsHaveTheGradeOfMotion) {

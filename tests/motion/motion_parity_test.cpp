@@ -72,7 +72,7 @@ TEST(MotionParity, ErrorsBeyondTheBoundsAreRejected) {
            10.0 * e.scale,   10.0 * e.axis_rad, 10.0 * e.bias_mps2};
     flight.motion.draw_errors(true);
     flight.setup = stated;
-    for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+    for (std::uint64_t k = 0; k < 65; ++k) flight.window.add(flight.motion.sample(k));
     rejected += count_rejected(flight, flight.readings(2, RotationSource::gyro)) > 0 ? 1 : 0;
   }
   EXPECT_GE(rejected, 18);
@@ -81,7 +81,7 @@ TEST(MotionParity, ErrorsBeyondTheBoundsAreRejected) {
 /// What lever arms do is taken off, not only bounded: without the gyro the same flight leaves far more room.
 TEST(MotionParity, AGyroTakesOffWhatLeverArmsDo) {
   Flight flight(6, 3, 0.001);
-  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  for (std::uint64_t k = 0; k < 65; ++k) flight.window.add(flight.motion.sample(k));
   const MotionReadings with = flight.readings(2, RotationSource::gyro),
                        without = flight.readings(2, RotationSource::bound);
   const LeastSquares fit = least_squares(flight.array, flight.array.all());
@@ -98,7 +98,7 @@ TEST(MotionParity, AGyroTakesOffWhatLeverArmsDo) {
 RC_GTEST_PROP(MotionParityLaw, WhatOthersReadChangesNoSet, ()) {
   const int n = *rc::gen::inRange(5, kCapacity + 1);
   Flight flight(n, *rc::gen::arbitrary<std::uint32_t>(), 0.01);
-  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  for (std::uint64_t k = 0; k < 65; ++k) flight.window.add(flight.motion.sample(k));
   MotionReadings readings = flight.readings(*rc::gen::inRange(0, 3), RotationSource::gyro);
   const int victim = *rc::gen::inRange(0, n);
   readings.corrected_mps2[static_cast<std::size_t>(victim)] += *rc::gen::element(0.0, 0.02, 0.1, 1.0, 50.0);
@@ -118,7 +118,7 @@ RC_GTEST_PROP(MotionParityLaw, TheGateHidesNoRejection, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   Flight flight(n, *rc::gen::arbitrary<std::uint32_t>(), *rc::gen::element(1e-4, 0.01, 0.3));
   flight.motion.draw_errors(true);
-  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  for (std::uint64_t k = 0; k < 65; ++k) flight.window.add(flight.motion.sample(k));
   MotionReadings readings = flight.readings(*rc::gen::inRange(0, 3), RotationSource::gyro);
   const double size = *rc::gen::element(0.005, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0);
   for (int k = 0; k < n; ++k) readings.corrected_mps2[static_cast<std::size_t>(k)] += size * *rc::gen::inRange(-2, 3);
@@ -130,7 +130,7 @@ RC_GTEST_PROP(MotionParityLaw, TheGateHidesNoRejection, ()) {
 TEST(MotionParity, AFaultCannotHideBehindItsOwnLimit) {
   for (const double swing_mps2 : {0.0, 2.0, 20.0}) {
     Flight flight(5, 11, 0.01);
-    for (std::uint64_t k = 0; k < 64; ++k) {
+    for (std::uint64_t k = 0; k < 65; ++k) {
       MotionSample s = flight.motion.sample(k);
       s.reading_mps2[2] += 0.5 + swing_mps2 * std::sin(2.0 * kPi * 11.0 * s.time_s);
       flight.window.add(s);
@@ -145,7 +145,7 @@ TEST(MotionParity, OneOfTwoGyrosMayFail) {
     Flight flight(6, 5, 0.01);
     flight.setup.gyros = 2;
     flight.window = MotionWindow(6, 2, flight.setup.sample_period_s);
-    for (std::uint64_t k = 0; k < 64; ++k) {
+    for (std::uint64_t k = 0; k < 65; ++k) {
       MotionSample s = flight.motion.sample(k);
       s.rate_radps[1] = scaled(s.rate_radps[1], scale);
       flight.window.add(s);
@@ -161,7 +161,7 @@ TEST(MotionParity, WithoutGyroAndWithoutABoundNothingIsJudged) {
   Flight flight(5, 5, 0.01);
   flight.setup.gyros = 0;
   flight.setup.rate_bound_radps = 0.0;
-  for (std::uint64_t k = 0; k < 64; ++k) flight.window.add(flight.motion.sample(k));
+  for (std::uint64_t k = 0; k < 65; ++k) flight.window.add(flight.motion.sample(k));
   EXPECT_TRUE(flight.readings(2, RotationSource::gyro).usable.empty());
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "plumb/motion/motion_setup.hpp"
+#include "plumb/motion/motion_sets.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -39,9 +39,9 @@ struct MotionAnswer {
 /// Sets that were rejected: each holds a faulty sensor.
 class RejectedSets {
  public:
-  /// A set that holds another one says nothing new. Where there is room for no more it is dropped: that loses power and
-  /// adds no error.
-  void add(SensorSet set) noexcept;
+  /// False where nothing new is said: by a set that holds another one. There is room for every minimal dependent set;
+  /// were there more, they would be dropped, which loses power and adds no error.
+  bool add(SensorSet set) noexcept;
   void clear() noexcept { size_ = 0; }
   bool empty() const noexcept { return size_ == 0; }
   /// Every rejected set has a member of `faults`.
@@ -52,8 +52,8 @@ class RejectedSets {
   MotionAnswer answer(const FaultUnits& units, SensorSet sensors, int most) const noexcept;
 
  private:
-  static constexpr int kMost = 64;
-  std::array<SensorSet, kMost> sets_{};
+  static constexpr int kMost = kMotionSets;
+  std::array<SensorSet, static_cast<std::size_t>(kMost)> sets_{};
   int size_ = 0;
 };
 

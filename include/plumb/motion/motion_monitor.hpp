@@ -34,8 +34,9 @@ struct SpecificForce {
   double time_s = 0.0;  ///< the instant that it belongs to: the middle of the samples behind it
   double span_s = 0.0;  ///< length of each of the two blocks behind it
   Vec3 force_mps2{};
-  Mat3 covariance_m2ps4{};  ///< of the noise alone
-  double bound_mps2 = 0.0;  ///< of the length of the error
+  Mat3 covariance_m2ps4{};    ///< of the noise alone
+  double bound_mps2 = 0.0;    ///< of the length of the error
+  bool gyro_assumed = false;  ///< it holds while the only gyro does: nothing vouches for that one
   SensorSet used;
 };
 
@@ -65,11 +66,16 @@ class MotionMonitor {
   void forget() noexcept;
 
  private:
+  /// Whether a gyro that failed is a hypothesis: a single one that nobody vouches for.
+  bool doubts_gyro() const noexcept { return setup_.gyros == 1 && !setup_.gyro_vouched; }
   void judge(int scale) noexcept;
   void decide(double time_s) noexcept;
+  void answer(double time_s) noexcept;
+  void exclude(double time_s) noexcept;
   void refit() noexcept;
   bool reject(const MotionReadings& readings, RejectedSets* record) noexcept;
-  SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings) const noexcept;
+  SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings,
+                         const MotionReadings& without_gyro) const noexcept;
   /// Least squares of the sensors used, and of them without each unit.
   struct Fits {
     LeastSquares all;
@@ -99,6 +105,9 @@ class MotionMonitor {
   double force_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
   double named_since_s_ = 0.0;
+  bool news_ = false;           ///< a set was rejected that had not been, or evidence was dropped
+  MotionCause open_ = MotionCause::none;  ///< why what is on record names nobody
+  bool gyro_explains_ = false;  ///< a faulty gyro, with or without sensors beside it, would explain what is on record
   bool configured_ = false;
 };
 

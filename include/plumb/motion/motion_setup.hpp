@@ -43,6 +43,9 @@ struct MotionSetup {
   std::array<Vec3, kCapacity> lever_arm_m{};  ///< from the reference point, tool frame
   std::array<MotionErrors, kCapacity> errors{};
   int gyros = 0;  ///< triads in `MotionSample`, 0 to 2
+  /// The host knows by other means that the gyro is right, as an estimator does that compares several. Else a single
+  /// gyro is one more unit that may have failed.
+  bool gyro_vouched = false;
   GyroErrors gyro;
   double rate_bound_radps = 0.0;    ///< the fastest that the tool turns, 0 = unknown
   double force_bound_mps2 = 160.0;  ///< the largest specific force that it feels, averaged over two blocks

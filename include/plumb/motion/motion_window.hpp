@@ -34,6 +34,7 @@ struct MotionMeans {
   Readings reading_mps2{};  ///< triangle mean
   Readings slope_mps3{};    ///< triangle mean of the derivative
   Readings square_m2ps4{};  ///< triangle mean of the square
+  Readings bend_mps2{};     ///< largest second difference of three samples in a row: what happens between samples
   std::array<GyroMeans, kGyros> gyro{};
 
   /// Sum of the squared weights: the variance of a mean of white noise over that of a sample.
@@ -45,10 +46,10 @@ class MotionWindow {
   MotionWindow() noexcept = default;
   MotionWindow(int sensors, int gyros, double sample_period_s) noexcept;
 
-  /// Takes a sample in. Where its time does not follow the last one by about one period, or is not finite, all begins
-  /// anew.
+  /// Takes a sample in. It counts once the next one has come, which shows what happened after it. Where its time does
+  /// not follow the last one by about one period, or is not finite, all begins anew.
   void add(const MotionSample& sample) noexcept;
-  /// Bit s is set where a pair of blocks of scale s ended with the last sample.
+  /// Bit s is set where a pair of blocks of scale s ended with the sample before the last.
   unsigned ended() const noexcept { return ended_; }
   /// The pair that ended last; zero samples where there was none.
   MotionMeans means(int scale) const noexcept;
@@ -63,6 +64,7 @@ class MotionWindow {
     std::array<bool, kGyros> given{};
     std::array<std::array<double, 2>, kMotionCapacity> reading{};
     std::array<std::array<double, 2>, kMotionCapacity> square{};
+    std::array<double, kMotionCapacity> bend{};
     std::array<Vec3, kGyros> rate{};
     std::array<std::array<Symmetric, 2>, kGyros> product{};
   };
@@ -76,16 +78,19 @@ class MotionWindow {
   static_assert(kMotionSamples[0] == 1);
 
   Sums sums_of(const MotionSample& sample) const noexcept;
+  void take(const Sums& sample) noexcept;
   void append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept;
   void close(Scale& scale, double span_s) noexcept;
   Vec3 acceleration(const Scale& scale, std::size_t gyro, double span_s) const noexcept;
 
   std::array<Scale, kMotionScales> scales_{};
+  Sums newest_;
+  std::array<double, kMotionCapacity> step_mps2_{};  ///< from the sample before the newest to it
   int sensors_ = 0;
   int gyros_ = 0;
   double period_s_ = 0.0;
   double time_s_ = 0.0;
-  bool begun_ = false;
+  int begun_ = 0;  ///< samples since the last gap, at most two
   unsigned ended_ = 0;
   int settling_ = 0;  ///< samples during which a channel that was clipped stays out
   SensorSet clipped_;

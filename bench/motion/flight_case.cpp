@@ -1,0 +1,214 @@
+#include "flight_case.hpp"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "plumb/array/named.hpp"
+#include "plumb/core/units.hpp"
+
+namespace plumb_bench {
+namespace {
+
+using namespace plumb;
+using scenario::Flight;
+using scenario::FlightKind;
+using scenario::FlightSample;
+using scenario::FlightSpec;
+
+constexpr double kNoise_mps2 = 0.02;
+constexpr double kFullScale_mps2 = 16.0 * kG0_mps2;
+constexpr std::size_t kBlock = 32;
+
+/// splitmix64, for arms: a geometry is no part of the truth that is judged.
+struct Draw {
+  std::uint64_t state;
+  double operator()() {
+    state += 0x9E3779B97F4A7C15ULL;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+    return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1.0p-52 - 1.0;
+  }
+};
+
+std::vector<Vec3> axes_of(const FlightCase& one) {
+  AxisList axes{};
+  if (one.array == FlightArray::cone) {
+    cone(axes, one.sensors);
+  } else {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(one.sensors); ++i) axes[i][i % 3] = 1.0;
+  }
+  return {axes.begin(), axes.begin() + one.sensors};
+}
+
+/// 10 to 30 mm from the reference point; the axes of a triad within millimetres of each other.
+std::vector<Vec3> arms_of(const FlightCase& one) {
+  Draw draw{one.seed ^ 0xA5A5A5A5ULL};
+  std::vector<Vec3> out;
+  for (int i = 0; i < one.sensors; ++i) {
+    if (one.array == FlightArray::triads && i % 3 != 0) {
+      out.push_back(plus(out.back(), {0.001 * draw(), 0.001 * draw(), 0.001 * draw()}));
+      continue;
+    }
+    Vec3 arm{};
+    double length = 0.0;
+    do {
+      arm = {draw(), draw(), draw()};
+      length = norm(arm);
+    } while (length < 0.1 || length > 1.0);
+    out.push_back(scaled(arm, (0.02 + 0.01 * draw()) / length));
+  }
+  return out;
+}
+
+double rate_bound_of(FlightKind kind) {
+  switch (kind) {
+    case FlightKind::drone: return 8.0;
+    case FlightKind::drilling: return 25.0;
+    case FlightKind::car: return 2.0;
+    case FlightKind::launch: return 6.0;
+  }
+  return 0.0;
+}
+
+SensorArray array_of(const std::vector<Vec3>& axes) {
+  std::array<SensorRow, kCapacity> rows{};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    rows[i] = {make_id(("a" + std::to_string(i + 1)).c_str()), axes[i], kNoise_mps2};
+  }
+  const Expected<SensorArray> made = SensorArray::make(rows.data(), static_cast<int>(axes.size()));
+  if (!made) throw std::runtime_error(describe(made.error().code));
+  return *made;
+}
+
+MotionSample sample_of(const FlightSample& truth, const FlightCase& one) {
+  MotionSample out;
+  out.time_s = truth.time_s;
+  out.delivered = SensorSet::first(one.sensors);
+  out.reading_mps2 = truth.reading_mps2;
+  for (int i = 0; i < one.sensors; ++i) {
+    if (std::fabs(truth.reading_mps2[static_cast<std::size_t>(i)]) >= 0.999 * kFullScale_mps2)
+      out.clipped = out.clipped.with(i);
+  }
+  for (std::size_t g = 0; g < static_cast<std::size_t>(one.gyros); ++g) {
+    out.rate_radps[g] = truth.rate_radps[g];
+    out.rate_given[g] = true;
+  }
+  return out;
+}
+
+FlightSpec spec_of(const FlightCase& one, const std::vector<Vec3>& axes, const std::vector<Vec3>& arms) {
+  FlightSpec spec;
+  spec.kind = one.kind;
+  spec.seed = one.seed;
+  spec.axis = axes;
+  spec.lever_arm_m = arms;
+  spec.noise_mps2 = kNoise_mps2;
+  spec.full_scale_mps2 = kFullScale_mps2;
+  spec.gyros = one.gyros;
+  spec.vertices = one.seed % 2 == 1;
+  spec.faults = one.faults;
+  spec.gyro_faults = one.gyro_faults;
+  const double f = one.error_factor;
+  auto& box = spec.box;
+  for (double* width : {&box.scale, &box.axis_rad, &box.bias_mps2, &box.lever_m, &box.skew_s, &box.bandwidth,
+                        &box.rectification, &box.gyro_scale, &box.gyro_axis_rad, &box.gyro_bias_radps})
+    *width *= f;
+  return spec;
+}
+
+/// The truth of the last samples, for the means that a force is compared with.
+class Past {
+ public:
+  void add(const Vec3& force) { force_[count_++ % force_.size()] = force; }
+  /// Triangle mean over two blocks of `n` samples, without the newest sample: the monitor waits for one more.
+  Vec3 mean(std::size_t n) const {
+    Vec3 out{};
+    for (std::size_t k = 0; k < 2 * n; ++k) {
+      const double up = static_cast<double>(k < n ? k : 2 * n - 1 - k) + 0.5;
+      const Vec3& f = force_[(count_ - 1 - 2 * n + k) % force_.size()];
+      out = plus(out, scaled(f, up / static_cast<double>(n * n)));
+    }
+    return out;
+  }
+
+ private:
+  std::array<Vec3, 2 * kBlock + 1> force_{};
+  std::size_t count_ = 0;
+};
+
+/// A bound that holds while a gyro does promises nothing where that one has failed.
+void compare(const SpecificForce& force, const Vec3& truth, bool gyro_failed, BoundTally* tally) {
+  if (force.validity != ForceValidity::bounded || (gyro_failed && force.gyro_assumed)) return;
+  const double error = norm(minus(force.force_mps2, truth));
+  ++tally->checks;
+  if (error > force.bound_mps2) ++tally->violations;
+  tally->bound_sum_mps2 += force.bound_mps2;
+  tally->square_sum += error * error;
+}
+
+}  // namespace
+
+MotionSetup stated_setup(const FlightCase& one, const std::vector<Vec3>& arms) {
+  MotionSetup out;
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    out.lever_arm_m[i] = arms[i];
+    out.errors[i] = {1e-3, 70e-6, 2e-5, 1e-3, 1.5e-3, 1e-3 * kG0_mps2};
+    if (one.array == FlightArray::triads) out.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
+  }
+  out.gyros = one.gyros;
+  out.gyro = {0.01, 0.01, rad_from_deg(0.35), rad_from_deg(0.1), 20e-6};
+  out.rate_bound_radps = rate_bound_of(one.kind);
+  out.max_faults = one.max_faults;
+  return out;
+}
+
+FlightOutcome fly(const FlightCase& one) {
+  const std::vector<Vec3> axes = axes_of(one), arms = arms_of(one);
+  const SensorArray array = array_of(axes);
+  const auto monitor = std::make_unique<MotionMonitor>();
+  if (const auto sound = monitor->configure(array, stated_setup(one, arms)); !sound) {
+    throw std::runtime_error(describe(sound.error().code));
+  }
+  Flight flight(spec_of(one, axes, arms));
+  double onset_s = 1e9;
+  SensorSet faulty;
+  for (const auto& fault : one.faults) {
+    onset_s = fault.onset_s < onset_s ? fault.onset_s : onset_s;
+    faulty = faulty | fault.sensors;
+  }
+  for (const auto& fault : one.gyro_faults) onset_s = fault.onset_s < onset_s ? fault.onset_s : onset_s;
+  SensorSet may_blame = faulty;  // a chip goes as a whole
+  const FaultUnits units(array, stated_setup(one, arms));
+  for (int k = 0; k < units.size(); ++k) {
+    if (!(units[k] & faulty).empty()) may_blame = may_blame | units[k];
+  }
+  FlightOutcome out;
+  Past past;
+  double block_time_s = -1.0;
+  const auto samples = static_cast<std::uint64_t>(one.duration_s * 1000.0);
+  for (std::uint64_t k = 0; k < samples; ++k) {
+    const FlightSample truth = flight.next();
+    past.add(truth.specific_force_mps2);
+    const MotionVerdict& v = monitor->step(sample_of(truth, one));
+    const double after_s = truth.time_s - onset_s;
+    const bool gyro_failed = !one.gyro_faults.empty() && after_s >= 0.0;
+    if (v.alarm && after_s < 0.0) out.early_alarm = true;
+    if (v.alarm && after_s >= 0.0 && out.detected_s < 0.0) out.detected_s = after_s;
+    if (!(v.named & faulty).empty() && out.named_s < 0.0) out.named_s = after_s;
+    if (!(v.excluded & faulty).empty() && out.excluded_s < 0.0) out.excluded_s = after_s;
+    out.wrongly_named = out.wrongly_named || !may_blame.contains(v.named);
+    out.wrongly_excluded = out.wrongly_excluded || !may_blame.contains(v.excluded);
+    if (k >= 2) compare(v.sample, past.mean(1), gyro_failed, &out.sample);
+    if (v.block.time_s != block_time_s && v.block.span_s > 0.0) {
+      block_time_s = v.block.time_s;
+      compare(v.block, past.mean(kBlock), gyro_failed, &out.block);
+    }
+    out.last_cause = v.cause;
+    out.all_excluded = !faulty.empty() && v.excluded.contains(faulty);
+  }
+  return out;
+}
+
+}  // namespace plumb_bench

@@ -1,0 +1,274 @@
+// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J]: what a motion monitor finds in simulated flights, how
+// fast, how often wrong, as Markdown with 95 % Clopper-Pearson intervals. WHAT is
+//   healthy  false alarms, bounds and their slack, by what flies and by the number of sensors
+//   faults   detection and isolation by fault and number of sensors
+//   chips    the same of three and two parallel triads, whole chips failing
+//   gyro     a gyro that fails, alone and one of two: who is blamed
+//   beyond   true errors of 1.5, 2 and 3 times the bounds
+// docs/motion.md holds what it printed.
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "flight_case.hpp"
+#include "plumb/core/units.hpp"
+#include "plumb/study/proportion.hpp"
+
+namespace {
+
+using namespace plumb_bench;
+using plumb::kG0_mps2;
+using plumb::SensorSet;
+using plumb::scenario::FlightFault;
+using plumb::scenario::FlightFaultKind;
+using plumb::scenario::FlightKind;
+using plumb::scenario::GyroFault;
+using plumb::scenario::GyroFaultKind;
+
+struct Settings {
+  std::string what;
+  std::uint64_t flights = 100;
+  std::uint64_t seed = 1;
+  unsigned jobs = 2;
+};
+
+/// All flights of a row, side by side; their order does not matter to the sums.
+template <class Make>
+std::vector<FlightOutcome> fly_all(const Settings& s, Make make) {
+  std::vector<FlightOutcome> out(s.flights);
+  std::atomic<std::uint64_t> next{0};
+  std::vector<std::thread> threads;
+  for (unsigned j = 0; j < s.jobs; ++j) {
+    threads.emplace_back([&] {
+      for (std::uint64_t k = next++; k < s.flights; k = next++) out[k] = fly(make(s.seed * 1000003 + k));
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  return out;
+}
+
+std::string share(std::uint64_t k, std::uint64_t n) {
+  const plumb::study::Proportion p = plumb::study::proportion(k, n);
+  return plumb::study::rounded_share(p, 3, 100.0) + " " + plumb::study::interval_text(p, 3, 100.0);
+}
+
+template <class Test>
+std::uint64_t count(const std::vector<FlightOutcome>& all, Test test) {
+  return static_cast<std::uint64_t>(std::count_if(all.begin(), all.end(), test));
+}
+
+/// "3 / 17": median and 99th percentile in ms of those that are not below zero.
+std::string times_ms(const std::vector<FlightOutcome>& all, double FlightOutcome::*time) {
+  std::vector<double> found;
+  for (const FlightOutcome& one : all) {
+    if (one.*time >= 0.0) found.push_back(1e3 * (one.*time));
+  }
+  if (found.empty()) return "-";
+  std::sort(found.begin(), found.end());
+  const auto at = [&](double p) { return found[static_cast<std::size_t>(p * static_cast<double>(found.size() - 1))]; };
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f / %.0f", at(0.5), at(0.99));
+  return text;
+}
+
+BoundTally sum(const std::vector<FlightOutcome>& all, BoundTally FlightOutcome::*member) {
+  BoundTally out;
+  for (const FlightOutcome& one : all) {
+    const BoundTally& t = one.*member;
+    out.checks += t.checks;
+    out.violations += t.violations;
+    out.bound_sum_mps2 += t.bound_sum_mps2;
+    out.square_sum += t.square_sum;
+  }
+  return out;
+}
+
+double mg(double mps2) { return 1e3 * mps2 / kG0_mps2; }
+
+void print_bound(const char* lead, const BoundTally& t) {
+  const double checks = t.checks > 0 ? static_cast<double>(t.checks) : 1.0;
+  std::printf("%s%llu of %llu | %.1f | %.1f |", lead, static_cast<unsigned long long>(t.violations),
+              static_cast<unsigned long long>(t.checks), mg(t.bound_sum_mps2 / checks),
+              mg(std::sqrt(t.square_sum / checks)));
+}
+
+void healthy(const Settings& s, double factor) {
+  std::printf(
+      "| flight | n | flights | alarm, %% | blamed | sample: bound passed | mean bound, mg | rms error, mg | "
+      "block: bound passed | mean bound, mg | rms error, mg |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (int kind = 0; kind < plumb::scenario::kFlightKinds; ++kind) {
+    for (const int n : {4, 5, 6, 8, 12}) {
+      const auto all = fly_all(s, [&](std::uint64_t seed) {
+        FlightCase one;
+        one.kind = static_cast<FlightKind>(kind);
+        one.sensors = n;
+        one.seed = seed;
+        one.error_factor = factor;
+        return one;
+      });
+      const auto alarms = count(all, [](const FlightOutcome& o) { return o.early_alarm; });
+      const auto blamed = count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; });
+      std::printf("| %s | %d | %llu | %s | %llu |", to_string(static_cast<FlightKind>(kind)), n,
+                  static_cast<unsigned long long>(s.flights), share(alarms, s.flights).c_str(),
+                  static_cast<unsigned long long>(blamed));
+      print_bound(" ", sum(all, &FlightOutcome::sample));
+      print_bound(" ", sum(all, &FlightOutcome::block));
+      std::printf("\n");
+      std::fflush(stdout);
+    }
+  }
+}
+
+struct Named {
+  const char* name;
+  FlightFaultKind kind;
+  double size;
+};
+const Named kFaults[] = {{"dead", FlightFaultKind::dead, 0.0},
+                         {"stuck", FlightFaultKind::stuck, 0.0},
+                         {"0.5 g", FlightFaultKind::bias, 0.5 * kG0_mps2},
+                         {"0.1 g", FlightFaultKind::bias, 0.1 * kG0_mps2},
+                         {"50 mg", FlightFaultKind::bias, 0.05 * kG0_mps2},
+                         {"30 mg", FlightFaultKind::bias, 0.03 * kG0_mps2},
+                         {"20 mg", FlightFaultKind::bias, 0.02 * kG0_mps2},
+                         {"scale 5 %", FlightFaultKind::scale, 0.05},
+                         {"10 ms late", FlightFaultKind::skew, 0.01},
+                         {"noise 1 m/s2", FlightFaultKind::noise, 1.0},
+                         {"drift 0.1 m/s2 a second", FlightFaultKind::drift, 0.1}};
+
+void row(const char* name, const Settings& s, const FlightCase& like, const std::vector<FlightOutcome>& all) {
+  const auto n = s.flights;
+  std::printf("| %s | %s | %d | %d | %s | %s | %s | %s | %llu |", name, to_string(like.kind), like.sensors, like.gyros,
+              share(count(all, [](const FlightOutcome& o) { return o.detected_s >= 0.0; }), n).c_str(),
+              times_ms(all, &FlightOutcome::detected_s).c_str(),
+              share(count(all, [](const FlightOutcome& o) { return o.named_s >= 0.0; }), n).c_str(),
+              times_ms(all, &FlightOutcome::named_s).c_str(),
+              static_cast<unsigned long long>(
+                  count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; })));
+  print_bound(" ", sum(all, &FlightOutcome::block));
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+constexpr const char* kHead =
+    "| fault | flight | n | gyros | detected, % | p50 / p99, ms | named, % | p50 / p99, ms | others blamed | block: "
+    "bound "
+    "passed | mean bound, mg | rms error, mg |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+void faults(const Settings& s) {
+  std::printf("%s", kHead);
+  for (const Named& fault : kFaults) {
+    for (const int n : {4, 5, 6, 8, 12}) {
+      FlightCase like;
+      like.sensors = n;
+      const auto all = fly_all(s, [&](std::uint64_t seed) {
+        FlightCase one = like;
+        one.seed = seed;
+        const double sign = (seed / 2) % 2 == 0 || fault.kind == FlightFaultKind::noise ? 1.0 : -1.0;
+        one.faults = {{fault.kind, SensorSet::of(static_cast<int>(seed % static_cast<std::uint64_t>(n))),
+                       sign * fault.size, 2.5}};
+        return one;
+      });
+      row(fault.name, s, like, all);
+    }
+  }
+}
+
+void chips(const Settings& s) {
+  std::printf("%s", kHead);
+  for (const Named& fault : kFaults) {
+    for (const int n : {6, 9, 12}) {
+      FlightCase like;
+      like.array = FlightArray::triads;
+      like.sensors = n;
+      const auto all = fly_all(s, [&](std::uint64_t seed) {
+        FlightCase one = like;
+        one.seed = seed;
+        const auto chip = static_cast<unsigned>(seed % static_cast<std::uint64_t>(n / 3));
+        one.faults = {{fault.kind, SensorSet(7U << (3U * chip)), fault.size, 2.5}};
+        return one;
+      });
+      row(fault.name, s, like, all);
+    }
+  }
+}
+
+void gyro(const Settings& s) {
+  std::printf("%s", kHead);
+  const struct {
+    const char* name;
+    GyroFaultKind kind;
+    double size;
+  } kinds[] = {{"gyro dead", GyroFaultKind::dead, 0.0},
+               {"gyro stuck", GyroFaultKind::stuck, 0.0},
+               {"gyro scale 2", GyroFaultKind::scale, 1.0},
+               {"gyro bias 20 deg/s", GyroFaultKind::bias, plumb::rad_from_deg(20.0)}};
+  for (const auto& fault : kinds) {
+    for (const int gyros : {1, 2}) {
+      for (const int n : {5, 6, 8}) {
+        FlightCase like;
+        like.sensors = n;
+        like.gyros = gyros;
+        const auto all = fly_all(s, [&](std::uint64_t seed) {
+          FlightCase one = like;
+          one.seed = seed;
+          one.gyro_faults = {{fault.kind, static_cast<int>(seed % static_cast<std::uint64_t>(gyros)), fault.size, 2.5}};
+          return one;
+        });
+        row(fault.name, s, like, all);
+      }
+    }
+  }
+}
+
+bool read(int argc, char** argv, Settings* out) {
+  if (argc < 2) return false;
+  out->what = argv[1];
+  for (int k = 2; k + 1 < argc; k += 2) {
+    const std::string key = argv[k];
+    const auto value = static_cast<std::uint64_t>(std::strtoull(argv[k + 1], nullptr, 10));
+    if (key == "--flights" && value > 0)
+      out->flights = value;
+    else if (key == "--seed")
+      out->seed = value;
+    else if (key == "--jobs" && value > 0)
+      out->jobs = static_cast<unsigned>(value);
+    else
+      return false;
+  }
+  return argc % 2 == 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings s;
+  if (!read(argc, argv, &s)) {
+    std::fprintf(stderr,
+                 "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond [--flights N] [--seed S] [--jobs J]\n");
+    return 2;
+  }
+  if (s.what == "healthy") {
+    healthy(s, 1.0);
+  } else if (s.what == "faults") {
+    faults(s);
+  } else if (s.what == "chips") {
+    chips(s);
+  } else if (s.what == "gyro") {
+    gyro(s);
+  } else if (s.what == "beyond") {
+    for (const double factor : {1.5, 2.0, 3.0}) {
+      std::printf("\nErrors of %.1f times the bounds\n\n", factor);
+      healthy(s, factor);
+    }
+  } else {
+    std::fprintf(stderr, "plumb_motion_rates: WHAT is healthy, faults, chips, gyro or beyond, not %s\n", argv[1]);
+    return 2;
+  }
+  return 0;
+}
