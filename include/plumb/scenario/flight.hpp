@@ -76,14 +76,14 @@ enum class FlightFaultKind : std::uint8_t {
   stuck,        ///< stands at the last value before onset; no size
   noise,        ///< white noise of `size` rms [m/s^2] on top
   scale,        ///< reads (1 + `size`) times what it did
-  skew,         ///< samples `size` [s] later (below 0: earlier) than before, at most kMostSkew_s
+  skew,         ///< samples `size` [s] later (below 0: earlier) than before
   drift,        ///< the error grows by `size` [m/s^2 per s]
   oscillation,  ///< a sine of amplitude `size` [m/s^2] and `frequency_hz` on top, 0 at onset
   saturated,    ///< stands at full scale, with the sign of `size`
 };
 inline constexpr int kFlightFaultKinds = 9;
 
-/// Largest skew of a fault, to either side [s].
+/// Largest skew, of a healthy sensor as of its faults together, to either side [s].
 inline constexpr double kMostSkew_s = 0.05;
 
 /// In effect in the samples with time_s >= onset_s, in all sensors of the set at once (noise is drawn for each on its
