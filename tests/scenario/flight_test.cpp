@@ -39,9 +39,9 @@ double worst_remainder(const FlightSpec& spec, int samples) {
 // times the 3 deg/s of the angular vibration, and of that what the filter's delay differs between w and a tone.
 RC_GTEST_PROP(FlightLaw, WithoutErrorsTheLeverCorrectedReadingsAreTheSpecificForce, ()) {
   FlightSpec spec = perfect_spec(kKinds[*rc::gen::inRange<std::size_t>(0, 4)], *rc::gen::arbitrary<std::uint64_t>());
-  RC_ASSERT(worst_remainder(spec, 4000) < 1e-4);
+  RC_ASSERT(worst_remainder(spec, 2500) < 1e-4);
   spec.vibration = 0.0;
-  RC_ASSERT(worst_remainder(spec, 4000) < 5e-6);
+  RC_ASSERT(worst_remainder(spec, 2500) < 5e-6);
 }
 
 RC_GTEST_PROP(FlightLaw, AngularAccelerationIntegratesToTheRate, ()) {
@@ -50,7 +50,7 @@ RC_GTEST_PROP(FlightLaw, AngularAccelerationIntegratesToTheRate, ()) {
   Flight flight(spec);
   FlightSample last = flight.next();
   Vec3 sum = last.true_rate_radps;
-  for (int k = 0; k < 20000; ++k) {
+  for (int k = 0; k < 12500; ++k) {
     const FlightSample now = flight.next();
     sum = plus(sum, scaled(plus(last.true_angular_acceleration_radps2, now.true_angular_acceleration_radps2), 1e-4));
     RC_ASSERT(norm(minus(sum, now.true_rate_radps)) < 2e-3);
@@ -64,7 +64,7 @@ RC_GTEST_PROP(FlightLaw, SameSeedSameBitsOtherSeedOther, ()) {
   Flight one(spec), again(spec);
   ++spec.seed;
   Flight other(spec);
-  for (int k = 0; k < 3000; ++k) {
+  for (int k = 0; k < 2500; ++k) {
     const FlightSample a = one.next(), b = again.next(), c = other.next();
     RC_ASSERT(same_bits(a, b));
     RC_ASSERT(!same_bits(a, c));
