@@ -158,7 +158,7 @@ if(PLUMB_BUILD_HOST)
     LABEL host
     ROOMS paper scenario study io findings testing verification render cli recordings docs
     SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
-    LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* Geometry*.* GravityErrorStudy.*
+    LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
     LIBRARIES plumb_testing plumb_render plumb_findings plumb_io plumb_study plumb_paper plumb_scenario plumb_24)

@@ -1,8 +1,7 @@
 #include "plumb/scenario/truth.hpp"
 
-#include "plumb/scenario/attitude.hpp"
-#include "plumb/scenario/portable_math.hpp"
 #include "plumb/scenario/random.hpp"
+#include "tilted.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -11,19 +10,6 @@ namespace {
 
 double draw(const Stream& stream, std::uint64_t index, double span, TruthSpans::Shape shape) noexcept {
   return shape == TruthSpans::Shape::normal ? span * stream.normal(index) : stream.uniform(index, -span, span);
-}
-
-/// Turns `axis` by the angles a and b [rad] about two directions across it: one rotation by their
-/// vector sum, so that the length stays 1 and the order does not matter.
-Vec3 tilted(const Vec3& axis, double a_rad, double b_rad) noexcept {
-  const Vec3 first = perpendicular_to(axis);
-  const Vec3 second = cross(axis, first);
-  const Vec3 way = plus(scaled(first, a_rad), scaled(second, b_rad));
-  const double angle_rad = norm(way);
-  if (!(angle_rad > 0.0)) return axis;
-  const SinCos turn = portable_sincos(angle_rad);
-  const Vec3 v = plus(scaled(axis, turn.cos), scaled(way, turn.sin / angle_rad));
-  return scaled(v, 1.0 / norm(v));
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ enum class Purpose : std::uint8_t {
   walk = 9,         ///< random walk of a bias; sub-stream = sensor
   link = 10,        ///< rows that are lost; sub-stream = position in the list of faults
   campaign = 11,    ///< what happens in a scenario of a campaign
+  flight = 12,      ///< motion, errors and noise of a simulated flight; sub-stream by part
 };
 
 class Stream {
