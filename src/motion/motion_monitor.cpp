@@ -27,7 +27,7 @@ Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSe
   *this = MotionMonitor();
   array_ = array;
   setup_ = setup;
-  sets_ = MotionSets(array);
+  sets_ = MotionSets(array, setup);
   units_ = FaultUnits(array, setup);
   window_ = MotionWindow(array.size(), setup.gyros, setup.sample_period_s);
   noise_quantile_ = quantile_of(setup, sets_.size());
@@ -85,7 +85,7 @@ bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record)
   bool any = false;
   for (int k = 0; k < sets_.size(); ++k) {
     if (!rejects(array_, setup_, sets_[k], asked)) continue;
-    const SensorSet set = sets_[k].set();
+    const SensorSet set = sets_[k].all;
     news_ = record->add(set) || news_;
     verdict_.rejected = verdict_.rejected | set;
     any = true;

@@ -50,6 +50,21 @@ Vec3 per_metre(const Mat3& omega, const Vec3& h) noexcept {
           omega[2] * h[0] + omega[5] * h[1] + omega[8] * h[2]};
 }
 
+/// How large the force is at most by the readings of a set: |f| <= |H f| / (smallest singular value of H).
+double force_bound(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
+                   const MotionReadings& readings) noexcept {
+  double square = 0.0, error_square = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!set.all.has(i)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    square += readings.corrected_mps2[k] * readings.corrected_mps2[k];
+    error_square += readings.error_mps2[k] * readings.error_mps2[k];
+  }
+  if (set.least_singular == 0.0) return setup.force_bound_mps2;
+  const double seen = (std::sqrt(square) + std::sqrt(error_square)) / set.least_singular;
+  return seen < setup.force_bound_mps2 ? seen : setup.force_bound_mps2;
+}
+
 /// A mean of the angular acceleration over two blocks is the difference of two mean rates over the length of one.
 RotationTerm bounded(const MotionSetup& setup, const MotionMeans& means) noexcept {
   RotationTerm out;
@@ -105,26 +120,18 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
 
 bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
              const MotionReadings& readings) noexcept {
-  double parity = 0.0, variance = 0.0, limit = 0.0, axes = 0.0, square = 0.0, error_square = 0.0;
+  if (!readings.usable.contains(set.all)) return false;
+  double parity = 0.0, variance = 0.0, limit = 0.0, axes = 0.0;
   for (std::size_t k = 0; k < set.size; ++k) {
     const auto i = static_cast<std::size_t>(set.sensor[k]);
-    if (!readings.usable.has(static_cast<int>(i))) return false;
-    const double v = set.null[k], y = readings.corrected_mps2[i], e = readings.error_mps2[i];
-    const double sigma = array.sigma_mps2(static_cast<int>(i));
-    parity += v * y;
+    const double v = set.null[k], sigma = array.sigma_mps2(static_cast<int>(i));
+    parity += v * readings.corrected_mps2[i];
     variance += v * v * sigma * sigma;
-    limit += std::fabs(v) * e;
+    limit += std::fabs(v) * readings.error_mps2[i];
     axes += std::fabs(v) * setup.errors[i].axis_rad;
-    square += y * y;
-    error_square += e * e;
   }
-  double force = setup.force_bound_mps2;
-  if (set.size == 4) {
-    const double seen = (std::sqrt(square) + std::sqrt(error_square)) / set.inverse_condition;
-    if (seen < force) force = seen;
-  }
-  limit += readings.noise_factor * std::sqrt(variance) + (axes + norm(set.rest)) * force;
-  return std::fabs(parity) > limit;
+  limit += readings.noise_factor * std::sqrt(variance);
+  return std::fabs(parity) > limit + (axes + norm(set.rest)) * force_bound(array, setup, set, readings);
 }
 
 bool may_reject(const SensorArray& array, const MotionReadings& readings, const LeastSquares& fit) noexcept {

@@ -22,39 +22,56 @@ std::array<double, 4> null_of(const SensorArray& array, const MotionSet& set) no
   return {det3(h(1), h(2), h(3)), -det3(h(0), h(2), h(3)), det3(h(0), h(1), h(3)), -det3(h(0), h(1), h(2))};
 }
 
-/// Smallest singular value of four axes; 0 where it is not to be had.
-double smallest_singular(const SensorArray& array, const MotionSet& set) noexcept {
+/// Smallest singular value of some axes; 0 where it is not to be had.
+double smallest_singular(const SensorArray& array, SensorSet set) noexcept {
   std::array<double, 9> gram{}, vectors{};
   std::array<double, 3> values{};
-  for (std::size_t k = 0; k < set.size; ++k) {
-    const Vec3& h = array.axis(set.sensor[k]);
+  for (int i = 0; i < array.size(); ++i) {
+    if (!set.has(i)) continue;
+    const Vec3& h = array.axis(i);
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) gram[3 * a + b] += h[a] * h[b];
     }
   }
-  if (!symmetric_eigen(gram.data(), 3, 3, values.data(), vectors.data()) || !(values[0] > 0.0)) return 0.0;
-  const double least = std::sqrt(values[0]);
-  return least < 1.0 ? least : 1.0;
+  if (!symmetric_eigen(gram.data(), 3, 3, values.data(), vectors.data()) || !(values[0] > 1e-4)) return 0.0;
+  return std::sqrt(values[0]);
+}
+
+SensorSet members_of(const MotionSet& set) noexcept {
+  SensorSet out;
+  for (std::size_t k = 0; k < set.size; ++k) out = out.with(set.sensor[k]);
+  return out;
+}
+
+SensorSet chips_of(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept {
+  SensorSet out = members;
+  for (int i = 0; i < array.size(); ++i) {
+    for (int j = 0; j < array.size(); ++j) {
+      const std::uint8_t chip = setup.chip[static_cast<std::size_t>(i)];
+      if (members.has(j) && chip != 0 && chip == setup.chip[static_cast<std::size_t>(j)]) out = out.with(i);
+    }
+  }
+  return out;
 }
 
 }  // namespace
 
-MotionSets::MotionSets(const SensorArray& array) noexcept {
+MotionSets::MotionSets(const SensorArray& array, const MotionSetup& setup) noexcept {
   const int n = array.size() < kMotionCapacity ? array.size() : kMotionCapacity;
   for (int size = 2; size <= 4 && size <= n; ++size) {
     const SensorSet all = SensorSet::first(n);
-    for (SensorSet s = SensorSet::first(size); all.contains(s); s = next_of_same_size(s)) add(array, s);
+    for (SensorSet s = SensorSet::first(size); all.contains(s); s = next_of_same_size(s)) add(array, setup, s);
   }
 }
 
 bool MotionSets::has_subset_of(SensorSet members) const noexcept {
   for (int k = 0; k < size_; ++k) {
-    if (members.contains((*this)[k].set())) return true;
+    if (members.contains(members_of((*this)[k]))) return true;
   }
   return false;
 }
 
-void MotionSets::add(const SensorArray& array, SensorSet members) noexcept {
+void MotionSets::add(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept {
   if (size_ == kMotionSets || has_subset_of(members)) return;
   MotionSet set;
   for (SensorSet rest = members; !rest.empty(); rest = rest.without(rest.lowest())) {
@@ -68,8 +85,10 @@ void MotionSets::add(const SensorArray& array, SensorSet members) noexcept {
   for (std::size_t k = 0; k < set.size; ++k) {
     set.rest = plus(set.rest, scaled(array.axis(set.sensor[k]), set.null[k]));
   }
-  set.inverse_condition = set.size == 4 ? smallest_singular(array, set) : 0.0;
   if (norm(set.rest) > kMotionRest) return;
+  set.all = set.size == 4 ? members : chips_of(array, setup, members);
+  set.least_singular = smallest_singular(array, set.all);
+  if (set.least_singular == 0.0) set.all = members;
   sets_[static_cast<std::size_t>(size_++)] = set;
 }
 

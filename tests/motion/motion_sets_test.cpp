@@ -25,13 +25,13 @@ void expect_sound(const SensorArray& array, const MotionSets& sets) {
     EXPECT_NEAR(length, 1.0, 1e-12);
     EXPECT_LE(norm(rest), kMotionRest + 1e-12);
     EXPECT_NEAR(norm(minus(rest, sets[k].rest)), 0.0, 1e-12);
-    for (int j = 0; j < sets.size(); ++j) EXPECT_TRUE(j == k || !sets[k].set().contains(sets[j].set()));
+    for (int j = 0; j < sets.size(); ++j) EXPECT_TRUE(j == k || !sets[k].all.contains(sets[j].all));
   }
 }
 
 TEST(MotionSets, OfAPaperToolAreOneSetWithEqualWeights) {
   const SensorArray array = plumb_test::tetrahedron();
-  const MotionSets sets(array);
+  const MotionSets sets(array, MotionSetup{});
   ASSERT_EQ(sets.size(), 1);
   for (const double v : sets[0].null) EXPECT_NEAR(std::fabs(v), 0.5, 1e-12);
   expect_sound(array, sets);
@@ -40,7 +40,7 @@ TEST(MotionSets, OfAPaperToolAreOneSetWithEqualWeights) {
 TEST(MotionSets, OfAConeAreAllFours) {
   for (int n = 4; n <= kCapacity; ++n) {
     const SensorArray array = cone_array(n);
-    const MotionSets sets(array);
+    const MotionSets sets(array, MotionSetup{});
     EXPECT_EQ(sets.size(), n * (n - 1) * (n - 2) * (n - 3) / 24);
     expect_sound(array, sets);
   }
@@ -51,9 +51,9 @@ TEST(MotionSets, OfParallelTriadsArePairs) {
   AxisList axes{};
   for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = i == 4 ? -1.0 : 1.0;
   const SensorArray array = make_array(axes, 6, 0.01);
-  const MotionSets sets(array);
+  const MotionSets sets(array, MotionSetup{});
   ASSERT_EQ(sets.size(), 3);
-  for (int k = 0; k < 3; ++k) EXPECT_EQ(sets[k].set(), SensorSet::of(k).with(k + 3));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(sets[k].all, SensorSet::of(k).with(k + 3));
   expect_sound(array, sets);
 }
 
@@ -64,9 +64,9 @@ TEST(MotionSets, OfThreeInAPlaneAreThatThree) {
   axes[2] = {std::sqrt(0.5), std::sqrt(0.5), 0.0};
   axes[3] = {0.0, 0.6, 0.8};
   const SensorArray array = make_array(axes, 4, 0.01);
-  const MotionSets sets(array);
+  const MotionSets sets(array, MotionSetup{});
   ASSERT_EQ(sets.size(), 1);
-  EXPECT_EQ(sets[0].set(), SensorSet::first(3));
+  EXPECT_EQ(sets[0].all, SensorSet::first(3));
   expect_sound(array, sets);
 }
 
@@ -77,11 +77,28 @@ TEST(MotionSets, OfAxesParallelButForADegreeCarryWhatIsLeft) {
   axes[2] = {0.0, 0.0, 1.0};
   axes[3] = {std::cos(rad_from_deg(1.0)), std::sin(rad_from_deg(1.0)), 0.0};
   const SensorArray array = make_array(axes, 4, 0.01);
-  const MotionSets sets(array);
+  const MotionSets sets(array, MotionSetup{});
   ASSERT_EQ(sets.size(), 1);
-  EXPECT_EQ(sets[0].set(), SensorSet::of(0).with(3));
+  EXPECT_EQ(sets[0].all, SensorSet::of(0).with(3));
   EXPECT_GT(norm(sets[0].rest), 0.01);
   expect_sound(array, sets);
+}
+
+/// The axes of two chips say how large the force is that a slight turn of one of them mixes in.
+TEST(MotionSets, OfChipsCountAllTheirAxes) {
+  AxisList axes{};
+  for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = 1.0;
+  const SensorArray array = make_array(axes, 6, 0.01);
+  MotionSetup setup;
+  for (std::size_t i = 0; i < 6; ++i) setup.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
+  const MotionSets sets(array, setup), alone(array, MotionSetup{});
+  ASSERT_EQ(sets.size(), 3);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(sets[k].all, SensorSet::first(6));
+    EXPECT_NEAR(sets[k].least_singular, std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(alone[k].all.size(), 2);
+    EXPECT_EQ(alone[k].least_singular, 0.0);
+  }
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ class MotionMonitor {
   double force_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
   double named_since_s_ = 0.0;
-  bool news_ = false;           ///< a set was rejected that had not been, or evidence was dropped
+  bool news_ = false;                     ///< a set was rejected that had not been, or evidence was dropped
   MotionCause open_ = MotionCause::none;  ///< why what is on record names nobody
   bool gyro_explains_ = false;  ///< a faulty gyro, with or without sensors beside it, would explain what is on record
   bool configured_ = false;

@@ -16,13 +16,11 @@ struct MotionSet {
   std::uint8_t size = 0;
   std::array<double, 4> null{};
   Vec3 rest{};
-  double inverse_condition = 0.0;  ///< smallest singular value of the member axes, at most 1; of rank 3 where size is 4
-
-  SensorSet set() const noexcept {
-    SensorSet out;
-    for (std::size_t k = 0; k < size; ++k) out = out.with(sensor[k]);
-    return out;
-  }
+  /// The members, and those whose readings say how large the force is: axes that are turned a little mix in a part of
+  /// it. Two or three axes do not see all of it; where they belong to chips that do, all axes of these chips count, and
+  /// what is rejected is all of them.
+  SensorSet all;
+  double least_singular = 0.0;  ///< of the axes of `all`; 0 where they do not see all of the force
 };
 
 /// Axes count as parallel or coplanar where |sum null_i h_i| is at most this.
@@ -36,13 +34,13 @@ class MotionSets {
  public:
   MotionSets() noexcept = default;
   /// At most kMotionCapacity sensors; of more sets than fit the last are left out, which loses power and adds no error.
-  explicit MotionSets(const SensorArray& array) noexcept;
+  MotionSets(const SensorArray& array, const MotionSetup& setup) noexcept;
 
   int size() const noexcept { return size_; }
   const MotionSet& operator[](int k) const noexcept { return sets_[static_cast<std::size_t>(k)]; }
 
  private:
-  void add(const SensorArray& array, SensorSet members) noexcept;
+  void add(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept;
   bool has_subset_of(SensorSet members) const noexcept;
 
   std::array<MotionSet, static_cast<std::size_t>(kMotionSets)> sets_{};
