@@ -1,7 +1,6 @@
 #include "plumb/motion/motion_monitor.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "plumb/numeric/tails.hpp"
 
@@ -9,9 +8,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kForceTail = 1e-9;  // of the noise in a published force
-constexpr int kBlockScale = 2;       // 32 samples
+constexpr int kBlockScale = 2;  // 32 samples
 
 /// Of a test that is made once per block pair: the hourly rate over all sets, all scales and both rotation terms.
 double quantile_of(const MotionSetup& setup, int sets) noexcept {
@@ -22,6 +19,18 @@ double quantile_of(const MotionSetup& setup, int sets) noexcept {
 
 }  // namespace
 
+const char* to_string(MotionCause cause) noexcept {
+  switch (cause) {
+    case MotionCause::none: return "none";
+    case MotionCause::parity: return "parity";
+    case MotionCause::gyro_inconsistent: return "gyro_inconsistent";
+    case MotionCause::too_many_faults: return "too_many_faults";
+    case MotionCause::rotation_unknown: return "rotation_unknown";
+    case MotionCause::no_redundancy: return "no_redundancy";
+  }
+  return "?";
+}
+
 Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSetup& setup) noexcept {
   if (const Expected<void> sound = check(array, setup); !sound) return sound;
   *this = MotionMonitor();
@@ -31,7 +40,6 @@ Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSe
   units_ = FaultUnits(array, setup);
   window_ = MotionWindow(array.size(), setup.gyros, setup.sample_period_s);
   noise_quantile_ = quantile_of(setup, sets_.size());
-  force_quantile_ = std::sqrt(chi2_tail_quantile(kForceTail, 3));
   in_service_ = array.all();
   configured_ = true;
   refit();
@@ -63,25 +71,15 @@ void MotionMonitor::refit() noexcept {
   with_gyro_.keep_within(sensors);
   without_gyro_.keep_within(sensors);
   grade_ = units_.grade(array_, sensors);
-  fits_ = fits_of(sensors);
+  force_ = ForceEstimator(array_, units_, sensors);
   news_ = true;
-}
-
-MotionMonitor::Fits MotionMonitor::fits_of(SensorSet sensors) const noexcept {
-  Fits out;
-  out.all = least_squares(array_, sensors);
-  for (int k = 0; k < units_.size(); ++k) {
-    const SensorSet rest = sensors - units_[k];
-    if (rest != sensors) out.without[static_cast<std::size_t>(k)] = least_squares(array_, rest);
-  }
-  return out;
 }
 
 bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record) noexcept {
   const SensorSet sensors = monitored();
   MotionReadings asked = readings;
   asked.usable = readings.usable & sensors;
-  if (asked.usable.size() < 2 || !may_reject(array_, asked, fits_.all)) return false;
+  if (asked.usable.size() < 2 || !may_reject(array_, asked, force_.all())) return false;
   bool any = false;
   for (int k = 0; k < sets_.size(); ++k) {
     if (!rejects(array_, setup_, sets_[k], asked)) continue;
@@ -174,74 +172,16 @@ const MotionVerdict& MotionMonitor::step(const MotionSample& sample) noexcept {
   return verdict_;
 }
 
-// ---- force and bound ---------------------------------------------------------------------------
-
-/// What noise and the errors of healthy sensors may turn an estimate by.
-double MotionMonitor::error_of(const LeastSquares& fit, const MotionReadings& readings, double force_mps2,
-                               double share) const noexcept {
-  double sum = force_quantile_ * std::sqrt(share * (fit.covariance[0] + fit.covariance[4] + fit.covariance[8]));
-  for (int i = 0; i < array_.size(); ++i) {
-    if (!fit.used.has(i)) continue;
-    const auto k = static_cast<std::size_t>(i);
-    sum += norm(fit.column[k]) * (readings.error_mps2[k] + setup_.errors[k].axis_rad * force_mps2);
-  }
-  return sum;
-}
-
-/// The largest, over no fault and one unit at fault, of what the rest says less what all say, and what the rest may be
-/// wrong by. A unit whose loss leaves no vector is not covered.
-double MotionMonitor::bound_of(const MotionMeans& means, const MotionReadings& readings, const Fits& fits,
-                               SpecificForce* out) const noexcept {
-  const double force = norm(out->force_mps2), share = means.noise_share();
-  double bound = error_of(fits.all, readings, force, share);
-  out->validity = ForceValidity::bounded;
-  for (int k = 0; k < units_.size(); ++k) {
-    const SensorSet unit = units_[k] & out->used;
-    if (unit.empty() || !with_gyro_.explained_by(unit)) continue;
-    const LeastSquares& fit = fits.without[static_cast<std::size_t>(k)];
-    if (!fit.valid) {
-      out->validity = ForceValidity::unchecked;
-      continue;
-    }
-    const Vec3 other = fit.estimate(readings.corrected_mps2);
-    const double reach = norm(minus(other, out->force_mps2)) + error_of(fit, readings, norm(other), share);
-    if (reach > bound) bound = reach;
-  }
-  // Where it takes two units or more to explain what is on record, the rest without one is not right either.
-  return verdict_.least_faults > 1 && !gyro_explains_ ? kInfinity : bound;
-}
-
-SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings,
-                                      const Fits& fits) const noexcept {
-  SpecificForce out;
-  out.time_s = means.time_s;
-  out.span_s = means.span_s;
-  out.used = fits.all.used;
-  if (!fits.all.valid) return out;
-  out.force_mps2 = fits.all.estimate(readings.corrected_mps2);
-  for (std::size_t k = 0; k < 9; ++k) out.covariance_m2ps4[k] = means.noise_share() * fits.all.covariance[k];
-  out.bound_mps2 = bound_of(means, readings, fits, &out);
-  if (!std::isfinite(out.bound_mps2)) out.validity = ForceValidity::none;
-  return out;
-}
-
 SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings,
                                       const MotionReadings& without_gyro) const noexcept {
+  ForceEvidence evidence;
+  evidence.rejected = &with_gyro_;
+  evidence.one_unit_explains = verdict_.least_faults <= 1 || gyro_explains_;
+  evidence.gyro_assumed = doubts_gyro() && !gyro_explains_;
+  evidence.without_gyro = gyro_explains_ ? &without_gyro : nullptr;
   const SensorSet used = readings.usable & monitored();
-  const bool usual = used == fits_.all.used;
-  Fits others;
-  if (!usual) others = fits_of(used);
-  const Fits& fits = usual ? fits_ : others;
-  SpecificForce out = force_of(means, readings, fits);
-  out.gyro_assumed = doubts_gyro() && !gyro_explains_;
-  if (!gyro_explains_ || out.validity == ForceValidity::none) return out;
-  // The gyro may be what is wrong: then the readings say what they say without it.
-  const Vec3 other = fits.all.estimate(without_gyro.corrected_mps2);
-  const double reach =
-      norm(minus(other, out.force_mps2)) + error_of(fits.all, without_gyro, norm(other), means.noise_share());
-  if (without_gyro.usable.contains(used) && reach > out.bound_mps2) out.bound_mps2 = reach;
-  if (!without_gyro.usable.contains(used)) out.validity = ForceValidity::unchecked;
-  return out;
+  if (used == force_.all().used) return force_.estimate(setup_, units_, means, readings, evidence);
+  return ForceEstimator(array_, units_, used).estimate(setup_, units_, means, readings, evidence);
 }
 
 }  // namespace PLUMB_ABI

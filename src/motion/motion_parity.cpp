@@ -110,10 +110,14 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
     const Vec3 metre = per_metre(rotation.omega_per_s2, array.axis(i));
     const double y = means.reading_mps2[k];
     out.corrected_mps2[k] = y - dot(metre, arm);
-    out.error_mps2[k] = e.lever_m * (std::fabs(metre[0]) + std::fabs(metre[1]) + std::fabs(metre[2])) +
-                        rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m) +
-                        e.lag_s * slope_bound(means, k) + e.rectification * means.square_m2ps4[k] +
-                        e.scale * std::fabs(y) + e.axis_rad * norm(times(rotation.omega_per_s2, arm)) + e.bias_mps2;
+    out.part_mps2[k] = {e.lever_m * (std::fabs(metre[0]) + std::fabs(metre[1]) + std::fabs(metre[2])),
+                        rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m),
+                        e.lag_s * slope_bound(means, k),
+                        e.rectification * means.square_m2ps4[k],
+                        e.scale * std::fabs(y),
+                        e.axis_rad * norm(times(rotation.omega_per_s2, arm)),
+                        e.bias_mps2};
+    for (const double part : out.part_mps2[k]) out.error_mps2[k] += part;
   }
   return out;
 }

@@ -6,8 +6,7 @@
 /// readmission stay with `HealthMonitor`. Plain data, no heap, no clock; `step` is total over all bit patterns.
 #pragma once
 
-#include "plumb/motion/motion_evidence.hpp"
-#include "plumb/motion/motion_parity.hpp"
+#include "plumb/motion/motion_force.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -22,23 +21,7 @@ enum class MotionCause : std::uint8_t {
   no_redundancy,      ///< the sensors left do not check each other
 };
 
-enum class ForceValidity : std::uint8_t {
-  none,       ///< too few sensors deliver, or the rotation is unknown
-  unchecked,  ///< the bound holds while no further unit fails: their loss leaves no vector to compare with
-  bounded     ///< the bound holds whichever one further unit fails
-};
-
-/// Specific force at the reference point, tool frame.
-struct SpecificForce {
-  ForceValidity validity = ForceValidity::none;
-  double time_s = 0.0;  ///< the instant that it belongs to: the middle of the samples behind it
-  double span_s = 0.0;  ///< length of each of the two blocks behind it
-  Vec3 force_mps2{};
-  Mat3 covariance_m2ps4{};    ///< of the noise alone
-  double bound_mps2 = 0.0;    ///< of the length of the error
-  bool gyro_assumed = false;  ///< it holds while the only gyro does: nothing vouches for that one
-  SensorSet used;
-};
+const char* to_string(MotionCause cause) noexcept;
 
 struct MotionVerdict {
   SpecificForce sample;  ///< of the last two samples
@@ -76,17 +59,6 @@ class MotionMonitor {
   bool reject(const MotionReadings& readings, RejectedSets* record) noexcept;
   SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings,
                          const MotionReadings& without_gyro) const noexcept;
-  /// Least squares of the sensors used, and of them without each unit.
-  struct Fits {
-    LeastSquares all;
-    std::array<LeastSquares, static_cast<std::size_t>(kMotionCapacity)> without{};
-  };
-  Fits fits_of(SensorSet sensors) const noexcept;
-  SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings, const Fits& fits) const noexcept;
-  double error_of(const LeastSquares& fit, const MotionReadings& readings, double force_mps2,
-                  double share) const noexcept;
-  double bound_of(const MotionMeans& means, const MotionReadings& readings, const Fits& fits,
-                  SpecificForce* out) const noexcept;
   SensorSet monitored() const noexcept { return in_service_ - verdict_.excluded; }
   int most_faults() const noexcept;
 
@@ -97,12 +69,11 @@ class MotionMonitor {
   MotionWindow window_;
   RejectedSets with_gyro_;     ///< sound while the gyro is, or one of two
   RejectedSets without_gyro_;  ///< sound whatever the gyro reads
-  Fits fits_;                  ///< of the sensors monitored
+  ForceEstimator force_;       ///< of the sensors monitored
   MotionVerdict verdict_;
   SensorSet in_service_;
   int grade_ = 0;
   double noise_quantile_ = 0.0;
-  double force_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
   double named_since_s_ = 0.0;
   bool news_ = false;                     ///< a set was rejected that had not been, or evidence was dropped

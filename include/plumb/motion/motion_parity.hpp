@@ -25,11 +25,17 @@ enum class RotationSource : std::uint8_t {
 RotationTerm rotation_term(const MotionSetup& setup, const MotionMeans& means, RotationSource source,
                            double noise_quantile) noexcept;
 
+/// What a healthy reading may be off by, apart: lever arm, rotation, lag, rectification, scale, axis, bias.
+inline constexpr int kErrorParts = 7;
+using ErrorParts = std::array<double, kErrorParts>;
+
 /// Readings of a pair of blocks as they would be at the reference point.
 struct MotionReadings {
   SensorSet usable;
   Readings corrected_mps2{};
-  Readings error_mps2{};      ///< of a healthy one at most, axis error and noise left out
+  Readings error_mps2{};  ///< of a healthy one at most: the parts together; noise, and what a turned axis mixes in of
+                          ///< the force, are left out
+  std::array<ErrorParts, kMotionCapacity> part_mps2{};
   double noise_factor = 0.0;  ///< times sigma: what noise may add to a reading
 };
 /// All are unusable where nothing bounds the rotation.
