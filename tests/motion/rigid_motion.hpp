@@ -86,7 +86,15 @@ class RigidMotion {
     errors.gyro_scale = draw(setup_->gyro.scale);
   }
 
-  plumb::Vec3 force(double t) const { return force_.at(t); }
+  /// From `time_s` on a step of the force, behind a second-order filter of 260 Hz: it begins between two samples.
+  void add_shock(double time_s, const plumb::Vec3& step_mps2) {
+    shock_s_ = time_s;
+    shock_mps2_ = step_mps2;
+  }
+
+  plumb::Vec3 force(double t) const {
+    return plumb::plus(force_.at(t), plumb::scaled(shock_mps2_, response(t - shock_s_)));
+  }
   plumb::Vec3 rate(double t) const { return rate_.at(t); }
 
   plumb::MotionSample sample(std::uint64_t number) {
@@ -106,13 +114,17 @@ class RigidMotion {
   TrueErrors errors;
 
  private:
+  static double response(double after_s) {
+    const double phase = std::sqrt(2.0) * plumb::kPi * 260.0 * after_s;
+    return after_s > 0.0 ? 1.0 - std::exp(-phase) * (std::cos(phase) + std::sin(phase)) : 0.0;
+  }
   double reading(int i, double t) {
     const auto k = static_cast<std::size_t>(i);
     const plumb::MotionErrors& e = errors.size[k];
     const double at = t + e.lag_s;
     const plumb::Vec3 arm = plumb::plus(setup_->lever_arm_m[k], errors.lever_m[k]), w = rate_.at(at);
     const plumb::Vec3 felt = plumb::plus(
-        force_.at(at), plumb::plus(plumb::cross(rate_.derivative(at), arm), plumb::cross(w, plumb::cross(w, arm))));
+        force(at), plumb::plus(plumb::cross(rate_.derivative(at), arm), plumb::cross(w, plumb::cross(w, arm))));
     const double y = plumb::dot(plumb::plus(array_->axis(i), errors.axis[k]), felt);
     return (1.0 + e.scale) * y + e.bias_mps2 + e.rectification * y * y + array_->sigma_mps2(i) * noise_.normal();
   }
@@ -121,6 +133,8 @@ class RigidMotion {
   const plumb::MotionSetup* setup_;
   Noise noise_;
   SmoothVector force_, rate_;
+  double shock_s_ = 0.0;
+  plumb::Vec3 shock_mps2_{};
 };
 
 /// Arms of 10 to 30 mm, a gyro, and the errors of good sensors.
