@@ -381,19 +381,36 @@ set_tests_properties(example.nav_loop PROPERTIES PASS_REGULAR_EXPRESSION "degrad
 set_tests_properties(example.attitude_filter PROPERTIES PASS_REGULAR_EXPRESSION "71.9 0.* degraded")
 set_tests_properties(example.survey_station PROPERTIES
   PASS_REGULAR_EXPRESSION "7 +27.39 +357.86 +0.16  go: .*8 +- +- +-  no go: sensors disagree")
+if(TARGET plumb_flight_through_a_failure)
+  plumb_compile_settings(plumb_flight_through_a_failure)
+  plumb_optimise_less(plumb_flight_through_a_failure)
+  add_test(NAME example.flight_through_a_failure COMMAND plumb_flight_through_a_failure)
+  set_tests_properties(example.flight_through_a_failure PROPERTIES LABELS core TIMEOUT 60
+    PASS_REGULAR_EXPRESSION "biased.*20.000  0.021  . 3.55.    2.574 .*dead.* 8.066  0.126  . 1.42.    0.126 .*20.000  0.137  . 3.60.    7.092 ")
+endif()
 target_compile_options(plumb_cfs_tables PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)
-plumb_test_executable(plumb_example_tests LABEL core ROOMS examples LIBRARIES plumb_cfs_tables plumb_8)
+plumb_test_executable(plumb_example_tests LABEL core ROOMS examples LIBRARIES plumb_cfs_tables plumb_8
+  LONGER FlightThroughAFailure.*)
 target_include_directories(plumb_example_tests PRIVATE "${PROJECT_SOURCE_DIR}/examples")
 target_compile_definitions(plumb_example_tests PRIVATE
   PLUMB_ATTITUDE_FILTER_PATH="$<TARGET_FILE:plumb_attitude_filter>")
 add_dependencies(plumb_example_tests plumb_attitude_filter)
+if(TARGET plumb_flight_through_a_failure)
+  target_compile_definitions(plumb_example_tests PRIVATE
+    PLUMB_FLIGHT_PATH="$<TARGET_FILE:plumb_flight_through_a_failure>")
+  add_dependencies(plumb_example_tests plumb_flight_through_a_failure)
+  add_test(NAME example.flight_figure
+    COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/figure.sh" "${PROJECT_SOURCE_DIR}" flight_through_a_failure
+            "$<TARGET_FILE:plumb_flight_through_a_failure>" 1 flight_through_a_failure.csv)
+  set_tests_properties(example.flight_figure PROPERTIES LABELS core SKIP_RETURN_CODE 77 TIMEOUT 300)
+endif()
 separate_arguments(example_flags NATIVE_COMMAND "${CMAKE_CXX_FLAGS}")
 add_test(NAME example.ros2_messages
   COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/ros2_messages.sh" "${PROJECT_SOURCE_DIR}"
           "${PROJECT_BINARY_DIR}/ros2_messages" "$<TARGET_FILE:plumb_8>" "${CMAKE_CXX_COMPILER}" ${example_flags})
 add_test(NAME example.attitude_figure
-  COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/attitude_figure.sh" "$<TARGET_FILE:plumb_attitude_filter>"
-          "${PROJECT_SOURCE_DIR}")
+  COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/figure.sh" "${PROJECT_SOURCE_DIR}" attitude_filter
+          "$<TARGET_FILE:plumb_attitude_filter>")
 set_tests_properties(example.ros2_messages PROPERTIES LABELS "core;slow" SKIP_RETURN_CODE 77 TIMEOUT 300)
 set_tests_properties(example.attitude_figure PROPERTIES LABELS core SKIP_RETURN_CODE 77 TIMEOUT 300)
 
@@ -401,6 +418,9 @@ set_tests_properties(example.attitude_figure PROPERTIES LABELS core SKIP_RETURN_
 add_custom_target(plumb_core_checks)
 add_dependencies(plumb_core_checks plumb_core_tests plumb_monitor_loop plumb_monitor_loop_c plumb_nav_loop
   plumb_attitude_filter plumb_survey_station plumb_example_tests plumb_core_ideas)
+if(TARGET plumb_flight_through_a_failure)
+  add_dependencies(plumb_core_checks plumb_flight_through_a_failure)
+endif()
 
 add_test(NAME example.navigation_page_quotes_them
   COMMAND bash -c "! awk '/^```cpp/{f=1;next} /^```/{f=0} f' docs/navigation.md | grep -Fxv -f <(cat examples/navigation/*.?pp examples/ideas/*.cpp)"
