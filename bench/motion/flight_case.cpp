@@ -186,7 +186,6 @@ FlightOutcome fly(const FlightCase& one) {
   }
   FlightOutcome out;
   Past past;
-  double block_time_s = -1.0;
   const auto samples = static_cast<std::uint64_t>(one.duration_s * 1000.0);
   for (std::uint64_t k = 0; k < samples; ++k) {
     const FlightSample truth = flight.next();
@@ -201,10 +200,7 @@ FlightOutcome fly(const FlightCase& one) {
     out.wrongly_named = out.wrongly_named || !may_blame.contains(v.named);
     out.wrongly_excluded = out.wrongly_excluded || !may_blame.contains(v.excluded);
     if (k >= 2) compare(v.sample, past.mean(1), gyro_failed, &out.sample);
-    if (v.block.time_s != block_time_s && v.block.span_s > 0.0) {
-      block_time_s = v.block.time_s;
-      compare(v.block, past.mean(kBlock), gyro_failed, &out.block);
-    }
+    if (v.block_ended) compare(v.block, past.mean(kBlock), gyro_failed, &out.block);
     out.last_cause = v.cause;
     out.all_excluded = !faulty.empty() && v.excluded.contains(faulty);
   }

@@ -95,7 +95,7 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
   out.time_s = means.time_s;
   out.span_s = means.span_s;
   out.used = all_.map.used;
-  if (!all_.map.valid || !evidence.one_unit_explains) return out;
+  if (!all_.map.valid || !evidence.bounded) return out;
   const double share = means.noise_share();
   out.force_mps2 = all_.map.estimate(readings.corrected_mps2);
   for (std::size_t k = 0; k < 9; ++k) out.covariance_m2ps4[k] = share * all_.map.covariance[k];
@@ -109,7 +109,7 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
   };
   for (int k = 0; k < units.size(); ++k) {
     const SensorSet unit = units[k] & out.used;
-    if (unit.empty() || !evidence.rejected->explained_by(unit)) continue;
+    if (unit.empty() || !evidence.rejected->explained_by(unit | evidence.left_out)) continue;
     const Fit& fit = without_[static_cast<std::size_t>(k)];
     if (fit.map.valid) {
       consider(explain(fit, setup, readings, out, share));
@@ -124,7 +124,9 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
   }
   out.bound_mps2 = worst.reach_mps2;
   out.dominant = dominant_of(worst, setup, share);
-  if (!finite) out.validity = ForceValidity::none;
+  if (finite) return out;
+  out.validity = ForceValidity::none;
+  out.bound_mps2 = std::numeric_limits<double>::infinity();
   return out;
 }
 

@@ -75,6 +75,11 @@ void MotionMonitor::refit() noexcept {
   news_ = true;
 }
 
+SensorSet MotionMonitor::trusted() const noexcept {
+  const SensorSet rest = monitored() - verdict_.named;
+  return coplanarity(array_, rest) < rest.size() ? rest : monitored();
+}
+
 bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record) noexcept {
   const SensorSet sensors = monitored();
   MotionReadings asked = readings;
@@ -105,7 +110,9 @@ void MotionMonitor::judge(int scale) noexcept {
   if (any) last_rejection_s_ = means.time_s + means.span_s;
   if (!gyro.known) verdict_.cause = MotionCause::rotation_unknown;
   if (scale == 0) verdict_.sample = force_of(means, readings, without_gyro);
-  if (scale == kBlockScale) verdict_.block = force_of(means, readings, without_gyro);
+  if (scale != kBlockScale) return;
+  verdict_.block = force_of(means, readings, without_gyro);
+  verdict_.block_ended = true;
 }
 
 /// What explains the sets on record; a single gyro is one more unit that may have failed, on top of one unit less.
@@ -128,7 +135,9 @@ void MotionMonitor::answer(double time_s) noexcept {
   } else if (verdict_.named.empty()) {
     open_ = found.named.empty() ? MotionCause::parity : MotionCause::gyro_inconsistent;
   }
-  if (verdict_.named != before) named_since_s_ = time_s;
+  if (verdict_.named == before) return;
+  named_since_s_ = time_s;
+  force_ = ForceEstimator(array_, units_, trusted());
 }
 
 void MotionMonitor::decide(double time_s) noexcept {
@@ -157,6 +166,7 @@ void MotionMonitor::exclude(double time_s) noexcept {
 
 const MotionVerdict& MotionMonitor::step(const MotionSample& sample) noexcept {
   verdict_.rejected = SensorSet{};
+  verdict_.block_ended = false;
   verdict_.cause = MotionCause::none;
   if (!configured_) return verdict_;
   window_.add(sample);
@@ -176,10 +186,11 @@ SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionRead
                                       const MotionReadings& without_gyro) const noexcept {
   ForceEvidence evidence;
   evidence.rejected = &with_gyro_;
-  evidence.one_unit_explains = verdict_.least_faults <= 1 || gyro_explains_;
+  evidence.left_out = monitored() - trusted();
+  evidence.bounded = verdict_.least_faults <= 1 || gyro_explains_ || with_gyro_.explained_by(evidence.left_out);
   evidence.gyro_assumed = doubts_gyro() && !gyro_explains_;
   evidence.without_gyro = gyro_explains_ ? &without_gyro : nullptr;
-  const SensorSet used = readings.usable & monitored();
+  const SensorSet used = readings.usable & trusted();
   if (used == force_.all().used) return force_.estimate(setup_, units_, means, readings, evidence);
   return ForceEstimator(array_, units_, used).estimate(setup_, units_, means, readings, evidence);
 }

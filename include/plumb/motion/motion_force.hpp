@@ -2,6 +2,8 @@
 /// evidence, on top of what noise and the stated errors of healthy sensors allow (docs/theory.md, T11).
 #pragma once
 
+#include <limits>
+
 #include "plumb/motion/motion_evidence.hpp"
 #include "plumb/motion/motion_parity.hpp"
 
@@ -26,17 +28,18 @@ struct SpecificForce {
   double time_s = 0.0;  ///< the instant that it belongs to: the middle of the samples behind it
   double span_s = 0.0;  ///< length of each of the two blocks
   Vec3 force_mps2{};
-  Mat3 covariance_m2ps4{};                ///< of the noise alone
-  double bound_mps2 = 0.0;                ///< of the length of the error
-  ForceTerm dominant = ForceTerm::noise;  ///< the largest part of the bound
-  bool gyro_assumed = false;              ///< it holds while the only gyro does: nothing vouches for that one
+  Mat3 covariance_m2ps4{};                                      ///< of the noise alone
+  double bound_mps2 = std::numeric_limits<double>::infinity();  ///< of the length of the error; infinite: none
+  ForceTerm dominant = ForceTerm::noise;                        ///< the largest part of the bound
+  bool gyro_assumed = false;  ///< it holds while the only gyro does: nothing vouches for that one
   SensorSet used;
 };
 
 /// What is known when a force is estimated.
 struct ForceEvidence {
-  const RejectedSets* rejected = nullptr;  ///< only a unit that explains them may have failed
-  bool one_unit_explains = true;           ///< what is on record; else no bound is given
+  const RejectedSets* rejected = nullptr;
+  SensorSet left_out;   ///< faulty in every explanation: only a unit that explains the rest beside them may have failed
+  bool bounded = true;  ///< one unit more explains what is on record; else no bound is given
   bool gyro_assumed = false;
   const MotionReadings* without_gyro = nullptr;  ///< where a faulty gyro explains what is on record too
 };

@@ -24,14 +24,15 @@ enum class MotionCause : std::uint8_t {
 const char* to_string(MotionCause cause) noexcept;
 
 struct MotionVerdict {
-  SpecificForce sample;  ///< of the last two samples
-  SpecificForce block;   ///< of the last two blocks of 32 samples: tighter and later
-  bool alarm = false;    ///< some rejected set is on record
-  SensorSet rejected;    ///< members of the sets that the last sample's blocks rejected
-  SensorSet suspects;    ///< in some of the smallest explanations
-  SensorSet named;       ///< in every explanation
-  SensorSet excluded;    ///< provisionally, by this monitor
-  int least_faults = 0;  ///< units that it takes at least to explain what is on record
+  SpecificForce sample;      ///< of the last two samples
+  SpecificForce block;       ///< of the last two blocks of 32 samples: tighter and later
+  bool block_ended = false;  ///< `block` is new with this sample
+  bool alarm = false;        ///< some rejected set is on record
+  SensorSet rejected;        ///< members of the sets that the last sample's blocks rejected
+  SensorSet suspects;        ///< in some of the smallest explanations
+  SensorSet named;           ///< in every explanation
+  SensorSet excluded;        ///< provisionally, by this monitor
+  int least_faults = 0;      ///< units that it takes at least to explain what is on record
   MotionCause cause = MotionCause::none;
 };
 
@@ -60,6 +61,8 @@ class MotionMonitor {
   SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings,
                          const MotionReadings& without_gyro) const noexcept;
   SensorSet monitored() const noexcept { return in_service_ - verdict_.excluded; }
+  /// Who makes the force: whoever is named is left out of it at once, where the others determine it.
+  SensorSet trusted() const noexcept;
   int most_faults() const noexcept;
 
   SensorArray array_;
@@ -69,7 +72,7 @@ class MotionMonitor {
   MotionWindow window_;
   RejectedSets with_gyro_;     ///< sound while the gyro is, or one of two
   RejectedSets without_gyro_;  ///< sound whatever the gyro reads
-  ForceEstimator force_;       ///< of the sensors monitored
+  ForceEstimator force_;       ///< of the sensors trusted
   MotionVerdict verdict_;
   SensorSet in_service_;
   int grade_ = 0;
