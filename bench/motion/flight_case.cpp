@@ -197,8 +197,9 @@ void score(const FlightBrief& brief, double time_s, const FlightFinding& found, 
   if (found.alarm && after_s >= 0.0 && out->detected_s < 0.0) out->detected_s = after_s;
   if (!(found.named & brief.faulty).empty() && out->named_s < 0.0) out->named_s = after_s;
   if (!(found.excluded & brief.faulty).empty() && out->excluded_s < 0.0) out->excluded_s = after_s;
-  out->wrongly_named = out->wrongly_named || !brief.may_blame.contains(found.named);
-  out->wrongly_excluded = out->wrongly_excluded || !brief.may_blame.contains(found.excluded);
+  const SensorSet may_blame = after_s < 0.0 ? SensorSet() : brief.may_blame;  // before it fails, a unit is healthy
+  out->wrongly_named = out->wrongly_named || !may_blame.contains(found.named);
+  out->wrongly_excluded = out->wrongly_excluded || !may_blame.contains(found.excluded);
   out->all_excluded = !brief.faulty.empty() && found.excluded.contains(brief.faulty);
 }
 
