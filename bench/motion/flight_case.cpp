@@ -122,6 +122,7 @@ FlightSpec spec_of(const FlightCase& one, const std::vector<Vec3>& axes, const s
 class Past {
  public:
   void add(const Vec3& force) { force_[count_++ % force_.size()] = force; }
+  std::size_t count() const { return count_; }
   /// Triangle mean over two blocks of `n` samples, without the newest sample: the monitor waits for one more.
   Vec3 mean(std::size_t n) const {
     Vec3 out{};
@@ -164,46 +165,61 @@ MotionSetup stated_setup(const FlightCase& one, const std::vector<Vec3>& arms) {
   return out;
 }
 
-FlightOutcome fly(const FlightCase& one) {
-  const std::vector<Vec3> axes = axes_of(one), arms = arms_of(one);
-  const SensorArray array = array_of(axes);
-  const auto monitor = std::make_unique<MotionMonitor>();
-  if (const auto sound = monitor->configure(array, stated_setup(one, arms)); !sound) {
-    throw std::runtime_error(describe(sound.error().code));
-  }
-  Flight flight(spec_of(one, axes, arms));
-  double onset_s = 1e9;
-  SensorSet faulty;
+FlightBrief brief_of(const FlightCase& one) {
+  FlightBrief out;
+  out.array = array_of(axes_of(one));
+  out.setup = stated_setup(one, arms_of(one));
   for (const auto& fault : one.faults) {
-    onset_s = fault.onset_s < onset_s ? fault.onset_s : onset_s;
-    faulty = faulty | fault.sensors;
+    out.onset_s = fault.onset_s < out.onset_s ? fault.onset_s : out.onset_s;
+    out.faulty = out.faulty | fault.sensors;
   }
-  for (const auto& fault : one.gyro_faults) onset_s = fault.onset_s < onset_s ? fault.onset_s : onset_s;
-  SensorSet may_blame = faulty;  // a chip goes as a whole
-  const FaultUnits units(array, stated_setup(one, arms));
+  for (const auto& fault : one.gyro_faults) out.onset_s = fault.onset_s < out.onset_s ? fault.onset_s : out.onset_s;
+  out.may_blame = out.faulty;
+  const FaultUnits units(out.array, out.setup);
   for (int k = 0; k < units.size(); ++k) {
-    if (!(units[k] & faulty).empty()) may_blame = may_blame | units[k];
+    if (!(units[k] & out.faulty).empty()) out.may_blame = out.may_blame | units[k];
   }
-  FlightOutcome out;
-  Past past;
+  return out;
+}
+
+void feed(const FlightCase& one, const FlightJudge& judge) {
+  Flight flight(spec_of(one, axes_of(one), arms_of(one)));
   const auto samples = static_cast<std::uint64_t>(one.duration_s * 1000.0);
   for (std::uint64_t k = 0; k < samples; ++k) {
     const FlightSample truth = flight.next();
+    judge(truth, sample_of(truth, one));
+  }
+}
+
+void score(const FlightBrief& brief, double time_s, const FlightFinding& found, FlightOutcome* out) {
+  const double after_s = time_s - brief.onset_s;
+  if (found.alarm && after_s < 0.0) out->early_alarm = true;
+  if (found.alarm && after_s >= 0.0 && out->detected_s < 0.0) out->detected_s = after_s;
+  if (!(found.named & brief.faulty).empty() && out->named_s < 0.0) out->named_s = after_s;
+  if (!(found.excluded & brief.faulty).empty() && out->excluded_s < 0.0) out->excluded_s = after_s;
+  const SensorSet may_blame = after_s < 0.0 ? SensorSet() : brief.may_blame;  // before it fails, a unit is healthy
+  out->wrongly_named = out->wrongly_named || !may_blame.contains(found.named);
+  out->wrongly_excluded = out->wrongly_excluded || !may_blame.contains(found.excluded);
+  out->all_excluded = !brief.faulty.empty() && found.excluded.contains(brief.faulty);
+}
+
+FlightOutcome fly(const FlightCase& one) {
+  const FlightBrief brief = brief_of(one);
+  const auto monitor = std::make_unique<MotionMonitor>();
+  if (const auto sound = monitor->configure(brief.array, brief.setup); !sound) {
+    throw std::runtime_error(describe(sound.error().code));
+  }
+  FlightOutcome out;
+  Past past;
+  feed(one, [&](const FlightSample& truth, const MotionSample& sample) {
     past.add(truth.specific_force_mps2);
-    const MotionVerdict& v = monitor->step(sample_of(truth, one));
-    const double after_s = truth.time_s - onset_s;
-    const bool gyro_failed = !one.gyro_faults.empty() && after_s >= 0.0;
-    if (v.alarm && after_s < 0.0) out.early_alarm = true;
-    if (v.alarm && after_s >= 0.0 && out.detected_s < 0.0) out.detected_s = after_s;
-    if (!(v.named & faulty).empty() && out.named_s < 0.0) out.named_s = after_s;
-    if (!(v.excluded & faulty).empty() && out.excluded_s < 0.0) out.excluded_s = after_s;
-    out.wrongly_named = out.wrongly_named || !may_blame.contains(v.named);
-    out.wrongly_excluded = out.wrongly_excluded || !may_blame.contains(v.excluded);
-    if (k >= 2) compare(v.sample, past.mean(1), gyro_failed, &out.sample);
+    const MotionVerdict& v = monitor->step(sample);
+    score(brief, truth.time_s, {v.alarm, v.named, v.excluded}, &out);
+    const bool gyro_failed = !one.gyro_faults.empty() && truth.time_s >= brief.onset_s;
+    if (past.count() > 2) compare(v.sample, past.mean(1), gyro_failed, &out.sample);
     if (v.block_ended) compare(v.block, past.mean(kBlock), gyro_failed, &out.block);
     out.last_cause = v.cause;
-    out.all_excluded = !faulty.empty() && v.excluded.contains(faulty);
-  }
+  });
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "plumb/motion/motion_monitor.hpp"
@@ -44,6 +45,30 @@ struct FlightOutcome {
   BoundTally averaged;  ///< force of all sensors alike, blocks, no monitor: its error alone
 };
 
+/// What whoever judges a flight is told, and whom he may blame in it.
+struct FlightBrief {
+  plumb::SensorArray array;
+  plumb::MotionSetup setup;
+  plumb::SensorSet faulty;
+  plumb::SensorSet may_blame;  ///< a chip goes as a whole
+  double onset_s = 1e9;        ///< of the first fault
+};
+FlightBrief brief_of(const FlightCase& one);
+
+/// What somebody says after a sample.
+struct FlightFinding {
+  bool alarm = false;
+  plumb::SensorSet named, excluded;
+};
+
+/// Hands every sample of the flight over, with the truth behind it: the same flight for whoever judges.
+using FlightJudge = std::function<void(const plumb::scenario::FlightSample& truth, const plumb::MotionSample& sample)>;
+void feed(const FlightCase& one, const FlightJudge& judge);
+
+/// Enters what was found at `time_s`.
+void score(const FlightBrief& brief, double time_s, const FlightFinding& found, FlightOutcome* out);
+
+/// Flies with a motion monitor on board.
 FlightOutcome fly(const FlightCase& one);
 
 /// What the monitor of these flights is told. Stated here, from data sheets; the simulator draws from a table of its

@@ -5,12 +5,14 @@
 //   chips    the same of three and two parallel triads, whole chips failing
 //   gyro     a gyro that fails, alone and one of two: who is blamed
 //   beyond   true errors of 1.5, 2 and 3 times the bounds
+//   rivals   three triads, a whole chip failing, judged by the rules of others too, all on the same flights
 // docs/motion.md holds what it printed.
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "flight_case.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/study/proportion.hpp"
+#include "rivals.hpp"
 
 namespace {
 
@@ -37,19 +40,24 @@ struct Settings {
   unsigned jobs = 2;
 };
 
-/// All flights of a row, side by side; their order does not matter to the sums.
-template <class Make>
-std::vector<FlightOutcome> fly_all(const Settings& s, Make make) {
-  std::vector<FlightOutcome> out(s.flights);
+/// What `run` answers for the seed of each flight of a row, side by side; their order does not matter to the sums.
+template <class Run>
+auto run_all(const Settings& s, Run run) {
+  std::vector<decltype(run(s.seed))> out(s.flights);
   std::atomic<std::uint64_t> next{0};
   std::vector<std::thread> threads;
   for (unsigned j = 0; j < s.jobs; ++j) {
     threads.emplace_back([&] {
-      for (std::uint64_t k = next++; k < s.flights; k = next++) out[k] = fly(make(s.seed * 1000003 + k));
+      for (std::uint64_t k = next++; k < s.flights; k = next++) out[k] = run(s.seed * 1000003 + k);
     });
   }
   for (std::thread& t : threads) t.join();
   return out;
+}
+
+template <class Make>
+std::vector<FlightOutcome> fly_all(const Settings& s, Make make) {
+  return run_all(s, [&](std::uint64_t seed) { return fly(make(seed)); });
 }
 
 std::string share(std::uint64_t k, std::uint64_t n) {
@@ -179,6 +187,15 @@ void faults(const Settings& s) {
   }
 }
 
+/// A whole chip of parallel triads fails, each in its turn.
+FlightCase with_chip_fault(const FlightCase& like, const Named& fault, std::uint64_t seed) {
+  FlightCase one = like;
+  one.seed = seed;
+  const auto chip = static_cast<unsigned>(seed % static_cast<std::uint64_t>(one.sensors / 3));
+  one.faults = {{fault.kind, SensorSet(7U << (3U * chip)), fault.size, 2.5}};
+  return one;
+}
+
 void chips(const Settings& s) {
   std::printf("%s", kHead);
   for (const Named& fault : kFaults) {
@@ -186,13 +203,7 @@ void chips(const Settings& s) {
       FlightCase like;
       like.array = FlightArray::triads;
       like.sensors = n;
-      const auto all = fly_all(s, [&](std::uint64_t seed) {
-        FlightCase one = like;
-        one.seed = seed;
-        const auto chip = static_cast<unsigned>(seed % static_cast<std::uint64_t>(n / 3));
-        one.faults = {{fault.kind, SensorSet(7U << (3U * chip)), fault.size, 2.5}};
-        return one;
-      });
+      const auto all = fly_all(s, [&](std::uint64_t seed) { return with_chip_fault(like, fault, seed); });
       row(fault.name, s, like, all);
     }
   }
@@ -226,6 +237,88 @@ void gyro(const Settings& s) {
   }
 }
 
+/// What each rule makes of the same flights.
+using RivalOutcomes = std::vector<std::array<FlightOutcome, kRules>>;
+
+std::vector<FlightOutcome> of_rule(const RivalOutcomes& all, std::size_t rule) {
+  std::vector<FlightOutcome> out;
+  for (const auto& one : all) out.push_back(one[rule]);
+  return out;
+}
+
+/// Flights with another seed, on which the tuned limits rest.
+TunedLimits tuned_limits(Settings s, const FlightCase& like) {
+  ++s.seed;
+  TunedLimits out{0.0, 0.0};
+  for (const TunedLimits& one : run_all(s, [&](std::uint64_t seed) {
+         FlightCase healthy = like;
+         healthy.seed = seed;
+         return quiet_limits(healthy);
+       })) {
+    out.median_mps2 = std::max(out.median_mps2, one.median_mps2);
+    out.parity_mps2 = std::max(out.parity_mps2, one.parity_mps2);
+  }
+  return out;
+}
+
+/// "right %; p50 / p99 ms; wrong %". Right: the chip is named and no healthy one ever was, nor itself before it failed.
+/// A rule that alarms more often than it names says how often.
+std::string rival_cell(const std::vector<FlightOutcome>& all) {
+  std::vector<FlightOutcome> right;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(right),
+               [](const FlightOutcome& o) { return o.named_s >= 0.0 && !o.wrongly_named && !o.wrongly_excluded; });
+  const auto wrong = count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; });
+  const auto alarms = count(all, [](const FlightOutcome& o) { return o.early_alarm || o.detected_s >= 0.0; });
+  const auto percent = [&](std::uint64_t k) {
+    return 100.0 * static_cast<double>(k) / static_cast<double>(all.size());
+  };
+  char text[128];
+  std::snprintf(text, sizeof text, "%.1f; %s; %.1f", percent(right.size()),
+                times_ms(right, &FlightOutcome::named_s).c_str(), percent(wrong));
+  if (alarms == right.size() + wrong) return text;
+  char more[64];
+  std::snprintf(more, sizeof more, " (alarm %.1f)", percent(alarms));
+  return std::string(text) + more;
+}
+
+/// Twice as long as the other flights: the slowest rule integrates for seconds.
+void rivals(const Settings& s) {
+  constexpr std::size_t kCompared = 6;
+  FlightCase like;
+  like.array = FlightArray::triads;
+  like.sensors = 9;
+  like.duration_s = 12.0;
+  const TunedLimits limits = tuned_limits(s, like);
+  std::vector<RivalOutcomes> columns;
+  std::printf("| rule | alarms in %llu healthy flights |", static_cast<unsigned long long>(s.flights));
+  columns.push_back(run_all(s, [&](std::uint64_t seed) {
+    FlightCase healthy = like;
+    healthy.seed = seed;
+    return fly_rivals(healthy, limits);
+  }));
+  for (std::size_t k = 0; k < kCompared; ++k) {
+    std::printf(" %s |", kFaults[k].name);
+    columns.push_back(run_all(s, [&](std::uint64_t seed) {
+      FlightCase one = with_chip_fault(like, kFaults[k], seed);
+      one.faults[0].onset_s += 1e-3 * static_cast<double>(seed % 1000);  // at any time between two looks of a rule
+      return fly_rivals(one, limits);
+    }));
+  }
+  std::printf("\n|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t rule = 0; rule < static_cast<std::size_t>(kRules); ++rule) {
+    const auto healthy = of_rule(columns[0], rule);
+    std::printf("| %s | %llu |", kRuleNames[rule],
+                static_cast<unsigned long long>(count(healthy, [](const FlightOutcome& o) { return o.early_alarm; })));
+    for (std::size_t k = 0; k < kCompared; ++k) std::printf(" %s |", rival_cell(of_rule(columns[k + 1], rule)).c_str());
+    std::printf("\n");
+  }
+  std::printf(
+      "\nPer fault of a whole chip: right, %%; p50 / p99, ms; wrong, %%. Right: it is named, and no healthy chip ever "
+      "was.\nTuned on %llu healthy flights of seed %llu: median %.1f mg, GLT %.1f mg of parity.\n",
+      static_cast<unsigned long long>(s.flights), static_cast<unsigned long long>(s.seed + 1), mg(limits.median_mps2),
+      mg(limits.parity_mps2));
+}
+
 bool read(int argc, char** argv, Settings* out) {
   if (argc < 2) return false;
   out->what = argv[1];
@@ -249,8 +342,9 @@ bool read(int argc, char** argv, Settings* out) {
 int main(int argc, char** argv) {
   Settings s;
   if (!read(argc, argv, &s)) {
-    std::fprintf(stderr,
-                 "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond [--flights N] [--seed S] [--jobs J]\n");
+    std::fprintf(
+        stderr,
+        "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond|rivals [--flights N] [--seed S] [--jobs J]\n");
     return 2;
   }
   if (s.what == "healthy") {
@@ -261,13 +355,16 @@ int main(int argc, char** argv) {
     chips(s);
   } else if (s.what == "gyro") {
     gyro(s);
+  } else if (s.what == "rivals") {
+    rivals(s);
   } else if (s.what == "beyond") {
     for (const double factor : {1.5, 2.0, 3.0}) {
       std::printf("\nErrors of %.1f times the bounds\n\n", factor);
       healthy(s, factor);
     }
   } else {
-    std::fprintf(stderr, "plumb_motion_rates: WHAT is healthy, faults, chips, gyro or beyond, not %s\n", argv[1]);
+    std::fprintf(stderr, "plumb_motion_rates: WHAT is healthy, faults, chips, gyro, beyond or rivals, not %s\n",
+                 argv[1]);
     return 2;
   }
   return 0;
