@@ -105,29 +105,45 @@ void print_bound(const char* lead, const BoundTally& t) {
               mg(std::sqrt(t.square_sum / checks)));
 }
 
+/// A cone of n sensors, or three parallel triads.
+struct Layout {
+  const char* name;
+  FlightArray array;
+  int sensors;
+};
+constexpr Layout kLayouts[] = {{"4", FlightArray::cone, 4},   {"5", FlightArray::cone, 5},
+                               {"6", FlightArray::cone, 6},   {"8", FlightArray::cone, 8},
+                               {"12", FlightArray::cone, 12}, {"3 triads", FlightArray::triads, 9}};
+
+void healthy_row(const Settings& s, const FlightCase& like, const char* layout) {
+  const auto all = fly_all(s, [&](std::uint64_t seed) {
+    FlightCase one = like;
+    one.seed = seed;
+    return one;
+  });
+  const auto alarms = count(all, [](const FlightOutcome& o) { return o.early_alarm; });
+  const auto blamed = count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; });
+  std::printf("| %s | %s | %llu | %s | %llu |", to_string(like.kind), layout,
+              static_cast<unsigned long long>(s.flights), share(alarms, s.flights).c_str(),
+              static_cast<unsigned long long>(blamed));
+  print_bound(" ", sum(all, &FlightOutcome::sample));
+  print_bound(" ", sum(all, &FlightOutcome::block));
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 void healthy(const Settings& s, double factor) {
   std::printf(
-      "| flight | n | flights | alarm, %% | blamed | sample: bound passed | mean bound, mg | rms error, mg | "
+      "| flight | sensors | flights | alarm, %% | blamed | sample: bound passed | mean bound, mg | rms error, mg | "
       "block: bound passed | mean bound, mg | rms error, mg |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int kind = 0; kind < plumb::scenario::kFlightKinds; ++kind) {
-    for (const int n : {4, 5, 6, 8, 12}) {
-      const auto all = fly_all(s, [&](std::uint64_t seed) {
-        FlightCase one;
-        one.kind = static_cast<FlightKind>(kind);
-        one.sensors = n;
-        one.seed = seed;
-        one.error_factor = factor;
-        return one;
-      });
-      const auto alarms = count(all, [](const FlightOutcome& o) { return o.early_alarm; });
-      const auto blamed = count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; });
-      std::printf("| %s | %d | %llu | %s | %llu |", to_string(static_cast<FlightKind>(kind)), n,
-                  static_cast<unsigned long long>(s.flights), share(alarms, s.flights).c_str(),
-                  static_cast<unsigned long long>(blamed));
-      print_bound(" ", sum(all, &FlightOutcome::sample));
-      print_bound(" ", sum(all, &FlightOutcome::block));
-      std::printf("\n");
-      std::fflush(stdout);
+    for (const Layout& layout : kLayouts) {
+      FlightCase like;
+      like.kind = static_cast<FlightKind>(kind);
+      like.array = layout.array;
+      like.sensors = layout.sensors;
+      like.error_factor = factor;
+      healthy_row(s, like, layout.name);
     }
   }
 }

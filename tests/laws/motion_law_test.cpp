@@ -103,8 +103,7 @@ class Case {
   double bias_mps2_ = 0.0, scale_ = 1.0;
 };
 
-// Verifies: REQ-201
-// Negative: REQ-204
+// Verifies: REQ-201, REQ-204, REQ-205
 TEST(Law, NineteenInMotionNobodyHealthyIsNamedAndTheForceIsWithinItsBound) {
   std::uint64_t told = 0;
   const LawCount count = run_law(19, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {

@@ -8,7 +8,7 @@
 
 #include "motion/rigid_motion.hpp"
 
-// Serves: REQ-207
+// Serves: REQ-201, REQ-209
 
 namespace motion_evidence_test {
 namespace {
@@ -102,6 +102,7 @@ TEST(FaultUnits, OfSensorsHaveTheGradeOfMotion) {
 }
 
 /// T12: of three parallel chips one can be told, of two none.
+// Negative: REQ-209
 TEST(FaultUnits, OfChipsCountChips) {
   for (int chips = 1; chips <= 2; ++chips) {
     const SensorArray array = plumb_test::parallel_triads(chips);

@@ -11,7 +11,7 @@
 
 #include "motion/rigid_motion.hpp"
 
-// Serves: REQ-200, REQ-204, REQ-205, REQ-207
+// Serves: REQ-204, REQ-205, REQ-209
 
 namespace motion_monitor_test {
 namespace {
@@ -72,6 +72,7 @@ MotionSetup slow_setup(int n, std::uint64_t seed) {
   return setup;
 }
 
+// Verifies: REQ-205
 RC_GTEST_PROP(MotionMonitorLaw, HealthyFlightsRaiseNoAlarmAndKeepTheirBound, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
   const std::uint64_t seed = *rc::gen::arbitrary<std::uint32_t>();
@@ -117,6 +118,7 @@ TEST(MotionMonitor, NamesAndExcludesAFaultOfATenthOfG) {
 }
 
 /// One gyro that nothing vouches for: a small fault is seen, and the gyro would explain it; a large one is named.
+// Negative: REQ-204
 TEST(MotionMonitor, BesideOneGyroALargeFaultIsNamed) {
   Flight small(cone_array(6, 0.01), slow_setup(6, 3), 6), large(cone_array(6, 0.01), slow_setup(6, 3), 6);
   add_bias_from(small, 0.3, 2, 0.5);
@@ -141,6 +143,7 @@ TEST(MotionMonitor, FourSensorsDetectAndNameNobody) {
 }
 
 /// With long arms a gyro that died explains what a fault of a sensor would.
+// Verifies: REQ-204
 TEST(MotionMonitor, ADeadGyroBlamesNobody) {
   int inconsistent = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -174,6 +177,7 @@ TEST(MotionMonitor, TwoGyrosOfWhichOneDiedNameTheFault) {
 }
 
 /// Eight sensors on four chips of two: one axis fails, its chip goes.
+// Verifies: REQ-209
 TEST(MotionMonitor, AChipIsExcludedWhole) {
   MotionSetup setup = motion_setup(8, 3);
   setup.gyros = 2;
@@ -186,6 +190,7 @@ TEST(MotionMonitor, AChipIsExcludedWhole) {
   EXPECT_LT(flight.worst_ratio, 1.0);
 }
 
+// Negative: REQ-205
 TEST(MotionMonitor, WithoutRotationNothingIsJudged) {
   MotionSetup setup = motion_setup(5);
   setup.gyros = 0;
@@ -222,6 +227,27 @@ TEST(MotionMonitor, TakesExclusionsBackWhenTold) {
   flight.monitor.set_in_service(SensorSet::first(5));
   flight.fly(1000, 1010);
   EXPECT_EQ(flight.monitor.verdict().sample.used, SensorSet::first(5));
+}
+
+/// Whoever is named leaves the force at once; what else may have failed is in its bound, whose largest part has a name.
+TEST(MotionMonitor, TheBoundNamesItsLargestPart) {
+  MotionSetup setup = motion_setup(6, 3);
+  setup.gyros = 2;
+  Flight flight(cone_array(6, 0.01), setup, 4);
+  add_bias_from(flight, 0.3, 0, 5.0);
+  flight.fly(0, 310);
+  EXPECT_EQ(flight.monitor.verdict().named, SensorSet::of(0));
+  EXPECT_TRUE(flight.monitor.verdict().excluded.empty());
+  EXPECT_FALSE(flight.monitor.verdict().sample.used.has(0));
+  flight.fly(310, 900);
+  EXPECT_LT(flight.worst_ratio, 1.0);
+  EXPECT_NE(flight.monitor.verdict().block.dominant, ForceTerm::fault);
+  Flight four(cone_array(4, 0.01), slow_setup(4, 3), 4);
+  add_bias_from(four, 0.3, 1, 20.0);
+  four.fly(0, 800);
+  EXPECT_EQ(four.monitor.verdict().block.dominant, ForceTerm::fault);
+  EXPECT_STREQ(to_string(four.monitor.verdict().block.dominant), "undetected fault");
+  EXPECT_STREQ(to_string(four.monitor.verdict().block.validity), "bounded");
 }
 
 /// A channel that is missing for a while costs the channel, not the force.

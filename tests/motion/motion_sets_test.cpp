@@ -7,6 +7,8 @@
 
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-201
+
 namespace motion_sets_test {
 namespace {
 

@@ -11,6 +11,8 @@
 
 #include "support/simulated_tool.hpp"
 
+// Serves: REQ-201
+
 namespace motion_window_test {
 namespace {
 
