@@ -26,7 +26,7 @@ BlockTests::Told BlockTests::of(SensorSet set) const noexcept {
   Place& p = known_[place_of(set)];
   if (p.set != set) {
     p.set = set;
-    p.test = SetTest{};
+    if constexpr (!kOwnPlaces) p.test = SetTest{};  // a place of its own is as it was made
     const RowUncertainty* uncertainty = array_.perfectly_known() ? nullptr : &array_.uncertainty();
     test_set(array_, uncertainty, gravity_, limits_, block_, set, p.test);
   }
