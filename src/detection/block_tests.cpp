@@ -14,7 +14,7 @@ constexpr double kMinLeverage = 0.05;
 
 std::size_t BlockTests::place_of(SensorSet set) noexcept {
   if constexpr (kOwnPlaces) {
-    if (set.size() < 3) return kPlaces - 1;  // every one of them: not tested
+    if (set.size() < 3 || !SensorSet::first(kCapacity).contains(set)) return kPlaces - 1;  // of these none is tested
     const SensorSet missing = SensorSet::first(kCapacity) - set;
     return missing.empty() ? kPlaces - 2 : static_cast<std::size_t>(missing.lowest());
   }

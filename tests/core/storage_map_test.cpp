@@ -63,7 +63,7 @@ void every_bit_of_a_member_counts(unsigned char fill) {
 }
 
 TEST(StorageMap, TheSumByWordsChangesWithEveryBitOfAMemberAndWithNoPadding) {
-  for (const unsigned char fill : {0x00, 0xFF, 0x5A}) {
+  for (const std::uint8_t fill : {std::uint8_t{0x00}, std::uint8_t{0xFF}, std::uint8_t{0x5A}}) {
     every_bit_of_a_member_counts<Small, StoragePart::steady>(fill);
     every_bit_of_a_member_counts<SensorArray, StoragePart::steady>(fill);
   }
