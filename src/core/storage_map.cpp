@@ -55,9 +55,8 @@ std::uint64_t aligned_word_at(const unsigned char* from) noexcept {
   return *static_cast<Word*>(static_cast<const void*>(from));
 }
 
-/// All bits of those of four bytes whose bit is set, as they lie in half a word.
+/// All bits of those of four bytes whose bit is set, as they lie in half a word whose lowest byte comes first.
 constexpr std::uint32_t mask_of(std::uint32_t of_four) noexcept {
-  static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "byte 0 is the lowest of a word");
   return (of_four * 0x00204081U & 0x01010101U) * 0xFFU;
 }
 

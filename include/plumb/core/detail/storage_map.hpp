@@ -153,7 +153,7 @@ struct StoragePlan {
 };
 
 /// Upper and lower halves of the words of a plan, each added up by itself modulo 2^32; bytes that are no members are
-/// taken for zero. The object is aligned to eight bytes.
+/// taken for zero. The object is aligned to eight bytes, and the processor puts the lowest byte of a word first.
 std::uint64_t sum_of_words(const unsigned char* object, const StoragePlan& plan) noexcept;
 
 namespace storage_detail {
@@ -292,7 +292,8 @@ std::uint64_t storage_sum(const T& object) noexcept {
   const auto* bytes = static_cast<const unsigned char*>(static_cast<const void*>(&object));
   if constexpr (kCount <= 16 || (kCount <= 256 && sizeof(void*) >= 8)) {
     return storage_detail::sum_in_line<T, kPart>(bytes, std::make_index_sequence<kCount>());
-  } else if constexpr (sizeof(void*) < 8 && alignof(T) % 8 == 0 && sizeof(T) <= 0xFFFF) {
+  } else if constexpr (sizeof(void*) < 8 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ && alignof(T) % 8 == 0 &&
+                       sizeof(T) <= 0xFFFF) {
     return sum_of_words(bytes, kStoragePlan<T, kPart>);
   } else {
     std::uint64_t sum = 0;
