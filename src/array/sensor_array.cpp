@@ -91,6 +91,8 @@ SensorId make_id(const char* text) noexcept {
   return id;
 }
 
+// All sixteen are made below: clearing them first costs as much.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init,hicpp-member-init)
 AttitudeProducts::AttitudeProducts(const Vec3& g_mps2) noexcept {
   const std::array<double, 4> z = {g_mps2[0], g_mps2[1], g_mps2[2], 1.0};
   for (std::size_t p = 0; p < 4; ++p) {
@@ -105,14 +107,19 @@ double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const 
 
 double RowUncertainty::of_parameters_at(int i, int j, const AttitudeProducts& attitude) const noexcept {
   const std::size_t rows = 4 * index(i >= j ? i : j), columns = 4 * index(i >= j ? j : i);
+  std::size_t at = rows * (rows + 1) / 2 + columns;
   double sum = 0.0;
-  for (std::size_t p = 0; p < 4; ++p) {
-    const std::size_t row = (rows + p) * (rows + p + 1) / 2 + columns;
+  for (std::size_t p = 0; p < 4; at += rows + ++p) {
+    const double *const row = &covariance[at], *const product = &attitude.value[4 * p];
     if (i != j) {
-      for (std::size_t q = 0; q < 4; ++q) sum += attitude.value[4 * p + q] * covariance[row + q];
+      // Written out: it runs for every pair of sensors of every set of a block.
+      sum += product[0] * row[0];
+      sum += product[1] * row[1];
+      sum += product[2] * row[2];
+      sum += product[3] * row[3];
     } else {
-      for (std::size_t q = 0; q < p; ++q) sum += 2.0 * attitude.value[4 * p + q] * covariance[row + q];
-      sum += attitude.value[5 * p] * covariance[row + p];
+      for (std::size_t q = 0; q < p; ++q) sum += 2.0 * product[q] * row[q];
+      sum += product[p] * row[p];
     }
   }
   return sum;

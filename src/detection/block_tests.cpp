@@ -14,7 +14,7 @@ constexpr double kMinLeverage = 0.05;
 
 std::size_t BlockTests::place_of(SensorSet set) noexcept {
   if constexpr (kOwnPlaces) {
-    if (set.size() < 3) return kPlaces - 1;  // every one of them: not tested
+    if (set.size() < 3 || !SensorSet::first(kCapacity).contains(set)) return kPlaces - 1;  // of these none is tested
     const SensorSet missing = SensorSet::first(kCapacity) - set;
     return missing.empty() ? kPlaces - 2 : static_cast<std::size_t>(missing.lowest());
   }
@@ -26,7 +26,7 @@ BlockTests::Told BlockTests::of(SensorSet set) const noexcept {
   Place& p = known_[place_of(set)];
   if (p.set != set) {
     p.set = set;
-    p.test = SetTest{};
+    if constexpr (!kOwnPlaces) p.test = SetTest{};  // a place of its own is as it was made
     const RowUncertainty* uncertainty = array_.perfectly_known() ? nullptr : &array_.uncertainty();
     test_set(array_, uncertainty, gravity_, limits_, block_, set, p.test);
   }

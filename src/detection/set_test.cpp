@@ -170,21 +170,25 @@ double norm_row_variance(const RowUncertainty& uncertainty, const Rows& rows, co
   for (int i = 0; i < rows.count; ++i) {
     const auto a = static_cast<size_t>(i);
     const double weight = p.w[a] * rows.inverse_sigma[a];
-    std::array<double, 4> along{};  // of the blocks left of the diagonal, and half of that on it
-    for (int j = 0; j <= i; ++j) {
-      const auto b = static_cast<size_t>(j);
-      const double other = p.w[b] * rows.inverse_sigma[b];
-      for (size_t row = 0; row < 4; ++row) {
-        const size_t first = 4 * static_cast<size_t>(rows.sensor[a]) + row;
-        const double* const entry =
-            &uncertainty.covariance[first * (first + 1) / 2 + 4 * static_cast<size_t>(rows.sensor[b])];
-        const size_t columns = j < i ? 4 : row;
-        double sum = j < i ? 0.0 : 0.5 * entry[row] * z[row];
-        for (size_t q = 0; q < columns; ++q) sum += entry[q] * z[q];
-        along[row] += other * sum;
+    const size_t first = 4 * static_cast<size_t>(rows.sensor[a]);
+    size_t start = first * (first + 1) / 2;
+    for (size_t row = 0; row < 4; start += first + ++row) {
+      double along = 0.0;  // of the blocks left of the diagonal, and half of that on it
+      for (size_t b = 0; b < a; ++b) {
+        const double* const entry = &uncertainty.covariance[start + 4 * static_cast<size_t>(rows.sensor[b])];
+        double sum = 0.0;
+        sum += entry[0] * z[0];
+        sum += entry[1] * z[1];
+        sum += entry[2] * z[2];
+        sum += entry[3] * z[3];
+        along += p.w[b] * rows.inverse_sigma[b] * sum;
       }
+      const double* const entry = &uncertainty.covariance[start + first];
+      double sum = 0.5 * entry[row] * z[row];
+      for (size_t q = 0; q < row; ++q) sum += entry[q] * z[q];
+      along += weight * sum;
+      variance += 2.0 * weight * z[row] * along;
     }
-    for (size_t row = 0; row < 4; ++row) variance += 2.0 * weight * z[row] * along[row];
   }
   return variance;
 }

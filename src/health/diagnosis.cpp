@@ -234,9 +234,11 @@ Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, No
 /// Who may corroborate against a fault set of the assumed size: those at rest, and those that scatter by themselves
 /// whichever so many others hang.
 SensorSet Diagnosis::corroborating(const Terms& terms) const noexcept {
+  const SensorSet noisy = terms.facts.noisy_for_certain();
+  if (noisy.empty()) return terms.last.calm;  // before the grade, which is dear
   const SensorSet in_service = terms.machine.sensors.in_service;
   if (asserted_left_ > provisional_grade(terms.in_force.array, in_service & terms.last.usable)) return terms.last.calm;
-  return terms.last.calm | terms.facts.noisy_for_certain();
+  return terms.last.calm | noisy;
 }
 
 void Diagnosis::rescan(const Terms& terms, const BlockTests& tests, double turn_rad,

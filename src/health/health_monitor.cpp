@@ -126,8 +126,9 @@ void HealthMonitor::compare_in_motion(const Readings& y, SensorSet usable) noexc
   }
 }
 
-/// The sample is refused and the windows stay as they are; what was valid is now only held.
-void HealthMonitor::refuse(const Sample& sample) noexcept {
+/// The sample is refused and the windows stay as they are; what was valid is now only held. What is rare is cold: small
+/// rather than fast in a file that is compiled for speed.
+[[gnu::cold]] void HealthMonitor::refuse(const Sample& sample) noexcept {
   count_up(state_.counters.time_refused);
   const bool asked = state_.requests.reset_pending;
   const Validity held = verdict_.validity == Validity::invalid ? Validity::invalid : Validity::held;
@@ -142,7 +143,7 @@ void HealthMonitor::refuse(const Sample& sample) noexcept {
   publish_now(sample, false);
 }
 
-void HealthMonitor::empty_windows() noexcept {
+[[gnu::cold]] void HealthMonitor::empty_windows() noexcept {
   state_.intake.gate.begin_block();
   state_.window.begin_block();
   state_.window.mae.clear();
@@ -151,7 +152,7 @@ void HealthMonitor::empty_windows() noexcept {
   state_.studies.slow_motion.lapse();
 }
 
-void HealthMonitor::serve_gap(Arrival arrival) noexcept {
+[[gnu::cold]] void HealthMonitor::serve_gap(Arrival arrival) noexcept {
   if (arrival == Arrival::new_time_base) {
     state_.last.known = false;  // its age is no longer known
     state_.studies.trend.clear();

@@ -33,7 +33,7 @@ struct SensorRow {
 /// z_p z_q of z = (g, 1), row by row.
 struct AttitudeProducts {
   explicit AttitudeProducts(const Vec3& g_mps2) noexcept;
-  std::array<double, 16> value{};
+  std::array<double, 16> value;
 };
 
 /// What calibration leaves in every row: covariance of (axis error [m/s^2 per m/s^2], offset error

@@ -30,16 +30,16 @@ constexpr Vec3 times(const Mat3& m, const Vec3& v) noexcept {
 }
 /// F C F': a covariance in another frame.
 constexpr Mat3 turned_covariance(const Mat3& f, const Mat3& c) noexcept {
-  Mat3 half{};
   Mat3 out{};
   for (std::size_t i = 0; i < 3; ++i) {
+    Vec3 half{};  // row of F C
     for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) half[3 * i + j] += f[3 * i + k] * c[3 * k + j];
+      for (std::size_t k = 0; k < 3; ++k) half[j] += f[3 * i + k] * c[3 * k + j];
     }
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) out[3 * i + j] += half[3 * i + k] * f[3 * j + k];
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) sum += half[k] * f[3 * j + k];
+      out[3 * i + j] = sum;
     }
   }
   return out;
