@@ -171,7 +171,7 @@ endif()
 # A program of its own: commissioning needs little of the host.
 if(TARGET plumb_commission)
   plumb_test_executable(plumb_commission_tests LABEL host ROOMS commission LIBRARIES plumb_commission plumb_24
-    LONGER MotionCommission.* QuadrotorMotion.*)
+    LONGER BoardMotion.* MotionCommission.* QuadrotorMotion.*)
 endif()
 
 # The reports as others read them: their schemas, the findings as SARIF, and the pages in a browser.

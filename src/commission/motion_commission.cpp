@@ -11,7 +11,7 @@ inline namespace PLUMB_ABI {
 namespace commission {
 namespace {
 
-constexpr int kNoiseScale = 2;
+constexpr double kMostLagPeriods = 32.0;
 
 Vec3 row_of(const FittedUnit& unit, std::size_t c) noexcept {
   return {unit.rows[3 * c], unit.rows[3 * c + 1], unit.rows[3 * c + 2]};
@@ -19,19 +19,20 @@ Vec3 row_of(const FittedUnit& unit, std::size_t c) noexcept {
 
 /// Noise of a sample that would leave as much in block pairs as the fit leaves: that of single samples is vibration,
 /// which falls much faster with the length of a block than noise and which the lag accounts for.
-double noise_of(const MotionFit& fit) {
+double noise_of(const MotionFit& fit, const CommissionSettings& settings) {
+  if (settings.bounds.noise_mps2 > 0.0) return settings.bounds.noise_mps2;
   MotionMeans block;
-  block.samples = kMotionSamples[kNoiseScale];
+  block.samples = kMotionSamples[static_cast<std::size_t>(settings.fit.scale)];
   return fit.residual_mps2 / std::sqrt(block.noise_share());
 }
 
-Expected<SensorArray> array_of(const MotionFit& fit) {
+Expected<SensorArray> array_of(const MotionFit& fit, double noise_mps2) {
   std::vector<SensorRow> rows;
   for (std::size_t u = 0; u < fit.unit.size(); ++u) {
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 row = row_of(fit.unit[u], c);
       const std::string id = std::string("u") + std::to_string(u + 1) + "xyz"[c];
-      rows.push_back({make_id(id.c_str()), scaled(row, 1.0 / norm(row)), noise_of(fit)});
+      rows.push_back({make_id(id.c_str()), scaled(row, 1.0 / norm(row)), noise_mps2});
     }
   }
   return SensorArray::make(rows.data(), static_cast<int>(rows.size()));
@@ -52,13 +53,14 @@ MotionErrors errors_of(const FittedUnit& unit, std::size_t c, const BoundRule& r
 
 GyroErrors gyro_errors_of(const MotionLog& log, const std::vector<UnitAlignment>& alignment, const BoundRule& rule) {
   GyroErrors out = rule.gyro;
-  double square = 0.0;
+  double square = 0.0, count = 0.0;
   for (std::size_t k = 0; k < log.samples(); ++k) {
     const MotionSample sample = sample_of(log, k);
     const Vec3 difference = minus(sample.rate_radps[0], sample.rate_radps[1]);
-    square += dot(difference, difference);
+    if (!std::isfinite(norm(difference))) continue;
+    square += dot(difference, difference), count += 6.0;
   }
-  out.noise_radps = std::sqrt(square / (6.0 * static_cast<double>(log.samples())));
+  out.noise_radps = std::sqrt(square / count);
   for (const UnitAlignment& unit : alignment) {
     out.axis_rad = std::max(out.axis_rad, rule.factor * largest(unit.turn_sigma_rad));
     out.lag_s = std::max(out.lag_s, rule.factor * unit.delay_sigma_s);
@@ -83,9 +85,9 @@ bool contradicts_itself(const MotionCommissioning& found, const MotionLog& log) 
 }
 
 /// The least lag with which the monitor finds the recording without contradiction, to a part in a hundred; none where
-/// even a block of 32 samples is not enough.
+/// none is enough.
 double lag_needed(MotionCommissioning found, const MotionLog& log, const BoundRule& rule) {
-  double low = 0.0, high = kMotionSamples[kNoiseScale] * log.period_s;
+  double low = 0.0, high = kMostLagPeriods * log.period_s;
   set_lag(high, found.fit, rule, &found.setup);
   if (contradicts_itself(found, log)) return -1.0;
   while (high - low > 0.01 * high) {
@@ -100,6 +102,7 @@ double lag_needed(MotionCommissioning found, const MotionLog& log, const BoundRu
 MotionSetup setup_of(const MotionFit& fit, const BoundRule& rule) {
   MotionSetup out;
   out.gyros = kGyros;
+  out.rate_bound_radps = rule.rate_bound_radps;
   Vec3 middle{};
   for (const FittedUnit& unit : fit.unit)
     middle = plus(middle, scaled(unit.arm_m, 1.0 / static_cast<double>(fit.unit.size())));
@@ -129,16 +132,17 @@ MotionSample MotionCommissioning::sample(const MotionLog& aligned_log, std::size
   return out;
 }
 
-CommissionExpected<MotionCommissioning> commission_motion(const MotionLog& log, const BoundRule& rule) {
-  const CommissionExpected<std::vector<UnitAlignment>> alignment = align_by_gyros(log);
+CommissionExpected<MotionCommissioning> commission_motion(const MotionLog& log, const CommissionSettings& settings) {
+  const BoundRule& rule = settings.bounds;
+  const CommissionExpected<std::vector<UnitAlignment>> alignment = align_by_gyros(log, settings.alignment);
   if (!alignment) return tl::unexpected<std::string>(alignment.error());
   MotionCommissioning out;
   out.alignment = *alignment;
   const MotionLog level = commission::aligned(log, out.alignment);
-  const CommissionExpected<MotionFit> fit = fit_motion(level, out.alignment);
+  const CommissionExpected<MotionFit> fit = fit_motion(level, out.alignment, settings.fit);
   if (!fit) return tl::unexpected<std::string>(fit.error());
   out.fit = *fit;
-  const Expected<SensorArray> array = array_of(out.fit);
+  const Expected<SensorArray> array = array_of(out.fit, noise_of(out.fit, settings));
   if (!array) {
     return tl::unexpected<std::string>(std::string("the fitted axes: ") + describe(array.error().code) +
                                        ". Remedy: " + remedy(array.error().code));

@@ -12,7 +12,6 @@ namespace commission {
 namespace {
 
 constexpr Eigen::Index kPerUnit = 16;  // nine of the rows, three biases, three of the arm, one lag
-constexpr int kFitScale = 2;
 constexpr int kSteps = 8;
 /// Neighbours among block pairs share a block: their triangle means correlate by 1/4 on either side.
 constexpr double kOverlap = 1.5;
@@ -39,6 +38,7 @@ std::vector<Pair> pairs_of(const MotionLog& log, int scale) {
     window.add(sample_of(log, k));
     if ((window.ended() >> static_cast<unsigned>(scale) & 1U) == 0) continue;
     const MotionMeans means = window.means(scale);
+    if (!means.gyro[0].given || !means.gyro[1].given || means.usable.size() < sensors) continue;
     const Mat3 omega = rotation_term(setup, means, RotationSource::gyro, 0.0).omega_per_s2;
     out.push_back({Eigen::Map<const Vector>(means.reading_mps2.data(), sensors),
                    Eigen::Map<const Vector>(means.slope_mps3.data(), sensors),
@@ -100,10 +100,10 @@ Matrix derivative(const std::vector<FittedUnit>& units, const Pair& pair, const 
   return out;
 }
 
-Vector sigmas_of(const FitPrior& prior) {
+Vector sigmas_of(const FitSettings& settings) {
   Vector out(kPerUnit);
-  out << Vector::Constant(9, prior.axis), Vector::Constant(3, prior.bias_mps2), Vector::Constant(3, prior.arm_m),
-      prior.lag_s;
+  out << Vector::Constant(9, settings.axis), Vector::Constant(3, settings.bias_mps2),
+      Vector::Constant(3, settings.arm_m), settings.lag_s;
   return out;
 }
 
@@ -220,8 +220,8 @@ std::vector<FittedUnit> mounted(const std::vector<UnitAlignment>& alignment) {
 }  // namespace
 
 CommissionExpected<MotionFit> fit_motion(const MotionLog& aligned_log, const std::vector<UnitAlignment>& alignment,
-                                         const FitPrior& prior) {
-  const std::vector<Pair> pairs = pairs_of(aligned_log, kFitScale);
+                                         const FitSettings& settings) {
+  const std::vector<Pair> pairs = pairs_of(aligned_log, settings.scale);
   const std::vector<FittedUnit> start = mounted(alignment);
   const auto parameters = kPerUnit * static_cast<Eigen::Index>(start.size() - 1);
   const double residuals = static_cast<double>(pairs.size() * (3 * start.size() - 3));
@@ -229,7 +229,7 @@ CommissionExpected<MotionFit> fit_motion(const MotionLog& aligned_log, const std
     return tl::unexpected<std::string>("too few block pairs for a fit: " + std::to_string(pairs.size()) +
                                        ". Remedy: record a longer motion");
   }
-  const Vector sigmas = sigmas_of(prior).replicate(static_cast<Eigen::Index>(start.size() - 1), 1);
+  const Vector sigmas = sigmas_of(settings).replicate(static_cast<Eigen::Index>(start.size() - 1), 1);
   const Matrix identity = Matrix::Identity(parameters, parameters);
   MotionFit out;
   out.unit = start;

@@ -11,8 +11,7 @@ inline namespace PLUMB_ABI {
 namespace commission {
 namespace {
 
-constexpr std::size_t kSmoothed = 8;  // samples: vibration beyond the band of the motion tells nothing about delays
-constexpr std::size_t kLeastSamples = 512;
+constexpr int kLeastSamples = 512;
 
 using Matrix3 = Eigen::Matrix3d;
 using Vector3 = Eigen::Vector3d;
@@ -31,12 +30,13 @@ Vec3 between(const Signal& signal, double at) {
   return out;
 }
 
-Signal smoothed(const Signal& signal) {
-  Signal out(signal.size() - kSmoothed + 1);
+Signal smoothed(const Signal& signal, int samples) {
+  const auto width = static_cast<std::size_t>(samples);
+  Signal out(signal.size() - width + 1);
   for (std::size_t k = 0; k < out.size(); ++k) {
     Vec3 sum{};
-    for (std::size_t j = 0; j < kSmoothed; ++j) sum = plus(sum, signal[k + j]);
-    out[k] = scaled(sum, 1.0 / static_cast<double>(kSmoothed));
+    for (std::size_t j = 0; j < width; ++j) sum = plus(sum, signal[k + j]);
+    out[k] = scaled(sum, 1.0 / samples);
   }
   return out;
 }
@@ -52,6 +52,7 @@ double correlation(const Signal& a, const Signal& b, int delay, const Range& ran
   double n = 0.0, sa = 0.0, sb = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
   for (std::size_t k = range.begin; k < range.end; ++k) {
     const double x = norm(a[k]), y = norm(b[k + static_cast<std::size_t>(delay)]);
+    if (!std::isfinite(x + y)) continue;
     n += 1.0, sa += x, sb += y, aa += x * x, bb += y * y, ab += x * y;
   }
   const double variances = (aa - sa * sa / n) * (bb - sb * sb / n);
@@ -73,6 +74,7 @@ Turn turn_at(const Signal& reference, const Signal& signal, double delay_samples
   Turn out;
   for (std::size_t k = range.begin; k < range.end; ++k) {
     const Vector3 a = eigen_of(reference[k]), b = eigen_of(between(signal, static_cast<double>(k) + delay_samples));
+    if (!(a + b).allFinite()) continue;
     mean_a += a, mean_b += b, out.count += 1.0;
     product += a * b.transpose(), out.spread += a * a.transpose(), spread_b += b * b.transpose();
   }
@@ -100,17 +102,24 @@ double best_delay(const Signal& reference, const Signal& signal, int whole, cons
   return 0.5 * (low + high);
 }
 
-/// What is left after smoothing is one independent value in kSmoothed.
-void state_uncertainty(const Signal& reference, const Turn& turn, double period_s, UnitAlignment* out) {
-  const double independent = turn.count / static_cast<double>(kSmoothed);
+/// Mean square of the derivative.
+double mean_square_rate(const Signal& signal, double period_s) {
+  double square = 0.0, count = 0.0;
+  for (std::size_t k = 1; k < signal.size(); ++k) {
+    const Vec3 step = minus(signal[k], signal[k - 1]);
+    if (!std::isfinite(norm(step))) continue;
+    square += dot(step, step), count += 1.0;
+  }
+  return square / (count * period_s * period_s);
+}
+
+/// What is left after smoothing over some samples is one independent value in so many.
+void state_uncertainty(const Signal& reference, const Turn& turn, double period_s, int smoothed_samples,
+                       UnitAlignment* out) {
+  const double independent = turn.count / smoothed_samples;
   const double variance = turn.square / (3.0 * turn.count);
   out->residual_radps = std::sqrt(variance);
-  double square = 0.0;
-  for (std::size_t k = 1; k < reference.size(); ++k) {
-    const Vec3 step = minus(reference[k], reference[k - 1]);
-    square += dot(step, step) / (period_s * period_s);
-  }
-  out->delay_sigma_s = std::sqrt(variance / (independent * square / static_cast<double>(reference.size())));
+  out->delay_sigma_s = std::sqrt(variance / (independent * mean_square_rate(reference, period_s)));
   // A turn about an axis moves what stands across it.
   const Matrix3 spread = turn.spread * (independent / turn.count);
   const Eigen::SelfAdjointEigenSolver<Matrix3> seen(spread.trace() * Matrix3::Identity() - spread);
@@ -152,6 +161,9 @@ CommissionExpected<UnitAlignment> align(const Signal& reference, const Signal& s
   const Range all{margin, reference.size() - margin};
   const Range first{margin, reference.size() / 2}, second{reference.size() / 2, reference.size() - margin};
   const int whole = best_whole_delay(reference, signal, most, all);
+  if (turn_at(reference, signal, whole, all).count < kLeastSamples) {
+    return tl::unexpected<std::string>(name + ": the gyros give too few samples. Remedy: turn more slowly, or longer");
+  }
   if (std::abs(whole) == most) {
     return tl::unexpected<std::string>(name +
                                        ": the gyros agree best at the largest delay searched for. Remedy: search "
@@ -166,7 +178,7 @@ CommissionExpected<UnitAlignment> align(const Signal& reference, const Signal& s
     out.to_frame[k] = turn.to_frame(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
   }
   out.bias_radps = {turn.bias[0], turn.bias[1], turn.bias[2]};
-  state_uncertainty(reference, turn, period_s, &out);
+  state_uncertainty(reference, turn, period_s, limits.smoothed_samples, &out);
   const std::string doubt = doubt_about(out, limits);
   if (!doubt.empty()) return tl::unexpected<std::string>(name + ": " + doubt);
   return out;
@@ -183,8 +195,8 @@ std::string flaw_of(const MotionLog& log) {
       return "the units have different numbers of samples. Remedy: cut them to the shortest";
     }
     for (std::size_t k = 0; k < log.samples(); ++k) {
-      const double sum = norm(unit.force_mps2[k]) + norm(unit.rate_radps[k]);
-      if (!std::isfinite(sum)) return "sample " + std::to_string(k) + " is not finite. Remedy: leave gaps out";
+      if (std::isfinite(norm(unit.force_mps2[k]))) continue;
+      return "a force of sample " + std::to_string(k) + " is not finite. Remedy: cut the log at gaps";
     }
   }
   return "";
@@ -195,21 +207,39 @@ std::string flaw_of(const MotionLog& log) {
 CommissionExpected<std::vector<UnitAlignment>> align_by_gyros(const MotionLog& log, const AlignmentLimits& limits) {
   const std::string flaw = flaw_of(log);
   if (!flaw.empty()) return tl::unexpected<std::string>(flaw);
-  const std::size_t least = kLeastSamples + 2 * static_cast<std::size_t>(std::ceil(limits.delay_s / log.period_s));
+  const std::size_t least = static_cast<std::size_t>(kLeastSamples + limits.smoothed_samples) +
+                            2 * static_cast<std::size_t>(std::ceil(limits.delay_s / log.period_s));
   if (log.samples() < least) {
     return tl::unexpected<std::string>("the log has " + std::to_string(log.samples()) + " samples. Remedy: record " +
                                        std::to_string(least) + " at least");
   }
-  const Signal reference = smoothed(log.unit.front().rate_radps);
+  const Signal reference = smoothed(log.unit.front().rate_radps, limits.smoothed_samples);
   std::vector<UnitAlignment> out(1);
   for (std::size_t u = 1; u < log.unit.size(); ++u) {
     const CommissionExpected<UnitAlignment> found =
-        align(reference, smoothed(log.unit[u].rate_radps), log.period_s, "unit " + std::to_string(u + 1), limits);
+        align(reference, smoothed(log.unit[u].rate_radps, limits.smoothed_samples), log.period_s,
+              "unit " + std::to_string(u + 1), limits);
     if (!found) return tl::unexpected<std::string>(found.error());
     out.push_back(*found);
   }
   return out;
 }
+
+namespace {
+
+/// Between samples; at full scale where one of the samples around is.
+Vec3 force_between(const Signal& signal, double at, double full_scale_mps2) {
+  Vec3 out = between(signal, at);
+  const auto k = static_cast<std::size_t>(std::floor(at));
+  for (std::size_t c = 0; c < 3 && full_scale_mps2 > 0.0; ++c) {
+    for (std::size_t j = k - 1; j <= k + 2; ++j) {
+      if (std::fabs(signal[j][c]) >= full_scale_mps2) out[c] = std::copysign(full_scale_mps2, signal[j][c]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
 
 MotionLog aligned(const MotionLog& log, const std::vector<UnitAlignment>& alignment) {
   double least = 0.0, most = 0.0;
@@ -221,12 +251,13 @@ MotionLog aligned(const MotionLog& log, const std::vector<UnitAlignment>& alignm
   const std::size_t end = log.samples() - 2 - static_cast<std::size_t>(std::ceil(most));
   MotionLog out;
   out.period_s = log.period_s;
+  out.full_scale_mps2 = log.full_scale_mps2;
   out.unit.resize(log.unit.size());
   for (std::size_t u = 0; u < log.unit.size(); ++u) {
     const double delay = alignment[u].delay_s / log.period_s;
     for (std::size_t k = first; k < end; ++k) {
       const double at = static_cast<double>(k) + delay;
-      out.unit[u].force_mps2.push_back(between(log.unit[u].force_mps2, at));
+      out.unit[u].force_mps2.push_back(force_between(log.unit[u].force_mps2, at, log.full_scale_mps2));
       const Vec3 rate = times(alignment[u].to_frame, between(log.unit[u].rate_radps, at));
       out.unit[u].rate_radps.push_back(plus(rate, alignment[u].bias_radps));
     }
@@ -240,12 +271,16 @@ MotionSample sample_of(const MotionLog& aligned_log, std::size_t k) {
   out.time_s = static_cast<double>(k) * aligned_log.period_s;
   out.delivered = SensorSet::first(static_cast<int>(3 * units));
   for (std::size_t u = 0; u < units; ++u) {
-    for (std::size_t c = 0; c < 3; ++c) out.reading_mps2[3 * u + c] = aligned_log.unit[u].force_mps2[k][c];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double y = aligned_log.unit[u].force_mps2[k][c], full = aligned_log.full_scale_mps2;
+      out.reading_mps2[3 * u + c] = y;
+      if (full > 0.0 && std::fabs(y) >= full) out.clipped = out.clipped.with(static_cast<int>(3 * u + c));
+    }
     const std::size_t gyro = u < half ? 0 : 1;
     const double share = 1.0 / static_cast<double>(gyro == 0 ? half : units - half);
     out.rate_radps[gyro] = plus(out.rate_radps[gyro], scaled(aligned_log.unit[u].rate_radps[k], share));
   }
-  out.rate_given = {true, true};
+  for (std::size_t g = 0; g < 2; ++g) out.rate_given[g] = std::isfinite(norm(out.rate_radps[g]));
   return out;
 }
 

@@ -121,6 +121,26 @@ TEST(MotionCommission, SetsUpAMonitorThatFindsAShiftInAnotherMotion) {
   }
 }
 
+TEST(MotionCommission, LeavesOutWhereAGyroOrAForceIsAtFullScale) {
+  const Truth truth;
+  MotionLog log = log_of(truth);
+  log.full_scale_mps2 = 40.0;
+  for (std::size_t k = 0; k < log.samples(); ++k) {
+    if (k % 400 < 20) log.unit[1].rate_radps[k] = {std::nan(""), 0.0, 0.0};
+    if (k % 1000 == 500) log.unit[2].force_mps2[k] = {40.0, 0.0, 0.0};
+  }
+  const auto found = commission_motion(log);
+  ASSERT_TRUE(found.has_value()) << found.error();
+  for (std::size_t u = 1; u < 3; ++u) {
+    EXPECT_NEAR(found->alignment[u].delay_s, truth.delay_s[u], 0.2e-3);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found->fit.unit[u].arm_m[c], truth.arm_m[u][c], 0.001);
+  }
+  for (Vec3& rate : log.unit[1].rate_radps) rate[0] = std::nan("");
+  const auto none = commission_motion(log);
+  ASSERT_FALSE(none.has_value());
+  EXPECT_NE(none.error().find("the gyros give too few samples"), std::string::npos) << none.error();
+}
+
 TEST(MotionCommission, RefusesRotationAboutOneAxis) {
   Truth truth;
   truth.turns_about_one_axis = true;
@@ -167,8 +187,8 @@ TEST(MotionCommission, RefusesWhatIsNoLog) {
   bad.period_s = 0.0;
   EXPECT_NE(error_of(bad).find("sample period"), std::string::npos);
   bad = log;
-  bad.unit[1].rate_radps[17][2] = std::nan("");
-  EXPECT_NE(error_of(bad).find("sample 17 is not finite"), std::string::npos);
+  bad.unit[1].force_mps2[17][2] = std::nan("");
+  EXPECT_NE(error_of(bad).find("a force of sample 17 is not finite"), std::string::npos);
   bad = log;
   for (UnitLog& unit : bad.unit) {
     unit.force_mps2.resize(300);

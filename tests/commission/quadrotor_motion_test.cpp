@@ -180,6 +180,23 @@ TEST_F(QuadrotorMotion, NobodyIsBlamedAndNothingAlarmsInHealthyFlights) {
   }
 }
 
+TEST_F(QuadrotorMotion, WhicheverFlightIsFittedTheOthersAreWithoutAlarm) {
+  const MotionLog third = log_of(flights_.third), fifth = log_of(flights_.fifth);
+  const std::vector<MotionLog> logs = {second_, part_of(third, 0, kBeforeLostRow),
+                                       part_of(third, kAfterLostRow, third.samples()), fifth};
+  for (const std::size_t fitted : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
+    const auto found = commission_motion(logs[fitted]);
+    ASSERT_TRUE(found.has_value()) << found.error();
+    for (std::size_t k = 0; k < logs.size(); ++k) {
+      const auto clocks = align_by_gyros(logs[k]);
+      ASSERT_TRUE(clocks.has_value()) << clocks.error();
+      const Outcome outcome = judge(*found, found->aligned(logs[k], *clocks), Injected::none, {}, 0);
+      EXPECT_FALSE(outcome.alarm) << "fitted on " << fitted << ", judged " << k;
+      EXPECT_TRUE(outcome.blamed.empty()) << "fitted on " << fitted << ", judged " << k;
+    }
+  }
+}
+
 TEST_F(QuadrotorMotion, ALostRowWithinTheBoundOfTheLagIsNoFault) {
   AlignmentLimits whatever;
   whatever.slip_s = 1.0;

@@ -16,9 +16,17 @@ struct BoundRule {
   double axis_rad = 0.002;
   double bias_mps2 = 0.03;  ///< temperature, and vibration other than that of the recording
   double lever_m = 0.001;
-  double lag_factor = 1.5;   ///< times the lag that the recording needs
-  double lag_periods = 1.0;  ///< units on clocks of their own: between two samples vibration may do anything
+  double lag_factor = 1.5;        ///< times the lag that the recording needs
+  double lag_periods = 1.0;       ///< units on clocks of their own: between two samples vibration may do anything
+  double noise_mps2 = 0.0;        ///< of a sample at rest; 0: as much as would leave what the fit leaves in blocks
+  double rate_bound_radps = 0.0;  ///< of `MotionSetup`, for samples without a gyro
   GyroErrors gyro{0.01, 0.01, 0.01, 0.0, 0.001};
+};
+
+struct CommissionSettings {
+  AlignmentLimits alignment;
+  FitSettings fit;
+  BoundRule bounds;
 };
 
 struct MotionCommissioning {
@@ -35,7 +43,8 @@ struct MotionCommissioning {
 };
 
 /// Errors: those of `align_by_gyros` and `fit_motion`.
-CommissionExpected<MotionCommissioning> commission_motion(const MotionLog& log, const BoundRule& rule = {});
+CommissionExpected<MotionCommissioning> commission_motion(const MotionLog& log,
+                                                          const CommissionSettings& settings = {});
 
 }  // namespace commission
 }  // namespace PLUMB_ABI

@@ -8,8 +8,9 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace commission {
 
-/// Standard deviations of what is known beforehand, for every unit against the first.
-struct FitPrior {
+/// Standard deviations of what is known beforehand, for every unit against the first; and the blocks that are fitted.
+struct FitSettings {
+  int scale = 2;       ///< index of kMotionSamples: blocks of 32 samples; shorter ones where gyros are rarely given
   double axis = 0.03;  ///< of each component of a row against the mounting by the gyros: scale and axis, relative
   double bias_mps2 = 2.0;
   double arm_m = 0.3;
@@ -36,10 +37,10 @@ struct MotionFit {
   double residual_mps2 = 0.0;  ///< rms of a reading's parity residual in the fit's block pairs
 };
 
-/// Least squares on block pairs of 32 samples of an aligned log. Refused where the motion leaves something open: the
-/// text names it.
+/// Least squares on the block pairs of an aligned log in which gyros are given and no force is clipped. Refused where
+/// the motion leaves something open: the text names it.
 CommissionExpected<MotionFit> fit_motion(const MotionLog& aligned_log, const std::vector<UnitAlignment>& alignment,
-                                         const FitPrior& prior = {});
+                                         const FitSettings& settings = {});
 
 /// The same with other logs: rms of a reading's parity residual in block pairs of `scale` (an index of
 /// kMotionSamples).

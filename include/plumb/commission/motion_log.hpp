@@ -23,9 +23,11 @@ struct UnitLog {
   std::vector<Vec3> rate_radps;
 };
 
-/// Samples of all units by their number, at a regular period; 2 to kMotionCapacity / 3 units of equal length.
+/// Samples of all units by their number, at a regular period; 2 to kMotionCapacity / 3 units of equal length. A rate
+/// that is not finite counts as not given: that is how a gyro at full scale is told.
 struct MotionLog {
   double period_s = 0.0;
+  double full_scale_mps2 = 0.0;  ///< a force that reaches it is clipped; 0: unknown
   std::vector<UnitLog> unit;
 
   std::size_t samples() const noexcept { return unit.empty() ? 0 : unit.front().rate_radps.size(); }
@@ -44,12 +46,14 @@ struct UnitAlignment {
 
 struct AlignmentLimits {
   double delay_s = 0.2;          ///< searched to both sides
+  int smoothed_samples = 8;      ///< what is faster tells nothing about delays; 1 where the body turns as fast
   double turn_sigma_rad = 0.01;  ///< a mounting that is known less well is refused
   double slip_s = 0.002;         ///< so is a clock that moves more: a row was lost, or one is there twice
 };
 
 /// From the gyros alone. Refused where the body has turned too little, or about one axis only, where the best delay
-/// lies at the end of the search, where a clock moves within the log, and where the log is too short or not finite.
+/// lies at the end of the search, where a clock moves within the log, and where the log is too short or a force not
+/// finite.
 CommissionExpected<std::vector<UnitAlignment>> align_by_gyros(const MotionLog& log, const AlignmentLimits& limits = {});
 
 /// All units at the instants of the first one, rates in its frame, forces still along the axes of each unit. Shorter
