@@ -127,6 +127,15 @@ if(study_sources)
   plumb_batch(plumb_study)
 endif()
 
+# What a monitor of motion is configured with, from a recording in motion.
+plumb_sources(commission_sources commission)
+if(commission_sources)
+  add_library(plumb_commission STATIC ${commission_sources})
+  plumb_library(plumb_commission commission)
+  target_link_libraries(plumb_commission PUBLIC plumb_24)
+  plumb_batch(plumb_commission)
+endif()
+
 plumb_sources(io_sources io)
 if(io_sources)
   plumb_find_package(toml11 DEBIAN libtoml11-dev TARGET toml11::toml11)

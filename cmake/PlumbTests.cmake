@@ -168,6 +168,12 @@ if(PLUMB_BUILD_HOST)
   endif()
 endif()
 
+# A program of its own: commissioning needs little of the host.
+if(TARGET plumb_commission)
+  plumb_test_executable(plumb_commission_tests LABEL host ROOMS commission LIBRARIES plumb_commission plumb_24
+    LONGER BoardMotion.* MotionCommission.* QuadrotorMotion.*)
+endif()
+
 # The reports as others read them: their schemas, the findings as SARIF, and the pages in a browser.
 if(TARGET plumb_tool)
   find_program(PLUMB_PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
