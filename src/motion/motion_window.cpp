@@ -125,11 +125,11 @@ void MotionWindow::take(const Sums& sample) noexcept {
   }
 }
 
-MotionMeans MotionWindow::means(int index) const noexcept {
+MotionMeans MotionWindow::means(int scale) const noexcept {
   MotionMeans out;
-  const Scale& scale = scales_[static_cast<std::size_t>(index)];
-  if (scale.before.count == 0) return out;
-  const Sums &a = scale.before, &b = scale.last;
+  const Scale& pair = scales_[static_cast<std::size_t>(scale)];
+  if (pair.before.count == 0) return out;
+  const Sums &a = pair.before, &b = pair.last;
   const double inverse = 1.0 / b.count;
   const auto triangle = [&](const auto& x, const auto& y) { return (x[1] + y[0] - y[1]) * inverse; };
   out.samples = b.count;
@@ -145,9 +145,9 @@ MotionMeans MotionWindow::means(int index) const noexcept {
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     GyroMeans& gyro = out.gyro[g];
     gyro.given = a.given[g] && b.given[g];
-    gyro.acceleration_radps2 = acceleration(scale, g, out.span_s);
-    if (scale.acceleration_known) {
-      gyro.acceleration_change_radps2 = minus(gyro.acceleration_radps2, scale.acceleration_before[g]);
+    gyro.acceleration_radps2 = acceleration(pair, g, out.span_s);
+    if (pair.acceleration_known) {
+      gyro.acceleration_change_radps2 = minus(gyro.acceleration_radps2, pair.acceleration_before[g]);
     }
     for (std::size_t c = 0; c < 6; ++c) {
       gyro.rate_product[c] = (a.product[g][1][c] + b.product[g][0][c] - b.product[g][1][c]) * inverse;

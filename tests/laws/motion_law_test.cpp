@@ -109,7 +109,7 @@ TEST(Law, NineteenInMotionNobodyHealthyIsNamedAndTheForceIsWithinItsBound) {
   const LawCount count = run_law(19, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Case one(number, noise);
     const LawOutcome out = one.run();
-    told += one.named.empty() ? 0 : 1;
+    told += one.named.empty() ? 0U : 1U;
     return out;
   });
   EXPECT_EQ(count.broken, 0U);
