@@ -63,19 +63,18 @@ std::vector<std::vector<Row>> tables(int seed) {
 }
 
 // The errors of healthy sensors and gyros do not all point one way: 1 mg of a whole axis, which each of its sensors may
-// be off by, is 0.2 m/s in 20 s; 0.15 m/s at most was measured over 30 flights. Until the dead chip is out, 0.07 s
-// after it died, the force lacks a third: of 2.5 g at most 0.57 m/s.
-constexpr double kBiased_mps = 0.2, kDead_mps = 0.2 + 0.57;
+// be off by, is 0.2 m/s in 20 s; 0.15 m/s at most was measured over ten flights. A dead chip is out of the force within
+// milliseconds, and adds nothing to speak of.
+constexpr double kMost_mps = 0.2;
 
 TEST(FlightThroughAFailure, plumbCarriesTheNavigatorThroughAndTheAverageDoesNot) {
   for (int seed = 1; seed <= 10; ++seed) {
     const auto runs = tables(seed);
     ASSERT_EQ(runs.size(), 2U) << seed;
     for (const auto& rows : runs) {
-      const bool dead = &rows == &runs.back();
       const Row& last = rows.back();
       EXPECT_EQ(last.time_s, 20.0);
-      EXPECT_LT(last.with_mps, dead ? kDead_mps : kBiased_mps) << seed;
+      EXPECT_LT(last.with_mps, kMost_mps) << seed;
       EXPECT_GT(last.without_mps, 5.0 * last.with_mps) << seed;
       EXPECT_EQ(last.named + last.excluded, "-2") << seed;
       const auto out = std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.excluded == "2"; });
@@ -88,7 +87,8 @@ TEST(FlightThroughAFailure, plumbCarriesTheNavigatorThroughAndTheAverageDoesNot)
         EXPECT_EQ(row.excluded, row.time_s < out->time_s ? "-" : "2") << seed << ", " << row.time_s;
       }
       std::printf("[ measured ] flight %2d, %s: with %.3f, bound %.2f, without %.3f m/s; out at %.3f s\n", seed,
-                  dead ? "dead  " : "biased", last.with_mps, last.allowed_mps, last.without_mps, out->time_s);
+                  &rows == &runs.back() ? "dead  " : "biased", last.with_mps, last.allowed_mps, last.without_mps,
+                  out->time_s);
     }
   }
 }
