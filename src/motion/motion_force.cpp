@@ -88,19 +88,22 @@ ForceTerm ForceEstimator::dominant_of(const Explanation& one, const MotionSetup&
 }
 
 /// The bound is the largest reach, over no fault and over one unit at fault that explains what is on record. A unit
-/// whose loss leaves no vector is not covered. Readings so large that a sum overflows have no bound.
+/// whose loss leaves no vector is not covered. There is no bound where it takes more than one unit to explain what is
+/// on record, and where readings are so large that a sum overflows.
 SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnits& units, const MotionMeans& means,
                                        const MotionReadings& readings, const ForceEvidence& evidence) const noexcept {
   SpecificForce out;
   out.time_s = means.time_s;
   out.span_s = means.span_s;
   out.used = all_.map.used;
-  if (!all_.map.valid || !evidence.bounded) return out;
+  if (!all_.map.valid) return out;
   const double share = means.noise_share();
   out.force_mps2 = all_.map.estimate(readings.corrected_mps2);
   for (std::size_t k = 0; k < 9; ++k) out.covariance_m2ps4[k] = share * all_.map.covariance[k];
   out.validity = ForceValidity::bounded;
   out.gyro_assumed = evidence.gyro_assumed;
+  // Whether some explanation is among those that the bound covers.
+  bool explained = evidence.rejected->explained_by(evidence.isolated) || evidence.without_gyro != nullptr;
   Explanation worst = explain(all_, setup, readings, out, share);
   bool finite = std::isfinite(worst.reach_mps2);
   const auto consider = [&](const Explanation& one) {
@@ -109,7 +112,8 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
   };
   for (int k = 0; k < units.size(); ++k) {
     const SensorSet unit = units[k] & out.used;
-    if (unit.empty() || !evidence.rejected->explained_by(unit | evidence.left_out)) continue;
+    if (unit.empty() || !evidence.rejected->explained_by(unit | evidence.isolated)) continue;
+    explained = true;
     const Fit& fit = without_[static_cast<std::size_t>(k)];
     if (fit.map.valid) {
       consider(explain(fit, setup, readings, out, share));
@@ -124,7 +128,7 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
   }
   out.bound_mps2 = worst.reach_mps2;
   out.dominant = dominant_of(worst, setup, share);
-  if (finite) return out;
+  if (finite && explained) return out;
   out.validity = ForceValidity::none;
   out.bound_mps2 = std::numeric_limits<double>::infinity();
   return out;

@@ -27,6 +27,7 @@ const char* to_string(MotionCause cause) noexcept {
     case MotionCause::too_many_faults: return "too_many_faults";
     case MotionCause::rotation_unknown: return "rotation_unknown";
     case MotionCause::no_redundancy: return "no_redundancy";
+    case MotionCause::irregular_time: return "irregular_time";
   }
   return "?";
 }
@@ -71,7 +72,7 @@ void MotionMonitor::refit() noexcept {
   with_gyro_.keep_within(sensors);
   without_gyro_.keep_within(sensors);
   grade_ = units_.grade(array_, sensors);
-  force_ = ForceEstimator(array_, units_, sensors);
+  force_ = ForceEstimator(array_, units_, trusted());
   news_ = true;
 }
 
@@ -84,7 +85,7 @@ bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record)
   const SensorSet sensors = monitored();
   MotionReadings asked = readings;
   asked.usable = readings.usable & sensors;
-  if (asked.usable.size() < 2 || !may_reject(array_, asked, force_.all())) return false;
+  if (asked.usable.size() < 2 || !may_reject(array_, sets_, asked, force_.all())) return false;
   bool any = false;
   for (int k = 0; k < sets_.size(); ++k) {
     if (!rejects(array_, setup_, sets_[k], asked)) continue;
@@ -136,12 +137,16 @@ void MotionMonitor::answer(double time_s) noexcept {
     open_ = found.named.empty() ? MotionCause::parity : MotionCause::gyro_inconsistent;
   }
   if (verdict_.named == before) return;
-  named_since_s_ = time_s;
+  isolated_since_s_ = time_s;
   force_ = ForceEstimator(array_, units_, trusted());
 }
 
 void MotionMonitor::decide(double time_s) noexcept {
-  if (!with_gyro_.empty() && time_s - last_rejection_s_ > setup_.quiet_s) {
+  // The host's clock began anew: what is on record is as old as this sample.
+  if (time_s < last_rejection_s_) last_rejection_s_ = time_s;
+  if (time_s < isolated_since_s_) isolated_since_s_ = time_s;
+  const bool on_record = !with_gyro_.empty() || !without_gyro_.empty();
+  if (on_record && time_s - last_rejection_s_ > setup_.quiet_s) {
     with_gyro_.clear();
     without_gyro_.clear();
     news_ = true;
@@ -157,7 +162,7 @@ void MotionMonitor::decide(double time_s) noexcept {
 
 /// After the dwell, and on a set rejected within it: not on memory alone.
 void MotionMonitor::exclude(double time_s) noexcept {
-  const bool due = time_s - named_since_s_ >= setup_.dwell_s && last_rejection_s_ > named_since_s_;
+  const bool due = time_s - isolated_since_s_ >= setup_.dwell_s && last_rejection_s_ > isolated_since_s_;
   if (verdict_.named.empty() || !due) return;
   verdict_.excluded = verdict_.excluded | verdict_.named;
   verdict_.named = SensorSet{};
@@ -174,6 +179,7 @@ const MotionVerdict& MotionMonitor::step(const MotionSample& sample) noexcept {
   if (ended == 0) {
     verdict_.sample = SpecificForce{};
     verdict_.block = SpecificForce{};
+    verdict_.cause = MotionCause::irregular_time;
   }
   for (int scale = 0; scale < kMotionScales; ++scale) {
     if ((ended >> static_cast<unsigned>(scale) & 1U) != 0) judge(scale);
@@ -186,8 +192,7 @@ SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionRead
                                       const MotionReadings& without_gyro) const noexcept {
   ForceEvidence evidence;
   evidence.rejected = &with_gyro_;
-  evidence.left_out = monitored() - trusted();
-  evidence.bounded = verdict_.least_faults <= 1 || gyro_explains_ || with_gyro_.explained_by(evidence.left_out);
+  evidence.isolated = monitored() - trusted();
   evidence.gyro_assumed = doubts_gyro() && !gyro_explains_;
   evidence.without_gyro = gyro_explains_ ? &without_gyro : nullptr;
   const SensorSet used = readings.usable & trusted();

@@ -136,7 +136,8 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
   return std::fabs(parity) > limit + (axes + norm(set.rest)) * force_bound(array, setup, set, readings);
 }
 
-bool may_reject(const SensorArray& array, const MotionReadings& readings, const LeastSquares& fit) noexcept {
+bool may_reject(const SensorArray& array, const MotionSets& sets, const MotionReadings& readings,
+                const LeastSquares& fit) noexcept {
   if (!fit.valid || fit.used != readings.usable) return true;
   const Vec3 force = fit.estimate(readings.corrected_mps2);
   double square = 0.0, least_error = 0.0, least_sigma = 0.0;
@@ -150,9 +151,9 @@ bool may_reject(const SensorArray& array, const MotionReadings& readings, const 
     if (first || array.sigma_mps2(i) < least_sigma) least_sigma = array.sigma_mps2(i);
     first = false;
   }
-  // A unit vector's product with the readings is at most the length of what is left of them, and what nearly parallel
-  // axes add of the force enters statistic and limit alike; sum |v_i| is at least 1.
-  return std::sqrt(square) > least_error + readings.noise_factor * least_sigma;
+  // The product of a unit vector with the readings is at most the length of what is left of them, and what the force
+  // adds by way of axes that are only nearly dependent. Limits are at least this: sum |v_i| >= 1.
+  return std::sqrt(square) + sets.largest_rest() * norm(force) > least_error + readings.noise_factor * least_sigma;
 }
 
 }  // namespace PLUMB_ABI

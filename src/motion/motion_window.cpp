@@ -7,6 +7,9 @@ inline namespace PLUMB_ABI {
 namespace {
 
 constexpr int kSettlingSamples = 4;  // after a reading at full scale
+/// Some 1000 g. Nothing that navigates reads more, and the square of more would widen a sensor's own limits beyond any
+/// reading (REQ-202, T11: a limit that the fault itself raises).
+constexpr double kMostReading_mps2 = 1e4;
 
 Symmetric product_of(const Vec3& w) noexcept {
   return {w[0] * w[0], w[1] * w[1], w[2] * w[2], w[0] * w[1], w[0] * w[2], w[1] * w[2]};
@@ -32,7 +35,7 @@ MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexc
   for (int i = 0; i < sensors_; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double y = sample.reading_mps2[k];
-    if (!sample.delivered.has(i) || !std::isfinite(y) || clipped_.has(i)) continue;
+    if (!sample.delivered.has(i) || !(std::fabs(y) <= kMostReading_mps2) || clipped_.has(i)) continue;
     out.usable = out.usable.with(i);
     out.reading[k] = {y, 0.5 * y};
     out.square[k] = {y * y, 0.5 * y * y};
@@ -146,9 +149,10 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
     GyroMeans& gyro = out.gyro[g];
     gyro.given = a.given[g] && b.given[g];
     gyro.acceleration_radps2 = acceleration(pair, g, out.span_s);
-    if (pair.acceleration_known) {
-      gyro.acceleration_change_radps2 = minus(gyro.acceleration_radps2, pair.acceleration_before[g]);
-    }
+    // Where no pair came before: as much as from the same to the other side.
+    gyro.acceleration_change_radps2 = pair.acceleration_known
+                                          ? minus(gyro.acceleration_radps2, pair.acceleration_before[g])
+                                          : scaled(gyro.acceleration_radps2, 2.0);
     for (std::size_t c = 0; c < 6; ++c) {
       gyro.rate_product[c] = (a.product[g][1][c] + b.product[g][0][c] - b.product[g][1][c]) * inverse;
     }

@@ -229,6 +229,91 @@ TEST(MotionMonitor, TakesExclusionsBackWhenTold) {
   EXPECT_EQ(flight.monitor.verdict().sample.used, SensorSet::first(5));
 }
 
+/// A reading that no accelerometer makes is none: its square would widen the limits of its own sets without end.
+// Negative: REQ-209
+TEST(MotionMonitor, AReadingBeyondAllAccelerometersIsNone) {
+  for (const double garbage : {2e4, 1e6, 1e100, -1e308}) {
+    MotionSetup setup = motion_setup(6, 3);
+    setup.gyros = 2;
+    Flight flight(cone_array(6, 0.01), setup, 4);
+    flight.distort = [garbage](MotionSample& s) {
+      if (s.time_s >= 0.3) s.reading_mps2[4] = garbage;
+    };
+    flight.fly(0, 600);
+    EXPECT_FALSE(flight.monitor.verdict().sample.used.has(4)) << garbage;
+    EXPECT_EQ(flight.monitor.verdict().sample.validity, ForceValidity::bounded) << garbage;
+    EXPECT_LT(flight.monitor.verdict().sample.bound_mps2, 20.0) << garbage;
+    EXPECT_LT(flight.worst_ratio, 1.0) << garbage;
+  }
+}
+
+/// Two units that fail within one sample: no single unit explains what is on record, so there is no bound, at once.
+// Negative: REQ-205
+TEST(MotionMonitor, TwoFaultsInOneSampleHaveNoBoundBeforeTheyAreIsolated) {
+  MotionSetup setup = motion_setup(8, 3);
+  setup.gyros = 2;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Flight flight(cone_array(8, 0.01), setup, seed);
+    flight.distort = [](MotionSample& s) {
+      if (s.time_s < 0.3) return;
+      s.reading_mps2[1] += 80.0;
+      s.reading_mps2[4] += 60.0;
+    };
+    flight.fly(0, 600);
+    EXPECT_LT(flight.worst_ratio, 1.0) << seed;
+  }
+}
+
+/// A host whose clock begins anew loses the window, not the evidence, and a fault is excluded all the same.
+TEST(MotionMonitor, AClockThatBeginsAnewDelaysNoExclusion) {
+  MotionSetup setup = motion_setup(6, 3);
+  setup.gyros = 2;
+  Flight flight(cone_array(6, 0.01), setup, 4);
+  double shift_s = 1e6;
+  flight.distort = [&shift_s](MotionSample& s) {
+    s.time_s += shift_s;
+    s.reading_mps2[0] += 5.0;
+  };
+  flight.fly(0, 30);
+  EXPECT_TRUE(flight.monitor.verdict().alarm);
+  shift_s = 0.0;
+  flight.fly(30, 400);
+  EXPECT_EQ(flight.monitor.verdict().excluded, SensorSet::of(0));
+}
+
+/// Samples that do not come at the stated period are never judged, and the cause says so.
+TEST(MotionMonitor, AnotherPeriodThanStatedIsReported) {
+  MotionSetup setup = motion_setup(6, 3);
+  Flight flight(cone_array(6, 0.01), setup, 4);
+  flight.distort = [](MotionSample& s) { s.time_s *= 4.0; };
+  flight.fly(0, 100);
+  EXPECT_EQ(flight.monitor.verdict().cause, MotionCause::irregular_time);
+  EXPECT_EQ(flight.bounded, 0);
+}
+
+TEST(MotionMonitor, ThreeSensorsHaveAForceAndNoCheck) {
+  AxisList axes{};
+  for (std::size_t i = 0; i < 3; ++i) axes[i][i] = 1.0;
+  Flight flight(plumb_test::make_array(axes, 3, 0.01), motion_setup(3, 3), 4);
+  flight.fly(0, 100);
+  EXPECT_EQ(flight.monitor.verdict().sample.validity, ForceValidity::unchecked);
+  EXPECT_EQ(flight.monitor.verdict().cause, MotionCause::no_redundancy);
+}
+
+/// A gyro that misses a sample now and then is no reason to reject a healthy set, whatever came just before the gap.
+TEST(MotionMonitor, AGyroThatMissesSamplesRaisesNoAlarm) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    MotionSetup setup = motion_setup(6, seed);
+    Flight flight(cone_array(6, 0.001), setup, seed);
+    flight.motion = RigidMotion(flight.array, flight.setup, seed, 200.0, 6.0);
+    flight.motion.draw_errors(true);
+    plumb_test::Noise luck(seed);
+    flight.distort = [&luck](MotionSample& s) { s.rate_given[0] = luck.uniform() > 0.3; };
+    flight.fly(0, 400);
+    EXPECT_FALSE(flight.monitor.verdict().alarm) << seed;
+  }
+}
+
 /// Whoever is named leaves the force at once; what else may have failed is in its bound, whose largest part has a name.
 TEST(MotionMonitor, TheBoundNamesItsLargestPart) {
   MotionSetup setup = motion_setup(6, 3);

@@ -139,7 +139,33 @@ RC_GTEST_PROP(MotionParityLaw, TheGateHidesNoRejection, ()) {
   const double size = *rc::gen::element(0.005, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0);
   for (int k = 0; k < n; ++k) readings.corrected_mps2[static_cast<std::size_t>(k)] += size * *rc::gen::inRange(-2, 3);
   const LeastSquares fit = least_squares(flight.array, flight.array.all());
-  RC_ASSERT(count_rejected(flight, readings) == 0 || may_reject(flight.array, readings, fit));
+  RC_ASSERT(count_rejected(flight, readings) == 0 || may_reject(flight.array, flight.sets, readings, fit));
+}
+
+/// The same of two chips whose axes are parallel but for a degree: there the force enters the parity of a pair.
+RC_GTEST_PROP(MotionParityLaw, TheGateHidesNoRejectionOfNearlyParallelAxes, ()) {
+  plumb_test::Noise luck(*rc::gen::arbitrary<std::uint32_t>());
+  AxisList axes{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    axes[i][i % 3] = 1.0;
+    if (i >= 3) axes[i] = plus(axes[i], scaled(plumb_test::random_direction(luck), 0.019 * luck.uniform()));
+    axes[i] = scaled(axes[i], 1.0 / norm(axes[i]));
+  }
+  const SensorArray array = plumb_test::make_array(axes, 6, 1e-4);
+  const MotionSets sets(array, MotionSetup{});
+  MotionSetup setup;
+  setup.force_bound_mps2 = *rc::gen::element(0.0, 5.0, 20.0);  // less than there is: then most is rejected
+  MotionReadings readings;
+  readings.usable = array.all();
+  readings.noise_factor = 1.0;
+  const Vec3 force = scaled(plumb_test::random_direction(luck), 30.0 * luck.uniform());
+  const double scatter_mps2 = *rc::gen::element(0.0, 1e-3, 0.3);
+  for (int i = 0; i < 6; ++i) {
+    readings.corrected_mps2[static_cast<std::size_t>(i)] = dot(array.axis(i), force) + scatter_mps2 * luck.normal();
+  }
+  bool any = false;
+  for (int k = 0; k < sets.size(); ++k) any = any || rejects(array, setup, sets[k], readings);
+  RC_ASSERT(!any || may_reject(array, sets, readings, least_squares(array, array.all())));
 }
 
 /// A motion of its own, added to a bias to widen the limits, does not hide it: the limit grows by a hundredth of it.

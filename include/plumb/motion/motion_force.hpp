@@ -37,9 +37,8 @@ struct SpecificForce {
 
 /// What is known when a force is estimated.
 struct ForceEvidence {
-  const RejectedSets* rejected = nullptr;
-  SensorSet left_out;   ///< faulty in every explanation: only a unit that explains the rest beside them may have failed
-  bool bounded = true;  ///< one unit more explains what is on record; else no bound is given
+  const RejectedSets* rejected = nullptr;  ///< what is on record, this pair of blocks included
+  SensorSet isolated;  ///< faulty in every explanation, and not in the force: one unit more may have failed
   bool gyro_assumed = false;
   const MotionReadings* without_gyro = nullptr;  ///< where a faulty gyro explains what is on record too
 };

@@ -19,6 +19,7 @@ enum class MotionCause : std::uint8_t {
   too_many_faults,    ///< no fault set of as many units as can be searched for explains it
   rotation_unknown,   ///< no gyro and no bound of the rate: nothing is judged
   no_redundancy,      ///< the sensors left do not check each other
+  irregular_time,     ///< fewer than three samples in a row at the stated period: nothing is judged yet
 };
 
 const char* to_string(MotionCause cause) noexcept;
@@ -78,7 +79,7 @@ class MotionMonitor {
   int grade_ = 0;
   double noise_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
-  double named_since_s_ = 0.0;
+  double isolated_since_s_ = 0.0;
   bool news_ = false;                     ///< a set was rejected that had not been, or evidence was dropped
   MotionCause open_ = MotionCause::none;  ///< why what is on record names nobody
   bool gyro_explains_ = false;  ///< a faulty gyro, with or without sensors beside it, would explain what is on record

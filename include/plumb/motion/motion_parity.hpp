@@ -47,7 +47,8 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
              const MotionReadings& readings) noexcept;
 
 /// False only where no set of `sets` within `fit.used` is rejected: then they need not be asked one by one.
-bool may_reject(const SensorArray& array, const MotionReadings& readings, const LeastSquares& fit) noexcept;
+bool may_reject(const SensorArray& array, const MotionSets& sets, const MotionReadings& readings,
+                const LeastSquares& fit) noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -38,6 +38,8 @@ class MotionSets {
 
   int size() const noexcept { return size_; }
   const MotionSet& operator[](int k) const noexcept { return sets_[static_cast<std::size_t>(k)]; }
+  /// The largest |rest| of all sets.
+  double largest_rest() const noexcept { return largest_rest_; }
 
  private:
   void add(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept;
@@ -45,6 +47,7 @@ class MotionSets {
 
   std::array<MotionSet, static_cast<std::size_t>(kMotionSets)> sets_{};
   int size_ = 0;
+  double largest_rest_ = 0.0;
 };
 
 }  // namespace PLUMB_ABI

@@ -21,7 +21,8 @@ using Symmetric = std::array<double, 6>;
 struct GyroMeans {
   bool given = false;                 ///< at every sample
   Vec3 acceleration_radps2{};         ///< angular, triangle mean
-  Vec3 acceleration_change_radps2{};  ///< against the pair of blocks before; zero where there was none
+  Vec3 acceleration_change_radps2{};  ///< against the pair of blocks before; where there was none, twice the
+                                      ///< acceleration
   Symmetric rate_product{};           ///< triangle mean of w w'
 };
 
@@ -30,7 +31,7 @@ struct MotionMeans {
   int samples = 0;          ///< of one block
   double span_s = 0.0;      ///< length of one block
   double time_s = 0.0;      ///< of the middle
-  SensorSet usable;         ///< delivered, and not clipped, at every sample
+  SensorSet usable;         ///< delivered, not clipped and below 1e4 m/s^2 at every sample
   Readings reading_mps2{};  ///< triangle mean
   Readings slope_mps3{};    ///< triangle mean of the derivative
   Readings square_m2ps4{};  ///< triangle mean of the square
