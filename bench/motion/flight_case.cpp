@@ -195,10 +195,10 @@ void score(const FlightBrief& brief, double time_s, const FlightFinding& found, 
   const double after_s = time_s - brief.onset_s;
   if (found.alarm && after_s < 0.0) out->early_alarm = true;
   if (found.alarm && after_s >= 0.0 && out->detected_s < 0.0) out->detected_s = after_s;
-  if (!(found.named & brief.faulty).empty() && out->named_s < 0.0) out->named_s = after_s;
+  if (!(found.isolated & brief.faulty).empty() && out->isolated_s < 0.0) out->isolated_s = after_s;
   if (!(found.excluded & brief.faulty).empty() && out->excluded_s < 0.0) out->excluded_s = after_s;
   const SensorSet may_blame = after_s < 0.0 ? SensorSet() : brief.may_blame;  // before it fails, a unit is healthy
-  out->wrongly_named = out->wrongly_named || !may_blame.contains(found.named);
+  out->wrongly_isolated = out->wrongly_isolated || !may_blame.contains(found.isolated);
   out->wrongly_excluded = out->wrongly_excluded || !may_blame.contains(found.excluded);
   out->all_excluded = !brief.faulty.empty() && found.excluded.contains(brief.faulty);
 }
@@ -214,7 +214,7 @@ FlightOutcome fly(const FlightCase& one) {
   feed(one, [&](const FlightSample& truth, const MotionSample& sample) {
     past.add(truth.specific_force_mps2);
     const MotionVerdict& v = monitor->step(sample);
-    score(brief, truth.time_s, {v.alarm, v.named, v.excluded}, &out);
+    score(brief, truth.time_s, {v.alarm, v.isolated, v.excluded}, &out);
     const bool gyro_failed = !one.gyro_faults.empty() && truth.time_s >= brief.onset_s;
     if (past.count() > 2) compare(v.sample, past.mean(1), gyro_failed, &out.sample);
     if (v.block_ended) compare(v.block, past.mean(kBlock), gyro_failed, &out.block);

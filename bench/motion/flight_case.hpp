@@ -35,10 +35,10 @@ struct BoundTally {
 
 struct FlightOutcome {
   double detected_s = -1.0;  ///< after the first onset; below 0: not
-  double named_s = -1.0;     ///< after it, somebody who is faulty
+  double isolated_s = -1.0;  ///< after it, somebody who is faulty
   double excluded_s = -1.0;
   bool early_alarm = false;  ///< before any onset
-  bool wrongly_named = false, wrongly_excluded = false;
+  bool wrongly_isolated = false, wrongly_excluded = false;
   bool all_excluded = false;  ///< every faulty sensor
   plumb::MotionCause last_cause = plumb::MotionCause::none;
   BoundTally sample, block;
@@ -58,7 +58,7 @@ FlightBrief brief_of(const FlightCase& one);
 /// What somebody says after a sample.
 struct FlightFinding {
   bool alarm = false;
-  plumb::SensorSet named, excluded;
+  plumb::SensorSet isolated, excluded;
 };
 
 /// Hands every sample of the flight over, with the truth behind it: the same flight for whoever judges.

@@ -122,7 +122,7 @@ void healthy_row(const Settings& s, const FlightCase& like, const char* layout) 
     return one;
   });
   const auto alarms = count(all, [](const FlightOutcome& o) { return o.early_alarm; });
-  const auto blamed = count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; });
+  const auto blamed = count(all, [](const FlightOutcome& o) { return o.wrongly_isolated || o.wrongly_excluded; });
   std::printf("| %s | %s | %llu | %s | %llu |", to_string(like.kind), layout,
               static_cast<unsigned long long>(s.flights), share(alarms, s.flights).c_str(),
               static_cast<unsigned long long>(blamed));
@@ -170,17 +170,17 @@ void row(const char* name, const Settings& s, const FlightCase& like, const std:
   std::printf("| %s | %s | %d | %d | %s | %s | %s | %s | %llu |", name, to_string(like.kind), like.sensors, like.gyros,
               share(count(all, [](const FlightOutcome& o) { return o.detected_s >= 0.0; }), n).c_str(),
               times_ms(all, &FlightOutcome::detected_s).c_str(),
-              share(count(all, [](const FlightOutcome& o) { return o.named_s >= 0.0; }), n).c_str(),
-              times_ms(all, &FlightOutcome::named_s).c_str(),
+              share(count(all, [](const FlightOutcome& o) { return o.isolated_s >= 0.0; }), n).c_str(),
+              times_ms(all, &FlightOutcome::isolated_s).c_str(),
               static_cast<unsigned long long>(
-                  count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; })));
+                  count(all, [](const FlightOutcome& o) { return o.wrongly_isolated || o.wrongly_excluded; })));
   print_bound(" ", sum(all, &FlightOutcome::block));
   std::printf("\n");
   std::fflush(stdout);
 }
 
 constexpr const char* kHead =
-    "| fault | flight | n | gyros | detected, % | p50 / p99, ms | named, % | p50 / p99, ms | others blamed | block: "
+    "| fault | flight | n | gyros | detected, % | p50 / p99, ms | isolated, % | p50 / p99, ms | others blamed | block: "
     "bound "
     "passed | mean bound, mg | rms error, mg |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
@@ -277,20 +277,21 @@ TunedLimits tuned_limits(Settings s, const FlightCase& like) {
   return out;
 }
 
-/// "right %; p50 / p99 ms; wrong %". Right: the chip is named and no healthy one ever was, nor itself before it failed.
-/// A rule that alarms more often than it names says how often.
+/// "right %; p50 / p99 ms; wrong %". Right: the chip is isolated and no healthy one ever was, nor itself before it
+/// failed. A rule that alarms more often than it names says how often.
 std::string rival_cell(const std::vector<FlightOutcome>& all) {
   std::vector<FlightOutcome> right;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(right),
-               [](const FlightOutcome& o) { return o.named_s >= 0.0 && !o.wrongly_named && !o.wrongly_excluded; });
-  const auto wrong = count(all, [](const FlightOutcome& o) { return o.wrongly_named || o.wrongly_excluded; });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(right), [](const FlightOutcome& o) {
+    return o.isolated_s >= 0.0 && !o.wrongly_isolated && !o.wrongly_excluded;
+  });
+  const auto wrong = count(all, [](const FlightOutcome& o) { return o.wrongly_isolated || o.wrongly_excluded; });
   const auto alarms = count(all, [](const FlightOutcome& o) { return o.early_alarm || o.detected_s >= 0.0; });
   const auto percent = [&](std::uint64_t k) {
     return 100.0 * static_cast<double>(k) / static_cast<double>(all.size());
   };
   char text[128];
   std::snprintf(text, sizeof text, "%.1f; %s; %.1f", percent(right.size()),
-                times_ms(right, &FlightOutcome::named_s).c_str(), percent(wrong));
+                times_ms(right, &FlightOutcome::isolated_s).c_str(), percent(wrong));
   if (alarms == right.size() + wrong) return text;
   char more[64];
   std::snprintf(more, sizeof more, " (alarm %.1f)", percent(alarms));
@@ -329,7 +330,8 @@ void rivals(const Settings& s) {
     std::printf("\n");
   }
   std::printf(
-      "\nPer fault of a whole chip: right, %%; p50 / p99, ms; wrong, %%. Right: it is named, and no healthy chip ever "
+      "\nPer fault of a whole chip: right, %%; p50 / p99, ms; wrong, %%. Right: it is isolated, and no healthy chip "
+      "ever "
       "was.\nTuned on %llu healthy flights of seed %llu: median %.1f mg, GLT %.1f mg of parity.\n",
       static_cast<unsigned long long>(s.flights), static_cast<unsigned long long>(s.seed + 1), mg(limits.median_mps2),
       mg(limits.parity_mps2));

@@ -108,10 +108,10 @@ class Px4Voter {
         const bool same = std::fabs(reading[u][axis] - last_[u][axis]) < 1e-6;
         repeats_[u] = same ? repeats_[u] + 1 : 0;
       }
-      if (repeats_[u] > kMostRepeats) out.named = out.named | sensors_of(u);
+      if (repeats_[u] > kMostRepeats) out.isolated = out.isolated | sensors_of(u);
     }
     last_ = reading;
-    out.alarm = !out.named.empty();
+    out.alarm = !out.isolated.empty();
     return out;
   }
 
@@ -300,7 +300,7 @@ std::array<FlightOutcome, kRules> fly_rivals(const FlightCase& one, const TunedL
   std::array<FlightOutcome, kRules> out;
   feed(one, [&](const scenario::FlightSample& truth, const MotionSample& sample) {
     const MotionVerdict& v = monitor->step(sample);
-    score(brief, truth.time_s, {v.alarm, v.named, v.excluded}, &out[0]);
+    score(brief, truth.time_s, {v.alarm, v.isolated, v.excluded}, &out[0]);
     const auto& found = rivals.step(sample);
     for (std::size_t k = 0; k < found.size(); ++k) score(brief, truth.time_s, found[k], &out[k + 1]);
   });

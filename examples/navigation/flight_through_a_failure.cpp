@@ -24,20 +24,20 @@ bool fly(const char* name, const plumb::scenario::FlightSpec& spec, std::FILE* c
   Drone drone(spec);
   if (!monitor.configure(drone.array(), drone.setup())) return false;
   Navigators navigators;
-  plumb::SensorSet named, excluded;
-  std::printf("\nchip %d %s from %.0f s on\n  time   with  (bound)  without  named  excluded\n", kFailedChip + 1, name,
-              kFailure_s);
+  plumb::SensorSet isolated, excluded;
+  std::printf("\nchip %d %s from %.0f s on\n  time   with  (bound)  without  isolated  excluded\n", kFailedChip + 1,
+              name, kFailure_s);
   for (int k = 0; k <= 20000; ++k) {
     const plumb::MotionSample sample = drone.next();
     const plumb::MotionVerdict& v = monitor.step(sample);
     navigators.step(sample, v, drone.truth());
     const double with_mps = navigators.with_mps(), without_mps = navigators.without_mps();
-    const bool news = !named.contains(v.named) || !excluded.contains(v.excluded);
+    const bool news = !isolated.contains(v.isolated) || !excluded.contains(v.excluded);
     if (news || (k > 0 && k % 2000 == 0)) {
       std::printf("%6.3f  %5.3f  (%5.2f)  %7.3f  %5s  %8s\n", sample.time_s, with_mps, navigators.allowed_mps(),
-                  without_mps, chips_of(v.named).c_str(), chips_of(v.excluded).c_str());
+                  without_mps, chips_of(v.isolated).c_str(), chips_of(v.excluded).c_str());
     }
-    named = named | v.named;
+    isolated = isolated | v.isolated;
     excluded = excluded | v.excluded;
     if (csv != nullptr && k % 50 == 0)
       std::fprintf(csv, "%s,%.2f,%.4f,%.4f,%.4f\n", name, sample.time_s, with_mps, navigators.allowed_mps(),

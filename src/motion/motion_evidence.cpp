@@ -89,7 +89,7 @@ MotionAnswer RejectedSets::answer(const FaultUnits& units, SensorSet sensors, in
       common = common & faults;
     }
   }
-  if (out.least <= most) out.named = common;
+  if (out.least <= most) out.isolated = common;
   return out;
 }
 

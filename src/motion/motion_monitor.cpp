@@ -77,7 +77,7 @@ void MotionMonitor::refit() noexcept {
 }
 
 SensorSet MotionMonitor::trusted() const noexcept {
-  const SensorSet rest = monitored() - verdict_.named;
+  const SensorSet rest = monitored() - verdict_.isolated;
   return coplanarity(array_, rest) < rest.size() ? rest : monitored();
 }
 
@@ -118,25 +118,25 @@ void MotionMonitor::judge(int scale) noexcept {
 
 /// What explains the sets on record; a single gyro is one more unit that may have failed, on top of one unit less.
 void MotionMonitor::answer(double time_s) noexcept {
-  const SensorSet before = verdict_.named;
+  const SensorSet before = verdict_.isolated;
   const int most = most_faults();
   const MotionAnswer found = with_gyro_.answer(units_, monitored(), most);
   verdict_.suspects = found.suspects;
-  verdict_.named = found.named;
+  verdict_.isolated = found.isolated;
   verdict_.least_faults = found.least;
   gyro_explains_ = false;
   if (doubts_gyro() && !with_gyro_.empty()) {
     const MotionAnswer beside = without_gyro_.answer(units_, monitored(), most > 0 ? most - 1 : 0);
     gyro_explains_ = most == 0 || beside.least <= most - 1;
-    if (gyro_explains_) verdict_.named = found.named & beside.named;
+    if (gyro_explains_) verdict_.isolated = found.isolated & beside.isolated;
   }
   open_ = MotionCause::none;
   if (most > 0 && found.least > most) {
     open_ = MotionCause::too_many_faults;
-  } else if (verdict_.named.empty()) {
-    open_ = found.named.empty() ? MotionCause::parity : MotionCause::gyro_inconsistent;
+  } else if (verdict_.isolated.empty()) {
+    open_ = found.isolated.empty() ? MotionCause::parity : MotionCause::gyro_inconsistent;
   }
-  if (verdict_.named == before) return;
+  if (verdict_.isolated == before) return;
   isolated_since_s_ = time_s;
   force_ = ForceEstimator(array_, units_, trusted());
 }
@@ -163,9 +163,9 @@ void MotionMonitor::decide(double time_s) noexcept {
 /// After the dwell, and on a set rejected within it: not on memory alone.
 void MotionMonitor::exclude(double time_s) noexcept {
   const bool due = time_s - isolated_since_s_ >= setup_.dwell_s && last_rejection_s_ > isolated_since_s_;
-  if (verdict_.named.empty() || !due) return;
-  verdict_.excluded = verdict_.excluded | verdict_.named;
-  verdict_.named = SensorSet{};
+  if (verdict_.isolated.empty() || !due) return;
+  verdict_.excluded = verdict_.excluded | verdict_.isolated;
+  verdict_.isolated = SensorSet{};
   refit();
 }
 

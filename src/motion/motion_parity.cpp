@@ -37,9 +37,10 @@ double frobenius(const Mat3& a, const Mat3& b) noexcept {
 
 /// How fast a reading changes at the instants of its samples, on average: the difference of block means says so where
 /// the signal is smooth. A shock begins between two samples, and vibration near the sample rate looks slow: what either
-/// adds is within the largest second difference, as if it came once in a block (docs/motion.md).
+/// adds is within the largest second difference, as if it came once in a block, and twice where a block is one sample
+/// (docs/motion.md).
 double slope_bound(const MotionMeans& means, std::size_t sensor) noexcept {
-  return std::fabs(means.slope_mps3[sensor]) + means.bend_mps2[sensor] / means.span_s;
+  return std::fabs(means.slope_mps3[sensor]) + (1.0 + 1.0 / means.samples) * means.bend_mps2[sensor] / means.span_s;
 }
 
 /// Omega' h: what a metre along each axis adds to the reading.

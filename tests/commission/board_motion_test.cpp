@@ -103,7 +103,7 @@ Outcome judge(const MotionCommissioning& found, const MotionLog& log, Injected f
     }
     const MotionVerdict& verdict = monitor->step(sample);
     out.alarm = out.alarm || verdict.alarm;
-    out.blamed = out.blamed | verdict.named | verdict.excluded;
+    out.blamed = out.blamed | verdict.isolated | verdict.excluded;
   }
   return out;
 }
@@ -148,7 +148,7 @@ TEST_F(BoardMotion, NobodyIsBlamedAndNothingAlarmsInOtherRuns) {
 }
 
 TEST_F(BoardMotion, DeadStuckAndShiftedAxesAreNamed) {
-  // Dead and stuck axes are named within seconds of tumbling. Shifts of 0.5 g and 1 g mostly are only where the
+  // Dead and stuck axes are isolated within seconds of tumbling. Shifts of 0.5 g and 1 g mostly are only where the
   // tumbling slows down at the end: blocks of four samples at 3 g leave 0.13 g rms by the skews of chips that sample
   // freely.
   const auto found = commission_motion(log_of(recording_[0], kFront), settings());
@@ -169,7 +169,7 @@ TEST_F(BoardMotion, DeadStuckAndShiftedAxesAreNamed) {
         EXPECT_TRUE(chip.contains(outcome.blamed)) << c.name << " on " << axis;
         right += outcome.blamed.empty() ? 0 : 1;
       }
-      std::cout << "[ measured ] run " << run + 1 << ", " << c.name << ": named right " << right << " of 12\n";
+      std::cout << "[ measured ] run " << run + 1 << ", " << c.name << ": isolated right " << right << " of 12\n";
       EXPECT_EQ(right, 12) << c.name;
     }
   }

@@ -114,7 +114,7 @@ TEST(MotionCommission, SetsUpAMonitorThatFindsAShiftInAnotherMotion) {
       MotionSample sample = found->sample(aligned_log, k);
       if (k > 2000) sample.reading_mps2[4] += shift_mps2;
       const MotionVerdict& verdict = monitor.step(sample);
-      blamed = blamed | verdict.named | verdict.excluded;
+      blamed = blamed | verdict.isolated | verdict.excluded;
     }
     EXPECT_EQ(blamed.has(4), shift_mps2 > 0.0);
     EXPECT_TRUE(SensorSet(0x38U).contains(blamed));  // its unit at most

@@ -167,7 +167,7 @@ Outcome judge(const MotionCommissioning& found, const MotionLog& log, Injected f
     }
     const MotionVerdict& verdict = monitor->step(sample);
     out.alarm = out.alarm || verdict.alarm;
-    out.blamed = out.blamed | verdict.named | verdict.excluded;
+    out.blamed = out.blamed | verdict.isolated | verdict.excluded;
   }
   return out;
 }

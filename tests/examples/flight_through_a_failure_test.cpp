@@ -39,7 +39,7 @@ TEST(Recent, isTheMeanOfTwoSamplesInTheirMiddle) {
 
 struct Row {
   double time_s = 0.0, with_mps = 0.0, allowed_mps = 0.0, without_mps = 0.0;
-  std::string named, excluded;
+  std::string isolated, excluded;
 };
 
 /// The table of each of the two failures: "biased", then "dead".
@@ -55,7 +55,7 @@ std::vector<std::vector<Row>> tables(int seed) {
         text.begin(), text.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
     std::istringstream in(text);
     Row row;
-    in >> row.time_s >> row.with_mps >> row.allowed_mps >> row.without_mps >> row.named >> row.excluded;
+    in >> row.time_s >> row.with_mps >> row.allowed_mps >> row.without_mps >> row.isolated >> row.excluded;
     if (in && !out.empty()) out.back().push_back(row);
   }
   pclose(pipe);
@@ -76,14 +76,14 @@ TEST(FlightThroughAFailure, plumbCarriesTheNavigatorThroughAndTheAverageDoesNot)
       EXPECT_EQ(last.time_s, 20.0);
       EXPECT_LT(last.with_mps, kMost_mps) << seed;
       EXPECT_GT(last.without_mps, 5.0 * last.with_mps) << seed;
-      EXPECT_EQ(last.named + last.excluded, "-2") << seed;
+      EXPECT_EQ(last.isolated + last.excluded, "-2") << seed;
       const auto out = std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.excluded == "2"; });
       ASSERT_NE(out, rows.end()) << seed;
       EXPECT_GT(out->time_s, 8.0) << seed;
       EXPECT_LT(out->time_s, 8.1) << seed;
-      for (const Row& row : rows) {  // one for each that is named or excluded for the first time, too
+      for (const Row& row : rows) {  // one for each that is isolated or excluded for the first time, too
         EXPECT_LT(row.with_mps, row.allowed_mps) << seed << ", " << row.time_s;
-        EXPECT_EQ(row.named, row.time_s > 8.0 && row.time_s < out->time_s ? "2" : "-") << seed << ", " << row.time_s;
+        EXPECT_EQ(row.isolated, row.time_s > 8.0 && row.time_s < out->time_s ? "2" : "-") << seed << ", " << row.time_s;
         EXPECT_EQ(row.excluded, row.time_s < out->time_s ? "-" : "2") << seed << ", " << row.time_s;
       }
       std::printf("[ measured ] flight %2d, %s: with %.3f, bound %.2f, without %.3f m/s; out at %.3f s\n", seed,

@@ -1,4 +1,4 @@
-// Law 19: in motion nobody healthy is named or excluded, and the published force is within its bound.
+// Law 19: in motion nobody healthy is isolated or excluded, and the published force is within its bound.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,8 +49,9 @@ class Case {
     const SensorSet faulty = fails() ? SensorSet::of(victim_) : SensorSet{};
     for (std::uint64_t k = 0; k < kSamples; ++k) {
       const MotionVerdict& v = monitor.step(sample(k));
-      named = named | v.named | v.excluded;
-      if (!faulty.contains(named)) return broken("names " + names_of(named) + ", faulty are " + names_of(faulty), k);
+      isolated = isolated | v.isolated | v.excluded;
+      if (!faulty.contains(isolated))
+        return broken("isolates " + names_of(isolated) + ", faulty are " + names_of(faulty), k);
       if (v.sample.validity != ForceValidity::bounded || (fails_gyro() && v.sample.gyro_assumed)) continue;
       const double error = norm(minus(v.sample.force_mps2, mean_force(v.sample.time_s)));
       if (!(error <= v.sample.bound_mps2)) return broken("the force is beyond its bound", k);
@@ -58,7 +59,7 @@ class Case {
     return {true, {}, {}};
   }
 
-  SensorSet named;
+  SensorSet isolated;
 
  private:
   MotionSetup setup(TrialNoise& noise) {
@@ -104,12 +105,12 @@ class Case {
 };
 
 // Verifies: REQ-201, REQ-204, REQ-205
-TEST(Law, NineteenInMotionNobodyHealthyIsNamedAndTheForceIsWithinItsBound) {
+TEST(Law, NineteenInMotionNobodyHealthyIsIsolatedAndTheForceIsWithinItsBound) {
   std::uint64_t told = 0;
   const LawCount count = run_law(19, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
     Case one(number, noise);
     const LawOutcome out = one.run();
-    told += one.named.empty() ? 0U : 1U;
+    told += one.isolated.empty() ? 0U : 1U;
     return out;
   });
   EXPECT_EQ(count.broken, 0U);

@@ -24,7 +24,7 @@ RC_GTEST_PROP(RejectedSetsLaw, AnswerAsASearchOverAllSets, ()) {
       *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::inRange(1U, 1U << static_cast<unsigned>(n)));
   RejectedSets rejected;
   for (const std::uint32_t bits : sets) rejected.add(SensorSet(bits));
-  SensorSet named = SensorSet::first(n), suspects;
+  SensorSet isolated = SensorSet::first(n), suspects;
   int least = most + 1;
   for (int pass = 0; pass < 2; ++pass) {
     for (std::uint32_t bits = 0; bits < (1U << static_cast<unsigned>(n)); ++bits) {
@@ -35,22 +35,22 @@ RC_GTEST_PROP(RejectedSetsLaw, AnswerAsASearchOverAllSets, ()) {
       if (!explains) continue;
       if (faults.size() < least) least = faults.size();
       if (pass == 1 && faults.size() == least) suspects = suspects | faults;
-      named = named & faults;
+      isolated = isolated & faults;
     }
   }
   const MotionAnswer answer = rejected.answer(units, SensorSet::first(n), most);
   if (sets.empty()) {
-    RC_ASSERT(answer.least == 0 && answer.named.empty() && answer.suspects.empty());
+    RC_ASSERT(answer.least == 0 && answer.isolated.empty() && answer.suspects.empty());
   } else {
     RC_ASSERT(answer.least == least);
     RC_ASSERT(answer.suspects == suspects);
-    RC_ASSERT(answer.named == (least > most ? SensorSet{} : named));
+    RC_ASSERT(answer.isolated == (least > most ? SensorSet{} : isolated));
   }
 }
 
 /// T11: while every rejected set has a faulty member, and no more are faulty than are searched for, nobody else is
-/// named.
-RC_GTEST_PROP(RejectedSetsLaw, NameNoHealthySensor, ()) {
+/// isolated.
+RC_GTEST_PROP(RejectedSetsLaw, IsolateNoHealthySensor, ()) {
   const int n = *rc::gen::inRange(4, kMotionCapacity + 1), most = *rc::gen::inRange(1, kMotionDepth + 1);
   const FaultUnits units(cone_array(n), MotionSetup{});
   SensorSet faulty;
@@ -60,7 +60,7 @@ RC_GTEST_PROP(RejectedSetsLaw, NameNoHealthySensor, ()) {
     const SensorSet set(*rc::gen::inRange(1U, 1U << static_cast<unsigned>(n)));
     if (!(set & faulty).empty()) rejected.add(set);
   }
-  RC_ASSERT(faulty.contains(rejected.answer(units, SensorSet::first(n), most).named));
+  RC_ASSERT(faulty.contains(rejected.answer(units, SensorSet::first(n), most).isolated));
 }
 
 TEST(RejectedSets, ForgetThoseThatLeave) {
@@ -87,7 +87,7 @@ TEST(RejectedSets, HaveRoomForEverySet) {
   EXPECT_FALSE(rejected.add(SensorSet::first(5))) << "it holds one that is known";
   const MotionAnswer answer = rejected.answer(units, SensorSet::first(kMotionCapacity), 2);
   EXPECT_EQ(answer.least, 1);
-  EXPECT_EQ(answer.named, SensorSet::of(0));
+  EXPECT_EQ(answer.isolated, SensorSet::of(0));
   EXPECT_EQ(answer.suspects, SensorSet::of(0));
 }
 

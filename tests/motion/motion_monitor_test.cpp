@@ -1,4 +1,4 @@
-// The monitor in motion: who is named and excluded, when nobody is, and the bound of the published force.
+// The monitor in motion: who is isolated and excluded, when nobody is, and the bound of the published force.
 #include "plumb/motion/motion_monitor.hpp"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,8 @@ struct Flight {
   RigidMotion motion;
   MotionMonitor monitor;
   std::function<void(MotionSample&)> distort = [](MotionSample&) {};
-  SensorSet ever_named, ever_excluded;
-  double named_at_s = -1.0;
+  SensorSet ever_isolated, ever_excluded;
+  double isolated_at_s = -1.0;
   double worst_ratio = 0.0;  ///< of force error to bound
   int bounded = 0, samples = 0;
 
@@ -51,9 +51,9 @@ struct Flight {
       distort(s);
       const MotionVerdict& v = monitor.step(s);
       ++samples;
-      ever_named = ever_named | v.named;
+      ever_isolated = ever_isolated | v.isolated;
       ever_excluded = ever_excluded | v.excluded;
-      if (!v.named.empty() && named_at_s < 0.0) named_at_s = s.time_s;
+      if (!v.isolated.empty() && isolated_at_s < 0.0) isolated_at_s = s.time_s;
       check_force(v.sample);
     }
   }
@@ -65,7 +65,7 @@ void add_bias_from(Flight& flight, double onset_s, int sensor, double bias_mps2)
   };
 }
 
-/// A gyro that vouches for itself: the tool can hardly turn faster than its arms forgive.
+/// Short arms: without a gyro the rotation adds little.
 MotionSetup slow_setup(int n, std::uint64_t seed) {
   MotionSetup setup = motion_setup(n, seed);
   for (Vec3& arm : setup.lever_arm_m) arm = scaled(arm, 0.1);
@@ -80,12 +80,12 @@ RC_GTEST_PROP(MotionMonitorLaw, HealthyFlightsRaiseNoAlarmAndKeepTheirBound, ())
   flight.motion.draw_errors(*rc::gen::arbitrary<bool>());
   flight.fly(0, 700);
   RC_ASSERT(!flight.monitor.verdict().alarm);
-  RC_ASSERT(flight.ever_named.empty() && flight.ever_excluded.empty());
+  RC_ASSERT(flight.ever_isolated.empty() && flight.ever_excluded.empty());
   RC_ASSERT(flight.bounded == flight.samples - 2);
   RC_ASSERT(flight.worst_ratio < 1.0);
 }
 
-RC_GTEST_PROP(MotionMonitorLaw, OneFaultNamesNobodyElseAndTheBoundHoldsThroughout, ()) {
+RC_GTEST_PROP(MotionMonitorLaw, OneFaultIsolatesNoOtherSensorAndTheBoundHoldsThroughout, ()) {
   const int n = *rc::gen::inRange(5, kCapacity + 1);
   const std::uint64_t seed = *rc::gen::arbitrary<std::uint32_t>();
   MotionSetup setup = slow_setup(n, seed);
@@ -96,11 +96,11 @@ RC_GTEST_PROP(MotionMonitorLaw, OneFaultNamesNobodyElseAndTheBoundHoldsThroughou
   const double bias = *rc::gen::element(0.02, 0.1, 0.3, 1.0, 5.0, 30.0) * *rc::gen::element(-1.0, 1.0);
   add_bias_from(flight, 0.3, sensor, bias);
   flight.fly(0, 1500);
-  RC_ASSERT(SensorSet::of(sensor).contains(flight.ever_named | flight.ever_excluded));
+  RC_ASSERT(SensorSet::of(sensor).contains(flight.ever_isolated | flight.ever_excluded));
   RC_ASSERT(flight.worst_ratio < 1.0);
 }
 
-TEST(MotionMonitor, NamesAndExcludesAFaultOfATenthOfG) {
+TEST(MotionMonitor, IsolatesAndExcludesAFaultOfATenthOfG) {
   for (int n = 5; n <= kCapacity; ++n) {
     for (int sensor = 0; sensor < n; ++sensor) {
       MotionSetup setup = motion_setup(n, 3);
@@ -110,33 +110,33 @@ TEST(MotionMonitor, NamesAndExcludesAFaultOfATenthOfG) {
       flight.fly(0, 1200);
       EXPECT_EQ(flight.ever_excluded, SensorSet::of(sensor)) << n;
       EXPECT_EQ(flight.monitor.verdict().excluded, SensorSet::of(sensor)) << n;
-      EXPECT_LT(flight.named_at_s, 0.3 + 0.6) << n;
+      EXPECT_LT(flight.isolated_at_s, 0.3 + 0.6) << n;
       EXPECT_FALSE(flight.monitor.verdict().sample.used.has(sensor));
       EXPECT_LT(flight.worst_ratio, 1.0);
     }
   }
 }
 
-/// One gyro that nothing vouches for: a small fault is seen, and the gyro would explain it; a large one is named.
+/// One gyro that nothing corroborates: a small fault is seen, and the gyro would explain it; a large one is isolated.
 // Negative: REQ-204
-TEST(MotionMonitor, BesideOneGyroALargeFaultIsNamed) {
+TEST(MotionMonitor, BesideOneGyroALargeFaultIsIsolated) {
   Flight small(cone_array(6, 0.01), slow_setup(6, 3), 6), large(cone_array(6, 0.01), slow_setup(6, 3), 6);
   add_bias_from(small, 0.3, 2, 0.5);
   add_bias_from(large, 0.3, 2, 20.0);
   small.fly(0, 1200);
   large.fly(0, 1200);
-  EXPECT_TRUE(small.ever_named.empty());
+  EXPECT_TRUE(small.ever_isolated.empty());
   EXPECT_EQ(small.monitor.verdict().cause, MotionCause::gyro_inconsistent);
   EXPECT_EQ(small.monitor.verdict().suspects, SensorSet::of(2));
   EXPECT_EQ(large.ever_excluded, SensorSet::of(2));
 }
 
-TEST(MotionMonitor, FourSensorsDetectAndNameNobody) {
+TEST(MotionMonitor, FourSensorsDetectAndIsolateNone) {
   Flight flight(cone_array(4, 0.01), slow_setup(4, 3), 4);
   add_bias_from(flight, 0.3, 1, 2.0);
   flight.fly(0, 800);
   EXPECT_TRUE(flight.monitor.verdict().alarm);
-  EXPECT_TRUE(flight.ever_named.empty());
+  EXPECT_TRUE(flight.ever_isolated.empty());
   EXPECT_EQ(flight.monitor.verdict().cause, MotionCause::parity);
   EXPECT_LT(flight.worst_ratio, 1.0) << "bounded, not silent";
   EXPECT_GT(flight.bounded, 700);
@@ -144,7 +144,7 @@ TEST(MotionMonitor, FourSensorsDetectAndNameNobody) {
 
 /// With long arms a gyro that died explains what a fault of a sensor would.
 // Verifies: REQ-204
-TEST(MotionMonitor, ADeadGyroBlamesNobody) {
+TEST(MotionMonitor, ADeadGyroIsolatesNoSensor) {
   int inconsistent = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Flight flight(cone_array(6, 0.01), motion_setup(6, seed), seed);
@@ -152,14 +152,14 @@ TEST(MotionMonitor, ADeadGyroBlamesNobody) {
       if (s.time_s >= 0.3) s.rate_radps[0] = seed % 2 == 0 ? Vec3{} : scaled(s.rate_radps[0], 2.0);
     };
     flight.fly(0, 900);
-    EXPECT_TRUE(flight.ever_named.empty()) << seed;
+    EXPECT_TRUE(flight.ever_isolated.empty()) << seed;
     inconsistent += flight.monitor.verdict().cause == MotionCause::gyro_inconsistent ? 1 : 0;
   }
   EXPECT_GT(inconsistent, 0);
 }
 
-/// With two gyros of which one died the fault is named all the same, and nobody else.
-TEST(MotionMonitor, TwoGyrosOfWhichOneDiedNameTheFault) {
+/// With two gyros of which one died the fault is isolated all the same, and nobody else.
+TEST(MotionMonitor, WithOneOfTwoGyrosDeadTheFaultIsIsolated) {
   int right = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     MotionSetup setup = motion_setup(6, seed);
@@ -170,7 +170,7 @@ TEST(MotionMonitor, TwoGyrosOfWhichOneDiedNameTheFault) {
       if (s.time_s >= 0.6) s.reading_mps2[2] += 10.0;
     };
     flight.fly(0, 1200);
-    EXPECT_TRUE(SensorSet::of(2).contains(flight.ever_named)) << seed;
+    EXPECT_TRUE(SensorSet::of(2).contains(flight.ever_isolated)) << seed;
     right += flight.ever_excluded == SensorSet::of(2) ? 1 : 0;
   }
   EXPECT_GE(right, 18);
@@ -185,7 +185,7 @@ TEST(MotionMonitor, AChipIsExcludedWhole) {
   Flight flight(cone_array(8, 0.01), setup, 3);
   add_bias_from(flight, 0.3, 4, 2.0);
   flight.fly(0, 900);
-  EXPECT_EQ(flight.ever_named, SensorSet(0b00110000));
+  EXPECT_EQ(flight.ever_isolated, SensorSet(0b00110000));
   EXPECT_EQ(flight.ever_excluded, SensorSet(0b00110000));
   EXPECT_LT(flight.worst_ratio, 1.0);
 }
@@ -314,14 +314,15 @@ TEST(MotionMonitor, AGyroThatMissesSamplesRaisesNoAlarm) {
   }
 }
 
-/// Whoever is named leaves the force at once; what else may have failed is in its bound, whose largest part has a name.
+/// Whoever is isolated leaves the force at once; what else may have failed is in its bound, whose largest part has a
+/// name.
 TEST(MotionMonitor, TheBoundNamesItsLargestPart) {
   MotionSetup setup = motion_setup(6, 3);
   setup.gyros = 2;
   Flight flight(cone_array(6, 0.01), setup, 4);
   add_bias_from(flight, 0.3, 0, 5.0);
   flight.fly(0, 310);
-  EXPECT_EQ(flight.monitor.verdict().named, SensorSet::of(0));
+  EXPECT_EQ(flight.monitor.verdict().isolated, SensorSet::of(0));
   EXPECT_TRUE(flight.monitor.verdict().excluded.empty());
   EXPECT_FALSE(flight.monitor.verdict().sample.used.has(0));
   flight.fly(310, 900);
@@ -377,7 +378,7 @@ RC_GTEST_PROP(MotionMonitorLaw, EveryBitPatternIsTakenAndReplaysBitForBit, ()) {
         noise.uniform() < 0.1 ? SensorSet(static_cast<std::uint32_t>(4294967295.0 * noise.uniform())) : SensorSet{};
     const MotionVerdict& a = first.step(s);
     const MotionVerdict& b = second.step(s);
-    RC_ASSERT(a.named == b.named && a.excluded == b.excluded && a.cause == b.cause);
+    RC_ASSERT(a.isolated == b.isolated && a.excluded == b.excluded && a.cause == b.cause);
     RC_ASSERT(std::memcmp(&a.sample.force_mps2, &b.sample.force_mps2, sizeof a.sample.force_mps2) == 0);
     RC_ASSERT(std::memcmp(&a.sample.bound_mps2, &b.sample.bound_mps2, sizeof a.sample.bound_mps2) == 0);
     if (a.sample.validity != ForceValidity::none)
@@ -398,16 +399,17 @@ TEST(MotionMonitor, RefusesWhatItCannotUse) {
   EXPECT_EQ(refused(SensorArray{}, [](MotionSetup&) {}).code, Errc::too_few_sensors);
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.errors[3].lag_s = -1.0; }), (Error{Errc::out_of_range, 3}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.lever_arm_m[2][1] = std::nan(""); }), (Error{Errc::not_finite, 2}));
-  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.sample_period_s = 0.0; }).code, Errc::out_of_range);
-  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyros = 3; }).code, Errc::out_of_range);
-  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.max_faults = 9; }).code, Errc::out_of_range);
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.sample_period_s = 0.0; }), (Error{Errc::out_of_range, 100}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyros = 3; }), (Error{Errc::out_of_range, 101}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyro.lag_s = std::nan(""); }), (Error{Errc::not_finite, 106}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.max_faults = 9; }), (Error{Errc::out_of_range, 112}));
 }
 
 TEST(MotionMonitor, ThatWasNeverConfiguredSaysNothing) {
   MotionMonitor monitor;
   const MotionVerdict& v = monitor.step(MotionSample{});
   EXPECT_EQ(v.sample.validity, ForceValidity::none);
-  EXPECT_TRUE(v.named.empty());
+  EXPECT_TRUE(v.isolated.empty());
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class FaultUnits {
 
 /// What the fault sets that explain all rejected sets have in common.
 struct MotionAnswer {
-  SensorSet named;     ///< in every fault set of at most as many units as are searched for
+  SensorSet isolated;  ///< in every fault set of at most as many units as are searched for
   SensorSet suspects;  ///< in some of the smallest
   int least = 0;       ///< units of the smallest; one more than are searched for where none explains them
 };

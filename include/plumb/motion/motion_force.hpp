@@ -31,7 +31,7 @@ struct SpecificForce {
   Mat3 covariance_m2ps4{};                                      ///< of the noise alone
   double bound_mps2 = std::numeric_limits<double>::infinity();  ///< of the length of the error; infinite: none
   ForceTerm dominant = ForceTerm::noise;                        ///< the largest part of the bound
-  bool gyro_assumed = false;  ///< it holds while the only gyro does: nothing vouches for that one
+  bool gyro_assumed = false;  ///< it holds while the only gyro is healthy: nothing corroborates that one
   SensorSet used;
 };
 

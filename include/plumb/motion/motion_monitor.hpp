@@ -1,5 +1,5 @@
 /// `MotionMonitor`: what of redundant accelerometers may be trusted while the tool moves. Parity of blocks of 1, 4, 32
-/// and 256 samples rejects sets of sensors; what explains all of them is named, and excluded provisionally after a
+/// and 256 samples rejects sets of sensors; who is in every explanation is isolated, and provisionally excluded after a
 /// dwell. At every sample it publishes the specific force of the others and how wrong that can be at most.
 ///
 /// It needs neither gravity nor rest, and decides nothing about either: confirmed exclusion, calibration and
@@ -11,9 +11,9 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Why nobody is named although readings contradict each other, or why nothing is judged.
+/// Why no sensor is isolated although readings contradict each other, or why nothing is judged.
 enum class MotionCause : std::uint8_t {
-  none,               ///< nothing contradicts, or somebody is named
+  none,               ///< nothing contradicts, or a sensor is isolated
   parity,             ///< readings contradict each other and several explanations are left
   gyro_inconsistent,  ///< a faulty gyro would explain it too
   too_many_faults,    ///< no fault set of as many units as can be searched for explains it
@@ -31,7 +31,7 @@ struct MotionVerdict {
   bool alarm = false;        ///< some rejected set is on record
   SensorSet rejected;        ///< members of the sets that the last sample's blocks rejected
   SensorSet suspects;        ///< in some of the smallest explanations
-  SensorSet named;           ///< in every explanation
+  SensorSet isolated;        ///< in every explanation
   SensorSet excluded;        ///< provisionally, by this monitor
   int least_faults = 0;      ///< units that it takes at least to explain what is on record
   MotionCause cause = MotionCause::none;
@@ -51,8 +51,8 @@ class MotionMonitor {
   void forget() noexcept;
 
  private:
-  /// Whether a gyro that failed is a hypothesis: a single one that nobody vouches for.
-  bool doubts_gyro() const noexcept { return setup_.gyros == 1 && !setup_.gyro_vouched; }
+  /// Whether a gyro that failed is a hypothesis: a single one that nothing corroborates.
+  bool doubts_gyro() const noexcept { return setup_.gyros == 1 && !setup_.gyro_corroborated; }
   void judge(int scale) noexcept;
   void decide(double time_s) noexcept;
   void answer(double time_s) noexcept;
@@ -62,7 +62,7 @@ class MotionMonitor {
   SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings,
                          const MotionReadings& without_gyro) const noexcept;
   SensorSet monitored() const noexcept { return in_service_ - verdict_.excluded; }
-  /// Who makes the force: whoever is named is left out of it at once, where the others determine it.
+  /// The sensors that make the force: isolated ones are not among them, where the others determine it.
   SensorSet trusted() const noexcept;
   int most_faults() const noexcept;
 

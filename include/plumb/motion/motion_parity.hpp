@@ -16,7 +16,7 @@ struct RotationTerm {
   double error_per_s2 = 0.0;  ///< what the true one differs by, operator norm
 };
 
-/// Who vouches for the rotation.
+/// What the rotation rests on.
 enum class RotationSource : std::uint8_t {
   gyro,  ///< one gyro, right where that gyro is healthy; with two of them, right where either is
   bound  ///< the fastest that the tool turns: right without any gyro

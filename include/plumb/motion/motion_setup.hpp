@@ -45,12 +45,12 @@ struct MotionSetup {
   int gyros = 0;  ///< triads in `MotionSample`, 0 to 2
   /// The host knows by other means that the gyro is right, as an estimator does that compares several. Else a single
   /// gyro is one more unit that may have failed.
-  bool gyro_vouched = false;
+  bool gyro_corroborated = false;
   GyroErrors gyro;
   double rate_bound_radps = 0.0;    ///< the fastest that the tool turns, 0 = unknown
   double force_bound_mps2 = 160.0;  ///< the largest specific force that it feels, averaged over two blocks
   double false_alarms_per_hour = 1e-3;
-  double dwell_s = 0.064;  ///< a sensor is excluded once it has been named for so long
+  double dwell_s = 0.064;  ///< a sensor is excluded once it has been isolated for so long
   double quiet_s = 5.0;    ///< rejected sets are forgotten after so long without a new one
   /// Sensors of one chip, which may fail together, bear the same number; 0: a unit of its own.
   std::array<std::uint8_t, kCapacity> chip{};
@@ -67,8 +67,10 @@ struct MotionSample {
   std::array<bool, kGyros> rate_given{};
 };
 
-/// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity), out_of_range (index = number of the field, in the
-/// order of `MotionSetup`, for bounds of sensors the sensor), not_finite.
+/// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity); out_of_range and not_finite, with the value, the
+/// bound that it broke, and index = the sensor, or 100 and more for what concerns no sensor: sample_period_s 100, gyros,
+/// gyro.scale 102, axis_rad, bias_radps, noise_radps, lag_s 106, rate_bound_radps, force_bound_mps2 108,
+/// false_alarms_per_hour, dwell_s 110, quiet_s, max_faults 112.
 Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept;
 
 }  // namespace PLUMB_ABI
