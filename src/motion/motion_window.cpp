@@ -32,6 +32,7 @@ void MotionWindow::clear() noexcept { *this = MotionWindow(sensors_, gyros_, per
 MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexcept {
   Sums out;
   out.count = 1;
+  out.time_s = sample.time_s - origin_s_;
   for (int i = 0; i < sensors_; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double y = sample.reading_mps2[k];
@@ -72,17 +73,23 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
     }
   }
   to.count += part.count;
+  to.time_s += part.time_s;
 }
 
-Vec3 MotionWindow::acceleration(const Scale& scale, std::size_t gyro, double span_s) const noexcept {
-  return scaled(minus(scale.last.rate[gyro], scale.before.rate[gyro]), 1.0 / (scale.last.count * span_s));
+/// From the middle of one block to that of the next.
+double MotionWindow::span_s(const Scale& scale) noexcept {
+  return (scale.last.time_s - scale.before.time_s) / scale.last.count;
 }
 
-void MotionWindow::close(Scale& scale, double span_s) noexcept {
+Vec3 MotionWindow::acceleration(const Scale& scale, std::size_t gyro) noexcept {
+  return scaled(minus(scale.last.rate[gyro], scale.before.rate[gyro]), 1.0 / (scale.last.count * span_s(scale)));
+}
+
+void MotionWindow::close(Scale& scale) noexcept {
   scale.acceleration_known = scale.before.count > 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_) && scale.acceleration_known; ++g) {
     scale.acceleration_known = scale.acceleration_known && scale.last.given[g] && scale.before.given[g];
-    scale.acceleration_before[g] = acceleration(scale, g, span_s);
+    scale.acceleration_before[g] = acceleration(scale, g);
   }
   scale.before = scale.last;
   scale.last = scale.filling;
@@ -99,6 +106,7 @@ void MotionWindow::add(const MotionSample& sample) noexcept {
     clipped_ = clipped_ | sample.clipped;
     settling_ = kSettlingSamples + 1;
   }
+  if (begun_ == 0) origin_s_ = sample.time_s;
   const Sums next = sums_of(sample);
   if (settling_ > 0 && --settling_ == 0) clipped_ = SensorSet{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_) && begun_ > 0; ++i) {
@@ -123,7 +131,7 @@ void MotionWindow::take(const Sums& sample) noexcept {
              static_cast<double>(part.count) / samples);
     }
     if (scale.filling.count < samples) return;
-    close(scale, samples * period_s_);
+    close(scale);
     if (scale.before.count > 0) ended_ |= 1U << s;
   }
 }
@@ -136,8 +144,8 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
   const double inverse = 1.0 / b.count;
   const auto triangle = [&](const auto& x, const auto& y) { return (x[1] + y[0] - y[1]) * inverse; };
   out.samples = b.count;
-  out.span_s = b.count * period_s_;
-  out.time_s = time_s_ - (b.count + 0.5) * period_s_;
+  out.span_s = span_s(pair);
+  out.time_s = origin_s_ + 0.5 * inverse * (a.time_s + b.time_s);
   out.usable = a.usable & b.usable;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
     out.reading_mps2[i] = triangle(a.reading[i], b.reading[i]);
@@ -148,7 +156,7 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     GyroMeans& gyro = out.gyro[g];
     gyro.given = a.given[g] && b.given[g];
-    gyro.acceleration_radps2 = acceleration(pair, g, out.span_s);
+    gyro.acceleration_radps2 = acceleration(pair, g);
     // Where no pair came before: as much as from the same to the other side.
     gyro.acceleration_change_radps2 = pair.acceleration_known
                                           ? minus(gyro.acceleration_radps2, pair.acceleration_before[g])

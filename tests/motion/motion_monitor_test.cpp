@@ -291,6 +291,24 @@ TEST(MotionMonitor, AnotherPeriodThanStatedIsReported) {
   EXPECT_EQ(flight.bounded, 0);
 }
 
+/// A period that is stated wrong by a quarter: time stamps count, so that the angular acceleration is right all the
+/// same.
+TEST(MotionMonitor, TimeStampsCountNotTheStatedPeriod) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    MotionSetup setup = motion_setup(6, seed);
+    setup.gyros = 2;
+    setup.sample_period_s = 0.00125;
+    Flight flight(cone_array(6, 0.001), setup, seed);
+    MotionSetup stated = setup;
+    stated.sample_period_s = 0.001;
+    ASSERT_TRUE(flight.monitor.configure(flight.array, stated).has_value());
+    flight.fly(0, 400);
+    EXPECT_FALSE(flight.monitor.verdict().alarm) << seed;
+    EXPECT_LT(flight.worst_ratio, 1.0) << seed;
+    EXPECT_EQ(flight.bounded, 398) << seed;
+  }
+}
+
 TEST(MotionMonitor, ThreeSensorsHaveAForceAndNoCheck) {
   AxisList axes{};
   for (std::size_t i = 0; i < 3; ++i) axes[i][i] = 1.0;

@@ -68,8 +68,8 @@ struct MotionSample {
 };
 
 /// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity); out_of_range and not_finite, with the value, the
-/// bound that it broke, and index = the sensor, or 100 and more for what concerns no sensor: sample_period_s 100, gyros,
-/// gyro.scale 102, axis_rad, bias_radps, noise_radps, lag_s 106, rate_bound_radps, force_bound_mps2 108,
+/// bound that it broke, and index = the sensor, or 100 and more for what concerns no sensor: sample_period_s 100,
+/// gyros, gyro.scale 102, axis_rad, bias_radps, noise_radps, lag_s 106, rate_bound_radps, force_bound_mps2 108,
 /// false_alarms_per_hour, dwell_s 110, quiet_s, max_faults 112.
 Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept;
 

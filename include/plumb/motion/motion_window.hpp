@@ -29,7 +29,7 @@ struct GyroMeans {
 /// Two adjacent blocks of one scale.
 struct MotionMeans {
   int samples = 0;          ///< of one block
-  double span_s = 0.0;      ///< length of one block
+  double span_s = 0.0;      ///< length of one block, by the time stamps
   double time_s = 0.0;      ///< of the middle
   SensorSet usable;         ///< delivered, not clipped and below 1e4 m/s^2 at every sample
   Readings reading_mps2{};  ///< triangle mean
@@ -61,6 +61,7 @@ class MotionWindow {
   /// Of one block: sums of x, and of x weighted by (k + 1/2) / N.
   struct Sums {
     int count = 0;
+    double time_s = 0.0;  ///< since the window began
     SensorSet usable;
     std::array<bool, kGyros> given{};
     std::array<std::array<double, 2>, kMotionCapacity> reading{};
@@ -81,8 +82,9 @@ class MotionWindow {
   Sums sums_of(const MotionSample& sample) const noexcept;
   void take(const Sums& sample) noexcept;
   void append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept;
-  void close(Scale& scale, double span_s) noexcept;
-  Vec3 acceleration(const Scale& scale, std::size_t gyro, double span_s) const noexcept;
+  void close(Scale& scale) noexcept;
+  static double span_s(const Scale& scale) noexcept;
+  static Vec3 acceleration(const Scale& scale, std::size_t gyro) noexcept;
 
   std::array<Scale, kMotionScales> scales_{};
   Sums newest_;
@@ -91,7 +93,8 @@ class MotionWindow {
   int gyros_ = 0;
   double period_s_ = 0.0;
   double time_s_ = 0.0;
-  int begun_ = 0;  ///< samples since the last gap, at most two
+  double origin_s_ = 0.0;  ///< of the first sample of the window
+  int begun_ = 0;          ///< samples since the last gap, at most two
   unsigned ended_ = 0;
   int settling_ = 0;  ///< samples during which a channel that was clipped stays out
   SensorSet clipped_;
