@@ -85,7 +85,7 @@ Vec3 MotionWindow::acceleration(const Scale& scale, std::size_t gyro) noexcept {
   return scaled(minus(scale.last.rate[gyro], scale.before.rate[gyro]), 1.0 / (scale.last.count * span_s(scale)));
 }
 
-void MotionWindow::close(Scale& scale) noexcept {
+void MotionWindow::close(Scale& scale) const noexcept {
   scale.acceleration_known = scale.before.count > 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_) && scale.acceleration_known; ++g) {
     scale.acceleration_known = scale.acceleration_known && scale.last.given[g] && scale.before.given[g];

@@ -82,7 +82,7 @@ class MotionWindow {
   Sums sums_of(const MotionSample& sample) const noexcept;
   void take(const Sums& sample) noexcept;
   void append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept;
-  void close(Scale& scale) noexcept;
+  void close(Scale& scale) const noexcept;
   static double span_s(const Scale& scale) noexcept;
   static Vec3 acceleration(const Scale& scale, std::size_t gyro) noexcept;
 

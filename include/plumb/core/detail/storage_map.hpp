@@ -209,14 +209,19 @@ struct PlanTables {
       if (k == 0 || kBytes[k - 1] != 0xFF) stretch[stretches++].first = static_cast<std::uint16_t>(k);
       ++stretch[stretches - 1].count;
     }
-    for (unsigned bytes = 1; bytes < 0xFF; ++bytes) {
-      const std::size_t before = words;
-      for (std::size_t k = 0; k < kBytes.size(); ++k) {
-        if (kBytes[k] == bytes) word[words++] = static_cast<std::uint16_t>(k);
-      }
-      if (words == before) continue;
+    // Counted first and placed then: one search per pattern takes more steps than a compiler allows.
+    std::array<std::size_t, 256> count{}, next{};
+    for (const std::uint8_t bytes : kBytes) ++count[bytes];
+    for (std::size_t bytes = 1; bytes < 0xFF; ++bytes) {
+      if (count[bytes] == 0) continue;
       group[groups].bytes = static_cast<std::uint8_t>(bytes);
-      group[groups++].count = static_cast<std::uint8_t>(words - before);
+      group[groups++].count = static_cast<std::uint8_t>(count[bytes]);
+      next[bytes] = words;
+      words += count[bytes];
+    }
+    for (std::size_t k = 0; k < kBytes.size(); ++k) {
+      const std::uint8_t bytes = kBytes[k];
+      if (bytes != 0 && bytes != 0xFF) word[next[bytes]++] = static_cast<std::uint16_t>(k);
     }
   }
 };
