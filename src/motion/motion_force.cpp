@@ -56,6 +56,7 @@ ForceEstimator::Fit ForceEstimator::fit_of(const SensorArray& array, SensorSet s
 }
 
 /// What noise and the errors of the healthy sensors of a fit may add to its estimate, on top of how far that is away.
+/// Turned axes add by the true force, which is at most the estimate and that error: e <= b + t (|f| + e).
 ForceEstimator::Explanation ForceEstimator::explain(const Fit& fit, const MotionSetup& setup,
                                                     const MotionReadings& readings, const SpecificForce& force,
                                                     double share) noexcept {
@@ -63,11 +64,14 @@ ForceEstimator::Explanation ForceEstimator::explain(const Fit& fit, const Motion
   const Vec3 estimate = fit.map.estimate(readings.corrected_mps2);
   out.force_mps2 = norm(estimate);
   out.away_mps2 = norm(minus(estimate, force.force_mps2));
-  out.reach_mps2 = out.away_mps2 + noise_of(fit.map, share);
+  double error = noise_of(fit.map, share), turn = 0.0;
   for (std::size_t k = 0; k < fit.gain.size(); ++k) {
     if (!fit.map.used.has(static_cast<int>(k))) continue;
-    out.reach_mps2 += fit.gain[k] * (readings.error_mps2[k] + setup.errors[k].axis_rad * out.force_mps2);
+    error += fit.gain[k] * readings.error_mps2[k];
+    turn += fit.gain[k] * setup.errors[k].axis_rad;
   }
+  out.reach_mps2 = turn < 1.0 ? out.away_mps2 + (error + turn * out.force_mps2) / (1.0 - turn)
+                              : std::numeric_limits<double>::infinity();
   return out;
 }
 

@@ -14,19 +14,22 @@ Mat3 omega_of(const GyroMeans& gyro) noexcept {
           p[4] - a[1],  p[5] + a[0],  -p[0] - p[1]};
 }
 
+/// What x may be off by, relative to the reading y = (1 + s) x, |s| <= `bound`.
+double of_reading(double bound) noexcept { return bound / (1.0 - bound); }
+
 /// What the term of a healthy gyro is off by: scale and axis, bias, noise, and how fast the acceleration changes. A
 /// quarter of a sample period covers that readings are compared at instants, rates over the intervals between them.
 double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
   const double square = gyro.rate_product[0] + gyro.rate_product[1] + gyro.rate_product[2];
   const double rate = std::sqrt(square > 0.0 ? square : 0.0);
-  const double relative = bounds.scale + bounds.axis_rad;
+  const double relative = of_reading(bounds.scale + bounds.axis_rad), more = (1.0 + relative) * (1.0 + relative);
   const double n = means.samples, period_s = means.span_s / n;
   const double noise = k * bounds.noise_radps;
-  return relative * (2.0 * square + norm(gyro.acceleration_radps2)) +
-         2.0 * rate * (bounds.bias_radps + noise * std::sqrt(means.noise_share())) +
-         bounds.bias_radps * bounds.bias_radps + 3.0 * bounds.noise_radps * bounds.noise_radps +
-         noise * std::sqrt(2.0 / n) / means.span_s +
-         (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2);
+  return (2.0 + relative) * relative * square + relative * norm(gyro.acceleration_radps2) +
+         more * (2.0 * rate * (bounds.bias_radps + noise * std::sqrt(means.noise_share())) +
+                 bounds.bias_radps * bounds.bias_radps + 3.0 * bounds.noise_radps * bounds.noise_radps +
+                 noise * std::sqrt(2.0 / n) / means.span_s +
+                 (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2));
 }
 
 double frobenius(const Mat3& a, const Mat3& b) noexcept {
@@ -49,19 +52,52 @@ Vec3 per_metre(const Mat3& omega, const Vec3& h) noexcept {
           omega[2] * h[0] + omega[5] * h[1] + omega[8] * h[2]};
 }
 
-/// How large the force is at most by the readings of a set: |f| <= |H f| / (smallest singular value of H).
+/// How large the force is at most by the readings of a set: |f| <= (|y| + |e|) / s, s the smallest singular value of
+/// its axes less what turns of the axes take from it.
 double force_bound(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
                    const MotionReadings& readings) noexcept {
-  double square = 0.0, error_square = 0.0;
+  double square = 0.0, error_square = 0.0, turn_square = 0.0;
   for (int i = 0; i < array.size(); ++i) {
     if (!set.all.has(i)) continue;
     const auto k = static_cast<std::size_t>(i);
+    const double error = readings.error_mps2[k] + readings.noise_factor * array.sigma_mps2(i);
     square += readings.corrected_mps2[k] * readings.corrected_mps2[k];
-    error_square += readings.error_mps2[k] * readings.error_mps2[k];
+    error_square += error * error;
+    turn_square += setup.errors[k].axis_rad * setup.errors[k].axis_rad;
   }
-  if (set.least_singular == 0.0) return setup.force_bound_mps2;
-  const double seen = (std::sqrt(square) + std::sqrt(error_square)) / set.least_singular;
+  const double singular = set.least_singular - std::sqrt(turn_square);
+  if (!(singular > 0.0)) return setup.force_bound_mps2;
+  const double seen = (std::sqrt(square) + std::sqrt(error_square)) / singular;
   return seen < setup.force_bound_mps2 ? seen : setup.force_bound_mps2;
+}
+
+/// The force by least squares of the readings of a set that sees all of it, and what it is off by at most.
+struct ForceOfSet {
+  Vec3 force_mps2{};
+  double error_mps2 = 0.0;
+};
+
+ForceOfSet force_of(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
+                    const MotionReadings& readings, double force_mps2) noexcept {
+  std::array<Vec3, 3> normal{};
+  Vec3 right{};
+  double square = 0.0;
+  for (int i = 0; i < array.size(); ++i) {
+    if (!set.all.has(i)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3& h = array.axis(i);
+    for (std::size_t c = 0; c < 3; ++c) normal[c] = plus(normal[c], scaled(h, h[c]));
+    right = plus(right, scaled(h, readings.corrected_mps2[k]));
+    const double error =
+        readings.error_mps2[k] + setup.errors[k].axis_rad * force_mps2 + readings.noise_factor * array.sigma_mps2(i);
+    square += error * error;
+  }
+  const double det = det3(normal[0], normal[1], normal[2]);
+  ForceOfSet out;
+  out.force_mps2 = {det3(right, normal[1], normal[2]) / det, det3(normal[0], right, normal[2]) / det,
+                    det3(normal[0], normal[1], right) / det};
+  out.error_mps2 = std::sqrt(square) / set.least_singular;
+  return out;
 }
 
 /// A mean of the angular acceleration over two blocks is the difference of two mean rates over the length of one.
@@ -113,7 +149,7 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
                         rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m),
                         e.lag_s * slope_bound(means, k),
                         e.rectification * means.square_m2ps4[k],
-                        e.scale * std::fabs(y),
+                        of_reading(e.scale) * std::fabs(y),
                         e.axis_rad * norm(times(rotation.omega_per_s2, arm)),
                         e.bias_mps2};
     for (const double part : out.part_mps2[k]) out.error_mps2[k] += part;
@@ -134,7 +170,13 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
     axes += std::fabs(v) * setup.errors[i].axis_rad;
   }
   limit += readings.noise_factor * std::sqrt(variance);
-  return std::fabs(parity) > limit + (axes + norm(set.rest)) * force_bound(array, setup, set, readings);
+  const double force = force_bound(array, setup, set, readings);
+  limit += axes * force;
+  if (set.least_singular == 0.0) return std::fabs(parity) > limit + norm(set.rest) * force;
+  // What nearly parallel axes add of the force is taken off where the set sees the force: it costs what that force is
+  // off by.
+  const ForceOfSet seen = force_of(array, setup, set, readings, force);
+  return std::fabs(parity - dot(set.rest, seen.force_mps2)) > limit + norm(set.rest) * seen.error_mps2;
 }
 
 bool may_reject(const SensorArray& array, const MotionSets& sets, const MotionReadings& readings,
@@ -152,9 +194,11 @@ bool may_reject(const SensorArray& array, const MotionSets& sets, const MotionRe
     if (first || array.sigma_mps2(i) < least_sigma) least_sigma = array.sigma_mps2(i);
     first = false;
   }
-  // The product of a unit vector with the readings is at most the length of what is left of them, and what the force
-  // adds by way of axes that are only nearly dependent. Limits are at least this: sum |v_i| >= 1.
-  return std::sqrt(square) + sets.largest_rest() * norm(force) > least_error + readings.noise_factor * least_sigma;
+  // The product of a unit vector with the readings is at most the length of what is left of them, and what axes that
+  // are only nearly dependent add: the force, or by how much the force of a set differs from that of all sensors.
+  // Limits are at least this: sum |v_i| >= 1.
+  const double parity = std::sqrt(square) * (1.0 + sets.largest_gain()) + sets.largest_blind_rest() * norm(force);
+  return parity > least_error + readings.noise_factor * least_sigma;
 }
 
 }  // namespace PLUMB_ABI

@@ -89,7 +89,11 @@ void MotionSets::add(const SensorArray& array, const MotionSetup& setup, SensorS
   set.all = set.size == 4 ? members : chips_of(array, setup, members);
   set.least_singular = smallest_singular(array, set.all);
   if (set.least_singular == 0.0) set.all = members;
-  if (norm(set.rest) > largest_rest_) largest_rest_ = norm(set.rest);
+  if (set.least_singular == 0.0) {
+    largest_blind_rest_ = std::fmax(largest_blind_rest_, norm(set.rest));
+  } else {
+    largest_gain_ = std::fmax(largest_gain_, norm(set.rest) / set.least_singular);
+  }
   sets_[static_cast<std::size_t>(size_++)] = set;
 }
 

@@ -44,8 +44,8 @@ Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcep
   const GyroErrors& g = setup.gyro;
   const std::array<Bound, 13> fields{{{setup.sample_period_s, 1e-5, 1.0},
                                       {static_cast<double>(setup.gyros), 0.0, kGyros},
-                                      {g.scale, 0.0, 0.5},
-                                      {g.axis_rad, 0.0, 0.5},
+                                      {g.scale, 0.0, 0.4},
+                                      {g.axis_rad, 0.0, 0.4},
                                       {g.bias_radps, 0.0, 10.0},
                                       {g.noise_radps, 0.0, 10.0},
                                       {g.lag_s, 0.0, 1.0},

@@ -38,8 +38,10 @@ class MotionSets {
 
   int size() const noexcept { return size_; }
   const MotionSet& operator[](int k) const noexcept { return sets_[static_cast<std::size_t>(k)]; }
-  /// The largest |rest| of all sets.
-  double largest_rest() const noexcept { return largest_rest_; }
+  /// The largest |rest| of the sets that do not see all of the force.
+  double largest_blind_rest() const noexcept { return largest_blind_rest_; }
+  /// The largest |rest| / least_singular of the others: what an error of the readings adds by way of their force.
+  double largest_gain() const noexcept { return largest_gain_; }
 
  private:
   void add(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept;
@@ -47,7 +49,7 @@ class MotionSets {
 
   std::array<MotionSet, static_cast<std::size_t>(kMotionSets)> sets_{};
   int size_ = 0;
-  double largest_rest_ = 0.0;
+  double largest_blind_rest_ = 0.0, largest_gain_ = 0.0;
 };
 
 }  // namespace PLUMB_ABI
