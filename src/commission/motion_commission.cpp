@@ -150,6 +150,7 @@ CommissionExpected<MotionCommissioning> commission_motion(const MotionLog& log, 
   out.array = *array;
   out.setup = setup_of(out.fit, rule);
   out.setup.sample_period_s = log.period_s;
+  out.setup.shortest_block = rule.shortest_block;
   out.setup.gyro = gyro_errors_of(level, out.alignment, rule);
   out.lag_needed_s = lag_needed(out, level, rule);
   if (out.lag_needed_s < 0.0) {

@@ -182,7 +182,8 @@ const MotionVerdict& MotionMonitor::step(const MotionSample& sample) noexcept {
     verdict_.cause = MotionCause::irregular_time;
   }
   for (int scale = 0; scale < kMotionScales; ++scale) {
-    if ((ended >> static_cast<unsigned>(scale) & 1U) != 0) judge(scale);
+    const bool judged = kMotionSamples[static_cast<std::size_t>(scale)] >= setup_.shortest_block;
+    if (judged && (ended >> static_cast<unsigned>(scale) & 1U) != 0) judge(scale);
   }
   if (ended != 0) decide(sample.time_s);
   return verdict_;

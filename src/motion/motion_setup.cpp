@@ -42,7 +42,7 @@ Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcep
     }
   }
   const GyroErrors& g = setup.gyro;
-  const std::array<Bound, 13> fields{{{setup.sample_period_s, 1e-5, 1.0},
+  const std::array<Bound, 14> fields{{{setup.sample_period_s, 1e-5, 1.0},
                                       {static_cast<double>(setup.gyros), 0.0, kGyros},
                                       {g.scale, 0.0, 0.4},
                                       {g.axis_rad, 0.0, 0.4},
@@ -54,7 +54,8 @@ Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcep
                                       {setup.false_alarms_per_hour, 1e-9, 1.0},
                                       {setup.dwell_s, 0.0, 10.0},
                                       {setup.quiet_s, 0.0, 3600.0},
-                                      {static_cast<double>(setup.max_faults), 0.0, kMotionDepth}}};
+                                      {static_cast<double>(setup.max_faults), 0.0, kMotionDepth},
+                                      {static_cast<double>(setup.shortest_block), 1.0, 32.0}}};
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (const Expected<void> sound = within_range(fields[k], 100 + static_cast<int>(k)); !sound) return sound;
   }

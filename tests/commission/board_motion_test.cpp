@@ -147,7 +147,7 @@ TEST_F(BoardMotion, NobodyIsBlamedAndNothingAlarmsInOtherRuns) {
   }
 }
 
-TEST_F(BoardMotion, DeadStuckAndShiftedAxesAreNamed) {
+TEST_F(BoardMotion, DeadStuckAndShiftedAxesAreIsolated) {
   // Dead and stuck axes are isolated within seconds of tumbling. Shifts of 0.5 g and 1 g mostly are only where the
   // tumbling slows down at the end: blocks of four samples at 3 g leave 0.13 g rms by the skews of chips that sample
   // freely.

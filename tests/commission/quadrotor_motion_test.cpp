@@ -1,7 +1,6 @@
-// Four inertial units on one quadrotor, commissioned from one flight and judged in the others. The rule of the bounds
-// (factor 3, floors) was fixed before the other flights were judged, but for the floor of the lag at one sample period:
-// it came after a fit on the third or fifth flight had found false contradictions in the second one, in blocks of 4
-// samples. With the fit on the second flight, which these tests use, that floor changes nothing.
+// Four inertial units on one quadrotor, commissioned from one flight and judged in the others. The factors and floors
+// of the bounds were fixed before the other flights were judged. The shortest block came after: with the third or fifth
+// flight fitted, blocks of 4 samples of the second one contradicted each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,6 +60,16 @@ struct Flights {
   Recording fifth = plumb_test::load_recording("quadrotor_flight5.csv");
 };
 
+/// Units on clocks of their own are compared by means of 32 samples: the lag that the recording needs is enough then,
+/// with no floor. In blocks of 4 it is not: six of twelve pairs of a fitted and a judged flight alarm, with nothing
+/// wrong.
+CommissionSettings settings() {
+  CommissionSettings out;
+  out.bounds.shortest_block = 32;
+  out.bounds.lag_periods = 0.0;
+  return out;
+}
+
 class QuadrotorMotion : public testing::Test {
  protected:
   void SetUp() override {
@@ -72,7 +81,7 @@ class QuadrotorMotion : public testing::Test {
     const MotionLog third = log_of(flights_.third);
     judged_ = {part_of(third, 0, kBeforeLostRow), part_of(third, kAfterLostRow, third.samples()),
                log_of(flights_.fifth)};
-    found_ = commission_motion(second_);
+    found_ = commission_motion(second_, settings());
     ASSERT_TRUE(found_.has_value()) << found_.error();
     for (MotionLog& log : judged_) {
       const auto clocks = align_by_gyros(log);
@@ -141,7 +150,7 @@ struct Outcome {
   SensorSet blamed;
 };
 
-enum class Injected { none, plus_01_g0, minus_01_g0, plus_02_g0, minus_02_g0, dead, stuck };
+enum class Injected { none, plus_50_mg, minus_50_mg, plus_01_g0, minus_01_g0, plus_02_g0, minus_02_g0, dead, stuck };
 
 /// The fault begins at a row and stays.
 Outcome judge(const MotionCommissioning& found, const MotionLog& log, Injected fault, SensorSet faulty,
@@ -157,6 +166,8 @@ Outcome judge(const MotionCommissioning& found, const MotionLog& log, Injected f
       double& y = sample.reading_mps2[i];
       switch (fault) {
         case Injected::none: break;
+        case Injected::plus_50_mg: y += mps2_from_g0(0.05); break;
+        case Injected::minus_50_mg: y -= mps2_from_g0(0.05); break;
         case Injected::plus_01_g0: y += mps2_from_g0(0.1); break;
         case Injected::minus_01_g0: y -= mps2_from_g0(0.1); break;
         case Injected::plus_02_g0: y += mps2_from_g0(0.2); break;
@@ -185,7 +196,7 @@ TEST_F(QuadrotorMotion, WhicheverFlightIsFittedTheOthersAreWithoutAlarm) {
   const std::vector<MotionLog> logs = {second_, part_of(third, 0, kBeforeLostRow),
                                        part_of(third, kAfterLostRow, third.samples()), fifth};
   for (const std::size_t fitted : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
-    const auto found = commission_motion(logs[fitted]);
+    const auto found = commission_motion(logs[fitted], settings());
     ASSERT_TRUE(found.has_value()) << found.error();
     for (std::size_t k = 0; k < logs.size(); ++k) {
       const auto clocks = align_by_gyros(logs[k]);
@@ -236,7 +247,15 @@ Count inject(const MotionCommissioning& found, const std::vector<MotionLog>& log
   return out;
 }
 
-TEST_F(QuadrotorMotion, AShiftOfATenthOfGravityIsNamed) {
+TEST_F(QuadrotorMotion, AShiftOfFiftyMilligravityIsIsolated) {
+  for (const Injected fault : {Injected::plus_50_mg, Injected::minus_50_mg}) {
+    const Count count = inject(*found_, judged_, fault, "50 mg");
+    EXPECT_EQ(count.right, count.flights);
+    EXPECT_EQ(count.wrong, 0);
+  }
+}
+
+TEST_F(QuadrotorMotion, AShiftOfATenthOfGravityIsIsolated) {
   for (const Injected fault : {Injected::plus_01_g0, Injected::minus_01_g0}) {
     const Count count = inject(*found_, judged_, fault, "0.1 g0");
     EXPECT_EQ(count.right, count.flights);
@@ -244,7 +263,7 @@ TEST_F(QuadrotorMotion, AShiftOfATenthOfGravityIsNamed) {
   }
 }
 
-TEST_F(QuadrotorMotion, AShiftOfAFifthOfGravityIsNamed) {
+TEST_F(QuadrotorMotion, AShiftOfAFifthOfGravityIsIsolated) {
   for (const Injected fault : {Injected::plus_02_g0, Injected::minus_02_g0}) {
     const Count count = inject(*found_, judged_, fault, "0.2 g0");
     EXPECT_EQ(count.right, count.flights);
@@ -252,19 +271,17 @@ TEST_F(QuadrotorMotion, AShiftOfAFifthOfGravityIsNamed) {
   }
 }
 
-TEST_F(QuadrotorMotion, DeadAxesAndUnitsAreNamed) {
+TEST_F(QuadrotorMotion, DeadAxesAndUnitsAreIsolated) {
   const Count count = inject(*found_, judged_, Injected::dead, "dead");
   EXPECT_EQ(count.right, count.flights);
   EXPECT_EQ(count.wrong, 0);
 }
 
-TEST_F(QuadrotorMotion, StuckAxesAreNamedWhereTheForceAlongThemChanges) {
-  // The wish was 96 %. What is missing are lateral axes that happened to stop close to the mean of a flight in which
-  // the force along them hardly changes: parity has little to see, and a gate on readings that repeat finds them at
-  // once.
+TEST_F(QuadrotorMotion, StuckAxesAndUnitsAreIsolated) {
+  // 96 % are asked. One lateral axis stops close to the mean of a flight in which the force along it hardly changes.
   const Count count = inject(*found_, judged_, Injected::stuck, "stuck");
-  EXPECT_GE(count.right, 85);
-  EXPECT_GE(count.detected, 88);
+  EXPECT_GE(count.right, 95);
+  EXPECT_GE(count.detected, 96);
   EXPECT_EQ(count.flights, 96);
   EXPECT_EQ(count.wrong, 0);
 }

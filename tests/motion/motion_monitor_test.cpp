@@ -72,6 +72,24 @@ MotionSetup slow_setup(int n, std::uint64_t seed) {
   return setup;
 }
 
+/// As a clock of its own makes of vibration: two samples up and two down, for which no lag accounts.
+TEST(MotionMonitor, BlocksBelowTheShortestAreNotJudged) {
+  for (const int shortest : {1, 32}) {
+    MotionSetup setup = motion_setup(6, 3);
+    setup.shortest_block = shortest;
+    setup.gyro_corroborated = true;
+    Flight flight(cone_array(6, 0.01), setup, 3);
+    flight.distort = [k = 0](MotionSample& s) mutable { s.reading_mps2[2] += ++k % 4 < 2 ? 1.0 : -1.0; };
+    flight.fly(0, 700);
+    EXPECT_EQ(flight.monitor.verdict().alarm, shortest == 1);
+    EXPECT_EQ(flight.bounded > 0, shortest == 1) << "no force of two samples";
+    EXPECT_EQ(flight.monitor.verdict().block.validity, ForceValidity::bounded);
+    flight.distort = [](MotionSample& s) { s.reading_mps2[4] += 1.0; };
+    flight.fly(700, 1400);
+    EXPECT_TRUE(flight.ever_excluded == SensorSet::of(4));
+  }
+}
+
 // Verifies: REQ-205
 RC_GTEST_PROP(MotionMonitorLaw, HealthyFlightsRaiseNoAlarmAndKeepTheirBound, ()) {
   const int n = *rc::gen::inRange(4, kCapacity + 1);
@@ -417,6 +435,7 @@ TEST(MotionMonitor, RefusesWhatItCannotUse) {
   EXPECT_EQ(refused(SensorArray{}, [](MotionSetup&) {}).code, Errc::too_few_sensors);
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.errors[3].lag_s = -1.0; }), (Error{Errc::out_of_range, 3}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.lever_arm_m[2][1] = std::nan(""); }), (Error{Errc::not_finite, 2}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.shortest_block = 0; }), (Error{Errc::out_of_range, 113}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.sample_period_s = 0.0; }), (Error{Errc::out_of_range, 100}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyros = 3; }), (Error{Errc::out_of_range, 101}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyro.lag_s = std::nan(""); }), (Error{Errc::not_finite, 106}));

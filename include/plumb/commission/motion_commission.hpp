@@ -18,6 +18,7 @@ struct BoundRule {
   double lever_m = 0.001;
   double lag_factor = 1.5;        ///< times the lag that the recording needs
   double lag_periods = 1.0;       ///< units on clocks of their own: between two samples vibration may do anything
+  int shortest_block = 1;         ///< of `MotionSetup`: with 32 the recording needs less lag where clocks differ
   double noise_mps2 = 0.0;        ///< of a sample at rest; 0: as much as would leave what the fit leaves in blocks
   double rate_bound_radps = 0.0;  ///< of `MotionSetup`, for samples without a gyro
   GyroErrors gyro{0.01, 0.01, 0.01, 0.0, 0.001};

@@ -55,6 +55,9 @@ struct MotionSetup {
   /// Sensors of one chip, which may fail together, bear the same number; 0: a unit of its own.
   std::array<std::uint8_t, kCapacity> chip{};
   int max_faults = kMotionDepth;  ///< units at once; never more than the geometry allows
+  /// Blocks of fewer samples are not judged, and no force is published of them. More than 1 where chips have clocks of
+  /// their own and are interpolated to a common one: of a few samples vibration makes what no lag accounts for.
+  int shortest_block = 1;
 };
 
 /// One reading of all accelerometers and gyros at one instant.
@@ -70,7 +73,7 @@ struct MotionSample {
 /// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity); out_of_range and not_finite, with the value, the
 /// bound that it broke, and index = the sensor, or 100 and more for what concerns no sensor: sample_period_s 100,
 /// gyros, gyro.scale 102, axis_rad, bias_radps, noise_radps, lag_s 106, rate_bound_radps, force_bound_mps2 108,
-/// false_alarms_per_hour, dwell_s 110, quiet_s, max_faults 112.
+/// false_alarms_per_hour, dwell_s 110, quiet_s, max_faults 112, shortest_block (1 to 32) 113.
 Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept;
 
 }  // namespace PLUMB_ABI
