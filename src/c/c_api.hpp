@@ -42,6 +42,21 @@ plumb_error check_struct(const T* given, int argument) noexcept {
   return answer(PLUMB_WRONG_STRUCT, argument, static_cast<double>(given->struct_size), sizeof(T));
 }
 
+inline std::uintptr_t address_of(const void* storage) noexcept { return reinterpret_cast<std::uintptr_t>(storage); }
+
+template <class T>
+plumb_error room_for(const void* storage, size_t size, int argument) noexcept {
+  if (storage == nullptr) return missing(argument);
+  if (size < sizeof(T)) return answer(PLUMB_STORAGE_TOO_SMALL, argument, static_cast<double>(size), sizeof(T));
+  if (address_of(storage) % alignof(T) != 0) return answer(PLUMB_STORAGE_MISALIGNED, argument, 0.0, alignof(T));
+  return answer(PLUMB_OK);
+}
+
+/// As a number that an enumeration can hold: one that has no name where it is none.
+inline std::uint8_t number_of(std::int32_t given) noexcept {
+  return given >= 0 && given < 255 ? static_cast<std::uint8_t>(given) : std::uint8_t{255};
+}
+
 /// From the caller's configuration to a setup in the workspace. Errors: those of `SensorArray::make`, and of the
 /// header; the pointer counts as `argument`.
 plumb_error prepare(const plumb_config* given, Workspace& work, int argument) noexcept;

@@ -14,16 +14,6 @@ using namespace plumb::c_api;
 /// Marks storage that holds a monitor: memory that was never initialised, or was cleared, is answered with an error.
 constexpr std::uint64_t kAlive = 0x706c756d622d6331ULL;
 
-std::uintptr_t address_of(const void* storage) noexcept { return reinterpret_cast<std::uintptr_t>(storage); }
-
-template <class T>
-plumb_error room_for(const void* storage, size_t size, int argument) noexcept {
-  if (storage == nullptr) return missing(argument);
-  if (size < sizeof(T)) return answer(PLUMB_STORAGE_TOO_SMALL, argument, static_cast<double>(size), sizeof(T));
-  if (address_of(storage) % alignof(T) != 0) return answer(PLUMB_STORAGE_MISALIGNED, argument, 0.0, alignof(T));
-  return answer(PLUMB_OK);
-}
-
 /// A workspace as `argument`, beside the monitor in `storage`: where both share a byte, setting up the one would write
 /// over the other unseen.
 plumb_error desk_for(const void* workspace, size_t size, int argument, const void* storage) noexcept {
@@ -49,11 +39,6 @@ plumb_error without_verdict(const plumb_error& e, plumb_verdict* verdict) noexce
   return e;
 }
 
-/// As a number that an enumeration can hold: one that has no name where it is none.
-std::uint8_t number_of(std::int32_t given) noexcept {
-  return given >= 0 && given < 255 ? static_cast<std::uint8_t>(given) : std::uint8_t{255};
-}
-
 }  // namespace
 
 extern "C" {
@@ -77,9 +62,10 @@ const char* plumb_error_remedy(std::int32_t code) noexcept {
     case PLUMB_NULL_POINTER: return "pass a pointer for argument number `index`, counted from 0";
     case PLUMB_WRONG_STRUCT: return "call the ..._defaults function, or build against the header of the library";
     case PLUMB_STORAGE_TOO_SMALL:
-      return "give argument `index` at least plumb_monitor_size() or _workspace_size() bytes";
-    case PLUMB_STORAGE_MISALIGNED: return "align argument `index` to plumb_monitor_align() or _workspace_align() bytes";
-    case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init first";
+      return "give argument `index` as many bytes as the ..._size() function of what stands there says";
+    case PLUMB_STORAGE_MISALIGNED:
+      return "align argument `index` as the ..._align() function of what stands there says";
+    case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init, or plumb_motion_init, first";
     case static_cast<std::int32_t>(Errc::buffer_too_small): return "give at least plumb_snapshot_size_max() bytes";
     case PLUMB_STORAGE_OVERLAPS: return "give each its own memory; the workspace can be reused after the call";
     default: break;

@@ -1,0 +1,223 @@
+// The monitor of motion behind the C header: copies in, one call, copies out. Nothing is decided here.
+#include <algorithm>
+#include <new>
+#include <type_traits>
+
+#include "c_api.hpp"
+#include "plumb/c/plumb_motion.h"
+#include "plumb/motion/motion_monitor.hpp"
+
+/// What stands in the storage of the caller.
+struct plumb_motion {
+  std::uint64_t alive = 0;
+  plumb::MotionMonitor monitor;
+};
+
+namespace {
+
+using namespace plumb;
+using namespace plumb::c_api;
+
+constexpr std::uint64_t kAlive = 0x706c756d622d6d31ULL;
+
+static_assert(kMotionCapacity <= PLUMB_C_MOTION_SENSORS && kGyros == PLUMB_C_GYROS, "the header has room for all");
+static_assert(std::is_trivially_destructible<plumb_motion>::value, "storage may simply be dropped");
+
+plumb_error check(const plumb_motion* m) noexcept {
+  if (m == nullptr) return missing(0);
+  return m->alive == kAlive ? answer(PLUMB_OK) : answer(PLUMB_NOT_INITIALISED);
+}
+
+Expected<SensorArray> array_of(const plumb_motion_config& config) noexcept {
+  std::array<SensorRow, kCapacity> rows{};
+  for (size_t k = 0; k < static_cast<size_t>(config.sensors); ++k) {
+    const plumb_motion_sensor& from = config.sensor[k];
+    rows[k].id = {'s', static_cast<char>('0' + k / 10), static_cast<char>('0' + k % 10)};
+    std::copy(from.axis, from.axis + 3, rows[k].axis.begin());
+    rows[k].sigma_mps2 = from.sigma_mps2;
+  }
+  return SensorArray::make(rows.data(), config.sensors);
+}
+
+/// Errors: wrong struct of a sensor, a chip that is no number of one.
+plumb_error take_sensors(const plumb_motion_config& config, MotionSetup& setup) noexcept {
+  for (size_t k = 0; k < static_cast<size_t>(config.sensors); ++k) {
+    const plumb_motion_sensor& from = config.sensor[k];
+    const plumb_error e = check_struct(&from, static_cast<int>(k));
+    if (e.code != PLUMB_OK) return e;
+    if (from.chip < 0 || from.chip > 255)
+      return answer({Errc::out_of_range, static_cast<int>(k), static_cast<double>(from.chip), 255.0});
+    setup.chip[k] = static_cast<std::uint8_t>(from.chip);
+    std::copy(from.lever_arm_m, from.lever_arm_m + 3, setup.lever_arm_m[k].begin());
+    setup.errors[k] = {from.lever_bound_m, from.lag_bound_s,    from.rectification_bound,
+                       from.scale_bound,   from.axis_bound_rad, from.bias_bound_mps2};
+  }
+  return answer(PLUMB_OK);
+}
+
+void take_settings(const plumb_motion_config& config, MotionSetup& setup) noexcept {
+  setup.sample_period_s = config.sample_period_s;
+  setup.gyros = config.gyros;
+  setup.gyro_corroborated = config.gyro_corroborated != 0;
+  setup.gyro = {config.gyro_scale_bound, config.gyro_axis_bound_rad, config.gyro_bias_bound_radps,
+                config.gyro_noise_radps, config.gyro_lag_bound_s};
+  setup.rate_bound_radps = config.rate_bound_radps;
+  setup.force_bound_mps2 = config.force_bound_mps2;
+  setup.false_alarms_per_hour = config.false_alarms_per_hour;
+  setup.dwell_s = config.dwell_s;
+  setup.quiet_s = config.quiet_s;
+  setup.max_faults = config.max_faults;
+  setup.shortest_block = config.shortest_block;
+}
+
+MotionSample sample_of(const plumb_motion_sample& from) noexcept {
+  MotionSample out;
+  out.time_s = from.time_s;
+  std::copy(from.reading_mps2, from.reading_mps2 + kMotionCapacity, out.reading_mps2.begin());
+  out.delivered = SensorSet(from.delivered);
+  out.clipped = SensorSet(from.clipped);
+  for (size_t g = 0; g < static_cast<size_t>(kGyros); ++g) {
+    std::copy(from.rate_radps[g], from.rate_radps[g] + 3, out.rate_radps[g].begin());
+    out.rate_given[g] = (from.rates_given >> g & 1U) != 0;
+  }
+  return out;
+}
+
+plumb_specific_force force_of(const SpecificForce& from) noexcept {
+  plumb_specific_force out{};
+  out.validity = static_cast<std::int32_t>(from.validity);
+  out.dominant = static_cast<std::int32_t>(from.dominant);
+  out.used = from.used.bits;
+  out.gyro_assumed = from.gyro_assumed ? 1 : 0;
+  out.time_s = from.time_s;
+  out.span_s = from.span_s;
+  std::copy(from.force_mps2.begin(), from.force_mps2.end(), out.force_mps2);
+  std::copy(from.covariance_m2ps4.begin(), from.covariance_m2ps4.end(), out.covariance_m2ps4);
+  out.bound_mps2 = from.bound_mps2;
+  return out;
+}
+
+plumb_motion_verdict verdict_of(const MotionVerdict& from) noexcept {
+  plumb_motion_verdict out{};
+  out.struct_size = sizeof out;
+  out.rejected = from.rejected.bits;
+  out.suspects = from.suspects.bits;
+  out.isolated = from.isolated.bits;
+  out.excluded = from.excluded.bits;
+  out.alarm = from.alarm ? 1 : 0;
+  out.block_ended = from.block_ended ? 1 : 0;
+  out.least_faults = from.least_faults;
+  out.cause = static_cast<std::int32_t>(from.cause);
+  out.sample = force_of(from.sample);
+  out.block = force_of(from.block);
+  return out;
+}
+
+/// What stood in the verdict before is not the answer to this call, and must not be taken for it.
+plumb_error without_verdict(const plumb_error& e, plumb_motion_verdict* verdict) noexcept {
+  if (verdict != nullptr && check_struct(verdict, 0).code == PLUMB_OK) *verdict = verdict_of(MotionVerdict{});
+  return e;
+}
+
+}  // namespace
+
+extern "C" {
+
+plumb_error plumb_motion_config_defaults(plumb_motion_config* config) noexcept {
+  if (config == nullptr) return missing(0);
+  const MotionSetup d;
+  *config = plumb_motion_config{};
+  config->struct_size = sizeof(plumb_motion_config);
+  config->max_faults = d.max_faults;
+  config->shortest_block = d.shortest_block;
+  config->sample_period_s = d.sample_period_s;
+  config->force_bound_mps2 = d.force_bound_mps2;
+  config->false_alarms_per_hour = d.false_alarms_per_hour;
+  config->dwell_s = d.dwell_s;
+  config->quiet_s = d.quiet_s;
+  return answer(PLUMB_OK);
+}
+
+plumb_error plumb_motion_sensor_defaults(plumb_motion_sensor* sensor) noexcept {
+  if (sensor == nullptr) return missing(0);
+  *sensor = plumb_motion_sensor{};
+  sensor->struct_size = sizeof(plumb_motion_sensor);
+  return answer(PLUMB_OK);
+}
+
+plumb_error plumb_motion_sample_defaults(plumb_motion_sample* sample) noexcept {
+  if (sample == nullptr) return missing(0);
+  *sample = plumb_motion_sample{};
+  sample->struct_size = sizeof(plumb_motion_sample);
+  return answer(PLUMB_OK);
+}
+
+plumb_error plumb_motion_verdict_defaults(plumb_motion_verdict* verdict) noexcept {
+  if (verdict == nullptr) return missing(0);
+  *verdict = verdict_of(MotionVerdict{});
+  return answer(PLUMB_OK);
+}
+
+const char* plumb_force_validity_text(std::int32_t validity) noexcept {
+  return to_string(static_cast<ForceValidity>(number_of(validity)));
+}
+const char* plumb_force_term_text(std::int32_t term) noexcept {
+  return to_string(static_cast<ForceTerm>(number_of(term)));
+}
+const char* plumb_motion_cause_text(std::int32_t cause) noexcept {
+  return to_string(static_cast<MotionCause>(number_of(cause)));
+}
+
+std::int32_t plumb_motion_capacity(void) noexcept { return kMotionCapacity; }
+size_t plumb_motion_size(void) noexcept { return sizeof(plumb_motion); }
+size_t plumb_motion_align(void) noexcept { return alignof(plumb_motion); }
+
+plumb_error plumb_motion_init(void* storage, size_t storage_size, const plumb_motion_config* config,
+                              plumb_motion** motion) noexcept {
+  if (motion == nullptr) return missing(3);
+  *motion = nullptr;
+  plumb_error e = room_for<plumb_motion>(storage, storage_size, 0);
+  if (e.code == PLUMB_OK) e = check_struct(config, 2);
+  if (e.code != PLUMB_OK) return e;
+  const double sensors = config->sensors;
+  if (config->sensors < 3) return answer({Errc::too_few_sensors, -1, sensors, 3.0});
+  if (config->sensors > kMotionCapacity) return answer({Errc::too_many_sensors, -1, sensors, kMotionCapacity});
+  if (config->sensor == nullptr) return missing(2);
+  MotionSetup setup;
+  e = take_sensors(*config, setup);
+  if (e.code != PLUMB_OK) return e;
+  take_settings(*config, setup);
+  const Expected<SensorArray> array = array_of(*config);
+  if (!array) return answer(array.error());
+  auto* made = new (storage) plumb_motion;
+  e = answer(made->monitor.configure(*array, setup));
+  if (e.code != PLUMB_OK) return e;
+  made->alive = kAlive;
+  *motion = made;
+  return e;
+}
+
+plumb_error plumb_motion_step(plumb_motion* motion, const plumb_motion_sample* sample,
+                              plumb_motion_verdict* verdict) noexcept {
+  plumb_error e = check(motion);
+  if (e.code == PLUMB_OK) e = check_struct(sample, 1);
+  if (e.code == PLUMB_OK && verdict != nullptr) e = check_struct(verdict, 2);
+  if (e.code != PLUMB_OK) return without_verdict(e, verdict);
+  const MotionVerdict& found = motion->monitor.step(sample_of(*sample));
+  if (verdict != nullptr) *verdict = verdict_of(found);
+  return e;
+}
+
+plumb_error plumb_motion_set_in_service(plumb_motion* motion, std::uint32_t sensors) noexcept {
+  const plumb_error e = check(motion);
+  if (e.code == PLUMB_OK) motion->monitor.set_in_service(SensorSet(sensors));
+  return e;
+}
+
+plumb_error plumb_motion_forget(plumb_motion* motion) noexcept {
+  const plumb_error e = check(motion);
+  if (e.code == PLUMB_OK) motion->monitor.forget();
+  return e;
+}
+
+}  // extern "C"
