@@ -9,6 +9,7 @@
 #include "support/simulated_tool.hpp"
 
 namespace plumb_test {
+inline namespace PLUMB_ABI {
 
 /// Three components, each a constant and two sines.
 class SmoothVector {
@@ -160,4 +161,5 @@ inline plumb::SensorArray parallel_triads(int chips, double sigma_mps2 = 0.01) {
   return make_array(axes, 3 * chips, sigma_mps2);
 }
 
+}  // namespace PLUMB_ABI
 }  // namespace plumb_test
