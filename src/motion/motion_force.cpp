@@ -10,10 +10,6 @@ namespace {
 
 constexpr double kNoiseTail_sigmas = 6.7;  // chi-square of three beyond its square: 1e-9
 
-double noise_of(const LeastSquares& map, double share) noexcept {
-  return kNoiseTail_sigmas * std::sqrt(share * (map.covariance[0] + map.covariance[4] + map.covariance[8]));
-}
-
 }  // namespace
 
 const char* to_string(ForceTerm term) noexcept {
@@ -52,6 +48,8 @@ ForceEstimator::Fit ForceEstimator::fit_of(const SensorArray& array, SensorSet s
   Fit out;
   out.map = least_squares(array, sensors);
   for (std::size_t k = 0; k < out.gain.size(); ++k) out.gain[k] = norm(out.map.column[k]);
+  const Mat3& covariance = out.map.covariance;
+  out.noise_mps2 = kNoiseTail_sigmas * std::sqrt(covariance[0] + covariance[4] + covariance[8]);
   return out;
 }
 
@@ -59,12 +57,12 @@ ForceEstimator::Fit ForceEstimator::fit_of(const SensorArray& array, SensorSet s
 /// Turned axes add by the true force, which is at most the estimate and that error: e <= b + t (|f| + e).
 ForceEstimator::Explanation ForceEstimator::explain(const Fit& fit, const MotionSetup& setup,
                                                     const MotionReadings& readings, const SpecificForce& force,
-                                                    double share) noexcept {
+                                                    double noise) noexcept {
   Explanation out{&fit, &readings};
   const Vec3 estimate = fit.map.estimate(readings.corrected_mps2);
   out.force_mps2 = norm(estimate);
   out.away_mps2 = norm(minus(estimate, force.force_mps2));
-  double error = noise_of(fit.map, share), turn = 0.0;
+  double error = fit.noise_mps2 * noise, turn = 0.0;
   for (std::size_t k = 0; k < fit.gain.size(); ++k) {
     if (!fit.map.used.has(static_cast<int>(k))) continue;
     error += fit.gain[k] * readings.error_mps2[k];
@@ -75,10 +73,10 @@ ForceEstimator::Explanation ForceEstimator::explain(const Fit& fit, const Motion
   return out;
 }
 
-ForceTerm ForceEstimator::dominant_of(const Explanation& one, const MotionSetup& setup, double share) noexcept {
+ForceTerm ForceEstimator::dominant_of(const Explanation& one, const MotionSetup& setup, double noise) noexcept {
   static_assert(kForceTerms == kErrorParts + 2 && static_cast<int>(ForceTerm::lever_arm) == 1);
   std::array<double, kForceTerms> terms{};
-  terms[static_cast<std::size_t>(ForceTerm::noise)] = noise_of(one.fit->map, share);
+  terms[static_cast<std::size_t>(ForceTerm::noise)] = one.fit->noise_mps2 * noise;
   terms[static_cast<std::size_t>(ForceTerm::fault)] = one.away_mps2;
   for (std::size_t k = 0; k < one.fit->gain.size(); ++k) {
     if (!one.fit->map.used.has(static_cast<int>(k))) continue;
@@ -101,14 +99,14 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
   out.span_s = means.span_s;
   out.used = all_.map.used;
   if (!all_.map.valid) return out;
-  const double share = means.noise_share();
+  const double share = means.noise_share(), noise = std::sqrt(share);
   out.force_mps2 = all_.map.estimate(readings.corrected_mps2);
   for (std::size_t k = 0; k < 9; ++k) out.covariance_m2ps4[k] = share * all_.map.covariance[k];
   out.validity = ForceValidity::bounded;
   out.gyro_assumed = evidence.gyro_assumed;
   // Whether some explanation is among those that the bound covers.
   bool explained = evidence.rejected->explained_by(evidence.isolated) || evidence.without_gyro != nullptr;
-  Explanation worst = explain(all_, setup, readings, out, share);
+  Explanation worst = explain(all_, setup, readings, out, noise);
   bool finite = std::isfinite(worst.reach_mps2);
   const auto consider = [&](const Explanation& one) {
     finite = finite && std::isfinite(one.reach_mps2);
@@ -120,18 +118,18 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
     explained = true;
     const Fit& fit = without_[static_cast<std::size_t>(k)];
     if (fit.map.valid) {
-      consider(explain(fit, setup, readings, out, share));
+      consider(explain(fit, setup, readings, out, noise));
     } else {
       out.validity = ForceValidity::unchecked;
     }
   }
   if (evidence.without_gyro != nullptr) {
     const bool bounded = evidence.without_gyro->usable.contains(out.used);
-    if (bounded) consider(explain(all_, setup, *evidence.without_gyro, out, share));
+    if (bounded) consider(explain(all_, setup, *evidence.without_gyro, out, noise));
     if (!bounded) out.validity = ForceValidity::unchecked;
   }
   out.bound_mps2 = worst.reach_mps2;
-  out.dominant = dominant_of(worst, setup, share);
+  out.dominant = dominant_of(worst, setup, noise);
   if (finite && explained) return out;
   out.validity = ForceValidity::none;
   out.bound_mps2 = std::numeric_limits<double>::infinity();

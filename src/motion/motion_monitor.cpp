@@ -72,13 +72,15 @@ void MotionMonitor::refit() noexcept {
   with_gyro_.keep_within(sensors);
   without_gyro_.keep_within(sensors);
   grade_ = units_.grade(array_, sensors);
-  force_ = ForceEstimator(array_, units_, trusted());
+  trust();
   news_ = true;
 }
 
-SensorSet MotionMonitor::trusted() const noexcept {
+/// After the sensors that are monitored or isolated have changed.
+void MotionMonitor::trust() noexcept {
   const SensorSet rest = monitored() - verdict_.isolated;
-  return coplanarity(array_, rest) < rest.size() ? rest : monitored();
+  trusted_ = coplanarity(array_, rest) < rest.size() ? rest : monitored();
+  force_ = ForceEstimator(array_, units_, trusted_);
 }
 
 bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record) noexcept {
@@ -138,7 +140,7 @@ void MotionMonitor::answer(double time_s) noexcept {
   }
   if (verdict_.isolated == before) return;
   isolated_since_s_ = time_s;
-  force_ = ForceEstimator(array_, units_, trusted());
+  trust();
 }
 
 void MotionMonitor::decide(double time_s) noexcept {
@@ -193,10 +195,10 @@ SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionRead
                                       const MotionReadings& without_gyro) const noexcept {
   ForceEvidence evidence;
   evidence.rejected = &with_gyro_;
-  evidence.isolated = monitored() - trusted();
+  evidence.isolated = monitored() - trusted_;
   evidence.gyro_assumed = doubts_gyro() && !gyro_explains_;
   evidence.without_gyro = gyro_explains_ ? &without_gyro : nullptr;
-  const SensorSet used = readings.usable & trusted();
+  const SensorSet used = readings.usable & trusted_;
   if (used == force_.all().used) return force_.estimate(setup_, units_, means, readings, evidence);
   return ForceEstimator(array_, units_, used).estimate(setup_, units_, means, readings, evidence);
 }

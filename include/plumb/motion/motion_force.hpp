@@ -56,6 +56,7 @@ class ForceEstimator {
  private:
   struct Fit {
     LeastSquares map;
+    double noise_mps2 = 0.0;  ///< what noise of one sample may add to the estimate
     std::array<double, static_cast<std::size_t>(kMotionCapacity)> gain{};  ///< lengths of the columns
   };
   /// What the estimate is if one explanation is true.
@@ -68,8 +69,8 @@ class ForceEstimator {
   };
   static Fit fit_of(const SensorArray& array, SensorSet sensors) noexcept;
   static Explanation explain(const Fit& fit, const MotionSetup& setup, const MotionReadings& readings,
-                             const SpecificForce& force, double share) noexcept;
-  static ForceTerm dominant_of(const Explanation& one, const MotionSetup& setup, double share) noexcept;
+                             const SpecificForce& force, double noise) noexcept;
+  static ForceTerm dominant_of(const Explanation& one, const MotionSetup& setup, double noise) noexcept;
 
   Fit all_;
   std::array<Fit, static_cast<std::size_t>(kMotionCapacity)> without_{};

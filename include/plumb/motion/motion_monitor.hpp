@@ -58,12 +58,11 @@ class MotionMonitor {
   void answer(double time_s) noexcept;
   void exclude(double time_s) noexcept;
   void refit() noexcept;
+  void trust() noexcept;
   bool reject(const MotionReadings& readings, RejectedSets* record) noexcept;
   SpecificForce force_of(const MotionMeans& means, const MotionReadings& readings,
                          const MotionReadings& without_gyro) const noexcept;
   SensorSet monitored() const noexcept { return in_service_ - verdict_.excluded; }
-  /// The sensors that make the force: isolated ones are not among them, where the others determine it.
-  SensorSet trusted() const noexcept;
   int most_faults() const noexcept;
 
   SensorArray array_;
@@ -76,6 +75,7 @@ class MotionMonitor {
   ForceEstimator force_;       ///< of the sensors trusted
   MotionVerdict verdict_;
   SensorSet in_service_;
+  SensorSet trusted_;  ///< those that make the force: isolated ones are not among them, where the others determine it
   int grade_ = 0;
   double noise_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
