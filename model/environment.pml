@@ -296,7 +296,7 @@ inline motion() {
   pick(serving, to_aside);
   found = (1 << EVENTS) - 1;
   if :: to_aside == 0 -> found = found & ~BIT(PROVISIONAL_EXCLUSION) :: else fi;
-  isolated = to_aside
+  isolated = serving
 }
 
 #define FREEZABLE (BIT(EXCLUSION) | BIT(PROVISIONAL_EXCLUSION) | BIT(PROBATION_PASSED) | BIT(RECALIBRATE) | BIT(FIT_ACCEPTED))

@@ -33,6 +33,10 @@ inline judge() {
   assert(event == NONE || kind_of[m0_ * EVENTS + event] != IMPOSSIBLE);
   /* S5 */
   assert(m0_ != FAILED || mode == FAILED || event == RESET);
+  /* S7: confirmed exclusion never from motion, failed never from motion: to suspect at most, nobody taken out for good or
+     brought back, and nothing counted that rest counts */
+  assert(!in_motion || (mode == SUSPECT && out == out0_ && absent == absent0_ && readmitted == readmitted0_ &&
+                        WITHIN(serving, serving0_) && clean_run == 0 && not_yet_validated == unproven0_ && timed_out == timed0_));
   /* S1: an exclusion takes nobody who was healthy throughout the episode, and nobody but whom it names; nor does
      setting aside at rest while four are healthy */
   if
@@ -49,10 +53,6 @@ inline judge() {
   /* S6, S7: nobody leaves the service but by a culprit, a set-aside, a silence */
   assert(WITHIN(LEFT_SERVICE, (event == EXCLUSION || event == PROVISIONAL_EXCLUSION || event == CHANNEL_LOST -> moved : 0)));
   assert(!(kind == NO_EVIDENCE && event == NONE) || !CHANGED);
-  /* S7: confirmed exclusion never from motion, failed never from motion: to suspect at most, nobody taken out for good or
-     brought back, and nothing counted that rest counts */
-  assert(!in_motion || (mode == SUSPECT && out == out0_ && absent == absent0_ && readmitted == readmitted0_ &&
-                        WITHIN(serving, serving0_) && clean_run == 0 && not_yet_validated == unproven0_ && timed_out == timed0_));
   /* S8: adopted only what was collected since the last word against the tool, and only on acceptance */
   if
   :: does & ADOPT_FIT -> assert(event == FIT_ACCEPTED && (m0_ == RECALIBRATING || m0_ == INITIAL) && !alarmed && fit0_)

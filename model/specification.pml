@@ -353,7 +353,7 @@ inline machine() {
   if :: does & DISTRUST -> not_yet_validated = 1 :: else fi;
   if :: does & (EXCLUDE | RETURN_NAMED | ADOPT_FIT) -> timed_out = 0 :: does & EXHAUST -> timed_out = 1 :: else fi;
 #ifdef OLD_RESET  /* a reset that brings nobody back kept the clean run: S20 falls */
-  if :: serving != in_was_ || (does & ADOPT_FIT) -> clean_run = 0 :: else fi;
+  if :: serving != in_was_ || (does & ADOPT_FIT) || in_motion -> clean_run = 0 :: else fi;
 #else
   if :: serving != in_was_ || (does & (ADOPT_FIT | RETURN_NAMED)) || in_motion -> clean_run = 0 :: else fi;
 #endif

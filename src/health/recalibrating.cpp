@@ -94,20 +94,18 @@ void HealthMonitor::adopt() noexcept {
   sets_changed();
 }
 
-void HealthMonitor::follow_suspicion(const Decision& decision, Mode from) noexcept {
+void HealthMonitor::follow_suspicion(HealthEvent event, Mode from, Cause cause) noexcept {
   MonitorState& s = state_;
   const Mode mode = s.machine.mode;
-  const HealthEvent event = decision.event;
-  // What rest found stays the cause for which the monitor is in suspect.
-  const bool second = decision.from_motion && s.diagnosis.suspicion() != Cause::none;
-  switch (second ? HealthEvent::none : event) {
+  switch (event) {
     case HealthEvent::alarm:
     case HealthEvent::no_consistent_hypothesis:
     case HealthEvent::norm_mismatch:
     case HealthEvent::provisional_exclusion:
     case HealthEvent::channel_lost:
     case HealthEvent::fit_accepted:
-      s.diagnosis.suspect_for(decision.from_motion ? Cause::parity_in_motion : cause_of(event, s.last.cause));
+      // What rest found stays the cause that keeps the monitor in suspect.
+      if (cause != Cause::parity_in_motion || s.diagnosis.suspicion() == Cause::none) s.diagnosis.suspect_for(cause);
       break;
     case HealthEvent::exclusion:
       s.diagnosis.suspect_for(Cause::none);

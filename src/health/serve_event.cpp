@@ -91,33 +91,34 @@ HealthEvent HealthMonitor::decide(EventMask raised, EventMask from_motion, doubl
     return set == before.in_service ? s.service.size : s.classify(set);
   });
   const HealthEvent event = decision.event;
-  const bool by_noise = event == HealthEvent::provisional_exclusion && !decision.from_motion &&
-                        d.noise_confirmed(s.facts).contains(d.aside());
+  const bool by_noise = event == HealthEvent::provisional_exclusion && d.noise_confirmed(s.facts).contains(d.aside());
   const bool refused = event == HealthEvent::no_consistent_hypothesis && s.studies.check.refused();
   const SensorSet named = carry_out(decision, before);
   s.requests.reset_sensors = s.requests.reset_pending ? SensorSet{} : s.requests.reset_sensors;
   s.requests.reset_pending = false;
   follow_first_calibration(from);
-  follow_suspicion(decision, from);
-  follow_motion(decision);
+  const Cause of_event = decision.from_motion ? Cause::parity_in_motion : cause_of(event, s.last.cause);
+  follow_suspicion(event, from, of_event);
+  follow_finding(decision);
   if (!decision.changed) return event;
   const Cause asked_by = s.requests.recalibration_asked ? Cause::host_request : Cause::isolated_fault;
   const Cause cause = event == HealthEvent::recalibrate ? asked_by
+                      : decision.from_motion            ? of_event
                       : by_noise                        ? Cause::noisy
-                      : decision.from_motion            ? Cause::parity_in_motion
                       : refused                         ? Cause::calibration_contradicted
-                                                        : cause_of(event, s.last.cause);
+                                                        : of_event;
   record(event, from, cause, named, time_s);
   if (event == HealthEvent::recalibrate) s.requests.recalibration_asked = s.requests.recalibration_due = false;
   return event;
 }
 
 /// A faulty sensor may hide part of a slow movement: what was valid by that is so no more.
-void HealthMonitor::follow_motion(const Decision& decision) noexcept {
+void HealthMonitor::follow_finding(const Decision& decision) noexcept {
   InMotion& motion = state_.requests.motion;
-  if (decision.from_motion) state_.freshness.lapse();
-  if (decision.from_motion && (decision.actions & Action::exclude_provisionally) != 0)
+  if (decision.from_motion) {
+    state_.freshness.lapse();
     motion.served = motion.served | decision.sensors;
+  }
   motion.follow(state_.machine.sensors.provisionally_excluded);
 }
 
@@ -136,9 +137,8 @@ void HealthMonitor::record(HealthEvent event, Mode from, Cause cause, SensorSet 
   out.cause = cause;
   out.grade = graded ? s.diagnosis.last_grade() : Grade::none;
   out.sensors = named;
-  const bool in_motion = cause == Cause::parity_in_motion;  // no block of this monitor says so
-  out.statistic = in_motion ? 0.0 : s.last.statistic;
-  out.limit = in_motion ? 0.0 : s.last.limit;
+  out.statistic = s.last.statistic;
+  out.limit = s.last.limit;
   s.requests.alarm_notice = Cause::none;  // what opened an episode has led to this, or is less than it
   if (event != HealthEvent::fit_rejected) return;
   const Error refusal = s.recalibration.progress(s.in_force.array).last_refusal;

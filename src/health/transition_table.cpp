@@ -55,6 +55,15 @@ const char* action_name(Action::Bits one) noexcept {
   }
 }
 
+EventMask taken_from_motion(const TransitionTable& table, Mode mode, EventMask raised) noexcept {
+  EventMask out = 0;
+  for (int e = 0; e < kEventCount; ++e) {
+    if (table[static_cast<std::size_t>(mode)][static_cast<std::size_t>(e)].from_motion)
+      out |= raised & bit(static_cast<HealthEvent>(e));
+  }
+  return out;
+}
+
 namespace {
 
 using table_detail::kRows;

@@ -26,7 +26,8 @@ TEST(Law, TwentyWhatIsFoundInMotionDecidesNothingForGood) {
     return {true, wrong, {n, 0, life.block}};
   });
   EXPECT_EQ(count.broken, 0U);
-  if (count.cases >= 100) EXPECT_GT(heard, 8 * (count.cases / 10)) << "cases in which motion was heard";
+  if (count.cases < 100) return;  // PLUMB_LAW_CASE asks for one
+  EXPECT_GT(heard, 8 * (count.cases / 10)) << "cases in which motion was heard";
 }
 
 }  // namespace

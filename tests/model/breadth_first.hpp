@@ -210,7 +210,8 @@ class Search {
       Step t = s;
       t.in.from_motion = (1U << none) - 1U;
       if (away == 0) t.in.from_motion &= ~bit(provisional_exclusion);
-      t.in.suspected = t.in.isolated = away;
+      t.in.suspected = away;
+      t.in.isolated = s.w.machine.in_service;
       take(t);
     });
   }

@@ -159,7 +159,7 @@ class HealthMonitor {
   SensorSet carry_out(const Decision& decision, const SensorLedger& before) noexcept;
   void sets_changed() noexcept;
   void judge_again() noexcept;
-  void follow_motion(const Decision& decision) noexcept;
+  void follow_finding(const Decision& decision) noexcept;
   void record(HealthEvent event, Mode from, Cause cause, SensorSet named, double time_s) noexcept;
   void give_notice(double time_s) noexcept;
 
@@ -170,7 +170,7 @@ class HealthMonitor {
   void adopt() noexcept;
   void follow_first_calibration(Mode from) noexcept;
   void take_span(const StationStore& store) noexcept;
-  void follow_suspicion(const Decision& decision, Mode from) noexcept;
+  void follow_suspicion(HealthEvent event, Mode from, Cause cause) noexcept;
 
   // memory.cpp: storage that changed though no program wrote to it
   bool core_holds() const noexcept;

@@ -269,14 +269,7 @@ constexpr HealthEvent first_taken(Mode mode, EventMask raised) noexcept {
 }
 
 /// What the mode takes up of the events that a monitor in motion raises.
-constexpr EventMask taken_from_motion(const TransitionTable& table, Mode mode, EventMask raised) noexcept {
-  EventMask out = 0;
-  for (int e = 0; e < kEventCount; ++e) {
-    if (table[static_cast<std::size_t>(mode)][static_cast<std::size_t>(e)].from_motion)
-      out |= raised & bit(static_cast<HealthEvent>(e));
-  }
-  return out;
-}
+EventMask taken_from_motion(const TransitionTable& table, Mode mode, EventMask raised) noexcept;
 
 /// What is left in service after an action.
 enum class SizeClass : std::uint8_t { rank_lost, critical, all_configured, reduced };
