@@ -25,8 +25,17 @@ Sample next_sample(fuzz::Bytes& in, const MonitorSetup& setup, double& time_s, s
 }
 
 void ask(fuzz::Bytes& in, HealthMonitor& monitor, bool& key_was_given) {
-  switch (in.take<std::uint8_t>() % 6U) {
-    case 0: monitor.inhibit((in.take<std::uint8_t>() & 1U) != 0); break;
+  const auto what = in.take<std::uint8_t>();
+  switch (what % 6U) {
+    case 0: {
+      const bool bit = (in.take<std::uint8_t>() & 1U) != 0;
+      if (what < 192U) {
+        monitor.inhibit(bit);
+      } else {
+        monitor.set_motion({bit, SensorSet(in.take<std::uint32_t>())});
+      }
+      break;
+    }
     case 1: (void)monitor.set_gravity({in.take<double>(), in.take<double>(), GravityModel::value}); break;
     case 2: {
       const bool turning = (in.take<std::uint8_t>() & 1U) != 0;

@@ -112,6 +112,7 @@ run_items() {
     "item untracked_state_is_noticed untracked untracked" \
     "item old_patience_is_found must_fail patience 5 -DOLD_PATIENCE '' '(kind==4)||(kind==5)'" \
     "item old_reset_is_found must_fail reset 4 -DOLD_RESET '' '(mode==6))||(clean_run==0)'" \
+    "item confirming_motion_is_found must_fail motion 4 -DMOTION_CONFIRMS '' in_motion" \
     "item old_ban_is_found must_fail ban 5 -DOLD_BAN '' '(out& ~(out0_))& ~(moved)'" \
     | if [[ -n "$quick" ]]; then grep -zvE 'item (lockstep|liveness)_[56]'; else cat; fi \
     | xargs -0 -P 2 -I{} bash -c '{}'
@@ -119,4 +120,4 @@ run_items() {
 run_items | tee "$work/items.txt"
 total="$(wc -l <"$work/items.txt")"
 printf 'figure: %d of %d items\n' "$(grep -c '^proved' "$work/items.txt" || true)" "$total"
-[[ "$total" -eq "$([[ -n "$quick" ]] && echo 9 || echo 13)" ]] && ! grep -q '^refused' "$work/items.txt"
+[[ "$total" -eq "$([[ -n "$quick" ]] && echo 10 || echo 14)" ]] && ! grep -q '^refused' "$work/items.txt"

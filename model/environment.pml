@@ -10,6 +10,9 @@
    and beyond that anybody may be. MOVING weakens it to "healthy at this block", the wording that a moving fault
    defeats; the model must then find the run that excludes a healthy sensor.
 
+   Motion. What a monitor in motion finds is left open altogether: at any block in motion it may say anything of anybody.
+   A sensor that is provisionally excluded may contradict the others at rest while these agree; that opens an episode.
+
    A silent channel, a channel that is back, the operator's reset, his request for recalibration, his freeze of
    switching and the outcome of a fit may come at any step, together with what a block says. */
 
@@ -188,7 +191,11 @@ inline quiet_block() {
   :: lost | back
   :: !(lost | back) -> if :: excited = 1 :: regime == FREE -> excited = 0 fi
   fi;
-  if :: kind == ALARMING && RECORDS && !open -> open = 1; onset() :: else fi;
+  if
+  :: kind == ALARMING && RECORDS && !open -> open = 1; onset()
+  :: (kind == CLEAN || kind == SOFT) && aside != 0 && RECORDS && !open -> open = 1; onset()
+  :: kind != ALARMING || !RECORDS || open
+  fi;
   vote = open && RECORDS && kind != OFF_GRAVITY && !(lost | back);
   if :: kind == CLEAN && not_yet_validated && clean_run + 1 >= R_BLOCKS && excited -> if :: shows = 1 :: regime == FREE -> shows = 0 fi :: else fi;
   if :: vote -> ballot() :: else fi;
@@ -284,13 +291,23 @@ inline coincidence() {
   fi
 }
 
+/* Whatever may be said of motion, and of whomever: what the table does not take up from there is said as well. */
+inline motion() {
+  pick(serving, to_aside);
+  found = (1 << EVENTS) - 1;
+  if :: to_aside == 0 -> found = found & ~BIT(PROVISIONAL_EXCLUSION) :: else fi;
+  isolated = serving
+}
+
 #define FREEZABLE (BIT(EXCLUSION) | BIT(PROVISIONAL_EXCLUSION) | BIT(PROBATION_PASSED) | BIT(RECALIBRATE) | BIT(FIT_ACCEPTED))
 
 inline choose() {
   block_kind();
   if
   :: kind == SAMPLE -> sample()
-  :: kind == NO_EVIDENCE -> held = (regime == UNSEEN)
+  :: kind == NO_EVIDENCE ->
+       held = (regime == UNSEEN);
+       if :: skip :: regime == FREE -> motion() fi
   :: else ->
        coincidence();
        quiet_block();

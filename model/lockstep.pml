@@ -37,7 +37,7 @@ inline run_code() {
 #ifdef CODE
   c_code {
     S.not_yet_validated = now.not_yet_validated; S.timed_out = now.timed_out; S.clean_run = now.clean_run;
-    I.raised = now.raised;
+    I.raised = now.raised; I.from_motion = now.found;
     I.isolated = now.isolated; I.suspected = now.to_aside; I.lost = now.lost; I.back = now.back;
     I.proven = now.proven; I.reset = now.named;
     I.protection_within = now.within; I.passed_blocks = R_BLOCKS; I.sensors = SENSORS;
@@ -58,7 +58,7 @@ inline compare() {
 #ifdef CODE
   changed = CHANGED;
   c_code {
-    now.agreed = now.agreed && A.event == now.event && A.moved == now.moved && A.changed == now.changed && S.mode == now.mode &&
+    now.agreed = now.agreed && A.event == now.event && A.moved == now.moved && A.changed == now.changed && A.from_motion == now.in_motion && S.mode == now.mode &&
                  S.base == now.base && S.in_service == now.serving && S.provisionally_excluded == now.aside &&
                  S.excluded == now.out && S.absent == now.absent && S.readmitted == now.readmitted &&
                  S.not_yet_validated == now.not_yet_validated && S.timed_out == now.timed_out &&
@@ -72,7 +72,7 @@ inline compare() {
 }
 
 inline tidy() {
-  raised = 0; isolated = 0; to_aside = 0; lost = 0; back = 0; proven = 0; named = 0; within = 0;
+  raised = 0; found = 0; in_motion = 0; isolated = 0; to_aside = 0; lost = 0; back = 0; proven = 0; named = 0; within = 0;
   event = NONE; does = 0; moved = 0; kind = SAMPLE; excited = 0; shows = 0; vote = 0; wrong = 0; result = 0;
   ever = (open -> ever & MONITORED : 0);
   if :: mode != RECALIBRATING -> base = SUSPECT :: else fi;

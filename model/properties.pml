@@ -2,13 +2,13 @@
    The values before the step are taken by `look`, those after it are judged by `judge`. */
 
 hidden byte m0_, serving0_, aside0_, out0_, absent0_, readmitted0_, ever0_, suspected0_, open0_, run0_, monitored0_;
-hidden byte unproven0_, fit0_;
+hidden byte unproven0_, fit0_, timed0_;
 bit alarmed;      /* a block spoke against the tool since the collection of stations began */
 
 inline look() {
   m0_ = mode; serving0_ = serving; aside0_ = aside; out0_ = out; absent0_ = absent; monitored0_ = MONITORED;
   readmitted0_ = readmitted; ever0_ = ever; suspected0_ = suspected; open0_ = open;
-  run0_ = clean_run; unproven0_ = not_yet_validated; fit0_ = fit;
+  run0_ = clean_run; unproven0_ = not_yet_validated; fit0_ = fit; timed0_ = timed_out;
   if
   :: raised & (BIT(ALARM) | BIT(NO_CONSISTENT_HYPOTHESIS) | BIT(NORM_MISMATCH)) -> alarmed = (mode == RECALIBRATING || mode == INITIAL)
   :: else
@@ -33,12 +33,16 @@ inline judge() {
   assert(event == NONE || kind_of[m0_ * EVENTS + event] != IMPOSSIBLE);
   /* S5 */
   assert(m0_ != FAILED || mode == FAILED || event == RESET);
+  /* S7: confirmed exclusion never from motion, failed never from motion: to suspect at most, nobody taken out for good or
+     brought back, and nothing counted that rest counts */
+  assert(!in_motion || (mode == SUSPECT && out == out0_ && absent == absent0_ && readmitted == readmitted0_ &&
+                        WITHIN(serving, serving0_) && clean_run == 0 && not_yet_validated == unproven0_ && timed_out == timed0_));
   /* S1: an exclusion takes nobody who was healthy throughout the episode, and nobody but whom it names; nor does
-     setting aside while four are healthy */
+     setting aside at rest while four are healthy */
   if
   :: event == EXCLUSION ->
        assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, moved))
-  :: event == PROVISIONAL_EXCLUSION && COUNT(monitored0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
+  :: event == PROVISIONAL_EXCLUSION && !in_motion && COUNT(monitored0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
   :: else
   fi;
   /* S6: only the suspected, after their stations, and never so that fewer than three are left */

@@ -52,6 +52,7 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
 
   DecisionInput in;
   in.raised = input->raised;
+  in.from_motion = input->from_motion;
   in.named = {SensorSet(input->isolated), SensorSet(input->suspected), SensorSet(input->lost),
               SensorSet(input->back),     SensorSet(input->proven),    SensorSet(input->reset)};
   in.protection_within = input->protection_within != 0;
@@ -77,7 +78,8 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   state->clean_run = static_cast<unsigned char>(s.clean_run);
   if (adopted) state->calibrated = 1;
   return {static_cast<unsigned char>(decision.event), byte_of(decision.sensors),
-          static_cast<unsigned char>(decision.changed ? 1 : 0), static_cast<unsigned char>(adopted ? 1 : 0)};
+          static_cast<unsigned char>(decision.changed ? 1 : 0), static_cast<unsigned char>(adopted ? 1 : 0),
+          static_cast<unsigned char>(decision.from_motion ? 1 : 0)};
 }
 
 const char* plumb_model_mode_name(unsigned char mode) { return to_string(static_cast<Mode>(mode)); }

@@ -15,13 +15,13 @@ typedef struct {
 } plumb_model_state;
 
 typedef struct {
-  unsigned raised; /* one bit per event */
+  unsigned raised, from_motion; /* one bit per event */
   unsigned char isolated, suspected, lost, back, proven, reset;
   unsigned char protection_within, passed_blocks, sensors;
 } plumb_model_input;
 
 typedef struct {
-  unsigned char event, moved, changed, adopted;
+  unsigned char event, moved, changed, adopted, from_motion;
 } plumb_model_answer;
 
 plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_input* input);

@@ -91,8 +91,10 @@
 hidden byte kind_of[98];
 hidden byte target_of[98];
 hidden short actions_of[98];
+hidden byte motion_of[98];  /* taken up from motion as well */
 
 #define CELL(m, e, k, t, a) kind_of[m * EVENTS + e] = k; target_of[m * EVENTS + e] = t; actions_of[m * EVENTS + e] = a
+#define ALSO_FROM_MOTION(m, e) motion_of[m * EVENTS + e] = 1
 
 /* One cell a line; tests/model reads these lines and holds them against what `plumb model` prints. */
 inline write_table() {
@@ -200,6 +202,17 @@ inline write_table() {
   CELL(FAILED, PROBATION_PASSED, IGNORED, STAY,     NOTHING);
   CELL(FAILED, RECALIBRATE,      IGNORED, STAY,     NOTHING);
   CELL(FAILED, PASSED_BLOCK,      IGNORED, STAY,     NOTHING);
+
+  ALSO_FROM_MOTION(NOMINAL, PROVISIONAL_EXCLUSION);
+  ALSO_FROM_MOTION(NOMINAL, ALARM);
+  ALSO_FROM_MOTION(ISOLATED, PROVISIONAL_EXCLUSION);
+  ALSO_FROM_MOTION(ISOLATED, ALARM);
+  ALSO_FROM_MOTION(SUSPECT, PROVISIONAL_EXCLUSION);
+  ALSO_FROM_MOTION(SUSPECT, ALARM);
+  ALSO_FROM_MOTION(DEGRADED, ALARM);
+#ifdef MOTION_CONFIRMS  /* a monitor in motion excludes for good: S7 falls */
+  motion_of[NOMINAL * EVENTS + EXCLUSION] = 1; motion_of[SUSPECT * EVENTS + EXCLUSION] = 1;
+#endif
 }
 
 /* --- What the monitor remembers. ------------------------------------------------------------------------------- */
@@ -241,6 +254,8 @@ bit held;                /* no evidence for good */
 /* --- One step of the machine: the first event in rank order that the mode neither ignores nor holds. ------------ */
 
 short raised;
+short found;             /* what a monitor in motion says, in bits of events */
+bit in_motion;           /* the event taken came from there alone */
 byte isolated, to_aside, lost, back, proven, named;
 bit within;              /* the doubt has a bound within the alert limit, or an explanation that the rest corroborates */
 byte event;
@@ -250,12 +265,16 @@ byte moved;              /* the sensors that the event is about */
 hidden byte e_;
 hidden byte left_, size_;
 
+/* From motion only where the table says so, and no exclusion that leaves fewer than three. */
+#define HEEDED(e) ((found & BIT(e)) != 0 && motion_of[mode * EVENTS + e] && \
+                   (e != PROVISIONAL_EXCLUSION || COUNT(serving & ~to_aside) >= 3))
+
 inline rank() {
-  event = NONE; does = NOTHING; e_ = 0;
+  event = NONE; does = NOTHING; in_motion = 0; e_ = 0;
   do
   :: e_ >= EVENTS -> break
-  :: e_ < EVENTS && (raised & BIT(e_)) != 0 && kind_of[mode * EVENTS + e_] >= TAKEN ->
-       event = e_; does = actions_of[mode * EVENTS + e_]; break
+  :: e_ < EVENTS && ((raised & BIT(e_)) != 0 && kind_of[mode * EVENTS + e_] >= TAKEN || HEEDED(e_)) ->
+       event = e_; does = actions_of[mode * EVENTS + e_]; in_motion = (raised & BIT(e_)) == 0; break
   :: else -> e_++
   od
 }
@@ -334,9 +353,9 @@ inline machine() {
   if :: does & DISTRUST -> not_yet_validated = 1 :: else fi;
   if :: does & (EXCLUDE | RETURN_NAMED | ADOPT_FIT) -> timed_out = 0 :: does & EXHAUST -> timed_out = 1 :: else fi;
 #ifdef OLD_RESET  /* a reset that brings nobody back kept the clean run: S20 falls */
-  if :: serving != in_was_ || (does & ADOPT_FIT) -> clean_run = 0 :: else fi;
+  if :: serving != in_was_ || (does & ADOPT_FIT) || in_motion -> clean_run = 0 :: else fi;
 #else
-  if :: serving != in_was_ || (does & (ADOPT_FIT | RETURN_NAMED)) -> clean_run = 0 :: else fi;
+  if :: serving != in_was_ || (does & (ADOPT_FIT | RETURN_NAMED)) || in_motion -> clean_run = 0 :: else fi;
 #endif
   if :: does & ADOPT_FIT -> calibrated = 1 :: else fi;
   lead();
@@ -372,9 +391,10 @@ inline follow() {
   if :: does & (START_FIT | DISCARD_FIT | RESTART_FIT | ADOPT_FIT) -> fit = 0 :: else fi;
   if :: serving != in_was_ -> fit = 0 :: else fi;
   if
-  :: event == NORM_MISMATCH -> suspicion = OF_GRAVITY
-  :: event == NO_CONSISTENT_HYPOTHESIS -> suspicion = NONE_ALIVE
-  :: event == ALARM || event == PROVISIONAL_EXCLUSION || event == CHANNEL_LOST || event == FIT_ACCEPTED || event == EXCLUSION ->
+  :: in_motion -> skip                                  /* what rest found stays the cause */
+  :: !in_motion && event == NORM_MISMATCH -> suspicion = OF_GRAVITY
+  :: !in_motion && event == NO_CONSISTENT_HYPOTHESIS -> suspicion = NONE_ALIVE
+  :: !in_motion && (event == ALARM || event == PROVISIONAL_EXCLUSION || event == CHANNEL_LOST || event == FIT_ACCEPTED || event == EXCLUSION) ->
        suspicion = OTHER
   :: else
   fi;

@@ -94,6 +94,7 @@ static void plumb_tell(void) {
   plumb_set("; wrong in this episode:", ever0_);
   plumb_set("; suspected:", suspected0_);
   printf("\n|      %s", plumb_events[now.event]);
+  if (now.in_motion) printf(" from motion");
   plumb_set(":", now.moved);
   if (m0_ != now.mode)
     printf(", %s -> %s", plumb_modes[m0_], plumb_modes[now.mode]);

@@ -68,6 +68,20 @@ Theorem S6_S7_who_takes_sensors_out m e :
   (does m e A_mark_absent -> e = E_channel_lost).
 Proof. revert m e. every_cell; repeat split; intuition discriminate. Qed.
 
+(* S7: confirmed exclusion never from motion, failed never from motion. What a monitor in motion raises is an alarm or a
+   provisional exclusion, leads to suspect, and takes sensors out provisionally at most. An exclusion that leaves no rank is
+   not heeded (decide in the code, held against this by the lock-step model and the induction). *)
+Definition heeds (m : mode) (e : event) (f : facts) : bool :=
+  from_motion m e && match e, size_left f with E_provisional_exclusion, S_rank_lost => false | _, _ => true end.
+Theorem S7_motion_decides_nothing_for_good m e c f :
+  heeds m e f = true ->
+  kind_of m e = K_taken /\ (e = E_alarm \/ e = E_provisional_exclusion) /\ goes m e c f = M_suspect /\
+  forall a, does m e a -> a = A_exclude_provisionally \/ a = A_count.
+Proof. unfold heeds. revert m e. every_cell; every_fact; repeat split; settle; intuition congruence. Qed.
+Theorem S7_recalibration_and_failed_hear_no_motion m e f :
+  state_of m = St_recalibrating \/ state_of m = St_failed -> heeds m e f = false.
+Proof. unfold heeds. revert m e. every_cell; destruct H; settle. Qed.
+
 (* S8: a fit is adopted on its acceptance only, out of recalibration only; the monitor is then suspect and not yet validated. *)
 Theorem S8_adoption m e c f :
   does m e A_adopt_fit ->
@@ -166,6 +180,18 @@ Lemma invariant (P : mode * bool -> Prop) :
 Proof.
   intros Step trace. induction trace as [|[e f] trace IH]; intros [m c] H; [exact H|].
   simpl. apply IH. exact (Step m c e f H).
+Qed.
+
+(* S7 over a whole run: however long the tool moves and whatever is said of it, the monitor is where it was or in suspect. *)
+Definition motion_step (m : mode) (ecf : event * (bool * facts)) : mode :=
+  let '(e, (c, f)) := ecf in if heeds m e f then goes m e c f else m.
+Theorem S7_motion_leads_to_suspect_at_most m trace :
+  fold_left motion_step trace m = m \/ fold_left motion_step trace m = M_suspect.
+Proof.
+  revert m. induction trace as [|[e [c f]] trace IH]; intros m; [now left|]. simpl.
+  destruct (heeds m e f) eqn:H; [|apply IH].
+  destruct (S7_motion_decides_nothing_for_good m e c f H) as [_ [_ [-> _]]].
+  right. destruct (IH M_suspect); assumption.
 Qed.
 
 (* S5: without a reset, failed is for ever. *)

@@ -77,6 +77,16 @@ bool Diagnosis::follow_alarm(const BlockReport& report, bool calibrated) noexcep
   return true;
 }
 
+void Diagnosis::ask_about(const Terms& terms, const BlockTests& tests, const BlockReport& report,
+                          SensorSet found_in_motion) noexcept {
+  if (found_in_motion.empty() || episode_.open || report.kind == BlockReport::Kind::reference) return;
+  const SetTest& all = tests.of(isolation_.monitored() & tests.block().usable);
+  const TestLimits& limits = terms.settings.limits;
+  if (!all.tested || (all.consistent(limits) && all.parity_consistent(limits))) return;
+  episode_.open = true;
+  station_.clear();
+}
+
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
 /// turned, whatever the others make of the direction: a faulty sensor that steps is no new attitude.
 bool Diagnosis::is_still_there(const Terms& terms) const noexcept {

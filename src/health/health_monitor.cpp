@@ -73,7 +73,8 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
   return arrival != Arrival::in_order || gate.gap || s.window.block.size() >= window ||
          s.intake.silence.is_due(window) || fits || asked.reset_pending || asked.pending != 0 ||
          !((s.intake.gate.lost() & s.in_force.array.all()) - absent).empty() ||
-         !(s.intake.gate.back() & absent).empty() || asked.has_notice() || has_news(s, verdict_);
+         !(s.intake.gate.back() & absent).empty() || asked.has_notice() || s.found_in_motion() != 0 ||
+         has_news(s, verdict_);
 }
 
 /// One sample into the block and the windows.
@@ -138,7 +139,7 @@ void HealthMonitor::compare_in_motion(const Readings& y, SensorSet usable) noexc
   publish_claims(state_, held, verdict_);
   if (!asked) return;
   // The host's key is served whatever the clock does.
-  take_event(bit(HealthEvent::reset), state_.intake.clock.last_s());
+  take_event(bit(HealthEvent::reset), 0, state_.intake.clock.last_s());
   state_.last.cause = Cause::time_fault;
   publish_now(sample, false);
 }
@@ -186,9 +187,9 @@ EventMask HealthMonitor::serve_rows(const Sample& sample, GateResult& gate, bool
 
 /// One event through the machine. Where it changes the sensors that serve, the last block is judged once more, by those
 /// that are left, before anything is published.
-HealthEvent HealthMonitor::take_event(EventMask raised, double time_s) noexcept {
+HealthEvent HealthMonitor::take_event(EventMask raised, EventMask from_motion, double time_s) noexcept {
   const SensorSet in_service = state_.in_service(), monitored = state_.monitored();
-  const HealthEvent taken = decide(raised, time_s);
+  const HealthEvent taken = decide(raised, from_motion, time_s);
   const bool others = in_service != state_.in_service() || monitored != state_.monitored();
   if (others && state_.last.known) judge_again();
   return taken;
@@ -206,11 +207,13 @@ void HealthMonitor::serve(const Sample& sample, Arrival arrival, GateResult& gat
   if (!gate.gap) raised |= serve_rows(sample, gate, ticked);
   raised |= advance_recalibration(sample.time_s);
   raised = allowed(state_, raised | asked.pending);
-  const HealthEvent taken = raised != 0 ? take_event(raised, sample.time_s) : HealthEvent::none;
+  const EventMask motion = state_.found_in_motion();
+  const bool any = (raised | motion) != 0;
+  const HealthEvent taken = any ? take_event(raised, motion, sample.time_s) : HealthEvent::none;
   if (verdict_.transition.sequence == 0) give_notice(sample.time_s);
   const bool channel = taken == HealthEvent::channel_lost || taken == HealthEvent::channel_back;
   asked.pending = channel || taken == HealthEvent::reset ? raised & kKeptEvents : 0;
-  if (ticked || raised != 0 || arrival != Arrival::in_order || has_news(state_, verdict_)) {
+  if (ticked || any || arrival != Arrival::in_order || has_news(state_, verdict_)) {
     publish_now(sample, ticked);
   } else {
     verdict_.cause = state_.last.cause;

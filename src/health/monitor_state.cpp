@@ -30,6 +30,20 @@ bool MonitorState::may_recalibrate() const noexcept {
   return false;
 }
 
+/// At rest, rest decides; beyond the temperatures nothing is rejected. An alarm is taken up where it changes anything:
+/// outside `suspect`, and inside it once blocks have passed, which then count no more.
+EventMask MonitorState::found_in_motion() const noexcept {
+  const InMotion& motion = requests.motion;
+  const SensorSet away = motion.to_exclude(in_service());
+  const bool moves = last.moving || studies.slow_motion.slow();
+  if ((!motion.found.alarm && away.empty()) || !moves || intake.temperature_out) return 0;
+  const bool alarms = machine.mode != Mode::suspect || machine.clean_run > 0;
+  const EventMask alarm = alarms ? bit(HealthEvent::alarm) : EventMask{0};
+  const bool excludes = !away.empty() && !requests.inhibited && rank_of(in_force.array, in_service() - away) == 3;
+  const EventMask found = excludes ? alarm | bit(HealthEvent::provisional_exclusion) : alarm;
+  return taken_from_motion(kTransitionTable, machine.mode, found);
+}
+
 double MonitorState::motion_in_bound_rad() const noexcept {
   const double g_mps2 = in_force.gravity.g_mps2;
   const double now_rad = std::fmax(diagnosis.drift_rad(), studies.slow_motion.now_rad()) +

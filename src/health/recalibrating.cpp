@@ -94,7 +94,7 @@ void HealthMonitor::adopt() noexcept {
   sets_changed();
 }
 
-void HealthMonitor::follow_suspicion(HealthEvent event, Mode from) noexcept {
+void HealthMonitor::follow_suspicion(HealthEvent event, Mode from, Cause cause) noexcept {
   MonitorState& s = state_;
   const Mode mode = s.machine.mode;
   switch (event) {
@@ -103,7 +103,10 @@ void HealthMonitor::follow_suspicion(HealthEvent event, Mode from) noexcept {
     case HealthEvent::norm_mismatch:
     case HealthEvent::provisional_exclusion:
     case HealthEvent::channel_lost:
-    case HealthEvent::fit_accepted: s.diagnosis.suspect_for(cause_of(event, s.last.cause)); break;
+    case HealthEvent::fit_accepted:
+      // What rest found stays the cause that keeps the monitor in suspect.
+      if (cause != Cause::parity_in_motion || s.diagnosis.suspicion() == Cause::none) s.diagnosis.suspect_for(cause);
+      break;
     case HealthEvent::exclusion:
       s.diagnosis.suspect_for(Cause::none);
       s.requests.recalibration_due = s.settings.config.recalibrate_after_exclusion;

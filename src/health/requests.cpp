@@ -45,6 +45,16 @@ Expected<void> HealthMonitor::set_rotation(const Rotation& rotation) noexcept {
   return {};
 }
 
+void HealthMonitor::set_motion(const MotionFinding& finding) noexcept {
+  InMotion& motion = state_.requests.motion;
+  const SensorSet excluded = finding.excluded & state_.in_force.array.all();
+  if (finding.alarm == motion.found.alarm && excluded == motion.found.excluded) return;
+  if (!configured_ || !whole()) return;  // the next block says so
+  motion.found = {finding.alarm, excluded};
+  motion.follow(state_.machine.sensors.provisionally_excluded);
+  seal();
+}
+
 /// What was valid is only held, from now on and not from the next sample on.
 void HealthMonitor::begin_time_base() noexcept {
   if (!configured_ || !whole()) return;  // the next block says so

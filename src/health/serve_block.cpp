@@ -262,7 +262,8 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
   s.freshness.anchor_moving(s.settings.config, sample.time_s, s.motion_in_bound_rad() * s.in_force.gravity.g_mps2,
                             trace);
   // A faulty sensor may hide part of the movement, from the block and from every row after it.
-  if (report.kind == Kind::alarm || s.diagnosis.episode().open) s.freshness.lapse();
+  const bool contradicted = s.diagnosis.episode().open || s.diagnosis.suspicion() == Cause::parity_in_motion;
+  if (report.kind == Kind::alarm || contradicted) s.freshness.lapse();
   const bool alarm = report.kind == Kind::alarm && !s.diagnosis.expected(HealthEvent::alarm, s.machine);
   if (alarm) s.recalibration.drop_last();
   return alarm ? bit(HealthEvent::alarm) : EventMask{0};
@@ -276,6 +277,7 @@ EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTe
   Diagnosis& d = s.diagnosis;
   const Diagnosis::Terms terms = s.diagnosis_terms();
   if (d.follow_alarm(report, !s.in_force.owes_calibration())) s.requests.alarm_notice = report.cause;
+  d.ask_about(terms, tests, report, s.requests.motion.served & s.machine.sensors.provisionally_excluded);
   d.follow_station(terms, tests, report, sample.station);
   if (d.episode().open && report.kind != Kind::reference) d.vote(terms, tests);
   d.count_doubt(terms, report);

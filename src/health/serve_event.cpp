@@ -68,15 +68,16 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const SensorLedger&
   return named;
 }
 
-HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
+HealthEvent HealthMonitor::decide(EventMask raised, EventMask from_motion, double time_s) noexcept {
   MonitorState& s = state_;
   const Diagnosis& d = s.diagnosis;
   const SensorSet all = s.in_force.array.all(), lost = s.intake.gate.lost();
   const bool calibrated = !s.in_force.owes_calibration();
   DecisionInput input;
   input.raised = raised;
+  input.from_motion = from_motion;
   input.named = {d.isolated(s.diagnosis_terms()),
-                 d.aside(),
+                 from_motion != 0 ? s.requests.motion.to_exclude(s.in_service()) : d.aside(),
                  lost & all,
                  s.intake.gate.back(),
                  d.on_probation(),
@@ -96,16 +97,29 @@ HealthEvent HealthMonitor::decide(EventMask raised, double time_s) noexcept {
   s.requests.reset_sensors = s.requests.reset_pending ? SensorSet{} : s.requests.reset_sensors;
   s.requests.reset_pending = false;
   follow_first_calibration(from);
-  follow_suspicion(event, from);
+  const Cause of_event = decision.from_motion ? Cause::parity_in_motion : cause_of(event, s.last.cause);
+  follow_suspicion(event, from, of_event);
+  follow_finding(decision);
   if (!decision.changed) return event;
   const Cause asked_by = s.requests.recalibration_asked ? Cause::host_request : Cause::isolated_fault;
   const Cause cause = event == HealthEvent::recalibrate ? asked_by
+                      : decision.from_motion            ? of_event
                       : by_noise                        ? Cause::noisy
                       : refused                         ? Cause::calibration_contradicted
-                                                        : cause_of(event, s.last.cause);
+                                                        : of_event;
   record(event, from, cause, named, time_s);
   if (event == HealthEvent::recalibrate) s.requests.recalibration_asked = s.requests.recalibration_due = false;
   return event;
+}
+
+/// A faulty sensor may hide part of a slow movement: what was valid by that is so no more.
+void HealthMonitor::follow_finding(const Decision& decision) noexcept {
+  InMotion& motion = state_.requests.motion;
+  if (decision.from_motion) {
+    state_.freshness.lapse();
+    motion.served = motion.served | decision.sensors;
+  }
+  motion.follow(state_.machine.sensors.provisionally_excluded);
 }
 
 /// One record for each change of state or of a set (property S15).

@@ -68,6 +68,7 @@ const char* to_string(Cause cause) noexcept {
     case Cause::snapshot_refused: return "snapshot_refused";
     case Cause::memory: return "memory";
     case Cause::calibration_contradicted: return "calibration_contradicted";
+    case Cause::parity_in_motion: return "parity_in_motion";
   }
   return "?";
 }

@@ -55,6 +55,15 @@ const char* action_name(Action::Bits one) noexcept {
   }
 }
 
+EventMask taken_from_motion(const TransitionTable& table, Mode mode, EventMask raised) noexcept {
+  EventMask out = 0;
+  for (int e = 0; e < kEventCount; ++e) {
+    if (table[static_cast<std::size_t>(mode)][static_cast<std::size_t>(e)].from_motion)
+      out |= raised & bit(static_cast<HealthEvent>(e));
+  }
+  return out;
+}
+
 namespace {
 
 using table_detail::kRows;
@@ -123,6 +132,37 @@ constexpr bool nobody_is_blamed_without_a_culprit() {
   const Cell& alarm = cell_of(Mode::recalibrating, HealthEvent::alarm);
   return alarm.target == Target::suspect && (alarm.actions & Action::discard_fit) != 0;
 }
+/// S7: what a monitor in motion finds leads to suspect at most, and takes sensors out provisionally at most: no
+/// exclusion, timeout, probation, fit or mismatch comes of it, and with rank left (`heeded`) neither degraded nor
+/// failed.
+constexpr bool motion_decides_nothing_for_good() {
+  for (int m = 0; m < kModeCount; ++m) {
+    for (int e = 0; e < kEventCount; ++e) {
+      const auto from = static_cast<Mode>(m);
+      const auto event = static_cast<HealthEvent>(e);
+      const Cell& cell = cell_of(from, event);
+      if (!cell.from_motion) continue;
+      if (event != HealthEvent::alarm && event != HealthEvent::provisional_exclusion) return false;
+      if (cell.kind != CellKind::taken) return false;
+      if ((cell.actions & ~(Action::exclude_provisionally | Action::count)) != 0) return false;
+      for (SizeClass size : {SizeClass::critical, SizeClass::all_configured, SizeClass::reduced}) {
+        TargetFacts facts;
+        facts.size = size;
+        if (resolve(from, cell.target, facts) != Mode::suspect) return false;
+      }
+    }
+  }
+  return true;
+}
+/// What motion finds is taken up by every mode in service and by suspect; a sensor is excluded where some would be left
+/// to check one another.
+constexpr bool motion_is_heard() {
+  for (const Mode mode : {Mode::nominal, Mode::isolated, Mode::suspect, Mode::degraded}) {
+    if (!cell_of(mode, HealthEvent::alarm).from_motion) return false;
+    if (cell_of(mode, HealthEvent::provisional_exclusion).from_motion != (mode != Mode::degraded)) return false;
+  }
+  return true;
+}
 /// S8 and S19: only an accepted fit adopts, and only out of a recalibrating mode.
 constexpr bool adoption_is_guarded() {
   for (int m = 0; m < kModeCount; ++m) {
@@ -162,6 +202,8 @@ static_assert(kinds_are_consistent());
 static_assert(failed_is_latched());
 static_assert(rank_loss_fails());
 static_assert(nobody_is_blamed_without_a_culprit());
+static_assert(motion_decides_nothing_for_good());
+static_assert(motion_is_heard());
 static_assert(adoption_is_guarded());
 static_assert(initial_is_never_trusted());
 

@@ -42,7 +42,7 @@ std::string cell_text(const Cell& cell) {
   if (cell.kind != CellKind::taken) return kind_name(cell.kind);
   std::string out;
   for (const std::string& action : actions_of(cell)) out += action + "; ";
-  return out + to_string(cell.target);
+  return out + to_string(cell.target) + (cell.from_motion ? "; also from motion" : "");
 }
 
 bool same_cells(Mode a, Mode b) {
@@ -206,6 +206,7 @@ std::string machine_json() {
                                   {"event", to_string(event)},
                                   {"kind", kind_name(cell.kind)},
                                   {"actions", actions_of(cell)},
+                                  {"from_motion", cell.from_motion},
                                   {"target", to_string(cell.target)},
                                   {"leads_to", std::move(to)}}));
     }

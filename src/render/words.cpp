@@ -73,6 +73,7 @@ std::string explain(Cause cause, Grade grade, HealthEvent event) {
     case Cause::snapshot_refused: return "started without history: the snapshot was refused";
     case Cause::calibration_contradicted:
       return "the first attitudes contradict the uncertainty of the calibration: calibrate again";
+    case Cause::parity_in_motion: return "the sensors disagree with one another while the tool moves";
     case Cause::memory:
       return "the memory of the monitor was corrupted: configure the monitor again or restore a snapshot";
   }

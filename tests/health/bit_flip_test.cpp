@@ -133,6 +133,7 @@ TEST(BitFlips, AReportIsTheEndUntilTheMonitorIsConfiguredAnew) {
   EXPECT_EQ(monitor.set_rotation({}).error().code, Errc::not_calibrated);
   EXPECT_EQ(monitor.reset(setup.config.reset_key, setup.array.all()).error().code, Errc::not_calibrated);
   monitor.inhibit(true);
+  monitor.set_motion({true, SensorSet::of(1)});
 
   int records = 0;
   for (int k = 0; k < plumb_test::kFlipSteps; ++k) {

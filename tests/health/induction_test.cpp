@@ -173,14 +173,32 @@ class Induction {
       plain(m, HealthEvent::fit_accepted);
       plain(m, HealthEvent::fit_rejected);
     }
+    for (int e = 0; e + 1 < kEventCount; ++e) found_in_motion(m, static_cast<HealthEvent>(e));
     const bool in_suspect = mode == Mode::suspect && left(s.in_service) != SizeClass::critical;
     if (s.provisionally_excluded.empty() && (in_suspect || publishes(m))) plain(m, HealthEvent::recalibrate);
+  }
+  /// Whatever a monitor in motion may say, of whomever: also what it has no business to say.
+  void found_in_motion(const Machine& m, HealthEvent event) {
+    DecisionInput input;
+    input.from_motion = bit(event);
+    input.named = everyone(m);
+    step(m, input);
+    if (event != HealthEvent::provisional_exclusion) return;
+    const SensorSet serve = m.state.sensors.in_service;
+    for (std::uint32_t bits = serve.bits; bits != 0; bits = (bits - 1) & serve.bits) {
+      input.named.suspected = SensorSet(bits);
+      input.from_motion = bit(event) | bit(HealthEvent::alarm);
+      step(m, input);
+    }
   }
   void plain(const Machine& m, HealthEvent event) {
     DecisionInput input;
     input.raised = bit(event);
     input.named = everyone(m);
     step(m, input);
+    input.from_motion = ~EventMask{0};  // beside it, whatever is said of motion
+    step(m, input);
+    input.from_motion = 0;
     input.protection_within = true;
     step(m, input);
   }
@@ -207,6 +225,8 @@ class Induction {
                        s.excluded != t.excluded || s.absent != t.absent;
     if (d.changed != (moved || from != to)) return "S15: a change without a record, or a record of none";
     if (from == Mode::failed && to != Mode::failed && event != HealthEvent::reset) return "S5: failed was left";
+
+    if (const char* wrong = misled_by_motion(before, input, d, after)) return wrong;
 
     const SensorSet out = s.in_service - t.in_service, in = t.in_service - s.in_service;
     SensorSet may_leave, may_return;
@@ -261,6 +281,24 @@ class Induction {
     return nullptr;
   }
 
+  /// S7: a confirmed exclusion never from motion, failed never from motion, nor anything else that outlasts a rest.
+  const char* misled_by_motion(const Machine& before, const DecisionInput& input, const Decision& d,
+                               const Machine& after) const {
+    const SensorLedger &s = before.state.sensors, &t = after.state.sensors;
+    if (d.from_motion != ((input.raised & bit(d.event)) == 0 && d.event != HealthEvent::none))
+      return "S7: where the event came from is told wrongly";
+    if (!d.from_motion) return nullptr;
+    if (t.excluded != s.excluded || t.absent != s.absent || t.readmitted != s.readmitted)
+      return "S7: a sensor was moved for good in motion";
+    if (!t.provisionally_excluded.contains(s.provisionally_excluded)) return "S7: a sensor was reinstated in motion";
+    if (after.state.mode != Mode::suspect) return "S7: motion led elsewhere than to suspect";
+    if (left(t.in_service) == SizeClass::rank_lost) return "S7: motion took more than can be borne";
+    if (after.state.clean_run != 0) return "S7: blocks that passed before it still count";
+    const bool same = after.state.timed_out == before.state.timed_out && after.state.base == before.state.base &&
+                      after.state.not_yet_validated == before.state.not_yet_validated;
+    return same && after.calibrated == before.calibrated ? nullptr : "S7: motion touched what rest decides";
+  }
+
   void tell(const char* what, const Machine& before, const DecisionInput& input, const Machine& after) {
     std::ostringstream text;
     const auto show = [&text](const Machine& m) {
@@ -271,7 +309,7 @@ class Induction {
            << (m.calibrated ? "" : " uncalibrated");
     };
     text << what << "\n  n = " << n_ << ", event " << to_string(first_taken(table_, before.state.mode, input.raised))
-         << " of mask " << input.raised << "\n  before: ";
+         << " of mask " << input.raised << ", from motion " << input.from_motion << "\n  before: ";
     show(before);
     text << "\n  after:  ";
     show(after);
@@ -287,7 +325,7 @@ class Induction {
   std::uint64_t states_ = 0, steps_ = 0;
 };
 
-// Verifies: REQ-090, REQ-092, REQ-095, REQ-099, REQ-101
+// Verifies: REQ-090, REQ-092, REQ-095, REQ-099, REQ-101, REQ-200
 TEST(Induction, EveryStepFromEveryStateOfTheInvariantKeepsItAndTheProperties) {
   struct Case {
     int n;
@@ -312,10 +350,13 @@ struct Defect {
   Cell cell;
 };
 
-// Negative: REQ-090, REQ-092, REQ-101
+// Negative: REQ-090, REQ-092, REQ-101, REQ-200
 TEST(Induction, EveryPlantedDefectIsFound) {
   const auto go = [](Target target, Action::Bits actions = Action::none) {
     return Cell{CellKind::taken, target, actions};
+  };
+  const auto in_motion = [](Target target, Action::Bits actions) {
+    return Cell{CellKind::taken, target, actions, true};
   };
   using A = Action;
   using T = Target;
@@ -353,6 +394,17 @@ TEST(Induction, EveryPlantedDefectIsFound) {
       {"a request starts no fit", Mode::nominal, HealthEvent::recalibrate, go(T::recalibrating)},
       {"setting aside keeps the state", Mode::isolated, HealthEvent::provisional_exclusion,
        go(T::stay, A::exclude_provisionally)},
+      {"an exclusion is confirmed in motion", Mode::suspect, HealthEvent::exclusion,
+       in_motion(T::by_size_if_validated, A::exclude)},
+      {"motion counts towards the timeout", Mode::suspect, HealthEvent::isolation_timeout,
+       in_motion(T::by_protection, A::timed_out)},
+      {"a probation passes in motion", Mode::isolated, HealthEvent::probation_passed,
+       in_motion(T::by_size, A::reinstate)},
+      {"a recalibration begins in motion", Mode::nominal, HealthEvent::recalibrate,
+       in_motion(T::recalibrating, A::start_fit)},
+      {"motion begins a first calibration anew", Mode::initial, HealthEvent::alarm, in_motion(T::stay, A::restart_fit)},
+      {"an exclusion in motion goes by size", Mode::nominal, HealthEvent::provisional_exclusion,
+       in_motion(T::by_size, A::exclude_provisionally)},
   };
   for (const Defect& defect : defects) {
     TransitionTable table = kTransitionTable;

@@ -173,7 +173,7 @@ TEST(SnapshotFields, TheFormatIsPinned) {
   ASSERT_EQ(kCapacity, 8);
   EXPECT_EQ(kSnapshotHeaderSize, 28U);
   EXPECT_EQ(kSnapshotFrameSize, 36U);
-  EXPECT_EQ(HealthMonitor::snapshot_size_max(), 24593U);
+  EXPECT_EQ(HealthMonitor::snapshot_size_max(), 24602U);
   std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/tests/health/snapshot_format.txt");
   std::istringstream now("format " + std::to_string(kSnapshotFormat) + "\n" + description<HealthMonitor>());
   std::string pinned, found;

@@ -147,6 +147,9 @@ class Life {
       if (pick > 0.24 && pick < 0.26) monitor->set_rotation({true, false, {}});
       if (pick > 0.26 && pick < 0.30) monitor->set_rotation({});
       if (pick > 0.30 && pick < 0.33) monitor->begin_time_base();
+      if (pick > 0.33 && pick < 0.36)
+        monitor->set_motion({true, plumb::SensorSet::of(static_cast<int>(1e4 * pick) % 8)});
+      if (pick > 0.36 && pick < 0.40) monitor->set_motion({});
       if (pick > 0.13 && pick < 0.15) {
         monitor->set_gravity({told_mps2, 1e-4 * plumb::kG0_mps2, plumb::GravityModel::value});
       }

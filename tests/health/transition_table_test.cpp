@@ -86,12 +86,13 @@ TEST(TransitionTable, ANotYetValidatedSuspectExcludesButStays) {
 struct Words {
   std::string outcome;
   std::set<std::string> actions;
-  bool operator==(const Words& o) const { return outcome == o.outcome && actions == o.actions; }
+  std::string motion = "-";
+  bool operator==(const Words& o) const { return outcome == o.outcome && actions == o.actions && motion == o.motion; }
 };
 std::ostream& operator<<(std::ostream& out, const Words& w) {
   out << w.outcome << " |";
   for (const std::string& action : w.actions) out << " " << action << ",";
-  return out;
+  return out << " | " << w.motion;
 }
 using Table = std::map<std::string, Words>;  // by "mode / event"
 
@@ -107,18 +108,18 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-/// The hand-written specification: "mode | event | outcome | actions" per line.
+/// The hand-written specification: "mode | event | outcome | actions | motion" per line.
 Table specification() {
   Table table;
   std::ifstream file(std::string(PLUMB_SOURCE_DIR) + "/model/state_table.txt");
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#') continue;
     const std::vector<std::string> parts = split(line, '|');
-    if (parts.size() != 4) {
+    if (parts.size() != 5) {
       ADD_FAILURE() << "no cell: " << line;
       continue;
     }
-    Words cell{parts[2], {}};
+    Words cell{parts[2], {}, parts[4]};
     if (parts[3] != "-") {
       for (const std::string& action : split(parts[3], ',')) cell.actions.insert(action);
     }
@@ -129,6 +130,7 @@ Table specification() {
 
 Words words_of(const Cell& cell) {
   Words out;
+  if (cell.from_motion) out.motion = "also from motion";
   switch (cell.kind) {
     case CellKind::ignored: out.outcome = "ignored"; break;
     case CellKind::held: out.outcome = "held"; break;
@@ -172,7 +174,8 @@ TEST(TransitionTable, AgreesWithTheHandWrittenSpecificationCellByCell) {
   EXPECT_EQ(differences(specified, kTransitionTable), std::vector<std::string>());
 }
 
-/// Each cell with another kind, another target, and each action taken away or added: one difference every time.
+/// Each cell with another kind, another target, each action taken away or added, and taken from motion or not: one
+/// difference every time.
 // Negative: REQ-090
 TEST(TransitionTable, ACellThatDiffersInOneThingIsNoticed) {
   const Table specified = specification();
@@ -195,6 +198,9 @@ TEST(TransitionTable, ACellThatDiffersInOneThingIsNoticed) {
         other.actions = static_cast<Action::Bits>(cell.actions ^ (1U << static_cast<unsigned>(k)));
         EXPECT_TRUE(noticed(other)) << m << " " << e << ", action " << k;
       }
+      other = cell;
+      other.from_motion = !cell.from_motion;
+      EXPECT_TRUE(noticed(other)) << m << " " << e << ", from motion";
     }
   }
 }
@@ -209,8 +215,22 @@ TEST(TransitionTable, ACellThatIsMissingInTheSpecificationIsNoticed) {
     EXPECT_EQ(differences(fewer, kTransitionTable).size(), 1U) << where;
   }
   Table more = specified;
-  more["asleep / alarm"] = {"ignored", {}};
+  more["asleep / alarm"] = {"ignored", {}, "-"};
   EXPECT_EQ(differences(more, kTransitionTable).size(), 1U);
+}
+
+/// Whatever a monitor in motion raises, no mode takes up more of it than an alarm and a provisional exclusion.
+// Verifies: REQ-200
+TEST(TransitionTable, FromMotionComeAnAlarmAndAProvisionalExclusionAlone) {
+  constexpr EventMask everything = (EventMask{1} << static_cast<unsigned>(kEventCount)) - 1;
+  constexpr EventMask alarm = bit(HealthEvent::alarm), excludes = bit(HealthEvent::provisional_exclusion);
+  for (int m = 0; m < kModeCount; ++m) {
+    const auto mode = static_cast<Mode>(m);
+    const bool hears = mode == Mode::nominal || mode == Mode::isolated || mode == Mode::suspect;
+    const EventMask expected = hears ? alarm | excludes : mode == Mode::degraded ? alarm : EventMask{0};
+    EXPECT_EQ(taken_from_motion(kTransitionTable, mode, everything), expected) << to_string(mode);
+    EXPECT_EQ(taken_from_motion(kTransitionTable, mode, 0), EventMask{0}) << to_string(mode);
+  }
 }
 
 // Verifies: REQ-090

@@ -186,7 +186,7 @@ class Search {
     Step s;
     s.w = w;
     s.kind = kind;
-    if (kind == Block::no_evidence) return take(s);
+    if (kind == Block::no_evidence) return motion(s);
     attitude(s);
     for (int i = 0; i < n_; ++i) {
       const Set one = static_cast<Set>(1U << i);
@@ -203,19 +203,32 @@ class Search {
       evidence(t, false);
     }
   }
+  /// A block in motion: nothing, or whatever a monitor in motion may say, of whomever.
+  void motion(const Step& s) {
+    take(s);
+    subsets(s.w.machine.in_service, [&](Set away) {
+      Step t = s;
+      t.in.from_motion = (1U << none) - 1U;
+      if (away == 0) t.in.from_motion &= ~bit(provisional_exclusion);
+      t.in.suspected = away;
+      t.in.isolated = s.w.machine.in_service;
+      take(t);
+    });
+  }
   void attitude(const Step& s) {
     evidence(s, true);
     evidence(s, false);
   }
 
   void evidence(const Step& s, bool excited) {
-    if (s.kind == Block::alarming && records(s.w) && !s.w.open) {
+    const bool may_open = records(s.w) && !s.w.open;
+    const bool agree = s.kind == Block::clean || s.kind == Block::soft;
+    if (may_open && (s.kind == Block::alarming || (agree && s.w.machine.provisionally_excluded != 0))) {
       Step t = s;
       t.w.open = 1;
       onset(t, [&](const Step& u) { prove(u, excited); });
-    } else {
-      prove(s, excited);
     }
+    if (!may_open || s.kind != Block::alarming) prove(s, excited);
   }
   void prove(const Step& s, bool excited) {
     const bool may = s.kind == Block::clean && s.w.machine.not_yet_validated && excited &&
@@ -421,7 +434,7 @@ class Search {
     const bool ended = (collected && spoken_against) || !still;
     if (ended || before.in_service != w.machine.in_service) w.fit = 0;
     if (ended) w.alarmed = 0;
-    switch (event) {
+    switch (answer.from_motion != 0 ? int{none} : event) {
       case norm_mismatch: w.suspicion = of_gravity; break;
       case no_consistent_hypothesis: w.suspicion = none_alive; break;
       case alarm:

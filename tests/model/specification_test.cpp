@@ -17,12 +17,15 @@ namespace {
 struct Cell {
   std::string kind, target;
   std::set<std::string> actions;
-  bool operator==(const Cell& o) const { return kind == o.kind && target == o.target && actions == o.actions; }
+  bool from_motion = false;
+  bool operator==(const Cell& o) const {
+    return kind == o.kind && target == o.target && actions == o.actions && from_motion == o.from_motion;
+  }
 };
 std::ostream& operator<<(std::ostream& out, const Cell& c) {
   out << c.kind << " -> " << c.target;
   for (const std::string& a : c.actions) out << ", " << a;
-  return out;
+  return out << (c.from_motion ? ", also from motion" : "");
 }
 using Table = std::map<std::string, Cell>;
 
@@ -86,13 +89,20 @@ std::string word(const std::string& name) {
 }
 
 Table specified(std::istream& file) {
+  const std::regex motion(R"(^  ALSO_FROM_MOTION\((\w+), (\w+)\);)");
   const std::regex line(R"(^\s*CELL\((\w+),\s*(\w+),\s*(\w+),\s*(\w+),\s*([\w |]+)\);)");
   Table table;
   std::string text;
   while (std::getline(file, text)) {
     std::smatch m;
+    if (std::regex_search(text, m, motion)) {
+      const auto cell = table.find(word(m[1]) + " / " + word(m[2]));
+      const bool known = cell != table.end() && !cell->second.from_motion;
+      EXPECT_TRUE(known) << "no cell, or written twice: " << text;
+      if (known) cell->second.from_motion = true;
+    }
     if (!std::regex_search(text, m, line)) continue;
-    Cell cell{word(m[3]), word(m[4]), {}};
+    Cell cell{word(m[3]), word(m[4]), {}, false};
     std::istringstream actions(m[5]);
     for (std::string a; actions >> a;) {
       if (a != "|" && a != "NOTHING") cell.actions.insert(word(a));
@@ -114,7 +124,8 @@ Table printed() {
   for (const auto& cell : model.at("cells")) {
     if (cell.at("event") == "none") continue;
     const std::string where = cell.at("mode").get<std::string>() + " / " + cell.at("event").get<std::string>();
-    table[where] = {cell.at("kind"), cell.at("target"), cell.at("actions").get<std::set<std::string>>()};
+    table[where] = {cell.at("kind"), cell.at("target"), cell.at("actions").get<std::set<std::string>>(),
+                    cell.at("from_motion")};
   }
   return table;
 }
@@ -141,10 +152,11 @@ TEST(Specification, EveryChangedCellIsNoticed) {
   const Table tool = printed();
   ASSERT_EQ(tool.size(), 7U * 14U);
   for (const auto& [where, cell] : tool) {
-    for (int what = 0; what < 3; ++what) {
+    for (int what = 0; what < 4; ++what) {
       Table changed = tool;
       Cell& c = changed[where];
       if (what == 0) c.kind = c.kind == "held" ? "taken" : "held";
+      if (what == 3) c.from_motion = !c.from_motion;
       if (what == 1) c.target = c.target == "failed" ? "stay" : "failed";
       if (what == 2 && c.actions.erase("exclude") == 0) c.actions.insert("exclude");
       EXPECT_EQ(differences(tool, changed), 1) << where;

@@ -21,6 +21,7 @@
 #include "plumb/health/detail/monitor_state.hpp"
 #include "plumb/health/detail/publish.hpp"
 #include "plumb/health/monitor_setup.hpp"
+#include "plumb/health/motion_finding.hpp"
 #include "plumb/health/snapshot.hpp"
 #include "plumb/health/verdict.hpp"
 
@@ -86,6 +87,12 @@ class HealthMonitor {
   static constexpr double kStillRate_radps = Intake::kStillRate_radps;
   Expected<void> set_rotation(const Rotation& rotation) noexcept;
 
+  /// What a monitor in motion found at this sample (`motion_finding` in health/motion_link.hpp), before every step
+  /// while one runs beside. While the tool moves, an alarm leads to `suspect` and its exclusions are taken over,
+  /// provisionally; nothing else comes of it (REQ-200). Then rest decides. A host that never calls it has the monitor
+  /// without motion.
+  void set_motion(const MotionFinding& finding) noexcept;
+
   /// The next sample may have any time: a recording has been played and the run begins, or the clock was set. What was
   /// measured before is no evidence of now: the output is held until that sample, and invalid from it to the next block
   /// at rest. What the monitor has learned stays: validation, exclusions, suspicions.
@@ -126,7 +133,7 @@ class HealthMonitor {
   void serve(const Sample& sample, Arrival arrival, GateResult& gate) noexcept;
   void serve_gap(Arrival arrival) noexcept;
   EventMask serve_rows(const Sample& sample, GateResult& gate, bool& ticked) noexcept;
-  HealthEvent take_event(EventMask raised, double time_s) noexcept;
+  HealthEvent take_event(EventMask raised, EventMask from_motion, double time_s) noexcept;
   void empty_windows() noexcept;
   void publish_now(const Sample& sample, bool ticked) noexcept;
 
@@ -148,10 +155,11 @@ class HealthMonitor {
   void keep_vector(const BlockTests& tests) noexcept;
 
   // serve_event.cpp: one event
-  HealthEvent decide(EventMask raised, double time_s) noexcept;
+  HealthEvent decide(EventMask raised, EventMask from_motion, double time_s) noexcept;
   SensorSet carry_out(const Decision& decision, const SensorLedger& before) noexcept;
   void sets_changed() noexcept;
   void judge_again() noexcept;
+  void follow_finding(const Decision& decision) noexcept;
   void record(HealthEvent event, Mode from, Cause cause, SensorSet named, double time_s) noexcept;
   void give_notice(double time_s) noexcept;
 
@@ -162,7 +170,7 @@ class HealthMonitor {
   void adopt() noexcept;
   void follow_first_calibration(Mode from) noexcept;
   void take_span(const StationStore& store) noexcept;
-  void follow_suspicion(HealthEvent event, Mode from) noexcept;
+  void follow_suspicion(HealthEvent event, Mode from, Cause cause) noexcept;
 
   // memory.cpp: storage that changed though no program wrote to it
   bool core_holds() const noexcept;

@@ -20,7 +20,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-inline constexpr std::uint16_t kSnapshotFormat = 11;
+inline constexpr std::uint16_t kSnapshotFormat = 12;
 inline constexpr std::size_t kSnapshotHeaderSize = 28;
 inline constexpr std::size_t kSnapshotFrameSize = kSnapshotHeaderSize + 8;
 

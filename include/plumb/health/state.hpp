@@ -65,8 +65,9 @@ enum class Cause : std::uint8_t {
   snapshot_refused,  ///< switched on without its history: the snapshot that was offered is of no use
   memory,            ///< the memory of the monitor was corrupted: configure the monitor again or restore a snapshot
   calibration_contradicted,  ///< the first attitudes do not keep to what the calibration says of itself
+  parity_in_motion,          ///< readings contradict each other while the tool moves: a monitor in motion found it
 };
-inline constexpr Cause kLastCause = Cause::calibration_contradicted;
+inline constexpr Cause kLastCause = Cause::parity_in_motion;
 const char* to_string(Cause cause) noexcept;
 
 /// The cause that an event stands for; `of_block` is what the last block said, for an alarm.

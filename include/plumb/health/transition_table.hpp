@@ -74,10 +74,17 @@ const char* action_name(Action::Bits one) noexcept;
 enum class CellKind : std::uint8_t { taken, ignored, held, impossible };
 
 struct Cell {
-  CellKind kind = CellKind::impossible;
-  Target target = Target::failed;
-  Action::Bits actions = Action::none;
+  CellKind kind : 7;
+  /// Also taken where the event is what a monitor in motion found (property S7); elsewhere such an event is none.
+  bool from_motion : 1;
+  Target target;
+  Action::Bits actions;
+
+  constexpr Cell() noexcept : Cell(CellKind::impossible, Target::failed, Action::none) {}
+  constexpr Cell(CellKind what, Target where, Action::Bits does, bool in_motion = false) noexcept
+      : kind(what), from_motion(in_motion), target(where), actions(does) {}
 };
+static_assert(sizeof(Cell) == 4, "105 of them are in every image");
 
 namespace table_detail {
 
@@ -88,6 +95,7 @@ struct Entry {
 
   constexpr Entry to(Target target) const { return {event, {CellKind::taken, target, cell.actions}}; }
   constexpr Entry does(Action::Bits actions) const { return {event, {cell.kind, cell.target, actions}}; }
+  constexpr Entry also_from_motion() const { return {event, {cell.kind, cell.target, cell.actions, true}}; }
   constexpr Entry ignored() const { return {event, {CellKind::ignored, Target::stay, Action::none}}; }
   constexpr Entry held() const { return {event, {CellKind::held, Target::stay, Action::none}}; }
   /// Not reachable; were it reached, the monitor would fail.
@@ -106,10 +114,10 @@ constexpr Row kInService = {
     on(E::channel_lost).to(T::by_size).does(A::mark_absent),
     on(E::channel_back).to(T::stay).does(A::mark_back),
     on(E::exclusion).to(T::by_size).does(A::exclude),
-    on(E::provisional_exclusion).to(T::suspect_or_failed).does(A::exclude_provisionally),
+    on(E::provisional_exclusion).to(T::suspect_or_failed).does(A::exclude_provisionally).also_from_motion(),
     on(E::isolation_timeout).impossible(),
     on(E::no_consistent_hypothesis).to(T::suspect),
-    on(E::alarm).to(T::suspect),
+    on(E::alarm).to(T::suspect).also_from_motion(),
     on(E::norm_mismatch).to(T::suspect),
     on(E::fit_accepted).impossible(),
     on(E::fit_rejected).impossible(),
@@ -123,10 +131,10 @@ constexpr Row kSuspect = {
     on(E::channel_lost).to(T::stay_or_failed).does(A::mark_absent),
     on(E::channel_back).to(T::stay).does(A::mark_back),
     on(E::exclusion).to(T::by_size_if_validated).does(A::exclude),
-    on(E::provisional_exclusion).to(T::stay_or_failed).does(A::exclude_provisionally),
+    on(E::provisional_exclusion).to(T::stay_or_failed).does(A::exclude_provisionally).also_from_motion(),
     on(E::isolation_timeout).to(T::by_protection).does(A::timed_out),
     on(E::no_consistent_hypothesis).to(T::stay).does(A::count),
-    on(E::alarm).to(T::stay).does(A::count),
+    on(E::alarm).to(T::stay).does(A::count).also_from_motion(),
     on(E::norm_mismatch).to(T::stay).does(A::count),
     on(E::fit_accepted).impossible(),
     on(E::fit_rejected).impossible(),
@@ -143,7 +151,7 @@ constexpr Row kDegraded = {
     on(E::provisional_exclusion).impossible(),
     on(E::isolation_timeout).impossible(),
     on(E::no_consistent_hypothesis).to(T::suspect),
-    on(E::alarm).to(T::suspect),
+    on(E::alarm).to(T::suspect).also_from_motion(),
     on(E::norm_mismatch).to(T::suspect),
     on(E::fit_accepted).impossible(),
     on(E::fit_rejected).impossible(),
@@ -259,6 +267,9 @@ constexpr HealthEvent first_taken(const TransitionTable& table, Mode mode, Event
 constexpr HealthEvent first_taken(Mode mode, EventMask raised) noexcept {
   return first_taken(kTransitionTable, mode, raised);
 }
+
+/// What the mode takes up of the events that a monitor in motion raises.
+EventMask taken_from_motion(const TransitionTable& table, Mode mode, EventMask raised) noexcept;
 
 /// What is left in service after an action.
 enum class SizeClass : std::uint8_t { rank_lost, critical, all_configured, reduced };

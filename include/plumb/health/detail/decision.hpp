@@ -24,7 +24,7 @@ struct SensorLedger {
 /// Which sensors the events of a step are about.
 struct NamedSensors {
   SensorSet isolated;   ///< found faulty at the confirmed grade, to be excluded
-  SensorSet suspected;  ///< found faulty at the provisional grade, to be provisionally excluded
+  SensorSet suspected;  ///< found faulty at the provisional grade or in motion, to be provisionally excluded
   SensorSet lost;       ///< channels that have fallen silent
   SensorSet back;       ///< channels that deliver again
   SensorSet proven;     ///< on probation, and through it
@@ -48,6 +48,7 @@ struct DecisionState {
 
 struct DecisionInput {
   EventMask raised = 0;
+  EventMask from_motion = 0;  ///< what a monitor in motion found, beside what was raised
   NamedSensors named;
   /// The doubt has a bound within the alert limit, or an explanation by no more faults than the grade bears whose other
   /// sensors check one another.
@@ -59,9 +60,22 @@ struct DecisionInput {
 struct Decision {
   HealthEvent event = HealthEvent::none;
   Action::Bits actions = Action::none;
-  SensorSet sensors;     ///< those that changed their place for it
-  bool changed = false;  ///< of state or of place: one record is due (property S15)
+  SensorSet sensors;         ///< those that changed their place for it
+  bool changed = false;      ///< of state or of place: one record is due (property S15)
+  bool from_motion = false;  ///< the event is what a monitor in motion found, and nothing else raised it
 };
+
+/// What is taken up of what a monitor in motion found: only what the table allows, and no exclusion that would leave
+/// fewer than three directions. So nothing that is found in motion leads to `failed` (property S7).
+template <class SizeOf>
+EventMask heeded(const TransitionTable& table, const DecisionState& state, const DecisionInput& input,
+                 SizeOf&& size_of) noexcept {
+  constexpr EventMask kExcludes = bit(HealthEvent::provisional_exclusion);
+  const EventMask found = taken_from_motion(table, state.mode, input.from_motion);
+  const bool excludes = (found & kExcludes) != 0;
+  const bool bears = excludes && size_of(state.sensors.in_service - input.named.suspected) != SizeClass::rank_lost;
+  return bears ? found : found & ~kExcludes;
+}
 
 /// Carries out the part of the actions that moves sensors; returns those that the event is about.
 SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLedger& sensors) noexcept;
@@ -71,7 +85,9 @@ template <class SizeOf>
 Decision decide(const TransitionTable& table, DecisionState& state, const DecisionInput& input,
                 SizeOf&& size_of) noexcept {
   Decision out;
-  out.event = first_taken(table, state.mode, input.raised);
+  const EventMask motion = heeded(table, state, input, size_of) & ~input.raised;
+  out.event = first_taken(table, state.mode, input.raised | motion);
+  out.from_motion = (motion & bit(out.event)) != 0;
   const Cell& cell = table[static_cast<std::size_t>(state.mode)][static_cast<std::size_t>(out.event)];
   out.actions = cell.actions;
   const SensorLedger before = state.sensors;
@@ -82,7 +98,7 @@ Decision decide(const TransitionTable& table, DecisionState& state, const Decisi
   if ((cell.actions & Action::not_yet_validated) != 0) state.not_yet_validated = true;
   if ((cell.actions & (Action::exclude | Action::rearm | Action::adopt_fit)) != 0) state.timed_out = false;
   if ((cell.actions & Action::timed_out) != 0) state.timed_out = true;
-  const bool anew = (cell.actions & (Action::adopt_fit | Action::rearm)) != 0;
+  const bool anew = out.from_motion || (cell.actions & (Action::adopt_fit | Action::rearm)) != 0;
   if (anew || before.in_service != state.sensors.in_service) state.clean_run = 0;
 
   TargetFacts facts;

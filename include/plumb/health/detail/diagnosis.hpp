@@ -49,6 +49,10 @@ class Diagnosis {
   // ---- One block at rest, in this order
   /// An alarm opens an episode: votes are counted from it.
   bool follow_alarm(const BlockReport& report, bool calibrated) noexcept;
+  /// So does a sensor that was provisionally excluded in motion and contradicts the others at rest: that it is
+  /// confirmed or refuted takes votes, and those in service have nothing to alarm about.
+  void ask_about(const Terms& terms, const BlockTests& tests, const BlockReport& report,
+                 SensorSet found_in_motion) noexcept;
   /// The station that the block belongs to, with `tag` as the host gave it.
   void follow_station(const Terms& terms, const BlockTests& tests, const BlockReport& report,
                       std::uint32_t tag) noexcept;

@@ -38,6 +38,8 @@ struct MonitorState {
   SensorSet in_service() const noexcept { return machine.sensors.in_service; }
   SensorSet monitored() const noexcept { return machine.sensors.in_service | machine.sensors.provisionally_excluded; }
   SensorSet doubted() const noexcept { return facts.doubted() & in_service(); }
+  /// What a monitor in motion found and the state machine has not taken up, while the tool moves.
+  EventMask found_in_motion() const noexcept;
   /// While recalibrating the output is that of the state it came from.
   Mode published_mode() const noexcept { return machine.mode == Mode::recalibrating ? machine.base : machine.mode; }
   SizeClass classify(SensorSet set) const noexcept;
