@@ -17,7 +17,8 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_sections() {
-  static const std::vector<std::string> names = {"name", "gravity", "monitor", "input", "output", "sensor"};
+  static const std::vector<std::string> names = {"name",   "gravity", "monitor", "input",
+                                                 "output", "motion",  "gyro",    "sensor"};
   return names;
 }
 
@@ -170,6 +171,7 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   out.gravity = read_gravity(root, path);
   out.monitor = read_monitor(root, path);
   out.input = read_input(root, path, out.datasheet.reads);
+  out.motion = read_motion(root, path, out.input);
   read_sensors(root, path, out);
   out.output_frame = read_frame(root, path);
   out.fingerprint = fingerprint_of(out.datasheet);

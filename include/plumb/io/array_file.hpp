@@ -13,6 +13,7 @@
 #include "plumb/gravity/gravity.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/stability.hpp"
+#include "plumb/io/array_motion.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/known_attitude.hpp"
 #include "plumb/io/units.hpp"
@@ -65,6 +66,7 @@ struct ArrayFile {
   std::array<Stability, kCapacity> stability{};  ///< of each sensor since its calibration; all zero: not stated
   std::vector<Vec3> lever_arm_m;     ///< of each sensor from the axis of rotation, tool frame; empty: not known
   std::vector<std::string> package;  ///< the chip that each sensor is on; empty: not stated, of one or of all
+  MotionSpec motion;                 ///< what is judged while the tool moves
   Mat3 output_frame = kIdentity3;    ///< rows; applied to vectors at output only
   std::uint64_t fingerprint = 0;     ///< binds a calibration to this array, see fingerprint_of
   std::string text;                  ///< the file as read
