@@ -66,8 +66,8 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   const auto deliver = [&delivery, &writer, &rows]() -> io::FileExpected<void> {
     scenario::Delivery::Parcel parcel;
     while (delivery.pop(parcel)) {
-      const io::FileExpected<void> written =
-          writer->write(parcel.sample, {false, parcel.beside.rotation, parcel.beside.depth_m});
+      const io::FileExpected<void> written = writer->write(
+          parcel.sample, {false, parcel.beside.rotation, parcel.beside.depth_m, parcel.beside.second_rotation});
       if (!written) return written;
       ++rows;
     }
@@ -75,7 +75,7 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   };
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     injector.apply(sample);
-    delivery.push(sample, injector.now(), {reader->depth_m(), reader->rotation()});
+    delivery.push(sample, injector.now(), {reader->depth_m(), reader->rotation(), reader->second_rotation()});
     const io::FileExpected<void> written = deliver();
     if (!written) return tl::unexpected<io::FileError>(written.error());
   }

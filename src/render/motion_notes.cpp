@@ -13,6 +13,7 @@ namespace render {
 namespace {
 
 using session::MotionInputs;
+using session::RateInputs;
 
 /// A stated period that is further off is worth a word; time stamps count in any case.
 constexpr double kPeriodShare = 0.05;
@@ -50,33 +51,40 @@ void add_clock(const MotionInputs& in, const MotionSetup& setup, std::vector<Mot
                    "log the time at which a sample was taken, not that at which it arrived"});
 }
 
-std::string deg_words(const MotionInputs& in, double most_radps) {
+std::string deg_words(const RateInputs& in, double most_radps) {
   if (rad_from_deg(in.largest_radps) > most_radps) return "";
   return fmt::format("; taken as deg/s it would be {:.3g} rad/s, so the columns seem to hold deg/s",
                      rad_from_deg(in.largest_radps));
 }
 
-void add_rates(const MotionInputs& in, const MotionSetup& setup, std::vector<MotionNote>& out) {
-  if (in.rates_missing > 0)
-    out.push_back(
-        {"rate_missing",
-         fmt::format("{} of {} without a rate, the first at t = {:.3f} s: {}", in.rates_missing,
-                     count_text(in.rows, "row"), in.first_missing_s,
-                     setup.rate_bound_radps > 0.0 ? "there the stated largest rate counts" : "nothing is judged there"),
-         "log the rates of every sample, or state rate_bound_radps in [motion]"});
+/// Of one gyro: its name in sentences, and the key of its columns.
+struct Gyro {
+  const RateInputs& in;
+  const char *rate, *columns;
+};
+
+void add_rates(const Gyro& gyro, std::uint64_t rows, const MotionSetup& setup, std::vector<MotionNote>& out) {
+  const RateInputs& in = gyro.in;
   const bool stated = setup.rate_bound_radps > 0.0;
+  if (in.missing > 0)
+    out.push_back({"rate_missing",
+                   fmt::format("{} is missing in {} of {}, the first at t = {:.3f} s: {}", gyro.rate, in.missing,
+                               count_text(rows, "row"), in.first_missing_s,
+                               setup.gyros > 1 ? "there one gyro counts alone"
+                               : stated        ? "there the stated largest rate counts"
+                                               : "nothing is judged there"),
+                   "log the rates of every sample, or state rate_bound_radps in [motion]"});
   const double most_radps = stated ? setup.rate_bound_radps : kMostRate_radps;
   if (in.largest_radps > most_radps)
-    out.push_back(
-        {"rate_too_large",
-         fmt::format("the rate reaches {:.4g} rad/s at t = {:.3f} s, beyond {} {:.4g} rad/s{}", in.largest_radps,
-                     in.largest_at_s, stated ? "rate_bound_radps =" : "what gyros measure,", most_radps,
-                     deg_words(in, most_radps)),
-         stated ? "write rad/s into the columns of rotation_radps; raise rate_bound_radps if the tool turns so fast"
-                : "write rad/s into the columns of rotation_radps"});
+    out.push_back({"rate_too_large",
+                   fmt::format("{} reaches {:.4g} rad/s at t = {:.3f} s, beyond {} {:.4g} rad/s{}", gyro.rate,
+                               in.largest_radps, in.largest_at_s, stated ? "rate_bound_radps =" : "what gyros measure,",
+                               most_radps, deg_words(in, most_radps)),
+                   fmt::format("write rad/s into the columns of {}{}", gyro.columns,
+                               stated ? "; raise rate_bound_radps if the tool turns so fast" : "")});
   if (in.still_s > std::fmax(kStill_s, kStillPeriods * setup.sample_period_s))
     out.push_back({"rate_stuck",
-                   fmt::format("the rate stood at {} for {:.3f} s from t = {:.3f} s on, while a gyro has noise",
+                   fmt::format("{} stood at {} for {:.3f} s from t = {:.3f} s on, while a gyro has noise", gyro.rate,
                                in.still_at_zero ? "0, 0, 0" : "one value", in.still_s, in.still_from_s),
                    "see whether the gyro was on, and its columns are filled at the rate of the samples"});
 }
@@ -86,7 +94,9 @@ void add_rates(const MotionInputs& in, const MotionSetup& setup, std::vector<Mot
 std::vector<MotionNote> motion_notes(const session::MotionRun& run, const MotionSetup& setup) {
   std::vector<MotionNote> out;
   add_clock(run.inputs, setup, out);
-  if (setup.gyros > 0) add_rates(run.inputs, setup, out);
+  const MotionInputs& in = run.inputs;
+  if (setup.gyros > 0) add_rates({in.gyro[0], "the rate", "rotation_radps"}, in.rows, setup, out);
+  if (setup.gyros > 1) add_rates({in.gyro[1], "the second rate", "second_rotation_radps"}, in.rows, setup, out);
   return out;
 }
 

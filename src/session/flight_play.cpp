@@ -132,7 +132,7 @@ io::FileExpected<FlightSpec> flight_spec_of(const io::ArrayFile& array, const Fl
   }
   spec.full_scale_mps2 = full_scale_mps2(array, spec.full_scale_mps2);
   spec.box = box_of(array, spec.bandwidth_hz);
-  spec.gyros = array.input.rotation_columns.empty() ? 0 : 1;
+  spec.gyros = (array.input.rotation_columns.empty() ? 0 : 1) + (array.input.second_rotation_columns.empty() ? 0 : 1);
   spec.gyro_noise_radps = array.motion.gyro.noise_radps.value_or(0.0);
   const tl::expected<void, std::string> sound = scenario::check(spec);
   if (!sound) return refuse("", "cannot be flown: " + sound.error(), "change the array file");
@@ -195,8 +195,10 @@ io::FileExpected<void> FlightPlay::run(const std::string& log_path, const std::s
     const scenario::FlightSample flown = flight_.next();
     Sample sample = sample_of(flown);
     const SensorSet faulty = injector_.apply(sample);
-    const Vec3& rate = flown.rate_radps[0];
-    done = log->write(sample, {false, {norm(rate) > 0.0, true, rate}, std::nan("")});
+    const auto rotation = [&flown](std::size_t gyro) {
+      return Rotation{norm(flown.rate_radps[gyro]) > 0.0, true, flown.rate_radps[gyro]};
+    };
+    done = log->write(sample, {false, rotation(0), std::nan(""), rotation(1)});
     if (done && truth) done = truth->write(flown, faulty);
     last_time_s_ = flown.time_s;
     progress.at(++rows_, flown.time_s);

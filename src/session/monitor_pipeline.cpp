@@ -106,6 +106,7 @@ io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& sa
     for (VerdictSink* sink : sinks) {
       if (!rows.depth_m.empty()) sink->at_depth(rows.depth_m[k]);
       if (!rows.turn.empty()) sink->at_turn(rows.turn[k]);
+      if (!rows.second_turn.empty()) sink->at_second_turn(rows.second_turn[k]);
       const io::FileExpected<void> taken = sink->take(sample, verdict);
       if (!taken) return taken;
     }

@@ -42,26 +42,27 @@ void MotionInputsWatch::add(double time_s) noexcept {
   ++f.steps_irregular;
 }
 
-void MotionInputsWatch::add_rate(bool given, const std::array<double, 3>& rate_radps) noexcept {
-  MotionInputs& f = found_;
+void MotionInputsWatch::add_rate(std::size_t gyro, bool given, const Vec3& rate_radps) noexcept {
+  RateInputs& f = found_.gyro[gyro];
+  double& same_from_s = same_from_s_[gyro];
   if (!given) {
-    if (f.rates_missing == 0) f.first_missing_s = last_s_;
-    ++f.rates_missing;
-    same_from_s_ = last_s_;
+    if (f.missing == 0) f.first_missing_s = last_s_;
+    ++f.missing;
+    same_from_s = last_s_;
     return;
   }
-  const bool same = f.rates > 0 && rate_radps == rate_radps_;
-  if (!same) same_from_s_ = last_s_;
+  const bool same = f.rates > 0 && rate_radps == rate_radps_[gyro];
+  if (!same) same_from_s = last_s_;
   ++f.rates;
-  rate_radps_ = rate_radps;
-  const double size_radps = std::hypot(rate_radps[0], rate_radps[1], rate_radps[2]);
+  rate_radps_[gyro] = rate_radps;
+  const double size_radps = norm(rate_radps);
   if (size_radps > f.largest_radps) {
     f.largest_radps = size_radps;
     f.largest_at_s = last_s_;
   }
-  if (!same || last_s_ - same_from_s_ <= f.still_s) return;
-  f.still_s = last_s_ - same_from_s_;
-  f.still_from_s = same_from_s_;
+  if (!same || last_s_ - same_from_s <= f.still_s) return;
+  f.still_s = last_s_ - same_from_s;
+  f.still_from_s = same_from_s;
   f.still_at_zero = size_radps == 0.0;
 }
 

@@ -121,7 +121,7 @@ MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calib
   }
   out.chip = chips_of(array);
   if (array.input.rotation_columns.empty()) return out;
-  out.gyros = 1;
+  out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
   out.gyro = {*spec.gyro.scale, *spec.gyro.axis_rad, *spec.gyro.bias_radps, *spec.gyro.noise_radps, *spec.gyro.lag_s};
   out.gyro_corroborated = spec.gyro.corroborated;
   return out;

@@ -41,10 +41,8 @@ MotionWatch::MotionWatch(const MotionPlan& plan)
   (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
 }
 
-void MotionWatch::at_turn(const stepping::Turn& turn) {
-  turn_ = turn;
-  turn_told_ = true;
-}
+void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
+void MotionWatch::at_second_turn(const stepping::Turn& turn) { turn_[1] = turn; }
 
 MotionSample MotionWatch::sample_of(const Sample& sample) {
   MotionSample out;
@@ -58,10 +56,12 @@ MotionSample MotionWatch::sample_of(const Sample& sample) {
     if (std::fabs(sample.raw[i]) >= plan_.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
   }
   inputs_.add(sample.time_s);
-  if (!turn_told_ || plan_.setup.gyros == 0) return out;
-  inputs_.add_rate(turn_.rate_known, turn_.rate_radps);
-  out.rate_given[0] = turn_.rate_known;
-  out.rate_radps[0] = turn_.rate_radps;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(plan_.setup.gyros); ++g) {
+    if (!turn_[g]) continue;
+    inputs_.add_rate(g, turn_[g]->rate_known, turn_[g]->rate_radps);
+    out.rate_given[g] = turn_[g]->rate_known;
+    out.rate_radps[g] = turn_[g]->rate_radps;
+  }
   return out;
 }
 
@@ -114,7 +114,7 @@ io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& ve
   const MotionVerdict& now = monitor_->step(sample_of(sample));
   note_events(before, now, sample.time_s);
   count(now, sample.time_s);
-  turn_told_ = false;
+  turn_ = {};
   for (MotionSink* sink : sinks_) {
     const io::FileExpected<void> taken = sink->take(sample.time_s, now, events_);
     if (!taken) return taken;

@@ -103,7 +103,7 @@ TEST(MotionCommand, TheTwoCommandsOfTheExampleIsolateTheDeadChip) {
 }
 
 TEST(MotionCommand, AGyroThatNothingCorroboratesIsOneMoreSuspect) {
-  const Hangar where(with(read_text(kDrone), "corroborated = true", ""));
+  const Hangar where(with(read_text(kDrone), "second_rotation_radps = [\"ux\", \"uy\", \"uz\"]\n", ""));
   ASSERT_EQ(fly(where, {"--fault", "imu2:stuck=0g0@3s"}).code, 0);
   const Json motion = motion_of(monitor(where, {"--json"}));
   EXPECT_EQ(motion["alarms"], 1);
@@ -256,6 +256,17 @@ TEST(MotionCommand, SaysWhatIsWrongWithTheGyro) {
   EXPECT_TRUE(says(told.out, {"note      the rate reaches", "beyond rate_bound_radps = 8 rad/s", "taken as deg/s",
                               "the columns seem to hold deg/s", "Remedy: write rad/s"}))
       << told.err;
+}
+
+TEST(MotionCommand, ABinaryLogHoldsBothGyros) {
+  const Hangar where;
+  ASSERT_EQ(fly(where, {"--duration", "1"}).code, 0);
+  ASSERT_EQ(monitor(where, {"--motion", "text.csv"}).code, 0);
+  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.csv", "--out", "flight.plog"}).code, 0);
+  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.plog", "--out", "flight.csv"}).code, 0);
+  ASSERT_EQ(monitor(where, {"--motion", "binary.csv"}).code, 0);
+  EXPECT_EQ(read_text(where / "binary.csv"), read_text(where / "text.csv"));
+  EXPECT_TRUE(says(line_of(read_text(where / "flight.csv"), 1), {"wx", "wy", "wz", "ux", "uy", "uz", "x1"}));
 }
 
 TEST(MotionCommand, AChipMayFailInARecordedLogToo) {

@@ -47,7 +47,7 @@ TEST(FlightPlay, TakesRateNoiseAndFullScaleFromTheFile) {
   EXPECT_EQ(spec->rate_hz, 500.0);
   EXPECT_EQ(spec->noise_mps2, 0.02);
   EXPECT_NEAR(spec->full_scale_mps2, 156.9, 1e-9);
-  EXPECT_EQ(spec->gyros, 1);
+  EXPECT_EQ(spec->gyros, 2);
   EXPECT_EQ(spec->gyro_noise_radps, 0.0017);
 }
 

@@ -13,16 +13,16 @@ TEST(MotionInputs, ARegularClockAndANoisyGyroShowNothing) {
   MotionInputsWatch watch(0.001);
   for (int k = 0; k < 3000; ++k) {
     watch.add(0.001 * k);
-    watch.add_rate(true, {0.01 * (k % 7), 0.0, 0.0});
+    watch.add_rate(0, true, {0.01 * (k % 7), 0.0, 0.0});
   }
   const MotionInputs& f = watch.found();
   EXPECT_EQ(f.rows, 3000U);
-  EXPECT_EQ(f.rates, 3000U);
-  EXPECT_EQ(f.steps_back + f.steps_irregular + f.rates_missing, 0U);
+  EXPECT_EQ(f.gyro[0].rates, 3000U);
+  EXPECT_EQ(f.steps_back + f.steps_irregular + f.gyro[0].missing, 0U);
   EXPECT_NEAR(f.mean_step_s, 0.001, 1e-12);
   EXPECT_LT(f.jitter_s, 1e-9);
-  EXPECT_DOUBLE_EQ(f.largest_radps, 0.06);
-  EXPECT_EQ(f.still_s, 0.0);
+  EXPECT_DOUBLE_EQ(f.gyro[0].largest_radps, 0.06);
+  EXPECT_EQ(f.gyro[0].still_s, 0.0);
 }
 
 TEST(MotionInputs, StepsThatAreNoPeriodAreCountedWithTheirTime) {
@@ -49,24 +49,24 @@ TEST(MotionInputs, ARateThatStandsStillAndOneThatIsMissing) {
   for (int k = 0; k < 4000; ++k) {
     watch.add(0.001 * k);
     const bool still = k >= 1000 && k < 3000;
-    watch.add_rate(k != 3500, {still ? 0.5 : 0.001 * (k % 11), 0.0, 0.0});
+    watch.add_rate(0, k != 3500, {still ? 0.5 : 0.001 * (k % 11), 0.0, 0.0});
   }
   const MotionInputs& f = watch.found();
-  EXPECT_NEAR(f.still_s, 1.999, 1e-9);
-  EXPECT_NEAR(f.still_from_s, 1.0, 1e-9);
-  EXPECT_FALSE(f.still_at_zero);
-  EXPECT_EQ(f.rates_missing, 1U);
-  EXPECT_NEAR(f.first_missing_s, 3.5, 1e-9);
+  EXPECT_NEAR(f.gyro[0].still_s, 1.999, 1e-9);
+  EXPECT_NEAR(f.gyro[0].still_from_s, 1.0, 1e-9);
+  EXPECT_FALSE(f.gyro[0].still_at_zero);
+  EXPECT_EQ(f.gyro[0].missing, 1U);
+  EXPECT_NEAR(f.gyro[0].first_missing_s, 3.5, 1e-9);
 }
 
 TEST(MotionInputs, AGyroThatIsOffStandsAtZero) {
   MotionInputsWatch watch(0.001);
   for (int k = 0; k < 100; ++k) {
     watch.add(0.001 * k);
-    watch.add_rate(true, {0.0, 0.0, 0.0});
+    watch.add_rate(0, true, {0.0, 0.0, 0.0});
   }
-  EXPECT_TRUE(watch.found().still_at_zero);
-  EXPECT_NEAR(watch.found().still_s, 0.099, 1e-9);
+  EXPECT_TRUE(watch.found().gyro[0].still_at_zero);
+  EXPECT_NEAR(watch.found().gyro[0].still_s, 0.099, 1e-9);
 }
 
 }  // namespace

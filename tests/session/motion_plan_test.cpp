@@ -59,8 +59,8 @@ TEST(MotionPlan, TakesOverWhatTheFileStates) {
   EXPECT_EQ(s.errors[8].scale, 0.001);
   EXPECT_EQ(s.errors[8].axis_rad, 0.0015);
   EXPECT_EQ(s.errors[8].bias_mps2, 0.0098);
-  EXPECT_EQ(s.gyros, 1);
-  EXPECT_TRUE(s.gyro_corroborated);
+  EXPECT_EQ(s.gyros, 2);
+  EXPECT_FALSE(s.gyro_corroborated);
   EXPECT_EQ(s.gyro.scale, 0.01);
   EXPECT_EQ(s.gyro.axis_rad, 0.01);
   EXPECT_EQ(s.gyro.bias_radps, 0.006);
@@ -87,8 +87,16 @@ TEST(MotionPlan, ASamplingRateIsAPeriod) {
   EXPECT_EQ(plan->setup.sample_period_s, 0.002);
 }
 
+TEST(MotionPlan, OneGyroMayBeCorroborated) {
+  const auto plan =
+      plan_of(with(without("second_rotation_radps", drone_text()), "noise_radps", "corroborated = true\nnoise_radps"));
+  ASSERT_TRUE(plan.has_value()) << plan.error().text();
+  EXPECT_EQ(plan->setup.gyros, 1);
+  EXPECT_TRUE(plan->setup.gyro_corroborated);
+}
+
 TEST(MotionPlan, WithoutAGyroTheStatedLargestRateIsEnough) {
-  std::string text = without("rotation_radps", drone_text());
+  std::string text = without("rotation_radps", without("second_rotation_radps", drone_text()));
   const std::size_t gyro = text.find("[gyro]");
   text.erase(gyro, text.find("[[sensor]]") - gyro);
   const auto plan = plan_of(text);

@@ -49,7 +49,7 @@ struct Flown {
     rest.in_service = array.array.all();
   }
   /// `dead` reads 0.
-  void fly(int samples, SensorSet dead = {}, bool rates = true, double unit = 1.0) {
+  void fly(int samples, SensorSet dead = {}, bool rates = true, double unit = 1.0, bool second = true) {
     for (int k = 0; k < samples; ++k) {
       const scenario::FlightSample now = flight.next();
       Sample sample;
@@ -62,6 +62,7 @@ struct Flown {
       Vec3 rate = now.rate_radps[0];
       for (double& part : rate) part *= unit;
       watch.at_turn({rates, rates, rate});
+      watch.at_second_turn({true, second, now.rate_radps[1]});
       EXPECT_TRUE(watch.take(sample, rest).has_value());
       rest.transition = TransitionRecord{};
     }
@@ -149,7 +150,12 @@ TEST(MotionWatch, AGyroThatIsNotWhatTheFileSaysIsTold) {
   Flown absent(drone_text());
   absent.fly(1000, {}, false);
   EXPECT_TRUE(absent.notes("rate_missing"));
-  EXPECT_EQ(absent.watch.run().isolated, SensorSet());
+  EXPECT_EQ(absent.watch.run().alarms, 0U);
+  EXPECT_EQ(absent.watch.run().judged, 998U) << "by the second gyro";
+  Flown neither(drone_text());
+  neither.fly(1000, {}, false, 1.0, false);
+  EXPECT_EQ(neither.watch.run().inputs.gyro[1].missing, 1000U);
+  EXPECT_EQ(neither.watch.run().isolated, SensorSet());
 }
 
 TEST(MotionWatch, AClockThatIsNotWhatTheFileSaysIsTold) {

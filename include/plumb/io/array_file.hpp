@@ -45,8 +45,9 @@ struct InputSpec {
   std::string temperature_column;  ///< empty: every row gets `default_temperature_degc`
   double default_temperature_degc = 25.0;
   std::vector<std::string> rotation_columns;  ///< x, y, z of the rate of turn [rad/s], tool frame; empty: not logged
-  std::string depth_column;                   ///< measured depth, for reports; empty: not logged
-  double depth_unit_m = 1.0;                  ///< metres per unit of that column
+  std::vector<std::string> second_rotation_columns;  ///< the same of a second gyro, for motion; empty: none
+  std::string depth_column;                          ///< measured depth, for reports; empty: not logged
+  double depth_unit_m = 1.0;                         ///< metres per unit of that column
   std::vector<ColumnFilter> where;
   std::vector<KnownAttitude> known_attitudes;  ///< stations of the calibration log
   RawUnit unit;

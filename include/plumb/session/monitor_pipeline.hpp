@@ -34,6 +34,7 @@ class VerdictSink {
   virtual void at_depth(double) {}
   /// Likewise, where it names columns with the rate of rotation.
   virtual void at_turn(const stepping::Turn&) {}
+  virtual void at_second_turn(const stepping::Turn&) {}
 };
 
 /// One JSON line per change (--events).

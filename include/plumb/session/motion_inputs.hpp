@@ -5,11 +5,23 @@
 #include <array>
 #include <cstdint>
 
-#include "plumb/core/config.hpp"
+#include "plumb/motion/motion_setup.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace session {
+
+/// Of one gyro; all of it 0 where the log has no columns for it.
+struct RateInputs {
+  std::uint64_t rates = 0;    ///< rows with one
+  std::uint64_t missing = 0;  ///< rows without
+  double first_missing_s = 0.0;
+  double largest_radps = 0.0;
+  double largest_at_s = 0.0;
+  double still_s = 0.0;  ///< longest stretch of rows with one and the same rate, all three numbers
+  double still_from_s = 0.0;
+  bool still_at_zero = false;  ///< that rate is 0, 0, 0
+};
 
 struct MotionInputs {
   std::uint64_t rows = 0;
@@ -21,15 +33,7 @@ struct MotionInputs {
   double mean_step_s = 0.0;        ///< of the regular ones, or of the others where these are more
   bool period_is_another = false;  ///< they are
   double jitter_s = 0.0;           ///< largest difference of a regular one from the period
-  /// Rates; all of them 0 where the log has no columns for them.
-  std::uint64_t rates = 0;          ///< rows with one
-  std::uint64_t rates_missing = 0;  ///< rows without
-  double first_missing_s = 0.0;
-  double largest_radps = 0.0;
-  double largest_at_s = 0.0;
-  double still_s = 0.0;  ///< longest stretch of rows with one and the same rate, all three numbers
-  double still_from_s = 0.0;
-  bool still_at_zero = false;  ///< that rate is 0, 0, 0
+  std::array<RateInputs, kGyros> gyro{};
 };
 
 class MotionInputsWatch {
@@ -37,7 +41,7 @@ class MotionInputsWatch {
   explicit MotionInputsWatch(double period_s) noexcept : period_s_(period_s) {}
   void add(double time_s) noexcept;
   /// Of the row that `add` was called for last.
-  void add_rate(bool given, const std::array<double, 3>& rate_radps) noexcept;
+  void add_rate(std::size_t gyro, bool given, const Vec3& rate_radps) noexcept;
   const MotionInputs& found() const noexcept { return found_; }
 
  private:
@@ -49,8 +53,8 @@ class MotionInputsWatch {
     std::uint64_t count = 0;
   };
   Steps regular_, irregular_;
-  std::array<double, 3> rate_radps_{};
-  double same_from_s_ = 0.0;
+  std::array<Vec3, kGyros> rate_radps_{};
+  std::array<double, kGyros> same_from_s_{};
 };
 
 }  // namespace session

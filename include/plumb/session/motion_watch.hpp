@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "plumb/io/motion_records.hpp"
@@ -59,6 +60,7 @@ class MotionWatch final : public VerdictSink {
   void tell(MotionSink& sink) { sinks_.push_back(&sink); }
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_turn(const stepping::Turn& turn) override;
+  void at_second_turn(const stepping::Turn& turn) override;
   const MotionRun& run() const noexcept { return run_; }
 
  private:
@@ -69,10 +71,9 @@ class MotionWatch final : public VerdictSink {
   MotionPlan plan_;
   std::unique_ptr<MotionMonitor> monitor_;
   MotionInputsWatch inputs_;
-  stepping::Turn turn_{};
-  bool turn_told_ = false;
-  double temperature_degc_;              ///< the last one that was a number
-  std::vector<io::MotionEvent> events_;  ///< of the sample at hand
+  std::array<std::optional<stepping::Turn>, kGyros> turn_{};  ///< of the sample to come, by gyro
+  double temperature_degc_;                                   ///< the last one that was a number
+  std::vector<io::MotionEvent> events_;                       ///< of the sample at hand
   std::vector<MotionSink*> sinks_;
   MotionRun run_;
 };
