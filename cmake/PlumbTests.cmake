@@ -159,7 +159,7 @@ if(PLUMB_BUILD_HOST)
     ROOMS paper scenario study io findings testing verification render cli recordings docs
     SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
-      InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
+      InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* MotionCommand.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
     LIBRARIES plumb_testing plumb_render plumb_findings plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
   if(TARGET plumb_host_tests)  # flights with a monitor of motion on board, as plumb_motion_rates plays them

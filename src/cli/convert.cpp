@@ -46,7 +46,8 @@ io::FileExpected<io::LogStatistics> convert(const ConvertOptions& options, const
   io::LogReader::Next status = reader->next(sample);
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     const std::uint64_t now = reader->statistics().temperature_held;
-    const io::FileExpected<void> written = writer->write(sample, {now != held, reader->rotation(), reader->depth_m()});
+    const io::FileExpected<void> written =
+        writer->write(sample, {now != held, reader->rotation(), reader->depth_m(), reader->second_rotation()});
     if (!written) return tl::unexpected<io::FileError>(written.error());
     held = now;
     progress.at(reader->statistics().rows, sample.time_s);

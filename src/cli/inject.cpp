@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "fault_options.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
@@ -40,6 +41,7 @@ constexpr const char* kInjectNotes =
     "  a4:scale=1.1@10s         scale factor times 1.1; scale=-1 is a reversed wire\n"
     "  noise=5mg0, spikes=0.5g0*1%, chatter=50mg0*10s, warmup=2mg0*5min, clip=-1V..4V, coarse=16LSB, bit=12,\n"
     "  pattern=nan, missing=30%, late=5, slow=10, exchange=a3, cross=a3*1%, turned=2deg, ghost=5deg, mirror=a1*a3\n"
+    "  imu2:stuck=0g0@12s       all sensors of a chip (their `package`), where no sensor is called so\n"
     "  log:shake=0.1g0@10s      the whole log: gravity=3mg0, temperature=20degC, drop=10%, repeat, swap, late=5,\n"
     "                           back=2s\n"
     "  a2:F04@12s               an entry of the fault catalogue (docs/fault-catalogue.md) by id or name, or one of\n"
@@ -49,10 +51,6 @@ constexpr const char* kInjectNotes =
     "  plumb inject --array tool.toml --log run.csv --fault \"a2:stuck=0V@12s\" --out - |\n"
     "    plumb monitor --array tool.toml --calibration cal.json --log -\n\n"
     "The same seed gives the same bytes. With --out - nothing else is written to standard output.\n\n";
-
-io::FileError fault_error(std::string what) {
-  return io::FileError{"--fault", 0, "", std::move(what), "", io::ExitCode::usage};
-}
 
 /// Copies the log row by row through the injector.
 io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io::ArrayFile& array,
@@ -68,8 +66,8 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   const auto deliver = [&delivery, &writer, &rows]() -> io::FileExpected<void> {
     scenario::Delivery::Parcel parcel;
     while (delivery.pop(parcel)) {
-      const io::FileExpected<void> written =
-          writer->write(parcel.sample, {false, parcel.beside.rotation, parcel.beside.depth_m});
+      const io::FileExpected<void> written = writer->write(
+          parcel.sample, {false, parcel.beside.rotation, parcel.beside.depth_m, parcel.beside.second_rotation});
       if (!written) return written;
       ++rows;
     }
@@ -77,7 +75,7 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   };
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     injector.apply(sample);
-    delivery.push(sample, injector.now(), {reader->depth_m(), reader->rotation()});
+    delivery.push(sample, injector.now(), {reader->depth_m(), reader->rotation(), reader->second_rotation()});
     const io::FileExpected<void> written = deliver();
     if (!written) return tl::unexpected<io::FileError>(written.error());
   }
@@ -99,12 +97,9 @@ io::ExitCode run_inject(const InjectOptions& options) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
   if (!array) return report(array.error());
   const scenario::FaultContext context = io::fault_context(*array);
-  std::vector<scenario::Fault> faults;
-  for (const std::string& text : options.faults) {
-    const tl::expected<std::vector<scenario::Fault>, std::string> named = scenario::parse_faults(text, context);
-    if (!named) return report(fault_error(named.error()));
-    faults.insert(faults.end(), named->begin(), named->end());
-  }
+  const io::FileExpected<std::vector<scenario::Fault>> named = faults_of(options.faults, *array);
+  if (!named) return report(named.error());
+  const std::vector<scenario::Fault>& faults = *named;
   tl::expected<scenario::Injector, std::string> injector =
       scenario::Injector::make(array->datasheet, array->datasheet.model(), faults, options.seed);
   if (!injector) return report(fault_error(injector.error()));

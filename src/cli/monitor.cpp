@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "monitor_motion.hpp"
 #include "monitor_options.hpp"
 #include "monitor_outputs.hpp"
 #include "plumb/render/alignment_words.hpp"
@@ -80,17 +81,33 @@ io::FileError nothing_judged(const MonitorOptions& options, const io::ArrayFile&
   return out;
 }
 
+/// The log was over first. A flight has no stations to calibrate at: what was judged in motion, by the nominal
+/// coefficients, counts.
+io::ExitCode still_calibrating(const MonitorMotion& motion) {
+  if (motion.judged()) {
+    print_error(
+        "plumb: the log ended before the monitor had calibrated itself, so nothing was valid at rest; motion was "
+        "judged "
+        "by the nominal coefficients.\n");
+    return io::ExitCode::done;
+  }
+  print_error(
+      "plumb: the log ended before the monitor had calibrated itself, so no output was valid. Remedy: give a longer "
+      "log, with about 20 still attitudes in all directions.\n");
+  return io::ExitCode::not_accepted;
+}
+
 /// What the run goes on from.
 struct Past {
   std::string told;    ///< in the table; empty: power-on
   io::Json roll_test;  ///< for the summary of --json; null: none
 };
 
-/// The run itself, with either monitor, `days` after the calibration; `stepper`, where there is one, is stepped in its
-/// place.
+/// The run itself, with either monitor, `days` after the calibration; `motion` goes beside it, and `stepper`, where
+/// there is one, is stepped in its place.
 template <class Monitor>
 io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor, double days,
-                   const Past& past = {}, stepping::Stepper* stepper = nullptr) {
+                   MonitorMotion& motion, const Past& past = {}, stepping::Stepper* stepper = nullptr) {
   const SensorArray& sensors = monitor.array();
   std::vector<scenario::HostRequest> requests;
   for (const std::string& text : options.host) {
@@ -100,8 +117,8 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   }
   scenario::Host host(std::move(requests));
   Outputs outputs;
-  const io::FileExpected<void> opened =
-      open_outputs(options, array, sensors, monitor.verdict(), past.told, days, outputs);
+  io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), past.told, days, outputs);
+  if (opened) opened = motion.open(options, array, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
   session::LogSpec log = options.log;
@@ -111,13 +128,15 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
                          : session::run_monitor(monitor, array, log, outputs.sinks, host);
   if (!done) return report(done.error());
   io::FileExpected<void> kept = commit(outputs, *done);
+  if (kept) kept = motion.commit();
   if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());
   tell_refusals(host, sensors);
   if (options.json) {
-    print_now(render::summary_json(*done, array, sensors, days, past.roll_test));
+    print_now(render::summary_json(*done, array, sensors, days, past.roll_test, motion.told()));
   } else if (outputs.table) {
-    print_now(render::summary_text(*done, array, sensors, days) + (outputs.report ? outputs.report->summary() : ""));
+    print_now(render::summary_text(*done, array, sensors, days, motion.told()) +
+              (outputs.report ? outputs.report->summary() : ""));
   }
   if (done->stopped) {
     print_error(
@@ -129,13 +148,8 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
     return io::ExitCode::other;
   }
   if (done->last.state == HealthState::failed) return io::ExitCode::monitor_failed;
-  if ((done->last.qualifiers & Qualifier::initial_calibration) != 0) {
-    print_error(
-        "plumb: the log ended before the monitor had calibrated itself, so no output was valid. Remedy: give a longer "
-        "log, with about 20 still attitudes in all directions.\n");
-    return io::ExitCode::not_accepted;
-  }
-  return done->blocks > 0 ? io::ExitCode::done : report(nothing_judged(options, array, *done));
+  if ((done->last.qualifiers & Qualifier::initial_calibration) != 0) return still_calibrating(motion);
+  return done->blocks > 0 || motion.judged() ? io::ExitCode::done : report(nothing_judged(options, array, *done));
 }
 
 std::optional<io::FileError> past_misuse(const MonitorOptions& options, const io::ArrayFile& array) {
@@ -166,7 +180,7 @@ io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& arr
 
 /// The run after a recorded roll test, from which the monitor goes on as it would from a snapshot.
 io::ExitCode watch_after_roll_test(const MonitorOptions& options, const io::ArrayFile& array, HealthMonitor& monitor,
-                                   double days) {
+                                   double days, MonitorMotion& motion) {
   const io::FileExpected<session::RollTest> test =
       session::play_roll_test(monitor, array, {options.roll_test, options.log.on_bad_row});
   if (!test) return report(test.error());
@@ -176,7 +190,7 @@ io::ExitCode watch_after_roll_test(const MonitorOptions& options, const io::Arra
   }
   print_error(render::roll_test_text(*test, options.roll_test, monitor, array.output_frame));
   const io::Json told = options.json ? render::roll_test_json(*test, monitor, array.output_frame) : io::Json();
-  return watch(options, array, monitor, days, Past{"the roll test", told});
+  return watch(options, array, monitor, days, motion, Past{"the roll test", told});
 }
 
 /// --calibrate-first: the datasheet in the array file is all that is known.
@@ -192,7 +206,10 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
   const auto monitor = options.snapshot_in.empty() ? session::make_monitor(aligned, nullptr)
                                                    : session::restore_monitor(aligned, nullptr, options.snapshot_in);
   if (!monitor) return report(monitor.error());
-  return watch(options, array, **monitor, 0.0, past_of(options), stepper_of(options, aligned, nullptr, 0.0).get());
+  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, array, nullptr, 0.0);
+  if (!motion) return report(motion.error());
+  return watch(options, array, **monitor, 0.0, *motion, past_of(options),
+               stepper_of(options, aligned, nullptr, 0.0).get());
 }
 
 void warn_of_stations(const io::ArrayFile& array) {
@@ -207,8 +224,10 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
+  if (const std::optional<io::FileError> misuse = motion_misuse(options)) return report(*misuse);
   std::vector<NamedFile> to_write = {{"--events", options.events},
                                      {"--verdicts", options.verdicts},
+                                     {"--motion", options.motion},
                                      {"--report", options.report},
                                      {"--report", health_data_path(options.report)}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
@@ -239,20 +258,22 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
+  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, *array, &calibration->calibration, *days);
+  if (!motion) return report(motion.error());
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = session::make_paper_monitor(*array, *calibration, options.calibration);
     if (!monitor) return report(monitor.error());
     if (options.limits) return report(limits_of_paper(*array));
-    return watch(options, *array, **monitor, *days);
+    return watch(options, *array, **monitor, *days, *motion);
   }
   const auto monitor = options.snapshot_in.empty()
                            ? session::make_monitor(aligned, &calibration->calibration, *days)
                            : session::restore_monitor(aligned, &calibration->calibration, options.snapshot_in, *days);
   if (!monitor) return report(monitor.error());
   if (options.limits) return tell_limits(options, *array, (*monitor)->array(), *days);
-  if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days);
+  if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days, *motion);
   const auto stepper = stepper_of(options, aligned, &calibration->calibration, *days);
-  return watch(options, *array, **monitor, *days, past_of(options), stepper.get());
+  return watch(options, *array, **monitor, *days, *motion, past_of(options), stepper.get());
 }
 
 }  // namespace

@@ -41,6 +41,8 @@ constexpr const char* kMonitorNotes =
     "sensor, so that the monitor detects only changes after it.\n"
     "--report grades every station green, orange or red and answers whether the tool may be surveyed with; it keeps\n"
     "stations and events, not samples, so that it may end a run of any length. Name the depth column in [input].\n"
+    "With [motion] in the array file the sensors are judged while the tool moves too (docs/motion.md): events and\n"
+    "summary say which ones, and --motion writes the specific force with its bound, sample by sample.\n"
     "--limits reads no log: it prints the limits of the monitor with this array file and calibration, how many\n"
     "samples a block can use, and which faults a given delta_f misses.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -70,6 +72,11 @@ void add_monitor_options(const Options& command, MonitorOptions& options) {
       .add_option("--report", options.report,
                   "write the tool health report: a page, and its data as JSON beside it; docs/health-report.md")
       .type_name("R.html");
+  command
+      .add_option("--motion", options.motion,
+                  "write one CSV row per sample: the specific force in motion, its bound, who is isolated; `-` = "
+                  "standard output")
+      .type_name("M.csv");
   command.add_option("--snapshot-in", options.snapshot_in, "go on from this snapshot instead of from power-on")
       .type_name("S.bin");
   command
@@ -159,6 +166,12 @@ std::optional<io::FileError> roll_test_misuse(const MonitorOptions& options, con
         "validates the sensors for plumb's monitor; the paper's algorithm (mode = \"paper\") has no validation",
         "leave the option out, or set mode = \"plumb\" in " + array.path);
   return std::nullopt;
+}
+
+std::optional<io::FileError> motion_misuse(const MonitorOptions& options) {
+  if (options.motion.empty() || !options.limits) return std::nullopt;
+  return io::FileError{
+      "--motion", 0, "", "describes a run, and --limits runs nothing", "leave out one of the two", io::ExitCode::usage};
 }
 
 io::FileError limits_of_paper(const io::ArrayFile& array) {

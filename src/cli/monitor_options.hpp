@@ -20,6 +20,7 @@ struct MonitorOptions {
   std::string events;
   std::string verdicts;
   std::string report;
+  std::string motion;
   std::string date;  ///< of the run; empty: today
   std::string snapshot_in;
   std::string roll_test;
@@ -39,6 +40,7 @@ std::optional<io::FileError> calibration_misuse(const MonitorOptions& options);
 std::optional<io::FileError> snapshot_misuse(const MonitorOptions& options, const io::ArrayFile& array);
 /// What --roll-test cannot be, and what it cannot be combined with.
 std::optional<io::FileError> roll_test_misuse(const MonitorOptions& options, const io::ArrayFile& array);
+std::optional<io::FileError> motion_misuse(const MonitorOptions& options);
 /// In paper mode delta_f decides alone, by coefficients of its own for each triple.
 io::FileError limits_of_paper(const io::ArrayFile& array);
 

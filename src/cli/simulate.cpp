@@ -8,6 +8,7 @@
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/session/scenario_play.hpp"
+#include "simulate_flight.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -21,6 +22,7 @@ struct SimulateOptions {
   std::string truth;
   std::string array_out;
   std::optional<std::uint64_t> seed;
+  FlightOptions flight;
 };
 
 constexpr const char* kSimulateAbout =
@@ -37,6 +39,12 @@ constexpr const char* kSimulateNotes =
     "  tool = \"paper\"             # or array = \"my_tool.toml\", relative to the scenario file\n"
     "  [attitude]\n"
     "  law = \"drilling-path\"      # or fixed, list, random, roll-test\n\n"
+    "--flight simulates motion instead, of the array of an ARRAY file with lever arms: specific force, rotation, "
+    "vibration,\n"
+    "shocks, and a gyro where [input] names rotation_radps. Errors are drawn within the bounds that the file states "
+    "for\n"
+    "motion. --truth has the specific force at the reference point and the rate.\n"
+    "  plumb simulate --flight drone examples/motion/drone.toml --fault imu2:stuck=0g0@3s --out flight.csv\n\n"
     "Units: of the log, as [input] of the array file says; of --truth, s, m/s^2 and deg, in the frame in which\n"
     "plumb answers (the one in which the nominal axes fit the true ones best; gravity cannot tell another).\n"
     "The same scenario and seed give the same bytes. --seed changes noise, random attitudes and random faults;\n"
@@ -85,6 +93,12 @@ void tell(const SimulateOptions& options, const io::ScenarioFile& file, const se
 }
 
 io::ExitCode run_simulate(const SimulateOptions& options) {
+  if (const std::optional<io::FileError> misuse = flight_misuse(options.flight)) return report(*misuse);
+  if (!options.flight.kind.empty()) {
+    if (!options.array_out.empty())
+      return report(usage_error("--array-out", "a flight is of an array file already", "leave it out"));
+    return run_flight(options.flight, {options.scenario, options.out, options.truth, options.seed});
+  }
   io::FileExpected<io::ScenarioFile> file = io::read_scenario(options.scenario);
   if (!file) return report(file.error());
   if (options.seed) file->scenario.seed = *options.seed;
@@ -115,7 +129,9 @@ Command add_simulate(const Options& tool) {
   auto options = std::make_shared<SimulateOptions>();
   const Options command =
       tool.add_command("simulate", "simulate a log from a scenario: sensors, attitudes, noise and faults");
-  command.add_option("scenario", options->scenario, "the scenario file: the tool and what happens to it")
+  command
+      .add_option("scenario", options->scenario,
+                  "the scenario file: the tool and what happens to it; an array file with --flight")
       .required()
       .type_name("SCENARIO.toml");
   command.add_option("--seed", options->seed, "seed of noise, attitudes and faults, in place of the scenario's own")
@@ -127,6 +143,7 @@ Command add_simulate(const Options& tool) {
       .type_name("TRUTH.csv");
   command.add_option("--array-out", options->array_out, "the array file of a scenario with tool = \"paper\"")
       .type_name("ARRAY.toml");
+  add_flight_options(command, options->flight);
   command.footer(kSimulateNotes + exit_codes_help());
   return {command, kSimulateAbout, [options] { return run_simulate(*options); }};
 }

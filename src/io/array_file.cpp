@@ -17,14 +17,28 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_sections() {
-  static const std::vector<std::string> names = {"name", "gravity", "monitor", "input", "output", "sensor"};
+  static const std::vector<std::string> names = {"name",   "gravity", "monitor", "input",
+                                                 "output", "motion",  "gyro",    "sensor"};
   return names;
 }
 
 const std::vector<std::string>& known_input_keys() {
-  static const std::vector<std::string> names = {
-      "rows",        "time",  "time_unit", "rate",           "station", "roll_group", "count",          "where",
-      "temperature", "reads", "unit",      "rotation_radps", "depth",   "depth_unit", "known_attitudes"};
+  static const std::vector<std::string> names = {"rows",
+                                                 "time",
+                                                 "time_unit",
+                                                 "rate",
+                                                 "station",
+                                                 "roll_group",
+                                                 "count",
+                                                 "where",
+                                                 "temperature",
+                                                 "reads",
+                                                 "unit",
+                                                 "rotation_radps",
+                                                 "second_rotation_radps",
+                                                 "depth",
+                                                 "depth_unit",
+                                                 "known_attitudes"};
   return names;
 }
 
@@ -57,17 +71,28 @@ void read_time(const TomlTable& table, InputSpec& input) {
   }
 }
 
-void read_rotation(const TomlTable& table, InputSpec& input) {
-  const TomlNode* list = table.find("rotation_radps");
-  if (list == nullptr) return;
-  const std::string form = "name the columns of the three components: rotation_radps = [\"wx\", \"wy\", \"wz\"]";
+std::vector<std::string> read_rates(const TomlTable& table, const char* key) {
+  std::vector<std::string> out;
+  const TomlNode* list = table.find(key);
+  if (list == nullptr) return out;
+  const std::string form =
+      std::string("name the columns of the three components: ") + key + " = [\"wx\", \"wy\", \"wz\"]";
   if (list->kind != TomlNode::Kind::array || list->items.size() != 3)
-    table.fail(list->line, "rotation_radps", "must be a list of three columns", form);
+    table.fail(list->line, key, "must be a list of three columns", form);
   for (const TomlNode& item : list->items) {
     if (item.kind != TomlNode::Kind::text || item.text.empty())
-      table.fail(list->line, "rotation_radps", "holds an entry that is not a column name", form);
-    input.rotation_columns.push_back(item.text);
+      table.fail(list->line, key, "holds an entry that is not a column name", form);
+    out.push_back(item.text);
   }
+  return out;
+}
+
+void read_rotation(const TomlTable& table, InputSpec& input) {
+  input.rotation_columns = read_rates(table, "rotation_radps");
+  input.second_rotation_columns = read_rates(table, "second_rotation_radps");
+  if (!input.second_rotation_columns.empty() && input.rotation_columns.empty())
+    table.fail(table.line_of("second_rotation_radps"), "second_rotation_radps", "is given without a first gyro",
+               "name its columns rotation_radps, or add those of the first gyro");
 }
 
 void read_depth(const TomlTable& table, InputSpec& input) {
@@ -170,6 +195,7 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   out.gravity = read_gravity(root, path);
   out.monitor = read_monitor(root, path);
   out.input = read_input(root, path, out.datasheet.reads);
+  out.motion = read_motion(root, path, out.input);
   read_sensors(root, path, out);
   out.output_frame = read_frame(root, path);
   out.fingerprint = fingerprint_of(out.datasheet);

@@ -19,6 +19,12 @@ Stability read_usual_stability(const TomlNode& root, const std::string& file);
 std::vector<std::string> with_stability_keys(std::vector<std::string> names);
 /// A figure that the table omits is that of `fallback`.
 Stability read_stability(const TomlTable& table, const Stability& fallback);
+/// The keys of a sensor that bound what it may be off by in motion, for its list of known keys.
+std::vector<std::string> with_motion_keys(std::vector<std::string> names);
+/// [motion] and [gyro]; the sensors' bounds are those of [motion], until `read_motion_bounds` has seen their own.
+MotionSpec read_motion(const TomlNode& root, const std::string& file, const InputSpec& input);
+/// Of one sensor; what it does not state stays as it is. True where it states one.
+bool read_motion_bounds(const TomlTable& table, MotionBounds& bounds);
 /// All of [input] but the columns of the sensors.
 InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);
 /// Fills `out.datasheet`, `out.array` and the columns; `out.input` and `out.gravity` must be set.

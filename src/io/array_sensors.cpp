@@ -15,8 +15,8 @@ namespace {
 
 const std::vector<std::string>& known_keys() {
   static const std::vector<std::string> names =
-      with_stability_keys({"id", "column", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref", "noise", "prior",
-                           "full_scale", "resolution", "lever_arm_m", "package"});
+      with_motion_keys(with_stability_keys({"id", "column", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref",
+                                            "noise", "prior", "full_scale", "resolution", "lever_arm_m", "package"}));
   return names;
 }
 
@@ -298,6 +298,7 @@ void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out)
     tables.emplace_back(list.items[i], file, path_of(i), known_keys());
     out.datasheet.sensor[i] = read_sensor(tables.back(), {out.input.unit, out.gravity.g_mps2});
     out.stability[i] = read_stability(tables.back(), usual);
+    if (read_motion_bounds(tables.back(), out.motion.sensor[i])) out.motion.mentioned = true;
     ids.push_back(tables.back().text("id", ""));
     columns.push_back(tables.back().text("column", ids.back()));
   }

@@ -116,6 +116,11 @@ FileExpected<void> LogReader::State::map_columns() {
     if (!column) return tl::unexpected<FileError>(column.error());
     rates.push_back(*column);
   }
+  for (const std::string& name : input.second_rotation_columns) {
+    const FileExpected<std::size_t> column = column_of(name, "input.second_rotation_radps");
+    if (!column) return tl::unexpected<FileError>(column.error());
+    second_rates.push_back(*column);
+  }
   for (std::size_t i = 0; i < input.sensor_columns.size(); ++i) {
     const FileExpected<std::size_t> column =
         column_of(input.sensor_columns[i], "sensor[" + std::to_string(i + 1) + "].column");
@@ -168,6 +173,7 @@ LogReader& LogReader::operator=(LogReader&& other) noexcept = default;
 LogReader::~LogReader() = default;
 
 const Rotation& LogReader::rotation() const noexcept { return state_->rotation; }
+const Rotation& LogReader::second_rotation() const noexcept { return state_->second_rotation; }
 
 FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {
   auto state = std::make_unique<State>();

@@ -120,20 +120,20 @@ inline bool LogReader::State::fill_temperature(Sample& sample) {
 }
 
 template <bool kBinary>
-inline bool LogReader::State::fill_rotation() {
-  rotation = Rotation{};
-  if (rates.empty()) return true;
-  rotation.rate_known = true;
-  for (std::size_t k = 0; k < rates.size(); ++k) {
+inline bool LogReader::State::fill_rotation(const std::vector<std::size_t>& columns, Rotation& out) {
+  out = Rotation{};
+  if (columns.empty()) return true;
+  out.rate_known = true;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
     double value = 0.0;
-    const CellKind kind = number_in<kBinary>(rates[k], value);
-    if (kind == CellKind::text) return refuse_cell(rates[k], " is not a rate of rotation");
+    const CellKind kind = number_in<kBinary>(columns[k], value);
+    if (kind == CellKind::text) return refuse_cell(columns[k], " is not a rate of rotation");
     if (kind != CellKind::number || !std::isfinite(value)) {
-      rotation = Rotation{true, false, {}};
+      out = Rotation{true, false, {}};
       return true;
     }
-    rotation.rate_radps[k] = value;
-    rotation.turning = rotation.turning || value != 0.0;
+    out.rate_radps[k] = value;
+    out.turning = out.turning || value != 0.0;
   }
   return true;
 }
@@ -203,7 +203,8 @@ template <bool kBinary>
 bool LogReader::State::fill_row(Sample& sample) {
   sample = kNoSample;
   return fill_time<kBinary>(sample) && fill_tags<kBinary>(sample) && fill_temperature<kBinary>(sample) &&
-         fill_rotation<kBinary>() && fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
+         fill_rotation<kBinary>(rates, rotation) && fill_rotation<kBinary>(second_rates, second_rotation) &&
+         fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
 }
 template bool LogReader::State::fill_row<true>(Sample& sample);
 template bool LogReader::State::fill_row<false>(Sample& sample);

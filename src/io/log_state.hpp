@@ -41,8 +41,8 @@ struct LogReader::State {
   std::size_t depth = kNoColumn;
   std::vector<std::size_t> sensors;
   std::vector<std::size_t> filters;
-  std::vector<std::size_t> rates;
-  Rotation rotation;
+  std::vector<std::size_t> rates, second_rates;
+  Rotation rotation, second_rotation;
   double depth_m = 0.0;  ///< NaN: not known
   int line = 0;
   std::uint64_t index = 0;  ///< of the row among those not filtered out, bad ones included
@@ -99,7 +99,7 @@ struct LogReader::State {
   template <bool kBinary>
   bool fill_temperature(Sample& sample);
   template <bool kBinary>
-  bool fill_rotation();
+  bool fill_rotation(const std::vector<std::size_t>& columns, Rotation& out);
   template <bool kBinary>
   bool fill_depth();
   template <bool kBinary>

@@ -71,7 +71,9 @@ class Cells {
 }  // namespace
 
 LogWriter::LogWriter(OutputFile file, const InputSpec& input, Columns columns) : file_(std::move(file)), input_(input) {
-  if (columns == Columns::samples) input_.rotation_columns.clear();
+  if (columns != Columns::samples) return;
+  input_.rotation_columns.clear();
+  input_.second_rotation_columns.clear();
 }
 LogWriter::LogWriter(LogWriter&& other) noexcept = default;
 LogWriter& LogWriter::operator=(LogWriter&& other) noexcept = default;
@@ -85,6 +87,7 @@ void LogWriter::choose_constants() {
                  filter.column == input_.roll_group_column || filter.column == input_.count_column ||
                  filter.column == input_.temperature_column || filter.column == input_.depth_column;
     for (const std::string& column : input_.rotation_columns) taken = taken || filter.column == column;
+    for (const std::string& column : input_.second_rotation_columns) taken = taken || filter.column == column;
     for (const std::string& column : input_.sensor_columns) taken = taken || filter.column == column;
     if (!taken) constant.push_back(filter);
   }
@@ -106,6 +109,7 @@ FileExpected<void> LogWriter::begin_csv() {
   add(input_.depth_column);
   for (const ColumnFilter& filter : input_.where) add(filter.column);
   for (const std::string& column : input_.rotation_columns) add(column);
+  for (const std::string& column : input_.second_rotation_columns) add(column);
   for (const std::string& column : input_.sensor_columns) add(column);
   header += '\n';
   return file_.write(header);
@@ -125,6 +129,7 @@ FileExpected<void> LogWriter::begin_binary() {
   for (const ColumnFilter& filter : input_.where)
     header.columns.push_back(PlogColumn{filter.column, true, filter.text});
   for (const std::string& column : input_.rotation_columns) add(column, "rad/s");
+  for (const std::string& column : input_.second_rotation_columns) add(column, "rad/s");
   for (const std::string& column : input_.sensor_columns) add(column, input_.unit.name);
   if (input_.time_column.empty()) header.rate_hz = input_.rate_hz;
   if (const std::string misfit = plog_misfit(header); !misfit.empty()) {
@@ -153,9 +158,12 @@ FileExpected<void> LogWriter::write(const Sample& sample, const Notes& notes) {
   if (!input_.temperature_column.empty()) cells.number(!notes.temperature_held, sample.temperature_degc);
   if (!input_.depth_column.empty()) cells.number(std::isfinite(notes.depth_m), notes.depth_m / input_.depth_unit_m);
   for (const ColumnFilter& filter : input_.where) cells.constant(filter.text);
-  for (std::size_t k = 0; k < input_.rotation_columns.size(); ++k) {
-    cells.number(notes.rotation.rate_known || !notes.rotation.turning, notes.rotation.rate_radps[k]);
-  }
+  const auto rates = [&cells](const std::vector<std::string>& columns, const Rotation& rotation) {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      cells.number(rotation.rate_known || !rotation.turning, rotation.rate_radps[k]);
+  };
+  rates(input_.rotation_columns, notes.rotation);
+  rates(input_.second_rotation_columns, notes.second_rotation);
   for (std::size_t i = 0; i < input_.sensor_columns.size(); ++i) {
     cells.number(sample.delivered.has(static_cast<int>(i)), sample.raw[i]);
   }

@@ -61,7 +61,7 @@ std::string drift_of(const io::ArrayFile& array, double days) {
 }  // namespace
 
 std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
-                         double days) {
+                         double days, const MotionTold& motion) {
   const Mat3& frame = array.output_frame;
   const Verdict& v = run.last;
   std::string out = fmt::format("\nstate       {}: {}\n", to_string(v.state), meaning(v.state));
@@ -90,11 +90,12 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                    "the housing\n",
                    deg_from_rad(v.protection_level_calibrated_axes_rad), deg_from_rad(v.protection_level_housing_rad))
              : std::string("no bound on the error can be given\n");
-  return out + notes_text(run, array, sensors) + findings_text(v) + "drift       " + drift_of(array, days) + "\n";
+  return out + notes_text(run, array, sensors) + findings_text(v) + "drift       " + drift_of(array, days) + "\n" +
+         motion_text(motion, array);
 }
 
 std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
-                         double days, const io::Json& roll_test) {
+                         double days, const io::Json& roll_test, const MotionTold& motion) {
   nlohmann::ordered_json s;
   s["state"] = to_string(run.last.state);
   s["output"] = to_string(run.last.validity);
@@ -112,6 +113,7 @@ std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& ar
   }
   s["common_cause"] = common_cause_json(run, array, sensors);
   if (!roll_test.is_null()) s["roll_test"] = roll_test;
+  if (motion.any()) s["motion"] = motion_json(motion, array);
   s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, array.output_frame));
   return io::object({{"summary", std::move(s)}}).dump() + "\n";
 }

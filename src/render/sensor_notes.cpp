@@ -13,7 +13,7 @@ inline namespace PLUMB_ABI {
 namespace render {
 namespace {
 
-std::string id_of(const SensorArray& sensors, int i) { return sensors.row(i).id.data(); }
+std::string name_of(const SensorArray& sensors, int i) { return sensors.row(i).id.data(); }
 
 stepping::SensorCounts counts_of(const session::MonitorRun& run, int i) {
   return at(i) < run.counts.sensor.size() ? run.counts.sensor[at(i)] : stepping::SensorCounts{};
@@ -33,7 +33,7 @@ bool is_noisy(const session::MonitorRun& run, int i) {
 
 SensorNote noise_note_of(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
                          int i) {
-  const std::string id = id_of(sensors, i);
+  const std::string id = name_of(sensors, i);
   const double shown = measured_noise_mps2(run, array, i), declared = sensors.sigma_mps2(i);
   const std::string check = "check cable, connector and supply of " + id +
                             ", and whether it is mounted firmly: vibration that only " + id + " feels looks the same";
@@ -53,7 +53,7 @@ std::string names_with_chips(SensorSet set, const io::ArrayFile& array, const Se
   for (int i = 0; i < sensors.size(); ++i) {
     if (!set.has(i)) continue;
     const std::string package = io::package_of(array, i);
-    out += (out.empty() ? "" : ", ") + id_of(sensors, i) + (package.empty() ? "" : " (" + package + ")");
+    out += (out.empty() ? "" : ", ") + name_of(sensors, i) + (package.empty() ? "" : " (" + package + ")");
   }
   return out;
 }
@@ -87,7 +87,7 @@ SensorNote common_note_of(const findings::CommonCause& found, const io::ArrayFil
 SensorNote full_scale_note_of(const session::MonitorRun& run, const SensorArray& sensors, int i) {
   const stepping::SensorCounts counts = counts_of(run, i);
   return {"full scale",
-          fmt::format("{} was at full scale in {} in motion and {} at rest", id_of(sensors, i),
+          fmt::format("{} was at full scale in {} in motion and {} at rest", name_of(sensors, i),
                       count_text(counts.full_scale_in_motion, "row"), count_text(counts.full_scale_at_rest, "row")),
           counts.full_scale_at_rest > 0
               ? "at rest gravity is within the range of a sound sensor: check `full_scale`, `scale` and the channel"
@@ -122,8 +122,8 @@ std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::A
   for (int i = 0; i < sensors.size(); ++i) {
     const double rate = static_cast<double>(run.last.drift_mps2_per_h[at(i)]);
     if (rate == 0.0) continue;
-    drifts += fmt::format("{}{} {:+.3g} m/s^2/h ({:+.3g} mg0/h)", drifting++ == 0 ? "" : ", ", id_of(sensors, i), rate,
-                          in_mg0(rate));
+    drifts += fmt::format("{}{} {:+.3g} m/s^2/h ({:+.3g} mg0/h)", drifting++ == 0 ? "" : ", ", name_of(sensors, i),
+                          rate, in_mg0(rate));
   }
   if (drifting > 0)
     out.push_back(

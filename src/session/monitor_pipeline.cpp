@@ -105,6 +105,8 @@ io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& sa
     unpacker(verdict);
     for (VerdictSink* sink : sinks) {
       if (!rows.depth_m.empty()) sink->at_depth(rows.depth_m[k]);
+      if (!rows.turn.empty()) sink->at_turn(rows.turn[k]);
+      if (!rows.second_turn.empty()) sink->at_second_turn(rows.second_turn[k]);
       const io::FileExpected<void> taken = sink->take(sample, verdict);
       if (!taken) return taken;
     }
@@ -150,6 +152,8 @@ io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
   io::append_event_json(line_, verdict.transition, array_);
   return put_line(file_, line_, consistent_);
 }
+
+io::FileExpected<void> EventsFile::put(std::string& line) { return put_line(file_, line, consistent_); }
 
 io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
   if (!verdict.tick && !every_sample_) return {};

@@ -39,7 +39,9 @@ RowPump::~RowPump() {
 void RowPump::fill(stepping::Rows& rows, std::size_t most) {
   const auto sensors = static_cast<std::size_t>(rows.sensors);
   const bool turns = !array_.input.rotation_columns.empty(), has_depth = !array_.input.depth_column.empty();
-  rows.resize(most, turns, has_depth);
+  const bool turns_twice = !array_.input.second_rotation_columns.empty();
+  const auto turn_of = [](const Rotation& r) { return stepping::Turn{r.turning, r.rate_known, r.rate_radps}; };
+  rows.resize(most, turns, has_depth, turns_twice);
   std::size_t k = 0;
   for (; k < most; ++k) {
     status_ = reader_.next(sample_);
@@ -48,11 +50,10 @@ void RowPump::fill(stepping::Rows& rows, std::size_t most) {
                    sample_.count,  sample_.roll_group};
     std::copy_n(sample_.raw.data(), sensors, rows.raw.data() + k * sensors);
     if (has_depth) rows.depth_m[k] = reader_.depth_m();
-    if (!turns) continue;
-    const Rotation& rotation = reader_.rotation();
-    rows.turn[k] = {rotation.turning, rotation.rate_known, rotation.rate_radps};
+    if (turns) rows.turn[k] = turn_of(reader_.rotation());
+    if (turns_twice) rows.second_turn[k] = turn_of(reader_.second_rotation());
   }
-  if (k < most) rows.resize(k, turns, has_depth);
+  if (k < most) rows.resize(k, turns, has_depth, turns_twice);
 }
 
 void RowPump::read_ahead() noexcept {

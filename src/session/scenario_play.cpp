@@ -116,7 +116,8 @@ io::FileExpected<void> ScenarioPlay::play(io::LogWriter& log) {
 io::FileExpected<void> ScenarioPlay::put(io::LogWriter& log, const Sample& sample, const scenario::Truth& truth) {
   ++rows_;
   const bool turning = norm(truth.rate_radps) > 0.0;
-  io::FileExpected<void> done = log.write(sample, {false, {turning, true, truth.rate_radps}, truth.depth_m});
+  const Rotation rotation{turning, true, truth.rate_radps};
+  io::FileExpected<void> done = log.write(sample, {false, rotation, truth.depth_m, rotation});
   return done && truth_ ? truth_->write(sample.time_s, truth) : done;
 }
 

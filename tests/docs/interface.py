@@ -44,7 +44,7 @@ def array_keys(root, tool, folder):
     array = (root / "examples/paper_tool.toml").read_text(encoding="utf-8")
     probe = "zzzz = 1\n"
     yield "", known_keys(tool, folder, probe + array, "geometry", "probe.toml")
-    for table in ("gravity", "input", "monitor", "output"):
+    for table in ("gravity", "input", "monitor", "output", "motion", "gyro"):
         has = f"[{table}]\n" in array
         text = array.replace(f"[{table}]\n", f"[{table}]\n{probe}") if has else array + f"\n[{table}]\n{probe}"
         yield table, known_keys(tool, folder, text, "geometry", "probe.toml")
@@ -190,6 +190,14 @@ def names_of(root, tool):
     out["health.json"] = list(dict.fromkeys(schema_paths(*2 * [json.loads(text("docs/health.schema.json"))])))
     out["report.json"] = list(dict.fromkeys(schema_paths(*2 * [json.loads(text("docs/report.schema.json"))])))
     out["events and verdicts"] = list(dict.fromkeys(record_keys(text("src/io/records.cpp"))))
+    motion = text("src/io/motion_records.cpp")
+    out["motion events"] = list(dict.fromkeys(record_keys(motion)))
+    out["columns of --motion"] = names_in(motion, "kColumns[] = {")
+    out["kinds of motion events"] = words_of(motion, "MotionEventKind")
+    out["causes in motion"] = words_of(text("src/motion/motion_monitor.cpp"), "MotionCause")
+    out["validities in motion"] = words_of(text("src/motion/motion_force.cpp"), "ForceValidity")
+    out["parts of a bound"] = words_of(text("src/motion/motion_force.cpp"), "ForceTerm")
+    out["notes on motion"] = re.findall(r'push_back\(\s*\{"(\w+)"', text("src/render/motion_notes.cpp"))
     state = text("src/health/state.cpp")
     for title, kind in (("states", "HealthState"), ("events", "HealthEvent"), ("causes", "Cause"),
                         ("validities", "Validity"), ("grades", "Grade")):
@@ -223,7 +231,7 @@ def on_page(page):
     return {title: block.split("\n")[:-1] if title in LINES else block.split() for title, block in MARK.findall(page)}
 
 
-LINES = ("exit codes", "commands and options", "C", "states")
+LINES = ("exit codes", "commands and options", "C", "states", "parts of a bound")
 
 
 def differences(stated, found):

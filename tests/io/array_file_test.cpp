@@ -47,6 +47,12 @@ TEST(ArrayFile, ReadsHowTheToolTurnsAndWhereTheSensorsSit) {
   const ArrayFile file = array_of(text);
   ASSERT_EQ(file.lever_arm_m.size(), 4U);
   EXPECT_EQ(file.lever_arm_m[2], (Vec3{0.3, 0.0, -0.25}));
+  const std::string second = "second_rotation_radps = [\"ux\", \"uy\", \"uz\"]\nreads";
+  EXPECT_EQ(array_of(changed("reads", second, text)).input.second_rotation_columns,
+            (std::vector<std::string>{"ux", "uy", "uz"}));
+  const auto alone = parse_array_text(changed("reads", second), "array.toml");
+  ASSERT_FALSE(alone.has_value()) << "the first one is missing";
+  EXPECT_EQ(alone.error().field, "input.second_rotation_radps");
   const auto refused = [&text](const std::string& from, const std::string& to, const std::string& field) {
     const auto answer = parse_array_text(changed(from, to, text), "array.toml");
     EXPECT_FALSE(answer.has_value()) << to;

@@ -76,7 +76,8 @@ TEST(Records, VerdictCarriesEverything) {
   EXPECT_EQ(object["minimum_faults"], Json({0, 1, nullptr, 2}));
   EXPECT_NEAR(object["inclination_deg"].get<double>(), 45.0, 1e-12);
   EXPECT_NEAR(object["toolface_deg"].get<double>(), 0.0, 1e-12);
-  EXPECT_TRUE(object["protection_level_deg"].is_null()) << "not available";
+  EXPECT_TRUE(object.at("protection_level_calibrated_axes_deg").is_null()) << "not available";
+  EXPECT_TRUE(object.at("protection_level_housing_deg").is_null());
   EXPECT_EQ(object["transition"], 0);
   for (const char* key : {"state",
                           "validity",

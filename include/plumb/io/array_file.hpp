@@ -13,6 +13,7 @@
 #include "plumb/gravity/gravity.hpp"
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/stability.hpp"
+#include "plumb/io/array_motion.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/known_attitude.hpp"
 #include "plumb/io/units.hpp"
@@ -44,8 +45,9 @@ struct InputSpec {
   std::string temperature_column;  ///< empty: every row gets `default_temperature_degc`
   double default_temperature_degc = 25.0;
   std::vector<std::string> rotation_columns;  ///< x, y, z of the rate of turn [rad/s], tool frame; empty: not logged
-  std::string depth_column;                   ///< measured depth, for reports; empty: not logged
-  double depth_unit_m = 1.0;                  ///< metres per unit of that column
+  std::vector<std::string> second_rotation_columns;  ///< the same of a second gyro, for motion; empty: none
+  std::string depth_column;                          ///< measured depth, for reports; empty: not logged
+  double depth_unit_m = 1.0;                         ///< metres per unit of that column
   std::vector<ColumnFilter> where;
   std::vector<KnownAttitude> known_attitudes;  ///< stations of the calibration log
   RawUnit unit;
@@ -65,6 +67,7 @@ struct ArrayFile {
   std::array<Stability, kCapacity> stability{};  ///< of each sensor since its calibration; all zero: not stated
   std::vector<Vec3> lever_arm_m;     ///< of each sensor from the axis of rotation, tool frame; empty: not known
   std::vector<std::string> package;  ///< the chip that each sensor is on; empty: not stated, of one or of all
+  MotionSpec motion;                 ///< what is judged while the tool moves
   Mat3 output_frame = kIdentity3;    ///< rows; applied to vectors at output only
   std::uint64_t fingerprint = 0;     ///< binds a calibration to this array, see fingerprint_of
   std::string text;                  ///< the file as read

@@ -71,6 +71,8 @@ class LogReader {
   /// How the tool turned at the sample delivered last, where the log says so (InputSpec::rotation_columns): an empty
   /// cell, nan or inf means that it turns at a rate that is not known.
   const Rotation& rotation() const noexcept;
+  /// The same by the second gyro.
+  const Rotation& second_rotation() const noexcept;
   /// Measured depth at the sample delivered last [m]; NaN where the log does not say.
   double depth_m() const noexcept;
   const FileError& error() const noexcept;

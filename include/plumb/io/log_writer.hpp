@@ -28,6 +28,7 @@ class LogWriter {
     bool temperature_held = false;                              ///< of the row before: the cell becomes empty
     Rotation rotation;                                          ///< with Columns::all
     double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< not finite: the cell stays empty
+    Rotation second_rotation{};                                 ///< by the second gyro
   };
 
   /// Columns: time, station, count, temperature, depth (those that [input] names), the columns of `where` with

@@ -22,6 +22,7 @@ class Delivery {
   struct Beside {
     double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< measured depth; NaN: not said
     Rotation rotation;
+    Rotation second_rotation{};  ///< by the second gyro
   };
   struct Parcel {
     Sample sample;

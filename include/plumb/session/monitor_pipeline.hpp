@@ -32,6 +32,9 @@ class VerdictSink {
   virtual stepping::Wanted wanted() const { return stepping::Wanted::samples; }
   /// Before `take`, where the array file names a depth column; NaN where its cell says nothing.
   virtual void at_depth(double) {}
+  /// Likewise, where it names columns with the rate of rotation.
+  virtual void at_turn(const stepping::Turn&) {}
+  virtual void at_second_turn(const stepping::Turn&) {}
 };
 
 /// One JSON line per change (--events).
@@ -42,6 +45,8 @@ class EventsFile : public VerdictSink {
       : file_(std::move(file)), array_(array), consistent_(live) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
+  /// A line of somebody else, its newline to be added, among the others.
+  io::FileExpected<void> put(std::string& line);
   io::FileExpected<void> commit() { return file_.commit(); }
 
  private:

@@ -31,15 +31,17 @@ struct Turn {
 struct Rows {
   int sensors = 0;
   std::vector<Row> row;
-  std::vector<double> raw;      ///< `sensors` of them a row
-  std::vector<Turn> turn;       ///< one a row where the log says how the tool turns, else none
-  std::vector<double> depth_m;  ///< likewise
+  std::vector<double> raw;        ///< `sensors` of them a row
+  std::vector<Turn> turn;         ///< one a row where the log says how the tool turns, else none
+  std::vector<Turn> second_turn;  ///< likewise, by the second gyro
+  std::vector<double> depth_m;    ///< likewise
 
   const double* raw_of(std::size_t k) const noexcept { return raw.data() + k * static_cast<std::size_t>(sensors); }
-  void resize(std::size_t count, bool turns, bool has_depth) {
+  void resize(std::size_t count, bool turns, bool has_depth, bool turns_twice = false) {
     row.resize(count);
     raw.resize(count * static_cast<std::size_t>(sensors));
     turn.resize(turns ? count : 0);
+    second_turn.resize(turns_twice ? count : 0);
     depth_m.resize(has_depth ? count : 0);
   }
 };

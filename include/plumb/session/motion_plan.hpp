@@ -1,0 +1,39 @@
+/// From an array file and a calibration to the set-up of a monitor of motion, or to the key that is missing.
+#pragma once
+
+#include <optional>
+
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/calibration_file.hpp"
+#include "plumb/motion/motion_setup.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+
+/// Sigmas of what calibration leaves that count as a bound in motion: the factor of `plumb::commission`.
+inline constexpr double kMotionSigmas = 3.0;
+
+struct MotionPlan {
+  SensorArray array;  ///< calibrated
+  SensorModel model;
+  MotionSetup setup;
+  std::array<double, kCapacity> clip_raw{};  ///< from here on a reading counts as clipped; infinite: nowhere
+};
+
+/// The bounds that an array file leaves to calibration and stability.
+struct DerivedBounds {
+  double scale = 0.0, axis_rad = 0.0, bias_mps2 = 0.0;
+};
+/// Of one sensor: three sigma of what calibration leaves of each (docs/array-file.md, *Motion*), and the tolerance of
+/// its stability within the temperatures of the calibration, in full in bias and scale.
+DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& calibration, int sensor, double days);
+
+/// Why motion is not judged is the error: which keys are missing, or what cannot be done. To be asked where
+/// `array.motion.mentioned`. Without a calibration (null) the nominal coefficients count, and scale, axis and bias must
+/// be bounded by keys. `days` since the calibration.
+io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days);
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,40 @@
+/// The monitor of motion in a run of `plumb monitor`: made from the array file where that states motion, and heard in
+/// table, events, --motion and summary.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "monitor_outputs.hpp"
+#include "plumb/render/motion_words.hpp"
+#include "plumb/session/motion_watch.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+class MonitorMotion {
+ public:
+  /// `calibration`: null without one. Where motion is mentioned and cannot be judged, it says so on standard error;
+  /// that is an error where --motion asks for its results.
+  static io::FileExpected<MonitorMotion> make(const MonitorOptions& options, const io::ArrayFile& array,
+                                              const Calibration* calibration, double days);
+
+  /// Joins the outputs of a run, behind those that are open.
+  io::FileExpected<void> open(const MonitorOptions& options, const io::ArrayFile& array, Outputs& outputs);
+  io::FileExpected<void> commit();
+  /// Something was judged though the tool never rested.
+  bool judged() const noexcept { return watch_ != nullptr && watch_->run().judged > 0; }
+  render::MotionTold told() const noexcept;
+
+ private:
+  std::unique_ptr<session::MotionPlan> plan_;
+  std::optional<io::FileError> refusal_;
+  std::unique_ptr<session::MotionWatch> watch_;
+  std::unique_ptr<session::MotionFile> file_;
+  std::vector<std::unique_ptr<session::MotionSink>> sinks_;
+};
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

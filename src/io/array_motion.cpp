@@ -1,0 +1,163 @@
+// [motion], [gyro] and the bounds of the sensors: plain numbers, whose units stand in the keys.
+#include <algorithm>
+#include <string>
+
+#include "array_parts.hpp"
+#include "text_tools.hpp"
+#include "toml_table.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+/// One number: what it may be (as `plumb::check` of a MotionSetup has it), and how it is written.
+struct Figure {
+  const char* key;
+  const char* unit;  ///< empty: a ratio
+  double least, most;
+  const char* example;
+};
+
+double read_figure(const TomlTable& table, const Figure& figure) {
+  const TomlNode& value = *table.find(figure.key);
+  const std::string form = std::string("write a number") +
+                           (*figure.unit != '\0' ? std::string(" in ") + figure.unit + ", without quotes" : "") + ": " +
+                           figure.key + " = " + figure.example;
+  const bool ratio = *figure.unit == '\0' && value.kind == TomlNode::Kind::text;
+  const bool number = value.kind == TomlNode::Kind::number || value.kind == TomlNode::Kind::integer;
+  if (!ratio && !number)
+    table.fail(value.line, figure.key, std::string("is ") + value.kind_name() + ", must be a number", form);
+  const double given = ratio ? table.quantity(Quantity::ratio, figure.key, 0.0) : value.number;
+  if (given >= figure.least && given <= figure.most) return given;
+  const std::string unit = *figure.unit != '\0' ? std::string(" ") + figure.unit : "";
+  table.fail(value.line, figure.key, "is " + brief(given) + unit + ", out of range",
+             "give a value from " + brief(figure.least) + " to " + brief(figure.most) + unit + ", for example " +
+                 figure.key + " = " + figure.example);
+}
+
+void read_into(const TomlTable& table, const Figure& figure, std::optional<double>& out) {
+  if (table.has(figure.key)) out = read_figure(table, figure);
+}
+
+void read_into(const TomlTable& table, const Figure& figure, double& out) {
+  if (table.has(figure.key)) out = read_figure(table, figure);
+}
+
+struct BoundKey {
+  Figure figure;
+  std::optional<double> MotionBounds::*field;
+};
+
+constexpr BoundKey kBounds[] = {
+    {{"lever_arm_bound_m", "m", 0.0, 1.0, "0.001"}, &MotionBounds::lever_arm_m},
+    {{"lag_bound_s", "s", 0.0, 1.0, "70e-6"}, &MotionBounds::lag_s},
+    {{"vibration_rectification_per_mps2", "1/(m/s^2)", 0.0, 1.0, "2e-5"}, &MotionBounds::rectification_per_mps2},
+    {{"scale_bound", "", 0.0, 0.5, "0.001"}, &MotionBounds::scale},
+    {{"axis_bound_rad", "rad", 0.0, 0.5, "0.0015"}, &MotionBounds::axis_rad},
+    {{"bias_bound_mps2", "m/s^2", 0.0, 100.0, "0.01"}, &MotionBounds::bias_mps2},
+};
+
+struct GyroKey {
+  Figure figure;
+  std::optional<double> GyroSpec::*field;
+};
+
+constexpr GyroKey kGyro[] = {
+    {{"scale_bound", "", 0.0, 0.4, "0.01"}, &GyroSpec::scale},
+    {{"axis_bound_rad", "rad", 0.0, 0.4, "0.01"}, &GyroSpec::axis_rad},
+    {{"bias_bound_radps", "rad/s", 0.0, 10.0, "0.006"}, &GyroSpec::bias_radps},
+    {{"noise_radps", "rad/s", 0.0, 10.0, "0.002"}, &GyroSpec::noise_radps},
+    {{"lag_bound_s", "s", 0.0, 1.0, "20e-6"}, &GyroSpec::lag_s},
+};
+
+constexpr Figure kPeriod{"sample_period_s", "s", 1e-5, 1.0, "0.001"};
+constexpr Figure kRate{"rate_bound_radps", "rad/s", 0.0, 1000.0, "8"};
+
+struct LimitKey {
+  Figure figure;
+  double MotionSetup::*field;
+};
+
+constexpr LimitKey kLimits[] = {
+    {{"force_bound_mps2", "m/s^2", 0.0, 1e5, "160"}, &MotionSetup::force_bound_mps2},
+    {{"false_alarms_per_hour", "", 1e-9, 1.0, "0.001"}, &MotionSetup::false_alarms_per_hour},
+    {{"dwell_s", "s", 0.0, 10.0, "0.064"}, &MotionSetup::dwell_s},
+    {{"quiet_s", "s", 0.0, 3600.0, "5"}, &MotionSetup::quiet_s},
+};
+
+std::vector<std::string> known_motion_keys() {
+  std::vector<std::string> out = {kPeriod.key, kRate.key, "max_faults"};
+  for (const LimitKey& key : kLimits) out.emplace_back(key.figure.key);
+  return with_motion_keys(std::move(out));
+}
+
+std::vector<std::string> known_gyro_keys() {
+  std::vector<std::string> out = {"corroborated"};
+  for (const GyroKey& key : kGyro) out.emplace_back(key.figure.key);
+  return out;
+}
+
+void read_max_faults(const TomlTable& table, MotionSetup& limits) {
+  const std::int64_t value = table.integer("max_faults", limits.max_faults);
+  if (value < 1 || value > kMotionDepth)
+    table.fail(table.line_of("max_faults"), "max_faults", "is " + std::to_string(value) + ", out of range",
+               "give the most units that may be faulty at once, 1 to " + std::to_string(kMotionDepth));
+  limits.max_faults = static_cast<int>(value);
+}
+
+GyroSpec read_gyro(const TomlTable& table, const InputSpec& input) {
+  GyroSpec out;
+  out.stated = true;
+  if (input.rotation_columns.empty())
+    table.fail(table.line(), "", "describes a gyro, but [input] names no columns with its rates",
+               "add rotation_radps = [\"wx\", \"wy\", \"wz\"] to [input], or remove the table");
+  for (const GyroKey& key : kGyro) read_into(table, key.figure, out.*key.field);
+  const TomlNode* corroborated = table.find("corroborated");
+  if (corroborated == nullptr) return out;
+  if (corroborated->kind != TomlNode::Kind::boolean)
+    table.fail(corroborated->line, "corroborated",
+               std::string("is ") + corroborated->kind_name() + ", must be true or false",
+               "write corroborated = true where the host compares several gyros, else leave it out");
+  out.corroborated = corroborated->boolean;
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> with_motion_keys(std::vector<std::string> names) {
+  for (const BoundKey& key : kBounds) names.emplace_back(key.figure.key);
+  return names;
+}
+
+bool read_motion_bounds(const TomlTable& table, MotionBounds& bounds) {
+  bool stated = false;
+  for (const BoundKey& key : kBounds) {
+    stated = stated || table.has(key.figure.key);
+    read_into(table, key.figure, bounds.*key.field);
+  }
+  return stated;
+}
+
+MotionSpec read_motion(const TomlNode& root, const std::string& file, const InputSpec& input) {
+  MotionSpec out;
+  if (const TomlNode* node = root.find("motion"); node != nullptr) {
+    const TomlTable table(*node, file, "motion", known_motion_keys());
+    out.stated = true;
+    read_into(table, kPeriod, out.sample_period_s);
+    read_into(table, kRate, out.rate_bound_radps);
+    for (const LimitKey& key : kLimits) read_into(table, key.figure, out.limits.*key.field);
+    read_max_faults(table, out.limits);
+    MotionBounds usual;
+    (void)read_motion_bounds(table, usual);
+    out.sensor.fill(usual);
+  }
+  if (const TomlNode* node = root.find("gyro"); node != nullptr)
+    out.gyro = read_gyro(TomlTable(*node, file, "gyro", known_gyro_keys()), input);
+  out.mentioned = out.stated || out.gyro.stated;
+  return out;
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

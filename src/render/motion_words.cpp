@@ -1,0 +1,191 @@
+#include "plumb/render/motion_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plumb/core/units.hpp"
+#include "plumb/render/figures.hpp"
+#include "plumb/render/words.hpp"
+#include "plumb/scenario/count_text.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace render {
+namespace {
+
+using session::MotionRun;
+
+/// "a4, a5, a6 (imu2)": with the chip where all of one chip are meant.
+std::string names_with_chips(SensorSet set, const io::ArrayFile& array) {
+  std::string chip;
+  bool one = !set.empty();
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (!set.has(i)) continue;
+    const std::string here = io::package_of(array, i);
+    one = one && !here.empty() && (chip.empty() || chip == here);
+    chip = here;
+  }
+  return sensor_names(set, array.array) + (one ? " (" + chip + ")" : "");
+}
+
+/// "a4, a5, a6 (imu2) at 3.002 s; a1 at 4.100 s": those of one instant together, in order of time.
+std::string names_with_times(SensorSet set, const std::array<double, kCapacity>& at_s, const io::ArrayFile& array) {
+  std::string out;
+  while (!set.empty()) {
+    double first_s = 0.0;
+    SensorSet together;
+    for (int i = 0; i < array.array.size(); ++i) {
+      if (!set.has(i)) continue;
+      const double t_s = at_s[static_cast<std::size_t>(i)];
+      if (together.empty() || t_s < first_s) {
+        first_s = t_s;
+        together = SensorSet::of(i);
+      } else if (t_s == first_s) {
+        together = together.with(i);
+      }
+    }
+    out += fmt::format("{}{} at {:.3f} s", out.empty() ? "" : "; ", names_with_chips(together, array), first_s);
+    set = set - together;
+  }
+  return out.empty() ? "-" : out;
+}
+
+/// Of the most samples in which nobody was isolated, or nothing judged.
+MotionCause main_cause(const MotionRun& run) {
+  const auto most = std::max_element(run.why.begin() + 1, run.why.end());
+  return *most == 0 ? MotionCause::none : static_cast<MotionCause>(most - run.why.begin());
+}
+
+/// Nobody was isolated in an alarm: why.
+MotionCause open_cause(const MotionRun& run) {
+  if (run.alarms == 0 || !run.isolated.empty()) return MotionCause::none;
+  MotionCause out = MotionCause::none;
+  for (const MotionCause cause : {MotionCause::parity, MotionCause::gyro_inconsistent, MotionCause::too_many_faults}) {
+    if (run.samples_with(cause) > 0 && (out == MotionCause::none || run.samples_with(cause) > run.samples_with(out)))
+      out = cause;
+  }
+  return out;
+}
+
+ForceTerm main_term(const MotionRun& run) {
+  return static_cast<ForceTerm>(std::max_element(run.dominant.begin(), run.dominant.end()) - run.dominant.begin());
+}
+
+std::string force_words(const MotionRun& run) {
+  if (run.blocks == 0) return "none of the blocks of 32 samples has a bounded specific force";
+  return fmt::format(
+      "of {}: bound of the error {:.3g} mg0 on average, {:.3g} mg0 at most (t = {:.3f} s); largest part: {}",
+      count_text(run.blocks, "block"), kMg0 * run.bound_sum_mps2 / static_cast<double>(run.blocks),
+      kMg0 * run.worst_bound_mps2, run.worst_bound_at_s, to_string(main_term(run)));
+}
+
+std::string judged_words(const MotionRun& run) {
+  std::string out = fmt::format("{} of {} judged", run.judged, count_text(run.samples, "sample"));
+  if (2 * run.judged < run.samples) out += fmt::format(" ({})", explain(main_cause(run)));
+  out += run.alarms == 0
+             ? std::string(", no alarm")
+             : fmt::format(", {}, the first at {:.3f} s", count_text(run.alarms, "alarm"), run.first_alarm_s);
+  return out;
+}
+
+io::Json sensors_json(SensorSet set, const std::array<double, kCapacity>& at_s, const io::ArrayFile& array) {
+  io::Json out = io::Json::array();
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (set.has(i))
+      out.push_back(io::object({{"id", array.array.row(i).id.data()}, {"t_s", at_s[static_cast<std::size_t>(i)]}}));
+  }
+  return out;
+}
+
+io::Json ids_json(SensorSet set, const io::ArrayFile& array) {
+  io::Json out = io::Json::array();
+  for (int i = 0; i < array.array.size(); ++i) {
+    if (set.has(i)) out.push_back(array.array.row(i).id.data());
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* explain(MotionCause cause) noexcept {
+  switch (cause) {
+    case MotionCause::none: return "nothing contradicts, or a sensor is isolated";
+    case MotionCause::parity: return "readings contradict each other, and several explanations are left";
+    case MotionCause::gyro_inconsistent: return "a faulty gyro would explain it as well, and nothing corroborates it";
+    case MotionCause::too_many_faults: return "more units are faulty at once than can be isolated";
+    case MotionCause::rotation_unknown: return "neither a rate nor a bound of the rate is known";
+    case MotionCause::no_redundancy: return "the sensors left do not check each other";
+    case MotionCause::irregular_time: return "rows do not follow each other by sample_period_s";
+  }
+  return "?";
+}
+
+std::string motion_line(const io::MotionEvent& event, const SensorArray& array) {
+  std::string words;
+  switch (event.kind) {
+    case io::MotionEventKind::alarm:
+      words = event.cause == MotionCause::none ? "readings contradict each other" : explain(event.cause);
+      break;
+    case io::MotionEventKind::isolated: words = "faulty in every explanation"; break;
+    case io::MotionEventKind::excluded: words = "provisionally excluded from the specific force"; break;
+    case io::MotionEventKind::alarm_over: words = "nothing that contradicts is on record"; break;
+    case io::MotionEventKind::forgotten: words = "the monitor at rest has judged: taken back"; break;
+  }
+  return fmt::format("{:>10.3f}  {:<13}  {:<17}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n", event.time_s,
+                     "(in motion)", to_string(event.kind), sensor_names(event.sensors, array), "-", "-", "-", "-",
+                     words);
+}
+
+std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
+  if (told.refusal != nullptr)
+    return fmt::format("in motion   not judged: {} {}\n", told.refusal->field, told.refusal->what);
+  if (told.run == nullptr) return "";
+  const MotionRun& run = *told.run;
+  std::string out = "in motion   " + judged_words(run) + "\n";
+  if (run.alarms > 0) {
+    out += "  suspected " + names_with_chips(run.suspects, array) + "\n";
+    out += "  isolated  " + names_with_times(run.isolated, run.isolated_at_s, array) + "\n";
+    out += "  excluded  " + names_with_times(run.excluded, run.excluded_at_s, array) +
+           (run.excluded.empty() ? "\n" : ", provisionally\n");
+  }
+  if (const MotionCause cause = open_cause(run); cause != MotionCause::none)
+    out += fmt::format("  cause     nobody is isolated: {}\n", explain(cause));
+  out += "  force     " + force_words(run) + "\n";
+  for (const MotionNote& note : motion_notes(run, *told.setup))
+    out += fmt::format("  note      {}. Remedy: {}.\n", note.what, note.remedy);
+  return out;
+}
+
+io::Json motion_json(const MotionTold& told, const io::ArrayFile& array) {
+  if (told.run == nullptr)
+    return io::object({{"judged", false},
+                       {"field", told.refusal->field},
+                       {"why", told.refusal->what},
+                       {"remedy", told.refusal->remedy}});
+  const MotionRun& run = *told.run;
+  const bool blocks = run.blocks > 0;
+  const auto known = [](bool is, const io::Json& value) { return is ? value : io::Json(); };
+  io::Json out = io::object({{"judged", true},
+                             {"samples", run.samples},
+                             {"samples_judged", run.judged},
+                             {"alarms", run.alarms},
+                             {"samples_in_alarm", run.in_alarm},
+                             {"first_alarm_s", known(run.alarms > 0, run.first_alarm_s)},
+                             {"suspects", ids_json(run.suspects, array)},
+                             {"isolated", sensors_json(run.isolated, run.isolated_at_s, array)},
+                             {"excluded", sensors_json(run.excluded, run.excluded_at_s, array)},
+                             {"cause", to_string(open_cause(run))},
+                             {"blocks", run.blocks}});
+  out["bound_mean_mps2"] = known(blocks, blocks ? run.bound_sum_mps2 / static_cast<double>(run.blocks) : 0.0);
+  out["bound_worst_mps2"] = known(blocks, run.worst_bound_mps2);
+  out["dominant"] = known(blocks, to_string(main_term(run)));
+  out["notes"] = io::Json::array();
+  for (const MotionNote& note : motion_notes(run, *told.setup))
+    out["notes"].push_back(io::object({{"code", note.code}, {"what", note.what}, {"remedy", note.remedy}}));
+  return out;
+}
+
+}  // namespace render
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,212 @@
+#include "plumb/session/flight_play.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "plumb/io/output_file.hpp"
+#include "plumb/io/records.hpp"
+#include "plumb/session/interrupt.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
+#include "plumb/session/progress.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+namespace {
+
+using scenario::FlightErrorBox;
+using scenario::FlightSpec;
+
+constexpr double kUsualRate_hz = 1000.0;
+/// Delay of the simulator's second-order Butterworth filter far below its bandwidth f: sqrt(2) / (2 pi f).
+constexpr double kFilterDelay = 0.2250790790392765;
+/// Of a bound of lag so much is skew, the rest another bandwidth.
+constexpr double kSkewShare = 0.7;
+/// Noises of sensors that count as one.
+constexpr double kSameNoise = 1e-9;
+
+io::FileError flight_refused(const io::ArrayFile& array, const char* field, const std::string& what,
+                             const std::string& remedy) {
+  return {array.path, 0, field, what, remedy, io::ExitCode::invalid_input};
+}
+
+/// The least that a sensor states: what is drawn within it is within the bounds of all. 0 where one states nothing.
+double least_of(const io::ArrayFile& array, std::optional<double> io::MotionBounds::*bound) {
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(array.array.size()); ++k)
+    least = std::fmin(least, (array.motion.sensor[k].*bound).value_or(0.0));
+  return least;
+}
+
+/// Half-widths, such that no draw is beyond a stated bound: an axis turns about two directions, a gyro has three axes,
+/// and vibration is rectified before the filter, which lets as little as half of it pass.
+FlightErrorBox box_of(const io::ArrayFile& array, double bandwidth_hz) {
+  FlightErrorBox box = FlightErrorBox::none();
+  const double lag_s = least_of(array, &io::MotionBounds::lag_s);
+  box.scale = least_of(array, &io::MotionBounds::scale);
+  box.axis_rad = least_of(array, &io::MotionBounds::axis_rad) / std::sqrt(2.0);
+  box.bias_mps2 = least_of(array, &io::MotionBounds::bias_mps2);
+  box.lever_m = least_of(array, &io::MotionBounds::lever_arm_m);
+  box.skew_s = std::fmin(kSkewShare * lag_s, scenario::kMostSkew_s);
+  box.bandwidth = std::fmin((1.0 - kSkewShare) * lag_s * bandwidth_hz / kFilterDelay, 0.5);
+  box.rectification = 0.5 * least_of(array, &io::MotionBounds::rectification_per_mps2);
+  const io::GyroSpec& gyro = array.motion.gyro;
+  box.gyro_scale = gyro.scale.value_or(0.0);
+  box.gyro_axis_rad = 0.5 * gyro.axis_rad.value_or(0.0);
+  box.gyro_bias_radps = gyro.bias_radps.value_or(0.0) / std::sqrt(3.0);
+  return box;
+}
+
+/// The smallest of those stated; else what the simulator has.
+double full_scale_mps2(const io::ArrayFile& array, double usual_mps2) {
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(array.array.size()); ++k) {
+    const DatasheetSensor& sheet = array.datasheet.sensor[k];
+    if (!(sheet.full_scale_raw > 0.0)) continue;
+    const SensorCoefficients& c = sheet.coefficients;
+    least = std::fmin(least, sheet.full_scale_raw / std::fabs(c.scale[0]) - std::fabs(c.bias[0]));
+  }
+  return std::isfinite(least) ? least : usual_mps2;
+}
+
+double rate_hz_of(const io::ArrayFile& array) {
+  if (array.motion.sample_period_s) return 1.0 / *array.motion.sample_period_s;
+  return array.input.rate_hz > 0.0 ? array.input.rate_hz : kUsualRate_hz;
+}
+
+/// What was really the case, by row, in the output frame.
+class FlightTruth {
+ public:
+  FlightTruth(io::OutputFile file, const io::ArrayFile& array) : file_(std::move(file)), array_(array) {}
+  io::FileExpected<void> head() {
+    return file_.write("t_s,fx_mps2,fy_mps2,fz_mps2,wx_radps,wy_radps,wz_radps,faulty\n");
+  }
+  io::FileExpected<void> write(const scenario::FlightSample& flown, SensorSet faulty) {
+    const Vec3 f = io::in_frame(array_.output_frame, flown.specific_force_mps2);
+    const Vec3 w = io::in_frame(array_.output_frame, flown.true_rate_radps);
+    std::string line = io::shortest(flown.time_s);
+    for (const Vec3& vector : {f, w}) {
+      for (const double part : vector) line += "," + io::shortest(part);
+    }
+    std::string names;
+    for (int i = 0; i < array_.array.size(); ++i) {
+      if (faulty.has(i)) names += (names.empty() ? "" : " ") + std::string(array_.array.row(i).id.data());
+    }
+    return file_.write(line + "," + names + "\n");
+  }
+  io::FileExpected<void> commit() { return file_.commit(); }
+
+ private:
+  io::OutputFile file_;
+  const io::ArrayFile& array_;
+};
+
+}  // namespace
+
+io::FileExpected<FlightSpec> flight_spec_of(const io::ArrayFile& array, const FlightRequest& request) {
+  const auto refuse = [&array](const char* field, const std::string& what, const std::string& remedy) {
+    return tl::unexpected<io::FileError>(flight_refused(array, field, what, remedy));
+  };
+  if (array.lever_arm_m.empty())
+    return refuse("sensor[1].lever_arm_m", "is missing, and a flight needs to know where the sensors sit",
+                  "give every sensor its position in m: lever_arm_m = [0.02, 0.0, 0.01]");
+  if (array.input.rows != io::RowKind::samples)
+    return refuse("input.rows", "is \"stations\", and a flight has none", "set rows = \"samples\"");
+  const SensorArray sensors =
+      request.calibration != nullptr ? calibrated_array(array, *request.calibration) : array.array;
+  FlightSpec spec;
+  spec.kind = request.kind;
+  spec.seed = request.seed;
+  spec.rate_hz = rate_hz_of(array);
+  spec.bandwidth_hz = std::fmin(spec.bandwidth_hz, spec.rate_hz);
+  spec.noise_mps2 = array.array.sigma_mps2(0);
+  for (int i = 0; i < array.array.size(); ++i) {
+    spec.axis.push_back(sensors.axis(i));
+    spec.lever_arm_m.push_back(array.lever_arm_m[static_cast<std::size_t>(i)]);
+    if (std::fabs(array.array.sigma_mps2(i) / spec.noise_mps2 - 1.0) > kSameNoise)
+      return refuse("sensor.noise", "differs from sensor to sensor, and the sensors of a flight have one noise",
+                    "simulate with an array file that states the same noise for all");
+  }
+  spec.full_scale_mps2 = full_scale_mps2(array, spec.full_scale_mps2);
+  spec.box = box_of(array, spec.bandwidth_hz);
+  spec.gyros = (array.input.rotation_columns.empty() ? 0 : 1) + (array.input.second_rotation_columns.empty() ? 0 : 1);
+  spec.gyro_noise_radps = array.motion.gyro.noise_radps.value_or(0.0);
+  const tl::expected<void, std::string> sound = scenario::check(spec);
+  if (!sound) return refuse("", "cannot be flown: " + sound.error(), "change the array file");
+  return spec;
+}
+
+FlightPlay::FlightPlay(const io::ArrayFile& array, const FlightRequest& request, const FlightSpec& spec,
+                       scenario::Injector injector)
+    : array_(array),
+      request_(request),
+      flight_(spec),
+      injector_(std::move(injector)),
+      model_(request.calibration != nullptr ? request.calibration->model : array.datasheet.model()),
+      rate_hz_(spec.rate_hz) {}
+
+io::FileExpected<std::unique_ptr<FlightPlay>> FlightPlay::make(const io::ArrayFile& array,
+                                                               const FlightRequest& request) {
+  const io::FileExpected<FlightSpec> spec = flight_spec_of(array, request);
+  if (!spec) return tl::unexpected<io::FileError>(spec.error());
+  tl::expected<scenario::Injector, std::string> injector = scenario::Injector::make(
+      array.datasheet, request.calibration != nullptr ? request.calibration->model : array.datasheet.model(),
+      request.faults, request.seed);
+  if (!injector)
+    return tl::unexpected<io::FileError>(io::FileError{"--fault", 0, "", injector.error(), "", io::ExitCode::usage});
+  return std::unique_ptr<FlightPlay>(new FlightPlay(array, request, *spec, *std::move(injector)));
+}
+
+/// Readings as the log has them, by the coefficients of the sensors that fly, and in codes where one is stated.
+Sample FlightPlay::sample_of(const scenario::FlightSample& flown) const {
+  Sample out;
+  out.time_s = flown.time_s;
+  out.delivered = array_.array.all();
+  out.temperature_degc = array_.input.default_temperature_degc;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(array_.array.size()); ++i) {
+    const int sensor = static_cast<int>(i);
+    const double sense = model_.reads == Reads::gravity ? -1.0 : 1.0;
+    const double bias_mps2 = model_.bias_at(sensor, out.temperature_degc);
+    out.raw[i] = model_.scale_at(sensor, out.temperature_degc) * (sense * flown.reading_mps2[i] + bias_mps2);
+    const double code = array_.datasheet.sensor[i].resolution_raw;
+    if (code > 0.0) out.raw[i] = code * std::nearbyint(out.raw[i] / code);
+  }
+  return out;
+}
+
+io::FileExpected<void> FlightPlay::run(const std::string& log_path, const std::string& truth_path) {
+  std::unique_ptr<FlightTruth> truth;
+  io::FileExpected<void> done;
+  if (!truth_path.empty()) {
+    io::FileExpected<io::OutputFile> out = io::OutputFile::create(truth_path, io::OutputFile::Mode::stream);
+    if (!out) return tl::unexpected<io::FileError>(out.error());
+    truth = std::make_unique<FlightTruth>(*std::move(out), array_);
+    done = truth->head();
+    if (!done) return done;
+  }
+  io::FileExpected<io::LogWriter> log = io::LogWriter::create(log_path, array_, io::LogWriter::Columns::all);
+  if (!log) return tl::unexpected<io::FileError>(log.error());
+  Progress progress("flying " + array_.name);
+  const auto rows = static_cast<std::uint64_t>(std::llround(request_.duration_s * rate_hz_));
+  while (done && rows_ < rows && !interrupted()) {
+    const scenario::FlightSample flown = flight_.next();
+    Sample sample = sample_of(flown);
+    const SensorSet faulty = injector_.apply(sample);
+    const auto rotation = [&flown](std::size_t gyro) {
+      return Rotation{norm(flown.rate_radps[gyro]) > 0.0, true, flown.rate_radps[gyro]};
+    };
+    done = log->write(sample, {false, rotation(0), std::nan(""), rotation(1)});
+    if (done && truth) done = truth->write(flown, faulty);
+    last_time_s_ = flown.time_s;
+    progress.at(++rows_, flown.time_s);
+  }
+  if (done) done = log->commit();
+  return done && truth ? truth->commit() : done;
+}
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,207 @@
+#include "plumb/session/motion_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "plumb/core/units.hpp"
+#include "plumb/motion/motion_sets.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+namespace {
+
+/// A channel counts as clipped from this share of full scale on, as at rest (docs/array-file.md).
+constexpr double kClipShare = 0.995;
+/// Until half a minute has been measured at rest; in motion for good (docs/array-file.md).
+constexpr double kMostRate_degc_per_min = 5.0;
+
+/// Keys that the file would have to state besides, in its own words.
+class Missing {
+ public:
+  void need(bool stated, const std::string& field) {
+    if (!stated && std::find(fields_.begin(), fields_.end(), field) == fields_.end()) fields_.push_back(field);
+  }
+  bool none() const noexcept { return fields_.empty(); }
+  io::FileError told(const io::ArrayFile& array) const {
+    std::string others;
+    for (std::size_t k = 1; k < fields_.size(); ++k) others += (k > 1 ? ", " : "") + fields_[k];
+    std::string what = "is missing";
+    if (!others.empty()) what += ", and so " + std::string(fields_.size() > 2 ? "are " : "is ") + others;
+    return {array.path,
+            0,
+            fields_.front(),
+            what + ": motion is not judged",
+            "state it (a bound of a sensor in its [[sensor]], or in [motion] for all; docs/array-file.md, Motion)",
+            io::ExitCode::invalid_input};
+  }
+
+ private:
+  std::vector<std::string> fields_;
+};
+
+io::FileError not_judged(const io::ArrayFile& array, const char* field, const std::string& what,
+                         const std::string& remedy) {
+  return {array.path, 0, field, what + ": motion is not judged", remedy, io::ExitCode::invalid_input};
+}
+
+void need_bounds(const io::ArrayFile& array, bool calibrated, Missing& missing) {
+  for (int i = 0; i < array.array.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const io::MotionBounds& b = array.motion.sensor[k];
+    missing.need(b.lever_arm_m.has_value(), "motion.lever_arm_bound_m");
+    missing.need(b.lag_s.has_value(), "motion.lag_bound_s");
+    missing.need(b.rectification_per_mps2.has_value(), "motion.vibration_rectification_per_mps2");
+    const bool stable = calibrated && array.stability[k].stated();
+    missing.need(b.scale.has_value() || stable, "motion.scale_bound");
+    missing.need(b.bias_mps2.has_value() || stable, "motion.bias_bound_mps2");
+    missing.need(b.axis_rad.has_value() || calibrated, "motion.axis_bound_rad");
+  }
+}
+
+/// All that cannot be left to defaults.
+Missing missing_in(const io::ArrayFile& array, bool calibrated) {
+  const io::MotionSpec& spec = array.motion;
+  Missing missing;
+  missing.need(spec.sample_period_s.has_value() || array.input.rate_hz > 0.0, "motion.sample_period_s");
+  missing.need(!array.lever_arm_m.empty(), "sensor[1].lever_arm_m");
+  need_bounds(array, calibrated, missing);
+  if (array.input.rotation_columns.empty()) {
+    missing.need(spec.rate_bound_radps.value_or(0.0) > 0.0, "motion.rate_bound_radps");
+    return missing;
+  }
+  const io::GyroSpec& g = spec.gyro;
+  missing.need(g.scale.has_value(), "gyro.scale_bound");
+  missing.need(g.axis_rad.has_value(), "gyro.axis_bound_rad");
+  missing.need(g.bias_radps.has_value(), "gyro.bias_bound_radps");
+  missing.need(g.noise_radps.has_value(), "gyro.noise_radps");
+  missing.need(g.lag_s.has_value(), "gyro.lag_bound_s");
+  return missing;
+}
+
+/// Fault units: the chips by name, numbered in the order of the file.
+std::array<std::uint8_t, kCapacity> chips_of(const io::ArrayFile& array) {
+  std::array<std::uint8_t, kCapacity> out{};
+  std::vector<std::string> names;
+  for (int i = 0; i < array.array.size(); ++i) {
+    const std::string name = io::package_of(array, i);
+    if (name.empty()) continue;
+    const auto found = std::find(names.begin(), names.end(), name);
+    const auto number = static_cast<std::size_t>(found - names.begin()) + 1;
+    if (found == names.end()) names.push_back(name);
+    out[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(number);
+  }
+  return out;
+}
+
+MotionErrors errors_of(const io::ArrayFile& array, const Calibration* calibration, int i, double days) {
+  const io::MotionBounds& b = array.motion.sensor[static_cast<std::size_t>(i)];
+  const DerivedBounds left = calibration != nullptr ? derived_bounds(array, *calibration, i, days) : DerivedBounds{};
+  return {*b.lever_arm_m,
+          *b.lag_s,
+          *b.rectification_per_mps2,
+          b.scale.value_or(left.scale),
+          b.axis_rad.value_or(left.axis_rad),
+          b.bias_mps2.value_or(left.bias_mps2)};
+}
+
+MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calibration, double days) {
+  const io::MotionSpec& spec = array.motion;
+  MotionSetup out = spec.limits;
+  out.sample_period_s = spec.sample_period_s ? *spec.sample_period_s : 1.0 / array.input.rate_hz;
+  out.rate_bound_radps = spec.rate_bound_radps.value_or(0.0);
+  for (int i = 0; i < array.array.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.lever_arm_m[k] = array.lever_arm_m[k];
+    out.errors[k] = errors_of(array, calibration, i, days);
+  }
+  out.chip = chips_of(array);
+  if (array.input.rotation_columns.empty()) return out;
+  out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
+  out.gyro = {*spec.gyro.scale, *spec.gyro.axis_rad, *spec.gyro.bias_radps, *spec.gyro.noise_radps, *spec.gyro.lag_s};
+  out.gyro_corroborated = spec.gyro.corroborated;
+  return out;
+}
+
+/// What follows from calibration and stability may be beyond what the monitor takes.
+io::FileError beyond_use(const io::ArrayFile& array, const Error& error) {
+  const bool of_sensor = error.index >= 0 && error.index < array.array.size();
+  const std::string id = of_sensor ? array.array.row(error.index).id.data() : "";
+  const std::string what =
+      of_sensor ? "what calibration and stability leave of " + id + " is beyond what motion can be judged with"
+                : std::string(describe(error.code));
+  return not_judged(array, "motion", what,
+                    "state scale_bound, axis_bound_rad and bias_bound_mps2 of the sensor, or calibrate it better");
+}
+
+}  // namespace
+
+DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& calibration, int sensor, double days) {
+  const auto k = static_cast<std::size_t>(sensor);
+  const RowUncertainty& left = calibration.array.uncertainty();
+  const Vec3& axis = calibration.array.axis(sensor);
+  double along = 0.0, trace = 0.0;
+  const auto entry = [&left, sensor](int a, int b) {
+    const int high = 4 * sensor + std::max(a, b), low = 4 * sensor + std::min(a, b);
+    return left.covariance[static_cast<std::size_t>(high * (high + 1) / 2 + low)];
+  };
+  for (int a = 0; a < 3; ++a) {
+    trace += entry(a, a);
+    for (int b = 0; b < 3; ++b)
+      along += axis[static_cast<std::size_t>(a)] * entry(a, b) * axis[static_cast<std::size_t>(b)];
+  }
+  const double reference_degc = array.datasheet.sensor[k].coefficients.reference_degc;
+  const FitReport& fit = calibration.report;
+  const double away_degc = std::fmax(std::fabs(fit.temperature_min_degc - reference_degc),
+                                     std::fabs(fit.temperature_max_degc - reference_degc));
+  const double tolerance_mps2 =
+      static_cast<double>(StabilityNow::of(array.stability[k], days).tolerance_mps2(away_degc, kMostRate_degc_per_min));
+  DerivedBounds out;
+  out.scale = kMotionSigmas * (std::sqrt(std::fmax(along, 0.0)) + left.common_scale) + tolerance_mps2 / kG0_mps2;
+  out.axis_rad = kMotionSigmas * std::sqrt(std::fmax(trace - along, 0.0));
+  out.bias_mps2 = kMotionSigmas * (std::sqrt(std::fmax(entry(3, 3), 0.0)) + left.misfit_mps2[k]) + tolerance_mps2;
+  return out;
+}
+
+io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days) {
+  const auto refuse = [](io::FileError error) { return tl::unexpected<io::FileError>(std::move(error)); };
+  if (!array.motion.stated)
+    return refuse(not_judged(array, "motion", "is missing, while other keys of motion are given",
+                             "add [motion] with sample_period_s, or remove these keys"));
+  const int sensors = array.array.size();
+  if (sensors > kMotionCapacity)
+    return refuse(not_judged(array, "motion",
+                             "is judged for at most " + std::to_string(kMotionCapacity) + " sensors, and these are " +
+                                 std::to_string(sensors),
+                             "describe the sensors that belong together in a file of their own, or remove [motion]"));
+  if (array.input.rows != io::RowKind::samples)
+    return refuse(not_judged(array, "input.rows", "is \"stations\", and motion lies between them",
+                             "log samples, or remove [motion]"));
+  if (array.monitor.mode == MonitorMode::paper)
+    return refuse(not_judged(array, "monitor.mode", "is \"paper\", and the paper's algorithm knows no motion",
+                             "set mode = \"plumb\", or remove [motion]"));
+  const Missing missing = missing_in(array, calibration != nullptr);
+  if (!missing.none()) return refuse(missing.told(array));
+  MotionPlan out;
+  out.array = calibration != nullptr ? calibrated_array(array, *calibration) : array.array;
+  out.model = calibration != nullptr ? calibration->model : array.datasheet.model();
+  out.setup = motion_setup_of(array, calibration, days);
+  out.clip_raw.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < static_cast<std::size_t>(sensors); ++k) {
+    const double full_scale_raw = array.datasheet.sensor[k].full_scale_raw;
+    if (full_scale_raw > 0.0) out.clip_raw[k] = kClipShare * full_scale_raw;
+  }
+  if (const Expected<void> sound = check(out.array, out.setup); !sound) return refuse(beyond_use(array, sound.error()));
+  if (MotionSets(out.array, out.setup).size() == 0)
+    return refuse(not_judged(array, "sensor", "has no axes that check each other whatever the force is",
+                             "motion needs four axes, three in a plane or two parallel ones"));
+  return out;
+}
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

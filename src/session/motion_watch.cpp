@@ -1,0 +1,156 @@
+#include "plumb/session/motion_watch.hpp"
+
+#include <cmath>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+namespace {
+
+static_assert(static_cast<std::size_t>(MotionCause::irregular_time) + 1 == kMotionCauses);
+
+/// The monitor at rest has come to an answer: what motion excluded is confirmed, and then out of service anyway, or
+/// refuted.
+bool rest_has_judged(const Verdict& verdict) noexcept {
+  const TransitionRecord& record = verdict.transition;
+  if (record.sequence == 0 || record.from == record.to) return false;
+  return record.to == HealthState::nominal || record.to == HealthState::isolated ||
+         record.to == HealthState::degraded_3_sensor;
+}
+
+bool judged(MotionCause cause) noexcept {
+  return cause != MotionCause::rotation_unknown && cause != MotionCause::no_redundancy &&
+         cause != MotionCause::irregular_time;
+}
+
+void note_first(SensorSet now, SensorSet& ever, std::array<double, kCapacity>& at_s, double time_s) {
+  const SensorSet news = now - ever;
+  for (std::size_t i = 0; i < at_s.size(); ++i) {
+    if (news.has(static_cast<int>(i))) at_s[i] = time_s;
+  }
+  ever = ever | now;
+}
+
+}  // namespace
+
+MotionWatch::MotionWatch(const MotionPlan& plan)
+    : plan_(plan),
+      monitor_(std::make_unique<MotionMonitor>()),
+      inputs_(plan.setup.sample_period_s),
+      temperature_degc_(plan.model.sensor[0].reference_degc) {
+  (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
+}
+
+void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
+void MotionWatch::at_second_turn(const stepping::Turn& turn) { turn_[1] = turn; }
+
+MotionSample MotionWatch::sample_of(const Sample& sample) {
+  MotionSample out;
+  out.time_s = sample.time_s;
+  const Readings gravity_sense =
+      plan_.model.without_misalignment(sample.raw, sample.temperature_degc, sample.delivered);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plan_.array.size()); ++i) {
+    if (!sample.delivered.has(static_cast<int>(i)) || !std::isfinite(gravity_sense[i])) continue;
+    out.reading_mps2[i] = -gravity_sense[i];
+    out.delivered = out.delivered.with(static_cast<int>(i));
+    if (std::fabs(sample.raw[i]) >= plan_.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
+  }
+  inputs_.add(sample.time_s);
+  for (std::size_t g = 0; g < static_cast<std::size_t>(plan_.setup.gyros); ++g) {
+    if (!turn_[g]) continue;
+    inputs_.add_rate(g, turn_[g]->rate_known, turn_[g]->rate_radps);
+    out.rate_given[g] = turn_[g]->rate_known;
+    out.rate_radps[g] = turn_[g]->rate_radps;
+  }
+  return out;
+}
+
+void MotionWatch::note_events(const MotionVerdict& before, const MotionVerdict& now, double time_s) {
+  using io::MotionEventKind;
+  const auto add = [this, &now, time_s](MotionEventKind kind, SensorSet sensors, MotionCause cause) {
+    events_.push_back({kind, time_s, sensors, cause, now.least_faults});
+  };
+  const bool named = !now.isolated.empty() || !(now.excluded - before.excluded).empty();
+  if (now.alarm && !before.alarm) add(MotionEventKind::alarm, now.suspects, named ? MotionCause::none : now.cause);
+  if (const SensorSet news = now.isolated - before.isolated; !news.empty())
+    add(MotionEventKind::isolated, news, MotionCause::none);
+  if (const SensorSet news = now.excluded - before.excluded; !news.empty())
+    add(MotionEventKind::excluded, news, MotionCause::none);
+  if (before.alarm && !now.alarm) add(MotionEventKind::alarm_over, {}, MotionCause::none);
+}
+
+void MotionWatch::count(const MotionVerdict& verdict, double time_s) {
+  MotionRun& run = run_;
+  ++run.samples;
+  run.judged += judged(verdict.cause) ? 1U : 0U;
+  ++run.why[static_cast<std::size_t>(verdict.cause)];
+  run.in_alarm += verdict.alarm ? 1U : 0U;
+  if (verdict.alarm && !run.last.alarm && run.alarms++ == 0) run.first_alarm_s = time_s;
+  run.suspects = run.suspects | verdict.suspects;
+  note_first(verdict.isolated | verdict.excluded, run.isolated, run.isolated_at_s, time_s);
+  note_first(verdict.excluded, run.excluded, run.excluded_at_s, time_s);
+  if (verdict.block_ended && std::isfinite(verdict.block.bound_mps2)) {
+    ++run.blocks;
+    run.bound_sum_mps2 += verdict.block.bound_mps2;
+    ++run.dominant[static_cast<std::size_t>(verdict.block.dominant)];
+    if (verdict.block.bound_mps2 > run.worst_bound_mps2) {
+      run.worst_bound_mps2 = verdict.block.bound_mps2;
+      run.worst_bound_at_s = verdict.block.time_s;
+    }
+  }
+  run.inputs = inputs_.found();
+  run.last = verdict;
+}
+
+io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& verdict) {
+  events_.clear();
+  if (rest_has_judged(verdict) && !monitor_->verdict().excluded.empty()) {
+    events_.push_back(
+        {io::MotionEventKind::forgotten, sample.time_s, monitor_->verdict().excluded, MotionCause::none, 0});
+    monitor_->forget();
+  }
+  monitor_->set_in_service(verdict.in_service);
+  const MotionVerdict before = monitor_->verdict();
+  const MotionVerdict& now = monitor_->step(sample_of(sample));
+  note_events(before, now, sample.time_s);
+  count(now, sample.time_s);
+  turn_ = {};
+  for (MotionSink* sink : sinks_) {
+    const io::FileExpected<void> taken = sink->take(sample.time_s, now, events_);
+    if (!taken) return taken;
+  }
+  return {};
+}
+
+io::FileExpected<std::unique_ptr<MotionFile>> MotionFile::create(const std::string& path, const SensorArray& array,
+                                                                 const Mat3& frame, bool live) {
+  io::FileExpected<io::OutputFile> file = io::OutputFile::create(path, io::OutputFile::Mode::stream);
+  if (!file) return tl::unexpected<io::FileError>(file.error());
+  std::unique_ptr<MotionFile> out(new MotionFile(*std::move(file), array, frame, live));
+  const io::FileExpected<void> begun = out->file_.write(io::motion_csv_header());
+  if (!begun) return tl::unexpected<io::FileError>(begun.error());
+  return out;
+}
+
+io::FileExpected<void> MotionFile::take(double time_s, const MotionVerdict& verdict,
+                                        const std::vector<io::MotionEvent>&) {
+  line_.clear();
+  io::append_motion_row(line_, time_s, verdict, array_, frame_);
+  io::FileExpected<void> done = file_.write(line_);
+  if (done && live_) done = file_.flush();
+  return done;
+}
+
+io::FileExpected<void> MotionEvents::take(double, const MotionVerdict&, const std::vector<io::MotionEvent>& events) {
+  for (const io::MotionEvent& event : events) {
+    line_.clear();
+    io::append_motion_event_json(line_, event, array_);
+    const io::FileExpected<void> done = file_.put(line_);
+    if (!done) return done;
+  }
+  return {};
+}
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb
