@@ -87,7 +87,7 @@ constexpr LimitKey kLimits[] = {
 };
 
 std::vector<std::string> known_motion_keys() {
-  std::vector<std::string> out = {kPeriod.key, kRate.key, "max_faults"};
+  std::vector<std::string> out = {kPeriod.key, kRate.key, "max_faults", "shortest_block"};
   for (const LimitKey& key : kLimits) out.emplace_back(key.figure.key);
   return with_motion_keys(std::move(out));
 }
@@ -104,6 +104,14 @@ void read_max_faults(const TomlTable& table, MotionSetup& limits) {
     table.fail(table.line_of("max_faults"), "max_faults", "is " + std::to_string(value) + ", out of range",
                "give the most units that may be faulty at once, 1 to " + std::to_string(kMotionDepth));
   limits.max_faults = static_cast<int>(value);
+}
+
+void read_shortest_block(const TomlTable& table, MotionSetup& limits) {
+  const std::int64_t value = table.integer("shortest_block", limits.shortest_block);
+  if (value < 1 || value > 32)
+    table.fail(table.line_of("shortest_block"), "shortest_block", "is " + std::to_string(value) + ", out of range",
+               "give the samples of the shortest blocks to be judged, 1 to 32");
+  limits.shortest_block = static_cast<int>(value);
 }
 
 GyroSpec read_gyro(const TomlTable& table, const InputSpec& input) {
@@ -148,6 +156,7 @@ MotionSpec read_motion(const TomlNode& root, const std::string& file, const Inpu
     read_into(table, kRate, out.rate_bound_radps);
     for (const LimitKey& key : kLimits) read_into(table, key.figure, out.limits.*key.field);
     read_max_faults(table, out.limits);
+    read_shortest_block(table, out.limits);
     MotionBounds usual;
     (void)read_motion_bounds(table, usual);
     out.sensor.fill(usual);

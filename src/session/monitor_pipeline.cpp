@@ -114,6 +114,58 @@ io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& sa
   return {};
 }
 
+/// Row k alone, with what was found in motion by the row before it.
+void take_one(const stepping::Rows& rows, std::size_t k, const stepping::Found& found, stepping::Rows& one) {
+  const auto sensors = static_cast<std::size_t>(rows.sensors);
+  one.sensors = rows.sensors;
+  one.row.assign(1, rows.row[k]);
+  one.raw.assign(rows.raw_of(k), rows.raw_of(k) + sensors);
+  if (!rows.turn.empty()) one.turn.assign(1, rows.turn[k]);
+  if (!rows.second_turn.empty()) one.second_turn.assign(1, rows.second_turn[k]);
+  if (!rows.depth_m.empty()) one.depth_m.assign(1, rows.depth_m[k]);
+  one.found.assign(1, found);
+}
+
+/// Rows through the monitor and to the sinks; counts go to the run.
+class Teller {
+ public:
+  Teller(stepping::Stepper& stepper, const std::vector<VerdictSink*>& sinks, MonitorRun& run)
+      : stepper_(stepper), sinks_(sinks), run_(run) {
+    for (const VerdictSink* sink : sinks) {
+      wanted_ = std::max(wanted_, sink->wanted());
+      if (sink->found_in_motion() != nullptr) in_motion_ = sink;
+    }
+  }
+  io::FileExpected<void> take(const stepping::Rows& rows) {
+    if (in_motion_ == nullptr) return step(rows);
+    for (std::size_t k = 0; k < rows.row.size(); ++k) {
+      take_one(rows, k, *in_motion_->found_in_motion(), one_);
+      const io::FileExpected<void> taken = step(one_);
+      if (!taken) return taken;
+    }
+    return {};
+  }
+  const stepping::Said& said() const noexcept { return said_; }
+
+ private:
+  io::FileExpected<void> step(const stepping::Rows& rows) {
+    stepper_.step(rows, run_.samples == 0, wanted_, said_);
+    run_.samples += rows.row.size();
+    run_.blocks += said_.blocks;
+    run_.transitions += said_.changes;
+    run_.last_time_s = rows.row.back().time_s;
+    return tell(rows, said_, sinks_);
+  }
+
+  stepping::Stepper& stepper_;
+  const std::vector<VerdictSink*>& sinks_;
+  MonitorRun& run_;
+  const VerdictSink* in_motion_ = nullptr;
+  stepping::Wanted wanted_ = stepping::Wanted::changes;
+  stepping::Said said_;
+  stepping::Rows one_;
+};
+
 }  // namespace
 
 SensorSet noise_changed(const io::ArrayFile& array, const Calibration& calibration) {
@@ -249,29 +301,22 @@ io::FileExpected<MonitorRun> run_stepper(stepping::Stepper& stepper, const io::A
   reader->stop_when(interrupt_flag());
   if (log.follow) reader->follow();
   if (log.hash) reader->hash_bytes();
-  stepping::Wanted wanted = stepping::Wanted::changes;
-  for (const VerdictSink* sink : sinks) wanted = std::max(wanted, sink->wanted());
   MonitorRun run;
-  stepping::Said said;
+  Teller teller(stepper, sinks, run);
   Progress progress("monitoring " + log.path);
   RowPump pump(*reader, array, is_live(log));
   while (const stepping::Rows* rows = pump.next()) {
-    stepper.step(*rows, run.samples == 0, wanted, said);
-    const io::FileExpected<void> told = tell(*rows, said, sinks);
-    if (!told) return tl::unexpected<io::FileError>(told.error());
-    run.samples += rows->row.size();
-    run.blocks += said.blocks;
-    run.transitions += said.changes;
-    run.last_time_s = rows->row.back().time_s;
+    const io::FileExpected<void> taken = teller.take(*rows);
+    if (!taken) return tl::unexpected<io::FileError>(taken.error());
     progress.at(run.samples, run.last_time_s);
   }
-  run.counts = said.counts;
+  run.counts = teller.said().counts;
   run.interrupted = interrupted();
   run.stopped = pump.ended() == io::LogReader::Next::error;
   if (run.stopped) run.stop = reader->error();
-  said.clear();
-  stepper.now(said.bytes);
-  stepping_detail::Unpacker unpacker(said.bytes.data());
+  std::vector<std::uint8_t> now;
+  stepper.now(now);
+  stepping_detail::Unpacker unpacker(now.data());
   unpacker(run.last);
   run.log = reader->statistics();
   return run;

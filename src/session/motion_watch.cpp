@@ -2,21 +2,14 @@
 
 #include <cmath>
 
+#include "plumb/health/motion_link.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace session {
 namespace {
 
 static_assert(static_cast<std::size_t>(MotionCause::irregular_time) + 1 == kMotionCauses);
-
-/// The monitor at rest has come to an answer: what motion excluded is confirmed, and then out of service anyway, or
-/// refuted.
-bool rest_has_judged(const Verdict& verdict) noexcept {
-  const TransitionRecord& record = verdict.transition;
-  if (record.sequence == 0 || record.from == record.to) return false;
-  return record.to == HealthState::nominal || record.to == HealthState::isolated ||
-         record.to == HealthState::degraded_3_sensor;
-}
 
 bool judged(MotionCause cause) noexcept {
   return cause != MotionCause::rotation_unknown && cause != MotionCause::no_redundancy &&
@@ -104,9 +97,10 @@ void MotionWatch::count(const MotionVerdict& verdict, double time_s) {
 
 io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& verdict) {
   events_.clear();
-  if (rest_has_judged(verdict) && !monitor_->verdict().excluded.empty()) {
-    events_.push_back(
-        {io::MotionEventKind::forgotten, sample.time_s, monitor_->verdict().excluded, MotionCause::none, 0});
+  if (settles_motion(verdict)) {
+    const SensorSet excluded = monitor_->verdict().excluded;
+    if (!excluded.empty())
+      events_.push_back({io::MotionEventKind::forgotten, sample.time_s, excluded, MotionCause::none, 0});
     monitor_->forget();
   }
   monitor_->set_in_service(verdict.in_service);
@@ -114,6 +108,7 @@ io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& ve
   const MotionVerdict& now = monitor_->step(sample_of(sample));
   note_events(before, now, sample.time_s);
   count(now, sample.time_s);
+  found_ = {now.alarm, now.excluded.bits};
   turn_ = {};
   for (MotionSink* sink : sinks_) {
     const io::FileExpected<void> taken = sink->take(sample.time_s, now, events_);

@@ -129,6 +129,7 @@ TEST(MotionWatch, ExclusionsEndWhereRestHasJudged) {
   f.rest.transition.sequence = 1;
   f.rest.transition.from = HealthState::suspect;
   f.rest.transition.to = HealthState::nominal;
+  f.rest.transition.event = HealthEvent::passed_block;
   f.fly(1);
   EXPECT_EQ(f.heard.events.back().kind, MotionEventKind::forgotten);
   EXPECT_EQ(f.heard.events.back().sensors, kSecond);

@@ -1,5 +1,5 @@
 /// A monitor of motion beside the monitor at rest, over the same rows: the sensors that rest left in service go to it
-/// before every sample, and what it excluded is taken back where rest has judged.
+/// before every sample, what it found goes to rest before the next one, and is forgotten where rest has judged.
 #pragma once
 
 #include <array>
@@ -61,6 +61,7 @@ class MotionWatch final : public VerdictSink {
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_turn(const stepping::Turn& turn) override;
   void at_second_turn(const stepping::Turn& turn) override;
+  const stepping::Found* found_in_motion() const override { return &found_; }
   const MotionRun& run() const noexcept { return run_; }
 
  private:
@@ -75,6 +76,7 @@ class MotionWatch final : public VerdictSink {
   double temperature_degc_;                                   ///< the last one that was a number
   std::vector<io::MotionEvent> events_;                       ///< of the sample at hand
   std::vector<MotionSink*> sinks_;
+  stepping::Found found_;
   MotionRun run_;
 };
 

@@ -27,6 +27,12 @@ struct Turn {
   std::array<double, 3> rate_radps;
 };
 
+/// What a monitor in motion has found by a row.
+struct Found {
+  bool alarm = false;
+  std::uint32_t excluded = 0;  ///< bits of the sensors
+};
+
 /// Rows one after the other, as the log has them.
 struct Rows {
   int sensors = 0;
@@ -35,6 +41,7 @@ struct Rows {
   std::vector<Turn> turn;         ///< one a row where the log says how the tool turns, else none
   std::vector<Turn> second_turn;  ///< likewise, by the second gyro
   std::vector<double> depth_m;    ///< likewise
+  std::vector<Found> found;       ///< one a row where a monitor in motion runs beside, else none
 
   const double* raw_of(std::size_t k) const noexcept { return raw.data() + k * static_cast<std::size_t>(sensors); }
   void resize(std::size_t count, bool turns, bool has_depth, bool turns_twice = false) {

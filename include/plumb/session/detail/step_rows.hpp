@@ -47,6 +47,9 @@ void step_rows(Monitor& monitor, const stepping::Rows& rows, bool first, steppin
         (void)monitor.set_rotation({turn.turning, turn.rate_known, turn.rate_radps});  // the reader's are finite
       }
     }
+    if constexpr (std::is_same_v<Monitor, HealthMonitor>) {
+      if (!rows.found.empty()) monitor.set_motion({rows.found[k].alarm, SensorSet(rows.found[k].excluded)});
+    }
     before(sample.time_s);
     const Verdict& verdict = monitor.step(sample);
     if constexpr (std::is_same_v<Monitor, HealthMonitor>) counter.add(monitor, verdict, rows.raw_of(k), said.counts);
