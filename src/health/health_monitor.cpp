@@ -73,8 +73,8 @@ bool HealthMonitor::is_eventful(Arrival arrival, const GateResult& gate) const n
   return arrival != Arrival::in_order || gate.gap || s.window.block.size() >= window ||
          s.intake.silence.is_due(window) || fits || asked.reset_pending || asked.pending != 0 ||
          !((s.intake.gate.lost() & s.in_force.array.all()) - absent).empty() ||
-         !(s.intake.gate.back() & absent).empty() || asked.has_notice() || s.found_in_motion() != 0 ||
-         has_news(s, verdict_);
+         !(s.intake.gate.back() & absent).empty() || asked.has_notice() ||
+         (asked.motion.any() && s.found_in_motion() != 0) || has_news(s, verdict_);
 }
 
 /// One sample into the block and the windows.

@@ -21,6 +21,7 @@ struct InMotion {
   /// finding stays as it was: on memory alone no sensor is excluded twice.
   SensorSet served;
 
+  bool any() const noexcept { return found.alarm || !found.excluded.empty(); }
   SensorSet to_exclude(SensorSet in_service) const noexcept { return (found.excluded & in_service) - served; }
   void follow(SensorSet provisionally_excluded) noexcept {
     served = served & (found.excluded | provisionally_excluded);
