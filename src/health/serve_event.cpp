@@ -73,11 +73,13 @@ HealthEvent HealthMonitor::decide(EventMask raised, EventMask from_motion, doubl
   const Diagnosis& d = s.diagnosis;
   const SensorSet all = s.in_force.array.all(), lost = s.intake.gate.lost();
   const bool calibrated = !s.in_force.owes_calibration();
+  // Who is found faulty at rest comes first: one event excludes for one reason.
+  const bool by_rest = from_motion == 0 || (raised & bit(HealthEvent::provisional_exclusion)) != 0;
   DecisionInput input;
   input.raised = raised;
   input.from_motion = from_motion;
   input.named = {d.isolated(s.diagnosis_terms()),
-                 from_motion != 0 ? s.requests.motion.to_exclude(s.in_service()) : d.aside(),
+                 by_rest ? d.aside() : s.requests.motion.to_exclude(s.in_service()),
                  lost & all,
                  s.intake.gate.back(),
                  d.on_probation(),

@@ -1,6 +1,7 @@
 #include "plumb/motion/motion_monitor.hpp"
 
 #include <cmath>
+#include <new>
 
 #include "plumb/numeric/tails.hpp"
 
@@ -34,12 +35,12 @@ const char* to_string(MotionCause cause) noexcept {
 
 Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSetup& setup) noexcept {
   if (const Expected<void> sound = check(array, setup); !sound) return sound;
-  *this = MotionMonitor();
+  new (this) MotionMonitor();  // in place, as all that is large: not on the stack
   array_ = array;
   setup_ = setup;
-  sets_ = MotionSets(array, setup);
+  new (&sets_) MotionSets(array, setup);
   units_ = FaultUnits(array, setup);
-  window_ = MotionWindow(array.size(), setup.gyros, setup.sample_period_s);
+  new (&window_) MotionWindow(array.size(), setup.gyros, setup.sample_period_s);
   noise_quantile_ = quantile_of(setup, sets_.size());
   in_service_ = array.all();
   configured_ = true;
@@ -80,7 +81,7 @@ void MotionMonitor::refit() noexcept {
 void MotionMonitor::trust() noexcept {
   const SensorSet rest = monitored() - verdict_.isolated;
   trusted_ = coplanarity(array_, rest) < rest.size() ? rest : monitored();
-  force_ = ForceEstimator(array_, units_, trusted_);
+  new (&force_) ForceEstimator(array_, units_, trusted_);
 }
 
 bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record) noexcept {

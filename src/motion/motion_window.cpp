@@ -1,6 +1,7 @@
 #include "plumb/motion/motion_window.hpp"
 
 #include <cmath>
+#include <new>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -27,7 +28,12 @@ double MotionMeans::noise_share() const noexcept {
 MotionWindow::MotionWindow(int sensors, int gyros, double sample_period_s) noexcept
     : sensors_(sensors), gyros_(gyros), period_s_(sample_period_s) {}
 
-void MotionWindow::clear() noexcept { *this = MotionWindow(sensors_, gyros_, period_s_); }
+/// In place: a second window would not be small on a stack.
+void MotionWindow::clear() noexcept {
+  const int sensors = sensors_, gyros = gyros_;
+  const double period_s = period_s_;
+  new (this) MotionWindow(sensors, gyros, period_s);
+}
 
 MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexcept {
   Sums out;
