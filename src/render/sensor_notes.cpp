@@ -47,6 +47,20 @@ SensorNote noise_note_of(const session::MonitorRun& run, const io::ArrayFile& ar
                       check, id, in_mg0(shown), array.path)};
 }
 
+/// Most sensors scatter and a few do not: that is no noise of each of them.
+SensorNote stillness_note_of(SensorSet noisy, const SensorArray& sensors) {
+  std::string those, others;
+  for (int i = 0; i < sensors.size(); ++i) {
+    std::string& names = noisy.has(i) ? those : others;
+    names += (names.empty() ? "" : ", ") + name_of(sensors, i);
+  }
+  return {"scatter",
+          fmt::format("{} of {} sensors ({}) scatter while {} do not: the tool moved, and these read the same whatever "
+                      "happens, or most sensors are noisy",
+                      noisy.size(), sensors.size(), those, others),
+          "check " + others + " first: a dead or stuck chip looks as if the tool were at rest"};
+}
+
 /// "z1 (imu1), z3 (imu3)": with the chip where it is stated.
 std::string names_with_chips(SensorSet set, const io::ArrayFile& array, const SensorArray& sensors) {
   std::string out;
@@ -110,8 +124,12 @@ std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::A
                                      const SensorArray& sensors) {
   std::vector<SensorNote> out;
   if (const auto found = common_cause_of(run, array); found) out.push_back(common_note_of(*found, array, sensors));
-  for (int i = 0; i < sensors.size(); ++i) {
-    if (is_noisy(run, i)) out.push_back(noise_note_of(run, array, sensors, i));
+  SensorSet noisy;
+  for (int i = 0; i < sensors.size(); ++i) noisy = is_noisy(run, i) ? noisy.with(i) : noisy;
+  const bool most = 2 * noisy.size() > sensors.size() && noisy.size() < sensors.size();
+  if (most) out.push_back(stillness_note_of(noisy, sensors));
+  for (int i = 0; i < sensors.size() && !most; ++i) {
+    if (noisy.has(i)) out.push_back(noise_note_of(run, array, sensors, i));
   }
   for (int i = 0; i < sensors.size(); ++i) {
     const stepping::SensorCounts counts = counts_of(run, i);
