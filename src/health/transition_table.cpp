@@ -156,12 +156,13 @@ constexpr bool motion_decides_nothing_for_good() {
 }
 /// What motion finds is taken up by every mode in service and by suspect; a sensor is excluded where some would be left
 /// to check one another.
+constexpr bool hears_motion(Mode mode) {
+  return cell_of(mode, HealthEvent::alarm).from_motion &&
+         cell_of(mode, HealthEvent::provisional_exclusion).from_motion == (mode != Mode::degraded);
+}
 constexpr bool motion_is_heard() {
-  for (const Mode mode : {Mode::nominal, Mode::isolated, Mode::suspect, Mode::degraded}) {
-    if (!cell_of(mode, HealthEvent::alarm).from_motion) return false;
-    if (cell_of(mode, HealthEvent::provisional_exclusion).from_motion != (mode != Mode::degraded)) return false;
-  }
-  return true;
+  return hears_motion(Mode::nominal) && hears_motion(Mode::isolated) && hears_motion(Mode::suspect) &&
+         hears_motion(Mode::degraded);
 }
 /// S8 and S19: only an accepted fit adopts, and only out of a recalibrating mode.
 constexpr bool adoption_is_guarded() {
