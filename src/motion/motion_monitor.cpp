@@ -73,8 +73,13 @@ void MotionMonitor::refit() noexcept {
   with_gyro_.keep_within(sensors);
   without_gyro_.keep_within(sensors);
   grade_ = units_.grade(array_, sensors);
+  redundant_ = sets_.any_within(sensors);
   trust();
   news_ = true;
+}
+
+bool MotionMonitor::check_each_other(SensorSet sensors) const noexcept {
+  return sensors == monitored() ? redundant_ : sets_.any_within(sensors);
 }
 
 /// After the sensors that are monitored or isolated have changed.
@@ -100,7 +105,7 @@ bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record)
   return any;
 }
 
-void MotionMonitor::judge(int scale) noexcept {
+void MotionMonitor::judge(int scale, int lowest) noexcept {
   const MotionMeans means = window_.means(scale);
   const RotationTerm gyro = rotation_term(setup_, means, RotationSource::gyro, noise_quantile_);
   const MotionReadings readings = corrected(array_, setup_, means, gyro, noise_quantile_);
@@ -112,7 +117,11 @@ void MotionMonitor::judge(int scale) noexcept {
     any = reject(without_gyro, &without_gyro_) || any;
   }
   if (any) last_rejection_s_ = means.time_s + means.span_s;
-  if (!gyro.known) verdict_.cause = MotionCause::rotation_unknown;
+  if (!gyro.known) {
+    unjudged_ = MotionCause::rotation_unknown;
+  } else if (scale == lowest && !check_each_other(readings.usable & monitored())) {
+    unjudged_ = MotionCause::no_redundancy;
+  }
   if (scale == 0) verdict_.sample = force_of(means, readings, without_gyro);
   if (scale != kBlockScale) return;
   verdict_.block = force_of(means, readings, without_gyro);
@@ -157,7 +166,6 @@ void MotionMonitor::decide(double time_s) noexcept {
   if (news_) answer(time_s);
   news_ = false;
   verdict_.alarm = !with_gyro_.empty() || !without_gyro_.empty();
-  if (sets_.size() == 0) verdict_.cause = MotionCause::no_redundancy;
   if (verdict_.cause != MotionCause::none || !verdict_.alarm) return;
   verdict_.cause = open_;
   exclude(time_s);
@@ -182,14 +190,25 @@ const MotionVerdict& MotionMonitor::step(const MotionSample& sample) noexcept {
   if (ended == 0) {
     verdict_.sample = SpecificForce{};
     verdict_.block = SpecificForce{};
-    verdict_.cause = MotionCause::irregular_time;
+    unjudged_ = MotionCause::irregular_time;
   }
-  for (int scale = 0; scale < kMotionScales; ++scale) {
-    const bool judged = kMotionSamples[static_cast<std::size_t>(scale)] >= setup_.shortest_block;
-    if (judged && (ended >> static_cast<unsigned>(scale) & 1U) != 0) judge(scale);
+  const unsigned judged = ended & judged_scales();
+  if (judged != 0) unjudged_ = MotionCause::none;
+  for (int scale = 0, lowest = -1; scale < kMotionScales; ++scale) {
+    if ((judged >> static_cast<unsigned>(scale) & 1U) == 0) continue;
+    if (lowest < 0) lowest = scale;
+    judge(scale, lowest);
   }
+  verdict_.cause = unjudged_;
   if (ended != 0) decide(sample.time_s);
   return verdict_;
+}
+
+unsigned MotionMonitor::judged_scales() const noexcept {
+  unsigned out = 0;
+  for (std::size_t s = 0; s < kMotionSamples.size(); ++s)
+    out |= kMotionSamples[s] >= setup_.shortest_block ? 1U << s : 0U;
+  return out;
 }
 
 SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionReadings& readings,

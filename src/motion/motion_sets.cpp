@@ -64,6 +64,13 @@ MotionSets::MotionSets(const SensorArray& array, const MotionSetup& setup) noexc
   }
 }
 
+bool MotionSets::any_within(SensorSet sensors) const noexcept {
+  for (int k = 0; k < size_; ++k) {
+    if (sensors.contains((*this)[k].all)) return true;
+  }
+  return false;
+}
+
 bool MotionSets::has_subset_of(SensorSet members) const noexcept {
   for (int k = 0; k < size_; ++k) {
     if (members.contains(members_of((*this)[k]))) return true;

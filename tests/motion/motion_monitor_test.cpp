@@ -72,6 +72,34 @@ MotionSetup slow_setup(int n, std::uint64_t seed) {
   return setup;
 }
 
+// Negative: REQ-205
+TEST(MotionMonitor, WhatIsNotJudgedIsNeverSaidToBeWithoutContradiction) {
+  for (const int shortest : {1, 32}) {
+    MotionSetup setup = motion_setup(5, 3);
+    setup.shortest_block = shortest;
+    Flight begun(cone_array(5, 0.01), setup, 3);
+    begun.fly(0, shortest == 1 ? 2 : 64);
+    EXPECT_EQ(begun.monitor.verdict().cause, MotionCause::irregular_time) << "no two blocks yet, " << shortest;
+    begun.fly(shortest == 1 ? 2 : 64, 200);
+    EXPECT_EQ(begun.monitor.verdict().cause, MotionCause::none) << shortest;
+    begun.monitor.set_in_service(SensorSet::first(3));
+    begun.fly(200, 239);
+    EXPECT_EQ(begun.monitor.verdict().cause, MotionCause::no_redundancy) << "three sensors are left, " << shortest;
+    begun.monitor.set_in_service(SensorSet::first(5));
+    begun.distort = [](MotionSample& s) { s.delivered = SensorSet::first(3); };
+    begun.fly(239, 339);
+    EXPECT_EQ(begun.monitor.verdict().cause, MotionCause::no_redundancy) << "three deliver, " << shortest;
+    setup.rate_bound_radps = 0.0;
+    Flight blind(cone_array(5, 0.01), setup, 3);
+    blind.distort = [](MotionSample& s) { s.rate_given = {}; };
+    for (std::uint64_t k = 0; k < 300; ++k) {
+      blind.fly(k, k + 1);
+      EXPECT_NE(blind.monitor.verdict().cause, MotionCause::none) << k << ", " << shortest;
+    }
+    EXPECT_EQ(blind.monitor.verdict().cause, MotionCause::rotation_unknown);
+  }
+}
+
 /// As a clock of its own makes of vibration: two samples up and two down, for which no lag accounts.
 TEST(MotionMonitor, BlocksBelowTheShortestAreNotJudged) {
   for (const int shortest : {1, 32}) {

@@ -19,7 +19,7 @@ enum class MotionCause : std::uint8_t {
   too_many_faults,    ///< no fault set of as many units as can be searched for explains it
   rotation_unknown,   ///< no gyro and no bound of the rate: nothing is judged
   no_redundancy,      ///< the sensors left do not check each other
-  irregular_time,     ///< fewer than three samples in a row at the stated period: nothing is judged yet
+  irregular_time,     ///< fewer samples in a row at the stated period than two blocks have: nothing is judged yet
 };
 
 const char* to_string(MotionCause cause) noexcept;
@@ -53,7 +53,10 @@ class MotionMonitor {
  private:
   /// Whether a gyro that failed is a hypothesis: a single one that nothing corroborates.
   bool doubts_gyro() const noexcept { return setup_.gyros == 1 && !setup_.gyro_corroborated; }
-  void judge(int scale) noexcept;
+  /// Bit s: blocks of kMotionSamples[s] are judged.
+  unsigned judged_scales() const noexcept;
+  /// `lowest`: the first of the scales that are judged at this sample.
+  void judge(int scale, int lowest) noexcept;
   void decide(double time_s) noexcept;
   void answer(double time_s) noexcept;
   void exclude(double time_s) noexcept;
@@ -64,6 +67,7 @@ class MotionMonitor {
                          const MotionReadings& without_gyro) const noexcept;
   SensorSet monitored() const noexcept { return in_service_ - verdict_.excluded; }
   int most_faults() const noexcept;
+  bool check_each_other(SensorSet sensors) const noexcept;
 
   SensorArray array_;
   MotionSetup setup_;
@@ -77,11 +81,14 @@ class MotionMonitor {
   SensorSet in_service_;
   SensorSet trusted_;  ///< those that make the force: isolated ones are not among them, where the others determine it
   int grade_ = 0;
+  bool redundant_ = false;  ///< those that are monitored check each other
   double noise_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
   double isolated_since_s_ = 0.0;
   bool news_ = false;                     ///< a set was rejected that had not been, or evidence was dropped
   MotionCause open_ = MotionCause::none;  ///< why what is on record names nobody
+  /// Why the last samples were not judged, until the next block that is.
+  MotionCause unjudged_ = MotionCause::irregular_time;
   bool gyro_explains_ = false;  ///< a faulty gyro, with or without sensors beside it, would explain what is on record
   bool configured_ = false;
 };

@@ -38,6 +38,8 @@ class MotionSets {
 
   int size() const noexcept { return size_; }
   const MotionSet& operator[](int k) const noexcept { return sets_[static_cast<std::size_t>(k)]; }
+  /// Whether some of these sensors check each other: a set lies within them.
+  bool any_within(SensorSet sensors) const noexcept;
   /// The largest |rest| of the sets that do not see all of the force.
   double largest_blind_rest() const noexcept { return largest_blind_rest_; }
   /// The largest |rest| / least_singular of the others: what an error of the readings adds by way of their force.
