@@ -95,6 +95,18 @@ bool HealthMonitor::moves_slowly(const BlockNoise& noise, bool turning, BlockJud
                         noise, judged);
 }
 
+/// The sensors by which a block is judged to be one at rest. A dead chip is quiet while the tool moves: those that a
+/// monitor in motion has excluded are asked only where the others, which determine a vector, are at rest without them.
+SensorSet HealthMonitor::witnesses_of_rest(const BlockNoise& noise) const noexcept {
+  const MonitorState& s = state_;
+  const SensorArray& array = s.in_force.array;
+  const SensorSet all = s.in_service() & s.last.usable, others = all - s.requests.motion.to_exclude(all);
+  if (others == all || rank_of(array, others) < 3) return all;
+  const BlockJudgement without =
+      judge_block(array, s.window.block, others, s.settings.scatter_factor, s.in_force.gravity.g_mps2, noise);
+  return without.quiet ? all : others;
+}
+
 /// The block that is complete, judged: what moved in it, and how far its means may be off. The next one begins.
 HealthMonitor::Block HealthMonitor::close_block(double time_s, bool turning) noexcept {
   MonitorState& s = state_;
@@ -108,7 +120,7 @@ HealthMonitor::Block HealthMonitor::close_block(double time_s, bool turning) noe
   Block out;
   out.as_stated = is_as_stated(block, s.last.calm & s.in_service(), noise);
   BlockJudgement& judged = out.judged;
-  judged = judge_block(array, block, s.in_service() & s.last.usable, scattering, g_mps2, noise, &s.facts.scatter(),
+  judged = judge_block(array, block, witnesses_of_rest(noise), scattering, g_mps2, noise, &s.facts.scatter(),
                        &s.service.map);
   const double alike = s.studies.noise.correlation(block.size());
   judged.evidence.samples /= s.last.noise_factor * s.last.noise_factor * alike;

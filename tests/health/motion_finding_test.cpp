@@ -59,6 +59,28 @@ TEST(MotionFinding, AnAlarmLeadsToSuspectOnceAndPassedBlocksLeadOut) {
   EXPECT_EQ(out.to, HealthState::nominal);
 }
 
+/// Two parallel triads, of which the second is dead while the tool moves: its axes are as quiet as at rest.
+// Verifies: REQ-200
+TEST(MotionFinding, AChipThatMotionExcludedIsNoWitnessOfRest) {
+  AxisList axes{};
+  for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = 1.0;
+  const SensorSet chip(0b111000), other(0b111);
+  for (const bool told : {false, true}) {
+    Rig rig = proven(plumb_test::make_array(axes, 6, 2e-4 * kG0_mps2));
+    rig.distort = [](int i, double y, int) { return i < 3 ? y : 0.0; };
+    const Verdict& v = shake(rig, told ? alarm_of(chip) : MotionFinding{}, 4);
+    EXPECT_EQ((v.usable & Usable::stationary) != 0, !told) << "nobody said that it moves";
+    EXPECT_EQ(v.provisionally_excluded, told ? chip : SensorSet{});
+    EXPECT_EQ(v.in_service, told ? other : other | chip);
+    EXPECT_NE(v.validity, Validity::valid);
+    if (!told) continue;
+    EXPECT_EQ(rig.records.back().cause, Cause::parity_in_motion);
+    EXPECT_TRUE((v.noisy & other).empty());
+    rig.stay(kSomewhere, 4);
+    EXPECT_NE(rig.monitor.verdict().usable & Usable::stationary, 0U) << "at rest the others show it";
+  }
+}
+
 // Verifies: REQ-200
 TEST(MotionFinding, BlocksThatPassedBeforeItCountNoMore) {
   Rig rig = proven(plumb_test::cone_array(6));

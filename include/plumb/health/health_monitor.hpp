@@ -140,6 +140,7 @@ class HealthMonitor {
   // serve_block.cpp: a block that is complete
   EventMask tick(const Sample& sample) noexcept;
   BlockNoise learn_noise() noexcept;
+  SensorSet witnesses_of_rest(const BlockNoise& noise) const noexcept;
   Block close_block(double time_s, bool turning) noexcept;
   bool moves_slowly(const BlockNoise& noise, bool turning, BlockJudgement& judged) const noexcept;
   bool bears_motion(const BlockReport& report) const noexcept;
