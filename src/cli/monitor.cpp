@@ -86,9 +86,8 @@ io::FileError nothing_judged(const MonitorOptions& options, const io::ArrayFile&
 io::ExitCode still_calibrating(const MonitorMotion& motion) {
   if (motion.judged()) {
     print_error(
-        "plumb: the log ended before the monitor had calibrated itself, so nothing was valid at rest; motion was "
-        "judged "
-        "by the nominal coefficients.\n");
+        "plumb: the log ended before the monitor had calibrated itself, so nothing was valid at rest; "
+        "motion was judged by the nominal coefficients.\n");
     return io::ExitCode::done;
   }
   print_error(

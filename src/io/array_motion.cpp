@@ -86,8 +86,21 @@ constexpr LimitKey kLimits[] = {
     {{"quiet_s", "s", 0.0, 3600.0, "5"}, &MotionSetup::quiet_s},
 };
 
+struct CountKey {
+  const char* key;
+  int most;
+  const char* words;
+  int MotionSetup::*field;
+};
+
+constexpr CountKey kCounts[] = {
+    {"max_faults", kMotionDepth, "the most units that may be faulty at once", &MotionSetup::max_faults},
+    {"shortest_block", 32, "the samples of the shortest blocks to be judged", &MotionSetup::shortest_block},
+};
+
 std::vector<std::string> known_motion_keys() {
-  std::vector<std::string> out = {kPeriod.key, kRate.key, "max_faults", "shortest_block"};
+  std::vector<std::string> out = {kPeriod.key, kRate.key};
+  for (const CountKey& key : kCounts) out.emplace_back(key.key);
   for (const LimitKey& key : kLimits) out.emplace_back(key.figure.key);
   return with_motion_keys(std::move(out));
 }
@@ -98,20 +111,12 @@ std::vector<std::string> known_gyro_keys() {
   return out;
 }
 
-void read_max_faults(const TomlTable& table, MotionSetup& limits) {
-  const std::int64_t value = table.integer("max_faults", limits.max_faults);
-  if (value < 1 || value > kMotionDepth)
-    table.fail(table.line_of("max_faults"), "max_faults", "is " + std::to_string(value) + ", out of range",
-               "give the most units that may be faulty at once, 1 to " + std::to_string(kMotionDepth));
-  limits.max_faults = static_cast<int>(value);
-}
-
-void read_shortest_block(const TomlTable& table, MotionSetup& limits) {
-  const std::int64_t value = table.integer("shortest_block", limits.shortest_block);
-  if (value < 1 || value > 32)
-    table.fail(table.line_of("shortest_block"), "shortest_block", "is " + std::to_string(value) + ", out of range",
-               "give the samples of the shortest blocks to be judged, 1 to 32");
-  limits.shortest_block = static_cast<int>(value);
+void read_count(const TomlTable& table, const CountKey& count, MotionSetup& limits) {
+  const std::int64_t value = table.integer(count.key, limits.*count.field);
+  if (value < 1 || value > count.most)
+    table.fail(table.line_of(count.key), count.key, "is " + std::to_string(value) + ", out of range",
+               std::string("give ") + count.words + ", 1 to " + std::to_string(count.most));
+  limits.*count.field = static_cast<int>(value);
 }
 
 GyroSpec read_gyro(const TomlTable& table, const InputSpec& input) {
@@ -155,8 +160,7 @@ MotionSpec read_motion(const TomlNode& root, const std::string& file, const Inpu
     read_into(table, kPeriod, out.sample_period_s);
     read_into(table, kRate, out.rate_bound_radps);
     for (const LimitKey& key : kLimits) read_into(table, key.figure, out.limits.*key.field);
-    read_max_faults(table, out.limits);
-    read_shortest_block(table, out.limits);
+    for (const CountKey& key : kCounts) read_count(table, key, out.limits);
     MotionBounds usual;
     (void)read_motion_bounds(table, usual);
     out.sensor.fill(usual);

@@ -74,18 +74,24 @@ ForceTerm main_term(const MotionRun& run) {
 
 std::string force_words(const MotionRun& run) {
   if (run.blocks == 0) return "none of the blocks of 32 samples has a bounded specific force";
-  return fmt::format(
+  std::string out = fmt::format(
       "of {}: bound of the error {:.3g} mg0 on average, {:.3g} mg0 at most (t = {:.3f} s); largest part: {}",
       count_text(run.blocks, "block"), kMg0 * run.bound_sum_mps2 / static_cast<double>(run.blocks),
       kMg0 * run.worst_bound_mps2, run.worst_bound_at_s, to_string(main_term(run)));
+  if (run.blocks_unchecked > 0)
+    out += fmt::format("; in {} it holds only while no further sensor fails", run.blocks_unchecked);
+  if (run.blocks_by_one_gyro > 0)
+    out += fmt::format("; in {} it holds only while the gyro is healthy", run.blocks_by_one_gyro);
+  return out;
 }
 
 std::string judged_words(const MotionRun& run) {
   std::string out = fmt::format("{} of {} judged", run.judged, count_text(run.samples, "sample"));
   if (2 * run.judged < run.samples) out += fmt::format(" ({})", explain(main_cause(run)));
-  out += run.alarms == 0
-             ? std::string(", no alarm")
-             : fmt::format(", {}, the first at {:.3f} s", count_text(run.alarms, "alarm"), run.first_alarm_s);
+  if (run.alarms > 0)
+    out += fmt::format(", {}, the first at {:.3f} s", count_text(run.alarms, "alarm"), run.first_alarm_s);
+  else if (run.judged > 0)
+    out += ", no alarm";
   return out;
 }
 
@@ -176,7 +182,9 @@ io::Json motion_json(const MotionTold& told, const io::ArrayFile& array) {
                              {"isolated", sensors_json(run.isolated, run.isolated_at_s, array)},
                              {"excluded", sensors_json(run.excluded, run.excluded_at_s, array)},
                              {"cause", to_string(open_cause(run))},
-                             {"blocks", run.blocks}});
+                             {"blocks", run.blocks},
+                             {"blocks_unchecked", run.blocks_unchecked},
+                             {"blocks_by_one_gyro", run.blocks_by_one_gyro}});
   out["bound_mean_mps2"] = known(blocks, blocks ? run.bound_sum_mps2 / static_cast<double>(run.blocks) : 0.0);
   out["bound_worst_mps2"] = known(blocks, run.worst_bound_mps2);
   out["dominant"] = known(blocks, to_string(main_term(run)));

@@ -84,6 +84,8 @@ void MotionWatch::count(const MotionVerdict& verdict, double time_s) {
   note_first(verdict.excluded, run.excluded, run.excluded_at_s, time_s);
   if (verdict.block_ended && std::isfinite(verdict.block.bound_mps2)) {
     ++run.blocks;
+    run.blocks_unchecked += verdict.block.validity == ForceValidity::unchecked ? 1U : 0U;
+    run.blocks_by_one_gyro += verdict.block.gyro_assumed ? 1U : 0U;
     run.bound_sum_mps2 += verdict.block.bound_mps2;
     ++run.dominant[static_cast<std::size_t>(verdict.block.dominant)];
     if (verdict.block.bound_mps2 > run.worst_bound_mps2) {

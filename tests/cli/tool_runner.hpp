@@ -179,4 +179,27 @@ inline ::testing::AssertionResult says(const std::string& text, const std::vecto
   return ::testing::AssertionSuccess();
 }
 
+/// The commands in the comment at the head of an example, joined where a line goes on.
+inline std::string commands_of(const std::string& example) {
+  std::istringstream in(example);
+  std::string line, out;
+  while (std::getline(in, line) && line[0] == '#') {
+    if (line.substr(0, 4) == "#   ") out += line.substr(4) + "\n";
+  }
+  return out;
+}
+
+/// Runs those of files in examples/, one after the other, in a directory in which examples/ lies; returns what they
+/// printed. What they said to standard error is in `err`.
+inline std::string play_examples(const Directory& where, const std::vector<std::string>& files) {
+  const std::string examples = PLUMB_SOURCE_DIR "/examples/";
+  std::filesystem::create_directory_symlink(examples, where / "examples");
+  std::string script = "set -e\nplumb() { '" PLUMB_TOOL_PATH "' \"$@\"; }\n";
+  for (const std::string& file : files) script += commands_of(read_text(examples + file));
+  write_text(where / "script", script);
+  const std::string shell = "cd '" + where.path().string() + "' && sh script > out 2> err";
+  EXPECT_EQ(std::system(shell.c_str()), 0) << script << read_text(where / "err");
+  return read_text(where / "out");
+}
+
 }  // namespace plumb_test

@@ -31,8 +31,9 @@ struct MotionRun {
   std::array<double, kCapacity> isolated_at_s{};   ///< the first time
   std::array<double, kCapacity> excluded_at_s{};   ///< the first time
   std::array<std::uint64_t, kMotionCauses> why{};  ///< samples by cause
-  /// Blocks of 32 samples with a bounded force.
-  std::uint64_t blocks = 0;
+  /// Blocks of 32 samples with a bound of their force; of them those whose bound holds while no further unit fails,
+  /// and while the only gyro is healthy.
+  std::uint64_t blocks = 0, blocks_unchecked = 0, blocks_by_one_gyro = 0;
   double bound_sum_mps2 = 0.0, worst_bound_mps2 = 0.0, worst_bound_at_s = 0.0;
   std::array<std::uint64_t, kForceTerms> dominant{};  ///< those blocks, by the largest part of their bound
   MotionInputs inputs;
