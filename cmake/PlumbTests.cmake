@@ -286,6 +286,15 @@ if(TARGET plumb_attack_harness)
   endforeach()
 endif()
 
+# The adversary of the monitor of motion: within what is promised nobody is blamed, beyond it somebody is.
+if(TARGET plumb_motion_attacks)
+  add_test(NAME attacks.motion COMMAND plumb_motion_attacks --flights 25)
+  add_test(NAME attacks.motion_beyond_the_promise COMMAND plumb_motion_attacks --flights 10 --more-units 1)
+  set_tests_properties(attacks.motion PROPERTIES LABELS host TIMEOUT 300)
+  set_tests_properties(attacks.motion_beyond_the_promise PROPERTIES LABELS host TIMEOUT 300
+    PASS_REGULAR_EXPRESSION "a healthy sensor blamed at")
+endif()
+
 # The corpus by which two commits are compared: the same twice, and what differs is found.
 if(TARGET plumb_replay)
   add_test(NAME replay.quick COMMAND bash "${PROJECT_SOURCE_DIR}/tests/replay/quick.sh" "$<TARGET_FILE:plumb_replay>"

@@ -126,7 +126,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
       stepper != nullptr ? session::run_stepper(*stepper, array, log, outputs.sinks)
                          : session::run_monitor(monitor, array, log, outputs.sinks, host);
   if (!done) return report(done.error());
-  io::FileExpected<void> kept = commit(outputs, *done);
+  io::FileExpected<void> kept = commit(outputs, *done, motion.told());
   if (kept) kept = motion.commit();
   if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());

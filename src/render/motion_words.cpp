@@ -127,20 +127,22 @@ const char* explain(MotionCause cause) noexcept {
   return "?";
 }
 
-std::string motion_line(const io::MotionEvent& event, const SensorArray& array) {
-  std::string words;
+std::string event_words(const io::MotionEvent& event) {
   switch (event.kind) {
     case io::MotionEventKind::alarm:
-      words = event.cause == MotionCause::none ? "readings contradict each other" : explain(event.cause);
-      break;
-    case io::MotionEventKind::isolated: words = "faulty in every explanation"; break;
-    case io::MotionEventKind::excluded: words = "provisionally excluded from the specific force"; break;
-    case io::MotionEventKind::alarm_over: words = "nothing that contradicts is on record"; break;
-    case io::MotionEventKind::forgotten: words = "the monitor at rest has judged: taken back"; break;
+      return event.cause == MotionCause::none ? "readings contradict each other" : explain(event.cause);
+    case io::MotionEventKind::isolated: return "faulty in every explanation";
+    case io::MotionEventKind::excluded: return "provisionally excluded from the specific force";
+    case io::MotionEventKind::alarm_over: return "nothing that contradicts is on record";
+    case io::MotionEventKind::forgotten: return "the monitor at rest has judged: taken back";
   }
+  return "?";
+}
+
+std::string motion_line(const io::MotionEvent& event, const SensorArray& array) {
   return fmt::format("{:>10.3f}  {:<13}  {:<17}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n", event.time_s,
                      "(in motion)", to_string(event.kind), sensor_names(event.sensors, array), "-", "-", "-", "-",
-                     words);
+                     event_words(event));
 }
 
 std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
