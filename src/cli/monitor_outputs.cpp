@@ -60,6 +60,7 @@ io::FileExpected<void> commit(Outputs& out, const session::MonitorRun& run, cons
   if (done && out.verdicts) done = out.verdicts->commit();
   if (done && out.json) done = out.json->commit();
   if (done && out.report) done = out.report->write(run, motion);
+  if (done && out.incidents) done = out.incidents->commit();
   return done;
 }
 

@@ -41,6 +41,7 @@ struct Outputs {
   std::optional<session::EventsFile> json;
   std::optional<TableSink> table;
   std::unique_ptr<HealthReport> report;
+  std::unique_ptr<session::IncidentRecorder> incidents;
   std::vector<session::VerdictSink*> sinks;
 };
 
