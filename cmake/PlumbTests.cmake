@@ -244,7 +244,8 @@ if(TARGET plumb_tool)
     add_test(NAME cli.tour COMMAND bash -c "echo 'skipped: no python3'; exit 77")
     add_test(NAME docs.sizes COMMAND bash -c "echo 'skipped: no python3'; exit 77")
   endif()
-  set_tests_properties(cli.manual cli.tour docs.sizes PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+  set_tests_properties(cli.manual cli.tour PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+  set_tests_properties(docs.sizes PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 900)
 endif()
 
 # Campaigns: a program of their own, because it is linked with monitors of several capacities.
@@ -299,7 +300,7 @@ endif()
 if(TARGET plumb_replay)
   add_test(NAME replay.quick COMMAND bash "${PROJECT_SOURCE_DIR}/tests/replay/quick.sh" "$<TARGET_FILE:plumb_replay>"
     "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}/replay_test")
-  set_tests_properties(replay.quick PROPERTIES LABELS host TIMEOUT 120)
+  set_tests_properties(replay.quick PROPERTIES LABELS "host;slow" TIMEOUT 300)
 endif()
 
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
