@@ -194,7 +194,7 @@ FlightOutcome fly(const FlightCase& one) {
   feed(one, [&](const FlightSample& truth, const MotionSample& sample) {
     past.add(truth.specific_force_mps2);
     const MotionVerdict& v = monitor->step(sample);
-    score(brief, truth.time_s, {v.alarm, v.isolated, v.excluded}, &out);
+    score(brief, truth.time_s, {v.alarm || v.gyros_disagree, v.isolated, v.excluded}, &out);
     const bool gyro_failed = !one.gyro_faults.empty() && truth.time_s >= brief.onset_s;
     if (past.count() > 2 && promises(v.sample, gyro_failed)) check_bound(v.sample, past.mean(1), &out.sample);
     if (v.block_ended && promises(v.block, gyro_failed)) check_bound(v.block, past.mean(kForceBlock), &out.block);

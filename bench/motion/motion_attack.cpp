@@ -182,7 +182,8 @@ class Attack {
 
   void judge(const MotionVerdict& v, bool attacked) {
     const SensorSet named = v.isolated | v.excluded;
-    if (v.alarm && !attacked) out_.early_alarm = true;
+    const bool honest_gyros = !attacked || scene_.gyro < 0;
+    if ((v.alarm && !attacked) || (v.gyros_disagree && honest_gyros)) out_.false_alarm = true;
     if (v.alarm) out_.alarm = true;
     if (!(named & scene_.liars).empty()) out_.isolated = true;
     if (!(attacked ? scene_.liars : SensorSet()).contains(named) && !out_.blamed) {

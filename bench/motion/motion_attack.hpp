@@ -24,7 +24,7 @@ struct AttackOutcome {
   bool alarm = false;
   bool isolated = false;      ///< a liar
   bool blamed = false;        ///< a healthy sensor isolated or excluded
-  bool early_alarm = false;   ///< before the attack began
+  bool false_alarm = false;   ///< before the attack began, or gyros said to disagree of which none lies
   double blamed_at_s = -1.0;  ///< the first time
   double passed_at_s = -1.0;  ///< the first time that a bound was passed
   BoundTally sample, block;   ///< where the bound is promised

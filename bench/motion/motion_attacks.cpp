@@ -57,12 +57,12 @@ std::string share(std::uint64_t k, std::uint64_t n) {
 }
 
 bool is_wrong(const AttackOutcome& one) {
-  return one.blamed || one.early_alarm || one.sample.violations > 0 || one.block.violations > 0;
+  return one.blamed || one.false_alarm || one.sample.violations > 0 || one.block.violations > 0;
 }
 
 void print_wrong(int kind, std::uint64_t number, const AttackOutcome& one) {
   std::printf("--kind %d --number %llu: %s:", kind, printable(number), one.scene.c_str());
-  if (one.early_alarm) std::printf(" alarm before the attack;");
+  if (one.false_alarm) std::printf(" a false alarm;");
   if (one.blamed) std::printf(" a healthy sensor blamed at %.3f s;", one.blamed_at_s);
   if (one.passed_at_s >= 0.0) {
     std::printf(" bound passed, first at %.3f s, by %llu of %llu samples and %llu of %llu blocks;", one.passed_at_s,

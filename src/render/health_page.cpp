@@ -153,6 +153,7 @@ Section motion_view(const Json& report, const PagePictures& pictures) {
        {"suspected at any time", joined_list(m["suspects"])},
        {"isolated", joined_list(m["isolated"], "id")},
        {"provisionally excluded", joined_list(m["excluded"], "id")},
+       {"the two gyros disagree from t, s", seconds(m["gyros_disagree_s"])},
        {"blocks with a bounded force", m["blocks"]},
        {"mean bound of its error, mg0", shown(m["bound_mean_mps2"], kMg0)},
        {"largest bound, mg0", shown(m["bound_worst_mps2"], kMg0)},

@@ -16,6 +16,8 @@ namespace {
 
 using session::MotionRun;
 
+constexpr const char* kGyrosDisagree = "the two gyros read more apart than their bounds allow: one of them is faulty";
+
 /// "a4, a5, a6 (imu2)": with the chip where all of one chip are meant.
 std::string names_with_chips(SensorSet set, const io::ArrayFile& array) {
   std::string chip;
@@ -135,6 +137,7 @@ std::string event_words(const io::MotionEvent& event) {
     case io::MotionEventKind::excluded: return "provisionally excluded from the specific force";
     case io::MotionEventKind::alarm_over: return "nothing that contradicts is on record";
     case io::MotionEventKind::forgotten: return "the monitor at rest has judged: taken back";
+    case io::MotionEventKind::gyros_disagree: return kGyrosDisagree;
   }
   return "?";
 }
@@ -159,6 +162,8 @@ std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
   }
   if (const MotionCause cause = open_cause(run); cause != MotionCause::none)
     out += fmt::format("  cause     nobody is isolated: {}\n", explain(cause));
+  if (run.gyro_disagreements > 0)
+    out += fmt::format("  gyros     {}; first at {:.3f} s\n", kGyrosDisagree, run.gyros_disagree_s);
   out += "  force     " + force_words(run) + "\n";
   for (const MotionNote& note : motion_notes(run, *told.setup))
     out += fmt::format("  note      {}. Remedy: {}.\n", note.what, note.remedy);
@@ -184,6 +189,7 @@ io::Json motion_json(const MotionTold& told, const io::ArrayFile& array) {
                              {"isolated", sensors_json(run.isolated, run.isolated_at_s, array)},
                              {"excluded", sensors_json(run.excluded, run.excluded_at_s, array)},
                              {"cause", to_string(open_cause(run))},
+                             {"gyros_disagree_s", known(run.gyro_disagreements > 0, run.gyros_disagree_s)},
                              {"blocks", run.blocks},
                              {"blocks_unchecked", run.blocks_unchecked},
                              {"blocks_by_one_gyro", run.blocks_by_one_gyro}});

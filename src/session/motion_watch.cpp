@@ -69,6 +69,7 @@ void MotionWatch::note_events(const MotionVerdict& before, const MotionVerdict& 
     add(MotionEventKind::isolated, news, MotionCause::none);
   if (const SensorSet news = now.excluded - before.excluded; !news.empty())
     add(MotionEventKind::excluded, news, MotionCause::none);
+  if (now.gyros_disagree && !before.gyros_disagree) add(MotionEventKind::gyros_disagree, {}, MotionCause::none);
   if (before.alarm && !now.alarm) add(MotionEventKind::alarm_over, {}, MotionCause::none);
 }
 
@@ -79,6 +80,8 @@ void MotionWatch::count(const MotionVerdict& verdict, double time_s) {
   ++run.why[static_cast<std::size_t>(verdict.cause)];
   run.in_alarm += verdict.alarm ? 1U : 0U;
   if (verdict.alarm && !run.last.alarm && run.alarms++ == 0) run.first_alarm_s = time_s;
+  if (verdict.gyros_disagree && !run.last.gyros_disagree && run.gyro_disagreements++ == 0)
+    run.gyros_disagree_s = time_s;
   run.suspects = run.suspects | verdict.suspects;
   note_first(verdict.isolated | verdict.excluded, run.isolated, run.isolated_at_s, time_s);
   note_first(verdict.excluded, run.excluded, run.excluded_at_s, time_s);
