@@ -69,11 +69,42 @@ Log columns(const std::vector<plumb::Sample>& samples, int sensors) {
   log.count = std::move(count);
   log.roll_group = std::move(roll_group);
   log.truth = py::none();
+  log.rate_radps.fill(py::none());
   return log;
 }
 
+/// Of one gyro; NaN where the rate is not known.
+py::array_t<double> rates(const std::vector<plumb::Rotation>& turn) {
+  const auto rows = static_cast<py::ssize_t>(turn.size());
+  py::array_t<double> out({rows, py::ssize_t{3}});
+  auto to = out.mutable_unchecked<2>();
+  for (py::ssize_t r = 0; r < rows; ++r) {
+    const plumb::Rotation& now = turn[static_cast<std::size_t>(r)];
+    for (std::size_t c = 0; c < 3; ++c)
+      to(r, static_cast<py::ssize_t>(c)) =
+          now.rate_known ? now.rate_radps[c] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
 Log read_log(const Array& array, const std::string& path) {
-  return columns(taken(plumb::io::read_log(path, *array, plumb::io::BadRowPolicy::stop)).samples, array->array.size());
+  using plumb::io::LogReader;
+  LogReader reader = taken(LogReader::open(path, *array, plumb::io::BadRowPolicy::stop));
+  std::vector<plumb::Sample> samples;
+  std::array<std::vector<plumb::Rotation>, plumb::kGyros> turn;
+  plumb::Sample sample;
+  LogReader::Next status = reader.next(sample);
+  for (; status == LogReader::Next::row; status = reader.next(sample)) {
+    samples.push_back(sample);
+    if (!array->input.rotation_columns.empty()) turn[0].push_back(reader.rotation());
+    if (!array->input.second_rotation_columns.empty()) turn[1].push_back(reader.second_rotation());
+  }
+  if (status == LogReader::Next::error) throw Refused(reader.error().text());
+  Log log = columns(samples, array->array.size());
+  for (std::size_t g = 0; g < turn.size(); ++g) {
+    if (!turn[g].empty()) log.rate_radps[g] = rates(turn[g]);
+  }
+  return log;
 }
 
 /// Gravity of every row in the frame in which plumb answers, and who was in fault.
@@ -139,7 +170,7 @@ py::tuple simulate(const std::string& text_or_path, std::optional<std::uint64_t>
 }  // namespace
 
 template <class T>
-Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width) const {
+Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width, const char* across) const {
   if (from.is_none()) return {};
   Column<T> out;
   refuse_mask(from, name);
@@ -150,7 +181,7 @@ Log::View::Column<T> Log::View::column(const py::object& from, const char* name,
     const std::string wanted = width == 0 ? "(" + std::to_string(rows_) + ")"
                                           : "(" + std::to_string(rows_) + ", " + std::to_string(width) + ")";
     refuse(std::string(name) + ": has the shape " + shape_of(array) + ", must have " + wanted,
-           "give one row per sample" + std::string(width == 0 ? "" : " and one column per sensor of the array"));
+           "give one row per sample" + (width == 0 ? "" : std::string(" and one column per ") + across));
   }
   out.data = reinterpret_cast<const char*>(array.data());
   out.stride = array.strides(0);
@@ -189,6 +220,19 @@ Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
   } else {
     temperature_ = column<double>(log.temperature_degc, "temperature_degc", 0);
   }
+  for (std::size_t g = 0; g < rate_.size(); ++g) rate_[g] = column<double>(log.rate_radps[g], kRateNames[g], 3, "axis");
+}
+
+plumb::Rotation Log::View::rotation(std::size_t gyro, py::ssize_t row) const {
+  if (!turns(gyro)) return {};
+  plumb::Rotation out{false, true, {}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double rate = rate_[gyro].at(row, static_cast<py::ssize_t>(c));
+    if (!std::isfinite(rate)) return {true, false, {}};
+    out.rate_radps[c] = rate;
+    out.turning = out.turning || rate != 0.0;
+  }
+  return out;
 }
 
 plumb::Sample Log::View::at(py::ssize_t row) const {
@@ -211,16 +255,20 @@ void bind_log(py::module_& module) {
       "Samples as columns. `raw` is (rows, sensors), in the unit of the array file's log; float64 is used\n"
       "where it lies, without a copy, whatever its strides. NaN is a value that is not finite; `delivered`\n"
       "(rows, sensors) is False where a channel did not deliver. `station` is a tag, 0 = none (a label in a\n"
-      "CSV file is its tag minus 1). `temperature_degc` is a column or one number.")
+      "CSV file is its tag minus 1). `temperature_degc` is a column or one number. `rate_radps` and\n"
+      "`second_rate_radps` (rows, 3), tool frame, are the rates of up to two gyros; NaN = not known.")
       .def(py::init([](const py::object& time_s, const py::object& raw, py::object temperature_degc,
-                       py::object delivered, py::object station, py::object count, py::object roll_group) {
-             return Log{doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
-                        std::move(delivered),      std::move(station),  std::move(count),
-                        std::move(roll_group),     py::none()};
+                       py::object delivered, py::object station, py::object count, py::object roll_group,
+                       py::object rate_radps, py::object second_rate_radps) {
+             return Log{
+                 doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
+                 std::move(delivered),      std::move(station),  std::move(count),
+                 std::move(roll_group),     py::none(),          {std::move(rate_radps), std::move(second_rate_radps)}};
            }),
            py::arg("time_s"), py::arg("raw"), py::arg("temperature_degc") = py::none(),
            py::arg("delivered") = py::none(), py::arg("station") = py::none(), py::arg("count") = py::none(),
-           py::arg("roll_group") = py::none())
+           py::arg("roll_group") = py::none(), py::arg("rate_radps") = py::none(),
+           py::arg("second_rate_radps") = py::none())
       .def_property(
           "time_s", [](const Log& log) { return log.time_s; },
           [](Log& log, const py::object& from) { log.time_s = doubles(from, "time_s"); },
@@ -233,6 +281,14 @@ void bind_log(py::module_& module) {
       .def_readwrite("station", &Log::station)
       .def_readwrite("count", &Log::count, "raw samples behind a row")
       .def_readwrite("roll_group", &Log::roll_group)
+      .def_property(
+          "rate_radps", [](const Log& log) { return log.rate_radps[0]; },
+          [](Log& log, py::object from) { log.rate_radps[0] = std::move(from); },
+          "(rows, 3), tool frame [rad/s]; None: no gyro, the tool does not turn where it is judged at rest")
+      .def_property(
+          "second_rate_radps", [](const Log& log) { return log.rate_radps[1]; },
+          [](Log& log, py::object from) { log.rate_radps[1] = std::move(from); },
+          "the same by the second gyro, which does not count at rest")
       .def_readonly("truth", &Log::truth,
                     "Of a simulation: a dict with gravity_mps2 (rows, 3) in the frame in which plumb answers, faulty\n"
                     "(rows, sensors) and moving (rows). Else None.")
