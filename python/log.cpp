@@ -26,20 +26,6 @@ void refuse_mask(const py::handle& from, const char* name) {
   refuse(std::string(name) + ": is not an array of numbers", "give a numpy array");
 }
 
-Doubles doubles(const py::object& from, const char* name) {
-  refuse_mask(from, name);
-  if (from.is_none()) refuse_type(name);
-  Doubles out = Doubles::ensure(from);
-  if (!out) refuse_type(name);
-  return out;
-}
-
-std::string shape_of(const py::array& array) {
-  std::string out = "(";
-  for (py::ssize_t k = 0; k < array.ndim(); ++k) out += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
-  return out + ")";
-}
-
 /// Columns of `samples`, allocated once and written in place.
 Log columns(const std::vector<plumb::Sample>& samples, int sensors) {
   const auto rows = static_cast<py::ssize_t>(samples.size());
@@ -167,7 +153,22 @@ py::tuple simulate(const std::string& text_or_path, std::optional<std::uint64_t>
   return py::make_tuple(std::make_shared<plumb::io::ArrayFile>(std::move(file.array)), std::move(log));
 }
 
+std::string shape_text(const std::vector<py::ssize_t>& shape, bool one_sample) {
+  std::string out = "(";
+  for (std::size_t k = one_sample ? 1 : 0; k < shape.size(); ++k)
+    out += (out.size() > 1 ? ", " : "") + std::to_string(shape[k]);
+  return out + ")";
+}
+
 }  // namespace
+
+Doubles doubles(const py::object& from, const char* name) {
+  refuse_mask(from, name);
+  if (from.is_none()) refuse_type(name);
+  Doubles out = Doubles::ensure(from);
+  if (!out) refuse_type(name);
+  return out;
+}
 
 template <class T>
 Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width, const char* across) const {
@@ -178,10 +179,14 @@ Log::View::Column<T> Log::View::column(const py::object& from, const char* name,
   if (!array) refuse_type(name);
   const bool fits = width == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == width;
   if (!fits || array.shape(0) != rows_) {
-    const std::string wanted = width == 0 ? "(" + std::to_string(rows_) + ")"
-                                          : "(" + std::to_string(rows_) + ", " + std::to_string(width) + ")";
-    refuse(std::string(name) + ": has the shape " + shape_of(array) + ", must have " + wanted,
-           "give one row per sample" + (width == 0 ? "" : std::string(" and one column per ") + across));
+    std::vector<py::ssize_t> wanted{rows_};
+    if (width != 0) wanted.push_back(width);
+    const std::vector<py::ssize_t> given(array.shape(), array.shape() + array.ndim());
+    std::string remedy = one_sample_ ? "give one value" : "give one row per sample";
+    if (width != 0) remedy += std::string(one_sample_ ? " per " : " and one column per ") + across;
+    refuse(std::string(name) + ": has the shape " + shape_text(given, one_sample_) + ", must have " +
+               shape_text(wanted, one_sample_),
+           remedy);
   }
   out.data = reinterpret_cast<const char*>(array.data());
   out.stride = array.strides(0);
@@ -206,7 +211,8 @@ Log::View::Column<std::uint32_t> Log::View::whole_numbers(const py::object& from
 }
 
 Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
-    : rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
+    : one_sample_(log.one_sample),
+      rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
       sensors_(array.array.size()),
       default_temperature_degc_(array.input.default_temperature_degc) {
   raw_ = column<double>(log.raw, "raw", sensors_);
@@ -288,7 +294,7 @@ void bind_log(py::module_& module) {
       .def_property(
           "second_rate_radps", [](const Log& log) { return log.rate_radps[1]; },
           [](Log& log, py::object from) { log.rate_radps[1] = std::move(from); },
-          "the same by the second gyro, which does not count at rest")
+          "the same by the second gyro, which counts in motion only")
       .def_readonly("truth", &Log::truth,
                     "Of a simulation: a dict with gravity_mps2 (rows, 3) in the frame in which plumb answers, faulty\n"
                     "(rows, sensors) and moving (rows). Else None.")

@@ -2,7 +2,9 @@
 #include <pybind11/stl.h>
 
 #include "monitor.hpp"
+#include "motion_row.hpp"
 #include "plumb/findings/alignment.hpp"
+#include "plumb/health/motion_link.hpp"
 #include "plumb/io/records.hpp"
 
 namespace plumb_python {
@@ -117,6 +119,22 @@ void bind_monitor(py::module_& module) {
             m.done(m.idle().set_gravity(*gravity));
           },
           py::arg("g_mps2"), py::arg("sigma_mps2"), "Another length of gravity: the depth has changed.")
+      .def(
+          "set_motion",
+          [](Monitor& m, const MotionVerdict* found) {
+            if (found != nullptr && found->array->fingerprint != m.array()->fingerprint)
+              refuse("found: is of another array (\"" + found->array->name + "\", this one is \"" + m.array()->name +
+                         "\")",
+                     "give what a MotionMonitor of this array found");
+            m.idle().set_motion(found != nullptr ? plumb::motion_finding(found->verdict) : plumb::MotionFinding{});
+          },
+          py::arg("found"),
+          "The MotionVerdict of a MotionMonitor that runs beside, before the next sample; it holds until set again.\n"
+          "While the tool moves, an alarm leads to suspect, and sensors that are excluded in motion are provisionally\n"
+          "excluded here. None: nothing was found. run_both does all this.")
+      .def_property_readonly(
+          "settles_motion", [](const Monitor& m) { return plumb::settles_motion(m.idle().verdict()); },
+          "Whether rest has just confirmed or refuted what motion found: then call MotionMonitor.forget.")
       .def(
           "begin_time_base", [](Monitor& m) { m.idle().begin_time_base(); },
           "The next sample may have any time: a recorded roll test has been run, and the log begins. Nothing is valid\n"

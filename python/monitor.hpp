@@ -1,4 +1,4 @@
-/// The monitor behind `plumb.Monitor`, and what another one beside it would share.
+/// The monitor at rest behind `plumb.Monitor`, for the monitor in motion too, which may run beside it.
 #pragma once
 
 #include <atomic>
