@@ -202,6 +202,20 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
   return out;
 }
 
+MotionSample MotionSampler::sample(const Sample& row) noexcept {
+  MotionSample out;
+  out.time_s = row.time_s;
+  if (std::isfinite(row.temperature_degc)) temperature_degc_ = row.temperature_degc;
+  const Readings gravity_sense = plan_.model.without_misalignment(row.raw, temperature_degc_, row.delivered);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plan_.array.size()); ++i) {
+    if (!row.delivered.has(static_cast<int>(i)) || !std::isfinite(gravity_sense[i])) continue;
+    out.reading_mps2[i] = -gravity_sense[i];
+    out.delivered = out.delivered.with(static_cast<int>(i));
+    if (std::fabs(row.raw[i]) >= plan_.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
+  }
+  return out;
+}
+
 }  // namespace session
 }  // namespace PLUMB_ABI
 }  // namespace plumb

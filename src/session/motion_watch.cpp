@@ -27,10 +27,7 @@ void note_first(SensorSet now, SensorSet& ever, std::array<double, kCapacity>& a
 }  // namespace
 
 MotionWatch::MotionWatch(const MotionPlan& plan)
-    : plan_(plan),
-      monitor_(std::make_unique<MotionMonitor>()),
-      inputs_(plan.setup.sample_period_s),
-      temperature_degc_(plan.model.sensor[0].reference_degc) {
+    : plan_(plan), monitor_(std::make_unique<MotionMonitor>()), sampler_(plan_), inputs_(plan.setup.sample_period_s) {
   (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
 }
 
@@ -38,16 +35,7 @@ void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
 void MotionWatch::at_second_turn(const stepping::Turn& turn) { turn_[1] = turn; }
 
 MotionSample MotionWatch::sample_of(const Sample& sample) {
-  MotionSample out;
-  out.time_s = sample.time_s;
-  const Readings gravity_sense =
-      plan_.model.without_misalignment(sample.raw, sample.temperature_degc, sample.delivered);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plan_.array.size()); ++i) {
-    if (!sample.delivered.has(static_cast<int>(i)) || !std::isfinite(gravity_sense[i])) continue;
-    out.reading_mps2[i] = -gravity_sense[i];
-    out.delivered = out.delivered.with(static_cast<int>(i));
-    if (std::fabs(sample.raw[i]) >= plan_.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
-  }
+  MotionSample out = sampler_.sample(sample);
   inputs_.add(sample.time_s);
   for (std::size_t g = 0; g < static_cast<std::size_t>(plan_.setup.gyros); ++g) {
     if (!turn_[g]) continue;

@@ -74,9 +74,9 @@ class MotionWatch final : public VerdictSink {
 
   MotionPlan plan_;
   std::unique_ptr<MotionMonitor> monitor_;
+  MotionSampler sampler_;
   MotionInputsWatch inputs_;
   std::array<std::optional<stepping::Turn>, kGyros> turn_{};  ///< of the sample to come, by gyro
-  double temperature_degc_;                                   ///< the last one that was a number
   std::vector<io::MotionEvent> events_;                       ///< of the sample at hand
   std::vector<MotionSink*> sinks_;
   stepping::Found found_;
