@@ -111,6 +111,9 @@ void bind_object(py::module_& module) {
       .def_property_readonly(
           "cause", [](const MotionVerdict& v) { return to_string(v.verdict.cause); },
           "Why no sensor is isolated, or nothing is judged: one of MOTION_CAUSES.")
+      .def_property_readonly(
+          "gyros_disagree", [](const MotionVerdict& v) { return v.verdict.gyros_disagree; },
+          "The two gyros read more apart than their bounds allow: one of them is faulty, and no sensor is blamed.")
       .def_property_readonly("rejected", set(&plumb::MotionVerdict::rejected),
                              "Members of the sets that the last blocks rejected.")
       .def_property_readonly("suspects", set(&plumb::MotionVerdict::suspects), "In some of the smallest explanations.")
@@ -142,6 +145,7 @@ void write_row(double time_s, const plumb::MotionVerdict& v, const plumb::Mat3& 
   row.time_s = time_s;
   row.cause = number(v.cause);
   row.alarm = v.alarm;
+  row.gyros_disagree = v.gyros_disagree;
   row.block_ended = v.block_ended;
   row.rejected = v.rejected.bits;
   row.suspects = v.suspects.bits;

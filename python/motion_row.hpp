@@ -27,6 +27,7 @@ namespace plumb_python {
   MOTION_COLUMN(double, time_s, , "time of the sample [s]") \
   MOTION_COLUMN(std::uint8_t, cause, , "index into MOTION_CAUSES: why no sensor is isolated, or nothing is judged") \
   MOTION_COLUMN(bool, alarm, , "readings contradict each other") \
+  MOTION_COLUMN(bool, gyros_disagree, , "the two gyros read more apart than their bounds allow: one of them is faulty") \
   MOTION_COLUMN(bool, block_ended, , "`block` is new with this sample") \
   MOTION_COLUMN(std::uint32_t, rejected, , "sensors in sets that the last blocks rejected") \
   MOTION_COLUMN(std::uint32_t, suspects, , "sensors in some of the smallest explanations") \

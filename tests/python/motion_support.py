@@ -54,6 +54,6 @@ def as_the_tool_writes(test, array, rows, path):
         block = force_at(rows["block"], k) if row["block_ended"] else 5 * [None] + ["", ""]
         sets = [" ".join(names_of(array, row[name])) for name in ("suspects", "isolated", "excluded")]
         expected = [row["time_s"], *force_at(rows["sample"], k), int(row["sample"]["gyro_assumed"]), *block,
-                    int(row["alarm"]), *sets, plumb.MOTION_CAUSES[row["cause"]]]
+                    int(row["alarm"]), *sets, plumb.MOTION_CAUSES[row["cause"]], int(row["gyros_disagree"])]
         test.assertEqual([one if isinstance(want, str) else float(one) if one else None
                           for one, want in zip(line, expected)], expected)

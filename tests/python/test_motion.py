@@ -53,7 +53,7 @@ class Flights(unittest.TestCase):
     def test_a_healthy_flight_is_judged_without_alarm(self):
         rows = plumb.MotionMonitor(self.array).run(self.healthy)
         self.assertEqual(len(rows), len(self.healthy))
-        self.assertFalse(rows["alarm"].any())
+        self.assertFalse(rows["alarm"].any() or rows["gyros_disagree"].any())
         for figure in ("rejected", "suspects", "isolated", "excluded", "least_faults"):
             self.assertFalse(rows[figure].any(), figure)
         judged = rows["cause"] == plumb.MOTION_CAUSES.index("none")
@@ -72,6 +72,16 @@ class Flights(unittest.TestCase):
         later = rows[rows["time_s"] > isolated + 0.002]
         self.assertFalse((later["sample"]["used"] & SECOND_CHIP).any())
         self.assertEqual(rows["excluded"][-1], SECOND_CHIP)
+
+    def test_a_gyro_that_died_beside_another_is_told_and_nobody_is_blamed(self):
+        motion, told = plumb.MotionMonitor(self.array), []
+        for k in range(3000):
+            rate = np.zeros(3) if k >= 2000 else self.healthy.rate_radps[k]
+            said = motion.step(self.healthy.time_s[k], self.healthy.raw[k], rate, self.healthy.second_rate_radps[k])
+            self.assertEqual((said.alarm, said.isolated), (False, []))
+            told.append(said.gyros_disagree)
+        self.assertFalse(any(told[:2000]))
+        self.assertTrue(told[-1])
 
     def test_the_force_is_within_its_bound_through_the_failure(self):
         truth_path = self.at / "truth.csv"
@@ -94,8 +104,8 @@ class Flights(unittest.TestCase):
         rows = plumb.MotionMonitor(self.array).run(self.dead)
         for row, said in zip(rows, self.stepped(self.dead, len(rows))):
             self.assertEqual(said.time_s, row["time_s"])
-            self.assertEqual((said.alarm, said.block_ended, said.least_faults),
-                             (row["alarm"], row["block_ended"], row["least_faults"]))
+            self.assertEqual((said.alarm, said.gyros_disagree, said.block_ended, said.least_faults),
+                             (row["alarm"], row["gyros_disagree"], row["block_ended"], row["least_faults"]))
             self.assertEqual(said.cause, plumb.MOTION_CAUSES[row["cause"]])
             for name in ("rejected", "suspects", "isolated", "excluded"):
                 self.assertEqual(getattr(said, name), names_of(self.array, row[name]), name)
