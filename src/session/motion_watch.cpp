@@ -38,16 +38,7 @@ void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
 void MotionWatch::at_second_turn(const stepping::Turn& turn) { turn_[1] = turn; }
 
 MotionSample MotionWatch::sample_of(const Sample& sample) {
-  MotionSample out;
-  out.time_s = sample.time_s;
-  const Readings gravity_sense =
-      plan_.model.without_misalignment(sample.raw, sample.temperature_degc, sample.delivered);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plan_.array.size()); ++i) {
-    if (!sample.delivered.has(static_cast<int>(i)) || !std::isfinite(gravity_sense[i])) continue;
-    out.reading_mps2[i] = -gravity_sense[i];
-    out.delivered = out.delivered.with(static_cast<int>(i));
-    if (std::fabs(sample.raw[i]) >= plan_.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
-  }
+  MotionSample out = motion_sample(plan_, sample);
   inputs_.add(sample.time_s);
   for (std::size_t g = 0; g < static_cast<std::size_t>(plan_.setup.gyros); ++g) {
     if (!turn_[g]) continue;
