@@ -12,7 +12,8 @@ namespace {
 
 using Samples = std::vector<MotionSample>;
 
-constexpr double kMostLagPeriods = 32.0;
+/// Sensors on one clock are not farther apart.
+constexpr double kMostLagPeriods = 2.0;
 constexpr double kLeastLag_s = 1e-6;
 
 double most(const Estimate& e) { return std::fabs(e.value) + kBoundSigmas * e.sigma; }

@@ -52,6 +52,10 @@ Refusal of_inputs(const MotionCommissioning& run, const io::ArrayFile& array) {
       return {run.fitted ? fmt::format("the readings fit {:.1f} times better with the rates taken as deg/s", run.value)
                          : fmt::format("the rates reach {:.4g} rad/s, beyond {:.4g} rad/s", run.value, run.limit),
               "write rad/s into the columns of the rates; raise rate_bound_radps if the tool turns so fast"};
+    case MotionRefusal::rate_noise:
+      return {fmt::format("the two gyros scatter by {:.2g} rad/s against each other, beyond {:.2g} rad/s", run.value,
+                          run.limit),
+              "write rad/s into the columns of the rates; correct noise_radps if they are"};
     case MotionRefusal::clipped:
       return {
           fmt::format("{:.0f} % of the blocks have a sensor without a reading or at full scale, or no rate{}",
@@ -75,6 +79,7 @@ const char* word_of(MotionRefusal refusal) noexcept {
     case MotionRefusal::irregular_time: return "irregular_time";
     case MotionRefusal::no_rates: return "no_rates";
     case MotionRefusal::rates_in_deg: return "rates_in_deg";
+    case MotionRefusal::rate_noise: return "rate_noise";
     case MotionRefusal::clipped: return "clipped";
     case MotionRefusal::filtered: return "filtered";
     case MotionRefusal::too_short: return "too_short";
@@ -109,7 +114,7 @@ Refusal refusal_of(const MotionCommissioning& run, const io::ArrayFile& array) {
     case MotionRefusal::beyond_stated:
       return {fmt::format("{} of {} is {:.4g} in the array file, and the log needs {:.4g}", run.key, names, run.limit,
                           run.value),
-              "correct the bound, or leave it out: what is found here counts then"};
+              "look for a faulty sensor; else correct the bound, or leave it out: what is found here counts then"};
     case MotionRefusal::held_out_alarm:
       return {fmt::format("with the bounds of the fit {} contradict the others at t = {:.3f} s of the held-out part",
                           names, run.value),

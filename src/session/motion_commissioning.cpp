@@ -27,6 +27,8 @@ constexpr GyroErrors kUnknownGyro{0.03, 0.03, 0.05, 0.0, 1e-3};
 constexpr double kMostIrregular = 0.01, kMostLost = 0.1;
 /// As in the notes of `plumb monitor`: beyond what gyros measure.
 constexpr double kMostRate_radps = 4000.0 * kPi / 180.0;
+/// Noise of two gyros against each other: times the stated one, and where none is stated.
+constexpr double kMostNoise = 5.0, kMostNoise_radps = 0.05;
 /// White noise of the stated size has a scatter of 1; vibration adds to it.
 constexpr double kLeastScatter = 0.5;
 /// rms of the held-out part by the fit, over that by a fit of its own.
@@ -174,6 +176,10 @@ class Commissioner {
         return refuse(MotionRefusal::no_rates, static_cast<double>(in.gyro[g].missing), rows);
       if (in.gyro[g].largest_radps > most) return refuse(MotionRefusal::rates_in_deg, in.gyro[g].largest_radps, most);
     }
+    const std::optional<double>& noise_radps = array_.motion.gyro.noise_radps;
+    const double most_noise = noise_radps ? kMostNoise * *noise_radps : kMostNoise_radps;
+    const double noise = on_board_.setup.gyros == 2 ? commission::gyro_noise_radps(flight_.samples, 2) : 0.0;
+    if (noise > most_noise) return refuse(MotionRefusal::rate_noise, noise, most_noise);
     const double scatter = commission::scatter_in_sigmas(on_board_.array, flight_.samples);
     return scatter >= kLeastScatter || refuse(MotionRefusal::filtered, scatter, kLeastScatter);
   }

@@ -26,6 +26,7 @@ enum class MotionRefusal : std::uint8_t {
   irregular_time,  ///< value: steps that are not a period, limit: rows
   no_rates,        ///< a row without a rate; value: such rows
   rates_in_deg,    ///< value: the largest rate, or how much better the rates fit as deg/s
+  rate_noise,      ///< value: how two gyros scatter against each other, limit: the most
   clipped,         ///< sensors; value: share of the block pairs that it costs
   filtered,        ///< value: scatter from sample to sample in stated sigmas
   too_short,       ///< value: seconds, limit: those needed
