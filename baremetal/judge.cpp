@@ -1,7 +1,8 @@
 // What a target answered against what the host answered, and what its steps cost:
 //   metal_judge HOST_EXACT TARGET_EXACT HOST_FIGURES TARGET_FIGURES COSTS [MEDIAN_LIMIT]
 // One line per class of steps. Non-zero where a bit of the exact answers differs, a figure by more than kUnits units in
-// the last place, or where the median step in `nominal` takes more instructions than the limit.
+// the last place, or where the median step in `nominal` (of a flight: in motion) takes more instructions than the
+// limit.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -58,10 +59,11 @@ bool compare(const char* what, const Words& host, const Words& target, std::int6
 
 constexpr double kTicksPerInstruction = 25.6;  // 1024 ns at 25 MHz
 constexpr std::uint64_t kAll = 99;             // behind every kind of step
-const char* const kStates[] = {"nominal", "suspect", "isolated", "degraded", "recalibrating", "failed"};
-const char* const kWorks[] = {"sample", "block", "event", "fit iteration", "judgement"};
+constexpr std::uint64_t kInMotion = 6;
+const char* const kStates[] = {"nominal", "suspect", "isolated", "degraded", "recalibrating", "failed", "in_motion"};
+const char* const kWorks[] = {"sample", "block", "event", "fit iteration", "judgement", "block of 4", "block of 256"};
 
-/// Returns the median of all steps in `nominal`; 0 where there were none.
+/// Returns the median of all steps in `nominal`, or in motion; 0 where there were none.
 double tell_costs(const Words& costs) {
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<double>> classes;
   for (std::size_t k = 0; k + 5 <= costs.size(); k += 3) {
@@ -81,8 +83,9 @@ double tell_costs(const Words& costs) {
   std::printf("  monitor object %llu B, stack touched by the whole run %llu B\n",
               static_cast<unsigned long long>(costs[costs.size() - 2]),
               static_cast<unsigned long long>(costs[costs.size() - 1]));
-  const auto nominal = classes.find({0, kAll});
-  return nominal == classes.end() ? 0.0 : nominal->second[nominal->second.size() / 2];
+  auto counted = classes.find({0, kAll});
+  if (counted == classes.end()) counted = classes.find({kInMotion, kAll});
+  return counted == classes.end() ? 0.0 : counted->second[counted->second.size() / 2];
 }
 
 }  // namespace
@@ -99,7 +102,7 @@ int main(int argc, char** argv) {
   const double median = tell_costs(costs);
   const double limit = argc > 6 ? std::atof(argv[6]) : 0.0;
   if (limit > 0.0 && !(median > 0.0 && median <= limit)) {
-    std::printf("  the median step in nominal takes %.0f instructions, more than %.0f\n", median, limit);
+    std::printf("  the median step takes %.0f instructions, more than %.0f\n", median, limit);
     good = false;
   }
   return good ? 0 : 1;

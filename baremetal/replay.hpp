@@ -13,7 +13,7 @@ inline namespace PLUMB_ABI {
 using Clock = std::uint32_t (*)() noexcept;
 
 /// What the step did beside taking the sample in.
-enum class Work : std::uint64_t { sample, block, event, iteration, judgement };
+enum class Work : std::uint64_t { sample, block, event, iteration, judgement, short_block, longest_block };
 
 /// What has to be the same bit for bit, and numbers that may differ in their last digits.
 struct Answers {
@@ -23,6 +23,8 @@ struct Answers {
 /// Every change, block and vector goes to `answers`; to `costs`, where given, three words a step: state before it
 /// and work, clock ticks, ticks that reading the clock itself takes. 0 = played to the end; else what was wrong.
 int replay(const std::uint64_t* recording, std::size_t size, Answers& answers, WordWriter* costs, Clock clock) noexcept;
+/// Bytes of the object that is stepped.
+std::size_t monitor_size() noexcept;
 
 }  // namespace PLUMB_ABI
 }  // namespace metal

@@ -25,7 +25,7 @@ int application() {
       metal::replay(recording + 1, static_cast<std::size_t>(recording[0]), answers, &costs, &metal::clock_ticks);
   const std::uint32_t used = before - metal::stack_left();
   if (wrong != 0) return wrong;
-  costs.word(sizeof(plumb::HealthMonitor));
+  costs.word(metal::monitor_size());
   costs.word(used);
   const bool written =
       metal::write_file("exact.bin", reinterpret_cast<const void*>(kExact), answers.exact.used() * 8U) &&

@@ -244,7 +244,8 @@ if(TARGET plumb_tool)
     add_test(NAME cli.tour COMMAND bash -c "echo 'skipped: no python3'; exit 77")
     add_test(NAME docs.sizes COMMAND bash -c "echo 'skipped: no python3'; exit 77")
   endif()
-  set_tests_properties(cli.manual cli.tour docs.sizes PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+  set_tests_properties(cli.manual cli.tour PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+  set_tests_properties(docs.sizes PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 900)
 endif()
 
 # Campaigns: a program of their own, because it is linked with monitors of several capacities.
@@ -286,11 +287,20 @@ if(TARGET plumb_attack_harness)
   endforeach()
 endif()
 
+# The adversary of the monitor of motion: within what is promised nobody is blamed, beyond it somebody is.
+if(TARGET plumb_motion_attacks)
+  add_test(NAME attacks.motion COMMAND plumb_motion_attacks --flights 25)
+  add_test(NAME attacks.motion_beyond_the_promise COMMAND plumb_motion_attacks --flights 10 --more-units 1)
+  set_tests_properties(attacks.motion PROPERTIES LABELS host TIMEOUT 300)
+  set_tests_properties(attacks.motion_beyond_the_promise PROPERTIES LABELS host TIMEOUT 300
+    PASS_REGULAR_EXPRESSION "a healthy sensor blamed at")
+endif()
+
 # The corpus by which two commits are compared: the same twice, and what differs is found.
 if(TARGET plumb_replay)
   add_test(NAME replay.quick COMMAND bash "${PROJECT_SOURCE_DIR}/tests/replay/quick.sh" "$<TARGET_FILE:plumb_replay>"
     "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}/replay_test")
-  set_tests_properties(replay.quick PROPERTIES LABELS host TIMEOUT 120)
+  set_tests_properties(replay.quick PROPERTIES LABELS "host;slow" TIMEOUT 300)
 endif()
 
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
@@ -442,7 +452,7 @@ add_test(NAME example.navigation_files_are_short  # the first below 20 lines, al
 
 # The Python module, and the page that shows it.
 if(TARGET plumb_python)
-  foreach(name IN ITEMS plumb verdict page hypothesis)
+  foreach(name IN ITEMS plumb verdict motion motion_rest page hypothesis)
     add_test(NAME python.${name}
       COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=$<TARGET_FILE_DIR:plumb_python>" "PLUMB_TOOL=$<TARGET_FILE:plumb_tool>"
               "PLUMB_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "${Python_EXECUTABLE}" -B
@@ -464,7 +474,7 @@ if(TARGET plumb_python)
   add_test(NAME python.pip
     COMMAND bash "${PROJECT_SOURCE_DIR}/tests/python/pip.sh" "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}"
             "${PROJECT_BINARY_DIR}/pip_test" "${Python_EXECUTABLE}")
-  set_tests_properties(python.plumb python.verdict python.page python.hypothesis python.pip PROPERTIES
+  set_tests_properties(python.plumb python.verdict python.motion python.motion_rest python.page python.hypothesis python.pip PROPERTIES
     LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 600)
 elseif(PLUMB_BUILD_PYTHON)
   add_test(NAME python.plumb COMMAND bash -c "echo 'skipped: no Python module was built (python3-dev, python3-numpy, pybind11-dev)'; exit 77")

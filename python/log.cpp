@@ -26,20 +26,6 @@ void refuse_mask(const py::handle& from, const char* name) {
   refuse(std::string(name) + ": is not an array of numbers", "give a numpy array");
 }
 
-Doubles doubles(const py::object& from, const char* name) {
-  refuse_mask(from, name);
-  if (from.is_none()) refuse_type(name);
-  Doubles out = Doubles::ensure(from);
-  if (!out) refuse_type(name);
-  return out;
-}
-
-std::string shape_of(const py::array& array) {
-  std::string out = "(";
-  for (py::ssize_t k = 0; k < array.ndim(); ++k) out += (k > 0 ? ", " : "") + std::to_string(array.shape(k));
-  return out + ")";
-}
-
 /// Columns of `samples`, allocated once and written in place.
 Log columns(const std::vector<plumb::Sample>& samples, int sensors) {
   const auto rows = static_cast<py::ssize_t>(samples.size());
@@ -69,11 +55,42 @@ Log columns(const std::vector<plumb::Sample>& samples, int sensors) {
   log.count = std::move(count);
   log.roll_group = std::move(roll_group);
   log.truth = py::none();
+  log.rate_radps.fill(py::none());
   return log;
 }
 
+/// Of one gyro; NaN where the rate is not known.
+py::array_t<double> rates(const std::vector<plumb::Rotation>& turn) {
+  const auto rows = static_cast<py::ssize_t>(turn.size());
+  py::array_t<double> out({rows, py::ssize_t{3}});
+  auto to = out.mutable_unchecked<2>();
+  for (py::ssize_t r = 0; r < rows; ++r) {
+    const plumb::Rotation& now = turn[static_cast<std::size_t>(r)];
+    for (std::size_t c = 0; c < 3; ++c)
+      to(r, static_cast<py::ssize_t>(c)) =
+          now.rate_known ? now.rate_radps[c] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
 Log read_log(const Array& array, const std::string& path) {
-  return columns(taken(plumb::io::read_log(path, *array, plumb::io::BadRowPolicy::stop)).samples, array->array.size());
+  using plumb::io::LogReader;
+  LogReader reader = taken(LogReader::open(path, *array, plumb::io::BadRowPolicy::stop));
+  std::vector<plumb::Sample> samples;
+  std::array<std::vector<plumb::Rotation>, plumb::kGyros> turn;
+  plumb::Sample sample;
+  LogReader::Next status = reader.next(sample);
+  for (; status == LogReader::Next::row; status = reader.next(sample)) {
+    samples.push_back(sample);
+    if (!array->input.rotation_columns.empty()) turn[0].push_back(reader.rotation());
+    if (!array->input.second_rotation_columns.empty()) turn[1].push_back(reader.second_rotation());
+  }
+  if (status == LogReader::Next::error) throw Refused(reader.error().text());
+  Log log = columns(samples, array->array.size());
+  for (std::size_t g = 0; g < turn.size(); ++g) {
+    if (!turn[g].empty()) log.rate_radps[g] = rates(turn[g]);
+  }
+  return log;
 }
 
 /// Gravity of every row in the frame in which plumb answers, and who was in fault.
@@ -136,10 +153,25 @@ py::tuple simulate(const std::string& text_or_path, std::optional<std::uint64_t>
   return py::make_tuple(std::make_shared<plumb::io::ArrayFile>(std::move(file.array)), std::move(log));
 }
 
+std::string shape_text(const std::vector<py::ssize_t>& shape, bool one_sample) {
+  std::string out = "(";
+  for (std::size_t k = one_sample ? 1 : 0; k < shape.size(); ++k)
+    out += (out.size() > 1 ? ", " : "") + std::to_string(shape[k]);
+  return out + ")";
+}
+
 }  // namespace
 
+Doubles doubles(const py::object& from, const char* name) {
+  refuse_mask(from, name);
+  if (from.is_none()) refuse_type(name);
+  Doubles out = Doubles::ensure(from);
+  if (!out) refuse_type(name);
+  return out;
+}
+
 template <class T>
-Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width) const {
+Log::View::Column<T> Log::View::column(const py::object& from, const char* name, int width, const char* across) const {
   if (from.is_none()) return {};
   Column<T> out;
   refuse_mask(from, name);
@@ -147,10 +179,14 @@ Log::View::Column<T> Log::View::column(const py::object& from, const char* name,
   if (!array) refuse_type(name);
   const bool fits = width == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == width;
   if (!fits || array.shape(0) != rows_) {
-    const std::string wanted = width == 0 ? "(" + std::to_string(rows_) + ")"
-                                          : "(" + std::to_string(rows_) + ", " + std::to_string(width) + ")";
-    refuse(std::string(name) + ": has the shape " + shape_of(array) + ", must have " + wanted,
-           "give one row per sample" + std::string(width == 0 ? "" : " and one column per sensor of the array"));
+    std::vector<py::ssize_t> wanted{rows_};
+    if (width != 0) wanted.push_back(width);
+    const std::vector<py::ssize_t> given(array.shape(), array.shape() + array.ndim());
+    std::string remedy = one_sample_ ? "give one value" : "give one row per sample";
+    if (width != 0) remedy += std::string(one_sample_ ? " per " : " and one column per ") + across;
+    refuse(std::string(name) + ": has the shape " + shape_text(given, one_sample_) + ", must have " +
+               shape_text(wanted, one_sample_),
+           remedy);
   }
   out.data = reinterpret_cast<const char*>(array.data());
   out.stride = array.strides(0);
@@ -175,7 +211,8 @@ Log::View::Column<std::uint32_t> Log::View::whole_numbers(const py::object& from
 }
 
 Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
-    : rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
+    : one_sample_(log.one_sample),
+      rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
       sensors_(array.array.size()),
       default_temperature_degc_(array.input.default_temperature_degc) {
   raw_ = column<double>(log.raw, "raw", sensors_);
@@ -189,6 +226,19 @@ Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
   } else {
     temperature_ = column<double>(log.temperature_degc, "temperature_degc", 0);
   }
+  for (std::size_t g = 0; g < rate_.size(); ++g) rate_[g] = column<double>(log.rate_radps[g], kRateNames[g], 3, "axis");
+}
+
+plumb::Rotation Log::View::rotation(std::size_t gyro, py::ssize_t row) const {
+  if (!turns(gyro)) return {};
+  plumb::Rotation out{false, true, {}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double rate = rate_[gyro].at(row, static_cast<py::ssize_t>(c));
+    if (!std::isfinite(rate)) return {true, false, {}};
+    out.rate_radps[c] = rate;
+    out.turning = out.turning || rate != 0.0;
+  }
+  return out;
 }
 
 plumb::Sample Log::View::at(py::ssize_t row) const {
@@ -211,16 +261,20 @@ void bind_log(py::module_& module) {
       "Samples as columns. `raw` is (rows, sensors), in the unit of the array file's log; float64 is used\n"
       "where it lies, without a copy, whatever its strides. NaN is a value that is not finite; `delivered`\n"
       "(rows, sensors) is False where a channel did not deliver. `station` is a tag, 0 = none (a label in a\n"
-      "CSV file is its tag minus 1). `temperature_degc` is a column or one number.")
+      "CSV file is its tag minus 1). `temperature_degc` is a column or one number. `rate_radps` and\n"
+      "`second_rate_radps` (rows, 3), tool frame, are the rates of up to two gyros; NaN = not known.")
       .def(py::init([](const py::object& time_s, const py::object& raw, py::object temperature_degc,
-                       py::object delivered, py::object station, py::object count, py::object roll_group) {
-             return Log{doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
-                        std::move(delivered),      std::move(station),  std::move(count),
-                        std::move(roll_group),     py::none()};
+                       py::object delivered, py::object station, py::object count, py::object roll_group,
+                       py::object rate_radps, py::object second_rate_radps) {
+             return Log{
+                 doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
+                 std::move(delivered),      std::move(station),  std::move(count),
+                 std::move(roll_group),     py::none(),          {std::move(rate_radps), std::move(second_rate_radps)}};
            }),
            py::arg("time_s"), py::arg("raw"), py::arg("temperature_degc") = py::none(),
            py::arg("delivered") = py::none(), py::arg("station") = py::none(), py::arg("count") = py::none(),
-           py::arg("roll_group") = py::none())
+           py::arg("roll_group") = py::none(), py::arg("rate_radps") = py::none(),
+           py::arg("second_rate_radps") = py::none())
       .def_property(
           "time_s", [](const Log& log) { return log.time_s; },
           [](Log& log, const py::object& from) { log.time_s = doubles(from, "time_s"); },
@@ -233,6 +287,14 @@ void bind_log(py::module_& module) {
       .def_readwrite("station", &Log::station)
       .def_readwrite("count", &Log::count, "raw samples behind a row")
       .def_readwrite("roll_group", &Log::roll_group)
+      .def_property(
+          "rate_radps", [](const Log& log) { return log.rate_radps[0]; },
+          [](Log& log, py::object from) { log.rate_radps[0] = std::move(from); },
+          "(rows, 3), tool frame [rad/s]; None: no gyro, the tool does not turn where it is judged at rest")
+      .def_property(
+          "second_rate_radps", [](const Log& log) { return log.rate_radps[1]; },
+          [](Log& log, py::object from) { log.rate_radps[1] = std::move(from); },
+          "the same by the second gyro, which counts in motion only")
       .def_readonly("truth", &Log::truth,
                     "Of a simulation: a dict with gravity_mps2 (rows, 3) in the frame in which plumb answers, faulty\n"
                     "(rows, sensors) and moving (rows). Else None.")

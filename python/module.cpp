@@ -3,6 +3,8 @@
 
 #include <pybind11/stl.h>
 
+#include "motion_row.hpp"
+
 namespace plumb_python {
 
 void refuse(const std::string& what, const std::string& remedy) {
@@ -64,5 +66,7 @@ PYBIND11_MODULE(plumb, module) {
       });
   bind_log(module);
   bind_calibration(module);
+  bind_motion_verdict(module);
   bind_monitor(module);
+  bind_motion(module);
 }

@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -13,7 +14,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "plumb/health/rotation.hpp"
 #include "plumb/io/array_file.hpp"
+#include "plumb/motion/motion_setup.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 
 namespace plumb_python {
@@ -37,6 +40,12 @@ using Doubles = py::array_t<double, py::array::forcecast>;
 using Flags = py::array_t<bool, py::array::forcecast>;
 using Tags = py::array_t<std::uint32_t, py::array::forcecast>;
 
+/// Numbers, where they lie if they are float64 already; refuses what is none, by the name of the argument.
+Doubles doubles(const py::object& from, const char* name);
+
+/// The names of the arguments and columns with the rates of the gyros.
+inline constexpr std::array<const char*, plumb::kGyros> kRateNames = {"rate_radps", "second_rate_radps"};
+
 /// An array file.
 using Array = std::shared_ptr<plumb::io::ArrayFile>;
 
@@ -44,6 +53,8 @@ using Array = std::shared_ptr<plumb::io::ArrayFile>;
 struct Log {
   Doubles time_s, raw;
   py::object temperature_degc, delivered, station, count, roll_group, truth;
+  std::array<py::object, plumb::kGyros> rate_radps;
+  bool one_sample = false;  ///< made of the arguments of a step: shapes are told without the rows
 
   py::ssize_t rows() const { return raw.shape(0); }
   /// Reads the columns in place; refuses shapes that do not fit `sensors`. Keeps what it reads from alive.
@@ -54,7 +65,12 @@ class Log::View {
  public:
   View(const Log& log, const plumb::io::ArrayFile& array);
   py::ssize_t rows() const { return rows_; }
+  bool one_sample() const { return one_sample_; }
   plumb::Sample at(py::ssize_t row) const;  // touches no Python object
+  double time_s(py::ssize_t row) const { return time_.at(row); }
+  bool turns(std::size_t gyro) const { return rate_[gyro].data != nullptr; }
+  /// Touches no Python object. A rate that is not finite is not known; without a column the tool does not turn.
+  plumb::Rotation rotation(std::size_t gyro, py::ssize_t row) const;
 
  private:
   template <class T>
@@ -75,15 +91,18 @@ class Log::View {
     }
   };
   template <class T>
-  Column<T> column(const py::object& from, const char* name, int width) const;
+  Column<T> column(const py::object& from, const char* name, int width,
+                   const char* across = "sensor of the array") const;
   /// Tags and counts: a cast alone would make a station of -1 or of NaN.
   Column<std::uint32_t> whole_numbers(const py::object& from, const char* name) const;
 
+  bool one_sample_ = false;
   py::ssize_t rows_ = 0;
   int sensors_ = 0;
   Column<double> time_, raw_, temperature_;
   Column<bool> delivered_;
   Column<std::uint32_t> station_, count_, roll_group_;
+  std::array<Column<double>, plumb::kGyros> rate_;
   double default_temperature_degc_ = 25.0;
 };
 
@@ -91,11 +110,13 @@ struct Calibration {
   Array array;
   std::shared_ptr<const plumb::Calibration> fit;
   plumb::io::CalibrationContext context;
-  std::string report;  ///< JSON; empty where it was read from a file
+  std::shared_ptr<const plumb::io::MotionCalibration> motion;  ///< null where no log in motion was fitted
+  std::string report;                                          ///< JSON; empty where it was read from a file
 };
 
 void bind_log(py::module_& module);
 void bind_calibration(py::module_& module);
 void bind_monitor(py::module_& module);
+void bind_motion(py::module_& module);
 
 }  // namespace plumb_python

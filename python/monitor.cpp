@@ -1,24 +1,14 @@
 // The monitor: a log in, one row of figures per sample out, as a structured numpy array.
 #include <pybind11/stl.h>
 
-#include <atomic>
-
-#include "module.hpp"
+#include "monitor.hpp"
+#include "motion_row.hpp"
 #include "plumb/findings/alignment.hpp"
+#include "plumb/health/motion_link.hpp"
 #include "plumb/io/records.hpp"
-#include "verdict_row.hpp"
 
 namespace plumb_python {
 namespace {
-
-/// Of that array: else its axes and coefficients are those of other sensors, which may even be as many.
-const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Calibration& calibration) {
-  if (calibration.array->fingerprint != array.fingerprint)
-    refuse("the calibration was made for another array (\"" + calibration.array->name + "\", this one is \"" +
-               array.name + "\")",
-           "give the array that was calibrated, or calibrate this one");
-  return &*calibration.fit;
-}
 
 /// As the monitor is set up from it, with what is known of the alignment.
 plumb::io::ArrayFile aligned(const plumb::io::ArrayFile& array, const Calibration& calibration) {
@@ -28,63 +18,55 @@ plumb::io::ArrayFile aligned(const plumb::io::ArrayFile& array, const Calibratio
   return plumb::findings::with_alignment(array, &file);
 }
 
-class Monitor {
- public:
-  Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot, double days)
-      : array_(std::move(array)),
-        monitor_(taken(
-            snapshot
-                ? plumb::session::restore_monitor(aligned(*array_, calibration), made_for(*array_, calibration),
-                                                  *snapshot, "snapshot", days)
-                : plumb::session::make_monitor(aligned(*array_, calibration), made_for(*array_, calibration), days))) {}
+}  // namespace
 
-  py::array_t<VerdictRow> run(const Log& log) {
-    const Log::View view(log, *array_);
-    py::array_t<VerdictRow> out(view.rows());
-    VerdictRow* to = out.mutable_data();
-    plumb::HealthMonitor& monitor = idle();
-    const Running running(running_);
-    const py::gil_scoped_release others_may_run;
-    for (py::ssize_t r = 0; r < view.rows(); ++r) write_row(monitor.step(view.at(r)), array_->output_frame, *to++);
-    return out;
-  }
+const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Calibration& calibration) {
+  if (calibration.array->fingerprint != array.fingerprint)
+    refuse("the calibration was made for another array (\"" + calibration.array->name + "\", this one is \"" +
+               array.name + "\")",
+           "give the array that was calibrated, or calibrate this one");
+  return &*calibration.fit;
+}
 
-  py::bytes snapshot() const {
-    std::string bytes(idle().snapshot_size(), '\0');
-    const auto size = monitor_->snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    if (!size) throw Refused(plumb::io::from_error(size.error()).text());
-    return py::bytes(bytes);
-  }
+Monitor::Monitor(Array array, const Calibration& calibration, const std::optional<py::bytes>& snapshot, double days)
+    : array_(std::move(array)),
+      monitor_(taken(
+          snapshot
+              ? plumb::session::restore_monitor(aligned(*array_, calibration), made_for(*array_, calibration),
+                                                *snapshot, "snapshot", days)
+              : plumb::session::make_monitor(aligned(*array_, calibration), made_for(*array_, calibration), days))) {}
 
-  std::string verdict_json() const {
-    return plumb::io::verdict_json(idle().verdict(), monitor_->array(), array_->output_frame);
-  }
+py::array_t<VerdictRow> Monitor::run(const Log& log) {
+  const Log::View view(log, *array_);
+  py::array_t<VerdictRow> out(view.rows());
+  VerdictRow* to = out.mutable_data();
+  plumb::HealthMonitor& monitor = idle();
+  const Turnstile::Inside inside(turnstile_);
+  const py::gil_scoped_release others_may_run;
+  for (py::ssize_t r = 0; r < view.rows(); ++r) write_row(step(monitor, view, r), array_->output_frame, *to++);
+  return out;
+}
 
-  void done(const plumb::Expected<void>& result) const {
-    if (!result) throw Refused(plumb::io::from_error(result.error()).text());
-  }
+/// The rate of a log before must not count for one that has none.
+const plumb::Verdict& Monitor::step(plumb::HealthMonitor& monitor, const Log::View& view, py::ssize_t row) {
+  if (view.turns(0) || row == 0) (void)monitor.set_rotation(view.rotation(0, row));
+  return monitor.step(view.at(row));
+}
 
-  const Array& array() const { return array_; }
-  /// The monitor, while no other thread is in `run`, which lets them all go on. Asked with the interpreter's lock held.
-  plumb::HealthMonitor& idle() const {
-    if (running_)
-      refuse("the monitor runs in another thread", "wait until run returns, or give each thread a monitor of its own");
-    return *monitor_;
-  }
+py::bytes Monitor::snapshot() const {
+  std::string bytes(idle().snapshot_size(), '\0');
+  const auto size = monitor_->snapshot(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size());
+  if (!size) throw Refused(plumb::io::from_error(size.error()).text());
+  return py::bytes(bytes);
+}
 
- private:
-  struct Running {
-    explicit Running(std::atomic<bool>& flag) : on(flag) { on = true; }
-    ~Running() { on = false; }
-    Running(const Running&) = delete;
-    Running& operator=(const Running&) = delete;
-    std::atomic<bool>& on;
-  };
+std::string Monitor::verdict_json() const {
+  return plumb::io::verdict_json(idle().verdict(), monitor_->array(), array_->output_frame);
+}
 
-  std::atomic<bool> running_{false};
-  Array array_;
-  std::unique_ptr<plumb::HealthMonitor> monitor_;
-};
+void Monitor::done(const plumb::Expected<void>& result) const {
+  if (!result) throw Refused(plumb::io::from_error(result.error()).text());
+}
 
 plumb::SensorSet set_of(const Array& array, const std::vector<std::string>& ids) {
   plumb::SensorSet out;
@@ -98,8 +80,6 @@ plumb::SensorSet set_of(const Array& array, const std::vector<std::string>& ids)
   }
   return out;
 }
-
-}  // namespace
 
 void bind_monitor(py::module_& module) {
   bind_verdict_row(module);
@@ -115,7 +95,9 @@ void bind_monitor(py::module_& module) {
           "Step all samples; returns a structured array (verdict_dtype), one row per sample, with every figure of a\n"
           "verdict: VERDICT_FIELDS says what each is and in which unit. state, validity and cause are indices into\n"
           "STATES, VALIDITIES and CAUSES; sets of sensors are bits, as are qualifiers and usable (named in QUALIFIERS\n"
-          "and USABLE). Read validity before anything else.")
+          "and USABLE). Read validity before anything else. Evidence rests while rate_radps of the log says that the "
+          "tool\n"
+          "turns; without it the tool is taken not to turn.")
       .def_property_readonly(
           "verdict", [](const Monitor& m) { return py::module_::import("json").attr("loads")(m.verdict_json()); },
           "The last verdict in full, as a dict with the keys of `plumb monitor --verdicts`.")
@@ -137,6 +119,22 @@ void bind_monitor(py::module_& module) {
             m.done(m.idle().set_gravity(*gravity));
           },
           py::arg("g_mps2"), py::arg("sigma_mps2"), "Another length of gravity: the depth has changed.")
+      .def(
+          "set_motion",
+          [](Monitor& m, const MotionVerdict* found) {
+            if (found != nullptr && found->array->fingerprint != m.array()->fingerprint)
+              refuse("found: is of another array (\"" + found->array->name + "\", this one is \"" + m.array()->name +
+                         "\")",
+                     "give what a MotionMonitor of this array found");
+            m.idle().set_motion(found != nullptr ? plumb::motion_finding(found->verdict) : plumb::MotionFinding{});
+          },
+          py::arg("found"),
+          "The MotionVerdict of a MotionMonitor that runs beside, before the next sample; it holds until set again.\n"
+          "While the tool moves, an alarm leads to suspect, and sensors that are excluded in motion are provisionally\n"
+          "excluded here. None: nothing was found. run_both does all this.")
+      .def_property_readonly(
+          "settles_motion", [](const Monitor& m) { return plumb::settles_motion(m.idle().verdict()); },
+          "Whether rest has just confirmed or refuted what motion found: then call MotionMonitor.forget.")
       .def(
           "begin_time_base", [](Monitor& m) { m.idle().begin_time_base(); },
           "The next sample may have any time: a recorded roll test has been run, and the log begins. Nothing is valid\n"

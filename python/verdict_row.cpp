@@ -1,23 +1,13 @@
 #include "verdict_row.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include "plumb/io/records.hpp"
+#include "row_parts.hpp"
 
 namespace plumb_python {
 namespace {
-
-template <class E>
-std::uint8_t number(E e) {
-  return static_cast<std::uint8_t>(e);
-}
-
-template <class T, std::size_t N, class From>
-void copy_to(T (&to)[N], const From& from) {
-  for (std::size_t k = 0; k < N; ++k) to[k] = static_cast<T>(from[k]);
-}
 
 int bits_set(std::uint64_t word) {
   int out = 0;
@@ -136,22 +126,6 @@ void write_wishes(const plumb::Verdict& v, const plumb::Mat3& frame, VerdictRow&
   row.recalibration_lacking = p.lacking.bits;
   copy_to(row.recalibration_wanted_direction, plumb::io::in_frame(frame, p.wanted_direction));
   row.recalibration_refusal = static_cast<std::uint16_t>(p.last_refusal.code);
-}
-
-/// The names of an enumeration, in its order.
-template <class Enum>
-py::tuple names(Enum last) {
-  py::tuple out(static_cast<std::size_t>(last) + 1);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = py::str(to_string(static_cast<Enum>(k)));
-  return out;
-}
-
-/// Of bits, from the lowest up.
-template <std::size_t N>
-py::tuple names(const std::array<const char*, N>& of) {
-  py::tuple out(N);
-  for (std::size_t k = 0; k < N; ++k) out[k] = py::str(of[k]);
-  return out;
 }
 
 std::string error_text(int code) {

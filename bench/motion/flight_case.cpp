@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "force_check.hpp"
 #include "plumb/array/named.hpp"
 #include "plumb/core/units.hpp"
 
@@ -18,7 +19,6 @@ using scenario::FlightSpec;
 
 constexpr double kNoise_mps2 = 0.02;
 constexpr double kFullScale_mps2 = 16.0 * kG0_mps2;
-constexpr std::size_t kBlock = 32;
 
 /// splitmix64, for arms: a geometry is no part of the truth that is judged.
 struct Draw {
@@ -118,37 +118,6 @@ FlightSpec spec_of(const FlightCase& one, const std::vector<Vec3>& axes, const s
   return spec;
 }
 
-/// The truth of the last samples, for the means that a force is compared with.
-class Past {
- public:
-  void add(const Vec3& force) { force_[count_++ % force_.size()] = force; }
-  std::size_t count() const { return count_; }
-  /// Triangle mean over two blocks of `n` samples, without the newest sample: the monitor waits for one more.
-  Vec3 mean(std::size_t n) const {
-    Vec3 out{};
-    for (std::size_t k = 0; k < 2 * n; ++k) {
-      const double up = static_cast<double>(k < n ? k : 2 * n - 1 - k) + 0.5;
-      const Vec3& f = force_[(count_ - 1 - 2 * n + k) % force_.size()];
-      out = plus(out, scaled(f, up / static_cast<double>(n * n)));
-    }
-    return out;
-  }
-
- private:
-  std::array<Vec3, 2 * kBlock + 1> force_{};
-  std::size_t count_ = 0;
-};
-
-/// A bound that holds while a gyro does promises nothing where that one has failed.
-void compare(const SpecificForce& force, const Vec3& truth, bool gyro_failed, BoundTally* tally) {
-  if (force.validity != ForceValidity::bounded || (gyro_failed && force.gyro_assumed)) return;
-  const double error = norm(minus(force.force_mps2, truth));
-  ++tally->checks;
-  if (error > force.bound_mps2) ++tally->violations;
-  tally->bound_sum_mps2 += force.bound_mps2;
-  tally->square_sum += error * error;
-}
-
 }  // namespace
 
 MotionSetup stated_setup(const FlightCase& one, const std::vector<Vec3>& arms) {
@@ -161,7 +130,9 @@ MotionSetup stated_setup(const FlightCase& one, const std::vector<Vec3>& arms) {
   out.gyros = one.gyros;
   out.gyro = {0.01, 0.01, rad_from_deg(0.35), rad_from_deg(0.1), 20e-6};
   out.rate_bound_radps = rate_bound_of(one.kind);
+  out.gyro_corroborated = one.gyro_corroborated;
   out.max_faults = one.max_faults;
+  out.shortest_block = one.shortest_block;
   return out;
 }
 
@@ -203,6 +174,15 @@ void score(const FlightBrief& brief, double time_s, const FlightFinding& found, 
   out->all_excluded = !brief.faulty.empty() && found.excluded.contains(brief.faulty);
 }
 
+namespace {
+
+/// A bound that holds while a gyro does promises nothing where that one has failed.
+bool promises(const SpecificForce& force, bool gyro_failed) {
+  return force.validity == ForceValidity::bounded && !(gyro_failed && force.gyro_assumed);
+}
+
+}  // namespace
+
 FlightOutcome fly(const FlightCase& one) {
   const FlightBrief brief = brief_of(one);
   const auto monitor = std::make_unique<MotionMonitor>();
@@ -210,14 +190,14 @@ FlightOutcome fly(const FlightCase& one) {
     throw std::runtime_error(describe(sound.error().code));
   }
   FlightOutcome out;
-  Past past;
+  TrueForce past;
   feed(one, [&](const FlightSample& truth, const MotionSample& sample) {
     past.add(truth.specific_force_mps2);
     const MotionVerdict& v = monitor->step(sample);
-    score(brief, truth.time_s, {v.alarm, v.isolated, v.excluded}, &out);
+    score(brief, truth.time_s, {v.alarm || v.gyros_disagree, v.isolated, v.excluded}, &out);
     const bool gyro_failed = !one.gyro_faults.empty() && truth.time_s >= brief.onset_s;
-    if (past.count() > 2) compare(v.sample, past.mean(1), gyro_failed, &out.sample);
-    if (v.block_ended) compare(v.block, past.mean(kBlock), gyro_failed, &out.block);
+    if (past.count() > 2 && promises(v.sample, gyro_failed)) check_bound(v.sample, past.mean(1), &out.sample);
+    if (v.block_ended && promises(v.block, gyro_failed)) check_bound(v.block, past.mean(kForceBlock), &out.block);
     out.last_cause = v.cause;
   });
   return out;

@@ -19,7 +19,9 @@ struct FlightCase {
   FlightArray array = FlightArray::cone;
   int sensors = 6;
   int gyros = 2;
+  bool gyro_corroborated = false;
   int max_faults = plumb::kMotionDepth;
+  int shortest_block = 1;
   double duration_s = 6.0;
   double error_factor = 1.0;  ///< on every width from which true errors are drawn, the limits stay
   std::uint64_t seed = 0;

@@ -8,16 +8,15 @@
 //   rivals   three triads, a whole chip failing, judged by the rules of others too, all on the same flights
 // docs/motion.md holds what it printed.
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "flight_case.hpp"
+#include "flight_runs.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/study/proportion.hpp"
 #include "rivals.hpp"
@@ -40,24 +39,9 @@ struct Settings {
   unsigned jobs = 2;
 };
 
-/// What `run` answers for the seed of each flight of a row, side by side; their order does not matter to the sums.
-template <class Run>
-auto run_all(const Settings& s, Run run) {
-  std::vector<decltype(run(s.seed))> out(s.flights);
-  std::atomic<std::uint64_t> next{0};
-  std::vector<std::thread> threads;
-  for (unsigned j = 0; j < s.jobs; ++j) {
-    threads.emplace_back([&] {
-      for (std::uint64_t k = next++; k < s.flights; k = next++) out[k] = run(s.seed * 1000003 + k);
-    });
-  }
-  for (std::thread& t : threads) t.join();
-  return out;
-}
-
 template <class Make>
 std::vector<FlightOutcome> fly_all(const Settings& s, Make make) {
-  return run_all(s, [&](std::uint64_t seed) { return fly(make(seed)); });
+  return run_all(s.flights, s.jobs, s.seed * 1000003, [&](std::uint64_t seed) { return fly(make(seed)); });
 }
 
 std::string share(std::uint64_t k, std::uint64_t n) {
@@ -266,7 +250,7 @@ std::vector<FlightOutcome> of_rule(const RivalOutcomes& all, std::size_t rule) {
 TunedLimits tuned_limits(Settings s, const FlightCase& like) {
   ++s.seed;
   TunedLimits out{0.0, 0.0};
-  for (const TunedLimits& one : run_all(s, [&](std::uint64_t seed) {
+  for (const TunedLimits& one : run_all(s.flights, s.jobs, s.seed * 1000003, [&](std::uint64_t seed) {
          FlightCase healthy = like;
          healthy.seed = seed;
          return quiet_limits(healthy);
@@ -308,14 +292,14 @@ void rivals(const Settings& s) {
   const TunedLimits limits = tuned_limits(s, like);
   std::vector<RivalOutcomes> columns;
   std::printf("| rule | alarms in %llu healthy flights |", static_cast<unsigned long long>(s.flights));
-  columns.push_back(run_all(s, [&](std::uint64_t seed) {
+  columns.push_back(run_all(s.flights, s.jobs, s.seed * 1000003, [&](std::uint64_t seed) {
     FlightCase healthy = like;
     healthy.seed = seed;
     return fly_rivals(healthy, limits);
   }));
   for (std::size_t k = 0; k < kCompared; ++k) {
     std::printf(" %s |", kFaults[k].name);
-    columns.push_back(run_all(s, [&](std::uint64_t seed) {
+    columns.push_back(run_all(s.flights, s.jobs, s.seed * 1000003, [&](std::uint64_t seed) {
       FlightCase one = with_chip_fault(like, kFaults[k], seed);
       one.faults[0].onset_s += 1e-3 * static_cast<double>(seed % 1000);  // at any time between two looks of a rule
       return fly_rivals(one, limits);

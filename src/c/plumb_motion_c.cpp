@@ -108,6 +108,7 @@ plumb_motion_verdict verdict_of(const MotionVerdict& from) noexcept {
   out.block_ended = from.block_ended ? 1 : 0;
   out.least_faults = from.least_faults;
   out.cause = static_cast<std::int32_t>(from.cause);
+  out.gyros_disagree = from.gyros_disagree ? 1 : 0;
   out.sample = force_of(from.sample);
   out.block = force_of(from.block);
   return out;

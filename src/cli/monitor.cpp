@@ -15,6 +15,7 @@
 #include "plumb/render/roll_test_words.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/session/days_since.hpp"
+#include "plumb/session/incident_recorder.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 #include "tool.hpp"
 
@@ -102,6 +103,29 @@ struct Past {
   io::Json roll_test;  ///< for the summary of --json; null: none
 };
 
+/// Behind the monitor of motion, so that its findings come with their row.
+io::FileExpected<void> open_incidents(const MonitorOptions& options, const io::ArrayFile& array, MonitorMotion& motion,
+                                      Outputs& outputs) {
+  if (options.incidents.directory.empty()) return {};
+  io::FileExpected<std::unique_ptr<session::IncidentRecorder>> made =
+      session::IncidentRecorder::create(options.incidents, array);
+  if (!made) return tl::unexpected<io::FileError>(made.error());
+  outputs.incidents = *std::move(made);
+  motion.tell(*outputs.incidents);
+  outputs.sinks.push_back(outputs.incidents.get());
+  return {};
+}
+
+std::string incidents_text(const MonitorOptions& options, const Outputs& outputs) {
+  if (!outputs.incidents) return "";
+  std::string out =
+      fmt::format("incidents   {} recorded in {}", outputs.incidents->recorded(), options.incidents.directory);
+  if (outputs.incidents->passed_over() > 0)
+    out +=
+        fmt::format("; {} later not", count_text(static_cast<std::size_t>(outputs.incidents->passed_over()), "change"));
+  return out + "\n";
+}
+
 /// The run itself, with either monitor, `days` after the calibration; `motion` goes beside it, and `stepper`, where
 /// there is one, is stepped in its place.
 template <class Monitor>
@@ -118,6 +142,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   Outputs outputs;
   io::FileExpected<void> opened = open_outputs(options, array, sensors, monitor.verdict(), past.told, days, outputs);
   if (opened) opened = motion.open(options, array, outputs);
+  if (opened) opened = open_incidents(options, array, motion, outputs);
   if (!opened) return report(opened.error());
   watch_interrupts();
   session::LogSpec log = options.log;
@@ -126,7 +151,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
       stepper != nullptr ? session::run_stepper(*stepper, array, log, outputs.sinks)
                          : session::run_monitor(monitor, array, log, outputs.sinks, host);
   if (!done) return report(done.error());
-  io::FileExpected<void> kept = commit(outputs, *done);
+  io::FileExpected<void> kept = commit(outputs, *done, motion.told());
   if (kept) kept = motion.commit();
   if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());
@@ -134,7 +159,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   if (options.json) {
     print_now(render::summary_json(*done, array, sensors, days, past.roll_test, motion.told()));
   } else if (outputs.table) {
-    print_now(render::summary_text(*done, array, sensors, days, motion.told()) +
+    print_now(render::summary_text(*done, array, sensors, days, motion.told()) + incidents_text(options, outputs) +
               (outputs.report ? outputs.report->summary() : ""));
   }
   if (done->stopped) {
@@ -224,6 +249,7 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = motion_misuse(options)) return report(*misuse);
+  if (const std::optional<io::FileError> misuse = incidents_misuse(options)) return report(*misuse);
   std::vector<NamedFile> to_write = {{"--events", options.events},
                                      {"--verdicts", options.verdicts},
                                      {"--motion", options.motion},

@@ -58,6 +58,7 @@ io::FileExpected<void> MonitorMotion::open(const MonitorOptions& options, const 
   for (std::optional<session::EventsFile>* events : {&outputs.events, &outputs.json}) {
     if (*events) sinks_.push_back(std::make_unique<session::MotionEvents>(**events, sensors));
   }
+  if (outputs.report) watch_->tell(outputs.report->motion());
   if (outputs.table) sinks_.push_back(std::make_unique<MotionTable>(sensors));
   for (const std::unique_ptr<session::MotionSink>& sink : sinks_) watch_->tell(*sink);
   if (!options.motion.empty()) {

@@ -22,6 +22,10 @@ class MonitorMotion {
 
   /// Joins the outputs of a run, behind those that are open.
   io::FileExpected<void> open(const MonitorOptions& options, const io::ArrayFile& array, Outputs& outputs);
+  /// Whoever wants to hear what is found, where motion is judged; after `open`.
+  void tell(session::MotionSink& sink) {
+    if (watch_ != nullptr) watch_->tell(sink);
+  }
   io::FileExpected<void> commit();
   /// Something was judged though the tool never rested.
   bool judged() const noexcept { return watch_ != nullptr && watch_->run().judged > 0; }

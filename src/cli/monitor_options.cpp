@@ -43,6 +43,9 @@ constexpr const char* kMonitorNotes =
     "stations and events, not samples, so that it may end a run of any length. Name the depth column in [input].\n"
     "With [motion] in the array file the sensors are judged while the tool moves too (docs/motion.md): events and\n"
     "summary say which ones, and --motion writes the specific force with its bound, sample by sample.\n"
+    "--incidents keeps the rows before and after every change, each incident in a file that is a log again, and a "
+    "list\n"
+    "of them in incidents.jsonl: `plumb monitor --log DIR/incident-0001.csv` plays it.\n"
     "--limits reads no log: it prints the limits of the monitor with this array file and calibration, how many\n"
     "samples a block can use, and which faults a given delta_f misses.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -77,6 +80,16 @@ void add_monitor_options(const Options& command, MonitorOptions& options) {
                   "write one CSV row per sample: the specific force in motion, its bound, who is isolated; `-` = "
                   "standard output")
       .type_name("M.csv");
+  command
+      .add_option(
+          "--incidents", options.incidents.directory,
+          "record the rows before and after every change of state and every finding in motion, in this directory")
+      .type_name("DIR");
+  command
+      .add_option("--incident-rows", options.incidents.rows,
+                  "with --incidents: rows before a change, and after it; 1000 by default")
+      .told_range(1, session::IncidentRecorder::kMostRows)
+      .type_name("N");
   command.add_option("--snapshot-in", options.snapshot_in, "go on from this snapshot instead of from power-on")
       .type_name("S.bin");
   command
@@ -172,6 +185,13 @@ std::optional<io::FileError> motion_misuse(const MonitorOptions& options) {
   if (options.motion.empty() || !options.limits) return std::nullopt;
   return io::FileError{
       "--motion", 0, "", "describes a run, and --limits runs nothing", "leave out one of the two", io::ExitCode::usage};
+}
+
+std::optional<io::FileError> incidents_misuse(const MonitorOptions& options) {
+  if (options.incidents.directory.empty() || !options.limits) return std::nullopt;
+  return io::FileError{
+      "--incidents",      0, "", "describes a run, and --limits runs nothing", "leave out one of the two",
+      io::ExitCode::usage};
 }
 
 io::FileError limits_of_paper(const io::ArrayFile& array) {

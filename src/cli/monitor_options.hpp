@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plumb/session/calibration_pipeline.hpp"
+#include "plumb/session/incident_recorder.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -21,7 +22,8 @@ struct MonitorOptions {
   std::string verdicts;
   std::string report;
   std::string motion;
-  std::string date;  ///< of the run; empty: today
+  session::IncidentSettings incidents;  ///< no directory: none are recorded
+  std::string date;                     ///< of the run; empty: today
   std::string snapshot_in;
   std::string roll_test;
   std::string snapshot_out;
@@ -41,6 +43,7 @@ std::optional<io::FileError> snapshot_misuse(const MonitorOptions& options, cons
 /// What --roll-test cannot be, and what it cannot be combined with.
 std::optional<io::FileError> roll_test_misuse(const MonitorOptions& options, const io::ArrayFile& array);
 std::optional<io::FileError> motion_misuse(const MonitorOptions& options);
+std::optional<io::FileError> incidents_misuse(const MonitorOptions& options);
 /// In paper mode delta_f decides alone, by coefficients of its own for each triple.
 io::FileError limits_of_paper(const io::ArrayFile& array);
 

@@ -54,12 +54,13 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
   return {};
 }
 
-io::FileExpected<void> commit(Outputs& out, const session::MonitorRun& run) {
+io::FileExpected<void> commit(Outputs& out, const session::MonitorRun& run, const render::MotionTold& motion) {
   io::FileExpected<void> done;
   if (out.events) done = out.events->commit();
   if (done && out.verdicts) done = out.verdicts->commit();
   if (done && out.json) done = out.json->commit();
-  if (done && out.report) done = out.report->write(run);
+  if (done && out.report) done = out.report->write(run, motion);
+  if (done && out.incidents) done = out.incidents->commit();
   return done;
 }
 

@@ -41,6 +41,7 @@ struct Outputs {
   std::optional<session::EventsFile> json;
   std::optional<TableSink> table;
   std::unique_ptr<HealthReport> report;
+  std::unique_ptr<session::IncidentRecorder> incidents;
   std::vector<session::VerdictSink*> sinks;
 };
 
@@ -49,7 +50,7 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
                                     const SensorArray& sensors, const Verdict& now, const std::string& past,
                                     double days, Outputs& out);
 /// At the end of the run, however it ended.
-io::FileExpected<void> commit(Outputs& outputs, const session::MonitorRun& run);
+io::FileExpected<void> commit(Outputs& outputs, const session::MonitorRun& run, const render::MotionTold& motion);
 
 }  // namespace cli
 }  // namespace PLUMB_ABI

@@ -174,7 +174,7 @@ io::FileExpected<void> HealthReport::take(const Sample& sample, const Verdict& v
   return {};
 }
 
-io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
+io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const render::MotionTold& motion) {
   io::FileExpected<Json> inputs = inputs_of(options_, array_, run);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
   std::optional<io::CalibrationFile> calibration;
@@ -190,6 +190,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run) {
     beside_.push_back(exact);
   Json report = render::health_json(health_, sensors_, beside_);
   put_counts(run, array_, sensors_, report["extremes"]);
+  report["motion"] = render::motion_report_json(motion, motion_, array_);
   report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);
   report["detection_sizes"] = calibration ? sizes_of(array_, *calibration, days_) : Json();
   const findings::WiringCheck wiring = findings::check_wiring_of(calibration ? &*calibration : nullptr, array_);

@@ -7,6 +7,7 @@
 
 #include "monitor_options.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/render/motion_words.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 #include "plumb/verification/tool_health.hpp"
 
@@ -31,8 +32,10 @@ class HealthReport : public session::VerdictSink {
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_depth(double depth_m) override { depth_m_ = depth_m; }
 
+  /// Is to be told what a monitor of motion finds, where there is one.
+  session::MotionTrace& motion() noexcept { return motion_; }
   /// At the end of the run, however it ended.
-  io::FileExpected<void> write(const session::MonitorRun& run);
+  io::FileExpected<void> write(const session::MonitorRun& run, const render::MotionTold& motion);
   /// "usable for survey: yes" and what to do, for the end of a terminal's summary.
   std::string summary() const;
 
@@ -46,6 +49,7 @@ class HealthReport : public session::VerdictSink {
   double days_;  ///< since the calibration
   io::OutputFile page_, data_;
   verification::ToolHealth health_;
+  session::MotionTrace motion_;
   std::vector<std::string> beside_;  ///< what else is to be done
   double depth_m_;
 };

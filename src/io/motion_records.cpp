@@ -14,7 +14,7 @@ constexpr const char* kColumns[] = {
     "t_s",           "force_t_s",        "fx_mps2",        "fy_mps2",        "fz_mps2",       "bound_mps2",
     "validity",      "dominant",         "gyro_assumed",   "block_t_s",      "block_fx_mps2", "block_fy_mps2",
     "block_fz_mps2", "block_bound_mps2", "block_validity", "block_dominant", "alarm",         "suspects",
-    "isolated",      "excluded",         "cause"};
+    "isolated",      "excluded",         "cause",          "gyros_disagree"};
 
 void append_cell(std::string& out, double value) {
   if (std::isfinite(value)) append_shortest(out, value);
@@ -55,6 +55,7 @@ const char* to_string(MotionEventKind kind) noexcept {
     case MotionEventKind::excluded: return "excluded";
     case MotionEventKind::alarm_over: return "alarm_over";
     case MotionEventKind::forgotten: return "forgotten";
+    case MotionEventKind::gyros_disagree: return "gyros_disagree";
   }
   return "?";
 }
@@ -89,7 +90,7 @@ void append_motion_row(std::string& out, double time_s, const MotionVerdict& ver
   append_ids(out, verdict.suspects, array);
   append_ids(out, verdict.isolated, array);
   append_ids(out, verdict.excluded, array);
-  out.append(to_string(verdict.cause)).append("\n");
+  out.append(to_string(verdict.cause)).append(verdict.gyros_disagree ? ",1\n" : ",0\n");
 }
 
 }  // namespace io

@@ -58,6 +58,7 @@ void MotionMonitor::forget() noexcept {
   with_gyro_.clear();
   without_gyro_.clear();
   verdict_.excluded = SensorSet{};
+  verdict_.gyros_disagree = false;
   refit();
 }
 
@@ -117,6 +118,10 @@ void MotionMonitor::judge(int scale, int lowest) noexcept {
     any = reject(without_gyro, &without_gyro_) || any;
   }
   if (any) last_rejection_s_ = means.time_s + means.span_s;
+  if (gyro.gyros_disagree) {
+    last_disagreement_s_ = means.time_s + means.span_s;
+    verdict_.gyros_disagree = true;
+  }
   if (!gyro.known) {
     unjudged_ = MotionCause::rotation_unknown;
   } else if (scale == lowest && !check_each_other(readings.usable & monitored())) {
@@ -157,6 +162,8 @@ void MotionMonitor::decide(double time_s) noexcept {
   // The host's clock began anew: what is on record is as old as this sample.
   if (time_s < last_rejection_s_) last_rejection_s_ = time_s;
   if (time_s < isolated_since_s_) isolated_since_s_ = time_s;
+  if (time_s < last_disagreement_s_) last_disagreement_s_ = time_s;
+  if (time_s - last_disagreement_s_ > setup_.quiet_s) verdict_.gyros_disagree = false;
   const bool on_record = !with_gyro_.empty() || !without_gyro_.empty();
   if (on_record && time_s - last_rejection_s_ > setup_.quiet_s) {
     with_gyro_.clear();

@@ -32,6 +32,7 @@ double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMe
                  (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2));
 }
 
+/// At least the operator norm of the difference, and at most sqrt(3) times that.
 double frobenius(const Mat3& a, const Mat3& b) noexcept {
   double sum = 0.0;
   for (std::size_t k = 0; k < 9; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
@@ -123,11 +124,17 @@ RotationTerm rotation_term(const MotionSetup& setup, const MotionMeans& means, R
     if (!means.gyro[1].given) return bound;
     const Mat3 first = out.omega_per_s2, second = omega_of(means.gyro[1]);
     const double error = error_of(setup.gyro, means, means.gyro[1], noise_quantile);
+    const double apart = frobenius(first, second);
+    out.gyros_disagree = apart > std::sqrt(3.0) * (out.error_per_s2 + error);
     for (std::size_t k = 0; k < 9; ++k) out.omega_per_s2[k] = 0.5 * (first[k] + second[k]);
     // The mean is half their difference away from either, and one of them is right within its bound.
     if (error > out.error_per_s2) out.error_per_s2 = error;
-    out.error_per_s2 += 0.5 * frobenius(first, second);
-    if (bound.known && bound.error_per_s2 < out.error_per_s2) return bound;
+    out.error_per_s2 += 0.5 * apart;
+    if (bound.known && bound.error_per_s2 < out.error_per_s2) {
+      const bool disagree = out.gyros_disagree;
+      out = bound;
+      out.gyros_disagree = disagree;
+    }
   }
   return out;
 }

@@ -130,6 +130,51 @@ Section events_view(const Json& report) {
   return out;
 }
 
+Section motion_view(const Json& report, const PagePictures& pictures) {
+  Section out("motion", "5 In motion", "What the sensors say of each other while the tool moves.");
+  const Json& m = report["motion"];
+  if (m.is_null()) {
+    out.text("Not judged: the array file has no table [motion]. The sensors were judged at rest alone.");
+    return out;
+  }
+  if (!m["judged"].get<bool>()) {
+    out.notice("Not judged: " + m["field"].get<std::string>() + " " + m["why"].get<std::string>() +
+                   ". Remedy: " + m["remedy"].get<std::string>() + ".",
+               "open");
+    return out;
+  }
+  for (const Json& note : m["notes"])
+    out.notice(note["what"].get<std::string>() + ". Remedy: " + note["remedy"].get<std::string>() + ".", "open");
+  out.table(
+      "In motion", {"figure", "value"},
+      {{"samples judged", fmt::format("{} of {}", m["samples_judged"].dump(), m["samples"].dump())},
+       {"alarms", m["alarms"]},
+       {"first alarm at t, s", seconds(m["first_alarm_s"])},
+       {"suspected at any time", joined_list(m["suspects"])},
+       {"isolated", joined_list(m["isolated"], "id")},
+       {"provisionally excluded", joined_list(m["excluded"], "id")},
+       {"the two gyros disagree from t, s", seconds(m["gyros_disagree_s"])},
+       {"blocks with a bounded force", m["blocks"]},
+       {"mean bound of its error, mg0", shown(m["bound_mean_mps2"], kMg0)},
+       {"largest bound, mg0", shown(m["bound_worst_mps2"], kMg0)},
+       {"largest part of the bound", m["dominant"].is_null() ? ViewCell("-") : ViewCell(m["dominant"])}},
+      "Isolated: faulty in every explanation of the contradictions. An exclusion in motion is provisional until the "
+      "tool is at rest.");
+  out.picture("Specific force in motion", picture_of(pictures, "motion.svg"),
+              "Length of the specific force and the bound of its error over time",
+              "Of blocks of 32 samples; where the run is long, each point stands for several, by the largest bound. "
+              "Orange: contradictions are on record. A gap: no bound.");
+  ViewRows rows;
+  for (const Json& e : m["events"])
+    rows.push_back({seconds(e["t_s"]), e["event"], joined_list(e["sensors"]), e["why"]});
+  if (rows.empty()) {
+    out.text("No contradiction in motion.");
+  } else {
+    out.table("Events in motion", {"t, s", "event", "sensors", "in words"}, rows);
+  }
+  return out;
+}
+
 /// 0 is what the monitor says where it found none.
 std::string drift_words_of(const Json& mps2_per_h) {
   const double rate = number(mps2_per_h);
@@ -138,7 +183,7 @@ std::string drift_words_of(const Json& mps2_per_h) {
 
 Section extremes_view(const Json& report) {
   const Json& e = report["extremes"];
-  Section out("extremes", "5 Extremes", "Extreme values of the run.");
+  Section out("extremes", "6 Extremes", "Extreme values of the run.");
   const double hours = (e["last_s"].get<double>() - e["first_s"].get<double>()) / 3600.0;
   out.table(
       "Of the run", {"figure", "value", "at t, s"},
@@ -179,7 +224,7 @@ Section basis_view(const Json& report) {
   const Json& basis = report["basis"];
   const Json& g = basis["gravity"];
   const Json& c = basis["calibration"];
-  Section out("basis", "6 Basis", "The length of gravity, and the calibration.");
+  Section out("basis", "7 Basis", "The length of gravity, and the calibration.");
   out.table("Gravity", {"figure", "value"},
             {{"model", g["model"]},
              {"length, m/s^2", fixed(g["g_mps2"], 1.0, 6)},
@@ -228,7 +273,7 @@ std::string hash_of(const Json& input) {
 Section identity_of(const Json& report) {
   const Json& id = report["identity"];
   const Json& build = id["build"];
-  Section out("identity", "7 Identity", "Inputs, versions and the command to repeat the run.");
+  Section out("identity", "8 Identity", "Inputs, versions and the command to repeat the run.");
   ViewRows rows = {{"tool", "plumb " + build["version"].get<std::string>()},
                    {"commit", build["commit"]},
                    {"compiler", build["compiler"]},
@@ -251,14 +296,15 @@ Section identity_of(const Json& report) {
 std::string health_html(const Json& report, const PagePictures& pictures, const std::string& data) {
   const Json& run = report["run"];
   const Json& id = report["identity"];
-  return sections_html({"Tool health: " + id["name"].get<std::string>(),
-                        fmt::format("{}, watched by plumb {}. Every figure is in {} beside this page.",
-                                    count_text(report["extremes"]["sensors"].size(), "sensor"),
-                                    id["build"]["version"].get<std::string>(), data),
-                        "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
-                        fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
-                       {answer_view(report), stations_view(report, pictures), roll_view(report, pictures),
-                        events_view(report), extremes_view(report), basis_view(report), identity_of(report)});
+  return sections_html(
+      {"Tool health: " + id["name"].get<std::string>(),
+       fmt::format("{}, watched by plumb {}. Every figure is in {} beside this page.",
+                   count_text(report["extremes"]["sensors"].size(), "sensor"),
+                   id["build"]["version"].get<std::string>(), data),
+       "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
+       fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
+      {answer_view(report), stations_view(report, pictures), roll_view(report, pictures), events_view(report),
+       motion_view(report, pictures), extremes_view(report), basis_view(report), identity_of(report)});
 }
 
 }  // namespace render

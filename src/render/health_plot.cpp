@@ -81,6 +81,41 @@ std::string roll_script() {
          by_colour("$8", "$6", false) + "\nunset multiplot\nunset output\n";
 }
 
+/// Empty cells end a line: no bound, no point.
+PlotFile motion_csv(const Json& motion) {
+  std::string csv = "t_s,force_g0,bound_mg0,alarm\n";
+  for (const Json& p : motion["trace"])
+    csv += fmt::format("{},{},{},{}\n", cell(p["t_s"]), cell(p["force_mps2"], 1e-3 * kMg0), cell(p["bound_mps2"], kMg0),
+                       p["alarm"].get<bool>() ? 1 : 0);
+  return {"motion.csv", csv};
+}
+
+std::string motion_script() {
+  const auto panel = [](int column) {
+    return fmt::format(
+        "'motion.csv' skip 1 using 1:(${0}) with lines lc rgb bound notitle, '' skip 1 using 1:($4==0?${0}:NaN) with "
+        "points "
+        "lc rgb green pt 7 ps 0.3 title 'no contradiction', '' skip 1 using 1:($4==1?${0}:NaN) with points lc rgb "
+        "orange "
+        "pt 7 ps 0.5 title 'contradictions on record'\n",
+        column);
+  };
+  return chart_head("motion.svg", kPlotWidth, 620) + grid() + kPalette +
+         "set multiplot layout 2,1\nset lmargin 11\nset rmargin 3\nset xlabel 't, s'\nset key outside top right "
+         "horizontal\nset ylabel 'specific force, g0'\nplot " +
+         panel(2) + "unset key\nset ylabel 'bound of its error, mg0'\nset logscale y\nplot " + panel(3) +
+         "unset logscale y\nunset multiplot\nunset output\n";
+}
+
+bool has_motion(const Json& report) {
+  const Json& motion = report["motion"];
+  if (motion.is_null() || !motion.contains("trace")) return false;
+  for (const Json& point : motion["trace"]) {
+    if (point["bound_mps2"].is_number()) return true;
+  }
+  return false;
+}
+
 bool has_rolls(const Json& report) {
   for (const Json& s : report["stations"]) {
     if (s["toolface_deg"].is_number()) return true;
@@ -94,6 +129,7 @@ std::vector<std::string> health_picture_names(const Json& report) {
   std::vector<std::string> out;
   if (!report["stations"].empty()) out.emplace_back("run.svg");
   if (has_rolls(report)) out.emplace_back("roll.svg");
+  if (has_motion(report)) out.emplace_back("motion.svg");
   return out;
 }
 
@@ -101,7 +137,13 @@ std::vector<PlotFile> health_plot_files(const Json& report) {
   std::string script = "# Draws the charts of a health report. Run: gnuplot health.gp\n";
   if (!report["stations"].empty()) script += run_script();
   if (has_rolls(report)) script += roll_script();
-  return {stations_csv(report["stations"]), {kHealthScript, std::move(script)}};
+  std::vector<PlotFile> out = {stations_csv(report["stations"])};
+  if (has_motion(report)) {
+    script += motion_script();
+    out.push_back(motion_csv(report["motion"]));
+  }
+  out.push_back({kHealthScript, std::move(script)});
+  return out;
 }
 
 }  // namespace render

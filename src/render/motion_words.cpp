@@ -16,6 +16,8 @@ namespace {
 
 using session::MotionRun;
 
+constexpr const char* kGyrosDisagree = "the two gyros read more apart than their bounds allow: one of them is faulty";
+
 /// "a4, a5, a6 (imu2)": with the chip where all of one chip are meant.
 std::string names_with_chips(SensorSet set, const io::ArrayFile& array) {
   std::string chip;
@@ -127,20 +129,23 @@ const char* explain(MotionCause cause) noexcept {
   return "?";
 }
 
-std::string motion_line(const io::MotionEvent& event, const SensorArray& array) {
-  std::string words;
+std::string event_words(const io::MotionEvent& event) {
   switch (event.kind) {
     case io::MotionEventKind::alarm:
-      words = event.cause == MotionCause::none ? "readings contradict each other" : explain(event.cause);
-      break;
-    case io::MotionEventKind::isolated: words = "faulty in every explanation"; break;
-    case io::MotionEventKind::excluded: words = "provisionally excluded from the specific force"; break;
-    case io::MotionEventKind::alarm_over: words = "nothing that contradicts is on record"; break;
-    case io::MotionEventKind::forgotten: words = "the monitor at rest has judged: taken back"; break;
+      return event.cause == MotionCause::none ? "readings contradict each other" : explain(event.cause);
+    case io::MotionEventKind::isolated: return "faulty in every explanation";
+    case io::MotionEventKind::excluded: return "provisionally excluded from the specific force";
+    case io::MotionEventKind::alarm_over: return "nothing that contradicts is on record";
+    case io::MotionEventKind::forgotten: return "the monitor at rest has judged: taken back";
+    case io::MotionEventKind::gyros_disagree: return kGyrosDisagree;
   }
+  return "?";
+}
+
+std::string motion_line(const io::MotionEvent& event, const SensorArray& array) {
   return fmt::format("{:>10.3f}  {:<13}  {:<17}  {:<10}  {:>9} {:>9}  {:>11}  {:<11}  {}\n", event.time_s,
                      "(in motion)", to_string(event.kind), sensor_names(event.sensors, array), "-", "-", "-", "-",
-                     words);
+                     event_words(event));
 }
 
 std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
@@ -157,6 +162,8 @@ std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
   }
   if (const MotionCause cause = open_cause(run); cause != MotionCause::none)
     out += fmt::format("  cause     nobody is isolated: {}\n", explain(cause));
+  if (run.gyro_disagreements > 0)
+    out += fmt::format("  gyros     {}; first at {:.3f} s\n", kGyrosDisagree, run.gyros_disagree_s);
   out += "  force     " + force_words(run) + "\n";
   for (const MotionNote& note : motion_notes(run, *told.setup))
     out += fmt::format("  note      {}. Remedy: {}.\n", note.what, note.remedy);
@@ -182,6 +189,7 @@ io::Json motion_json(const MotionTold& told, const io::ArrayFile& array) {
                              {"isolated", sensors_json(run.isolated, run.isolated_at_s, array)},
                              {"excluded", sensors_json(run.excluded, run.excluded_at_s, array)},
                              {"cause", to_string(open_cause(run))},
+                             {"gyros_disagree_s", known(run.gyro_disagreements > 0, run.gyros_disagree_s)},
                              {"blocks", run.blocks},
                              {"blocks_unchecked", run.blocks_unchecked},
                              {"blocks_by_one_gyro", run.blocks_by_one_gyro}});

@@ -81,6 +81,7 @@ io::FileExpected<Flight> read_flight(const io::ArrayFile& array, const MotionPla
   reader->hash_bytes();
   reader->stop_when(interrupt_flag());
   Flight out;
+  MotionSampler sampler(plan);
   MotionInputsWatch inputs(plan.setup.sample_period_s);
   Progress progress("reading " + log.path);
   Sample row;
@@ -90,7 +91,7 @@ io::FileExpected<Flight> read_flight(const io::ArrayFile& array, const MotionPla
       return tl::unexpected<io::FileError>(
           io::FileError{log.path, 0, "", "has more than " + std::to_string(kMostCommissionRows) + " rows",
                         "cut a part out of it in which the tool turns and accelerates in all directions"});
-    MotionSample sample = motion_sample(plan, row);
+    MotionSample sample = sampler.sample(row);
     inputs.add(row.time_s);
     const Rotation turns[] = {reader->rotation(), reader->second_rotation()};
     for (std::size_t g = 0; g < static_cast<std::size_t>(plan.setup.gyros); ++g) {

@@ -204,19 +204,6 @@ DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& cali
   return out;
 }
 
-MotionSample motion_sample(const MotionPlan& plan, const Sample& sample) {
-  MotionSample out;
-  out.time_s = sample.time_s;
-  const Readings gravity_sense = plan.model.without_misalignment(sample.raw, sample.temperature_degc, sample.delivered);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(plan.array.size()); ++i) {
-    if (!sample.delivered.has(static_cast<int>(i)) || !std::isfinite(gravity_sense[i])) continue;
-    out.reading_mps2[i] = -gravity_sense[i];
-    out.delivered = out.delivered.with(static_cast<int>(i));
-    if (std::fabs(sample.raw[i]) >= plan.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
-  }
-  return out;
-}
-
 io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days,
                                          const io::MotionCalibration* commissioned) {
   const auto refuse = [](io::FileError error) { return tl::unexpected<io::FileError>(std::move(error)); };
@@ -253,6 +240,20 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
   if (MotionSets(out.array, out.setup).size() == 0)
     return refuse(not_judged(array, "sensor", "has no axes that check each other whatever the force is",
                              "motion needs four axes, three in a plane or two parallel ones"));
+  return out;
+}
+
+MotionSample MotionSampler::sample(const Sample& row) noexcept {
+  MotionSample out;
+  out.time_s = row.time_s;
+  if (std::isfinite(row.temperature_degc)) temperature_degc_ = row.temperature_degc;
+  const Readings gravity_sense = plan_.model.without_misalignment(row.raw, temperature_degc_, row.delivered);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(plan_.array.size()); ++i) {
+    if (!row.delivered.has(static_cast<int>(i)) || !std::isfinite(gravity_sense[i])) continue;
+    out.reading_mps2[i] = -gravity_sense[i];
+    out.delivered = out.delivered.with(static_cast<int>(i));
+    if (std::fabs(row.raw[i]) >= plan_.clip_raw[i]) out.clipped = out.clipped.with(static_cast<int>(i));
+  }
   return out;
 }
 

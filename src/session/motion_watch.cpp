@@ -27,10 +27,7 @@ void note_first(SensorSet now, SensorSet& ever, std::array<double, kCapacity>& a
 }  // namespace
 
 MotionWatch::MotionWatch(const MotionPlan& plan)
-    : plan_(plan),
-      monitor_(std::make_unique<MotionMonitor>()),
-      inputs_(plan.setup.sample_period_s),
-      temperature_degc_(plan.model.sensor[0].reference_degc) {
+    : plan_(plan), monitor_(std::make_unique<MotionMonitor>()), sampler_(plan_), inputs_(plan.setup.sample_period_s) {
   (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
 }
 
@@ -38,7 +35,7 @@ void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
 void MotionWatch::at_second_turn(const stepping::Turn& turn) { turn_[1] = turn; }
 
 MotionSample MotionWatch::sample_of(const Sample& sample) {
-  MotionSample out = motion_sample(plan_, sample);
+  MotionSample out = sampler_.sample(sample);
   inputs_.add(sample.time_s);
   for (std::size_t g = 0; g < static_cast<std::size_t>(plan_.setup.gyros); ++g) {
     if (!turn_[g]) continue;
@@ -60,6 +57,7 @@ void MotionWatch::note_events(const MotionVerdict& before, const MotionVerdict& 
     add(MotionEventKind::isolated, news, MotionCause::none);
   if (const SensorSet news = now.excluded - before.excluded; !news.empty())
     add(MotionEventKind::excluded, news, MotionCause::none);
+  if (now.gyros_disagree && !before.gyros_disagree) add(MotionEventKind::gyros_disagree, {}, MotionCause::none);
   if (before.alarm && !now.alarm) add(MotionEventKind::alarm_over, {}, MotionCause::none);
 }
 
@@ -70,6 +68,8 @@ void MotionWatch::count(const MotionVerdict& verdict, double time_s) {
   ++run.why[static_cast<std::size_t>(verdict.cause)];
   run.in_alarm += verdict.alarm ? 1U : 0U;
   if (verdict.alarm && !run.last.alarm && run.alarms++ == 0) run.first_alarm_s = time_s;
+  if (verdict.gyros_disagree && !run.last.gyros_disagree && run.gyro_disagreements++ == 0)
+    run.gyros_disagree_s = time_s;
   run.suspects = run.suspects | verdict.suspects;
   note_first(verdict.isolated | verdict.excluded, run.isolated, run.isolated_at_s, time_s);
   note_first(verdict.excluded, run.excluded, run.excluded_at_s, time_s);

@@ -19,6 +19,9 @@ std::vector<std::string> reported(const std::string& log, std::vector<std::strin
   return out;
 }
 
+constexpr double kG0 = plumb::kG0_mps2;
+const bool kHasGnuplot = std::system("command -v gnuplot >/dev/null 2>&1") == 0;  // NOLINT(cert-env33-c)
+
 Json report_of(const Directory& where) { return Json::parse(read_text(where / "r.json")); }
 
 /// The drilling run of the examples without its fault.
@@ -217,6 +220,52 @@ TEST(MonitorReport, TakesDepthFromTheLog) {
   EXPECT_EQ(run(shop, reported("injected.csv")).code, 0);
   EXPECT_EQ(report_of(shop)["stations"][0]["depth_m"], report["stations"][0]["depth_m"]);
   EXPECT_TRUE(report["stations"][0]["depth_m"].is_number());
+}
+
+TEST(MonitorReport, AFlightShowsForceBoundAndWhoWasIsolated) {
+  const Directory where;
+  std::filesystem::copy_file(PLUMB_SOURCE_DIR "/examples/motion/drone.toml", where / "array.toml");
+  ASSERT_EQ(run(where, {"simulate", "--flight", "drone", "array.toml", "--seed", "1", "--duration", "5", "--fault",
+                        "imu2:stuck=0g0@3s", "--out", "flight.csv"})
+                .code,
+            0);
+  const std::vector<std::string> monitored = {"monitor", "--array",    "array.toml", "--calibrate-first",
+                                              "--log",   "flight.csv", "--report",   "r.html"};
+  const Outcome outcome = run(where, monitored);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Json motion = report_of(where)["motion"];
+  ASSERT_TRUE(motion.is_object());
+  EXPECT_EQ(motion["isolated"].size(), 3U);
+  ASSERT_EQ(motion["events"].size(), 4U) << motion["events"].dump();
+  EXPECT_EQ(motion["events"][0]["event"], "alarm");
+  EXPECT_EQ(motion["events"][2]["event"], "excluded");
+  EXPECT_EQ(motion["events"][2]["sensors"], Json({"x2", "y2", "z2"}));
+  ASSERT_GT(motion["trace"].size(), 100U);
+  EXPECT_EQ(motion["trace"].front()["sensors_used"], 9);
+  EXPECT_EQ(motion["trace"].back()["sensors_used"], 6);
+  int alarmed = 0;
+  for (const Json& point : motion["trace"]) {
+    EXPECT_LT(point["bound_mps2"].get<double>(), 0.2 * kG0) << point.dump();
+    alarmed += point["alarm"].get<bool>() ? 1 : 0;
+  }
+  EXPECT_GT(alarmed, 0);
+  const std::string page = read_text(where / "r.html");
+  EXPECT_TRUE(says(page, {"5 In motion", "provisionally excluded", "x2, y2, z2", "Events in motion"}));
+  EXPECT_EQ(page.find("contradictions on record") != std::string::npos, kHasGnuplot) << "the picture";
+}
+
+TEST(MonitorReport, MotionThatIsNotJudgedIsSaidWithWhatIsMissing) {
+  const Directory where;
+  const std::string text = read_text(PLUMB_SOURCE_DIR "/examples/motion/drone.toml");
+  write_text(where / "array.toml", with(text, "lag_bound_s = 70e-6 ", "# "));
+  ASSERT_EQ(run(where, {"simulate", "--flight", "drone", PLUMB_SOURCE_DIR "/examples/motion/drone.toml", "--duration",
+                        "3", "--out", "flight.csv"})
+                .code,
+            0);
+  run(where, {"monitor", "--array", "array.toml", "--calibrate-first", "--log", "flight.csv", "--report", "r.html"});
+  const Json motion = report_of(where)["motion"];
+  EXPECT_EQ(motion["judged"], false) << motion.dump();
+  EXPECT_TRUE(says(read_text(where / "r.html"), {"5 In motion", "Not judged: ", "lag_bound_s"}));
 }
 
 TEST(MonitorReport, StandsBesideTheOtherOutputsAndRepeats) {

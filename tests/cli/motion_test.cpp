@@ -267,6 +267,23 @@ TEST(MotionCommand, AChipMayFailInARecordedLogToo) {
   EXPECT_EQ(read_text(where / "broken.csv"), flown);
 }
 
+TEST(MotionCommand, AnIncidentIsALogOfItsOwn) {
+  const Hangar where;
+  ASSERT_EQ(fly(where, {"--duration", "5", "--fault", "imu2:stuck=0g0@3s"}).code, 0);
+  const Outcome first = monitor(where, {"--incidents", "incidents", "--incident-rows", "400"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_TRUE(says(first.out, {"incidents   1 recorded in incidents"})) << first.out;
+  const Outcome again = monitor(where, {"--incidents", "incidents"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_TRUE(says(again.err, {"--incidents", "another run"}));
+  EXPECT_EQ(monitor(where, {"--incidents", "more", "--limits"}).code, 2);
+  std::filesystem::copy_file(where / "incidents/incident-0001.csv", where / "flight.csv",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Json motion = motion_of(monitor(where, {"--json"}));
+  EXPECT_EQ(motion["isolated"].size(), 3U) << motion.dump();
+  EXPECT_EQ(motion["samples"], 400 + 1 + 65 + 400) << "400 rows before the alarm, to 400 after it was over";
+}
+
 TEST(MotionCommand, RefusesOptionsThatMakeNoSense) {
   const Hangar where;
   const auto refused = [&where](const std::vector<std::string>& arguments, int code,

@@ -161,10 +161,11 @@ def python_names(root):
     for file in sorted((root / "python").glob("*.?pp")):
         source, inside = file.read_text(encoding="utf-8"), ""
         for found in re.finditer(r'module\.attr\("(\w+)"|module\.def\(\s*"(\w+)"|class_<[^;(]*?>\(\s*module, "(\w+)"|'
-                                 r'\.def\w*\(\s*"(\w+)"|^  COLUMN\([^,]+, (\w+),', source, re.M):
-            attribute, function, kind, member, column = found.groups()
+                                 r'\.def\w*\(\s*"(\w+)"|^  (\w*)COLUMN\([^,]+, (\w+),', source, re.M):
+            attribute, function, kind, member, row, column = found.groups()
             inside = kind or inside
-            yield attribute or function or kind or (column and f"verdict.{column}") or f"{inside}.{member}"
+            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force"}[row]
+            yield attribute or function or kind or (column and f"{of_row}.{column}") or f"{inside}.{member}"
 
 
 # --- The page. --------------------------------------------------------------------------------------------------------

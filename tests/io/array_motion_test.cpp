@@ -190,7 +190,7 @@ TEST(MotionRecords, ARowHasACellForEveryColumn) {
   verdict.cause = MotionCause::irregular_time;
   std::string nothing, all;
   append_motion_row(nothing, 1.5, verdict, file.array, kIdentity3);
-  EXPECT_EQ(nothing, "1.5,,,,,,none,,0,,,,,,,,0,,,,irregular_time\n");
+  EXPECT_EQ(nothing, "1.5,,,,,,none,,0,,,,,,,,0,,,,irregular_time,0\n");
   verdict.sample = {ForceValidity::bounded, 1.25, 0.001, {1.0, 2.0, 3.0}, {}, 0.5, ForceTerm::lever_arm, true, {}};
   verdict.block = {ForceValidity::unchecked, 1.0, 0.032, {4.0, 5.0, 6.0}, {}, 0.25, ForceTerm::lag, false, {}};
   verdict.block_ended = verdict.alarm = true;
@@ -199,9 +199,12 @@ TEST(MotionRecords, ARowHasACellForEveryColumn) {
   verdict.excluded = SensorSet::of(3);
   verdict.cause = MotionCause::none;
   append_motion_row(all, 1.5, verdict, file.array, {0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0});
-  EXPECT_EQ(all, "1.5,1.25,2,1,3,0.5,bounded,lever arm,1,1,5,4,6,0.25,unchecked,lag,1,A1 A3,A3,A4,none\n");
-  EXPECT_EQ(cells(motion_csv_header()), cells(all));
-  EXPECT_EQ(cells(nothing), cells(all));
+  EXPECT_EQ(all, "1.5,1.25,2,1,3,0.5,bounded,lever arm,1,1,5,4,6,0.25,unchecked,lag,1,A1 A3,A3,A4,none,0\n");
+  verdict.gyros_disagree = true;
+  append_motion_row(all, 1.5, verdict, file.array, kIdentity3);
+  EXPECT_EQ(all.substr(all.size() - 8), ",none,1\n");
+  EXPECT_EQ(2 * cells(motion_csv_header()), cells(all));
+  EXPECT_EQ(2 * cells(nothing), cells(all));
 }
 
 TEST(MotionRecords, AnEventIsOneLineOfJson) {

@@ -267,6 +267,21 @@ class Values(unittest.TestCase):
         self.assertGreater(rows["noise_factor"][-1], 1.5)
         self.assertEqual(rows["noise_factor"][0], 1.0)
 
+    def test_of_a_log_that_says_how_the_tool_turns(self):
+        lines = self.simulated("stand").read_text().splitlines()
+        turning = [",0,0,0", ",0.5,0,-0.1", ",0,,0"]  # the last: at a rate that is not known
+        path = self.at / "turning.csv"
+        rows = (line + turning[k // 400 % 3] for k, line in enumerate(lines[1:]))
+        path.write_text("\n".join([lines[0] + ",wx,wy,wz", *rows]) + "\n")
+        array, rows, _ = self.both(self.text.replace("[input]\n", '[input]\nrotation_radps = ["wx", "wy", "wz"]\n', 1), path)
+        log = plumb.read_log(array, str(path))
+        self.assertEqual([list(log.rate_radps[k]) for k in (0, 400)], [[0.0, 0.0, 0.0], [0.5, 0.0, -0.1]])
+        self.assertTrue(np.isnan(log.rate_radps[800]).all())
+        self.assertIsNone(log.second_rate_radps)
+        plain = plumb.Log(log.time_s, log.raw, log.temperature_degc, station=log.station, count=log.count)
+        calibration = plumb.Calibration.read(array, str(self.at / "cal.json"))
+        self.assertNotEqual(plumb.Monitor(array, calibration).run(plain).tobytes(), rows.tobytes())
+
     def test_of_gravity_that_is_off(self):
         text = self.text.replace('value = "9.80665 m/s^2"', 'value = "9.77 m/s^2"')
         _, rows, _ = self.both(text, self.simulated("stand"))

@@ -38,8 +38,18 @@ def judge(validator, reports, breaks):
         assert not validator.is_valid(broken), number
 
 
+def flown(tool, source, folder):
+    """Of a flight in which a chip dies."""
+    array = str(source / "examples/motion/drone.toml")
+    for command in (["simulate", "--flight", "drone", array, "--duration", "4", "--fault", "imu2:stuck=0g0@3s", "--out", "flight"],
+                    ["monitor", "--array", array, "--calibrate-first", "--log", "flight", "--report", "flight.html"]):
+        done = subprocess.run([tool, *command], capture_output=True, text=True, cwd=folder)
+        assert done.returncode == 0, done.stderr
+    return json.loads(pathlib.Path(folder, "flight.json").read_text())
+
+
 def health_reports(tool, source, folder):
-    """Of a run in which a2 dies, and of one that is too short for a station and has a bad row."""
+    """Of a run in which a2 dies, of one that is too short for a station and has a bad row, and of a flight."""
     examples = source / "examples"
     array = ["--array", str(examples / "paper_tool.toml")]
 
@@ -56,7 +66,8 @@ def health_reports(tool, source, folder):
         assert done.returncode == 0, done.stderr
     lines = pathlib.Path(folder, "run").read_text().splitlines()
     pathlib.Path(folder, "short").write_text("\n".join(lines[:9] + [lines[9].replace(",", ",x", 1)] + lines[10:20]) + "\n")
-    out = [monitored("run"), monitored("short", "--on-bad-row", "skip", code=7)]
+    out = [monitored("run"), monitored("short", "--on-bad-row", "skip", code=7), flown(tool, source, folder)]
+    assert out[0]["motion"] is None and out[2]["motion"]["events"]
     assert out[0]["stations"] and out[0]["events"] and not out[1]["stations"] and out[1]["identity"]["log"]["rows_bad"] == 1
     return out
 

@@ -179,5 +179,43 @@ TEST(MotionPlan, CalibrationAndStabilityBoundWhatTheFileLeavesToThem) {
             std::string::npos);
 }
 
+TEST(MotionPlan, RowsBecomeSamplesOfSpecificForce) {
+  for (const char* reads : {"specific-force", "gravity"}) {
+    const io::FileExpected<MotionPlan> plan = plan_of(with(drone_text(), "specific-force", reads));
+    ASSERT_TRUE(plan.has_value());
+    session::MotionSampler sampler(*plan);
+    Sample row;
+    row.time_s = 2.5;
+    row.temperature_degc = 25.0;
+    row.delivered = plan->array.all().without(8);
+    row.raw.fill(3.0);
+    row.raw[1] = std::numeric_limits<double>::quiet_NaN();
+    row.raw[2] = -156.5;
+    const MotionSample sample = sampler.sample(row);
+    EXPECT_EQ(sample.time_s, 2.5);
+    EXPECT_EQ(sample.delivered, plan->array.all().without(8).without(1)) << "no number is no reading";
+    EXPECT_EQ(sample.clipped, SensorSet::of(2)) << "full scale is 156.9";
+    EXPECT_EQ(sample.reading_mps2[0], plan->model.reads == Reads::gravity ? -3.0 : 3.0);
+    EXPECT_FALSE(sample.rate_given[0]);
+  }
+}
+
+TEST(MotionPlan, ARowWithoutTemperatureHasTheLastOne) {
+  const io::FileExpected<MotionPlan> drone = plan_of(drone_text());
+  ASSERT_TRUE(drone.has_value());
+  MotionPlan plan = *drone;
+  plan.model.sensor[0].bias[1] = 0.1;
+  session::MotionSampler sampler(plan);
+  Sample row;
+  row.delivered = plan.array.all();
+  row.temperature_degc = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NEAR(sampler.sample(row).reading_mps2[0], 0.0, 1e-12) << "none yet: that of the coefficients";
+  row.temperature_degc = plan.model.sensor[0].reference_degc + 10.0;
+  const double warm_mps2 = sampler.sample(row).reading_mps2[0];
+  EXPECT_NEAR(std::fabs(warm_mps2), 1.0, 1e-9);
+  row.temperature_degc = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(sampler.sample(row).reading_mps2[0], warm_mps2);
+}
+
 }  // namespace
 }  // namespace motion_plan_test

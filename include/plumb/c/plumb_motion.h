@@ -98,6 +98,7 @@ typedef struct plumb_motion_verdict {
   int32_t block_ended;         /* 1: `block` is new with this sample */
   int32_t least_faults;        /* units that it takes at least to explain what is on record */
   int32_t cause;               /* why nobody is isolated, or nothing is judged */
+  int32_t gyros_disagree;      /* 1: one of the two gyros is faulty, and which one is not told */
   plumb_specific_force sample; /* of the last two samples */
   plumb_specific_force block;  /* of the last two blocks of 32 samples: tighter and later */
 } plumb_motion_verdict;

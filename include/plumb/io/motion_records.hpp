@@ -13,11 +13,12 @@ namespace io {
 
 /// What changed in motion.
 enum class MotionEventKind : std::uint8_t {
-  alarm,       ///< readings contradict each other; `sensors`: in some of the smallest explanations
-  isolated,    ///< `sensors` are in every explanation
-  excluded,    ///< provisionally, after the dwell
-  alarm_over,  ///< nothing that contradicts is on record any longer
-  forgotten,   ///< the monitor at rest has judged: exclusions in motion are taken back
+  alarm,           ///< readings contradict each other; `sensors`: in some of the smallest explanations
+  isolated,        ///< `sensors` are in every explanation
+  excluded,        ///< provisionally, after the dwell
+  alarm_over,      ///< nothing that contradicts is on record any longer
+  forgotten,       ///< the monitor at rest has judged: exclusions in motion are taken back
+  gyros_disagree,  ///< one of the two gyros is faulty
 };
 const char* to_string(MotionEventKind kind) noexcept;
 

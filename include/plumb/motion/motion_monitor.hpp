@@ -35,6 +35,9 @@ struct MotionVerdict {
   SensorSet excluded;        ///< provisionally, by this monitor
   int least_faults = 0;      ///< units that it takes at least to explain what is on record
   MotionCause cause = MotionCause::none;
+  /// The two gyros have read more apart than their bounds allow, within the last `quiet_s`: one of them is faulty, and
+  /// which one is not told. Bounds hold all the same; no sensor is blamed for it.
+  bool gyros_disagree = false;
 };
 
 class MotionMonitor {
@@ -47,7 +50,7 @@ class MotionMonitor {
   /// The sensors that others, a monitor at rest above all, leave in service. What this monitor has excluded itself
   /// stays out; evidence about sensors that leave is dropped.
   void set_in_service(SensorSet sensors) noexcept;
-  /// Takes back exclusions and evidence: after rest has confirmed or refuted them.
+  /// Takes back exclusions and evidence, of gyros too: after rest has confirmed or refuted them.
   void forget() noexcept;
 
  private:
@@ -84,6 +87,7 @@ class MotionMonitor {
   bool redundant_ = false;  ///< those that are monitored check each other
   double noise_quantile_ = 0.0;
   double last_rejection_s_ = 0.0;
+  double last_disagreement_s_ = 0.0;
   double isolated_since_s_ = 0.0;
   bool news_ = false;                     ///< a set was rejected that had not been, or evidence was dropped
   MotionCause open_ = MotionCause::none;  ///< why what is on record names nobody

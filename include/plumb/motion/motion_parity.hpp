@@ -14,6 +14,8 @@ struct RotationTerm {
   bool known = false;         ///< some bound of the rotation exists
   Mat3 omega_per_s2{};        ///< what is taken off; zero where only a bound is known
   double error_per_s2 = 0.0;  ///< what the true one differs by, operator norm
+  /// Two gyros read more apart than both could within their bounds: one of them is faulty, whichever.
+  bool gyros_disagree = false;
 };
 
 /// What the rotation rests on.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plumb/io/json_fields.hpp"
-#include "plumb/session/motion_watch.hpp"
+#include "plumb/session/motion_trace.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -30,11 +30,15 @@ std::vector<MotionNote> motion_notes(const session::MotionRun& run, const Motion
 /// What it means that nobody is isolated, or that nothing is judged.
 const char* explain(MotionCause cause) noexcept;
 
+/// An event in a sentence's part.
+std::string event_words(const io::MotionEvent& event);
 /// One line in the columns of `table_line`.
 std::string motion_line(const io::MotionEvent& event, const SensorArray& array);
 /// Lines of the summary; empty where nothing is told.
 std::string motion_text(const MotionTold& told, const io::ArrayFile& array);
 io::Json motion_json(const MotionTold& told, const io::ArrayFile& array);
+/// The same with the events and how force and bound went, for the health report; null where nothing is told.
+io::Json motion_report_json(const MotionTold& told, const session::MotionTrace& trace, const io::ArrayFile& array);
 
 }  // namespace render
 }  // namespace PLUMB_ABI

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "plumb/core/sample.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/motion/motion_setup.hpp"
@@ -36,8 +37,20 @@ DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& cali
 io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days,
                                          const io::MotionCalibration* commissioned = nullptr);
 
-/// The readings of a row of the log as the plan's monitor takes them; rates are left to the caller.
-MotionSample motion_sample(const MotionPlan& plan, const Sample& sample);
+/// Rows of a log as samples in motion: calibrated, and clipped where they are at full scale. Rates of rotation are left
+/// to the caller.
+class MotionSampler {
+ public:
+  /// `plan` outlives it.
+  explicit MotionSampler(const MotionPlan& plan) noexcept
+      : plan_(plan), temperature_degc_(plan.model.sensor[0].reference_degc) {}
+  /// Where the temperature is not a number, the last one that was counts, as at rest.
+  MotionSample sample(const Sample& row) noexcept;
+
+ private:
+  const MotionPlan& plan_;
+  double temperature_degc_;
+};
 
 }  // namespace session
 }  // namespace PLUMB_ABI

@@ -27,6 +27,8 @@ struct MotionRun {
   std::uint64_t alarms = 0;   ///< how often one began
   std::uint64_t in_alarm = 0;
   double first_alarm_s = 0.0;
+  std::uint64_t gyro_disagreements = 0;            ///< how often the two gyros began to disagree
+  double gyros_disagree_s = 0.0;                   ///< the first time
   SensorSet suspects, isolated, excluded;          ///< at any time
   std::array<double, kCapacity> isolated_at_s{};   ///< the first time
   std::array<double, kCapacity> excluded_at_s{};   ///< the first time
@@ -72,9 +74,9 @@ class MotionWatch final : public VerdictSink {
 
   MotionPlan plan_;
   std::unique_ptr<MotionMonitor> monitor_;
+  MotionSampler sampler_;
   MotionInputsWatch inputs_;
   std::array<std::optional<stepping::Turn>, kGyros> turn_{};  ///< of the sample to come, by gyro
-  double temperature_degc_;                                   ///< the last one that was a number
   std::vector<io::MotionEvent> events_;                       ///< of the sample at hand
   std::vector<MotionSink*> sinks_;
   stepping::Found found_;
