@@ -265,6 +265,7 @@ std::string still_flight(const Json& calibration) {
   return out.str();
 }
 
+// Verifies: REQ-208
 TEST_F(CalibrateMotion, WhatNoMotionShowsIsNamedAndKeepsItsStatedBoundOrIsRefused) {
   write_text(where() / "still.csv", still_flight(Json::parse(read_text(where() / "cal.json"))));
   const Outcome told = commission(unknown_tool(), "still.csv");
@@ -333,6 +334,7 @@ TEST_F(CalibrateMotion, RefusesLogsThatCannotBeFitted) {
   refused(commission(with(drone(), "sample_period_s", "rate_period_s"), "flight.csv"), 3, {"array.toml"});
 }
 
+// Negative: REQ-208
 TEST_F(CalibrateMotion, AFaultInTheHeldOutPartIsRefused) {
   hangar().cut("faulty.csv", "late.csv", 15.0, 47.0);
   refused(commission(drone(), "late.csv"), 4,

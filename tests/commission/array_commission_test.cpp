@@ -138,6 +138,7 @@ std::vector<Vec3> arm_errors(const Flown& flown, const ArrayBounds& bounds) {
   return out;
 }
 
+// Verifies: REQ-208
 TEST(ArrayCommission, ArmsOfChipsAreFoundAndBoundsHoldInTwentyFlights) {
   int beyond_three_sigma = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -214,6 +215,7 @@ Flown without_rotation(bool arms_stated) {
   return out;
 }
 
+// Verifies: REQ-208
 TEST(ArrayCommission, WithoutRotationAllArmsAreOpenAndStatedOnesStay) {
   for (const bool stated : {false, true}) {
     const Flown flown = without_rotation(stated);
