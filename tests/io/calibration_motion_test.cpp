@@ -18,7 +18,11 @@ ArrayFile array_of(const std::string& text = kArrayText) {
   return *std::move(array);
 }
 
-std::string path_of(const std::string& name) { return ::testing::TempDir() + "motion_section_" + name; }
+/// Of the test at hand: others run at the same time.
+std::string path_of(const std::string& name) {
+  const ::testing::TestInfo* info = ::testing::UnitTest::GetInstance()->current_test_info();
+  return ::testing::TempDir() + "plumb_io_" + info->test_suite_name() + "_" + info->name() + "_" + name;
+}
 
 std::string text_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
