@@ -205,7 +205,7 @@ if(TARGET plumb_io AND session_sources)
   add_library(plumb_session STATIC ${session_sources})
   plumb_library(plumb_session session)
   target_compile_definitions(plumb_session PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")  # in what it writes
-  target_link_libraries(plumb_session PUBLIC plumb_findings plumb_io plumb_scenario plumb_24 fmt::fmt Threads::Threads)
+  target_link_libraries(plumb_session PUBLIC plumb_findings plumb_commission plumb_io plumb_scenario plumb_24 fmt::fmt Threads::Threads)
   set_source_files_properties("${PROJECT_SOURCE_DIR}/src/session/steppers.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # macros of its own
   plumb_batch(plumb_session)

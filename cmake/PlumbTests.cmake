@@ -174,8 +174,8 @@ endif()
 
 # A program of its own: commissioning needs little of the host.
 if(TARGET plumb_commission)
-  plumb_test_executable(plumb_commission_tests LABEL host ROOMS commission LIBRARIES plumb_commission plumb_24
-    LONGER BoardMotion.* MotionCommission.* QuadrotorMotion.*)
+  plumb_test_executable(plumb_commission_tests LABEL host ROOMS commission LIBRARIES plumb_commission plumb_scenario plumb_24
+    LONGER ArrayCommission.* BoardMotion.* MotionCommission.* QuadrotorMotion.*)
 endif()
 
 # The reports as others read them: their schemas, the findings as SARIF, and the pages in a browser.

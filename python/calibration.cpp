@@ -65,6 +65,7 @@ Calibration read(const Array& array, const std::string& path) {
   out.array = array;
   out.fit = std::make_shared<const plumb::Calibration>(file.calibration);
   out.context = file.context;
+  out.motion = file.motion;
   return out;
 }
 

@@ -110,7 +110,8 @@ struct Calibration {
   Array array;
   std::shared_ptr<const plumb::Calibration> fit;
   plumb::io::CalibrationContext context;
-  std::string report;  ///< JSON; empty where it was read from a file
+  std::shared_ptr<const plumb::io::MotionCalibration> motion;  ///< null where no log in motion was fitted
+  std::string report;                                          ///< JSON; empty where it was read from a file
 };
 
 void bind_log(py::module_& module);

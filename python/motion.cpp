@@ -22,8 +22,8 @@ plumb::session::MotionPlan plan_of(const plumb::io::ArrayFile& array, const Cali
   if (!(days >= 0.0 && std::isfinite(days)))
     refuse("days_since_calibration: must be 0 or more and finite",
            "give the days from the calibration to the run, 0 or more");
-  return taken(
-      plumb::session::plan_motion(array, calibration != nullptr ? made_for(array, *calibration) : nullptr, days));
+  return taken(plumb::session::plan_motion(array, calibration != nullptr ? made_for(array, *calibration) : nullptr,
+                                           days, calibration != nullptr ? calibration->motion.get() : nullptr));
 }
 
 class MotionMonitor {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "calibrate_motion.hpp"
 #include "fit_pictures.hpp"
 #include "known_attitude_option.hpp"
 #include "plumb/core/units.hpp"
@@ -24,6 +25,8 @@ namespace {
 struct CalibrateOptions {
   std::string array;
   session::LogSpec log;
+  std::string calibration;  ///< to which `motion` adds
+  std::string motion;       ///< empty: a calibration at rest
   std::string out;
   session::CalibrationChoice choice;
   std::string plots;
@@ -49,6 +52,10 @@ constexpr const char* kCalibrateNotes =
     "Record at least 12 attitudes spread over all directions, 10 s each; 24 to 48 are better.\n"
     "--paper makes the paper's own fits too, of all sensors and of every three of them, for `plumb monitor` in\n"
     "mode = \"paper\"; up to 8 sensors. An array file with that mode implies it.\n"
+    "With --motion the tool turns and accelerates about all axes, for half a minute or longer, and everything else "
+    "stays\n"
+    "as it was calibrated (docs/motion.md, Commissioning):\n"
+    "  plumb calibrate --array tool.toml --calibration calibration.json --motion flight.csv --out in-motion.json\n\n"
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
 /// The number that the text is, or what is wrong with it.
@@ -104,7 +111,44 @@ io::FileExpected<void> draw_fit(const CalibrateOptions& options, const session::
   return {};
 }
 
+/// A calibration is made at rest or in motion: which options belong together.
+std::optional<io::FileError> misuse(const CalibrateOptions& options) {
+  const auto wrong = [](const char* option, const std::string& what, const std::string& remedy) {
+    return io::FileError{option, 0, "", what, remedy, io::ExitCode::usage};
+  };
+  if (options.motion.empty()) {
+    if (options.log.path.empty())
+      return wrong("--log", "is required", "give the log of still attitudes, or --calibration and --motion");
+    if (!options.calibration.empty())
+      return wrong("--calibration", "belongs to --motion; a calibration at rest begins anew", "leave it out");
+    return std::nullopt;
+  }
+  if (options.calibration.empty())
+    return wrong("--motion", "adds to a calibration made at rest, and none is given",
+                 "calibrate with --log first, then give --calibration CAL.json");
+  const std::pair<bool, const char*> at_rest[] = {{!options.log.path.empty(), "--log"},
+                                                  {!options.known_attitudes.empty(), "--known-attitude"},
+                                                  {options.choice.paper_fits, "--paper"},
+                                                  {!options.plots.empty(), "--plots"},
+                                                  {!options.tag.serial.empty(), "--serial"},
+                                                  {options.rolls, "--roll-axis"},
+                                                  {options.suggest, "--suggest"},
+                                                  {options.verbose, "--verbose"}};
+  for (const auto& [given, option] : at_rest) {
+    if (given) return wrong(option, "belongs to a calibration at rest, not to --motion", "leave it out");
+  }
+  return std::nullopt;
+}
+
 io::ExitCode run_calibrate(const CalibrateOptions& options) {
+  if (const std::optional<io::FileError> wrong = misuse(options)) return report(*wrong);
+  if (!options.motion.empty())
+    return run_calibrate_motion({options.array,
+                                 options.calibration,
+                                 {options.motion, options.log.on_bad_row},
+                                 options.out,
+                                 options.tag.date,
+                                 options.json});
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
@@ -160,9 +204,18 @@ Command add_calibrate(const Options& tool) {
   command.add_option("--array", options->array, "the array file: what the sensors are, how the log looks")
       .required()
       .type_name("ARRAY.toml");
-  command.add_option("--log", options->log.path, "the log, CSV with a header row; `-` reads standard input")
-      .required()
+  command
+      .add_option("--log", options->log.path,
+                  "the log of still attitudes, CSV with a header row; `-` reads standard input. Required without "
+                  "--motion")
       .type_name("LOG.csv");
+  command
+      .add_option("--motion", options->motion,
+                  "a log in motion instead, with the rates of a gyro: fits lever arms, lags and rectification and adds "
+                  "them to --calibration")
+      .type_name("FLIGHT.csv");
+  command.add_option("--calibration", options->calibration, "with --motion: the calibration at rest that it adds to")
+      .type_name("CAL.json");
   command.add_option("--out", options->out, "the calibration file to write").required().type_name("CAL.json");
   command
       .add_option("--date", options->tag.date,

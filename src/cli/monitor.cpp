@@ -283,7 +283,7 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
-  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, *array, &calibration->calibration, *days);
+  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, *array, &*calibration, *days);
   if (!motion) return report(motion.error());
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = session::make_paper_monitor(*array, *calibration, options.calibration);

@@ -29,7 +29,7 @@ io::FileError asked_in_vain(const io::FileError& refusal) {
 }  // namespace
 
 io::FileExpected<MonitorMotion> MonitorMotion::make(const MonitorOptions& options, const io::ArrayFile& array,
-                                                    const Calibration* calibration, double days) {
+                                                    const io::CalibrationFile* calibration, double days) {
   MonitorMotion out;
   if (!array.motion.mentioned) {
     if (options.motion.empty()) return out;
@@ -37,7 +37,9 @@ io::FileExpected<MonitorMotion> MonitorMotion::make(const MonitorOptions& option
         array.path, 0, "motion", "is missing, and --motion asks for its results",
         "add [motion] and the bounds of the sensors (docs/array-file.md, Motion), or leave --motion out"});
   }
-  io::FileExpected<session::MotionPlan> plan = session::plan_motion(array, calibration, days);
+  io::FileExpected<session::MotionPlan> plan =
+      session::plan_motion(array, calibration != nullptr ? &calibration->calibration : nullptr, days,
+                           calibration != nullptr ? calibration->motion.get() : nullptr);
   if (plan) {
     out.plan_ = std::make_unique<session::MotionPlan>(*std::move(plan));
     return out;

@@ -18,7 +18,7 @@ class MonitorMotion {
   /// `calibration`: null without one. Where motion is mentioned and cannot be judged, it says so on standard error;
   /// that is an error where --motion asks for its results.
   static io::FileExpected<MonitorMotion> make(const MonitorOptions& options, const io::ArrayFile& array,
-                                              const Calibration* calibration, double days);
+                                              const io::CalibrationFile* calibration, double days);
 
   /// Joins the outputs of a run, behind those that are open.
   io::FileExpected<void> open(const MonitorOptions& options, const io::ArrayFile& array, Outputs& outputs);

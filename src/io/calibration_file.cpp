@@ -146,6 +146,12 @@ void print(const Json& value, int indent, std::string& out) {  // NOLINT(misc-no
 
 Json from_double(double value) { return std::isfinite(value) ? Json(value) : Json(shortest(value)); }
 
+std::string printed(const Json& value) {
+  std::string out;
+  print(value, 0, out);
+  return out;
+}
+
 std::string hex(std::uint64_t value) {
   constexpr std::size_t kDigits = 16;
   std::array<char, kDigits> text{};
@@ -192,9 +198,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
   root["covariance"] = from_covariance(calibration.array.uncertainty(), n);
   if (paper != nullptr) root["paper"] = from_paper(*paper, array.array);
   root["checksum"] = checksum_of(root);
-  std::string out;
-  print(root, 0, out);
-  return out + "\n";
+  return printed(root) + "\n";
 }
 
 FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,

@@ -33,6 +33,9 @@ Json from_array(const Array& values, std::size_t count) {
   return out;
 }
 
+/// Objects one member a line, lists of plain values on one line.
+std::string printed(const Json& value);
+
 /// The section `paper_parameters`: B, SF and m_ij of eqs (1)-(3), or `why_not`. Derived: the reader takes the
 /// common-frame form.
 Json from_paper_parameters(const SensorArray& nominal, const Calibration& calibration);

@@ -312,6 +312,7 @@ FileExpected<CalibrationFile> read_calibration(const std::string& path, const Ar
       out.paper = read_paper(source, root["paper"], array);
       check_paper(source, *out.paper, out.calibration, array);
     }
+    if (root.contains("motion")) out.motion = read_motion(source, root["motion"], array);
     out.array_name = source.text_of(root["array"], "name");
     out.array_file = source.text_of(root["array"], "file");
     return out;

@@ -98,6 +98,9 @@ void check_paper(const Source& source, const PaperCalibration& paper, const Cali
 /// The section `paper`: the fits by the paper's method, in the order of the triples of the array.
 std::shared_ptr<const PaperCalibration> read_paper(const Source& source, const Json& section, const ArrayFile& array);
 
+/// The section `motion`.
+std::shared_ptr<const MotionCalibration> read_motion(const Source& source, const Json& section, const ArrayFile& array);
+
 /// Refuses figures that no calibration has: not finite, negative counts and sigmas, covariances beyond their variances.
 void check_content(const Source& source, const CalibrationFile& file);
 

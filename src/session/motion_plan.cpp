@@ -49,13 +49,13 @@ io::FileError not_judged(const io::ArrayFile& array, const char* field, const st
   return {array.path, 0, field, what + ": motion is not judged", remedy, io::ExitCode::invalid_input};
 }
 
-void need_bounds(const io::ArrayFile& array, bool calibrated, Missing& missing) {
+void need_bounds(const io::ArrayFile& array, bool calibrated, bool commissioned, Missing& missing) {
   for (int i = 0; i < array.array.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const io::MotionBounds& b = array.motion.sensor[k];
-    missing.need(b.lever_arm_m.has_value(), "motion.lever_arm_bound_m");
-    missing.need(b.lag_s.has_value(), "motion.lag_bound_s");
-    missing.need(b.rectification_per_mps2.has_value(), "motion.vibration_rectification_per_mps2");
+    missing.need(b.lever_arm_m.has_value() || commissioned, "motion.lever_arm_bound_m");
+    missing.need(b.lag_s.has_value() || commissioned, "motion.lag_bound_s");
+    missing.need(b.rectification_per_mps2.has_value() || commissioned, "motion.vibration_rectification_per_mps2");
     const bool stable = calibrated && array.stability[k].stated();
     missing.need(b.scale.has_value() || stable, "motion.scale_bound");
     missing.need(b.bias_mps2.has_value() || stable, "motion.bias_bound_mps2");
@@ -64,16 +64,17 @@ void need_bounds(const io::ArrayFile& array, bool calibrated, Missing& missing) 
 }
 
 /// All that cannot be left to defaults.
-Missing missing_in(const io::ArrayFile& array, bool calibrated) {
+Missing missing_in(const io::ArrayFile& array, bool calibrated, bool commissioned) {
   const io::MotionSpec& spec = array.motion;
   Missing missing;
   missing.need(spec.sample_period_s.has_value() || array.input.rate_hz > 0.0, "motion.sample_period_s");
-  missing.need(!array.lever_arm_m.empty(), "sensor[1].lever_arm_m");
-  need_bounds(array, calibrated, missing);
+  missing.need(!array.lever_arm_m.empty() || commissioned, "sensor[1].lever_arm_m");
+  need_bounds(array, calibrated, commissioned, missing);
   if (array.input.rotation_columns.empty()) {
     missing.need(spec.rate_bound_radps.value_or(0.0) > 0.0, "motion.rate_bound_radps");
     return missing;
   }
+  if (commissioned) return missing;
   const io::GyroSpec& g = spec.gyro;
   missing.need(g.scale.has_value(), "gyro.scale_bound");
   missing.need(g.axis_rad.has_value(), "gyro.axis_bound_rad");
@@ -98,33 +99,69 @@ std::array<std::uint8_t, kCapacity> chips_of(const io::ArrayFile& array) {
   return out;
 }
 
-MotionErrors errors_of(const io::ArrayFile& array, const Calibration* calibration, int i, double days) {
-  const io::MotionBounds& b = array.motion.sensor[static_cast<std::size_t>(i)];
+MotionErrors errors_of(const io::ArrayFile& array, const Calibration* calibration, int i, double days,
+                       const io::MotionCalibration* commissioned) {
+  const auto k = static_cast<std::size_t>(i);
+  const io::MotionBounds& b = array.motion.sensor[k];
+  const io::MotionCalibration::Sensor found =
+      commissioned != nullptr ? commissioned->sensor[k] : io::MotionCalibration::Sensor{};
   const DerivedBounds left = calibration != nullptr ? derived_bounds(array, *calibration, i, days) : DerivedBounds{};
-  return {*b.lever_arm_m,
-          *b.lag_s,
-          *b.rectification_per_mps2,
+  return {commissioned != nullptr ? found.lever_arm_bound_m : *b.lever_arm_m,  // the stated one is of the stated arm
+          b.lag_s.value_or(found.lag_bound_s),
+          b.rectification_per_mps2.value_or(found.rectification_bound_per_mps2),
           b.scale.value_or(left.scale),
           b.axis_rad.value_or(left.axis_rad),
           b.bias_mps2.value_or(left.bias_mps2)};
 }
 
-MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calibration, double days) {
+/// What the array file states of the gyros counts before what a log in motion showed of them.
+GyroErrors gyro_of(const io::GyroSpec& stated, const io::MotionCalibration* commissioned) {
+  const GyroErrors found = commissioned != nullptr ? commissioned->gyro : GyroErrors{};
+  return {stated.scale.value_or(found.scale), stated.axis_rad.value_or(found.axis_rad),
+          stated.bias_radps.value_or(found.bias_radps), stated.noise_radps.value_or(found.noise_radps),
+          stated.lag_s.value_or(found.lag_s)};
+}
+
+MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calibration, double days,
+                            const io::MotionCalibration* commissioned) {
   const io::MotionSpec& spec = array.motion;
   MotionSetup out = spec.limits;
   out.sample_period_s = spec.sample_period_s ? *spec.sample_period_s : 1.0 / array.input.rate_hz;
   out.rate_bound_radps = spec.rate_bound_radps.value_or(0.0);
   for (int i = 0; i < array.array.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    out.lever_arm_m[k] = array.lever_arm_m[k];
-    out.errors[k] = errors_of(array, calibration, i, days);
+    out.lever_arm_m[k] = commissioned != nullptr ? commissioned->sensor[k].lever_arm_m : array.lever_arm_m[k];
+    out.errors[k] = errors_of(array, calibration, i, days, commissioned);
   }
   out.chip = chips_of(array);
   if (array.input.rotation_columns.empty()) return out;
   out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
-  out.gyro = {*spec.gyro.scale, *spec.gyro.axis_rad, *spec.gyro.bias_radps, *spec.gyro.noise_radps, *spec.gyro.lag_s};
+  out.gyro = gyro_of(spec.gyro, commissioned);
   out.gyro_corroborated = spec.gyro.corroborated;
   return out;
+}
+
+/// What a log in motion showed is of the array that the file described then.
+std::optional<io::FileError> of_another_array(const io::ArrayFile& array, const io::MotionCalibration& commissioned) {
+  const std::string again = "run plumb calibrate --motion again with this array file, or undo the change";
+  const int gyros =
+      (array.input.rotation_columns.empty() ? 0 : 1) + (array.input.second_rotation_columns.empty() ? 0 : 1);
+  if (gyros != commissioned.gyros)
+    return not_judged(array, "input.rotation_radps",
+                      "names " + std::to_string(gyros) + " gyros, and the calibration in motion was made with " +
+                          std::to_string(commissioned.gyros),
+                      again);
+  for (std::size_t k = 0; k < commissioned.sensor.size(); ++k) {
+    const std::string field = "sensor[" + std::to_string(k + 1) + "].lever_arm_m";
+    if (array.lever_arm_m.empty() != !commissioned.lever_arms_stated)
+      return not_judged(array, field.c_str(),
+                        std::string("is ") + (array.lever_arm_m.empty() ? "missing" : "stated") +
+                            ", and was not when the calibration in motion was made",
+                        again);
+    if (!array.lever_arm_m.empty() && array.lever_arm_m[k] != commissioned.sensor[k].stated_lever_arm_m)
+      return not_judged(array, field.c_str(), "has changed since the calibration in motion was made", again);
+  }
+  return std::nullopt;
 }
 
 /// What follows from calibration and stability may be beyond what the monitor takes.
@@ -167,7 +204,8 @@ DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& cali
   return out;
 }
 
-io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days) {
+io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days,
+                                         const io::MotionCalibration* commissioned) {
   const auto refuse = [](io::FileError error) { return tl::unexpected<io::FileError>(std::move(error)); };
   if (!array.motion.stated)
     return refuse(not_judged(array, "motion", "is missing, while other keys of motion are given",
@@ -184,12 +222,15 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
   if (array.monitor.mode == MonitorMode::paper)
     return refuse(not_judged(array, "monitor.mode", "is \"paper\", and the paper's algorithm knows no motion",
                              "set mode = \"plumb\", or remove [motion]"));
-  const Missing missing = missing_in(array, calibration != nullptr);
+  if (commissioned != nullptr) {
+    if (std::optional<io::FileError> other = of_another_array(array, *commissioned)) return refuse(*std::move(other));
+  }
+  const Missing missing = missing_in(array, calibration != nullptr, commissioned != nullptr);
   if (!missing.none()) return refuse(missing.told(array));
   MotionPlan out;
   out.array = calibration != nullptr ? calibrated_array(array, *calibration) : array.array;
   out.model = calibration != nullptr ? calibration->model : array.datasheet.model();
-  out.setup = motion_setup_of(array, calibration, days);
+  out.setup = motion_setup_of(array, calibration, days, commissioned);
   out.clip_raw.fill(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < static_cast<std::size_t>(sensors); ++k) {
     const double full_scale_raw = array.datasheet.sensor[k].full_scale_raw;

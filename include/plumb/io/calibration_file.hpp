@@ -12,6 +12,7 @@
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/hash.hpp"
+#include "plumb/io/motion_calibration.hpp"
 #include "plumb/paper/paper_calibration.hpp"
 
 namespace plumb {
@@ -43,7 +44,8 @@ struct CalibrationContext {
 struct CalibrationFile {
   Calibration calibration;
   CalibrationContext context;
-  std::shared_ptr<const PaperCalibration> paper;  ///< null where the fits by the paper's method were not asked for
+  std::shared_ptr<const PaperCalibration> paper;    ///< null where the fits by the paper's method were not asked for
+  std::shared_ptr<const MotionCalibration> motion;  ///< null where no log in motion was fitted
   std::string array_name;
   std::string array_file;  ///< last part of the path
 };
@@ -54,6 +56,11 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
 
 FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,
                                      const CalibrationContext& context, const PaperCalibration* paper = nullptr);
+
+/// The calibration file `from`, byte for byte but for its checksum, and what a log in motion showed, into `to`, which
+/// may be the same.
+FileExpected<void> add_motion(const std::string& from, const std::string& to, const MotionCalibration& motion,
+                              const ArrayFile& array);
 
 /// Refuses, with remedy: unreadable, truncated, edited (checksum), another schema or version, a
 /// calibration of another array (names the id, axis, scale or bias that differs), fits by the paper's method that are
