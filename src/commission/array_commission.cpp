@@ -90,7 +90,7 @@ ArrayBounds bounds_of(const ArrayOnBoard& on_board, const ArrayFit& fit, const S
     const std::array<Estimate, 3>& arm = fit.arm_m[i];
     out.lever_arm_m[i] = on_board.setup.lever_arm_m[i];
     for (std::size_t c = 0; c < 3; ++c) {
-      const bool as_stated = on_board.lever_bound_m[i] >= 0.0 && open_for_all(fit, c);
+      const bool as_stated = fit.stated_arms_hold && on_board.lever_bound_m[i] >= 0.0 && open_for_all(fit, c);
       if (!as_stated) out.lever_arm_m[i][c] += arm[c].value;
       out.lever_m[i] =
           std::max(out.lever_m[i], as_stated ? on_board.lever_bound_m[i] : rule.lever_m + kBoundSigmas * arm[c].sigma);

@@ -156,30 +156,47 @@ struct Group {
   double most;
 };
 
+/// A column of a group: its estimate, three sigma of it, and the most that the stated bounds leave along it.
+struct Direction {
+  double found = 0.0, bound = 0.0, stated = 0.0;
+  bool all_stated = true;
+};
+
+Direction along(const Group& group, const Vector& e) {
+  Direction out;
+  for (Index k = 0; k < group.entries; ++k) {
+    if (std::fabs(e[k]) < 1e-6) continue;
+    const double bound = group.stated[static_cast<std::size_t>(k)];
+    out.all_stated = out.all_stated && bound >= 0.0;
+    out.stated += std::fabs(e[k]) * std::max(bound, 0.0);
+  }
+  return out;
+}
+
 /// Turns the columns of a group so that each is told or open by itself; an open one is known as well as was stated.
 /// Returns by entry what share of it is open.
-Vector close(const Group& group, const Solution& found, Basis& basis, int& open) {
+Vector close(const Group& group, const Solution& found, Basis& basis, int& open, bool& holds) {
   Vector share = Vector::Zero(group.entries);
   const double prior = basis.prior[group.column];
   const Eigen::SelfAdjointEigenSolver<Matrix> told(told_of(found.normal, group.column, group.columns));
   const Matrix turned = basis.column.middleCols(group.column, group.columns) * told.eigenvectors();
   const Vector z = told.eigenvectors().transpose() * found.z.segment(group.column, group.columns);
   basis.column.middleCols(group.column, group.columns) = turned;
+  std::vector<Direction> all;
   for (Index d = 0; d < group.columns; ++d) {
-    const Vector e = turned.col(d).segment(group.entry, group.entries);
-    const double bound = kBoundSigmas * prior / std::sqrt(std::max(told.eigenvalues()[d], 1e-12));
-    double stated = 0.0;  // the most that the stated bounds leave along this direction
-    bool all_stated = true;
-    for (Index k = 0; k < group.entries; ++k) {
-      if (std::fabs(e[k]) < 1e-6) continue;
-      all_stated = all_stated && group.stated[static_cast<std::size_t>(k)] >= 0.0;
-      stated += std::fabs(e[k]) * std::max(group.stated[static_cast<std::size_t>(k)], 0.0);
-    }
-    const bool as_stated = std::fabs(prior * z[d]) <= stated + bound;
-    if (bound <= (all_stated && as_stated ? stated : group.most)) continue;
+    all.push_back(along(group, turned.col(d).segment(group.entry, group.entries)));
+    all.back().found = std::fabs(prior * z[d]);
+    all.back().bound = kBoundSigmas * prior / std::sqrt(std::max(told.eigenvalues()[d], 1e-12));
+    // What is stated and does not hold in one direction is not believed in another.
+    holds = holds && !(all.back().all_stated && all.back().found > all.back().stated + all.back().bound);
+  }
+  for (Index d = 0; d < group.columns; ++d) {
+    const Direction& one = all[static_cast<std::size_t>(d)];
+    const bool stated = holds && one.all_stated && one.found <= one.stated + one.bound / kBoundSigmas;
+    if (one.bound <= (stated ? one.stated : group.most)) continue;
     ++open;
-    share += e.cwiseAbs2();
-    if (all_stated && stated > 0.0) basis.prior[group.column + d] = stated / kBoundSigmas;
+    share += turned.col(d).segment(group.entry, group.entries).cwiseAbs2();
+    if (stated && one.stated > 0.0) basis.prior[group.column + d] = one.stated / kBoundSigmas;
   }
   return share;
 }
@@ -281,13 +298,18 @@ CommissionExpected<ArrayFit> fit_array(const ArrayOnBoard& on_board, const Array
   Solution found = solve(model, pairs.all(), basis);
   std::vector<Vector> open;
   int open_directions = 0;
-  for (const Group& group : groups_of(on_board, model, basis, settings))
-    open.push_back(close(group, found, basis, open_directions));
+  std::vector<bool> holds;
+  for (const Group& group : groups_of(on_board, model, basis, settings)) {
+    bool stated_holds = true;
+    open.push_back(close(group, found, basis, open_directions, stated_holds));
+    holds.push_back(stated_holds);
+  }
   found = solve(model, pairs.all(), basis);
   const Matrix identity = Matrix::Identity(basis.prior.size(), basis.prior.size());
   const Matrix to = basis.column * basis.prior.asDiagonal();
   const Matrix covariance = to * (found.normal + identity).inverse() * to.transpose();
   ArrayFit out = fit_of(model, covariance, open);
+  out.stated_arms_hold = holds.front();
   out.parameters = static_cast<int>(model.at().row(0));
   out.gauge = 4;
   out.rank = out.parameters - out.gauge - open_directions;

@@ -84,6 +84,7 @@ io::Json motion_fit_json(const MotionCommissioning& run, const io::ArrayFile& ar
   out["unknowns"] = run.fit.parameters;
   out["rank"] = run.fit.rank;
   out["gauge"] = run.fit.gauge;
+  out["stated_lever_arms_hold"] = run.fit.stated_arms_hold;
   out["open"] = texts_of(left_open(run, array));
   out["residual_mps2"] = run.fit.residual_mps2;
   out["residual_before_mps2"] = run.fit.residual_before_mps2;

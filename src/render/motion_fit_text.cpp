@@ -144,6 +144,8 @@ std::string motion_fit_text(const MotionCommissioning& run, const io::ArrayFile&
   for (std::size_t k = 0; k < open.size(); ++k) out += line(k == 0 ? "left open (*)" : "", open[k]);
   if (!open.empty() && run.refusal == session::MotionRefusal::none)
     out += line("", "there the bound that the array file states is kept");
+  if (!run.fit.stated_arms_hold)
+    out += line("stated arms", "are off by more than lever_arm_bound_m, which counts for none of them");
   const std::vector<std::string> stated = stated_keys(run, array);
   if (!stated.empty())
     out +=

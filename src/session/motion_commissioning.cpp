@@ -309,7 +309,8 @@ class Commissioner {
     SensorSet open;
     for (std::size_t k = 0; k < out_.found.sensor.size(); ++k) {
       const auto& arm = out_.fit.arm_m[k];
-      const bool lever = !out_.lever_stated[k] && (arm[0].open || arm[1].open || arm[2].open);
+      const bool lever =
+          !(out_.lever_stated[k] && out_.fit.stated_arms_hold) && (arm[0].open || arm[1].open || arm[2].open);
       const bool lag = !out_.lag_stated[k] && out_.fit.lag_s[k].open;
       const bool rectified = !out_.rectification_stated[k] && out_.fit.rectification[k].open;
       if (lever || lag || rectified) open = open.with(static_cast<int>(k));

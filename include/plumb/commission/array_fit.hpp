@@ -48,6 +48,7 @@ struct Estimate {
 
 struct ArrayFit {
   std::vector<std::array<Estimate, 3>> arm_m;  ///< by sensor: the correction of the stated one; their mean is zero
+  bool stated_arms_hold = true;                ///< else their stated bounds count nowhere
   std::vector<Estimate> lag_s;                 ///< by sensor; their mean is zero
   std::vector<Estimate> rectification;
   std::vector<Estimate> scale, axis_rad, bias_mps2;  ///< what the calibration is off by; axis: the size of the turn
