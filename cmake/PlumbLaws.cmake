@@ -77,6 +77,10 @@ function(plumb_planted_defect file)
   set_tests_properties(defect.${name} PROPERTIES LABELS "defect;slow" TIMEOUT 300 ENVIRONMENT "${environment}")
 endfunction()
 
+add_test(NAME defect.all_apply COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}"
+  "-DOUTPUT=${PROJECT_BINARY_DIR}/defects_applied.cpp" -P "${PROJECT_SOURCE_DIR}/cmake/CheckDefects.cmake")
+set_tests_properties(defect.all_apply PROPERTIES LABELS "trace;quick" TIMEOUT 60)
+
 # Only in builds as they ship: under sanitizers nothing new would be learnt from them.
 if(PLUMB_PLANT_DEFECTS AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   file(GLOB defects CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/laws/defects/*.defect")
