@@ -11,10 +11,12 @@ namespace {
 
 constexpr int kBlockScale = 2;  // 32 samples
 
-/// Of a test that is made once per block pair: the hourly rate over all sets, all scales and both rotation terms.
+/// Of a test that is made once per block pair: the hourly rate over all sets and both rotation terms, and over the
+/// comparison of two gyros, in all scales.
 double quantile_of(const MotionSetup& setup, int sets) noexcept {
   double tests_per_hour = 0.0;
-  for (const int samples : kMotionSamples) tests_per_hour += 2.0 * sets * 3600.0 / (samples * setup.sample_period_s);
+  for (const int samples : kMotionSamples)
+    tests_per_hour += (2.0 * sets + 1.0) * 3600.0 / (samples * setup.sample_period_s);
   return normal_tail_quantile(0.5 * setup.false_alarms_per_hour / (tests_per_hour > 1.0 ? tests_per_hour : 1.0));
 }
 
@@ -149,7 +151,7 @@ void MotionMonitor::answer(double time_s) noexcept {
   }
   open_ = MotionCause::none;
   if (most > 0 && found.least > most) {
-    open_ = MotionCause::too_many_faults;
+    open_ = gyro_explains_ ? MotionCause::gyro_inconsistent : MotionCause::too_many_faults;
   } else if (verdict_.isolated.empty()) {
     open_ = found.isolated.empty() ? MotionCause::parity : MotionCause::gyro_inconsistent;
   }

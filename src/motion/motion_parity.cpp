@@ -17,19 +17,38 @@ Mat3 omega_of(const GyroMeans& gyro) noexcept {
 /// What x may be off by, relative to the reading y = (1 + s) x, |s| <= `bound`.
 double of_reading(double bound) noexcept { return bound / (1.0 - bound); }
 
+/// What the term changes by where the rates are those of another time, by up to the gyro's lag. A mean over two blocks
+/// of a derivative is the difference of what stands at their edges (T11): of the rates, for the angular acceleration,
+/// and of the means of w w'. Between samples, and within the lag, rates differ from those at the edges by what they do
+/// from one sample to the next.
+double error_of_lag(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro) noexcept {
+  const double span_s = means.span_s, period_s = span_s / means.samples, lags = bounds.lag_s / period_s;
+  const Symmetric& p = gyro.product_change;
+  const double trace = p[0] + p[1] + p[2];
+  const double change =
+      std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + 2.0 * (p[3] * p[3] + p[4] * p[4] + p[5] * p[5])) +
+      std::fabs(trace);
+  const double moved = lags * gyro.step_radps;
+  return bounds.lag_s / (span_s * span_s) * (norm(gyro.edge_change_radps) + 2.0 * gyro.bend_radps + 4.0 * moved) +
+         bounds.lag_s / span_s * change + 2.0 * moved * moved;
+}
+
 /// What the term of a healthy gyro is off by: scale and axis, bias, noise, and how fast the acceleration changes. A
 /// quarter of a sample period covers that readings are compared at instants, rates over the intervals between them.
 double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
   const double square = gyro.rate_product[0] + gyro.rate_product[1] + gyro.rate_product[2];
   const double rate = std::sqrt(square > 0.0 ? square : 0.0);
-  const double relative = of_reading(bounds.scale + bounds.axis_rad), more = (1.0 + relative) * (1.0 + relative);
+  // Three axes that turn by `axis_rad` each are off by up to sqrt(2) times that together.
+  const double relative = of_reading(bounds.scale + std::sqrt(2.0) * bounds.axis_rad),
+               more = (1.0 + relative) * (1.0 + relative);
   const double n = means.samples, period_s = means.span_s / n;
   const double noise = k * bounds.noise_radps;
   return (2.0 + relative) * relative * square + relative * norm(gyro.acceleration_radps2) +
          more * (2.0 * rate * (bounds.bias_radps + noise * std::sqrt(means.noise_share())) +
                  bounds.bias_radps * bounds.bias_radps + 3.0 * bounds.noise_radps * bounds.noise_radps +
                  noise * std::sqrt(2.0 / n) / means.span_s +
-                 (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2));
+                 (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2) +
+                 error_of_lag(bounds, means, gyro));
 }
 
 /// At least the operator norm of the difference, and at most sqrt(3) times that.

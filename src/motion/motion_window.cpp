@@ -73,6 +73,12 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     to.given[g] = (to.count == 0 || to.given[g]) && part.given[g];
     to.rate[g] = plus(to.rate[g], part.rate[g]);
+    RateEdges& edges = to.edges[g];
+    const RateEdges& more = part.edges[g];
+    if (to.count == 0) edges.begin = more.begin;
+    edges.end = more.end;
+    if (more.step > edges.step) edges.step = more.step;
+    if (more.bend > edges.bend) edges.bend = more.bend;
     for (std::size_t c = 0; c < 6; ++c) {
       to.product[g][0][c] += part.product[g][0][c];
       to.product[g][1][c] += first_share * part.product[g][0][c] + part_share * part.product[g][1][c];
@@ -119,6 +125,13 @@ void MotionWindow::add(const MotionSample& sample) noexcept {
     const double step = next.reading[i][0] - newest_.reading[i][0];
     if (begun_ > 1) newest_.bend[i] = std::fabs(step - step_mps2_[i]);
     step_mps2_[i] = step;
+  }
+  for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_) && begun_ > 0; ++g) {
+    const Vec3 step = minus(next.rate[g], newest_.rate[g]), before = begun_ > 1 ? step_radps_[g] : step;
+    const double now = norm(step), last = norm(before);
+    newest_.edges[g] = {minus(newest_.rate[g], scaled(before, 0.5)), plus(newest_.rate[g], scaled(step, 0.5)),
+                        now > last ? now : last, norm(minus(step, before))};
+    step_radps_[g] = step;
   }
   if (begun_ > 0) take(newest_);
   newest_ = next;
@@ -167,7 +180,12 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
     gyro.acceleration_change_radps2 = pair.acceleration_known
                                           ? minus(gyro.acceleration_radps2, pair.acceleration_before[g])
                                           : scaled(gyro.acceleration_radps2, 2.0);
+    const RateEdges &before = a.edges[g], &after = b.edges[g];
+    gyro.edge_change_radps = plus(minus(after.end, scaled(after.begin, 2.0)), before.begin);
+    gyro.step_radps = before.step > after.step ? before.step : after.step;
+    gyro.bend_radps = before.bend > after.bend ? before.bend : after.bend;
     for (std::size_t c = 0; c < 6; ++c) {
+      gyro.product_change[c] = (b.product[g][0][c] - a.product[g][0][c]) * inverse;
       gyro.rate_product[c] = (a.product[g][1][c] + b.product[g][0][c] - b.product[g][1][c]) * inverse;
     }
   }

@@ -52,6 +52,13 @@ Refusal of_inputs(const MotionCommissioning& run, const io::ArrayFile& array) {
       return {run.fitted ? fmt::format("the readings fit {:.1f} times better with the rates taken as deg/s", run.value)
                          : fmt::format("the rates reach {:.4g} rad/s, beyond {:.4g} rad/s", run.value, run.limit),
               "write rad/s into the columns of the rates; raise rate_bound_radps if the tool turns so fast"};
+    case MotionRefusal::gyro_still:
+      return {
+          fmt::format("the {} gyro ({}) stands still for {:.1f} s from t = {:.3f} s on, while a gyro has noise",
+                      run.gyro == 0 ? "first" : "second",
+                      listed(run.gyro == 0 ? array.input.rotation_columns : array.input.second_rotation_columns),
+                      run.value, run.limit),
+          "see whether the gyro was on and its columns are filled; record again, or leave its columns out of [input]"};
     case MotionRefusal::rate_noise:
       return {fmt::format("the two gyros scatter by {:.2g} rad/s against each other, beyond {:.2g} rad/s", run.value,
                           run.limit),
@@ -61,7 +68,8 @@ Refusal of_inputs(const MotionCommissioning& run, const io::ArrayFile& array) {
           fmt::format("{:.0f} % of the blocks have a sensor without a reading or at full scale, or no rate{}",
                       100.0 * run.value,
                       run.sensors.empty() ? "" : " (at full scale: " + sensor_names(run.sensors, array.array) + ")"),
-          "record a gentler motion, or use sensors of a larger full scale"};
+          run.sensors.empty() ? "look for empty or nan cells of sensors and gyros in the log"
+                              : "record a gentler motion, or use sensors of a larger full scale"};
     case MotionRefusal::filtered:
       return {fmt::format("readings scatter by {:.2f} of the stated noise from sample to sample", run.value),
               "log samples that were not filtered or averaged; check the unit of the log, and noise in the array file"};
@@ -79,6 +87,7 @@ const char* word_of(MotionRefusal refusal) noexcept {
     case MotionRefusal::irregular_time: return "irregular_time";
     case MotionRefusal::no_rates: return "no_rates";
     case MotionRefusal::rates_in_deg: return "rates_in_deg";
+    case MotionRefusal::gyro_still: return "gyro_still";
     case MotionRefusal::rate_noise: return "rate_noise";
     case MotionRefusal::clipped: return "clipped";
     case MotionRefusal::filtered: return "filtered";
@@ -87,6 +96,7 @@ const char* word_of(MotionRefusal refusal) noexcept {
     case MotionRefusal::open: return "open";
     case MotionRefusal::calibration: return "calibration";
     case MotionRefusal::gyro: return "gyro";
+    case MotionRefusal::gyro_unbounded: return "gyro_unbounded";
     case MotionRefusal::beyond_stated: return "beyond_stated";
     case MotionRefusal::held_out_alarm: return "held_out_alarm";
     case MotionRefusal::held_out: return "held_out";
@@ -95,7 +105,7 @@ const char* word_of(MotionRefusal refusal) noexcept {
 }
 
 Refusal refusal_of(const MotionCommissioning& run, const io::ArrayFile& array) {
-  const std::string names = sensor_names(run.sensors, array.array);
+  const std::string names = run.sensors.empty() ? "some sensors" : sensor_names(run.sensors, array.array);
   switch (run.refusal) {
     case MotionRefusal::fault:
       return {
@@ -111,6 +121,12 @@ Refusal refusal_of(const MotionCommissioning& run, const io::ArrayFile& array) {
     case MotionRefusal::gyro:
       return {fmt::format("the gyro is off by {:.4g}, and {} states {:.4g}", run.value, run.key, run.limit),
               "check the columns and the axes of the gyro, or correct the bound"};
+    case MotionRefusal::gyro_unbounded:
+      return {
+          fmt::format("the gyro would need a {} of {:.3g}, and the most is {:.3g}: one of the gyros is faulty, or "
+                      "the motion does not show it",
+                      run.key, run.value, run.limit),
+          "check the columns, the unit and the axes of the gyros; record a longer motion that turns about all axes"};
     case MotionRefusal::beyond_stated:
       return {fmt::format("{} of {} is {:.4g} in the array file, and the log needs {:.4g}", run.key, names, run.limit,
                           run.value),

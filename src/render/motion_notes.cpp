@@ -70,10 +70,10 @@ void add_rates(const Gyro& gyro, std::uint64_t rows, const MotionSetup& setup, s
     out.push_back({"rate_missing",
                    fmt::format("{} is missing in {} of {}, the first at t = {:.3f} s: {}", gyro.rate, in.missing,
                                count_text(rows, "row"), in.first_missing_s,
-                               setup.gyros > 1 ? "there one gyro counts alone"
-                               : stated        ? "there the stated largest rate counts"
-                                               : "nothing is judged there"),
-                   "log the rates of every sample, or state rate_bound_radps in [motion]"});
+                               stated ? "there rate_bound_radps counts in its place, and bounds are wide"
+                                      : "nothing is judged there"),
+                   stated ? "log the rates of every sample"
+                          : "log the rates of every sample, or state rate_bound_radps in [motion]"});
   const double most_radps = stated ? setup.rate_bound_radps : kMostRate_radps;
   if (in.largest_radps > most_radps)
     out.push_back({"rate_too_large",
@@ -95,8 +95,11 @@ std::vector<MotionNote> motion_notes(const session::MotionRun& run, const Motion
   std::vector<MotionNote> out;
   add_clock(run.inputs, setup, out);
   const MotionInputs& in = run.inputs;
-  if (setup.gyros > 0) add_rates({in.gyro[0], "the rate", "rotation_radps"}, in.rows, setup, out);
-  if (setup.gyros > 1) add_rates({in.gyro[1], "the second rate", "second_rotation_radps"}, in.rows, setup, out);
+  if (setup.gyros > 0)
+    add_rates({in.gyro[0], setup.gyros > 1 ? "the rate of the first gyro" : "the rate", "rotation_radps"}, in.rows,
+              setup, out);
+  if (setup.gyros > 1)
+    add_rates({in.gyro[1], "the rate of the second gyro", "second_rotation_radps"}, in.rows, setup, out);
   return out;
 }
 

@@ -170,6 +170,23 @@ std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
   return out;
 }
 
+std::vector<std::string> motion_actions(const MotionTold& told, const io::ArrayFile& array) {
+  std::vector<std::string> out;
+  if (told.run == nullptr) return out;
+  const MotionRun& run = *told.run;
+  if (!run.isolated.empty())
+    out.push_back(
+        fmt::format("In motion {} contradicted the others: check what was isolated, whatever the stations say.",
+                    names_with_times(run.isolated, run.isolated_at_s, array)));
+  else if (run.alarms > 0)
+    out.push_back(
+        fmt::format("In motion the readings contradicted each other from t = {:.3f} s on, and nobody was isolated: {}.",
+                    run.first_alarm_s, explain(open_cause(run))));
+  if (run.gyro_disagreements > 0)
+    out.push_back(fmt::format("Check both gyros: from t = {:.3f} s on {}.", run.gyros_disagree_s, kGyrosDisagree));
+  return out;
+}
+
 io::Json motion_json(const MotionTold& told, const io::ArrayFile& array) {
   if (told.run == nullptr)
     return io::object({{"judged", false},

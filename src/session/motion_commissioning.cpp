@@ -29,6 +29,10 @@ constexpr double kMostIrregular = 0.01, kMostLost = 0.1;
 constexpr double kMostRate_radps = 4000.0 * kPi / 180.0;
 /// Noise of two gyros against each other: times the stated one, and where none is stated.
 constexpr double kMostNoise = 5.0, kMostNoise_radps = 0.05;
+/// A gyro has noise: as in the notes of `plumb monitor`.
+constexpr double kStill_s = 1.0;
+/// As far as `plumb::check` takes bounds of a gyro.
+constexpr double kMostGyroBound = 0.4;
 /// White noise of the stated size has a scatter of 1; vibration adds to it.
 constexpr double kLeastScatter = 0.5;
 /// rms of the held-out part by the fit, over that by a fit of its own.
@@ -175,6 +179,10 @@ class Commissioner {
     for (std::size_t g = 0; g < static_cast<std::size_t>(on_board_.setup.gyros); ++g) {
       if (static_cast<double>(in.gyro[g].missing) > kMostLost * rows)
         return refuse(MotionRefusal::no_rates, static_cast<double>(in.gyro[g].missing), rows);
+      if (in.gyro[g].still_s >= kStill_s) {
+        out_.gyro = static_cast<int>(g);
+        return refuse(MotionRefusal::gyro_still, in.gyro[g].still_s, in.gyro[g].still_from_s);
+      }
       if (in.gyro[g].largest_radps > most) return refuse(MotionRefusal::rates_in_deg, in.gyro[g].largest_radps, most);
     }
     const std::optional<double>& noise_radps = array_.motion.gyro.noise_radps;
@@ -237,6 +245,12 @@ class Commissioner {
       one.rectification_per_mps2 = out_.fit.rectification[k].value;
       one.rectification_sigma_per_mps2 = out_.fit.rectification[k].sigma;
       one.rectification_bound_per_mps2 = bounds.rectification[k];
+    }
+    for (const auto& [key, value] :
+         {std::pair("gyro.scale_bound", bounds.gyro.scale), std::pair("gyro.axis_bound_rad", bounds.gyro.axis_rad)}) {
+      if (value <= kMostGyroBound) continue;
+      refuse_stated(MotionRefusal::gyro_unbounded, key, value, kMostGyroBound);
+      return {};
     }
     io::FileExpected<MotionPlan> now = plan();
     if (!now) return tl::unexpected<io::FileError>(now.error());

@@ -318,6 +318,19 @@ TEST_F(CalibrateMotion, RatesInDegreesAreToldByTheirSizeAndByTheirNoise) {
   refused(commission(unbounded, "car_deg.csv"), 4, {"the two gyros scatter by", "beyond 0.0085 rad/s", "write rad/s"});
 }
 
+TEST_F(CalibrateMotion, AGyroThatStandsStillIsNamed) {
+  const auto dead = [](int first, double from_s) {
+    return [=](const std::string& line) {
+      return std::strtod(line.c_str(), nullptr) < from_s ? line : scaled_cells(line, first, first + 2, 0.0);
+    };
+  };
+  hangar().cut("all.csv", "first.csv", 0.0, kFit_s, dead(1, 0.0));
+  refused(commission(drone(), "first.csv"), 4, {"the first gyro (wx, wy and wz) stands still for", "record again"});
+  hangar().cut("all.csv", "second.csv", 0.0, kFit_s, dead(4, 0.8 * kFit_s));  // in the part that is held out
+  refused(commission(unknown_tool(), "second.csv"), 4,
+          {"the second gyro (ux, uy and uz) stands still for", "record again"});
+}
+
 TEST_F(CalibrateMotion, RefusesLogsThatCannotBeFitted) {
   refused(commission(without_lines(unknown_tool(), "rotation_radps"), "flight.csv"), 3,
           {"array.toml: input.rotation_radps: is missing, and lever arms show only by the rates of a gyro"});

@@ -250,7 +250,8 @@ TEST(MonitorReport, AFlightShowsForceBoundAndWhoWasIsolated) {
   }
   EXPECT_GT(alarmed, 0);
   const std::string page = read_text(where / "r.html");
-  EXPECT_TRUE(says(page, {"5 In motion", "provisionally excluded", "x2, y2, z2", "Events in motion"}));
+  EXPECT_TRUE(says(page, {"In motion x2, y2, z2 (imu2) at 3.001 s contradicted the others", "5 In motion",
+                          "provisionally excluded", "x2, y2, z2", "Events in motion"}));
   EXPECT_EQ(page.find("contradictions on record") != std::string::npos, kHasGnuplot) << "the picture";
 }
 

@@ -69,6 +69,53 @@ RC_GTEST_PROP(MotionGyroLaw, HealthyGyrosAreNeverSaidToDisagree, ()) {
   }
 }
 
+/// A tone of the rate about one axis, and two gyros of which one reads it `lag` early and the other late. One sensor is
+/// on an arm, and nothing else is wrong. Near one over twice the length of a block the angular acceleration of a pair
+/// of blocks is that of the pair before, and what lag changes is largest.
+// Negative: REQ-210
+TEST(MotionGyro, LagWithinItsBoundBlamesNobodyWhateverTheToneIs) {
+  constexpr double kTime_s = 1.5, kArm_m = 0.1;
+  for (const double tone_hz : {15.0, 15.625, 60.0, 120.0, 125.0}) {
+    for (const double lag_s : {20e-6, 250e-6, 1e-3}) {
+      for (const bool alike : {false, true}) {
+        MotionSetup setup = motion_setup(6);
+        for (Vec3& arm : setup.lever_arm_m) arm = {};
+        setup.lever_arm_m[0] = {0.0, kArm_m, 0.0};
+        setup.gyros = 2;
+        setup.gyro = {0.01, 0.01, 0.006, 0.0017, lag_s};
+        const SensorArray array = cone_array(6, 0.005);
+        MotionMonitor monitor;
+        ASSERT_TRUE(monitor.configure(array, setup).has_value());
+        plumb_test::Noise noise(7);
+        const double radps = 2.0 * kPi * tone_hz, size = tone_hz < 50.0 ? 0.5 : 1.5;
+        bool alarm = false, disagree = false;
+        for (int k = 0; k * setup.sample_period_s < kTime_s; ++k) {
+          MotionSample s;
+          s.time_s = k * setup.sample_period_s;
+          s.delivered = array.all();
+          const double w = size * std::sin(radps * s.time_s), change = size * radps * std::cos(radps * s.time_s);
+          for (int i = 0; i < 6; ++i) {
+            const Vec3& arm = setup.lever_arm_m[static_cast<std::size_t>(i)];
+            const Vec3 felt{-change * arm[1] - w * w * arm[0], change * arm[0] - w * w * arm[1], kG0_mps2};
+            s.reading_mps2[static_cast<std::size_t>(i)] = dot(array.axis(i), felt) + 0.005 * noise.normal();
+          }
+          for (std::size_t g = 0; g < 2; ++g) {
+            const double at_s = s.time_s + (g == 0 || alike ? lag_s : -lag_s);
+            s.rate_radps[g] = {0.0, 0.0, size * std::sin(radps * at_s)};
+            for (double& rate : s.rate_radps[g]) rate += 0.0017 * noise.normal();
+            s.rate_given[g] = true;
+          }
+          const MotionVerdict& verdict = monitor.step(s);
+          alarm = alarm || verdict.alarm;
+          disagree = disagree || verdict.gyros_disagree;
+        }
+        EXPECT_FALSE(alarm) << tone_hz << " Hz, " << lag_s << " s, " << alike;
+        EXPECT_FALSE(disagree) << tone_hz << " Hz, " << lag_s << " s, " << alike;
+      }
+    }
+  }
+}
+
 /// Whichever of the two it is: no sensor is blamed, the bound holds, and it is told.
 // Negative: REQ-210
 TEST(MotionGyro, AFaultyGyroOfTwoIsTold) {
@@ -118,6 +165,26 @@ TEST(MotionGyro, GyrosThatDisagreeAreForgottenWhenToldAndWhenTheClockBeginsAnew)
   flight.distort = [](MotionSample& s) { s.time_s -= 1000.0; };
   flight.fly(1200, 7000);
   EXPECT_FALSE(flight.monitor.verdict().gyros_disagree) << "as old as the new clock says";
+}
+
+/// Where a faulty gyro explains what no fault set of sensors does, it is the cause, and not more faults than allowed.
+TEST(MotionGyro, ADeadGyroAloneIsTheCauseThatIsNamed) {
+  int seen = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    MotionSetup setup = motion_setup(6, seed);
+    setup.max_faults = 1;
+    Flight flight(cone_array(6, 0.01), setup, seed);
+    flight.distort = [](MotionSample& s) {
+      if (s.time_s >= 0.3) s.rate_radps[0] = {};
+    };
+    flight.fly(0, 900);
+    const MotionVerdict& verdict = flight.monitor.verdict();
+    EXPECT_NE(verdict.cause, MotionCause::too_many_faults) << seed;
+    if (verdict.least_faults <= 1) continue;
+    EXPECT_EQ(verdict.cause, MotionCause::gyro_inconsistent) << seed;
+    ++seen;
+  }
+  EXPECT_GT(seen, 0);
 }
 
 /// With two gyros of which one died the fault is isolated all the same, and nobody else.

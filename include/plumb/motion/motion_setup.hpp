@@ -30,8 +30,8 @@ struct MotionErrors {
 
 /// Bounds of a gyro triad.
 struct GyroErrors {
-  double scale = 0.0;  ///< relative
-  double axis_rad = 0.0;
+  double scale = 0.0;     ///< relative
+  double axis_rad = 0.0;  ///< turn of each axis
   double bias_radps = 0.0;
   double noise_radps = 0.0;  ///< 1 sigma of a sample
   double lag_s = 0.0;        ///< against the accelerometers

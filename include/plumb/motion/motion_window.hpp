@@ -24,6 +24,11 @@ struct GyroMeans {
   Vec3 acceleration_change_radps2{};  ///< against the pair of blocks before; where there was none, twice the
                                       ///< acceleration
   Symmetric rate_product{};           ///< triangle mean of w w'
+  // What a shift in time changes: means of a derivative are differences at the edges of the blocks.
+  Vec3 edge_change_radps{};    ///< rate at the end, less twice that in the middle, plus that at the beginning
+  Symmetric product_change{};  ///< of the mean w w' from one block to the next
+  double step_radps = 0.0;     ///< largest change from a sample to the next
+  double bend_radps = 0.0;     ///< largest second difference of three samples in a row
 };
 
 /// Two adjacent blocks of one scale.
@@ -58,6 +63,12 @@ class MotionWindow {
   void clear() noexcept;
 
  private:
+  /// Of the rate in one block: half-way to the sample before it and to the one after it; largest first and second
+  /// differences.
+  struct RateEdges {
+    Vec3 begin{}, end{};
+    double step = 0.0, bend = 0.0;
+  };
   /// Of one block: sums of x, and of x weighted by (k + 1/2) / N.
   struct Sums {
     int count = 0;
@@ -68,6 +79,7 @@ class MotionWindow {
     std::array<std::array<double, 2>, kMotionCapacity> square{};
     std::array<double, kMotionCapacity> bend{};
     std::array<Vec3, kGyros> rate{};
+    std::array<RateEdges, kGyros> edges{};
     std::array<std::array<Symmetric, 2>, kGyros> product{};
   };
   struct Scale {
@@ -89,6 +101,7 @@ class MotionWindow {
   std::array<Scale, kMotionScales> scales_{};
   Sums newest_;
   std::array<double, kMotionCapacity> step_mps2_{};  ///< from the sample before the newest to it
+  std::array<Vec3, kGyros> step_radps_{};            ///< likewise
   int sensors_ = 0;
   int gyros_ = 0;
   double period_s_ = 0.0;

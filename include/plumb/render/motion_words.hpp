@@ -36,6 +36,8 @@ std::string event_words(const io::MotionEvent& event);
 std::string motion_line(const io::MotionEvent& event, const SensorArray& array);
 /// Lines of the summary; empty where nothing is told.
 std::string motion_text(const MotionTold& told, const io::ArrayFile& array);
+/// What is to be done about what motion showed.
+std::vector<std::string> motion_actions(const MotionTold& told, const io::ArrayFile& array);
 io::Json motion_json(const MotionTold& told, const io::ArrayFile& array);
 /// The same with the events and how force and bound went, for the health report; null where nothing is told.
 io::Json motion_report_json(const MotionTold& told, const session::MotionTrace& trace, const io::ArrayFile& array);

@@ -26,6 +26,7 @@ enum class MotionRefusal : std::uint8_t {
   irregular_time,  ///< value: steps that are not a period, limit: rows
   no_rates,        ///< a row without a rate; value: such rows
   rates_in_deg,    ///< value: the largest rate, or how much better the rates fit as deg/s
+  gyro_still,      ///< the rate of a gyro stands still; value: seconds, limit: from when on, `gyro`: which
   rate_noise,      ///< value: how two gyros scatter against each other, limit: the most
   clipped,         ///< sensors; value: share of the block pairs that it costs
   filtered,        ///< value: scatter from sample to sample in stated sigmas
@@ -34,6 +35,7 @@ enum class MotionRefusal : std::uint8_t {
   open,            ///< the motion leaves something open that the file does not state
   calibration,     ///< sensors: scale, axis or bias beyond what calibration and file leave
   gyro,            ///< beyond what the file states of it
+  gyro_unbounded,  ///< its bound would be beyond all that may be stated; value, limit
   beyond_stated,   ///< sensors: lag or rectification beyond the stated bound; value, limit
   held_out_alarm,  ///< the monitor contradicts the held-out part; sensors, value: when
   held_out,        ///< the fit predicts the held-out part badly; value: times its own residual
@@ -43,6 +45,7 @@ struct MotionCommissioning {
   MotionRefusal refusal = MotionRefusal::none;
   SensorSet sensors;  ///< of the refusal
   double value = 0.0, limit = 0.0;
+  int gyro = 0;          ///< of the refusal
   const char* key = "";  ///< of the array file: whose bound is passed
 
   std::uint64_t rows = 0, fitted_rows = 0;  ///< the others were held out
