@@ -128,6 +128,8 @@ Replay replayed(const SensorArray& array, const MotionSetup& setup, const Sample
     const bool judged = now.cause != MotionCause::rotation_unknown && now.cause != MotionCause::no_redundancy &&
                         now.cause != MotionCause::irregular_time;
     out.judged += judged ? 1U : 0U;
+    if (now.gyros_disagree && !out.gyros_disagree) out.gyros_disagree_s = samples[k].time_s;
+    out.gyros_disagree = out.gyros_disagree || now.gyros_disagree;
     if (!now.alarm) continue;
     if (!out.alarm) out.alarm_s = samples[k].time_s;
     out.alarm = true;

@@ -96,6 +96,7 @@ const char* word_of(MotionRefusal refusal) noexcept {
     case MotionRefusal::open: return "open";
     case MotionRefusal::calibration: return "calibration";
     case MotionRefusal::gyro: return "gyro";
+    case MotionRefusal::gyros_disagree: return "gyros_disagree";
     case MotionRefusal::gyro_unbounded: return "gyro_unbounded";
     case MotionRefusal::beyond_stated: return "beyond_stated";
     case MotionRefusal::held_out_alarm: return "held_out_alarm";
@@ -121,6 +122,11 @@ Refusal refusal_of(const MotionCommissioning& run, const io::ArrayFile& array) {
     case MotionRefusal::gyro:
       return {fmt::format("the gyro is off by {:.4g}, and {} states {:.4g}", run.value, run.key, run.limit),
               "check the columns and the axes of the gyro, or correct the bound"};
+    case MotionRefusal::gyros_disagree:
+      return {
+          fmt::format("the two gyros read more apart than their bounds allow at t = {:.3f} s: one of them is faulty",
+                      run.value),
+          "check the columns, the unit and the axes of both gyros; correct [gyro] if its bounds are too small"};
     case MotionRefusal::gyro_unbounded:
       return {
           fmt::format("the gyro would need a {} of {:.3g}, and the most is {:.3g}: one of the gyros is faulty, or "

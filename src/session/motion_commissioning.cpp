@@ -231,7 +231,10 @@ class Commissioner {
 
   /// Bounds of what was fitted, and of the lag that the monitor needs beside.
   io::FileExpected<void> bound() {
-    const commission::ArrayBounds bounds = commission::bounds_of(on_board_, out_.fit, flight_.samples, rule_);
+    // The rows that check the fit have no say in its bounds.
+    const std::vector<MotionSample> fitted(flight_.samples.begin(),
+                                           flight_.samples.begin() + static_cast<std::ptrdiff_t>(split_));
+    const commission::ArrayBounds bounds = commission::bounds_of(on_board_, out_.fit, fitted, rule_);
     out_.found = unknown(array_);
     out_.found.gyro = bounds.gyro;
     for (std::size_t k = 0; k < out_.found.sensor.size(); ++k) {
@@ -287,7 +290,12 @@ class Commissioner {
       }
     }
     if (!beyond.empty()) return refuse(MotionRefusal::calibration, most, 1.0, beyond);
-    return judge_stated() && judge_open();
+    return judge_gyros(0, split_) && judge_stated() && judge_open();
+  }
+
+  bool judge_gyros(std::size_t first, std::size_t end) {
+    const commission::Replay seen = commission::replayed(array_in_motion_, out_.setup, flight_.samples, first, end);
+    return !seen.gyros_disagree || refuse(MotionRefusal::gyros_disagree, seen.gyros_disagree_s);
   }
 
   /// How far an estimate is beyond a bound, over that bound, at three sigma; 1 where it is not.
@@ -345,7 +353,9 @@ class Commissioner {
     out_.held_out_mps2 = commission::residual_of(on_board_, pairs, out_.fit);
     out_.held_out_own_mps2 = own->residual_mps2;
     const double ratio = out_.held_out_mps2 / out_.held_out_own_mps2;
-    if (seen.alarm) {
+    if (seen.gyros_disagree) {
+      refuse(MotionRefusal::gyros_disagree, seen.gyros_disagree_s);
+    } else if (seen.alarm) {
       refuse(MotionRefusal::held_out_alarm, seen.alarm_s, 0.0, seen.isolated.empty() ? seen.suspects : seen.isolated);
     } else if (ratio > kMostHeldOut) {
       refuse(MotionRefusal::held_out, ratio, kMostHeldOut);

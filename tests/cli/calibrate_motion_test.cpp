@@ -331,6 +331,19 @@ TEST_F(CalibrateMotion, AGyroThatStandsStillIsNamed) {
           {"the second gyro (ux, uy and uz) stands still for", "record again"});
 }
 
+TEST_F(CalibrateMotion, GyrosThatDisagreeAreToldInEitherPart) {
+  for (const double from_s :
+       {0.3 * kFit_s, 0.8 * kFit_s}) {  // in the part that is fitted, and in that which is held out
+    hangar().cut("all.csv", "apart.csv", 0.0, kFit_s, [=](const std::string& line) {
+      return std::strtod(line.c_str(), nullptr) < from_s ? line : scaled_cells(line, 4, 6, 1.3);
+    });
+    const Outcome told = commission(drone(), "apart.csv");
+    EXPECT_EQ(told.code, 4) << told.err;
+    EXPECT_NE(told.err.find("gyro"), std::string::npos) << told.err;
+    if (from_s > 0.5 * kFit_s) refused(told, 4, {"the two gyros read more apart than their bounds allow at t = "});
+  }
+}
+
 TEST_F(CalibrateMotion, RefusesLogsThatCannotBeFitted) {
   refused(commission(without_lines(unknown_tool(), "rotation_radps"), "flight.csv"), 3,
           {"array.toml: input.rotation_radps: is missing, and lever arms show only by the rates of a gyro"});

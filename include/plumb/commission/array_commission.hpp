@@ -39,6 +39,8 @@ struct Replay {
   double alarm_s = 0.0;  ///< the first one
   SensorSet suspects;    ///< of all alarms
   SensorSet isolated;
+  bool gyros_disagree = false;
+  double gyros_disagree_s = 0.0;  ///< the first time
 };
 Replay replayed(const SensorArray& array, const MotionSetup& setup, const std::vector<MotionSample>& samples,
                 std::size_t first, std::size_t end);

@@ -35,6 +35,7 @@ enum class MotionRefusal : std::uint8_t {
   open,            ///< the motion leaves something open that the file does not state
   calibration,     ///< sensors: scale, axis or bias beyond what calibration and file leave
   gyro,            ///< beyond what the file states of it
+  gyros_disagree,  ///< beyond their bounds; value: when
   gyro_unbounded,  ///< its bound would be beyond all that may be stated; value, limit
   beyond_stated,   ///< sensors: lag or rectification beyond the stated bound; value, limit
   held_out_alarm,  ///< the monitor contradicts the held-out part; sensors, value: when
