@@ -237,8 +237,8 @@ TEST(MotionCommand, SaysWhatIsWrongWithTheGyro) {
   }
   write_text(where / "flight.csv", out);
   const Outcome told = monitor(where, {});
-  EXPECT_TRUE(says(told.out, {"note      the rate of the first gyro reaches", "beyond rate_bound_radps = 8 rad/s", "taken as deg/s",
-                              "the columns seem to hold deg/s", "Remedy: write rad/s"}))
+  EXPECT_TRUE(says(told.out, {"note      the rate of the first gyro reaches", "beyond rate_bound_radps = 8 rad/s",
+                              "taken as deg/s", "the columns seem to hold deg/s", "Remedy: write rad/s"}))
       << told.err;
 }
 
