@@ -28,9 +28,19 @@ double error_of_lag(const GyroErrors& bounds, const MotionMeans& means, const Gy
   const double change =
       std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + 2.0 * (p[3] * p[3] + p[4] * p[4] + p[5] * p[5])) +
       std::fabs(trace);
-  const double moved = lags * gyro.step_radps;
-  return bounds.lag_s / (span_s * span_s) * (norm(gyro.edge_change_radps) + 2.0 * gyro.bend_radps + 4.0 * moved) +
+  const double moved = lags * gyro.step_radps, open = gyro.begun ? gyro.step_radps : 0.0;
+  return bounds.lag_s / (span_s * span_s) *
+             (norm(gyro.edge_change_radps) + open + 2.0 * gyro.bend_radps + 4.0 * moved) +
          bounds.lag_s / span_s * change + 2.0 * moved * moved;
+}
+
+/// The angular acceleration is summed at the samples in the readings, and between them in the rates: a trapezoidal
+/// rule, whose error in a mean over two blocks is period^2 / 12 times the mean second derivative of the acceleration,
+/// so what the acceleration does at the edges. Twice that holds for any tone below half the sample rate.
+double error_of_sums(const MotionMeans& means, const GyroMeans& gyro) noexcept {
+  const double n = means.samples, period_s = means.span_s / n;
+  const double open = gyro.begun ? 2.0 * gyro.step_radps : 0.0;
+  return (norm(gyro.step_change_radps) + open) / (6.0 * n * n * period_s);
 }
 
 /// What the term of a healthy gyro is off by: scale and axis, bias, noise, and how fast the acceleration changes. A
@@ -48,7 +58,7 @@ double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMe
                  bounds.bias_radps * bounds.bias_radps + 3.0 * bounds.noise_radps * bounds.noise_radps +
                  noise * std::sqrt(2.0 / n) / means.span_s +
                  (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2) +
-                 error_of_lag(bounds, means, gyro));
+                 error_of_lag(bounds, means, gyro) + error_of_sums(means, gyro));
 }
 
 /// At least the operator norm of the difference, and at most sqrt(3) times that.

@@ -11,12 +11,12 @@ constexpr int kSettlingSamples = 4;  // after a reading at full scale
 /// Some 1000 g. Nothing that navigates reads more, and the square of more would widen a sensor's own limits beyond any
 /// reading (REQ-202, T11: a limit that the fault itself raises).
 constexpr double kMostReading_mps2 = 1e4;
+/// Ten times the largest `rate_bound_radps`: no gyro gives more.
+constexpr double kMostRate_radps = 1e4;
 
 Symmetric product_of(const Vec3& w) noexcept {
   return {w[0] * w[0], w[1] * w[1], w[2] * w[2], w[0] * w[1], w[0] * w[2], w[1] * w[2]};
 }
-
-bool is_finite(const Vec3& v) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
 }  // namespace
 
@@ -48,7 +48,7 @@ MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexc
     out.square[k] = {y * y, 0.5 * y * y};
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
-    out.given[g] = sample.rate_given[g] && is_finite(sample.rate_radps[g]);
+    out.given[g] = sample.rate_given[g] && norm(sample.rate_radps[g]) <= kMostRate_radps;
     if (!out.given[g]) continue;
     out.rate[g] = sample.rate_radps[g];
     out.product[g][0] = product_of(out.rate[g]);
@@ -75,8 +75,9 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
     to.rate[g] = plus(to.rate[g], part.rate[g]);
     RateEdges& edges = to.edges[g];
     const RateEdges& more = part.edges[g];
-    if (to.count == 0) edges.begin = more.begin;
+    if (to.count == 0) edges = more;
     edges.end = more.end;
+    edges.end_step = more.end_step;
     if (more.step > edges.step) edges.step = more.step;
     if (more.bend > edges.bend) edges.bend = more.bend;
     for (std::size_t c = 0; c < 6; ++c) {
@@ -129,8 +130,13 @@ void MotionWindow::add(const MotionSample& sample) noexcept {
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_) && begun_ > 0; ++g) {
     const Vec3 step = minus(next.rate[g], newest_.rate[g]), before = begun_ > 1 ? step_radps_[g] : step;
     const double now = norm(step), last = norm(before);
-    newest_.edges[g] = {minus(newest_.rate[g], scaled(before, 0.5)), plus(newest_.rate[g], scaled(step, 0.5)),
-                        now > last ? now : last, norm(minus(step, before))};
+    newest_.edges[g] = {minus(newest_.rate[g], scaled(before, 0.5)),
+                        plus(newest_.rate[g], scaled(step, 0.5)),
+                        before,
+                        step,
+                        now > last ? now : last,
+                        norm(minus(step, before)),
+                        begun_ == 1};
     step_radps_[g] = step;
   }
   if (begun_ > 0) take(newest_);
@@ -181,7 +187,12 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
                                           ? minus(gyro.acceleration_radps2, pair.acceleration_before[g])
                                           : scaled(gyro.acceleration_radps2, 2.0);
     const RateEdges &before = a.edges[g], &after = b.edges[g];
-    gyro.edge_change_radps = plus(minus(after.end, scaled(after.begin, 2.0)), before.begin);
+    const auto change = [](const Vec3& end, const Vec3& middle, const Vec3& begin) {
+      return plus(minus(end, scaled(middle, 2.0)), begin);
+    };
+    gyro.edge_change_radps = change(after.end, after.begin, before.begin);
+    gyro.step_change_radps = change(after.end_step, after.begin_step, before.begin_step);
+    gyro.begun = before.first;
     gyro.step_radps = before.step > after.step ? before.step : after.step;
     gyro.bend_radps = before.bend > after.bend ? before.bend : after.bend;
     for (std::size_t c = 0; c < 6; ++c) {

@@ -26,9 +26,11 @@ struct GyroMeans {
   Symmetric rate_product{};           ///< triangle mean of w w'
   // What a shift in time changes: means of a derivative are differences at the edges of the blocks.
   Vec3 edge_change_radps{};    ///< rate at the end, less twice that in the middle, plus that at the beginning
+  Vec3 step_change_radps{};    ///< the same of the change from sample to sample that happens there
   Symmetric product_change{};  ///< of the mean w w' from one block to the next
   double step_radps = 0.0;     ///< largest change from a sample to the next
   double bend_radps = 0.0;     ///< largest second difference of three samples in a row
+  bool begun = false;          ///< no sample came before them: what the rate did there is not known
 };
 
 /// Two adjacent blocks of one scale.
@@ -63,11 +65,12 @@ class MotionWindow {
   void clear() noexcept;
 
  private:
-  /// Of the rate in one block: half-way to the sample before it and to the one after it; largest first and second
-  /// differences.
+  /// Of the rate in one block: half-way to the sample before it and to the one after it, and the changes there; largest
+  /// first and second differences.
   struct RateEdges {
-    Vec3 begin{}, end{};
+    Vec3 begin{}, end{}, begin_step{}, end_step{};
     double step = 0.0, bend = 0.0;
+    bool first = false;  ///< no sample came before
   };
   /// Of one block: sums of x, and of x weighted by (k + 1/2) / N.
   struct Sums {
