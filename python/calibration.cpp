@@ -108,7 +108,11 @@ void bind_calibration(py::module_& module) {
       .def(
           "save",
           [](const Calibration& c, const std::string& path) {
-            taken(plumb::io::write_calibration(path, *c.fit, *c.array, c.context).map([] { return true; }));
+            const auto written = plumb::io::write_calibration(path, *c.fit, *c.array, c.context).and_then([&] {
+              return c.motion ? plumb::io::add_motion(path, path, *c.motion, *c.array)
+                              : plumb::io::FileExpected<void>();
+            });
+            taken(written.map([] { return true; }));
           },
           py::arg("path"), "Write the calibration file that `plumb monitor` reads.")
       .def_property_readonly(

@@ -1,12 +1,21 @@
-/// Many flights side by side.
+/// Many flights side by side, and shares of them.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "plumb/study/proportion.hpp"
+
 namespace plumb_bench {
+
+/// "84.6 [82.6, 86.4]": k of n in per cent, with its interval.
+inline std::string share(std::uint64_t k, std::uint64_t n) {
+  const plumb::study::Proportion p = plumb::study::proportion(k, n);
+  return plumb::study::rounded_share(p, 3, 100.0) + " " + plumb::study::interval_text(p, 3, 100.0);
+}
 
 /// What `run` answers for `first`, `first + 1`, ...: one number per flight, from which it draws all that happens. The
 /// order of the answers is that of the numbers, whatever ended first.

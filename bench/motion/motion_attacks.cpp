@@ -10,7 +10,6 @@
 
 #include "flight_runs.hpp"
 #include "motion_attack.hpp"
-#include "plumb/study/proportion.hpp"
 
 namespace {
 
@@ -50,11 +49,6 @@ bool read(int argc, char** argv, Settings* out) {
 }
 
 unsigned long long printable(std::uint64_t value) { return static_cast<unsigned long long>(value); }
-
-std::string share(std::uint64_t k, std::uint64_t n) {
-  const plumb::study::Proportion p = plumb::study::proportion(k, n);
-  return plumb::study::rounded_share(p, 3, 100.0) + " " + plumb::study::interval_text(p, 3, 100.0);
-}
 
 bool is_wrong(const AttackOutcome& one) {
   return one.blamed || one.false_alarm || one.sample.violations > 0 || one.block.violations > 0;

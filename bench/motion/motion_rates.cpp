@@ -18,7 +18,6 @@
 #include "flight_case.hpp"
 #include "flight_runs.hpp"
 #include "plumb/core/units.hpp"
-#include "plumb/study/proportion.hpp"
 #include "rivals.hpp"
 
 namespace {
@@ -42,11 +41,6 @@ struct Settings {
 template <class Make>
 std::vector<FlightOutcome> fly_all(const Settings& s, Make make) {
   return run_all(s.flights, s.jobs, s.seed * 1000003, [&](std::uint64_t seed) { return fly(make(seed)); });
-}
-
-std::string share(std::uint64_t k, std::uint64_t n) {
-  const plumb::study::Proportion p = plumb::study::proportion(k, n);
-  return plumb::study::rounded_share(p, 3, 100.0) + " " + plumb::study::interval_text(p, 3, 100.0);
 }
 
 template <class Test>

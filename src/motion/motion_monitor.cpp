@@ -60,7 +60,6 @@ void MotionMonitor::forget() noexcept {
   with_gyro_.clear();
   without_gyro_.clear();
   verdict_.excluded = SensorSet{};
-  verdict_.gyros_disagree = false;
   refit();
 }
 

@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kIndex = "incidents.jsonl";
 
+std::string name_of(int number) { return fmt::format("incident-{:04}.csv", number); }
+
 Rotation rotation_of(const stepping::Turn& turn) { return {turn.turning, turn.rate_known, turn.rate_radps}; }
 
 std::string line_of(const std::string& name, double begin_s, double end_s, std::size_t rows,
@@ -38,7 +40,7 @@ io::FileExpected<std::unique_ptr<IncidentRecorder>> IncidentRecorder::create(Inc
                                                        "name another directory", io::ExitCode::other});
   }
   const std::string index = (fs::path(settings.directory) / kIndex).string();
-  if (fs::exists(index, error)) {
+  if (fs::exists(index, error) || fs::exists(fs::path(settings.directory) / name_of(1), error)) {
     return tl::unexpected<io::FileError>(
         io::FileError{settings.directory, 0, "--incidents", "holds the incidents of another run",
                       "name another directory, or move these away", io::ExitCode::usage});
@@ -65,7 +67,7 @@ std::string IncidentRecorder::path_of(const std::string& name) const {
 }
 
 io::FileExpected<void> IncidentRecorder::begin() {
-  const std::string name = fmt::format("incident-{:04}.csv", recorded_ + 1);
+  const std::string name = name_of(recorded_ + 1);
   io::FileExpected<io::LogWriter> log = io::LogWriter::create(path_of(name), array_, io::LogWriter::Columns::all);
   if (!log) return tl::unexpected<io::FileError>(log.error());
   ++recorded_;
@@ -101,7 +103,7 @@ io::FileExpected<void> IncidentRecorder::take(const Sample& sample, const Verdic
   io::FileExpected<void> done;
   if (!changes_.empty() && !now_) {
     if (recorded_ == settings_.most)
-      ++passed_over_;
+      passed_over_ += static_cast<int>(changes_.size());
     else
       done = begin();
   }

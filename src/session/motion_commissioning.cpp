@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion_flight.hpp"
 #include "plumb/core/units.hpp"
-#include "plumb/session/interrupt.hpp"
-#include "plumb/session/progress.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -40,13 +39,6 @@ constexpr double kMostHeldOut = 1.5;
 /// Another unit of the rates fits better by more than this.
 constexpr double kBetterUnit = 2.0;
 
-struct Flight {
-  std::vector<MotionSample> samples;
-  MotionInputs inputs;
-  io::LogStatistics log;
-  SensorSet clipped;
-};
-
 io::FileError refused(const io::ArrayFile& array, const char* field, const std::string& what,
                       const std::string& remedy) {
   return {array.path, 0, field, what, remedy, io::ExitCode::invalid_input};
@@ -79,40 +71,6 @@ io::MotionCalibration unknown(const io::ArrayFile& array) {
   return out;
 }
 
-io::FileExpected<Flight> read_flight(const io::ArrayFile& array, const MotionPlan& plan, const LogSpec& log) {
-  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
-  if (!reader) return tl::unexpected<io::FileError>(reader.error());
-  reader->hash_bytes();
-  reader->stop_when(interrupt_flag());
-  Flight out;
-  MotionSampler sampler(plan);
-  MotionInputsWatch inputs(plan.setup.sample_period_s);
-  Progress progress("reading " + log.path);
-  Sample row;
-  io::LogReader::Next status = reader->next(row);
-  for (; status == io::LogReader::Next::row; status = reader->next(row)) {
-    if (out.samples.size() == kMostCommissionRows)
-      return tl::unexpected<io::FileError>(
-          io::FileError{log.path, 0, "", "has more than " + std::to_string(kMostCommissionRows) + " rows",
-                        "cut a part out of it in which the tool turns and accelerates in all directions"});
-    MotionSample sample = sampler.sample(row);
-    inputs.add(row.time_s);
-    const Rotation turns[] = {reader->rotation(), reader->second_rotation()};
-    for (std::size_t g = 0; g < static_cast<std::size_t>(plan.setup.gyros); ++g) {
-      inputs.add_rate(g, turns[g].rate_known, turns[g].rate_radps);
-      sample.rate_given[g] = turns[g].rate_known;
-      sample.rate_radps[g] = turns[g].rate_radps;
-    }
-    out.clipped = out.clipped | sample.clipped;
-    out.samples.push_back(sample);
-    progress.at(out.samples.size(), row.time_s);
-  }
-  if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
-  out.inputs = inputs.found();
-  out.log = reader->statistics();
-  return out;
-}
-
 ArrayOnBoard on_board_of(const io::ArrayFile& array, const MotionPlan& plan) {
   ArrayOnBoard out;
   out.array = plan.array;
@@ -130,7 +88,7 @@ ArrayOnBoard on_board_of(const io::ArrayFile& array, const MotionPlan& plan) {
 class Commissioner {
  public:
   Commissioner(const io::ArrayFile& array, const io::CalibrationFile& calibration, double days, const MotionPlan& plan,
-               const Flight& flight)
+               const MotionFlight& flight)
       : array_(array),
         calibration_(calibration),
         days_(days),
@@ -365,7 +323,7 @@ class Commissioner {
   const io::ArrayFile& array_;
   const io::CalibrationFile& calibration_;
   double days_;
-  const Flight& flight_;
+  const MotionFlight& flight_;
   ArrayOnBoard on_board_;
   std::size_t split_;
   commission::ArrayFitSettings settings_;
@@ -384,7 +342,7 @@ io::FileExpected<MotionCommissioning> run_motion_commissioning(const io::ArrayFi
   const io::MotionCalibration before = unknown(array);
   const io::FileExpected<MotionPlan> plan = plan_motion(array, &calibration.calibration, days, &before);
   if (!plan) return refuse(plan.error());
-  const io::FileExpected<Flight> flight = read_flight(array, *plan, log);
+  const io::FileExpected<MotionFlight> flight = read_flight(array, *plan, log);
   if (!flight) return refuse(flight.error());
   io::FileExpected<MotionCommissioning> out = Commissioner(array, calibration, days, *plan, *flight).run();
   if (!out) return out;

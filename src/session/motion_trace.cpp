@@ -15,7 +15,6 @@ MotionPoint point_of(const MotionVerdict& verdict) {
   const bool known = block.validity != ForceValidity::none;
   out.force_mps2 = known ? norm(block.force_mps2) : std::numeric_limits<double>::quiet_NaN();
   out.bound_mps2 = known ? block.bound_mps2 : std::numeric_limits<double>::infinity();
-  out.alarm = verdict.alarm;
   out.used = known ? block.used.size() : 0;
   return out;
 }
@@ -37,8 +36,11 @@ void MotionTrace::halve() {
 io::FileExpected<void> MotionTrace::take(double, const MotionVerdict& verdict,
                                          const std::vector<io::MotionEvent>& events) {
   events_.insert(events_.end(), events.begin(), events.end());
+  alarm_ = alarm_ || verdict.alarm;  // one may begin and end between two blocks
   if (!verdict.block_ended) return {};
-  const MotionPoint point = point_of(verdict);
+  MotionPoint point = point_of(verdict);
+  point.alarm = alarm_;
+  alarm_ = false;
   if (!points_.empty() && in_last_ < blocks_per_point_) {
     points_.back() = worse_of(points_.back(), point);
     ++in_last_;

@@ -4,6 +4,7 @@ Run by ctest with PYTHONPATH (the module), PLUMB_TOOL (the tool) and PLUMB_SOURC
 """
 
 import csv
+import json
 import pathlib
 import re
 import tempfile
@@ -72,6 +73,15 @@ class Flights(unittest.TestCase):
         later = rows[rows["time_s"] > isolated + 0.002]
         self.assertFalse((later["sample"]["used"] & SECOND_CHIP).any())
         self.assertEqual(rows["excluded"][-1], SECOND_CHIP)
+
+    def test_a_calibration_that_is_saved_keeps_what_a_log_in_motion_showed(self):
+        stand, cal, flight, fitted, again = (self.at / name for name in "stand.csv cal.json fly.csv fitted.json again.json".split())
+        tool("simulate", STAND, "--out", stand)
+        tool("calibrate", "--array", DRONE, "--log", stand, "--out", cal)
+        tool("simulate", "--flight", "drone", DRONE, "--calibration", cal, "--duration", 20, "--seed", 3, "--out", flight)
+        tool("calibrate", "--array", DRONE, "--calibration", cal, "--motion", flight, "--out", fitted)
+        plumb.Calibration.read(self.array, str(fitted)).save(str(again))
+        self.assertEqual(json.loads(again.read_text())["motion"], json.loads(fitted.read_text())["motion"])
 
     def test_a_gyro_that_died_beside_another_is_told_and_nobody_is_blamed(self):
         motion, told = plumb.MotionMonitor(self.array), []

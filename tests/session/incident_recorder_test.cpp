@@ -153,6 +153,8 @@ TEST(IncidentRecorder, CountsWhatItRecordsNoMoreAndKeepsTheIncidentsOfAnotherRun
   const auto again = IncidentRecorder::create({folder.path().string(), 1, 2}, drone());
   ASSERT_FALSE(again.has_value());
   EXPECT_NE(again.error().text().find("another run"), std::string::npos) << again.error().text();
+  std::filesystem::remove(folder.path() / "incidents.jsonl");
+  EXPECT_FALSE(IncidentRecorder::create({folder.path().string(), 1, 2}, drone()).has_value()) << "its files are left";
   const auto nowhere = IncidentRecorder::create({"/proc/none/here", 1, 2}, drone());
   ASSERT_FALSE(nowhere.has_value());
   EXPECT_NE(nowhere.error().text().find("--incidents"), std::string::npos);

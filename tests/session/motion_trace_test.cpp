@@ -51,6 +51,20 @@ RC_GTEST_PROP(MotionTraceLaw, KeepsTheWorstBoundEveryAlarmAndTheOrderOfTime, ())
   RC_ASSERT(!hidden || unbounded >= 0);  // behind a block without any bound, which is worse
 }
 
+TEST(MotionTrace, AnAlarmBetweenTwoBlocksIsKept) {
+  MotionTrace trace;
+  MotionVerdict between;
+  between.alarm = true;
+  ASSERT_TRUE(trace.take(1.0, block(1.0, 0.3, false), {}).has_value());
+  ASSERT_TRUE(trace.take(1.5, between, {}).has_value());
+  ASSERT_TRUE(trace.take(2.0, block(2.0, 0.3, false), {}).has_value());
+  ASSERT_TRUE(trace.take(3.0, block(3.0, 0.3, false), {}).has_value());
+  ASSERT_EQ(trace.points().size(), 3U);
+  EXPECT_FALSE(trace.points()[0].alarm);
+  EXPECT_TRUE(trace.points()[1].alarm);
+  EXPECT_FALSE(trace.points()[2].alarm);
+}
+
 TEST(MotionTrace, ABlockWithoutAForceHasNoLengthOfOne) {
   MotionTrace trace;
   ASSERT_TRUE(trace.take(1.0, block(1.0, std::numeric_limits<double>::infinity(), true), {}).has_value());

@@ -50,7 +50,7 @@ class MotionMonitor {
   /// The sensors that others, a monitor at rest above all, leave in service. What this monitor has excluded itself
   /// stays out; evidence about sensors that leave is dropped.
   void set_in_service(SensorSet sensors) noexcept;
-  /// Takes back exclusions and evidence, of gyros too: after rest has confirmed or refuted them.
+  /// Takes back exclusions and evidence: after rest has confirmed or refuted them. Rest says nothing of gyros.
   void forget() noexcept;
 
  private:

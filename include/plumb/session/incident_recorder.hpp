@@ -42,6 +42,7 @@ class IncidentRecorder final : public VerdictSink, public MotionSink {
   /// At the end of the run: the incident at hand ends.
   io::FileExpected<void> commit();
   int recorded() const noexcept { return recorded_; }
+  /// Changes after the last incident that is recorded.
   int passed_over() const noexcept { return passed_over_; }
 
  private:

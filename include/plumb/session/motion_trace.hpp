@@ -12,9 +12,9 @@ namespace session {
 /// Some blocks of 32 samples in a row, by the one of them with the largest bound.
 struct MotionPoint {
   double time_s = 0.0;
-  double force_mps2 = 0.0;  ///< length of the specific force; NaN where none of the blocks has one
+  double force_mps2 = 0.0;  ///< length of the specific force; NaN where one of the blocks has none
   double bound_mps2 = 0.0;  ///< of its error; infinite where a block has none
-  bool alarm = false;       ///< in some of them
+  bool alarm = false;       ///< in some of their samples
   int used = 0;             ///< sensors in the force
 };
 
@@ -35,6 +35,7 @@ class MotionTrace final : public MotionSink {
   std::vector<io::MotionEvent> events_;
   std::size_t blocks_per_point_ = 1;
   std::size_t in_last_ = 0;  ///< blocks in the last point
+  bool alarm_ = false;       ///< since the last block
 };
 
 }  // namespace session
