@@ -36,7 +36,7 @@ RC_GTEST_PROP(MotionTraceLaw, KeepsTheWorstBoundEveryAlarmAndTheOrderOfTime, ())
     if (k == unbounded) bound = std::numeric_limits<double>::infinity();
     MotionVerdict verdict = block(k, bound, k == alarmed);
     RC_ASSERT(trace.take(k, verdict, {}).has_value());
-    verdict.block_ended = false;  // samples in between
+    verdict.block_ended = verdict.alarm = false;  // samples in between
     RC_ASSERT(trace.take(k + 0.5, verdict, {}).has_value());
   }
   const auto& points = trace.points();
