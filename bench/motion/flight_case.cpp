@@ -112,8 +112,9 @@ FlightSpec spec_of(const FlightCase& one, const std::vector<Vec3>& axes, const s
   spec.gyro_faults = one.gyro_faults;
   const double f = one.error_factor;
   auto& box = spec.box;
-  for (double* width : {&box.scale, &box.axis_rad, &box.bias_mps2, &box.lever_m, &box.skew_s, &box.bandwidth,
-                        &box.rectification, &box.gyro_scale, &box.gyro_axis_rad, &box.gyro_bias_radps})
+  for (double* width :
+       {&box.scale, &box.axis_rad, &box.bias_mps2, &box.lever_m, &box.skew_s, &box.bandwidth, &box.rectification,
+        &box.gyro_scale, &box.gyro_axis_rad, &box.gyro_bias_radps, &box.gyro_skew_s, &box.gyro_bandwidth})
     *width *= f;
   return spec;
 }

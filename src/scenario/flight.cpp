@@ -45,6 +45,12 @@ std::vector<BankSensor> bank_sensors(const FlightSpec& spec, const std::vector<F
   return out;
 }
 
+std::vector<double> gyro_bandwidths_hz(const FlightSpec& spec, const std::vector<FlightGyroErrors>& errors) {
+  std::vector<double> out;
+  for (const FlightGyroErrors& wrong : errors) out.push_back(spec.bandwidth_hz * (1.0 + wrong.bandwidth));
+  return out;
+}
+
 double clipped_at(double x, double full_scale) noexcept { return std::clamp(x, -full_scale, full_scale); }
 
 double sine_of_cycles(double cycles) noexcept { return portable_sincos(2.0 * kPi * (cycles - std::floor(cycles))).sin; }
@@ -67,8 +73,14 @@ class Flight::Parts {
   };
   Reach reach() const noexcept;
   double skew_s(std::size_t sensor, double time_s) const noexcept;
+  /// An instant of the bank, and the part of a step after it.
+  struct Moment {
+    std::uint64_t instant = 0;
+    double part = 0.0;
+  };
+  Moment moment(double skew_s) const noexcept;
   double reading_mps2(std::size_t sensor, double time_s) noexcept;
-  Vec3 rate_radps(std::size_t gyro, const Vec3& true_radps, double time_s) noexcept;
+  Vec3 rate_radps(std::size_t gyro, double time_s) noexcept;
 
   const double step_s_;
   const Reach reach_;
@@ -94,6 +106,10 @@ Flight::Parts::Reach Flight::Parts::reach() const noexcept {
     ahead_s = std::max(ahead_s, latest_s);
     back_s = std::max(back_s, -earliest_s);
   }
+  for (const FlightGyroErrors& wrong : gyro_errors) {
+    ahead_s = std::max(ahead_s, wrong.skew_s);
+    back_s = std::max(back_s, -wrong.skew_s);
+  }
   return {static_cast<std::uint64_t>(ahead_s / step_s_) + 2, static_cast<std::uint64_t>(back_s / step_s_) + 2};
 }
 
@@ -104,8 +120,8 @@ Flight::Parts::Parts(const FlightSpec& what)
       step_s_(1.0 / (spec.rate_hz * static_cast<double>(kOversampling))),
       reach_(reach()),
       motion_(spec.kind, spec.seed, step_s_, static_cast<double>(lead_in(spec.rate_hz)) * step_s_, spec.vibration),
-      bank_(bank_sensors(spec, errors), spec.bandwidth_hz, step_s_, spec.rectifies_before_filter,
-            reach_.ahead + reach_.back),
+      bank_(bank_sensors(spec, errors), gyro_bandwidths_hz(spec, gyro_errors), spec.bandwidth_hz, step_s_,
+            spec.rectifies_before_filter, reach_.ahead + reach_.back),
       last_mps2_(errors.size()),
       last_radps_(gyro_errors.size()),
       instant_(lead_in(spec.rate_hz)) {
@@ -131,13 +147,17 @@ double Flight::Parts::skew_s(std::size_t sensor, double time_s) const noexcept {
   return skew_s;
 }
 
-double Flight::Parts::reading_mps2(std::size_t sensor, double time_s) noexcept {
-  const double away = skew_s(sensor, time_s) / step_s_;
+Flight::Parts::Moment Flight::Parts::moment(double skew_s) const noexcept {
+  const double away = skew_s / step_s_;
   const double whole = std::floor(away);
-  const auto instant =
-      static_cast<std::uint64_t>(static_cast<std::int64_t>(instant_) + static_cast<std::int64_t>(whole));
+  return {static_cast<std::uint64_t>(static_cast<std::int64_t>(instant_) + static_cast<std::int64_t>(whole)),
+          away - whole};
+}
+
+double Flight::Parts::reading_mps2(std::size_t sensor, double time_s) noexcept {
+  const Moment then = moment(skew_s(sensor, time_s));
   const double bias_mps2 = errors[sensor].bias_mps2;
-  double x = bank_.sensor(sensor, instant, away - whole) + bias_mps2;
+  double x = bank_.sensor(sensor, then.instant, then.part) + bias_mps2;
   double noise = spec.noise_mps2 * noise_[sensor].next();
   std::optional<double> stands;
   std::uint32_t position = 0;
@@ -162,8 +182,10 @@ double Flight::Parts::reading_mps2(std::size_t sensor, double time_s) noexcept {
   return reading;
 }
 
-Vec3 Flight::Parts::rate_radps(std::size_t gyro, const Vec3& true_radps, double time_s) noexcept {
+Vec3 Flight::Parts::rate_radps(std::size_t gyro, double time_s) noexcept {
   const FlightGyroErrors& wrong = gyro_errors[gyro];
+  const Moment then = moment(wrong.skew_s);
+  const Vec3 true_radps = bank_.rate(gyro, then.instant, then.part);
   Vec3 x{};
   for (std::size_t k = 0; k < 3; ++k)
     x[k] = (1.0 + wrong.scale[k]) * dot(gyro_axes_[gyro][k], true_radps) + wrong.bias_radps[k];
@@ -192,8 +214,7 @@ FlightSample Flight::Parts::next() {
   out.true_rate_radps = bank_.nominal(1, instant_);
   out.true_angular_acceleration_radps2 = bank_.nominal(2, instant_);
   for (std::size_t i = 0; i < errors.size(); ++i) out.reading_mps2[i] = reading_mps2(i, out.time_s);
-  for (std::size_t g = 0; g < gyro_errors.size(); ++g)
-    out.rate_radps[g] = rate_radps(g, out.true_rate_radps, out.time_s);
+  for (std::size_t g = 0; g < gyro_errors.size(); ++g) out.rate_radps[g] = rate_radps(g, out.time_s);
   ++sample_;
   instant_ += kOversampling;
   return out;

@@ -48,10 +48,10 @@ std::uint64_t power_of_two(std::size_t least) noexcept {
 
 }  // namespace
 
-FlightBank::FlightBank(const std::vector<BankSensor>& sensors, double nominal_hz, double step_s,
-                       bool rectifies_before_filter, std::size_t instants)
+FlightBank::FlightBank(const std::vector<BankSensor>& sensors, const std::vector<double>& gyro_hz, double nominal_hz,
+                       double step_s, bool rectifies_before_filter, std::size_t instants)
     : sensors_(sensors.size()),
-      channels_(sensors.size() + kNominal),
+      channels_(sensors.size() + kNominal + 3 * gyro_hz.size()),
       before_filter_(rectifies_before_filter),
       mean_share_(step_s / kVibrationTime_s),
       mask_(power_of_two(instants) - 1),
@@ -64,7 +64,9 @@ FlightBank::FlightBank(const std::vector<BankSensor>& sensors, double nominal_hz
       gain_[c] = sensors[c].gain;
       rectification_[c] = sensors[c].rectification;
     }
-    set_filter(c, c < sensors_ ? sensors[c].bandwidth_hz : nominal_hz, step_s);
+    const std::size_t first_gyro = sensors_ + kNominal;
+    const double others_hz = c < first_gyro ? nominal_hz : gyro_hz[(c - first_gyro) / 3];
+    set_filter(c, c < sensors_ ? sensors[c].bandwidth_hz : others_hz, step_s);
   }
 }
 
@@ -133,6 +135,7 @@ void FlightBank::step(const MotionInstant& motion) noexcept {
     input[sensors_ + k] = f[k];
     input[sensors_ + 3 + k] = w[k];
     input[sensors_ + 6 + k] = a[k];
+    for (std::size_t c = sensors_ + kNominal; c < channels_; c += 3) input[c + k] = w[k];
   }
   filter(input);
   rectify(before_filter_ ? input : value_);
@@ -145,14 +148,19 @@ void FlightBank::step(const MotionInstant& motion) noexcept {
 }
 
 /// Cubic through the values and slopes of both neighbours: straight lines would miss 0.5 % of a tone of 250 Hz.
-double FlightBank::sensor(std::size_t sensor, std::uint64_t instant, double part) const noexcept {
-  const double y0 = at(values_, instant)[sensor];
+double FlightBank::between(std::size_t channel, std::uint64_t instant, double part) const noexcept {
+  const double y0 = at(values_, instant)[channel];
   if (!(part > 0.0)) return y0;
-  const double y1 = at(values_, instant + 1)[sensor];
-  const double d0 = at(slopes_, instant)[sensor];
-  const double d1 = at(slopes_, instant + 1)[sensor];
+  const double y1 = at(values_, instant + 1)[channel];
+  const double d0 = at(slopes_, instant)[channel];
+  const double d1 = at(slopes_, instant + 1)[channel];
   const double up = y1 - y0;
   return y0 + part * (d0 + part * ((3.0 * up - 2.0 * d0 - d1) + part * (d0 + d1 - 2.0 * up)));
+}
+
+Vec3 FlightBank::rate(std::size_t gyro, std::uint64_t instant, double part) const noexcept {
+  const std::size_t first = sensors_ + kNominal + 3 * gyro;
+  return {between(first, instant, part), between(first + 1, instant, part), between(first + 2, instant, part)};
 }
 
 Vec3 FlightBank::nominal(std::size_t number, std::uint64_t instant) const noexcept {

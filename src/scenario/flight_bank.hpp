@@ -23,25 +23,30 @@ struct BankSensor {
   double rectification = 0.0;
 };
 
-/// Sensors, and behind them the nine components of specific force, angular rate and angular acceleration behind the
-/// nominal filter. Between instants the input is a straight line, for which the filter is solved exactly.
+/// Sensors, then the nine components of specific force, angular rate and angular acceleration behind the nominal
+/// filter, then the three rates of each gyro behind its own. Between instants the input is a straight line, for which
+/// the filter is solved exactly.
 class FlightBank {
  public:
-  /// `instants`: how many of them are remembered, at least.
-  FlightBank(const std::vector<BankSensor>& sensors, double nominal_hz, double step_s, bool rectifies_before_filter,
-             std::size_t instants);
+  /// `gyro_hz`: bandwidth of each gyro, at most kMostGyros. `instants`: how many of them are remembered, at least.
+  FlightBank(const std::vector<BankSensor>& sensors, const std::vector<double>& gyro_hz, double nominal_hz,
+             double step_s, bool rectifies_before_filter, std::size_t instants);
 
   void step(const MotionInstant& motion) noexcept;
   std::uint64_t steps() const noexcept { return steps_; }
 
   /// Output of a sensor at `instant` + `part` (0 <= part < 1), both neighbours among those remembered.
-  double sensor(std::size_t sensor, std::uint64_t instant, double part) const noexcept;
+  double sensor(std::size_t sensor, std::uint64_t instant, double part) const noexcept {
+    return between(sensor, instant, part);
+  }
+  /// The same of the rates of a gyro, in the tool frame.
+  Vec3 rate(std::size_t gyro, std::uint64_t instant, double part) const noexcept;
   /// Truth number 0 (specific force), 1 (angular rate) or 2 (angular acceleration).
   Vec3 nominal(std::size_t number, std::uint64_t instant) const noexcept;
 
  private:
   static constexpr std::size_t kNominal = 9;
-  static constexpr std::size_t kChannels = kCapacity + kNominal;
+  static constexpr std::size_t kChannels = kCapacity + kNominal + 3 * kMostGyros;
   using Row = std::array<double, kChannels>;
   /// Of the specific force (3), of the angular acceleration (3), of the products xx, yy, zz, xy, xz, yz of the rate
   /// (6).
@@ -51,6 +56,7 @@ class FlightBank {
   void set_weights(std::size_t channel, const BankSensor& sensor) noexcept;
   void filter(const Row& input) noexcept;
   void rectify(const Row& input) noexcept;
+  double between(std::size_t channel, std::uint64_t instant, double part) const noexcept;
   const double* at(const std::vector<double>& past, std::uint64_t instant) const noexcept {
     return past.data() + (instant & mask_) * channels_;
   }

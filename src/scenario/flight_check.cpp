@@ -41,9 +41,11 @@ Checked check_numbers(const FlightSpec& spec) {
   if (spec.gyros < 0 || spec.gyros > kMostGyros) return refuse("the number of gyros must be 0, 1 or 2");
   const FlightErrorBox& box = spec.box;
   const bool angles = width(box.axis_rad, 0.5) && width(box.gyro_axis_rad, 0.5);
-  const bool factors = width(box.scale, 1.0) && width(box.gyro_scale, 1.0) && width(box.bandwidth, 0.5);
+  const bool factors = width(box.scale, 1.0) && width(box.gyro_scale, 1.0) && width(box.bandwidth, 0.5) &&
+                       width(box.gyro_bandwidth, 0.5);
   const bool sizes = width(box.bias_mps2, kMost) && width(box.gyro_bias_radps, kMost) && width(box.lever_m, 100.0) &&
-                     width(box.rectification, kMost) && width(box.skew_s, kMostSkew_s);
+                     width(box.rectification, kMost) && width(box.skew_s, kMostSkew_s) &&
+                     width(box.gyro_skew_s, kMostSkew_s);
   if (!angles || !factors || !sizes)
     return refuse("half-widths must be 0 or more; of angles and the bandwidth at most 0.5, of scales 1, of the skew " +
                   std::to_string(kMostSkew_s) + " s");

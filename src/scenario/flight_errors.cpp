@@ -59,6 +59,8 @@ std::vector<FlightGyroErrors> draw_gyro_errors(const FlightSpec& spec) {
     one.axis_x_rad = draws.next_three(spec.box.gyro_axis_rad);
     one.axis_y_rad = draws.next_three(spec.box.gyro_axis_rad);
     one.bias_radps = draws.next_three(spec.box.gyro_bias_radps);
+    one.skew_s = draws.next(spec.box.gyro_skew_s);
+    one.bandwidth = draws.next(spec.box.gyro_bandwidth);
     out.push_back(one);
   }
   return out;

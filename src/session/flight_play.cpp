@@ -41,6 +41,11 @@ double least_of(const io::ArrayFile& array, std::optional<double> io::MotionBoun
   return least;
 }
 
+double skew_of(double lag_s) { return std::fmin(kSkewShare * lag_s, scenario::kMostSkew_s); }
+double bandwidth_of(double lag_s, double bandwidth_hz) {
+  return std::fmin((1.0 - kSkewShare) * lag_s * bandwidth_hz / kFilterDelay, 0.5);
+}
+
 /// Half-widths, such that no draw is beyond a stated bound: an axis turns about two directions, a gyro has three axes,
 /// and vibration is rectified before the filter, which lets as little as half of it pass.
 FlightErrorBox box_of(const io::ArrayFile& array, double bandwidth_hz) {
@@ -50,13 +55,15 @@ FlightErrorBox box_of(const io::ArrayFile& array, double bandwidth_hz) {
   box.axis_rad = least_of(array, &io::MotionBounds::axis_rad) / std::sqrt(2.0);
   box.bias_mps2 = least_of(array, &io::MotionBounds::bias_mps2);
   box.lever_m = least_of(array, &io::MotionBounds::lever_arm_m);
-  box.skew_s = std::fmin(kSkewShare * lag_s, scenario::kMostSkew_s);
-  box.bandwidth = std::fmin((1.0 - kSkewShare) * lag_s * bandwidth_hz / kFilterDelay, 0.5);
+  box.skew_s = skew_of(lag_s);
+  box.bandwidth = bandwidth_of(lag_s, bandwidth_hz);
   box.rectification = 0.5 * least_of(array, &io::MotionBounds::rectification_per_mps2);
   const io::GyroSpec& gyro = array.motion.gyro;
   box.gyro_scale = gyro.scale.value_or(0.0);
   box.gyro_axis_rad = 0.5 * gyro.axis_rad.value_or(0.0);
   box.gyro_bias_radps = gyro.bias_radps.value_or(0.0) / std::sqrt(3.0);
+  box.gyro_skew_s = skew_of(gyro.lag_s.value_or(0.0));
+  box.gyro_bandwidth = bandwidth_of(gyro.lag_s.value_or(0.0), bandwidth_hz);
   return box;
 }
 

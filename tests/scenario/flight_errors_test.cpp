@@ -43,6 +43,8 @@ TEST(FlightErrors, ErrorsAreAtTheVerticesOrBetween) {
       EXPECT_EQ(std::abs(e.axis_y_rad[k]), b.gyro_axis_rad);
       EXPECT_EQ(std::abs(e.bias_radps[k]), b.gyro_bias_radps);
     }
+    EXPECT_EQ(std::abs(e.skew_s), b.gyro_skew_s);
+    EXPECT_EQ(std::abs(e.bandwidth), b.gyro_bandwidth);
   }
 }
 
@@ -171,8 +173,36 @@ TEST(FlightErrors, AnErrorlessGyroReadsTheTrueRate) {
   for (const FlightSample& s : fly(spec, 10)) EXPECT_EQ(s.rate_radps[0], Vec3{});
 }
 
+TEST(FlightErrors, ASkewedGyroReadsWhatIsTrueThen) {
+  FlightSpec spec = perfect_spec(FlightKind::drone, 9);
+  spec.gyros = 2;
+  const auto plain = fly(spec, 3002);
+  spec.vertices = true;
+  spec.box.gyro_skew_s = 1e-3;  // one sample
+  const auto wrong = fly(spec, 3000);
+  const auto errors = Flight(spec).gyro_errors();
+  for (std::size_t k = 1; k < wrong.size(); ++k) {
+    EXPECT_EQ(wrong[k].reading_mps2, plain[k].reading_mps2);
+    for (std::size_t g = 0; g < 2; ++g)
+      EXPECT_EQ(wrong[k].rate_radps[g], plain[errors[g].skew_s > 0.0 ? k + 1 : k - 1].true_rate_radps);
+  }
+}
+
+TEST(FlightErrors, AGyroOfAnotherBandwidthReadsAsOneOfThatFilter) {
+  FlightSpec spec = perfect_spec(FlightKind::drone, 9);
+  spec.vertices = true;
+  spec.box.gyro_bandwidth = 0.02;
+  const auto wrong = fly(spec, 3000);
+  const double sign = Flight(spec).gyro_errors()[0].bandwidth;
+  FlightSpec other = perfect_spec(FlightKind::drone, 9);
+  other.bandwidth_hz *= 1.0 + sign;
+  const auto as_built = fly(other, 3000);
+  for (std::size_t k = 0; k < wrong.size(); ++k) EXPECT_EQ(wrong[k].rate_radps[0], as_built[k].rate_radps[0]);
+}
+
 TEST(FlightErrors, GyroErrorsStayWithinTheBox) {
   FlightSpec spec = spec_of(FlightKind::drone, 9);
+  spec.box.gyro_skew_s = spec.box.gyro_bandwidth = 0.0;  // the bound below knows the rate of this instant alone
   spec.gyro_noise_radps = 0.0;
   spec.vertices = true;
   double worst = 0.0;

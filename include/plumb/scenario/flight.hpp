@@ -51,6 +51,8 @@ struct FlightGyroErrors {
   Vec3 scale{};                     ///< relative
   Vec3 axis_x_rad{}, axis_y_rad{};  ///< turns of each axis, as of an accelerometer [rad]
   Vec3 bias_radps{};
+  double skew_s = 0.0;     ///< the rates are of the instant time_s + skew_s
+  double bandwidth = 0.0;  ///< relative error of the bandwidth
 };
 
 /// Half-widths of the box from which errors are drawn, each on its own.
@@ -65,9 +67,13 @@ struct FlightErrorBox {
   double gyro_scale = 0.01;
   double gyro_axis_rad = 0.005;
   double gyro_bias_radps = rad_from_deg(0.2);
+  double gyro_skew_s = 15e-6;
+  double gyro_bandwidth = 0.005;
 
   /// No errors at all.
-  static constexpr FlightErrorBox none() noexcept { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
+  static constexpr FlightErrorBox none() noexcept {
+    return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  }
 };
 
 enum class FlightFaultKind : std::uint8_t {
@@ -83,7 +89,7 @@ enum class FlightFaultKind : std::uint8_t {
 };
 inline constexpr int kFlightFaultKinds = 9;
 
-/// Largest skew, of a healthy sensor as of its faults together, to either side [s].
+/// Largest skew, of a healthy sensor or gyro as of the faults of a sensor together, to either side [s].
 inline constexpr double kMostSkew_s = 0.05;
 
 /// In effect in the samples with time_s >= onset_s, in all sensors of the set at once (noise is drawn for each on its
