@@ -250,11 +250,9 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = motion_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = incidents_misuse(options)) return report(*misuse);
-  std::vector<NamedFile> to_write = {{"--events", options.events},
-                                     {"--verdicts", options.verdicts},
-                                     {"--motion", options.motion},
-                                     {"--report", options.report},
-                                     {"--report", health_data_path(options.report)}};
+  std::vector<NamedFile> to_write = {{"--events", options.events}, {"--verdicts", options.verdicts},
+                                     {"--motion", options.motion}, {"--inclination", options.inclination},
+                                     {"--report", options.report}, {"--report", health_data_path(options.report)}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
     return report(*clash);
   to_write.push_back({"--snapshot-out", options.snapshot_out});

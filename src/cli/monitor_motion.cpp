@@ -20,9 +20,15 @@ class MotionTable final : public session::MotionSink {
   const SensorArray& array_;
 };
 
-io::FileError asked_in_vain(const io::FileError& refusal) {
+/// The option that asks for results in motion; empty: none does.
+std::string asking_option(const MonitorOptions& options) {
+  if (!options.motion.empty()) return "--motion";
+  return options.inclination.empty() ? "" : "--inclination";
+}
+
+io::FileError asked_in_vain(const io::FileError& refusal, const std::string& option) {
   io::FileError out = refusal;
-  out.what += ", and --motion asks for its results";
+  out.what += ", and " + option + " asks for its results";
   return out;
 }
 
@@ -32,19 +38,25 @@ io::FileExpected<MonitorMotion> MonitorMotion::make(const MonitorOptions& option
                                                     const io::CalibrationFile* calibration, double days) {
   MonitorMotion out;
   if (!array.motion.mentioned) {
-    if (options.motion.empty()) return out;
+    const std::string asked = asking_option(options);
+    if (asked.empty()) return out;
     return tl::unexpected<io::FileError>(io::FileError{
-        array.path, 0, "motion", "is missing, and --motion asks for its results",
-        "add [motion] and the bounds of the sensors (docs/array-file.md, Motion), or leave --motion out"});
+        array.path, 0, "motion", "is missing, and " + asked + " asks for its results",
+        "add [motion] and the bounds of the sensors (docs/array-file.md, Motion), or leave " + asked + " out"});
   }
   io::FileExpected<session::MotionPlan> plan =
       session::plan_motion(array, calibration != nullptr ? &calibration->calibration : nullptr, days,
                            calibration != nullptr ? calibration->motion.get() : nullptr);
   if (plan) {
+    if (!options.inclination.empty() && !plan->inclination)
+      return tl::unexpected<io::FileError>(io::FileError{
+          array.path, 0, "motion.velocity_bound_mps", "is missing, and --inclination asks for its results",
+          "state how near the velocity stays to a constant one (docs/array-file.md, Motion), or leave it out"});
     out.plan_ = std::make_unique<session::MotionPlan>(*std::move(plan));
     return out;
   }
-  if (!options.motion.empty()) return tl::unexpected<io::FileError>(asked_in_vain(plan.error()));
+  if (!asking_option(options).empty())
+    return tl::unexpected<io::FileError>(asked_in_vain(plan.error(), asking_option(options)));
   if (!options.limits) print_error("plumb: " + plan.error().text() + "\n");
   out.refusal_ = plan.error();
   return out;
@@ -61,8 +73,15 @@ io::FileExpected<void> MonitorMotion::open(const MonitorOptions& options, const 
   if (outputs.report) watch_->tell(outputs.report->motion());
   if (outputs.table) sinks_.push_back(std::make_unique<MotionTable>(sensors));
   for (const std::unique_ptr<session::MotionSink>& sink : sinks_) watch_->tell(*sink);
+  const bool live = options.log.path == "-" || options.log.follow;
+  if (!options.inclination.empty()) {
+    io::FileExpected<std::unique_ptr<session::InclinationFile>> file =
+        session::InclinationFile::create(options.inclination, live);
+    if (!file) return tl::unexpected<io::FileError>(file.error());
+    inclination_ = *std::move(file);
+    watch_->tell(*inclination_);
+  }
   if (!options.motion.empty()) {
-    const bool live = options.log.path == "-" || options.log.follow;
     io::FileExpected<std::unique_ptr<session::MotionFile>> file =
         session::MotionFile::create(options.motion, sensors, array.output_frame, live);
     if (!file) return tl::unexpected<io::FileError>(file.error());
@@ -73,12 +92,17 @@ io::FileExpected<void> MonitorMotion::open(const MonitorOptions& options, const 
   return {};
 }
 
-io::FileExpected<void> MonitorMotion::commit() { return file_ != nullptr ? file_->commit() : io::FileExpected<void>(); }
+io::FileExpected<void> MonitorMotion::commit() {
+  io::FileExpected<void> done;
+  if (file_ != nullptr) done = file_->commit();
+  if (done && inclination_ != nullptr) done = inclination_->commit();
+  return done;
+}
 
 render::MotionTold MonitorMotion::told() const noexcept {
-  if (refusal_) return {nullptr, nullptr, &*refusal_};
+  if (refusal_) return {nullptr, nullptr, &*refusal_, false};
   if (watch_ == nullptr) return {};
-  return {&watch_->run(), &plan_->setup, nullptr};
+  return {&watch_->run(), &plan_->setup, nullptr, plan_->inclination.has_value()};
 }
 
 }  // namespace cli

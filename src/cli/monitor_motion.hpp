@@ -1,5 +1,5 @@
 /// The monitor of motion in a run of `plumb monitor`: made from the array file where that states motion, and heard in
-/// table, events, --motion and summary.
+/// table, events, --motion, --inclination and summary.
 #pragma once
 
 #include <memory>
@@ -36,6 +36,7 @@ class MonitorMotion {
   std::optional<io::FileError> refusal_;
   std::unique_ptr<session::MotionWatch> watch_;
   std::unique_ptr<session::MotionFile> file_;
+  std::unique_ptr<session::InclinationFile> inclination_;
   std::vector<std::unique_ptr<session::MotionSink>> sinks_;
 };
 

@@ -81,6 +81,11 @@ void add_monitor_options(const Options& command, MonitorOptions& options) {
                   "standard output")
       .type_name("M.csv");
   command
+      .add_option("--inclination", options.inclination,
+                  "write one CSV row per window: the inclination while the tool moves, between two limits; `-` = "
+                  "standard output")
+      .type_name("I.csv");
+  command
       .add_option(
           "--incidents", options.incidents.directory,
           "record the rows before and after every change of state and every finding in motion, in this directory")
@@ -182,9 +187,13 @@ std::optional<io::FileError> roll_test_misuse(const MonitorOptions& options, con
 }
 
 std::optional<io::FileError> motion_misuse(const MonitorOptions& options) {
-  if (options.motion.empty() || !options.limits) return std::nullopt;
-  return io::FileError{
-      "--motion", 0, "", "describes a run, and --limits runs nothing", "leave out one of the two", io::ExitCode::usage};
+  if ((options.motion.empty() && options.inclination.empty()) || !options.limits) return std::nullopt;
+  return io::FileError{options.motion.empty() ? "--inclination" : "--motion",
+                       0,
+                       "",
+                       "describes a run, and --limits runs nothing",
+                       "leave out one of the two",
+                       io::ExitCode::usage};
 }
 
 std::optional<io::FileError> incidents_misuse(const MonitorOptions& options) {

@@ -22,6 +22,7 @@ struct MonitorOptions {
   std::string verdicts;
   std::string report;
   std::string motion;
+  std::string inclination;
   session::IncidentSettings incidents;  ///< no directory: none are recorded
   std::string date;                     ///< of the run; empty: today
   std::string snapshot_in;

@@ -23,7 +23,8 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
                                     const SensorArray& sensors, const Verdict& now, const std::string& past,
                                     double days, Outputs& out) {
   const bool live = options.log.path == "-" || options.log.follow;
-  const bool taken = options.events == "-" || options.verdicts == "-" || options.motion == "-";
+  const bool taken =
+      options.events == "-" || options.verdicts == "-" || options.motion == "-" || options.inclination == "-";
   if (!options.events.empty()) {
     io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.events, io::OutputFile::Mode::stream);
     if (!file) return tl::unexpected<io::FileError>(file.error());

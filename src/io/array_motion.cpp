@@ -73,6 +73,8 @@ constexpr GyroKey kGyro[] = {
 
 constexpr Figure kPeriod{"sample_period_s", "s", 1e-5, 1.0, "0.001"};
 constexpr Figure kRate{"rate_bound_radps", "rad/s", 0.0, 1000.0, "8"};
+constexpr Figure kVelocity{"velocity_bound_mps", "m/s", 0.0, 100.0, "0.3"};
+constexpr Figure kWindow{"inclination_window_s", "s", 0.01, 600.0, "10"};
 
 struct LimitKey {
   Figure figure;
@@ -99,7 +101,7 @@ constexpr CountKey kCounts[] = {
 };
 
 std::vector<std::string> known_motion_keys() {
-  std::vector<std::string> out = {kPeriod.key, kRate.key};
+  std::vector<std::string> out = {kPeriod.key, kRate.key, kVelocity.key, kWindow.key};
   for (const CountKey& key : kCounts) out.emplace_back(key.key);
   for (const LimitKey& key : kLimits) out.emplace_back(key.figure.key);
   return with_motion_keys(std::move(out));
@@ -159,6 +161,10 @@ MotionSpec read_motion(const TomlNode& root, const std::string& file, const Inpu
     out.stated = true;
     read_into(table, kPeriod, out.sample_period_s);
     read_into(table, kRate, out.rate_bound_radps);
+    read_into(table, kVelocity, out.velocity_bound_mps);
+    std::optional<double> window_s;
+    read_into(table, kWindow, window_s);
+    out.inclination_window_s = window_s.value_or(out.inclination_window_s);
     for (const LimitKey& key : kLimits) read_into(table, key.figure, out.limits.*key.field);
     for (const CountKey& key : kCounts) read_count(table, key, out.limits);
     MotionBounds usual;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "json_object.hpp"
+#include "plumb/core/units.hpp"
 #include "plumb/io/units.hpp"
 
 namespace plumb {
@@ -68,6 +69,23 @@ void append_motion_event_json(std::string& out, const MotionEvent& event, const 
   object.word("cause", to_string(event.cause));
   object.whole("least_faults", event.least_faults);
   object.close();
+}
+
+std::string inclination_csv_header() {
+  return "t_s,span_s,status,inclination_deg,low_deg,high_deg,widest,gyro_assumed\n";
+}
+
+void append_inclination_row(std::string& out, const InclinationInterval& interval) {
+  const bool known = interval.status == InclinationStatus::known;
+  const bool full = known || interval.status == InclinationStatus::contradicts_gravity;
+  const double nothing = std::nan("");
+  append_cell(out, full ? interval.time_s : nothing);
+  append_cell(out, full ? interval.span_s : nothing);
+  out.append(to_string(interval.status)).append(",");
+  for (const double angle_rad : {interval.inclination_rad, interval.low_rad, interval.high_rad})
+    append_cell(out, known ? deg_from_rad(angle_rad) : nothing);
+  if (known) out += to_string(interval.widest);
+  out += known && interval.gyro_assumed ? ",1\n" : ",0\n";
 }
 
 std::string motion_csv_header() {

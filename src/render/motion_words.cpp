@@ -87,6 +87,37 @@ std::string force_words(const MotionRun& run) {
   return out;
 }
 
+std::string inclination_words(const MotionRun& run) {
+  const InclinationInterval& last = run.inclination;
+  std::string out;
+  if (run.inclinations > 0)
+    out =
+        fmt::format("{:.2f} deg, between {:.2f} and {:.2f}, in the {:.1f} s around t = {:.3f} s{}; {}; widest part: {}",
+                    deg_from_rad(last.inclination_rad), deg_from_rad(last.low_rad), deg_from_rad(last.high_rad),
+                    last.span_s, last.time_s, last.gyro_assumed ? " while the gyro is healthy" : "",
+                    count_text(run.inclinations, "window"), to_string(last.widest));
+  if (run.inclination_breaks == 0) return out.empty() ? "no window is full" : out;
+  return fmt::format("{}{}, the last: {}", out.empty() ? "unknown; " : out + "; ",
+                     count_text(run.inclination_breaks, "break"), to_string(run.no_inclination.status));
+}
+
+io::Json inclination_json(const MotionTold& told) {
+  if (!told.inclination) return io::Json();
+  const MotionRun& run = *told.run;
+  const InclinationInterval& last = run.inclination;
+  io::Json out = io::object({{"windows", run.inclinations}, {"breaks", run.inclination_breaks}});
+  out["last"] = run.inclinations == 0 ? io::Json()
+                                      : io::object({{"t_s", last.time_s},
+                                                    {"span_s", last.span_s},
+                                                    {"inclination_deg", deg_from_rad(last.inclination_rad)},
+                                                    {"low_deg", deg_from_rad(last.low_rad)},
+                                                    {"high_deg", deg_from_rad(last.high_rad)},
+                                                    {"widest", to_string(last.widest)},
+                                                    {"gyro_assumed", last.gyro_assumed}});
+  out["last_break"] = run.inclination_breaks == 0 ? io::Json() : io::Json(to_string(run.no_inclination.status));
+  return out;
+}
+
 std::string judged_words(const MotionRun& run) {
   std::string out = fmt::format("{} of {} judged", run.judged, count_text(run.samples, "sample"));
   if (2 * run.judged < run.samples) out += fmt::format(" ({})", explain(main_cause(run)));
@@ -165,6 +196,7 @@ std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
   if (run.gyro_disagreements > 0)
     out += fmt::format("  gyros     {}; first at {:.3f} s\n", kGyrosDisagree, run.gyros_disagree_s);
   out += "  force     " + force_words(run) + "\n";
+  if (told.inclination) out += "  inclined  " + inclination_words(run) + "\n";
   for (const MotionNote& note : motion_notes(run, *told.setup))
     out += fmt::format("  note      {}. Remedy: {}.\n", note.what, note.remedy);
   return out;
@@ -213,6 +245,7 @@ io::Json motion_json(const MotionTold& told, const io::ArrayFile& array) {
   out["bound_mean_mps2"] = known(blocks, blocks ? run.bound_sum_mps2 / static_cast<double>(run.blocks) : 0.0);
   out["bound_worst_mps2"] = known(blocks, run.worst_bound_mps2);
   out["dominant"] = known(blocks, to_string(main_term(run)));
+  out["inclination"] = inclination_json(told);
   out["notes"] = io::Json::array();
   for (const MotionNote& note : motion_notes(run, *told.setup))
     out["notes"].push_back(io::object({{"code", note.code}, {"what", note.what}, {"remedy", note.remedy}}));

@@ -164,6 +164,18 @@ std::optional<io::FileError> of_another_array(const io::ArrayFile& array, const 
   return std::nullopt;
 }
 
+/// Of the z axis of the output frame, which is along the hole.
+InclinationSetup inclination_setup_of(const io::ArrayFile& array) {
+  InclinationSetup out;
+  const Mat3& frame = array.output_frame;
+  out.axis = {frame[6], frame[7], frame[8]};
+  out.velocity_bound_mps = *array.motion.velocity_bound_mps;
+  out.window_s = array.motion.inclination_window_s;
+  out.gravity_mps2 = array.gravity.g_mps2;
+  out.gravity_bound_mps2 = kMotionSigmas * array.gravity.sigma_mps2;
+  return out;
+}
+
 /// What follows from calibration and stability may be beyond what the monitor takes.
 io::FileError beyond_use(const io::ArrayFile& array, const Error& error) {
   const bool of_sensor = error.index >= 0 && error.index < array.array.size();
@@ -237,6 +249,14 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
     if (full_scale_raw > 0.0) out.clip_raw[k] = kClipShare * full_scale_raw;
   }
   if (const Expected<void> sound = check(out.array, out.setup); !sound) return refuse(beyond_use(array, sound.error()));
+  if (array.motion.velocity_bound_mps) {
+    out.inclination = inclination_setup_of(array);
+    ContinuousInclination trial;
+    if (const Expected<void> sound = trial.configure(out.array, out.setup, *out.inclination); !sound)
+      return refuse(not_judged(array, "motion.inclination_window_s",
+                               "is shorter than 128 samples, or gravity is none that an inclination can be found by",
+                               "state a longer window, or leave velocity_bound_mps out"));
+  }
   if (MotionSets(out.array, out.setup).size() == 0)
     return refuse(not_judged(array, "sensor", "has no axes that check each other whatever the force is",
                              "motion needs four axes, three in a plane or two parallel ones"));

@@ -29,6 +29,7 @@ void note_first(SensorSet now, SensorSet& ever, std::array<double, kCapacity>& a
 MotionWatch::MotionWatch(const MotionPlan& plan)
     : plan_(plan), monitor_(std::make_unique<MotionMonitor>()), sampler_(plan_), inputs_(plan.setup.sample_period_s) {
   (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
+  if (plan.inclination) (void)inclination_.emplace().configure(plan_.array, plan_.setup, *plan.inclination);
 }
 
 void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
@@ -98,7 +99,8 @@ io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& ve
   }
   monitor_->set_in_service(verdict.in_service);
   const MotionVerdict before = monitor_->verdict();
-  const MotionVerdict& now = monitor_->step(sample_of(sample));
+  const MotionSample moved = sample_of(sample);
+  const MotionVerdict& now = monitor_->step(moved);
   note_events(before, now, sample.time_s);
   count(now, sample.time_s);
   found_ = {now.alarm, now.excluded.bits};
@@ -107,7 +109,37 @@ io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& ve
     const io::FileExpected<void> taken = sink->take(sample.time_s, now, events_);
     if (!taken) return taken;
   }
+  return follow_inclination(moved, now);
+}
+
+io::FileExpected<void> MotionWatch::follow_inclination(const MotionSample& sample, const MotionVerdict& verdict) {
+  if (!inclination_ || !inclination_->step(sample, verdict)) return {};
+  const InclinationInterval& found = inclination_->interval();
+  const bool known = found.status == InclinationStatus::known;
+  ++(known ? run_.inclinations : run_.inclination_breaks);
+  (known ? run_.inclination : run_.no_inclination) = found;
+  for (MotionSink* sink : sinks_) {
+    const io::FileExpected<void> taken = sink->take_inclination(found);
+    if (!taken) return taken;
+  }
   return {};
+}
+
+io::FileExpected<std::unique_ptr<InclinationFile>> InclinationFile::create(const std::string& path, bool live) {
+  io::FileExpected<io::OutputFile> file = io::OutputFile::create(path, io::OutputFile::Mode::stream);
+  if (!file) return tl::unexpected<io::FileError>(file.error());
+  std::unique_ptr<InclinationFile> out(new InclinationFile(*std::move(file), live));
+  const io::FileExpected<void> begun = out->file_.write(io::inclination_csv_header());
+  if (!begun) return tl::unexpected<io::FileError>(begun.error());
+  return out;
+}
+
+io::FileExpected<void> InclinationFile::take_inclination(const InclinationInterval& interval) {
+  std::string line;
+  io::append_inclination_row(line, interval);
+  io::FileExpected<void> done = file_.write(line);
+  if (done && live_) done = file_.flush();
+  return done;
 }
 
 io::FileExpected<std::unique_ptr<MotionFile>> MotionFile::create(const std::string& path, const SensorArray& array,

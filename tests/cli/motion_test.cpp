@@ -1,4 +1,5 @@
 // plumb simulate --flight, then plumb monitor with motion in the array file.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -284,6 +285,44 @@ TEST(MotionCommand, AnIncidentIsALogOfItsOwn) {
   EXPECT_EQ(motion["samples"], 400 + 1 + 65 + 400) << "400 rows before the alarm, to 400 after it was over";
 }
 
+/// The axis of a drill string that rotates stands still: all windows share an inclination. With a velocity that is said
+/// not to change they do not, so they can fail to.
+// Verifies: REQ-211
+TEST(MotionCommand, ADrillStringHasItsInclinationWhileItRotates) {
+  const Hangar where;
+  const auto drill = [&where](const std::string& velocity) {
+    const std::string keys = "[motion]\nvelocity_bound_mps = " + velocity + "\ninclination_window_s = 2\n";
+    write_text(where / "array.toml",
+               with(with(read_text(kDrone), "[motion]\n", keys), "rate_bound_radps = 8", "rate_bound_radps = 25"));
+    const std::vector<std::string> play = {"simulate", "--flight",   "drilling", "array.toml",
+                                           "--out",    "flight.csv", "--seed",   "4"};
+    EXPECT_EQ(run(where, play).code, 0);
+    return monitor(where, {"--json", "--inclination", "inclination.csv"});
+  };
+  const auto common = [&where](std::size_t windows) {
+    const auto rows = rows_of(read_text(where / "inclination.csv"));
+    EXPECT_EQ(rows.size(), windows);
+    double low_deg = 0.0, high_deg = 180.0;
+    for (const auto& row : rows) {
+      EXPECT_EQ(row.at("status"), "known");
+      low_deg = std::max(low_deg, std::stod(row.at("low_deg")));
+      high_deg = std::min(high_deg, std::stod(row.at("high_deg")));
+    }
+    return low_deg <= high_deg;
+  };
+  const Json told = motion_of(drill("2"))["inclination"];
+  EXPECT_TRUE(common(5));
+  EXPECT_EQ(told["windows"], 5);
+  EXPECT_EQ(told["breaks"], 0);
+  EXPECT_TRUE(told["last_break"].is_null());
+  EXPECT_EQ(told["last"]["inclination_deg"].get<double>(),
+            std::stod(rows_of(read_text(where / "inclination.csv")).back().at("inclination_deg")));
+  EXPECT_LT(told["last"]["low_deg"], told["last"]["high_deg"]);
+  (void)drill("0");
+  EXPECT_FALSE(common(5));
+  EXPECT_TRUE(says(monitor(where, {}).out, {"inclined", "5 windows", "widest part: force"}));
+}
+
 TEST(MotionCommand, RefusesOptionsThatMakeNoSense) {
   const Hangar where;
   const auto refused = [&where](const std::vector<std::string>& arguments, int code,
@@ -309,6 +348,11 @@ TEST(MotionCommand, RefusesOptionsThatMakeNoSense) {
           3, {"motion: is missing", "add [motion]"});
   refused({"monitor", "--array", "array.toml", "--calibration", "c.json", "--limits", "--motion", "m.csv"}, 2,
           {"--motion", "--limits runs nothing"});
+  refused({"monitor", "--array", "array.toml", "--calibration", "c.json", "--limits", "--inclination", "i.csv"}, 2,
+          {"--inclination", "--limits runs nothing"});
+  write_text(where / "array.toml", read_text(kDrone));
+  refused({"monitor", "--array", "array.toml", "--calibrate-first", "--log", "flight.csv", "--inclination", "i.csv"}, 3,
+          {"motion.velocity_bound_mps", "is missing, and --inclination asks for its results"});
 }
 
 TEST(MotionCommand, RowsMayGoToStandardOutput) {

@@ -19,6 +19,8 @@ const std::string kMotion = R"([motion]
 sample_period_s = 0.002
 rate_bound_radps = 8
 force_bound_mps2 = 90
+velocity_bound_mps = 0.3
+inclination_window_s = 6
 false_alarms_per_hour = 1e-2
 dwell_s = 0.05
 quiet_s = 4
@@ -65,6 +67,8 @@ TEST(ArrayMotion, ReadsEveryKey) {
   EXPECT_EQ(motion.sample_period_s, 0.002);
   EXPECT_EQ(motion.rate_bound_radps, 8.0);
   EXPECT_EQ(motion.limits.force_bound_mps2, 90.0);
+  EXPECT_EQ(motion.velocity_bound_mps, 0.3);
+  EXPECT_EQ(motion.inclination_window_s, 6.0);
   EXPECT_EQ(motion.limits.false_alarms_per_hour, 1e-2);
   EXPECT_EQ(motion.limits.dwell_s, 0.05);
   EXPECT_EQ(motion.limits.quiet_s, 4.0);
@@ -124,6 +128,8 @@ TEST(ArrayMotion, RefusesEveryNumberBeyondItsRangeWithItsLine) {
       {"sample_period_s = 0.002", "sample_period_s = 0", "motion.sample_period_s"},
       {"rate_bound_radps = 8", "rate_bound_radps = -8", "motion.rate_bound_radps"},
       {"force_bound_mps2 = 90", "force_bound_mps2 = 1e6", "motion.force_bound_mps2"},
+      {"velocity_bound_mps = 0.3", "velocity_bound_mps = -1", "motion.velocity_bound_mps"},
+      {"inclination_window_s = 6", "inclination_window_s = 700", "motion.inclination_window_s"},
       {"false_alarms_per_hour = 1e-2", "false_alarms_per_hour = 0", "motion.false_alarms_per_hour"},
       {"dwell_s = 0.05", "dwell_s = 11", "motion.dwell_s"},
       {"quiet_s = 4", "quiet_s = nan", "motion.quiet_s"},

@@ -147,6 +147,8 @@ TEST(MotionPlan, SaysWhatCannotBeDone) {
   std::string three = text.substr(0, text.find("id = \"x2\""));
   three.erase(three.rfind("[[sensor]]"));
   EXPECT_NE(refusal_of(three).what.find("has no axes that check each other"), std::string::npos);
+  const std::string brief = "[motion]\nvelocity_bound_mps = 0.1\ninclination_window_s = 0.1\n";
+  EXPECT_EQ(refusal_of(with(text, "[motion]\n", brief)).field, "motion.inclination_window_s");
 }
 
 TEST(MotionPlan, CalibrationAndStabilityBoundWhatTheFileLeavesToThem) {

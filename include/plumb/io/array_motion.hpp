@@ -33,6 +33,8 @@ struct MotionSpec {
   bool mentioned = false;  ///< some key of motion is given; without [motion] it has no effect
   std::optional<double> sample_period_s;
   std::optional<double> rate_bound_radps;
+  std::optional<double> velocity_bound_mps;  ///< stated: the inclination in motion is wanted
+  double inclination_window_s = 10.0;
   MotionSetup limits;  ///< force_bound_mps2, false_alarms_per_hour, dwell_s, quiet_s, max_faults; else as it is made
   GyroSpec gyro;
   std::array<MotionBounds, kCapacity> sensor{};

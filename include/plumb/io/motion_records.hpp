@@ -5,7 +5,7 @@
 #include <string>
 
 #include "plumb/io/array_file.hpp"
-#include "plumb/motion/motion_monitor.hpp"
+#include "plumb/motion/continuous_inclination.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -32,6 +32,11 @@ struct MotionEvent {
 
 /// Without a newline at the end, into a string that the caller reuses.
 void append_motion_event_json(std::string& out, const MotionEvent& event, const SensorArray& array);
+
+/// The header of `append_inclination_row`, with a newline.
+std::string inclination_csv_header();
+/// One row with its newline; angles are empty where they are not known.
+void append_inclination_row(std::string& out, const InclinationInterval& interval);
 
 /// The header of `append_motion_row`, with a newline.
 std::string motion_csv_header();

@@ -16,6 +16,7 @@ struct MotionTold {
   const session::MotionRun* run = nullptr;
   const MotionSetup* setup = nullptr;  ///< where there is a run
   const io::FileError* refusal = nullptr;
+  bool inclination = false;  ///< asked for
 
   bool any() const noexcept { return run != nullptr || refusal != nullptr; }
 };

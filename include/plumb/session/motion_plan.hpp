@@ -6,7 +6,7 @@
 #include "plumb/core/sample.hpp"
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
-#include "plumb/motion/motion_setup.hpp"
+#include "plumb/motion/continuous_inclination.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -19,7 +19,8 @@ struct MotionPlan {
   SensorArray array;  ///< calibrated
   SensorModel model;
   MotionSetup setup;
-  std::array<double, kCapacity> clip_raw{};  ///< from here on a reading counts as clipped; infinite: nowhere
+  std::optional<InclinationSetup> inclination;  ///< where the file bounds the velocity
+  std::array<double, kCapacity> clip_raw{};     ///< from here on a reading counts as clipped; infinite: nowhere
 };
 
 /// The bounds that an array file leaves to calibration and stability.

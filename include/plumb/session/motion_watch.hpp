@@ -38,6 +38,9 @@ struct MotionRun {
   std::uint64_t blocks = 0, blocks_unchecked = 0, blocks_by_one_gyro = 0;
   double bound_sum_mps2 = 0.0, worst_bound_mps2 = 0.0, worst_bound_at_s = 0.0;
   std::array<std::uint64_t, kForceTerms> dominant{};  ///< those blocks, by the largest part of their bound
+  /// Windows with an inclination, and how often there was none for another reason than before; the last of each.
+  std::uint64_t inclinations = 0, inclination_breaks = 0;
+  InclinationInterval inclination, no_inclination;
   MotionInputs inputs;
   MotionVerdict last;
 
@@ -53,6 +56,8 @@ class MotionSink {
   virtual ~MotionSink() = default;
   virtual io::FileExpected<void> take(double time_s, const MotionVerdict& verdict,
                                       const std::vector<io::MotionEvent>& events) = 0;
+  /// Where a window of the inclination has ended, or why there is none has changed.
+  virtual io::FileExpected<void> take_inclination(const InclinationInterval&) { return {}; }
 };
 
 class MotionWatch final : public VerdictSink {
@@ -71,9 +76,11 @@ class MotionWatch final : public VerdictSink {
   MotionSample sample_of(const Sample& sample);
   void note_events(const MotionVerdict& before, const MotionVerdict& now, double time_s);
   void count(const MotionVerdict& verdict, double time_s);
+  io::FileExpected<void> follow_inclination(const MotionSample& sample, const MotionVerdict& verdict);
 
   MotionPlan plan_;
   std::unique_ptr<MotionMonitor> monitor_;
+  std::optional<ContinuousInclination> inclination_;
   MotionSampler sampler_;
   MotionInputsWatch inputs_;
   std::array<std::optional<stepping::Turn>, kGyros> turn_{};  ///< of the sample to come, by gyro
@@ -101,6 +108,21 @@ class MotionFile final : public MotionSink {
   Mat3 frame_;
   bool live_;
   std::string line_;
+};
+
+/// One CSV row per window of the inclination (--inclination).
+class InclinationFile final : public MotionSink {
+ public:
+  static io::FileExpected<std::unique_ptr<InclinationFile>> create(const std::string& path, bool live);
+  io::FileExpected<void> take(double, const MotionVerdict&, const std::vector<io::MotionEvent>&) override { return {}; }
+  io::FileExpected<void> take_inclination(const InclinationInterval& interval) override;
+  io::FileExpected<void> commit() { return file_.commit(); }
+
+ private:
+  InclinationFile(io::OutputFile file, bool live) : file_(std::move(file)), live_(live) {}
+
+  io::OutputFile file_;
+  bool live_;
 };
 
 /// The events among the lines of another file (--events, --json).
