@@ -408,6 +408,13 @@ if(TARGET plumb_flight_through_a_failure)
   set_tests_properties(example.flight_through_a_failure PROPERTIES LABELS core TIMEOUT 60
     PASS_REGULAR_EXPRESSION "biased.*20.000  0.054  . 4.49.    2.574 .*dead.* 8.066  0.034  . 1.71.    0.126 .*20.000  0.059  . 4.49.    7.092 ")
 endif()
+if(TARGET plumb_autopilots_in_flight)
+  plumb_compile_settings(plumb_autopilots_in_flight)
+  plumb_optimise_less(plumb_autopilots_in_flight)
+  add_test(NAME example.autopilots_in_flight COMMAND plumb_autopilots_in_flight)
+  set_tests_properties(example.autopilots_in_flight PROPERTIES LABELS core TIMEOUT 60
+    PASS_REGULAR_EXPRESSION "too much.*8.008  1      1-3           113        yes.*dead.* 8.002  1      1-3           113        yes")
+endif()
 target_compile_options(plumb_cfs_tables PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Werror)
 plumb_test_executable(plumb_example_tests LABEL core ROOMS examples LIBRARIES plumb_cfs_tables plumb_8
   LONGER FlightThroughAFailure.*)
@@ -418,7 +425,9 @@ add_dependencies(plumb_example_tests plumb_attitude_filter)
 if(TARGET plumb_flight_through_a_failure)
   target_compile_definitions(plumb_example_tests PRIVATE
     PLUMB_FLIGHT_PATH="$<TARGET_FILE:plumb_flight_through_a_failure>")
-  add_dependencies(plumb_example_tests plumb_flight_through_a_failure)
+  target_compile_definitions(plumb_example_tests PRIVATE
+    PLUMB_AUTOPILOTS_PATH="$<TARGET_FILE:plumb_autopilots_in_flight>")
+  add_dependencies(plumb_example_tests plumb_flight_through_a_failure plumb_autopilots_in_flight)
   add_test(NAME example.flight_figure
     COMMAND bash "${PROJECT_SOURCE_DIR}/tests/examples/figure.sh" "${PROJECT_SOURCE_DIR}" flight_through_a_failure
             "$<TARGET_FILE:plumb_flight_through_a_failure>" 1 flight_through_a_failure.csv)
@@ -439,7 +448,7 @@ add_custom_target(plumb_core_checks)
 add_dependencies(plumb_core_checks plumb_core_tests plumb_monitor_loop plumb_monitor_loop_c plumb_nav_loop
   plumb_attitude_filter plumb_survey_station plumb_example_tests plumb_core_ideas)
 if(TARGET plumb_flight_through_a_failure)
-  add_dependencies(plumb_core_checks plumb_flight_through_a_failure)
+  add_dependencies(plumb_core_checks plumb_flight_through_a_failure plumb_autopilots_in_flight)
 endif()
 
 add_test(NAME example.navigation_page_quotes_them

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "motion_verdicts.hpp"
 #include "navigation/fprime.hpp"
 #include "navigation/mavlink.hpp"
 #include "navigation/px4.hpp"
@@ -86,6 +87,60 @@ TEST(MavlinkSysStatus, throughAFailureHealthIsEnabledAndEnabledIsPresent) {
   EXPECT_EQ(healthy_doubt, 0);
 }
 
+TEST(MavlinkSysStatus, inMotionHealthIsABoundedForce) {
+  const SensorSet all = SensorSet::first(9);
+  mavlink_sys_status_t out{};
+  plumb_mavlink::fill(out, example_test::flying(), all);
+  EXPECT_EQ(out.onboard_control_sensors_present & out.onboard_control_sensors_enabled & 2U, 2U);
+  EXPECT_EQ(out.onboard_control_sensors_health, 2U);
+  plumb::MotionVerdict v = example_test::flying();
+  v.sample.validity = plumb::ForceValidity::unchecked;
+  plumb_mavlink::fill(out, v, all);
+  EXPECT_EQ(out.onboard_control_sensors_health, 0U);
+  plumb_mavlink::fill(out, v, all, true);
+  EXPECT_EQ(out.onboard_control_sensors_health, 2U);
+  plumb_mavlink::fill(out, plumb::MotionVerdict{}, all, true);
+  EXPECT_EQ(out.onboard_control_sensors_enabled, 2U);
+  EXPECT_EQ(out.onboard_control_sensors_health, 0U);
+  v.excluded = SensorSet(0b111111100);
+  plumb_mavlink::fill(out, v, all, true);  // two axes are left
+  EXPECT_EQ(out.onboard_control_sensors_present, 2U);
+  EXPECT_EQ(out.onboard_control_sensors_enabled, 0U);
+  EXPECT_EQ(out.onboard_control_sensors_health, 0U);
+}
+
+TEST(MavlinkHighresImu, isTheForceAtItsInstant) {
+  mavlink_highres_imu_t out{};
+  out.fields_updated = 0x38;  // the gyro's
+  EXPECT_TRUE(plumb_mavlink::fill(out, example_test::flying()));
+  EXPECT_EQ(out.time_usec, 12249500U);
+  EXPECT_EQ(out.zacc, -9.75F);
+  EXPECT_EQ(out.fields_updated, 0x3F);
+  plumb::MotionVerdict v = example_test::flying();
+  v.sample.time_s = 13.0;
+  v.sample.force_mps2[1] = kNan;
+  EXPECT_FALSE(plumb_mavlink::fill(out, v));
+  EXPECT_EQ(out.time_usec, 12249500U);
+  EXPECT_EQ(out.xacc, 0.0F);
+  EXPECT_EQ(out.yacc, 0.0F);
+  EXPECT_EQ(out.zacc, 0.0F);
+  EXPECT_EQ(out.fields_updated, 0x38);
+}
+
+RC_GTEST_PROP(MavlinkLaw, InMotionHealthIsEnabledIsPresentAndOnlyOfAForce, ()) {
+  const plumb::MotionVerdict v = example_test::any_verdict();
+  mavlink_sys_status_t out{};
+  mavlink_highres_imu_t imu{};
+  plumb_mavlink::fill(out, v, example_test::any_set(), true);
+  plumb_mavlink::fill(imu, v);
+  RC_ASSERT((out.onboard_control_sensors_health & ~out.onboard_control_sensors_enabled) == 0U);
+  RC_ASSERT((out.onboard_control_sensors_enabled & ~out.onboard_control_sensors_present) == 0U);
+  RC_ASSERT(out.onboard_control_sensors_health == 0U ||
+            (v.cause == plumb::MotionCause::none && v.sample.validity != plumb::ForceValidity::none));
+  RC_ASSERT(std::isfinite(imu.xacc) && std::isfinite(imu.yacc) && std::isfinite(imu.zacc));
+  RC_ASSERT((imu.fields_updated & 7U) == 0U || v.sample.validity == plumb::ForceValidity::bounded);
+}
+
 /// Two chips of three axes each: sensors 0 to 2 and 3 to 5.
 std::array<plumb_px4::Instance, 4> two_chips() {
   std::array<plumb_px4::Instance, 4> chips{};
@@ -139,19 +194,20 @@ TEST(Px4SensorsStatusImu, aChipUnderSuspicionIsNotHealthy) {
   EXPECT_FALSE(out.accel_healthy[1]);
 }
 
-TEST(Px4SensorsStatusImu, withoutAVectorTheDistanceFailsEveryLimit) {
+TEST(Px4SensorsStatusImu, withoutAVectorNobodyMayArmAndNobodyIsBlamed) {
   for (const Validity validity : {Validity::unconfirmed, Validity::held, Validity::invalid}) {
     plumb::Verdict v = of_two_chips();
     v.validity = validity;
     sensors_status_imu_s out{};
     plumb_px4::fill(out, v, two_chips());
-    EXPECT_GT(out.accel_inconsistency_m_s_s[1], 1e30F);
+    EXPECT_GT(out.accel_inconsistency_m_s_s[1], 0.7F);  // COM_ARM_IMU_ACC
+    EXPECT_LE(out.accel_inconsistency_m_s_s[1], 1.0F);  // EKF2_SEL_IMU_ACC: its selector adds up what is beyond
   }
   plumb::Verdict v = of_two_chips();
   v.gravity_mps2[0] = kNan;
   sensors_status_imu_s out{};
   plumb_px4::fill(out, v, two_chips());
-  EXPECT_GT(out.accel_inconsistency_m_s_s[1], 1e30F);  // NaN would pass as "not beyond the limit"
+  EXPECT_EQ(out.accel_inconsistency_m_s_s[1], 1.0F);  // NaN would pass as "not beyond the limit"
 }
 
 TEST(Px4SensorsStatusImu, aBrokenClockMakesNoTimestamp) {
