@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "motion/rigid_motion.hpp"
 
 namespace motion_link_test {
@@ -21,12 +23,20 @@ class Tool {
  public:
   Tool() : array_(plumb_test::cone_array(kSensors, kSigma_mps2)), setup_(plumb_test::motion_setup(kSensors)) {
     setup_.gyros = 2;
-    MonitorSetup setup;
-    setup.array = array_;
-    setup.model = plumb_test::identity_model(kSensors);
-    setup.gravity = {kG0_mps2, 1e-3, GravityModel::value};
-    EXPECT_TRUE(health.configure(setup).has_value());
+    rest_setup_.array = array_;
+    rest_setup_.model = plumb_test::identity_model(kSensors);
+    rest_setup_.gravity = {kG0_mps2, 1e-3, GravityModel::value};
+    EXPECT_TRUE(health.configure(rest_setup_).has_value());
     EXPECT_TRUE(motion.configure(array_, setup_).has_value());
+  }
+  /// Of both monitors only the snapshot of the one at rest is left.
+  void lose_power() {
+    std::vector<std::uint8_t> bytes(HealthMonitor::snapshot_size_max());
+    const Expected<std::size_t> size = health.snapshot(bytes.data(), bytes.size());
+    ASSERT_TRUE(size.has_value());
+    ASSERT_TRUE(health.restore(rest_setup_, bytes.data(), *size).has_value());
+    ASSERT_TRUE(motion.configure(array_, setup_).has_value());
+    number_ += 5000;
   }
 
   void fly(int samples) {
@@ -94,6 +104,7 @@ class Tool {
 
   SensorArray array_;
   MotionSetup setup_;
+  MonitorSetup rest_setup_;
   plumb_test::Noise noise_{3};
   std::uint64_t number_ = 0;
   int attitude_ = 0;
@@ -128,6 +139,21 @@ TEST(MotionLink, AFaultInFlightIsExcludedProvisionallyAndConfirmedAtRest) {
   tool.fly(600);
   EXPECT_TRUE(tool.records.empty());
   EXPECT_EQ(tool.health.verdict().state, HealthState::isolated);
+}
+
+/// What motion has excluded is in the snapshot of the monitor at rest, which tells it to the one in motion.
+// Verifies: REQ-200, REQ-163
+TEST(MotionLink, APowerCycleInFlightDoesNotBringTheExcludedSensorBack) {
+  Tool tool;
+  tool.rest(8);
+  tool.faulty = SensorSet::of(3);
+  tool.fly(600);
+  ASSERT_EQ(tool.health.verdict().provisionally_excluded, tool.faulty);
+  tool.lose_power();
+  tool.fly(20);
+  EXPECT_EQ(tool.motion.verdict().sample.used, SensorSet::first(6) - tool.faulty);
+  EXPECT_FALSE(tool.motion.verdict().alarm) << "nothing had to be found again";
+  EXPECT_EQ(tool.health.verdict().provisionally_excluded, tool.faulty);
 }
 
 // Verifies: REQ-200
