@@ -39,8 +39,12 @@ def judge(validator, reports, breaks):
 
 
 def flown(tool, source, folder):
-    """Of a flight in which a chip dies."""
-    array = str(source / "examples/motion/drone.toml")
+    """Of a flight in which a chip dies, with an inclination."""
+    text = (source / "examples/motion/drone.toml").read_text()
+    assert text.count("[motion]\n") == 1
+    pathlib.Path(folder, "flight.toml").write_text(
+        text.replace("[motion]\n", "[motion]\nvelocity_bound_mps = 2\ninclination_window_s = 1\n"))
+    array = "flight.toml"
     for command in (["simulate", "--flight", "drone", array, "--duration", "4", "--fault", "imu2:stuck=0g0@3s", "--out", "flight"],
                     ["monitor", "--array", array, "--calibrate-first", "--log", "flight", "--report", "flight.html"]):
         done = subprocess.run([tool, *command], capture_output=True, text=True, cwd=folder)
@@ -68,6 +72,7 @@ def health_reports(tool, source, folder):
     pathlib.Path(folder, "short").write_text("\n".join(lines[:9] + [lines[9].replace(",", ",x", 1)] + lines[10:20]) + "\n")
     out = [monitored("run"), monitored("short", "--on-bad-row", "skip", code=7), flown(tool, source, folder)]
     assert out[0]["motion"] is None and out[2]["motion"]["events"]
+    assert out[2]["motion"]["inclination"]["last"]
     assert out[0]["stations"] and out[0]["events"] and not out[1]["stations"] and out[1]["identity"]["log"]["rows_bad"] == 1
     return out
 
