@@ -127,7 +127,7 @@ RC_GTEST_PROP(ArduPilotLaw, ItMayArmOnlyWhereEveryInstanceIsInABoundedForce, ())
   Vehicle vehicle;
   const plumb::MotionVerdict v = any_verdict();
   vehicle.step(v);
-  RC_CLASSIFY(vehicle.arming.passed);
+  RC_CLASSIFY(vehicle.arming.passed, "armed");
   RC_ASSERT(!vehicle.arming.passed ||
             (v.sample.validity == plumb::ForceValidity::bounded && v.cause == plumb::MotionCause::none &&
              v.sample.used == SensorSet::first(9) && (v.isolated | v.excluded | v.suspects).empty()));
@@ -137,7 +137,7 @@ RC_GTEST_PROP(ArduPilotLaw, ItMayArmOnlyWhereEveryInstanceIsInABoundedForce, ())
 RC_GTEST_PROP(ArduPilotLaw, WhatIsHandedOverIsANumberOfABoundedForce, ()) {
   ins_data_message_t out{};
   const plumb::MotionVerdict v = any_verdict();
-  RC_CLASSIFY(plumb_flight::told(v) == plumb_flight::Told::healthy);
+  RC_CLASSIFY(plumb_flight::told(v) == plumb_flight::Told::healthy, "healthy");
   const bool handed_over = plumb_ardupilot::fill(out, v);
   RC_ASSERT(!handed_over || v.sample.validity == plumb::ForceValidity::bounded);
   RC_ASSERT(std::isfinite(out.accel.x) && std::isfinite(out.accel.y) && std::isfinite(out.accel.z));

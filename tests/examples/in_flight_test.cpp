@@ -106,7 +106,7 @@ RC_GTEST_PROP(InFlightLaw, HealthyNeedsABoundedForceWithTheChipInItAndNoCause, (
   const plumb::MotionVerdict v = any_verdict();
   const SensorSet axes = kChipAxes[*rc::gen::inRange<std::size_t>(0, 3)];
   const bool healthy = told(v, axes) == Told::healthy;
-  RC_CLASSIFY(healthy);
+  RC_CLASSIFY(healthy, "healthy");
   const SensorSet accused = v.suspects | v.isolated | v.excluded;
   RC_ASSERT(!healthy || v.cause == MotionCause::none);
   RC_ASSERT(!healthy || v.sample.validity == plumb::ForceValidity::bounded);

@@ -286,7 +286,7 @@ RC_GTEST_PROP(Px4FlightLaw, TheSelectorBlamesNobodyWhoWasNeverFaulty, ()) {
     blames = blames || blamed != 0;
     RC_ASSERT(blamed == 0 || ever[blamed - 100]);
   });
-  RC_CLASSIFY(blames);
+  RC_CLASSIFY(blames, "blames");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ RC_GTEST_PROP(Px4ImuLaw, WhatIsPublishedIsBoundedFiniteAndNewer, ()) {
     RC_ASSERT(out.delta_velocity_dt > 0);
     for (const float x : out.delta_velocity) RC_ASSERT(std::isfinite(x));
   }
-  RC_CLASSIFY(any);
+  RC_CLASSIFY(any, "any");
 }
 
 }  // namespace
