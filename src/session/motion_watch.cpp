@@ -24,6 +24,21 @@ void note_first(SensorSet now, SensorSet& ever, std::array<double, kCapacity>& a
   ever = ever | now;
 }
 
+/// A table that is written as the run goes on, with its header.
+io::FileExpected<io::OutputFile> begun(const std::string& path, const std::string& header) {
+  io::FileExpected<io::OutputFile> file = io::OutputFile::create(path, io::OutputFile::Mode::stream);
+  if (!file) return file;
+  const io::FileExpected<void> written = file->write(header);
+  if (!written) return tl::unexpected<io::FileError>(written.error());
+  return file;
+}
+
+io::FileExpected<void> put(io::OutputFile& file, const std::string& line, bool live) {
+  io::FileExpected<void> done = file.write(line);
+  if (done && live) done = file.flush();
+  return done;
+}
+
 }  // namespace
 
 MotionWatch::MotionWatch(const MotionPlan& plan)
@@ -126,39 +141,29 @@ io::FileExpected<void> MotionWatch::follow_inclination(const MotionSample& sampl
 }
 
 io::FileExpected<std::unique_ptr<InclinationFile>> InclinationFile::create(const std::string& path, bool live) {
-  io::FileExpected<io::OutputFile> file = io::OutputFile::create(path, io::OutputFile::Mode::stream);
+  io::FileExpected<io::OutputFile> file = begun(path, io::inclination_csv_header());
   if (!file) return tl::unexpected<io::FileError>(file.error());
-  std::unique_ptr<InclinationFile> out(new InclinationFile(*std::move(file), live));
-  const io::FileExpected<void> begun = out->file_.write(io::inclination_csv_header());
-  if (!begun) return tl::unexpected<io::FileError>(begun.error());
-  return out;
+  return std::unique_ptr<InclinationFile>(new InclinationFile(*std::move(file), live));
 }
 
 io::FileExpected<void> InclinationFile::take_inclination(const InclinationInterval& interval) {
-  std::string line;
-  io::append_inclination_row(line, interval);
-  io::FileExpected<void> done = file_.write(line);
-  if (done && live_) done = file_.flush();
-  return done;
+  line_.clear();
+  io::append_inclination_row(line_, interval);
+  return put(file_, line_, live_);
 }
 
 io::FileExpected<std::unique_ptr<MotionFile>> MotionFile::create(const std::string& path, const SensorArray& array,
                                                                  const Mat3& frame, bool live) {
-  io::FileExpected<io::OutputFile> file = io::OutputFile::create(path, io::OutputFile::Mode::stream);
+  io::FileExpected<io::OutputFile> file = begun(path, io::motion_csv_header());
   if (!file) return tl::unexpected<io::FileError>(file.error());
-  std::unique_ptr<MotionFile> out(new MotionFile(*std::move(file), array, frame, live));
-  const io::FileExpected<void> begun = out->file_.write(io::motion_csv_header());
-  if (!begun) return tl::unexpected<io::FileError>(begun.error());
-  return out;
+  return std::unique_ptr<MotionFile>(new MotionFile(*std::move(file), array, frame, live));
 }
 
 io::FileExpected<void> MotionFile::take(double time_s, const MotionVerdict& verdict,
                                         const std::vector<io::MotionEvent>&) {
   line_.clear();
   io::append_motion_row(line_, time_s, verdict, array_, frame_);
-  io::FileExpected<void> done = file_.write(line_);
-  if (done && live_) done = file_.flush();
-  return done;
+  return put(file_, line_, live_);
 }
 
 io::FileExpected<void> MotionEvents::take(double, const MotionVerdict&, const std::vector<io::MotionEvent>& events) {

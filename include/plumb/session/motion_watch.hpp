@@ -123,6 +123,7 @@ class InclinationFile final : public MotionSink {
 
   io::OutputFile file_;
   bool live_;
+  std::string line_;
 };
 
 /// The events among the lines of another file (--events, --json).
