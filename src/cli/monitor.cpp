@@ -230,7 +230,7 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
   const auto monitor = options.snapshot_in.empty() ? session::make_monitor(aligned, nullptr)
                                                    : session::restore_monitor(aligned, nullptr, options.snapshot_in);
   if (!monitor) return report(monitor.error());
-  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, array, nullptr, 0.0);
+  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, aligned, nullptr, 0.0);
   if (!motion) return report(motion.error());
   return watch(options, array, **monitor, 0.0, *motion, past_of(options),
                stepper_of(options, aligned, nullptr, 0.0).get());
@@ -281,7 +281,7 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);
-  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, *array, &*calibration, *days);
+  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, aligned, &*calibration, *days);
   if (!motion) return report(motion.error());
   if (array->monitor.mode == MonitorMode::paper) {
     const auto monitor = session::make_paper_monitor(*array, *calibration, options.calibration);

@@ -187,6 +187,13 @@ std::optional<io::FileError> roll_test_misuse(const MonitorOptions& options, con
 }
 
 std::optional<io::FileError> motion_misuse(const MonitorOptions& options) {
+  if (options.motion == "-" && options.inclination == "-")
+    return io::FileError{"--inclination",
+                         0,
+                         "",
+                         "is \"-\", and --motion writes to standard output already",
+                         "name a file for one of the two",
+                         io::ExitCode::usage};
   if ((options.motion.empty() && options.inclination.empty()) || !options.limits) return std::nullopt;
   return io::FileError{options.motion.empty() ? "--inclination" : "--motion",
                        0,

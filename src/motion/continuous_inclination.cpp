@@ -11,16 +11,10 @@ namespace {
 constexpr double kNoiseFactor = 7.0;
 /// Pairs of blocks in a row have middles one block apart, to this share of it.
 constexpr double kOutOfStep = 0.25;
-/// A rate beyond all gyros is none.
-constexpr double kMostRate_radps = 1e4;
-/// So is a force beyond all accelerometers.
+/// A force beyond all accelerometers is none.
 constexpr double kMostForce_mps2 = 1e6;
-
-/// What a rate may be off by, relative to the measured one.
-double relative_of(const GyroErrors& gyro) noexcept {
-  const double relative = gyro.scale + std::sqrt(2.0) * gyro.axis_rad;
-  return relative / (1.0 - relative);
-}
+/// Samples of one block of `MotionVerdict::block`.
+constexpr double kSamples = 32.0;
 
 bool usable(const Vec3& rate_radps) noexcept { return norm(rate_radps) <= kMostRate_radps; }  // false for a NaN
 
@@ -39,11 +33,13 @@ Expected<void> ContinuousInclination::configure(const SensorArray& array, const 
                                                 const InclinationSetup& setup) noexcept {
   configured_ = false;
   if (const Expected<void> sound = check(array, motion); !sound) return sound;
-  const double block_s = 32.0 * motion.sample_period_s, length = norm(setup.axis);
-  const std::array<Expected<void>, 5> checks = {
-      within(length, 1.0 - 1e-6, 1.0 + 1e-6, 0), within(setup.velocity_bound_mps, 0.0, 100.0, 1),
-      within(setup.window_s, 4.0 * block_s, 600.0, 2), within(setup.gravity_mps2, 1.0, 30.0, 3),
-      within(setup.gravity_bound_mps2, 0.0, 1.0, 4)};
+  const double block_s = kSamples * motion.sample_period_s;
+  const std::array<Expected<void>, 6> checks = {within(norm(setup.axis), 1.0 - 1e-6, 1.0 + 1e-6, 200),
+                                                within(setup.axis_bound_rad, 0.0, kPi, 201),
+                                                within(setup.velocity_bound_mps, 0.0, 100.0, 202),
+                                                within(setup.window_s, 4.0 * block_s, 600.0, 203),
+                                                within(setup.gravity_mps2, 1.0, 30.0, 204),
+                                                within(setup.gravity_bound_mps2, 0.0, 0.5, 205)};
   for (const Expected<void>& sound : checks) {
     if (!sound) return sound;
   }
@@ -52,14 +48,14 @@ Expected<void> ContinuousInclination::configure(const SensorArray& array, const 
   gyro_ = motion.gyro;
   gyros_ = motion.gyros;
   gyro_corroborated_ = motion.gyro_corroborated;
-  period_s_ = motion.sample_period_s;
+  block_s_ = block_s;
   configured_ = true;
   return {};
 }
 
 /// The larger of two gyros: one of them may fail. Between two samples a rate is taken to be no larger than at both.
 void ContinuousInclination::turn(const MotionSample& sample) noexcept {
-  const double relative = relative_of(gyro_);
+  const double relative = relative_error(gyro_);
   double across = 0.0;
   int given = 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
@@ -122,24 +118,24 @@ bool ContinuousInclination::take(const SpecificForce& pair) noexcept {
   if (!bounded || !(norm(pair.force_mps2) < kMostForce_mps2))  // a NaN is none either
     return begin_anew(InclinationStatus::no_force);
   if (!last_.known || !filling_.known) return begin_anew(InclinationStatus::rate_unknown);
-  const double away_s = pair.time_s - window_.last_s - pair.span_s;
-  const bool in_step = std::fabs(away_s) <= kOutOfStep * pair.span_s;  // false for a NaN
+  const double away_s = pair.time_s - window_.last_s - block_s_;
+  const bool in_step = std::fabs(away_s) <= kOutOfStep * block_s_;  // false for a NaN
   const bool told = window_.pairs > 0 && !in_step && begin_anew(InclinationStatus::irregular_time);
   add(pair);
-  return window_.last_s - window_.first_s >= setup_.window_s - 2.5 * pair.span_s ? publish(pair.span_s) : told;
+  return window_.last_s - window_.first_s >= setup_.window_s - 2.5 * block_s_ ? publish() : told;
 }
 
-/// Theorem T13. The weights of the pairs add up to a trapezoid of height 1 / (pairs * block_s) that is zero at both
-/// ends.
-bool ContinuousInclination::publish(double block_s) noexcept {
-  const double pairs = window_.pairs, length_s = pairs * block_s;
-  const double more = 1.0 + relative_of(gyro_);
-  const double across_radps =
-      window_.across_radps * period_s_ / length_s + 2.0 * gyro_.lag_s * window_.most_radps / length_s +
-      more * (gyro_.bias_radps + kNoiseFactor * gyro_.noise_radps / std::sqrt(window_.samples)) * (pairs + 1.0) / pairs;
+/// Theorem T13. The weights of the pairs add up to a trapezoid that is zero at both ends, of height 1 / length_s.
+bool ContinuousInclination::publish() noexcept {
+  const double pairs = window_.pairs, step_s = (window_.last_s - window_.first_s) / (pairs - 1.0);
+  const double length_s = pairs * step_s;
+  const double own = (1.0 + relative_error(gyro_)) *
+                     (gyro_.bias_radps + kNoiseFactor * gyro_.noise_radps / std::sqrt(window_.samples));
+  const double across_radps = window_.across_radps / (pairs * kSamples) +
+                              2.0 * gyro_.lag_s * window_.most_radps / length_s + own * (pairs + 1.0) / pairs;
   const double force = window_.force_mps2 / pairs;
-  // Sums over samples take accelerations near half the sample rate for slower ones: a sixteenth more covers any tone.
-  const double velocity = 2.0 * setup_.velocity_bound_mps / length_s * (1.0 + 1.0 / 16.0);
+  // Sums over samples take accelerations near half the sample rate for slower ones: 2 / 32 more covers any tone.
+  const double velocity = 2.0 * setup_.velocity_bound_mps / length_s * (1.0 + 2.0 / kSamples);
   const double turning = setup_.velocity_bound_mps * across_radps;
   const double error = window_.bound_mps2 / pairs + velocity + turning;
   const double least = setup_.gravity_mps2 - setup_.gravity_bound_mps2;
@@ -148,18 +144,19 @@ bool ContinuousInclination::publish(double block_s) noexcept {
   const double low = down_low / (down_low > 0.0 ? most : least), high = down_high / (down_high > 0.0 ? least : most);
   interval_ = InclinationInterval();
   interval_.time_s = 0.5 * (window_.first_s + window_.last_s);
-  interval_.span_s = window_.last_s - window_.first_s + 2.0 * block_s;
+  interval_.span_s = length_s + step_s;
   interval_.gyro_assumed = window_.gyro_assumed;
-  const std::array<double, 4> parts{window_.bound_mps2 / pairs, velocity, turning,
-                                    setup_.gravity_bound_mps2 * std::fabs(force) / setup_.gravity_mps2};
+  const std::array<double, 5> parts{window_.bound_mps2 / pairs, velocity, turning,
+                                    setup_.gravity_bound_mps2 * std::fabs(force) / setup_.gravity_mps2,
+                                    setup_.gravity_mps2 * setup_.axis_bound_rad};
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k] > parts[static_cast<std::size_t>(interval_.widest)])
       interval_.widest = static_cast<InclinationTerm>(k);
   }
   interval_.status = low > 1.0 || high < -1.0 ? InclinationStatus::contradicts_gravity : InclinationStatus::known;
   interval_.inclination_rad = std::acos(cosine_within(-force / setup_.gravity_mps2));
-  interval_.low_rad = std::acos(cosine_within(high));
-  interval_.high_rad = std::acos(cosine_within(low));
+  interval_.low_rad = std::fmax(std::acos(cosine_within(high)) - setup_.axis_bound_rad, 0.0);
+  interval_.high_rad = std::fmin(std::acos(cosine_within(low)) + setup_.axis_bound_rad, kPi);
   window_ = Sums();
   return true;
 }
@@ -182,6 +179,7 @@ const char* to_string(InclinationTerm term) noexcept {
     case InclinationTerm::velocity: return "velocity";
     case InclinationTerm::turn: return "turn";
     case InclinationTerm::gravity: return "gravity";
+    case InclinationTerm::alignment: return "alignment";
   }
   return "unknown";
 }

@@ -48,9 +48,7 @@ double error_of_sums(const MotionMeans& means, const GyroMeans& gyro) noexcept {
 double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
   const double square = gyro.rate_product[0] + gyro.rate_product[1] + gyro.rate_product[2];
   const double rate = std::sqrt(square > 0.0 ? square : 0.0);
-  // Three axes that turn by `axis_rad` each are off by up to sqrt(2) times that together.
-  const double relative = of_reading(bounds.scale + std::sqrt(2.0) * bounds.axis_rad),
-               more = (1.0 + relative) * (1.0 + relative);
+  const double relative = relative_error(bounds), more = (1.0 + relative) * (1.0 + relative);
   const double n = means.samples, period_s = means.span_s / n;
   const double noise = k * bounds.noise_radps;
   return (2.0 + relative) * relative * square + relative * norm(gyro.acceleration_radps2) +

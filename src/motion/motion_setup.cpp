@@ -21,6 +21,11 @@ Expected<void> within_range(const Bound& field, int index) noexcept {
 
 }  // namespace
 
+double relative_error(const GyroErrors& bounds) noexcept {
+  const double of_truth = bounds.scale + std::sqrt(2.0) * bounds.axis_rad;
+  return of_truth / (1.0 - of_truth);
+}
+
 Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept {
   if (array.size() < 3) return fail(Errc::too_few_sensors, -1, array.size(), 3);
   if (array.size() > kMotionCapacity) return fail(Errc::too_many_sensors, -1, array.size(), kMotionCapacity);

@@ -11,8 +11,6 @@ constexpr int kSettlingSamples = 4;  // after a reading at full scale
 /// Some 1000 g. Nothing that navigates reads more, and the square of more would widen a sensor's own limits beyond any
 /// reading (REQ-202, T11: a limit that the fault itself raises).
 constexpr double kMostReading_mps2 = 1e4;
-/// Ten times the largest `rate_bound_radps`: no gyro gives more.
-constexpr double kMostRate_radps = 1e4;
 
 Symmetric product_of(const Vec3& w) noexcept {
   return {w[0] * w[0], w[1] * w[1], w[2] * w[2], w[0] * w[1], w[0] * w[2], w[1] * w[2]};

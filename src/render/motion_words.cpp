@@ -87,6 +87,19 @@ std::string force_words(const MotionRun& run) {
   return out;
 }
 
+const char* why_none(InclinationStatus status) {
+  switch (status) {
+    case InclinationStatus::no_force: return "a block had no bounded force";
+    case InclinationStatus::rate_unknown: return "no gyro delivered a rate";
+    case InclinationStatus::irregular_time: return "rows do not follow each other by sample_period_s";
+    case InclinationStatus::contradicts_gravity:
+      return "the force is larger than gravity and the bounds allow: check velocity_bound_mps, gravity and calibration";
+    case InclinationStatus::filling:
+    case InclinationStatus::known: break;
+  }
+  return "no window is full";
+}
+
 std::string inclination_words(const MotionRun& run) {
   const InclinationInterval& last = run.inclination;
   std::string out;
@@ -96,9 +109,9 @@ std::string inclination_words(const MotionRun& run) {
                     deg_from_rad(last.inclination_rad), deg_from_rad(last.low_rad), deg_from_rad(last.high_rad),
                     last.span_s, last.time_s, last.gyro_assumed ? " while the gyro is healthy" : "",
                     count_text(run.inclinations, "window"), to_string(last.widest));
-  if (run.inclination_breaks == 0) return out.empty() ? "no window is full" : out;
-  return fmt::format("{}{}, the last: {}", out.empty() ? "unknown; " : out + "; ",
-                     count_text(run.inclination_breaks, "break"), to_string(run.no_inclination.status));
+  if (run.inclination_breaks == 0) return out.empty() ? "not known: no window is full" : out;
+  return fmt::format("{}{} without: {}", out.empty() ? "not known; " : out + "; ",
+                     count_text(run.inclination_breaks, "time"), why_none(run.no_inclination.status));
 }
 
 io::Json inclination_json(const MotionTold& told) {

@@ -164,11 +164,13 @@ std::optional<io::FileError> of_another_array(const io::ArrayFile& array, const 
   return std::nullopt;
 }
 
-/// Of the z axis of the output frame, which is along the hole.
+/// Of the z axis of the output frame, which is along the hole, in the frame in which the monitor at rest alerts.
 InclinationSetup inclination_setup_of(const io::ArrayFile& array) {
   InclinationSetup out;
   const Mat3& frame = array.output_frame;
   out.axis = {frame[6], frame[7], frame[8]};
+  const bool housing = array.monitor.alert_frame == AlertFrame::housing;
+  out.axis_bound_rad = housing ? static_cast<double>(array.monitor.alignment_bound_rad) : 0.0;
   out.velocity_bound_mps = *array.motion.velocity_bound_mps;
   out.window_s = array.motion.inclination_window_s;
   out.gravity_mps2 = array.gravity.g_mps2;
@@ -253,9 +255,11 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
     out.inclination = inclination_setup_of(array);
     ContinuousInclination trial;
     if (const Expected<void> sound = trial.configure(out.array, out.setup, *out.inclination); !sound)
-      return refuse(not_judged(array, "motion.inclination_window_s",
-                               "is shorter than 128 samples, or gravity is none that an inclination can be found by",
-                               "state a longer window, or leave velocity_bound_mps out"));
+      return refuse(sound.error().index == 203
+                        ? not_judged(array, "motion.inclination_window_s", "is shorter than 128 samples",
+                                     "state a longer window, or leave velocity_bound_mps out")
+                        : not_judged(array, "gravity", "is too uncertain for an inclination in motion",
+                                     "state a smaller sigma, or leave motion.velocity_bound_mps out"));
   }
   if (MotionSets(out.array, out.setup).size() == 0)
     return refuse(not_judged(array, "sensor", "has no axes that check each other whatever the force is",

@@ -286,12 +286,13 @@ TEST(MotionCommand, AnIncidentIsALogOfItsOwn) {
 }
 
 /// The axis of a drill string that rotates stands still: all windows share an inclination. With a velocity that is said
-/// not to change they do not, so they can fail to.
+/// not to change they do not, so they can fail to. In the housing the alignment of the axes is in the interval too.
 // Verifies: REQ-211
 TEST(MotionCommand, ADrillStringHasItsInclinationWhileItRotates) {
   const Hangar where;
-  const auto drill = [&where](const std::string& velocity) {
-    const std::string keys = "[motion]\nvelocity_bound_mps = " + velocity + "\ninclination_window_s = 2\n";
+  const auto drill = [&where](const std::string& velocity, const std::string& frame) {
+    const std::string keys = "[monitor]\nalert_frame = \"" + frame + "\"\n[motion]\nvelocity_bound_mps = " + velocity +
+                             "\ninclination_window_s = 2\n";
     write_text(where / "array.toml",
                with(with(read_text(kDrone), "[motion]\n", keys), "rate_bound_radps = 8", "rate_bound_radps = 25"));
     const std::vector<std::string> play = {"simulate", "--flight",   "drilling", "array.toml",
@@ -310,7 +311,7 @@ TEST(MotionCommand, ADrillStringHasItsInclinationWhileItRotates) {
     }
     return low_deg <= high_deg;
   };
-  const Json told = motion_of(drill("2"))["inclination"];
+  const Json told = motion_of(drill("2", "calibrated-axes"))["inclination"];
   EXPECT_TRUE(common(5));
   EXPECT_EQ(told["windows"], 5);
   EXPECT_EQ(told["breaks"], 0);
@@ -318,7 +319,11 @@ TEST(MotionCommand, ADrillStringHasItsInclinationWhileItRotates) {
   EXPECT_EQ(told["last"]["inclination_deg"].get<double>(),
             std::stod(rows_of(read_text(where / "inclination.csv")).back().at("inclination_deg")));
   EXPECT_LT(told["last"]["low_deg"], told["last"]["high_deg"]);
-  (void)drill("0");
+  const Json housed = motion_of(drill("2", "housing"))["inclination"]["last"];
+  EXPECT_EQ(housed["inclination_deg"], told["last"]["inclination_deg"]);
+  EXPECT_GT(housed["high_deg"].get<double>(), told["last"]["high_deg"].get<double>() + 4.0);
+  EXPECT_LE(housed["low_deg"].get<double>(), std::max(told["last"]["low_deg"].get<double>() - 4.0, 0.0));
+  (void)drill("0", "calibrated-axes");
   EXPECT_FALSE(common(5));
   EXPECT_TRUE(says(monitor(where, {}).out, {"inclined", "5 windows", "widest part: force"}));
 }
@@ -348,6 +353,9 @@ TEST(MotionCommand, RefusesOptionsThatMakeNoSense) {
           3, {"motion: is missing", "add [motion]"});
   refused({"monitor", "--array", "array.toml", "--calibration", "c.json", "--limits", "--motion", "m.csv"}, 2,
           {"--motion", "--limits runs nothing"});
+  refused({"monitor", "--array", "array.toml", "--calibrate-first", "--log", "flight.csv", "--motion", "-",
+           "--inclination", "-"},
+          2, {"--inclination", "--motion writes to standard output already"});
   refused({"monitor", "--array", "array.toml", "--calibration", "c.json", "--limits", "--inclination", "i.csv"}, 2,
           {"--inclination", "--limits runs nothing"});
   write_text(where / "array.toml", read_text(kDrone));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "plumb/core/units.hpp"
 #include "plumb/motion/motion_monitor.hpp"
@@ -11,15 +12,19 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// What is stated beside the `MotionSetup`.
+/// What is stated beside the `MotionSetup`. Two bounds have no default, for nothing shows them: state 0 where it is
+/// true.
 struct InclinationSetup {
   Vec3 axis{0.0, 0.0, 1.0};  ///< unit length, tool frame; along the hole and downwards for a drilling tool
-  /// The velocity of the reference point stays so near to a constant one throughout a window: vibration, whirl, changes
-  /// of the rate of penetration.
-  double velocity_bound_mps = 0.0;
+  /// How far the axis that is meant may be from `axis`. Gravity does not show how the axes of the sensors sit in the
+  /// housing (docs/theory.md, section 1.6).
+  double axis_bound_rad = std::numeric_limits<double>::quiet_NaN();
+  /// Within a window the velocity of the reference point differs from some constant velocity by no more: vibration,
+  /// whirl, changes of the rate of penetration. Vibration beyond half the sample rate must not reach the samples.
+  double velocity_bound_mps = std::numeric_limits<double>::quiet_NaN();
   double window_s = 10.0;
   double gravity_mps2 = kG0_mps2;
-  double gravity_bound_mps2 = 0.0;  ///< of what is stated as gravity
+  double gravity_bound_mps2 = 0.05;  ///< of what is stated as gravity; 0.05 covers all of the Earth's surface
 };
 
 enum class InclinationStatus : std::uint8_t {
@@ -37,7 +42,8 @@ enum class InclinationTerm : std::uint8_t {
   force,     ///< the bound of the specific force
   velocity,  ///< what the velocity may have changed by over the window
   turn,      ///< the velocity, where the axis turns
-  gravity
+  gravity,
+  alignment  ///< the axis in the tool
 };
 const char* to_string(InclinationTerm term) noexcept;
 
@@ -56,9 +62,9 @@ struct InclinationInterval {
 /// Plain data, no heap, no clock; `step` is total over all bit patterns.
 class ContinuousInclination {
  public:
-  /// Errors: those of `check` for the motion; out_of_range and not_finite with index 0 (axis, unit length), 1
-  /// (velocity_bound_mps, 0 to 100), 2 (window_s, 4 block lengths to 600 s), 3 (gravity_mps2, 1 to 30), 4
-  /// (gravity_bound_mps2, 0 to 1).
+  /// Errors: those of `check` for the motion; out_of_range and not_finite with index 200 (axis, its length), 201
+  /// (axis_bound_rad, 0 to pi), 202 (velocity_bound_mps, 0 to 100), 203 (window_s, 128 sample periods to 600 s), 204
+  /// (gravity_mps2, 1 to 30), 205 (gravity_bound_mps2, 0 to 0.5).
   Expected<void> configure(const SensorArray& array, const MotionSetup& motion, const InclinationSetup& setup) noexcept;
   /// Once a sample, with what the monitor said of it. True where a window has ended: `interval` is new, or says why
   /// there is none.
@@ -89,13 +95,13 @@ class ContinuousInclination {
   bool begin_anew(InclinationStatus why) noexcept;
   bool take(const SpecificForce& pair) noexcept;
   void add(const SpecificForce& pair) noexcept;
-  bool publish(double block_s) noexcept;
+  bool publish() noexcept;
 
   InclinationSetup setup_;
   GyroErrors gyro_;
   int gyros_ = 0;
   bool gyro_corroborated_ = false;
-  double period_s_ = 0.0;
+  double block_s_ = 0.0;  ///< of 32 samples
   InclinationInterval interval_;
   Sums window_;
   Turning filling_, last_;     ///< the block at hand, and the one before it

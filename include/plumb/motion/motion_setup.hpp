@@ -37,6 +37,12 @@ struct GyroErrors {
   double lag_s = 0.0;        ///< against the accelerometers
 };
 
+/// Ten times the largest `rate_bound_radps`: a rate beyond it is none, no gyro gives more.
+inline constexpr double kMostRate_radps = 1e4;
+/// What a healthy triad's rates may be off by in scale and axes, relative to their length as measured. Three axes that
+/// turn by `axis_rad` each are off by up to sqrt(2) times that together.
+double relative_error(const GyroErrors& bounds) noexcept;
+
 /// All that a `MotionMonitor` is told beside the array, whose sigmas are the noise of a sample.
 struct MotionSetup {
   double sample_period_s = 0.001;

@@ -34,7 +34,8 @@ DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& cali
 /// Why motion is not judged is the error: which keys are missing, or what cannot be done. To be asked where
 /// `array.motion.mentioned`. Without a calibration (null) the nominal coefficients count, and scale, axis and bias must
 /// be bounded by keys. `days` since the calibration. Where a log in motion was fitted (`commissioned`), its lever arms
-/// count with their bounds, and its other bounds where the array file states none.
+/// count with their bounds, and its other bounds where the array file states none. The inclination is that in the
+/// housing by `alignment_bound_rad` of the monitor, as `findings::with_alignment` sets it.
 io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days,
                                          const io::MotionCalibration* commissioned = nullptr);
 
