@@ -8,17 +8,14 @@
 #include "plumb/io/records.hpp"
 
 namespace plumb_python {
-namespace {
 
-/// As the monitor is set up from it, with what is known of the alignment.
-plumb::io::ArrayFile aligned(const plumb::io::ArrayFile& array, const Calibration& calibration) {
+plumb::io::ArrayFile aligned(const plumb::io::ArrayFile& array, const Calibration* calibration) {
+  if (calibration == nullptr) return plumb::findings::with_alignment(array, nullptr);
   plumb::io::CalibrationFile file;
-  file.calibration = *calibration.fit;
-  file.context = calibration.context;
+  file.calibration = *calibration->fit;
+  file.context = calibration->context;
   return plumb::findings::with_alignment(array, &file);
 }
-
-}  // namespace
 
 const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Calibration& calibration) {
   if (calibration.array->fingerprint != array.fingerprint)
@@ -32,9 +29,9 @@ Monitor::Monitor(Array array, const Calibration& calibration, const std::optiona
     : array_(std::move(array)),
       monitor_(taken(
           snapshot
-              ? plumb::session::restore_monitor(aligned(*array_, calibration), made_for(*array_, calibration),
+              ? plumb::session::restore_monitor(aligned(*array_, &calibration), made_for(*array_, calibration),
                                                 *snapshot, "snapshot", days)
-              : plumb::session::make_monitor(aligned(*array_, calibration), made_for(*array_, calibration), days))) {}
+              : plumb::session::make_monitor(aligned(*array_, &calibration), made_for(*array_, calibration), days))) {}
 
 py::array_t<VerdictRow> Monitor::run(const Log& log) {
   const Log::View view(log, *array_);

@@ -11,6 +11,9 @@ namespace plumb_python {
 /// Of that array: else its axes and coefficients are those of other sensors, which may even be as many.
 const plumb::Calibration* made_for(const plumb::io::ArrayFile& array, const Calibration& calibration);
 
+/// As a monitor is set up from it, with what is known of the alignment. Null: the axes are the datasheet's.
+plumb::io::ArrayFile aligned(const plumb::io::ArrayFile& array, const Calibration* calibration);
+
 /// Sensors by their ids; refuses what is not one of the array.
 plumb::SensorSet set_of(const Array& array, const std::vector<std::string>& ids);
 

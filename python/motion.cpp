@@ -22,8 +22,9 @@ plumb::session::MotionPlan plan_of(const plumb::io::ArrayFile& array, const Cali
   if (!(days >= 0.0 && std::isfinite(days)))
     refuse("days_since_calibration: must be 0 or more and finite",
            "give the days from the calibration to the run, 0 or more");
-  return taken(plumb::session::plan_motion(array, calibration != nullptr ? made_for(array, *calibration) : nullptr,
-                                           days, calibration != nullptr ? calibration->motion.get() : nullptr));
+  return taken(plumb::session::plan_motion(aligned(array, calibration),
+                                           calibration != nullptr ? made_for(array, *calibration) : nullptr, days,
+                                           calibration != nullptr ? calibration->motion.get() : nullptr));
 }
 
 class MotionMonitor {
@@ -35,6 +36,8 @@ class MotionMonitor {
         monitor_(std::make_unique<plumb::MotionMonitor>()) {
     if (const auto configured = monitor_->configure(plan_.array, plan_.setup); !configured)
       throw Refused(plumb::io::from_error(configured.error()).text());
+    if (plan_.inclination)  // `plan_motion` has asked `check` of it already
+      (void)inclination_.emplace().configure(plan_.array, plan_.setup, *plan_.inclination);
   }
 
   MotionVerdict step(double time_s, const py::object& raw, const std::array<py::object, plumb::kGyros>& rate_radps,
@@ -48,7 +51,7 @@ class MotionMonitor {
   void set_in_service(const std::variant<std::uint32_t, std::vector<std::string>>& sensors);
   MotionVerdict verdict() {
     const plumb::MotionMonitor& monitor = idle();
-    return {array_, time_s_, monitor.verdict()};
+    return told(monitor.verdict());
   }
   const Array& array() const { return array_; }
   Turnstile& turnstile() { return turnstile_; }
@@ -59,6 +62,10 @@ class MotionMonitor {
 
  private:
   void check_gyro(std::size_t gyro, bool given) const;
+  MotionVerdict told(const plumb::MotionVerdict& verdict) const {
+    return {array_, time_s_, verdict, new_window_,
+            inclination_ ? std::optional(inclination_->interval()) : std::nullopt};
+  }
   const plumb::MotionVerdict& step(const plumb::Sample& row,
                                    const std::array<plumb::Rotation, plumb::kGyros>& turn) noexcept;
 
@@ -67,6 +74,8 @@ class MotionMonitor {
   plumb::session::MotionPlan plan_;
   plumb::session::MotionSampler sampler_;
   std::unique_ptr<plumb::MotionMonitor> monitor_;
+  std::optional<plumb::ContinuousInclination> inclination_;  ///< where the array file bounds the velocity
+  bool new_window_ = false;
   double time_s_ = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -102,12 +111,15 @@ const plumb::MotionVerdict& MotionMonitor::step(const plumb::Sample& row,
     sample.rate_radps[g] = turn[g].rate_radps;
   }
   time_s_ = row.time_s;
-  return monitor_->step(sample);
+  const plumb::MotionVerdict& verdict = monitor_->step(sample);
+  new_window_ = inclination_ && inclination_->step(sample, verdict);
+  return verdict;
 }
 
 void MotionMonitor::step(const Log::View& view, py::ssize_t row, MotionRow& to) {
   const plumb::MotionVerdict& verdict = step(view.at(row), {view.rotation(0, row), view.rotation(1, row)});
   write_row(time_s_, verdict, array_->output_frame, to);
+  write_inclination(new_window_, inclination_ ? &inclination_->interval() : nullptr, to);
 }
 
 /// A log of one row, so that one and the same code reads and refuses.
@@ -136,7 +148,7 @@ MotionVerdict MotionMonitor::step(double time_s, const py::object& raw,
   const Log::View view(one_row(time_s, raw, rate_radps, temperature_degc, delivered), *array_);
   check(view);
   (void)idle();
-  return {array_, time_s, step(view.at(0), {view.rotation(0, 0), view.rotation(1, 0)})};
+  return told(step(view.at(0), {view.rotation(0, 0), view.rotation(1, 0)}));
 }
 
 py::array_t<MotionRow> MotionMonitor::run(const Log& log) {
@@ -201,7 +213,8 @@ void bind_motion(py::module_& module) {
       "Judges an array while it moves, by [motion], [gyro] and the bounds of the sensors in its array file, and\n"
       "publishes the specific force with a bound on its error. calibration: of that array; None: the nominal\n"
       "coefficients count, as of chips that come calibrated. days_since_calibration: for the drift per day of the\n"
-      "array file. Raises Error where a key is missing, with its name. For one thread at a time.")
+      "array file. Where [motion] states velocity_bound_mps, it gives the inclination of the z axis of [output] too. "
+      "Raises Error where a key is missing, with its name. For one thread at a time.")
       .def(py::init<Array, const Calibration*, double>(), array_argument(), py::arg("calibration") = py::none(),
            py::arg("days_since_calibration") = 0.0)
       .def(
@@ -221,10 +234,11 @@ void bind_motion(py::module_& module) {
           "was judged. A sample that does not follow the last one by the stated period has cause irregular_time.")
       .def("run", &MotionMonitor::run, py::arg("log"),
            "Step all samples of a Log, which needs rate_radps for each gyro that the array file names. Returns a\n"
-           "structured array (motion_dtype), one row per sample: MOTION_FIELDS and FORCE_FIELDS say what each figure "
-           "is\n"
-           "and in which unit. cause, validity and dominant are indices into MOTION_CAUSES, FORCE_VALIDITIES and\n"
-           "FORCE_TERMS; sets of sensors are bits; forces are in the output frame. Errors as of step.")
+           "structured array (motion_dtype), one row per sample: MOTION_FIELDS, FORCE_FIELDS and INCLINATION_FIELDS "
+           "say\n"
+           "what each figure is and in which unit. cause, validity, dominant, status and widest are indices into\n"
+           "MOTION_CAUSES, FORCE_VALIDITIES, FORCE_TERMS, INCLINATION_STATUSES and INCLINATION_TERMS; sets of sensors\n"
+           "are bits; forces are in the output frame. Errors as of step.")
       .def_property_readonly("verdict", &MotionMonitor::verdict, "The last MotionVerdict.")
       .def("set_in_service", &MotionMonitor::set_in_service, py::arg("sensors"),
            "The sensors that others, a Monitor above all, leave in service: ids, or in_service of a row of "

@@ -43,6 +43,33 @@ Force force_of(const MotionVerdict& of, const plumb::SpecificForce& force) {
   return out;
 }
 
+/// What `MotionVerdict.inclination` returns.
+struct Inclination {
+  plumb::InclinationInterval interval;
+  InclinationRow row{};
+};
+
+void write_interval(const plumb::InclinationInterval& interval, InclinationRow& row) {
+  const bool known = interval.status == plumb::InclinationStatus::known;
+  const auto figure = [known](double value) { return known ? value : std::numeric_limits<double>::quiet_NaN(); };
+  row.status = number(interval.status);
+  row.widest = known ? number(interval.widest) : std::uint8_t{0};
+  row.gyro_assumed = known && interval.gyro_assumed;
+  const bool full = known || interval.status == plumb::InclinationStatus::contradicts_gravity;
+  row.time_s = full ? interval.time_s : std::numeric_limits<double>::quiet_NaN();
+  row.span_s = full ? interval.span_s : std::numeric_limits<double>::quiet_NaN();
+  row.inclination_rad = figure(interval.inclination_rad);
+  row.low_rad = figure(interval.low_rad);
+  row.high_rad = figure(interval.high_rad);
+}
+
+py::object inclination_of(const MotionVerdict& of) {
+  if (!of.inclination) return py::none();
+  Inclination out{*of.inclination, {}};
+  write_interval(out.interval, out.row);
+  return py::cast(out);
+}
+
 std::vector<std::string> ids(const Array& array, plumb::SensorSet set) {
   std::vector<std::string> out;
   for (int i = 0; i < array->array.size(); ++i) {
@@ -98,6 +125,38 @@ void bind_force(py::module_& module) {
       });
 }
 
+void bind_inclination(py::module_& module) {
+  const auto figure = [](double InclinationRow::*which) {
+    return [which](const Inclination& i) { return i.row.*which; };
+  };
+  py::class_<Inclination>(module, "Inclination",
+                          "Inclination of the z axis of [output] over the last full window in motion: an interval.\n"
+                          "Its figures are NaN but with status 'known'.")
+      .def_property_readonly(
+          "status", [](const Inclination& i) { return to_string(i.interval.status); },
+          "'known', or why there is none: one of INCLINATION_STATUSES.")
+      .def_property_readonly("time_s", figure(&InclinationRow::time_s), "The middle of the window [s].")
+      .def_property_readonly("span_s", figure(&InclinationRow::span_s), "Its length [s].")
+      .def_property_readonly("inclination_rad", figure(&InclinationRow::inclination_rad),
+                             "Against gravity; its cosine is the mean cosine over the window [rad].")
+      .def_property_readonly("low_rad", figure(&InclinationRow::low_rad), "It lies between this [rad]")
+      .def_property_readonly("high_rad", figure(&InclinationRow::high_rad), "and this [rad].")
+      .def_property_readonly(
+          "gyro_assumed", [](const Inclination& i) { return i.row.gyro_assumed; },
+          "It holds while the only gyro is healthy.")
+      .def_property_readonly(
+          "widest",
+          [](const Inclination& i) -> py::object {
+            if (i.interval.status != plumb::InclinationStatus::known) return py::none();
+            return py::str(to_string(i.interval.widest));
+          },
+          "The largest part of the interval, one of INCLINATION_TERMS; None: there is no interval.")
+      .def("__repr__", [](const Inclination& i) {
+        return py::str("<plumb.Inclination {}: {} rad, from {} to {}, at {} s>")
+            .format(to_string(i.interval.status), i.row.inclination_rad, i.row.low_rad, i.row.high_rad, i.row.time_s);
+      });
+}
+
 void bind_object(py::module_& module) {
   const auto set = [](plumb::SensorSet plumb::MotionVerdict::*which) {
     return [which](const MotionVerdict& v) { return ids(v.array, v.verdict.*which); };
@@ -131,6 +190,11 @@ void bind_object(py::module_& module) {
       .def_property_readonly(
           "block", [](const MotionVerdict& v) { return force_of(v, v.verdict.block); },
           "SpecificForce of the last two blocks of 32 samples: tighter and later.")
+      .def_property_readonly(
+          "inclination_ended", [](const MotionVerdict& v) { return v.inclination_ended; },
+          "`inclination` is new with this sample: a window has ended, or why there is none.")
+      .def_property_readonly("inclination", &inclination_of,
+                             "Inclination over the last window; None: [motion] states no velocity_bound_mps.")
       .def("__repr__", [](const MotionVerdict& v) {
         return py::str("<plumb.MotionVerdict at {} s: alarm {}, cause {}, isolated [{}], excluded [{}]>")
             .format(v.time_s, v.verdict.alarm, to_string(v.verdict.cause), word_list(v.array, v.verdict.isolated),
@@ -156,29 +220,45 @@ void write_row(double time_s, const plumb::MotionVerdict& v, const plumb::Mat3& 
   write_force(v.block, frame, row.block);
 }
 
+void write_inclination(bool ended, const plumb::InclinationInterval* interval, MotionRow& to) {
+  to.inclination_ended = ended;
+  write_interval(interval != nullptr ? *interval : plumb::InclinationInterval{}, to.inclination);
+}
+
 void bind_motion_verdict(py::module_& module) {
 #define PLUMB_DESCRIPTOR(type, name, extent, what) PYBIND11_FIELD_DESCRIPTOR(ForceRow, name),
   py::detail::npy_format_descriptor<ForceRow>::register_dtype(
       std::vector<py::detail::field_descriptor>{PLUMB_FORCE_ROW(PLUMB_DESCRIPTOR)});
+#undef PLUMB_DESCRIPTOR
+#define PLUMB_DESCRIPTOR(type, name, extent, what) PYBIND11_FIELD_DESCRIPTOR(InclinationRow, name),
+  py::detail::npy_format_descriptor<InclinationRow>::register_dtype(
+      std::vector<py::detail::field_descriptor>{PLUMB_INCLINATION_ROW(PLUMB_DESCRIPTOR)});
 #undef PLUMB_DESCRIPTOR
 #define PLUMB_DESCRIPTOR(type, name, extent, what) PYBIND11_FIELD_DESCRIPTOR(MotionRow, name),
   py::detail::npy_format_descriptor<MotionRow>::register_dtype(
       std::vector<py::detail::field_descriptor>{PLUMB_MOTION_ROW(PLUMB_DESCRIPTOR)});
 #undef PLUMB_DESCRIPTOR
   module.attr("motion_dtype") = py::dtype::of<MotionRow>();
-  py::dict force, motion;
+  py::dict force, inclination, motion;
 #define PLUMB_TEXT(type, name, extent, what) force[#name] = py::str(what);
   PLUMB_FORCE_ROW(PLUMB_TEXT)
+#undef PLUMB_TEXT
+#define PLUMB_TEXT(type, name, extent, what) inclination[#name] = py::str(what);
+  PLUMB_INCLINATION_ROW(PLUMB_TEXT)
 #undef PLUMB_TEXT
 #define PLUMB_TEXT(type, name, extent, what) motion[#name] = py::str(what);
   PLUMB_MOTION_ROW(PLUMB_TEXT)
 #undef PLUMB_TEXT
   module.attr("MOTION_FIELDS") = motion;
   module.attr("FORCE_FIELDS") = force;
+  module.attr("INCLINATION_FIELDS") = inclination;
   module.attr("MOTION_CAUSES") = names(plumb::MotionCause::irregular_time);
   module.attr("FORCE_VALIDITIES") = names(plumb::ForceValidity::bounded);
   module.attr("FORCE_TERMS") = names(plumb::ForceTerm::fault);
+  module.attr("INCLINATION_STATUSES") = names(plumb::InclinationStatus::contradicts_gravity);
+  module.attr("INCLINATION_TERMS") = names(plumb::InclinationTerm::alignment);
   bind_force(module);
+  bind_inclination(module);
   bind_object(module);
 }
 

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "module.hpp"
-#include "plumb/motion/motion_monitor.hpp"
+#include "plumb/motion/continuous_inclination.hpp"
 
 namespace plumb_python {
 
@@ -23,6 +24,16 @@ namespace plumb_python {
   FORCE_COLUMN(double, covariance_m2ps4, [3][3], "of its noise alone [(m/s^2)^2]; NaN: no force") \
   FORCE_COLUMN(double, bound_mps2, , "of the length of its error [m/s^2]; infinite: none")
 
+#define PLUMB_INCLINATION_ROW(INCLINATION_COLUMN) \
+  INCLINATION_COLUMN(std::uint8_t, status, , "index into INCLINATION_STATUSES; the angles are NaN but with known") \
+  INCLINATION_COLUMN(std::uint8_t, widest, , "index into INCLINATION_TERMS: the largest part of the interval") \
+  INCLINATION_COLUMN(bool, gyro_assumed, , "it holds while the only gyro is healthy") \
+  INCLINATION_COLUMN(double, time_s, , "the middle of the window [s]") \
+  INCLINATION_COLUMN(double, span_s, , "length of the window [s]") \
+  INCLINATION_COLUMN(double, inclination_rad, , "against gravity; its cosine is the mean cosine over the window [rad]") \
+  INCLINATION_COLUMN(double, low_rad, , "it lies between this [rad]") \
+  INCLINATION_COLUMN(double, high_rad, , "and this [rad]")
+
 #define PLUMB_MOTION_ROW(MOTION_COLUMN) \
   MOTION_COLUMN(double, time_s, , "time of the sample [s]") \
   MOTION_COLUMN(std::uint8_t, cause, , "index into MOTION_CAUSES: why no sensor is isolated, or nothing is judged") \
@@ -35,12 +46,17 @@ namespace plumb_python {
   MOTION_COLUMN(std::uint32_t, excluded, , "sensors that this monitor has excluded, provisionally") \
   MOTION_COLUMN(std::int32_t, least_faults, , "units that it takes at least to explain what is on record") \
   MOTION_COLUMN(ForceRow, sample, , "specific force of the last two samples, a record (FORCE_FIELDS)") \
-  MOTION_COLUMN(ForceRow, block, , "of the last two blocks of 32 samples, tighter and later, a record (FORCE_FIELDS)")
+  MOTION_COLUMN(ForceRow, block, , "of the last two blocks of 32 samples, tighter and later, a record (FORCE_FIELDS)") \
+  MOTION_COLUMN(bool, inclination_ended, , "`inclination` is new with this sample: a window has ended, or why there is none") \
+  MOTION_COLUMN(InclinationRow, inclination, , "of the z axis of [output] over the last window, a record (INCLINATION_FIELDS)")
 // clang-format on
 
 #define PLUMB_MEMBER(type, name, extent, what) type name extent;
 struct ForceRow {
   PLUMB_FORCE_ROW(PLUMB_MEMBER)
+};
+struct InclinationRow {
+  PLUMB_INCLINATION_ROW(PLUMB_MEMBER)
 };
 struct MotionRow {
   PLUMB_MOTION_ROW(PLUMB_MEMBER)
@@ -52,12 +68,18 @@ struct MotionVerdict {
   Array array;
   double time_s = 0.0;
   plumb::MotionVerdict verdict;
+  bool inclination_ended = false;
+  std::optional<plumb::InclinationInterval> inclination;  ///< none where the array file bounds no velocity
 };
 
 /// Every byte of it, padding too: equal verdicts are equal bytes.
 void write_row(double time_s, const plumb::MotionVerdict& verdict, const plumb::Mat3& frame, MotionRow& to);
 
-/// MotionVerdict, SpecificForce, motion_dtype, MOTION_FIELDS, FORCE_FIELDS and the tuples of names.
+/// Null: the array file bounds no velocity, and no window is ever full.
+void write_inclination(bool ended, const plumb::InclinationInterval* interval, MotionRow& to);
+
+/// MotionVerdict, SpecificForce, Inclination, motion_dtype, MOTION_FIELDS, FORCE_FIELDS, INCLINATION_FIELDS and the
+/// tuples of names.
 void bind_motion_verdict(py::module_& module);
 
 }  // namespace plumb_python

@@ -49,7 +49,7 @@ const char* plumb_error_text(std::int32_t code) noexcept {
     case PLUMB_WRONG_STRUCT: return "struct_size differs from the size in the library's header";
     case PLUMB_STORAGE_TOO_SMALL: return "the storage is too small";
     case PLUMB_STORAGE_MISALIGNED: return "the storage is not aligned";
-    case PLUMB_NOT_INITIALISED: return "there is no monitor in this storage";
+    case PLUMB_NOT_INITIALISED: return "nothing was set up in this storage";
     case PLUMB_STORAGE_OVERLAPS: return "the workspace and the storage of the monitor share memory";
     default: break;
   }
@@ -65,7 +65,7 @@ const char* plumb_error_remedy(std::int32_t code) noexcept {
       return "give argument `index` as many bytes as the ..._size() function of what stands there says";
     case PLUMB_STORAGE_MISALIGNED:
       return "align argument `index` as the ..._align() function of what stands there says";
-    case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init, or plumb_motion_init, first";
+    case PLUMB_NOT_INITIALISED: return "call plumb_monitor_init, plumb_motion_init or plumb_inclination_init first";
     case static_cast<std::int32_t>(Errc::buffer_too_small): return "give at least plumb_snapshot_size_max() bytes";
     case PLUMB_STORAGE_OVERLAPS: return "give each its own memory; the workspace can be reused after the call";
     default: break;

@@ -3,30 +3,15 @@
 #include <new>
 #include <type_traits>
 
-#include "c_api.hpp"
-#include "plumb/c/plumb_motion.h"
-#include "plumb/motion/motion_monitor.hpp"
-
-/// What stands in the storage of the caller.
-struct plumb_motion {
-  std::uint64_t alive = 0;
-  plumb::MotionMonitor monitor;
-};
+#include "motion_c.hpp"
 
 namespace {
 
 using namespace plumb;
 using namespace plumb::c_api;
 
-constexpr std::uint64_t kAlive = 0x706c756d622d6d31ULL;
-
 static_assert(kMotionCapacity <= PLUMB_C_MOTION_SENSORS && kGyros == PLUMB_C_GYROS, "the header has room for all");
 static_assert(std::is_trivially_destructible<plumb_motion>::value, "storage may simply be dropped");
-
-plumb_error check(const plumb_motion* m) noexcept {
-  if (m == nullptr) return missing(0);
-  return m->alive == kAlive ? answer(PLUMB_OK) : answer(PLUMB_NOT_INITIALISED);
-}
 
 Expected<SensorArray> array_of(const plumb_motion_config& config) noexcept {
   std::array<SensorRow, kCapacity> rows{};
@@ -70,19 +55,6 @@ void take_settings(const plumb_motion_config& config, MotionSetup& setup) noexce
   setup.shortest_block = config.shortest_block;
 }
 
-MotionSample sample_of(const plumb_motion_sample& from) noexcept {
-  MotionSample out;
-  out.time_s = from.time_s;
-  std::copy(from.reading_mps2, from.reading_mps2 + kMotionCapacity, out.reading_mps2.begin());
-  out.delivered = SensorSet(from.delivered);
-  out.clipped = SensorSet(from.clipped);
-  for (size_t g = 0; g < static_cast<size_t>(kGyros); ++g) {
-    std::copy(from.rate_radps[g], from.rate_radps[g] + 3, out.rate_radps[g].begin());
-    out.rate_given[g] = (from.rates_given >> g & 1U) != 0;
-  }
-  return out;
-}
-
 plumb_specific_force force_of(const SpecificForce& from) noexcept {
   plumb_specific_force out{};
   out.validity = static_cast<std::int32_t>(from.validity);
@@ -121,6 +93,43 @@ plumb_error without_verdict(const plumb_error& e, plumb_motion_verdict* verdict)
 }
 
 }  // namespace
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace c_api {
+
+plumb_error prepare(const plumb_motion_config* config, int argument, MotionProblem& out) noexcept {
+  plumb_error e = check_struct(config, argument);
+  if (e.code != PLUMB_OK) return e;
+  const double sensors = config->sensors;
+  if (config->sensors < 3) return answer({Errc::too_few_sensors, -1, sensors, 3.0});
+  if (config->sensors > kMotionCapacity) return answer({Errc::too_many_sensors, -1, sensors, kMotionCapacity});
+  if (config->sensor == nullptr) return missing(argument);
+  e = take_sensors(*config, out.setup);
+  if (e.code != PLUMB_OK) return e;
+  take_settings(*config, out.setup);
+  const Expected<SensorArray> array = array_of(*config);
+  if (!array) return answer(array.error());
+  out.array = *array;
+  return e;
+}
+
+MotionSample sample_of(const plumb_motion_sample& from) noexcept {
+  MotionSample out;
+  out.time_s = from.time_s;
+  std::copy(from.reading_mps2, from.reading_mps2 + kMotionCapacity, out.reading_mps2.begin());
+  out.delivered = SensorSet(from.delivered);
+  out.clipped = SensorSet(from.clipped);
+  for (size_t g = 0; g < static_cast<size_t>(kGyros); ++g) {
+    std::copy(from.rate_radps[g], from.rate_radps[g] + 3, out.rate_radps[g].begin());
+    out.rate_given[g] = (from.rates_given >> g & 1U) != 0;
+  }
+  return out;
+}
+
+}  // namespace c_api
+}  // namespace PLUMB_ABI
+}  // namespace plumb
 
 extern "C" {
 
@@ -178,29 +187,20 @@ plumb_error plumb_motion_init(void* storage, size_t storage_size, const plumb_mo
   if (motion == nullptr) return missing(3);
   *motion = nullptr;
   plumb_error e = room_for<plumb_motion>(storage, storage_size, 0);
-  if (e.code == PLUMB_OK) e = check_struct(config, 2);
+  MotionProblem problem;
+  if (e.code == PLUMB_OK) e = prepare(config, 2, problem);
   if (e.code != PLUMB_OK) return e;
-  const double sensors = config->sensors;
-  if (config->sensors < 3) return answer({Errc::too_few_sensors, -1, sensors, 3.0});
-  if (config->sensors > kMotionCapacity) return answer({Errc::too_many_sensors, -1, sensors, kMotionCapacity});
-  if (config->sensor == nullptr) return missing(2);
-  MotionSetup setup;
-  e = take_sensors(*config, setup);
-  if (e.code != PLUMB_OK) return e;
-  take_settings(*config, setup);
-  const Expected<SensorArray> array = array_of(*config);
-  if (!array) return answer(array.error());
   auto* made = new (storage) plumb_motion;
-  e = answer(made->monitor.configure(*array, setup));
+  e = answer(made->monitor.configure(problem.array, problem.setup));
   if (e.code != PLUMB_OK) return e;
-  made->alive = kAlive;
+  made->alive = kMotionAlive;
   *motion = made;
   return e;
 }
 
 plumb_error plumb_motion_step(plumb_motion* motion, const plumb_motion_sample* sample,
                               plumb_motion_verdict* verdict) noexcept {
-  plumb_error e = check(motion);
+  plumb_error e = check_alive(motion, kMotionAlive, 0);
   if (e.code == PLUMB_OK) e = check_struct(sample, 1);
   if (e.code == PLUMB_OK && verdict != nullptr) e = check_struct(verdict, 2);
   if (e.code != PLUMB_OK) return without_verdict(e, verdict);
@@ -210,13 +210,13 @@ plumb_error plumb_motion_step(plumb_motion* motion, const plumb_motion_sample* s
 }
 
 plumb_error plumb_motion_set_in_service(plumb_motion* motion, std::uint32_t sensors) noexcept {
-  const plumb_error e = check(motion);
+  const plumb_error e = check_alive(motion, kMotionAlive, 0);
   if (e.code == PLUMB_OK) motion->monitor.set_in_service(SensorSet(sensors));
   return e;
 }
 
 plumb_error plumb_motion_forget(plumb_motion* motion) noexcept {
-  const plumb_error e = check(motion);
+  const plumb_error e = check_alive(motion, kMotionAlive, 0);
   if (e.code == PLUMB_OK) motion->monitor.forget();
   return e;
 }

@@ -170,7 +170,7 @@ const char* to_string(InclinationStatus status) noexcept {
     case InclinationStatus::irregular_time: return "irregular_time";
     case InclinationStatus::contradicts_gravity: return "contradicts_gravity";
   }
-  return "unknown";
+  return "?";
 }
 
 const char* to_string(InclinationTerm term) noexcept {
@@ -181,7 +181,7 @@ const char* to_string(InclinationTerm term) noexcept {
     case InclinationTerm::gravity: return "gravity";
     case InclinationTerm::alignment: return "alignment";
   }
-  return "unknown";
+  return "?";
 }
 
 }  // namespace PLUMB_ABI

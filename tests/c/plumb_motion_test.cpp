@@ -8,7 +8,7 @@
 
 #include "motion/rigid_motion.hpp"
 #include "plumb/c/plumb_motion.h"
-#include "plumb/motion/motion_monitor.hpp"
+#include "plumb/motion/continuous_inclination.hpp"
 
 namespace plumb_motion_test {
 namespace {
@@ -192,6 +192,120 @@ TEST(CMotion, EveryNumberHasAName) {
     EXPECT_STREQ(plumb_motion_cause_text(number), "?");
   }
   EXPECT_EQ(plumb_motion_capacity(), kMotionCapacity);
+}
+
+/// Inclination in its C form, on top of a monitor's.
+struct CInclination {
+  CInclination() {
+    plumb_inclination_config_defaults(&config);
+    config.axis_bound_rad = 0.002;
+    config.velocity_bound_mps = 0.1;
+    config.window_s = 1.0;
+  }
+  plumb_error init(const CMotion& c) {
+    return plumb_inclination_init(storage.data(), 8 * storage.size(), &c.config, &config, &inclination);
+  }
+  plumb_inclination_config config{};
+  std::vector<std::uint64_t> storage = std::vector<std::uint64_t>(plumb_inclination_size() / 8 + 1);
+  plumb_inclination* inclination = nullptr;
+};
+
+InclinationSetup cpp_form(const plumb_inclination_config& config) {
+  InclinationSetup out;
+  out.axis = {config.axis[0], config.axis[1], config.axis[2]};
+  out.axis_bound_rad = config.axis_bound_rad;
+  out.velocity_bound_mps = config.velocity_bound_mps;
+  out.window_s = config.window_s;
+  out.gravity_mps2 = config.gravity_mps2;
+  out.gravity_bound_mps2 = config.gravity_bound_mps2;
+  return out;
+}
+
+void expect_same(const plumb_inclination_interval& a, const InclinationInterval& b) {
+  EXPECT_EQ(a.status, static_cast<int>(b.status));
+  EXPECT_EQ(a.widest, static_cast<int>(b.widest));
+  EXPECT_EQ(a.gyro_assumed != 0, b.gyro_assumed);
+  EXPECT_EQ(a.time_s, b.time_s);
+  EXPECT_EQ(a.span_s, b.span_s);
+  EXPECT_EQ(a.inclination_rad, b.inclination_rad);
+  EXPECT_EQ(a.low_rad, b.low_rad);
+  EXPECT_EQ(a.high_rad, b.high_rad);
+}
+
+/// A tool at rest, but for a rate about its axis; its gyro falls silent for a while.
+MotionSample turning_sample(const SensorArray& array, std::uint64_t k) {
+  MotionSample out;
+  out.time_s = 0.001 * static_cast<double>(k);
+  out.delivered = array.all();
+  for (int i = 0; i < array.size(); ++i)
+    out.reading_mps2[static_cast<std::size_t>(i)] = dot(array.axis(i), {4.0, 0.0, -8.9});
+  for (std::size_t g = 0; g < 2; ++g) {
+    out.rate_radps[g] = {0.0, 0.0, 1.0};
+    out.rate_given[g] = k < 2500 || k > 2540;
+  }
+  return out;
+}
+
+// Verifies: REQ-211
+TEST(CInclination, AnswersAsContinuousInclinationDoes) {
+  MotionSetup setup = plumb_test::motion_setup(6, 3);
+  setup.gyros = 2;
+  const SensorArray array = plumb_test::cone_array(6, 0.01);
+  CMotion c(array, setup);
+  CInclination tilt;
+  ASSERT_EQ(c.init().code, PLUMB_OK);
+  ASSERT_EQ(tilt.init(c).code, PLUMB_OK);
+  MotionMonitor monitor;
+  ContinuousInclination inclination;
+  ASSERT_TRUE(monitor.configure(array, setup).has_value());
+  ASSERT_TRUE(inclination.configure(array, setup, cpp_form(tilt.config)).has_value());
+  plumb_inclination_interval interval;
+  plumb_inclination_interval_defaults(&interval);
+  int known = 0, without_rate = 0;
+  for (std::uint64_t k = 0; k < 4500 && !HasFailure(); ++k) {
+    const MotionSample s = turning_sample(array, k);
+    const plumb_motion_sample sample = c_form(s);
+    ASSERT_EQ(plumb_motion_step(c.motion, &sample, nullptr).code, PLUMB_OK);
+    ASSERT_EQ(plumb_inclination_step(tilt.inclination, &sample, c.motion, &interval).code, PLUMB_OK);
+    EXPECT_EQ(interval.is_new != 0, inclination.step(s, monitor.step(s)));
+    expect_same(interval, inclination.interval());
+    known += interval.is_new != 0 && interval.status == PLUMB_INCLINATION_KNOWN ? 1 : 0;
+    without_rate += interval.status == PLUMB_INCLINATION_RATE_UNKNOWN ? 1 : 0;
+  }
+  EXPECT_GE(known, 3);
+  EXPECT_GT(without_rate, 0);
+}
+
+TEST(CInclination, MisuseIsAnsweredAndLeavesNoAngleBehind) {
+  CMotion c(plumb_test::cone_array(5, 0.01), plumb_test::motion_setup(5));
+  ASSERT_EQ(c.init().code, PLUMB_OK);
+  CInclination without_bound;
+  plumb_inclination_config_defaults(&without_bound.config);
+  EXPECT_EQ(without_bound.init(c).index, 201) << "the bound of the axis has no default";
+  EXPECT_EQ(without_bound.inclination, nullptr);
+  CInclination tilt;
+  plumb_motion_sample sample;
+  plumb_motion_sample_defaults(&sample);
+  plumb_inclination_interval interval;
+  plumb_inclination_interval_defaults(&interval);
+  interval.status = PLUMB_INCLINATION_KNOWN;
+  auto* nowhere = reinterpret_cast<plumb_inclination*>(tilt.storage.data());
+  EXPECT_EQ(plumb_inclination_step(nowhere, &sample, c.motion, &interval).code, PLUMB_NOT_INITIALISED);
+  EXPECT_EQ(interval.status, PLUMB_INCLINATION_FILLING);
+  EXPECT_EQ(plumb_inclination_init(tilt.storage.data(), 8, &c.config, &tilt.config, &tilt.inclination).code,
+            PLUMB_STORAGE_TOO_SMALL);
+  ASSERT_EQ(tilt.init(c).code, PLUMB_OK);
+  EXPECT_EQ(plumb_inclination_step(nullptr, &sample, c.motion, &interval).code, PLUMB_NULL_POINTER);
+  EXPECT_EQ(plumb_inclination_step(tilt.inclination, &sample, nullptr, &interval).code, PLUMB_NULL_POINTER);
+  EXPECT_EQ(plumb_inclination_step(tilt.inclination, &sample, c.motion, nullptr).code, PLUMB_NULL_POINTER);
+  interval.struct_size = 3;
+  EXPECT_EQ(plumb_inclination_step(tilt.inclination, &sample, c.motion, &interval).code, PLUMB_WRONG_STRUCT);
+  EXPECT_EQ(plumb_inclination_config_defaults(nullptr).code, PLUMB_NULL_POINTER);
+  EXPECT_EQ(plumb_inclination_interval_defaults(nullptr).code, PLUMB_NULL_POINTER);
+  EXPECT_STREQ(plumb_inclination_status_text(PLUMB_INCLINATION_NO_FORCE), "no_force");
+  EXPECT_STREQ(plumb_inclination_term_text(1), "velocity");
+  EXPECT_STREQ(plumb_inclination_status_text(77), "?");
+  EXPECT_STREQ(plumb_inclination_term_text(-1), "?");
 }
 
 }  // namespace

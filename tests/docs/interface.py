@@ -164,7 +164,7 @@ def python_names(root):
                                  r'\.def\w*\(\s*"(\w+)"|^  (\w*)COLUMN\([^,]+, (\w+),', source, re.M):
             attribute, function, kind, member, row, column = found.groups()
             inside = kind or inside
-            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force"}[row]
+            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force", "INCLINATION_": "inclination"}[row]
             yield attribute or function or kind or (column and f"{of_row}.{column}") or f"{inside}.{member}"
 
 
@@ -194,10 +194,14 @@ def names_of(root, tool):
     motion = text("src/io/motion_records.cpp")
     out["motion events"] = list(dict.fromkeys(record_keys(motion)))
     out["columns of --motion"] = names_in(motion, "kColumns[] = {")
+    out["columns of --inclination"] = re.search(r'return "(t_s,span_s,[a-z_,]+)\\n"', motion)[1].split(",")
     out["kinds of motion events"] = words_of(motion, "MotionEventKind")
     out["causes in motion"] = words_of(text("src/motion/motion_monitor.cpp"), "MotionCause")
     out["validities in motion"] = words_of(text("src/motion/motion_force.cpp"), "ForceValidity")
     out["parts of a bound"] = words_of(text("src/motion/motion_force.cpp"), "ForceTerm")
+    inclination = text("src/motion/continuous_inclination.cpp")
+    out["statuses of an inclination"] = words_of(inclination, "InclinationStatus")
+    out["parts of an interval"] = words_of(inclination, "InclinationTerm")
     out["notes on motion"] = re.findall(r'push_back\(\s*\{"(\w+)"', text("src/render/motion_notes.cpp"))
     state = text("src/health/state.cpp")
     for title, kind in (("states", "HealthState"), ("events", "HealthEvent"), ("causes", "Cause"),

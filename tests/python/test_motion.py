@@ -225,11 +225,12 @@ class Words(unittest.TestCase):
         for header, struct, dtype, kind in (
             ("motion_monitor.hpp", "MotionVerdict", plumb.motion_dtype, plumb.MotionVerdict),
             ("motion_force.hpp", "SpecificForce", plumb.motion_dtype["sample"], plumb.SpecificForce),
+            ("continuous_inclination.hpp", "InclinationInterval", plumb.motion_dtype["inclination"], plumb.Inclination),
         ):
             text = (SOURCE / "include" / "plumb" / "motion" / header).read_text()
             body = text[text.index(f"struct {struct} {{"):].split("\n};")[0]
             members = re.findall(r"^  [\w:]+ (\w+)(?:\{\}| = [^;]+)?;", body, re.M)
-            self.assertGreaterEqual(len(members), 9, struct)
+            self.assertGreaterEqual(len(members), 8, struct)
             self.assertLessEqual(set(members), set(dtype.names))
             for member in members:
                 self.assertGreater(len(getattr(kind, member).__doc__), 10, member)
@@ -238,8 +239,9 @@ class Words(unittest.TestCase):
     def test_every_column_says_what_it_is_and_in_which_unit(self):
         self.assertEqual(tuple(plumb.MOTION_FIELDS), plumb.motion_dtype.names)
         self.assertEqual(tuple(plumb.FORCE_FIELDS), plumb.motion_dtype["sample"].names)
-        units = {"_mps2": "[m/s^2]", "_m2ps4": "[(m/s^2)^2]", "_s": "[s]"}
-        for name, text in {**plumb.MOTION_FIELDS, **plumb.FORCE_FIELDS}.items():
+        self.assertEqual(tuple(plumb.INCLINATION_FIELDS), plumb.motion_dtype["inclination"].names)
+        units = {"_mps2": "[m/s^2]", "_m2ps4": "[(m/s^2)^2]", "_rad": "[rad]", "_s": "[s]"}
+        for name, text in [*plumb.MOTION_FIELDS.items(), *plumb.FORCE_FIELDS.items(), *plumb.INCLINATION_FIELDS.items()]:
             self.assertGreater(len(text), 10, name)
             for end, unit in units.items():
                 if name.endswith(end):
@@ -250,7 +252,9 @@ class Words(unittest.TestCase):
     def test_the_names_are_those_of_the_interface(self):
         page = (SOURCE / "docs" / "stable-interface.md").read_text()
         for title, names in (("causes in motion", plumb.MOTION_CAUSES), ("validities in motion", plumb.FORCE_VALIDITIES),
-                             ("parts of a bound", plumb.FORCE_TERMS)):
+                             ("parts of a bound", plumb.FORCE_TERMS),
+                             ("statuses of an inclination", plumb.INCLINATION_STATUSES),
+                             ("parts of an interval", plumb.INCLINATION_TERMS)):
             listed = re.search(rf"<!-- names: {title} -->\n```\n(.*?)\n```", page, re.S).group(1)
             self.assertEqual(list(names), re.split(r"\n|  ", listed))
 

@@ -32,7 +32,7 @@ extern "C" {
 #define PLUMB_WRONG_STRUCT 1001       /* index = argument, or sensor; value = struct_size, limit = the library's */
 #define PLUMB_STORAGE_TOO_SMALL 1002  /* index = argument; value = bytes given, limit = bytes needed */
 #define PLUMB_STORAGE_MISALIGNED 1003 /* index = argument; limit = alignment needed */
-#define PLUMB_NOT_INITIALISED 1004    /* no monitor in this storage */
+#define PLUMB_NOT_INITIALISED 1004    /* nothing was set up in this storage */
 #define PLUMB_STORAGE_OVERLAPS 1005   /* index = argument: a workspace that lies in the monitor's storage */
 
 typedef struct plumb_error {

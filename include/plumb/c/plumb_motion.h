@@ -129,6 +129,64 @@ plumb_error plumb_motion_set_in_service(plumb_motion* motion, uint32_t sensors) 
 /* Takes back exclusions and evidence: after rest has confirmed or refuted them. */
 plumb_error plumb_motion_forget(plumb_motion* motion) PLUMB_NOEXCEPT;
 
+/* Inclination of an axis of the tool while it moves: an interval, once per window, from the force that the monitor of
+ * motion publishes (`ContinuousInclination`, docs/motion.md, docs/theory.md T13). */
+typedef struct plumb_inclination_config {
+  uint32_t struct_size;      /* set by plumb_inclination_config_defaults */
+  double axis[3];            /* unit vector, tool frame; along the hole and downwards for a drilling tool */
+  double axis_bound_rad;     /* how far the axis that is meant may be from it, 0 .. pi; no default [rad] */
+  double velocity_bound_mps; /* within a window the velocity of the reference point differs from some constant velocity
+                                by no more, 0 .. 100; no default [m/s] */
+  double window_s;           /* 128 sample periods .. 600 [s] */
+  double gravity_mps2;       /* 1 .. 30 [m/s^2] */
+  double gravity_bound_mps2; /* of what is stated as gravity, 0 .. 0.5 [m/s^2] */
+} plumb_inclination_config;
+/* Axis z and standard gravity; bounds without a default are not numbers, and refused. Error: null_pointer. */
+plumb_error plumb_inclination_config_defaults(plumb_inclination_config* config) PLUMB_NOEXCEPT;
+
+/* Numbers of `status` and `widest`: those of InclinationStatus and InclinationTerm
+ * (plumb/motion/continuous_inclination.hpp). */
+enum plumb_inclination_status {
+  PLUMB_INCLINATION_FILLING,
+  PLUMB_INCLINATION_KNOWN,
+  PLUMB_INCLINATION_NO_FORCE,
+  PLUMB_INCLINATION_RATE_UNKNOWN,
+  PLUMB_INCLINATION_IRREGULAR_TIME,
+  PLUMB_INCLINATION_CONTRADICTS_GRAVITY
+};
+
+typedef struct plumb_inclination_interval {
+  uint32_t struct_size;     /* set by plumb_inclination_interval_defaults */
+  int32_t status;           /* plumb_inclination_status: the angles count with KNOWN alone */
+  int32_t is_new;           /* 1: a window has ended with this sample, or another status has begun */
+  int32_t widest;           /* the largest part of the interval */
+  int32_t gyro_assumed;     /* 1: it holds while the only gyro is healthy */
+  double time_s;            /* the middle of the window [s] */
+  double span_s;            /* its length [s] */
+  double inclination_rad;   /* against gravity, 0 .. pi; its cosine is the mean cosine over the window [rad] */
+  double low_rad, high_rad; /* it lies between these [rad] */
+} plumb_inclination_interval;
+/* No window has ended. Error: null_pointer. */
+plumb_error plumb_inclination_interval_defaults(plumb_inclination_interval* interval) PLUMB_NOEXCEPT;
+
+const char* plumb_inclination_status_text(int32_t status) PLUMB_NOEXCEPT;
+const char* plumb_inclination_term_text(int32_t term) PLUMB_NOEXCEPT;
+
+typedef struct plumb_inclination plumb_inclination; /* lives in storage of the caller */
+
+size_t plumb_inclination_size(void) PLUMB_NOEXCEPT;
+size_t plumb_inclination_align(void) PLUMB_NOEXCEPT;
+
+/* `motion`: what plumb_motion_init was given. Errors: those of ContinuousInclination::configure (index 200 .. 205 for a
+ * value of `config`), and those of plumb_motion_init; `*inclination` is null on an error. */
+plumb_error plumb_inclination_init(void* storage, size_t storage_size, const plumb_motion_config* motion,
+                                   const plumb_inclination_config* config,
+                                   plumb_inclination** inclination) PLUMB_NOEXCEPT;
+/* After plumb_motion_step, with the same sample and the monitor that judged it. `interval` is the last one, new or not.
+ * On an error it becomes that of plumb_inclination_interval_defaults, and the sample is not taken. */
+plumb_error plumb_inclination_step(plumb_inclination* inclination, const plumb_motion_sample* sample,
+                                   const plumb_motion* motion, plumb_inclination_interval* interval) PLUMB_NOEXCEPT;
+
 #ifdef __cplusplus
 }
 #endif

@@ -54,7 +54,8 @@ struct InclinationInterval {
   double time_s = 0.0;                                    ///< the middle of the window
   double span_s = 0.0;                                    ///< its length
   double inclination_rad = 0.0;                           ///< 0 to pi, against gravity
-  double low_rad = 0.0, high_rad = 0.0;                   ///< it lies between these
+  double low_rad = 0.0;                                   ///< it lies between this
+  double high_rad = 0.0;                                  ///< and this
   bool gyro_assumed = false;  ///< it holds while the only gyro is healthy: nothing corroborates that one
   InclinationTerm widest = InclinationTerm::force;  ///< the largest part of the interval
 };
