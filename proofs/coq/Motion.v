@@ -1,7 +1,6 @@
 (* T11: evidence in motion. The tool feels a specific force of any length and direction, so only parity speaks: it cancels
    the force, whatever it is. This file states what follows: the mean of a derivative from block sums, the limit of a healthy
-   set, that blocks at rest and in motion may share one set of hypotheses, and what parity alone isolates and what not.
-   The monitor does not judge blocks in motion in this way yet. *)
+   set, that blocks at rest and in motion may share one set of hypotheses, and what parity alone isolates and what not. *)
 From Coq Require Import Reals Lra Arith Bool Lia Psatz.
 From Plumb Require Import Sets Vectors Sensors Soundness WorstCase ParitySums.
 Open Scope R_scope.
@@ -73,6 +72,22 @@ Section Limits.
     { apply total_bounded. intros i Hi. destruct (Q i) eqn:Qi; [|rewrite Rabs_R0; lra].
       rewrite Rabs_mult. apply Rmult_le_compat_l; [apply Rabs_pos|now apply Err]. }
     apply Rabs_le_inv in B, Noise. unfold limit. apply Rabs_le. lra.
+  Qed.
+
+  (* Some readings y are at full scale: the sensors feel z beyond them. Where every such member of Q can only have made the
+     parity smaller, a parity above the limit still accuses the set. *)
+  Theorem T11_at_full_scale (q : R) (Q : set) (v err y z nu e : nat -> R) (f : vec) :
+    parity n h Q v -> (forall i, (i < n)%nat -> Q i = true -> z i = dot (h i) f + nu i + e i) ->
+    (forall i, (i < n)%nat -> Q i = true -> Rabs (e i) <= err i) -> Rabs (along n Q v nu) <= q ->
+    (forall i, (i < n)%nat -> Q i = true -> 0 <= v i * (z i - y i)) -> along n Q v y <= limit q Q v err.
+  Proof.
+    intros Null Read Err Noise Beyond.
+    destruct (T11_parity_in_motion q Q v err z nu e f Null Read Err Noise) as [B _].
+    apply Rabs_le_inv in B. apply Rle_trans with (along n Q v z); [|lra].
+    unfold along. clear - Beyond. induction n as [|m IH]; simpl; [lra|].
+    assert (total m (fun i => if Q i then v i * y i else 0) <= total m (fun i => if Q i then v i * z i else 0))
+      by (apply IH; intros; apply Beyond; [lia|assumption]).
+    destruct (Q m) eqn:Qm; [|lra]. specialize (Beyond m ltac:(lia) Qm). lra.
   Qed.
 
   (* The bounds are made of readings (scale and skew depend on the force). If those of Q are made of readings of Q alone,

@@ -95,7 +95,10 @@ bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record)
   const SensorSet sensors = monitored();
   MotionReadings asked = readings;
   asked.usable = readings.usable & sensors;
-  if (asked.usable.size() < 2 || !may_reject(array_, sets_, asked, force_.all())) return false;
+  asked.at_least = readings.at_least & sensors;
+  asked.at_most = readings.at_most & sensors;
+  const SensorSet speaking = asked.usable | asked.at_least | asked.at_most;
+  if (speaking.size() < 2 || !may_reject(array_, sets_, asked, force_.all())) return false;
   bool any = false;
   for (int k = 0; k < sets_.size(); ++k) {
     if (!rejects(array_, setup_, sets_[k], asked)) continue;

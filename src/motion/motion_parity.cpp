@@ -74,6 +74,17 @@ double slope_bound(const MotionMeans& means, std::size_t sensor) noexcept {
   return std::fabs(means.slope_mps3[sensor]) + (1.0 + 1.0 / means.samples) * means.bend_mps2[sensor] / means.span_s;
 }
 
+/// Of a reading at full scale throughout nothing is known but that the force is bounded: block means differ by up to
+/// twice that, and second differences of samples by up to four times.
+double clipped_slope_bound(const MotionSetup& setup, const MotionMeans& means) noexcept {
+  return (2.0 + 4.0 * (1.0 + 1.0 / means.samples)) * setup.force_bound_mps2 / means.span_s;
+}
+
+double clipped_square(const MotionSetup& setup, double y) noexcept {
+  const double most = std::fabs(y) > setup.force_bound_mps2 ? std::fabs(y) : setup.force_bound_mps2;
+  return most * most;
+}
+
 /// Omega' h: what a metre along each axis adds to the reading.
 Vec3 per_metre(const Mat3& omega, const Vec3& h) noexcept {
   return {omega[0] * h[0] + omega[3] * h[1] + omega[6] * h[2], omega[1] * h[0] + omega[4] * h[1] + omega[7] * h[2],
@@ -171,6 +182,8 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
   MotionReadings out;
   if (!rotation.known || means.samples == 0) return out;
   out.usable = means.usable;
+  out.at_least = means.at_least;
+  out.at_most = means.at_most;
   out.noise_factor = noise_quantile * std::sqrt(means.noise_share());
   for (int i = 0; i < array.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -178,11 +191,12 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
     const Vec3& arm = setup.lever_arm_m[k];
     const Vec3 metre = per_metre(rotation.omega_per_s2, array.axis(i));
     const double y = means.reading_mps2[k];
+    const bool clipped = (means.at_least | means.at_most).has(i);
     out.corrected_mps2[k] = y - dot(metre, arm);
     out.part_mps2[k] = {e.lever_m * (std::fabs(metre[0]) + std::fabs(metre[1]) + std::fabs(metre[2])),
                         rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m),
-                        e.lag_s * slope_bound(means, k),
-                        e.rectification * means.square_m2ps4[k],
+                        e.lag_s * (clipped ? clipped_slope_bound(setup, means) : slope_bound(means, k)),
+                        e.rectification * (clipped ? clipped_square(setup, y) : means.square_m2ps4[k]),
                         of_reading(e.scale) * std::fabs(y),
                         e.axis_rad * norm(times(rotation.omega_per_s2, arm)),
                         e.bias_mps2};
@@ -193,8 +207,10 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
 
 bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
              const MotionReadings& readings) noexcept {
-  if (!readings.usable.contains(set.all)) return false;
+  const bool clipped = !readings.usable.contains(set.all);
+  if (clipped && !(readings.usable | readings.at_least | readings.at_most).contains(set.all)) return false;
   double parity = 0.0, variance = 0.0, limit = 0.0, axes = 0.0;
+  bool may_be_more = false, may_be_less = false;  // what the parity of the true readings is against `parity`
   for (std::size_t k = 0; k < set.size; ++k) {
     const auto i = static_cast<std::size_t>(set.sensor[k]);
     const double v = set.null[k], sigma = array.sigma_mps2(static_cast<int>(i));
@@ -202,8 +218,15 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
     variance += v * v * sigma * sigma;
     limit += std::fabs(v) * readings.error_mps2[i];
     axes += std::fabs(v) * setup.errors[i].axis_rad;
+    const bool upwards = readings.at_least.has(set.sensor[k]), downwards = readings.at_most.has(set.sensor[k]);
+    may_be_more = may_be_more || (v > 0.0 ? upwards : downwards);
+    may_be_less = may_be_less || (v > 0.0 ? downwards : upwards);
   }
   limit += readings.noise_factor * std::sqrt(variance);
+  if (clipped) {
+    limit += (axes + norm(set.rest)) * setup.force_bound_mps2;
+    return (parity > limit && !may_be_less) || (parity < -limit && !may_be_more);
+  }
   const double force = force_bound(array, setup, set, readings);
   limit += axes * force;
   if (set.least_singular == 0.0) return std::fabs(parity) > limit + norm(set.rest) * force;
@@ -216,6 +239,7 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
 bool may_reject(const SensorArray& array, const MotionSets& sets, const MotionReadings& readings,
                 const LeastSquares& fit) noexcept {
   if (!fit.valid || fit.used != readings.usable) return true;
+  if (!(readings.at_least | readings.at_most).empty()) return true;
   const Vec3 force = fit.estimate(readings.corrected_mps2);
   double square = 0.0, least_error = 0.0, least_sigma = 0.0;
   bool first = true;

@@ -40,8 +40,14 @@ MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexc
   for (int i = 0; i < sensors_; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double y = sample.reading_mps2[k];
-    if (!sample.delivered.has(i) || !(std::fabs(y) <= kMostReading_mps2) || clipped_.has(i)) continue;
-    out.usable = out.usable.with(i);
+    if (!sample.delivered.has(i) || !(std::fabs(y) <= kMostReading_mps2)) continue;
+    if (sample.clipped.has(i)) {
+      (y > 0.0 ? out.at_least : out.at_most) = (y > 0.0 ? out.at_least : out.at_most).with(i);
+    } else if (clipped_.has(i)) {
+      continue;  // it has not recovered yet
+    } else {
+      out.usable = out.usable.with(i);
+    }
     out.reading[k] = {y, 0.5 * y};
     out.square[k] = {y * y, 0.5 * y * y};
   }
@@ -62,7 +68,11 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
     x[0] += y[0];
     x[1] += first_share * y[0] + part_share * y[1];
   };
-  to.usable = to.count == 0 ? part.usable : to.usable & part.usable;
+  const SensorSet any = SensorSet::first(sensors_);
+  const auto all_of = [&](SensorSet so_far, SensorSet more) { return (to.count == 0 ? any : so_far) & more; };
+  to.usable = all_of(to.usable, part.usable);
+  to.at_least = all_of(to.at_least, part.at_least);
+  to.at_most = all_of(to.at_most, part.at_most);
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
     add(to.reading[i], part.reading[i]);
     add(to.square[i], part.square[i]);
@@ -170,6 +180,8 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
   out.span_s = span_s(pair);
   out.time_s = origin_s_ + 0.5 * inverse * (a.time_s + b.time_s);
   out.usable = a.usable & b.usable;
+  out.at_least = a.at_least & b.at_least;
+  out.at_most = a.at_most & b.at_most;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
     out.reading_mps2[i] = triangle(a.reading[i], b.reading[i]);
     out.square_m2ps4[i] = triangle(a.square[i], b.square[i]);

@@ -34,6 +34,7 @@ using ErrorParts = std::array<double, kErrorParts>;
 /// Readings of a pair of blocks as they would be at the reference point.
 struct MotionReadings {
   SensorSet usable;
+  SensorSet at_least, at_most;  ///< at full scale throughout: the true one is beyond the reading, but for its error
   Readings corrected_mps2{};
   Readings error_mps2{};  ///< of a healthy one at most: the parts together; noise, and what a turned axis mixes in of
                           ///< the force, are left out
@@ -44,7 +45,8 @@ struct MotionReadings {
 MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, const MotionMeans& means,
                          const RotationTerm& rotation, double noise_quantile) noexcept;
 
-/// Whether the readings of a set contradict each other. Only they and the rotation decide about it (REQ-202).
+/// Whether the readings of a set contradict each other. Only they and the rotation decide about it (REQ-202). A member
+/// at full scale counts as an inequality (theorem T11).
 bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
              const MotionReadings& readings) noexcept;
 

@@ -71,7 +71,8 @@ struct MotionSample {
   double time_s = 0.0;
   Readings reading_mps2{};  ///< specific force along each axis, calibrated
   SensorSet delivered;      ///< those with a reading
-  SensorSet clipped;        ///< those at full scale
+  /// Those at full scale: the true specific force is no less than the reading, or no more where that is below zero.
+  SensorSet clipped;
   std::array<Vec3, kGyros> rate_radps{};
   std::array<bool, kGyros> rate_given{};
 };

@@ -39,6 +39,8 @@ struct MotionMeans {
   double span_s = 0.0;      ///< length of one block, by the time stamps
   double time_s = 0.0;      ///< of the middle
   SensorSet usable;         ///< delivered, not clipped and below 1e4 m/s^2 at every sample
+  SensorSet at_least;       ///< at full scale at every sample, above zero: the true mean is no less than the reading
+  SensorSet at_most;        ///< likewise below zero: it is no more
   Readings reading_mps2{};  ///< triangle mean
   Readings slope_mps3{};    ///< triangle mean of the derivative
   Readings square_m2ps4{};  ///< triangle mean of the square
@@ -76,7 +78,7 @@ class MotionWindow {
   struct Sums {
     int count = 0;
     double time_s = 0.0;  ///< since the window began
-    SensorSet usable;
+    SensorSet usable, at_least, at_most;
     std::array<bool, kGyros> given{};
     std::array<std::array<double, 2>, kMotionCapacity> reading{};
     std::array<std::array<double, 2>, kMotionCapacity> square{};
