@@ -196,6 +196,7 @@ def names_of(root, tool):
     out["columns of --motion"] = names_in(motion, "kColumns[] = {")
     out["kinds of motion events"] = words_of(motion, "MotionEventKind")
     out["causes in motion"] = words_of(text("src/motion/motion_monitor.cpp"), "MotionCause")
+    out["what became of a sample of a chip"] = words_of(text("src/motion/motion_clocks.cpp"), "ClockPush")
     out["validities in motion"] = words_of(text("src/motion/motion_force.cpp"), "ForceValidity")
     out["parts of a bound"] = words_of(text("src/motion/motion_force.cpp"), "ForceTerm")
     out["notes on motion"] = re.findall(r'push_back\(\s*\{"(\w+)"', text("src/render/motion_notes.cpp"))

@@ -35,6 +35,7 @@ inline plumb::ClockSetup clocks_of(int n, int clocks, const plumb::MotionSetup& 
 class ChipClocks {
  public:
   using Read = std::function<plumb::MotionSample(int clock, double time_s)>;
+  using Seen = std::function<void(int clock, const plumb::MotionSample&)>;
 
   /// Errors of the clocks anywhere within `share` of their bounds, or at its vertices; steps off by up to `jitter`.
   ChipClocks(const plumb::ClockSetup& stated, Noise& noise, bool vertices, double share = 1.0, double jitter = 0.0)
@@ -56,7 +57,7 @@ class ChipClocks {
   void put_off(int clock, double by_s) { chip_[static_cast<std::size_t>(clock)].offset_s += by_s; }
 
   /// What all chips have sampled and delivered until then.
-  void deliver(double until_s, plumb::MotionClocks& to, const Read& read) {
+  void deliver(double until_s, plumb::MotionClocks& to, const Read& read, const Seen& seen = {}) {
     for (int c = 0; c < stated_.clocks; ++c) {
       const plumb::MotionClock& one = stated_.clock[static_cast<std::size_t>(c)];
       Chip& chip = chip_[static_cast<std::size_t>(c)];
@@ -64,6 +65,7 @@ class ChipClocks {
         plumb::MotionSample s = read(c, chip.time_s);
         s.time_s = (chip.time_s + chip.offset_s - chip.rate * one.since_s) / (1.0 - chip.rate);
         last = to.push(c, s);
+        if (seen) seen(c, s);
         chip.time_s += one.sample_period_s * (1.0 + jitter_ * (2.0 * noise_->uniform() - 1.0));
       }
     }

@@ -66,6 +66,7 @@ struct Bench {
   }
 };
 
+// Verifies: REQ-207
 RC_GTEST_PROP(MotionClocks, CubicsAreMetExactlyWhateverOffsetAndRate, ()) {
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
   MotionSetup motion = plain_setup();
