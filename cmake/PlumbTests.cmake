@@ -117,10 +117,11 @@ endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8
   COMPUTING calibration/closed_form calibration/outlier detection/exact_sum detection/false_alarm
-    detection/fitted_false_alarm health/forged_fields health/induction numeric/symmetric_eigen
+    detection/fitted_false_alarm health/forged_fields health/induction motion/motion_clocks motion/motion_clocks_flight
+    numeric/symmetric_eigen
   LONGER Acceptance.* BitFlips.* CFunctions.* ExactSum.* ExtremeNumbers.* FalseAlarm.* FirstCalibration*.* Fit*.*
     ForgedFields.* HalfNormalMeanQuantile.* Induction.* IsolationOracle.* IsolationRates.* LevelMisfit.* *Law.* *Laws.*
-    Outliers.* RequirementIsolation.* Snapshot.* TemperatureUse.* Vibration.*)
+    MotionClocks*.* Outliers.* RequirementIsolation.* Snapshot.* TemperatureUse.* Vibration.*)
 # The sides that a build for eight sensors leaves to larger ones; for scripts/coverage, which builds it by name.
 if(PLUMB_COVERAGE AND TARGET plumb_24)
   plumb_test_executable(plumb_core_24_tests LABEL core PREFIX "24." ROOMS array detection LIBRARIES plumb_24)

@@ -33,6 +33,9 @@ struct MotionProblem {
 plumb_error prepare(const plumb_motion_config* config, int argument, MotionProblem& out) noexcept;
 
 MotionSample sample_of(const plumb_motion_sample& from) noexcept;
+plumb_motion_verdict verdict_of(const MotionVerdict& from) noexcept;
+/// What stood in the verdict before is not the answer to this call, and must not be taken for it.
+plumb_error without_verdict(const plumb_error& e, plumb_motion_verdict* verdict) noexcept;
 
 }  // namespace c_api
 }  // namespace PLUMB_ABI

@@ -69,29 +69,6 @@ plumb_specific_force force_of(const SpecificForce& from) noexcept {
   return out;
 }
 
-plumb_motion_verdict verdict_of(const MotionVerdict& from) noexcept {
-  plumb_motion_verdict out{};
-  out.struct_size = sizeof out;
-  out.rejected = from.rejected.bits;
-  out.suspects = from.suspects.bits;
-  out.isolated = from.isolated.bits;
-  out.excluded = from.excluded.bits;
-  out.alarm = from.alarm ? 1 : 0;
-  out.block_ended = from.block_ended ? 1 : 0;
-  out.least_faults = from.least_faults;
-  out.cause = static_cast<std::int32_t>(from.cause);
-  out.gyros_disagree = from.gyros_disagree ? 1 : 0;
-  out.sample = force_of(from.sample);
-  out.block = force_of(from.block);
-  return out;
-}
-
-/// What stood in the verdict before is not the answer to this call, and must not be taken for it.
-plumb_error without_verdict(const plumb_error& e, plumb_motion_verdict* verdict) noexcept {
-  if (verdict != nullptr && check_struct(verdict, 0).code == PLUMB_OK) *verdict = verdict_of(MotionVerdict{});
-  return e;
-}
-
 }  // namespace
 
 namespace plumb {
@@ -111,6 +88,28 @@ plumb_error prepare(const plumb_motion_config* config, int argument, MotionProbl
   const Expected<SensorArray> array = array_of(*config);
   if (!array) return answer(array.error());
   out.array = *array;
+  return e;
+}
+
+plumb_motion_verdict verdict_of(const MotionVerdict& from) noexcept {
+  plumb_motion_verdict out{};
+  out.struct_size = sizeof out;
+  out.rejected = from.rejected.bits;
+  out.suspects = from.suspects.bits;
+  out.isolated = from.isolated.bits;
+  out.excluded = from.excluded.bits;
+  out.alarm = from.alarm ? 1 : 0;
+  out.block_ended = from.block_ended ? 1 : 0;
+  out.least_faults = from.least_faults;
+  out.cause = static_cast<std::int32_t>(from.cause);
+  out.gyros_disagree = from.gyros_disagree ? 1 : 0;
+  out.sample = force_of(from.sample);
+  out.block = force_of(from.block);
+  return out;
+}
+
+plumb_error without_verdict(const plumb_error& e, plumb_motion_verdict* verdict) noexcept {
+  if (verdict != nullptr && check_struct(verdict, 0).code == PLUMB_OK) *verdict = verdict_of(MotionVerdict{});
   return e;
 }
 

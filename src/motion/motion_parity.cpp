@@ -43,6 +43,12 @@ double error_of_sums(const MotionMeans& means, const GyroMeans& gyro) noexcept {
   return (norm(gyro.step_change_radps) + open) / (6.0 * n * n * period_s);
 }
 
+/// What interpolation adds to a mean over two blocks, from what it adds to a sample at most (T14). A shock that begins
+/// between two samples adds up to eight times that to a pair of single samples, and less to longer blocks.
+double in_mean(double interpolation, const MotionMeans& means) noexcept {
+  return (1.0 + 3.0 / means.samples) * interpolation;
+}
+
 /// What the term of a healthy gyro is off by: scale and axis, bias, noise, and how fast the acceleration changes. A
 /// quarter of a sample period covers that readings are compared at instants, rates over the intervals between them.
 double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
@@ -50,13 +56,14 @@ double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMe
   const double rate = std::sqrt(square > 0.0 ? square : 0.0);
   const double relative = relative_error(bounds), more = (1.0 + relative) * (1.0 + relative);
   const double n = means.samples, period_s = means.span_s / n;
-  const double noise = k * bounds.noise_radps;
+  const double noise = k * bounds.noise_radps, drawn = in_mean(gyro.interpolation_radps, means);
   return (2.0 + relative) * relative * square + relative * norm(gyro.acceleration_radps2) +
          more * (2.0 * rate * (bounds.bias_radps + noise * std::sqrt(means.noise_share())) +
                  bounds.bias_radps * bounds.bias_radps + 3.0 * bounds.noise_radps * bounds.noise_radps +
                  noise * std::sqrt(2.0 / n) / means.span_s +
                  (bounds.lag_s + 0.25 * period_s) / means.span_s * norm(gyro.acceleration_change_radps2) +
-                 error_of_lag(bounds, means, gyro) + error_of_sums(means, gyro));
+                 error_of_lag(bounds, means, gyro) + error_of_sums(means, gyro) +
+                 drawn * (2.0 * rate + drawn + 2.0 / means.span_s));
 }
 
 /// At least the operator norm of the difference, and at most sqrt(3) times that.
@@ -195,7 +202,8 @@ MotionReadings corrected(const SensorArray& array, const MotionSetup& setup, con
     out.corrected_mps2[k] = y - dot(metre, arm);
     out.part_mps2[k] = {e.lever_m * (std::fabs(metre[0]) + std::fabs(metre[1]) + std::fabs(metre[2])),
                         rotation.error_per_s2 * (norm(arm) + std::sqrt(3.0) * e.lever_m),
-                        e.lag_s * (clipped ? clipped_slope_bound(setup, means) : slope_bound(means, k)),
+                        e.lag_s * (clipped ? clipped_slope_bound(setup, means) : slope_bound(means, k)) +
+                            in_mean(means.interpolation_mps2[k], means),
                         e.rectification * (clipped ? clipped_square(setup, y) : means.square_m2ps4[k]),
                         of_reading(e.scale) * std::fabs(y),
                         e.axis_rad * norm(times(rotation.omega_per_s2, arm)),

@@ -8,9 +8,9 @@ inline namespace PLUMB_ABI {
 namespace {
 
 constexpr int kSettlingSamples = 4;  // after a reading at full scale
-/// Some 1000 g. Nothing that navigates reads more, and the square of more would widen a sensor's own limits beyond any
-/// reading (REQ-202, T11: a limit that the fault itself raises).
-constexpr double kMostReading_mps2 = 1e4;
+
+/// Whether it can be what interpolation adds at most: what is beyond says nothing.
+bool bounds(double interpolation) noexcept { return interpolation >= 0.0 && interpolation <= kMostReading_mps2; }
 
 Symmetric product_of(const Vec3& w) noexcept {
   return {w[0] * w[0], w[1] * w[1], w[2] * w[2], w[0] * w[1], w[0] * w[2], w[1] * w[2]};
@@ -41,6 +41,7 @@ MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexc
     const auto k = static_cast<std::size_t>(i);
     const double y = sample.reading_mps2[k];
     if (!sample.delivered.has(i) || !(std::fabs(y) <= kMostReading_mps2)) continue;
+    if (!bounds(sample.interpolation_mps2[k])) continue;
     if (sample.clipped.has(i)) {
       (y > 0.0 ? out.at_least : out.at_most) = (y > 0.0 ? out.at_least : out.at_most).with(i);
     } else if (clipped_.has(i)) {
@@ -48,12 +49,15 @@ MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexc
     } else {
       out.usable = out.usable.with(i);
     }
+    out.interpolation[k] = sample.interpolation_mps2[k];
     out.reading[k] = {y, 0.5 * y};
     out.square[k] = {y * y, 0.5 * y * y};
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
-    out.given[g] = sample.rate_given[g] && norm(sample.rate_radps[g]) <= kMostRate_radps;
+    out.given[g] =
+        sample.rate_given[g] && norm(sample.rate_radps[g]) <= kMostRate_radps && bounds(sample.interpolation_radps[g]);
     if (!out.given[g]) continue;
+    out.rate_interpolation[g] = sample.interpolation_radps[g];
     out.rate[g] = sample.rate_radps[g];
     out.product[g][0] = product_of(out.rate[g]);
     for (std::size_t c = 0; c < 6; ++c) out.product[g][1][c] = 0.5 * out.product[g][0][c];
@@ -77,10 +81,12 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
     add(to.reading[i], part.reading[i]);
     add(to.square[i], part.square[i]);
     if (part.bend[i] > to.bend[i]) to.bend[i] = part.bend[i];
+    if (part.interpolation[i] > to.interpolation[i]) to.interpolation[i] = part.interpolation[i];
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     to.given[g] = (to.count == 0 || to.given[g]) && part.given[g];
     to.rate[g] = plus(to.rate[g], part.rate[g]);
+    if (part.rate_interpolation[g] > to.rate_interpolation[g]) to.rate_interpolation[g] = part.rate_interpolation[g];
     RateEdges& edges = to.edges[g];
     const RateEdges& more = part.edges[g];
     if (to.count == 0) edges = more;
@@ -186,6 +192,7 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
     out.reading_mps2[i] = triangle(a.reading[i], b.reading[i]);
     out.square_m2ps4[i] = triangle(a.square[i], b.square[i]);
     out.bend_mps2[i] = a.bend[i] > b.bend[i] ? a.bend[i] : b.bend[i];
+    out.interpolation_mps2[i] = a.interpolation[i] > b.interpolation[i] ? a.interpolation[i] : b.interpolation[i];
     out.slope_mps3[i] = (b.reading[i][0] - a.reading[i][0]) * inverse / out.span_s;
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
@@ -203,6 +210,8 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
     gyro.edge_change_radps = change(after.end, after.begin, before.begin);
     gyro.step_change_radps = change(after.end_step, after.begin_step, before.begin_step);
     gyro.begun = before.first;
+    const double first = a.rate_interpolation[g], second = b.rate_interpolation[g];
+    gyro.interpolation_radps = first > second ? first : second;
     gyro.step_radps = before.step > after.step ? before.step : after.step;
     gyro.bend_radps = before.bend > after.bend ? before.bend : after.bend;
     for (std::size_t c = 0; c < 6; ++c) {

@@ -197,6 +197,7 @@ def names_of(root, tool):
     out["columns of --inclination"] = re.search(r'return "(t_s,span_s,[a-z_,]+)\\n"', motion)[1].split(",")
     out["kinds of motion events"] = words_of(motion, "MotionEventKind")
     out["causes in motion"] = words_of(text("src/motion/motion_monitor.cpp"), "MotionCause")
+    out["what became of a sample of a chip"] = words_of(text("src/motion/motion_clocks.cpp"), "ClockPush")
     out["validities in motion"] = words_of(text("src/motion/motion_force.cpp"), "ForceValidity")
     out["parts of a bound"] = words_of(text("src/motion/motion_force.cpp"), "ForceTerm")
     inclination = text("src/motion/continuous_inclination.cpp")

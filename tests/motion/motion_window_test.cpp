@@ -139,5 +139,33 @@ TEST(MotionWindow, AMissingOrBrokenReadingVoidsItsBlocksAlone) {
   EXPECT_TRUE(window.means(1).gyro[0].given);
 }
 
+/// The largest of both blocks counts, and what cannot be such a bound makes its reading unusable.
+TEST(MotionWindow, WhatInterpolationAddsIsTheLargestOfBothBlocks) {
+  MotionWindow window(3, 1, kPeriod_s);
+  for (int k = 0; k < 80; ++k) {
+    MotionSample s = sample_of(k, 1.0);
+    s.interpolation_mps2 = {0.1, k == 40 ? 0.7 : 0.1, k == 50 ? std::numeric_limits<double>::quiet_NaN() : 0.1};
+    s.interpolation_radps[0] = k == 3 ? 0.3 : 0.2;
+    window.add(s);
+    if (k == 64) {
+      const MotionMeans means = window.means(2);
+      EXPECT_EQ(means.usable, SensorSet::first(2));
+      EXPECT_EQ(means.interpolation_mps2[0], 0.1);
+      EXPECT_EQ(means.interpolation_mps2[1], 0.7);
+      EXPECT_EQ(means.gyro[0].interpolation_radps, 0.3);
+    }
+    if (k == 20) {
+      EXPECT_EQ(window.means(1).interpolation_mps2[1], 0.1);
+    }
+  }
+  MotionSample s = sample_of(80, 1.0);
+  s.interpolation_mps2[0] = -1.0;
+  s.interpolation_radps[0] = std::numeric_limits<double>::infinity();
+  window.add(s);
+  window.add(sample_of(81, 1.0));
+  EXPECT_FALSE(window.means(0).usable.has(0));
+  EXPECT_FALSE(window.means(0).gyro[0].given);
+}
+
 }  // namespace
 }  // namespace motion_window_test

@@ -99,7 +99,9 @@ class RigidMotion {
   plumb::Vec3 rate(double t) const { return rate_.at(t); }
 
   plumb::MotionSample sample(std::uint64_t number) {
-    const double t = static_cast<double>(number) * setup_->sample_period_s;
+    return sample_at(static_cast<double>(number) * setup_->sample_period_s);
+  }
+  plumb::MotionSample sample_at(double t) {
     plumb::MotionSample out;
     out.time_s = t;
     out.delivered = array_->all();

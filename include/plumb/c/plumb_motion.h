@@ -129,6 +129,55 @@ plumb_error plumb_motion_set_in_service(plumb_motion* motion, uint32_t sensors) 
 /* Takes back exclusions and evidence: after rest has confirmed or refuted them. */
 plumb_error plumb_motion_forget(plumb_motion* motion) PLUMB_NOEXCEPT;
 
+/* Chips with clocks of their own (docs/motion.md): their samples are brought to common instants before the monitor
+ * judges them, and what that may add is in its limits. */
+
+/* One clock, and what is sampled by it. A sample stamped s counts at the common time
+ * s - offset_s - rate (s - since_s). */
+typedef struct plumb_chip_clock {
+  uint32_t struct_size;   /* set by plumb_chip_clock_defaults */
+  uint32_t sensors;       /* bit i: sensor i; every sensor has one clock */
+  uint32_t gyros;         /* bit g: gyro g; likewise */
+  int32_t reserved;       /* 0 */
+  double sample_period_s; /* of the chip; each step within a tenth of it, 1e-5 .. 1 [s] */
+  double offset_s;        /* by which it is ahead of the common clock at since_s [s] */
+  double rate;            /* which it gains beside, +-0.05 [s/s] */
+  double since_s;         /* by this clock [s] */
+  double valid_s;         /* the bounds hold for so long before and after since_s [s] */
+  double offset_bound_s;  /* offset_bound_s + rate_bound valid_s is at most one common period [s] */
+  double rate_bound;      /* 0 .. 0.05 [s/s] */
+} plumb_chip_clock;
+/* Exact, for an hour; sensors and gyros are the caller's. Error: null_pointer. */
+plumb_error plumb_chip_clock_defaults(plumb_chip_clock* clock) PLUMB_NOEXCEPT;
+
+/* Numbers that plumb_clocks_push answers with: those of ClockPush (plumb/motion/motion_clocks.hpp). */
+const char* plumb_clock_push_text(int32_t push) PLUMB_NOEXCEPT;
+
+typedef struct plumb_clocks plumb_clocks; /* lives in storage of the caller; a plumb_motion is in it */
+
+int32_t plumb_clocks_capacity(void) PLUMB_NOEXCEPT; /* most clocks */
+size_t plumb_clocks_size(void) PLUMB_NOEXCEPT;
+size_t plumb_clocks_align(void) PLUMB_NOEXCEPT;
+
+/* Builds clocks and monitor in `storage`; `config` states chips as they are, and what clocks add is put on top.
+ * `wait_s`: a chip that has not delivered so long after an instant is left out, 5 to 40 sample periods of each chip
+ * [s]. Errors: those of plumb_motion_init, and those that plumb/motion/motion_clocks.hpp gives with their indices. */
+plumb_error plumb_clocks_init(void* storage, size_t storage_size, const plumb_motion_config* config,
+                              const plumb_chip_clock* clock, int32_t clocks, double wait_s,
+                              plumb_clocks** made) PLUMB_NOEXCEPT;
+/* A sample of one chip, with its own time; `push` (may be null) says what became of it. Any bit pattern is taken. */
+plumb_error plumb_clocks_push(plumb_clocks* clocks, int32_t clock, const plumb_motion_sample* sample,
+                              int32_t* push) PLUMB_NOEXCEPT;
+/* After a clock has been compared with the common one again. */
+plumb_error plumb_clocks_set(plumb_clocks* clocks, int32_t clock, double offset_s, double rate,
+                             double since_s) PLUMB_NOEXCEPT;
+/* The verdict of the next common instant, `*drawn` = 1, or 0 where it is not due yet: call it until then. `now_s`: the
+ * common time. On an error the verdict becomes that of plumb_motion_verdict_defaults. */
+plumb_error plumb_clocks_next(plumb_clocks* clocks, double now_s, plumb_motion_verdict* verdict,
+                              int32_t* drawn) PLUMB_NOEXCEPT;
+/* The monitor, for plumb_motion_set_in_service and plumb_motion_forget; null where there is none. */
+plumb_motion* plumb_clocks_motion(plumb_clocks* clocks) PLUMB_NOEXCEPT;
+
 /* Inclination of an axis of the tool while it moves: an interval, once per window, from the force that the monitor of
  * motion publishes (`ContinuousInclination`, docs/motion.md, docs/theory.md T13). */
 typedef struct plumb_inclination_config {

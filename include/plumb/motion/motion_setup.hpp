@@ -39,6 +39,9 @@ struct GyroErrors {
 
 /// Ten times the largest `rate_bound_radps`: a rate beyond it is none, no gyro gives more.
 inline constexpr double kMostRate_radps = 1e4;
+/// Some 1000 g. Nothing that navigates reads more, and the square of more would widen a sensor's own limits beyond any
+/// reading (REQ-202, T11: a limit that the fault itself raises).
+inline constexpr double kMostReading_mps2 = 1e4;
 /// What a healthy triad's rates may be off by in scale and axes, relative to their length as measured. Three axes that
 /// turn by `axis_rad` each are off by up to sqrt(2) times that together.
 double relative_error(const GyroErrors& bounds) noexcept;
@@ -75,6 +78,9 @@ struct MotionSample {
   SensorSet clipped;
   std::array<Vec3, kGyros> rate_radps{};
   std::array<bool, kGyros> rate_given{};
+  // What interpolation to this instant adds at most: `MotionClocks` states it. 0 where a reading is a sample.
+  Readings interpolation_mps2{};
+  std::array<double, kGyros> interpolation_radps{};  ///< of the length of the rate
 };
 
 /// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity); out_of_range and not_finite, with the value, the

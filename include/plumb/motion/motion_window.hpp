@@ -25,12 +25,13 @@ struct GyroMeans {
                                       ///< acceleration
   Symmetric rate_product{};           ///< triangle mean of w w'
   // What a shift in time changes: means of a derivative are differences at the edges of the blocks.
-  Vec3 edge_change_radps{};    ///< rate at the end, less twice that in the middle, plus that at the beginning
-  Vec3 step_change_radps{};    ///< the same of the change from sample to sample that happens there
-  Symmetric product_change{};  ///< of the mean w w' from one block to the next
-  double step_radps = 0.0;     ///< largest change from a sample to the next
-  double bend_radps = 0.0;     ///< largest second difference of three samples in a row
-  bool begun = false;          ///< no sample came before them: what the rate did there is not known
+  Vec3 edge_change_radps{};          ///< rate at the end, less twice that in the middle, plus that at the beginning
+  Vec3 step_change_radps{};          ///< the same of the change from sample to sample that happens there
+  Symmetric product_change{};        ///< of the mean w w' from one block to the next
+  double step_radps = 0.0;           ///< largest change from a sample to the next
+  double bend_radps = 0.0;           ///< largest second difference of three samples in a row
+  bool begun = false;                ///< no sample came before them: what the rate did there is not known
+  double interpolation_radps = 0.0;  ///< what interpolation adds to a rate at most
 };
 
 /// Two adjacent blocks of one scale.
@@ -45,6 +46,7 @@ struct MotionMeans {
   Readings slope_mps3{};    ///< triangle mean of the derivative
   Readings square_m2ps4{};  ///< triangle mean of the square
   Readings bend_mps2{};     ///< largest second difference of three samples in a row: what happens between samples
+  Readings interpolation_mps2{};  ///< what interpolation adds to a sample at most, the largest of them
   std::array<GyroMeans, kGyros> gyro{};
 
   /// Sum of the squared weights: the variance of a mean of white noise over that of a sample.
@@ -83,6 +85,8 @@ class MotionWindow {
     std::array<std::array<double, 2>, kMotionCapacity> reading{};
     std::array<std::array<double, 2>, kMotionCapacity> square{};
     std::array<double, kMotionCapacity> bend{};
+    std::array<double, kMotionCapacity> interpolation{};
+    std::array<double, kGyros> rate_interpolation{};
     std::array<Vec3, kGyros> rate{};
     std::array<RateEdges, kGyros> edges{};
     std::array<std::array<Symmetric, 2>, kGyros> product{};
