@@ -33,7 +33,7 @@ void MotionWindow::clear() noexcept {
   new (this) MotionWindow(sensors, gyros, period_s);
 }
 
-MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexcept {
+MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) noexcept {
   Sums out;
   out.count = 1;
   out.time_s = sample.time_s - origin_s_;
@@ -41,23 +41,28 @@ MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) const noexc
     const auto k = static_cast<std::size_t>(i);
     const double y = sample.reading_mps2[k];
     if (!sample.delivered.has(i) || !(std::fabs(y) <= kMostReading_mps2)) continue;
-    if (!bounds(sample.interpolation_mps2[k])) continue;
-    if (sample.clipped.has(i)) {
-      (y > 0.0 ? out.at_least : out.at_most) = (y > 0.0 ? out.at_least : out.at_most).with(i);
-    } else if (clipped_.has(i)) {
-      continue;  // it has not recovered yet
-    } else {
-      out.usable = out.usable.with(i);
+    const bool clipped = sample.clipped.has(i);
+    if (clipped_.has(i) && !clipped) continue;  // it has not recovered yet
+    const double interpolation = sample.interpolation_mps2[k];
+    if (interpolation != 0.0) {
+      if (!bounds(interpolation)) continue;
+      interpolated_ = true;
+      out.interpolation[k] = interpolation;
     }
-    out.interpolation[k] = sample.interpolation_mps2[k];
+    SensorSet& kind = !clipped ? out.usable : (y > 0.0 ? out.at_least : out.at_most);
+    kind = kind.with(i);
     out.reading[k] = {y, 0.5 * y};
     out.square[k] = {y * y, 0.5 * y * y};
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
-    out.given[g] =
-        sample.rate_given[g] && norm(sample.rate_radps[g]) <= kMostRate_radps && bounds(sample.interpolation_radps[g]);
+    out.given[g] = sample.rate_given[g] && norm(sample.rate_radps[g]) <= kMostRate_radps;
+    const double interpolation = sample.interpolation_radps[g];
+    if (interpolation != 0.0) {
+      out.given[g] = out.given[g] && bounds(interpolation);
+      interpolated_ = true;
+    }
     if (!out.given[g]) continue;
-    out.rate_interpolation[g] = sample.interpolation_radps[g];
+    out.rate_interpolation[g] = interpolation;
     out.rate[g] = sample.rate_radps[g];
     out.product[g][0] = product_of(out.rate[g]);
     for (std::size_t c = 0; c < 6; ++c) out.product[g][1][c] = 0.5 * out.product[g][0][c];
@@ -81,12 +86,10 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
     add(to.reading[i], part.reading[i]);
     add(to.square[i], part.square[i]);
     if (part.bend[i] > to.bend[i]) to.bend[i] = part.bend[i];
-    if (part.interpolation[i] > to.interpolation[i]) to.interpolation[i] = part.interpolation[i];
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     to.given[g] = (to.count == 0 || to.given[g]) && part.given[g];
     to.rate[g] = plus(to.rate[g], part.rate[g]);
-    if (part.rate_interpolation[g] > to.rate_interpolation[g]) to.rate_interpolation[g] = part.rate_interpolation[g];
     RateEdges& edges = to.edges[g];
     const RateEdges& more = part.edges[g];
     if (to.count == 0) edges = more;
@@ -101,6 +104,12 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
   }
   to.count += part.count;
   to.time_s += part.time_s;
+  if (!interpolated_) return;
+  const auto largest = [](auto& most, const auto& more) {
+    for (std::size_t k = 0; k < most.size(); ++k) most[k] = more[k] > most[k] ? more[k] : most[k];
+  };
+  largest(to.interpolation, part.interpolation);
+  largest(to.rate_interpolation, part.rate_interpolation);
 }
 
 /// From the middle of one block to that of the next.
@@ -192,7 +201,7 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
     out.reading_mps2[i] = triangle(a.reading[i], b.reading[i]);
     out.square_m2ps4[i] = triangle(a.square[i], b.square[i]);
     out.bend_mps2[i] = a.bend[i] > b.bend[i] ? a.bend[i] : b.bend[i];
-    out.interpolation_mps2[i] = a.interpolation[i] > b.interpolation[i] ? a.interpolation[i] : b.interpolation[i];
+    if (interpolated_) out.interpolation_mps2[i] = std::fmax(a.interpolation[i], b.interpolation[i]);
     out.slope_mps3[i] = (b.reading[i][0] - a.reading[i][0]) * inverse / out.span_s;
   }
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
@@ -210,8 +219,7 @@ MotionMeans MotionWindow::means(int scale) const noexcept {
     gyro.edge_change_radps = change(after.end, after.begin, before.begin);
     gyro.step_change_radps = change(after.end_step, after.begin_step, before.begin_step);
     gyro.begun = before.first;
-    const double first = a.rate_interpolation[g], second = b.rate_interpolation[g];
-    gyro.interpolation_radps = first > second ? first : second;
+    if (interpolated_) gyro.interpolation_radps = std::fmax(a.rate_interpolation[g], b.rate_interpolation[g]);
     gyro.step_radps = before.step > after.step ? before.step : after.step;
     gyro.bend_radps = before.bend > after.bend ? before.bend : after.bend;
     for (std::size_t c = 0; c < 6; ++c) {

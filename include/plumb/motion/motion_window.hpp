@@ -100,7 +100,7 @@ class MotionWindow {
   };
   static_assert(kMotionSamples[0] == 1);
 
-  Sums sums_of(const MotionSample& sample) const noexcept;
+  Sums sums_of(const MotionSample& sample) noexcept;
   void take(const Sums& sample) noexcept;
   void append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept;
   void close(Scale& scale) const noexcept;
@@ -115,8 +115,9 @@ class MotionWindow {
   int gyros_ = 0;
   double period_s_ = 0.0;
   double time_s_ = 0.0;
-  double origin_s_ = 0.0;  ///< of the first sample of the window
-  int begun_ = 0;          ///< samples since the last gap, at most two
+  double origin_s_ = 0.0;      ///< of the first sample of the window
+  int begun_ = 0;              ///< samples since the last gap, at most two
+  bool interpolated_ = false;  ///< some sample since then was interpolated
   unsigned ended_ = 0;
   int settling_ = 0;  ///< samples during which a channel that was clipped stays out
   SensorSet clipped_;
