@@ -162,7 +162,9 @@ std::vector<WorstCase> worst_cases(const GeometryStudy& study) {
 
 void find_warnings(GeometryStudy& study) {
   const int near_singular = study.merit.near_singular_triples;
-  if (study.merit.min_triple_det < kMinTripleDet) {
+  // Axes of chips are parallel by design, and each chip determines a vector or not, whatever the others do.
+  const bool chips = study.merit.units < static_cast<int>(study.sensors.size());
+  if (study.merit.min_triple_det < kMinTripleDet && !chips) {
     study.warnings.push_back(
         {FindingCode::near_singular_triples, -1, static_cast<double>(near_singular), kMinTripleDet});
   }

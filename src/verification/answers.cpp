@@ -18,7 +18,7 @@ double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 /// A grade counts these: chips, where the array file states them, with the sensors that are on none.
 std::string units_text(const ArrayFacts& array) {
-  const bool chips = array.units < static_cast<int>(array.sensors.size());
+  const bool chips = array.units > 0 && array.units < static_cast<int>(array.sensors.size());
   return chips ? count_text(array.units, "unit") + " (chips, and sensors on none)"
                : count_text(array.sensors.size(), "sensor");
 }
@@ -66,7 +66,7 @@ Answer how_large(const ArrayFacts& array) {
 std::vector<Answer> answers_of(const Facts& facts) {
   const ArrayFacts& array = facts.array;
   const int sensors = static_cast<int>(array.sensors.size());
-  const bool chips = array.units < sensors;
+  const bool chips = array.units > 0 && array.units < sensors;
   std::vector<Answer> out;
   out.push_back(
       {"How many faults?", fmt::format("{}", array.confirmed_grade),

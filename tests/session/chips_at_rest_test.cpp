@@ -2,6 +2,7 @@
 // fails it is named, and no other one.
 #include <gtest/gtest.h>
 
+#include "plumb/findings/geometry_study.hpp"
 #include "support/chip_tool.hpp"
 
 namespace chips_at_rest_test {
@@ -149,6 +150,22 @@ TEST(ChipsAtRest, WhileAChipIsInDoubtTheLevelCoversTheTruth) {
     }
   }
   EXPECT_GE(checked, 500);
+}
+
+/// Parallel axes of chips are no flaw to be mended by turning one.
+// Verifies: REQ-206
+TEST(ChipsAtRest, GeometryCountsChipsAndDoesNotAdviseToTurnOne) {
+  const auto warned = [](const SensorArray& array) {
+    findings::GeometrySubject subject;
+    subject.array = array;
+    subject.gravity = {kG0_mps2, 1e-4 * kG0_mps2, GravityModel::value};
+    const findings::GeometryStudy study = findings::study_geometry(subject);
+    EXPECT_EQ(study.merit.units, array.units().size());
+    return !study.warnings.empty();
+  };
+  EXPECT_FALSE(warned(chip_array(3)));
+  EXPECT_FALSE(warned(chip_array(2)));
+  EXPECT_TRUE(warned(chip_array(3, {}, false)));
 }
 
 }  // namespace
