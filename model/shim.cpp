@@ -53,8 +53,9 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   DecisionInput in;
   in.raised = input->raised;
   in.from_motion = input->from_motion;
-  in.named = {SensorSet(input->isolated), SensorSet(input->suspected), SensorSet(input->lost),
-              SensorSet(input->back),     SensorSet(input->proven),    SensorSet(input->reset)};
+  // The specification knows sensors, and no chips: every sensor is a unit.
+  in.named = {SensorSet(input->isolated), SensorSet(input->suspected), SensorSet(input->lost), SensorSet(input->back),
+              SensorSet(input->proven),   SensorSet(input->reset),     SensorUnits{}};
   in.protection_within = input->protection_within != 0;
   in.calibrated = state->calibrated != 0;
   in.passed_blocks = input->passed_blocks;

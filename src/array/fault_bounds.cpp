@@ -19,20 +19,24 @@ void raise(double& entry, double to) noexcept {
   if (to > entry) entry = to;
 }
 
-/// One vertex: what it does to the vector, and to every sensor that is not to be trusted.
+/// One vertex: what it does to the vector, and to every sensor that is not to be trusted. The units of its corner are
+/// trusted with all of their sensors, and units are what is counted.
 void count_vertex(const SensorArray& array, const Readings& slack, SensorSet corner, const Vec3& d,
                   FaultBounds& out) noexcept {
+  const SensorUnits& units = array.units();
+  const SensorSet trusted = units.whole(corner);
   Readings off{};
   SensorSet objects;
   for (int i = 0; i < array.size(); ++i) {
     off[index(i)] = std::fabs(dot(array.axis(i), d));
     if (!corner.has(i) && off[index(i)] > slack[index(i)] * (1.0 + kTouches)) objects = objects.with(i);
   }
-  const int against = objects.size();
+  if (!(objects & trusted).empty()) return;  // no vertex of what these units allow
+  const int against = units.count(objects);
   raise(out.vector_error[index(against)], norm(d));
   for (int i = 0; i < array.size(); ++i) {
-    if (corner.has(i)) continue;
-    const int k = objects.with(i).size();
+    if (trusted.has(i)) continue;
+    const int k = units.count(objects.with(i));
     raise(out.fault[index(k)][index(i)], slack[index(i)] + off[index(i)]);
   }
 }
@@ -64,9 +68,9 @@ FaultBounds fault_bounds(const SensorArray& array, const Readings& slack) noexce
   const int n = array.size();
   out.sensors = n;
   for (int t = 0; t < array.triple_count(); ++t) count_triple(array, slack, t, out);
-  const int last = n - 1 - coplanarity(array, array.all());
+  const int last = array.units().size() - 1 - coplanarity(array, array.all());
   for (int k = 1; k <= n; ++k) {
-    // Whoever may distrust k sensors may distrust fewer.
+    // Whoever may distrust k units may distrust fewer.
     raise(out.vector_error[index(k)], out.vector_error[index(k - 1)]);
     if (k > last) {
       out.fault[index(k)].fill(kInfinity);

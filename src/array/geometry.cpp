@@ -189,12 +189,31 @@ Vec3 singular_values_of(const SensorArray& array, SensorSet used) noexcept {
   return array_detail::singular_values(weighted_rows(array, select(array, used, Weights::geometric)));
 }
 
-int axes_near_plane(const SensorArray& array, SensorSet used, const Vec3& normal) noexcept {
-  int count = 0;
+SensorSet axes_near_plane(const SensorArray& array, SensorSet used, const Vec3& normal) noexcept {
+  SensorSet out;
   for (int k = 0; k < array.size(); ++k) {
-    if (used.has(k) && std::fabs(dot(array.axis(k), normal)) <= kPlaneTolerance) ++count;
+    if (used.has(k) && std::fabs(dot(array.axis(k), normal)) <= kPlaneTolerance) out = out.with(k);
   }
-  return count;
+  return out;
+}
+
+/// The most that `count` makes of the axes of `set` within kPlaneTolerance of one plane.
+template <class Count>
+int most_in_one_plane(const SensorArray& array, SensorSet set, Count&& count) noexcept {
+  int most = 0;
+  for (int i = 0; i < array.size(); ++i) {
+    for (int j = i + 1; j < array.size(); ++j) {
+      // Planes of all pairs, in use or not: were a plane forgotten with one of its two sensors, c could
+      // fall by more than one, and losing a sensor would raise the grade.
+      const Vec3 normal = cross(array.axis(i), array.axis(j));
+      const double sine = norm(normal);
+      // A parallel pair spans no plane; each of the two spans one with every other axis, and that counts both.
+      if (sine < array_detail::kRankTolerance) continue;
+      const int here = count(axes_near_plane(array, set, scaled(normal, 1.0 / sine)));
+      if (here > most) most = here;
+    }
+  }
+  return most;
 }
 
 double nearest_angle(const SensorArray& array) noexcept {
@@ -273,31 +292,25 @@ SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis
   return out;
 }
 
+bool spans_space(const SensorArray& array, SensorSet used) noexcept {
+  const SensorSet set = used & array.all();
+  return rank_of(array, set) == 3 &&
+         most_in_one_plane(array, set, [](SensorSet near) { return near.size(); }) < set.size();
+}
+
 int coplanarity(const SensorArray& array, SensorSet used) noexcept {
   const SensorSet set = used & array.all();
-  if (rank_of(array, set) < 3) return set.size();
-  int most = 2;
-  for (int i = 0; i < array.size(); ++i) {
-    for (int j = i + 1; j < array.size(); ++j) {
-      // Planes of all pairs, in use or not: were a plane forgotten with one of its two sensors, c could
-      // fall by more than one, and losing a sensor would raise the grade.
-      const Vec3 normal = cross(array.axis(i), array.axis(j));
-      const double sine = norm(normal);
-      // A parallel pair spans no plane; each of the two spans one with every other axis, and that counts both.
-      if (sine < array_detail::kRankTolerance) continue;
-      const int count = axes_near_plane(array, set, scaled(normal, 1.0 / sine));
-      if (count > most) most = count;
-    }
-  }
-  return most;
+  const SensorUnits& units = array.units();
+  if (rank_of(array, set) < 3) return units.count(set);
+  return most_in_one_plane(array, set, [&](SensorSet near) { return units.units_within(near, set).size(); });
 }
 
 int confirmed_grade(const SensorArray& array, SensorSet used) noexcept {
-  return confirmed_grade((used & array.all()).size(), coplanarity(array, used));
+  return confirmed_grade(array.units().count(used & array.all()), coplanarity(array, used));
 }
 
 int provisional_grade(const SensorArray& array, SensorSet used) noexcept {
-  return provisional_grade((used & array.all()).size(), coplanarity(array, used));
+  return provisional_grade(array.units().count(used & array.all()), coplanarity(array, used));
 }
 
 SensorSet critical_sensors(const SensorArray& array, SensorSet used) noexcept {
@@ -305,8 +318,7 @@ SensorSet critical_sensors(const SensorArray& array, SensorSet used) noexcept {
   SensorSet critical;
   for (int i = 0; i < array.size(); ++i) {
     if (!set.has(i)) continue;
-    const SensorSet rest = set.without(i);
-    if (coplanarity(array, rest) >= rest.size()) critical = critical.with(i);
+    if (!spans_space(array, set.without(i))) critical = critical.with(i);
   }
   return critical;
 }
@@ -327,9 +339,10 @@ FiguresOfMerit figures_of_merit(const SensorArray& array) noexcept {
     if (!t.votes) ++out.near_singular_triples;
   }
   out.common_bias_visibility = common_bias_visibility(array);
+  out.units = array.units().size();
   out.coplanarity = coplanarity(array, array.all());
-  out.confirmed_grade = confirmed_grade(array.size(), out.coplanarity);
-  out.provisional_grade = provisional_grade(array.size(), out.coplanarity);
+  out.confirmed_grade = confirmed_grade(out.units, out.coplanarity);
+  out.provisional_grade = provisional_grade(out.units, out.coplanarity);
   return out;
 }
 

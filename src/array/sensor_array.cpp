@@ -185,8 +185,9 @@ Expected<void> SensorArray::set_rows(const SensorRow* rows) noexcept {
   return {};
 }
 
-/// What the axes make of the triples.
+/// What the axes make of the triples, and the chips of the units.
 void SensorArray::derive() noexcept {
+  units_ = SensorUnits::of_chips(size_, [this](int i) { return row(i).chip; });
   std::size_t next = 0;
   for (int i = 0; i < size_; ++i) {
     for (int j = i + 1; j < size_; ++j) {

@@ -67,6 +67,9 @@ plumb_error take_sensors(const plumb_config& config, Workspace& work) noexcept {
     std::copy(given.id, given.id + 15, row.id.begin());
     row.axis = array_of(given.axis);
     row.sigma_mps2 = given.sigma_mps2;
+    if (given.chip < 0 || given.chip > 255)
+      return answer({Errc::out_of_range, i, static_cast<double>(given.chip), 255.0});
+    row.chip = static_cast<std::uint8_t>(given.chip);
     SensorCoefficients& c = setup.model.sensor[a];
     c.scale = array_of(given.scale);
     c.bias = array_of(given.bias_mps2);

@@ -103,7 +103,7 @@ std::vector<Expectation> read_expectations(const TomlTable& top) {
   return out;
 }
 
-/// Every combination, less those that ask for more faults than there are sensors to lie, or than the grade bears.
+/// Every combination, less those that ask for more faults than there are units to lie, or than the grade bears.
 void lay_cells(const TomlTable& top, const std::vector<FaultFamily>& families, const std::vector<double>& gravity,
                bool within_grade, Plan& plan) {
   for (const FaultFamily& family : families) {
@@ -115,7 +115,7 @@ void lay_cells(const TomlTable& top, const std::vector<FaultFamily>& families, c
       for (const int faulty : counts) {
         for (size_t tool = 0; tool < plan.tools.size(); ++tool) {
           const ToolPlan& t = plan.tools[tool];
-          if (faulty > (within_grade ? t.grade : t.sensors - 1)) continue;
+          if (faulty > (within_grade ? t.grade : t.units() - 1)) continue;
           for (size_t attitude = 0; attitude < plan.attitudes.size(); ++attitude) {
             for (const double error : gravity) {
               plan.cells.push_back(
@@ -290,6 +290,7 @@ std::uint64_t hash_of(const Plan& plan) {
     hash.add(tool.detectable_mps2.data(), sizeof tool.detectable_mps2);
     hash.add(tool.volt_per_mps2);
     hash.add(tool.resolution_raw);
+    if (tool.units() < tool.sensors) hash.add(tool.chip.data(), sizeof tool.chip);
     for (const auto& stability : tool.stability) hash.add(stability.data(), sizeof stability);
   }
   for (const AttitudePlan& a : plan.attitudes) {

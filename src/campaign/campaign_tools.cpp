@@ -115,6 +115,7 @@ std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& moni
     const double shrink = std::sqrt(static_cast<double>(whole(table, "samples_per_row", 1, 1, kMostBehindARow)));
     for (int i = 0; i < array.size(); ++i) {
       tool.axis[static_cast<size_t>(i)] = array.axis(i);
+      tool.chip[static_cast<size_t>(i)] = array.row(i).chip;
       tool.sigma_mps2[static_cast<size_t>(i)] = array.sigma_mps2(i) / shrink;
       const Stability own = io::read_stability(table, stability[static_cast<size_t>(i)]);
       tool.stability[static_cast<size_t>(i)] = {own.mps2, own.per_day_mps2, own.per_degc_mps2,

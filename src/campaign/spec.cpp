@@ -4,6 +4,7 @@
 
 #include "plumb/campaign/outcome.hpp"
 #include "plumb/campaign/plan.hpp"
+#include "plumb/core/sensor_set.hpp"
 #include "plumb/scenario/fault.hpp"
 #include "plumb/scenario/portable_math.hpp"
 #include "plumb/scenario/random.hpp"
@@ -34,7 +35,49 @@ double size_in_mdb(const FaultPlan& fault, Draws& draws) noexcept {
   return scenario::portable_exp(low + (high - low) * draws.uniform());
 }
 
+/// Units at fault, drawn one after another: every subset of a size is as likely as any other.
+class Struck {
+ public:
+  explicit Struck(const ToolPlan& tool) noexcept : tool_(tool), units_(tool.units()) {
+    for (int i = 0; i < tool.sensors; ++i) left_ = left_.with(SensorSet(tool.unit_with(i)).lowest());
+  }
+  /// The sensors that fail: of the chips half fail with all of their axes, half with one.
+  SensorSet next(Draws& draws) noexcept {
+    int skip = draws.below(units_--), first = 0;
+    while (!left_.has(first) || skip-- > 0) ++first;
+    left_ = left_.without(first);
+    const SensorSet unit(tool_.unit_with(first));
+    if (unit.size() == 1 || draws.below(2) == 0) return unit;
+    int one = first;
+    for (int axis = draws.below(unit.size()); axis > 0; --axis) {
+      do ++one;
+      while (!unit.has(one));
+    }
+    return SensorSet::of(one);
+  }
+
+ private:
+  const ToolPlan& tool_;
+  SensorSet left_;  ///< the first sensors of the units that have not been chosen
+  int units_;
+};
+
 }  // namespace
+
+std::uint32_t ToolPlan::unit_with(int sensor) const noexcept {
+  std::uint32_t out = 1U << sensor;
+  const std::uint8_t own = chip[static_cast<std::size_t>(sensor)];
+  for (int i = 0; i < sensors && own != 0; ++i) {
+    if (chip[static_cast<std::size_t>(i)] == own) out |= 1U << i;
+  }
+  return out;
+}
+
+int ToolPlan::units() const noexcept {
+  int out = 0;
+  for (int i = 0; i < sensors; ++i) out += SensorSet(unit_with(i)).lowest() == i ? 1 : 0;
+  return out;
+}
 
 Spec spec_of(const Plan& plan, std::uint64_t number) {
   Spec spec;
@@ -53,38 +96,42 @@ Spec spec_of(const Plan& plan, std::uint64_t number) {
   spec.calibration_mps2 = plan.calibration_mps2;
   if (fault.healthy) return spec;
   const int onset = plan.first_onset + draws.below(plan.last_onset - plan.first_onset + 1);
-  std::uint32_t chosen = 0;
-  spec.faults = fault.whole_log ? 1 : std::min(cell.faulty, kMostFaults);
-  for (int k = 0; k < spec.faults; ++k) {
-    SpecFault& one = spec.fault[static_cast<std::size_t>(k)];
+  Struck struck(tool);
+  const int units = fault.whole_log ? 1 : std::min(cell.faulty, kMostFaults);
+  double mdb = 0.0;
+  for (int k = 0; k < units; ++k) {
+    SpecFault one;
     one.kind = fault.kind;
     one.onset_station = onset;
     one.duration_stations = fault.duration_stations;
     one.magnitude = fault.magnitude;
     one.upper = fault.upper;
     one.sensor = scenario::kWholeLog;
-    if (fault.whole_log) continue;
-    // The next sensor that has not been chosen: every subset of this size is as likely as any other.
-    int skip = draws.below(tool.sensors - k);
-    one.sensor = 0;
-    while ((chosen >> one.sensor & 1U) != 0 || skip-- > 0) ++one.sensor;
-    chosen |= 1U << one.sensor;
-    if (fault.most_mdb > 0.0) {
-      const double mdb = size_in_mdb(fault, draws);
-      one.magnitude = draws.sign() * mdb * tool.detectable_mps2[static_cast<std::size_t>(one.sensor)];
-      if (spec.faults == 1) spec.largest_mdb = mdb;
+    if (fault.whole_log) {
+      spec.fault[static_cast<std::size_t>(spec.faults++)] = one;
+      continue;
+    }
+    const SensorSet failing = struck.next(draws);
+    for (one.sensor = failing.lowest(); one.sensor < tool.sensors && spec.faults < kMostFaults; ++one.sensor) {
+      if (!failing.has(one.sensor)) continue;
+      if (fault.most_mdb > 0.0) {
+        mdb = size_in_mdb(fault, draws);
+        one.magnitude = draws.sign() * mdb * tool.detectable_mps2[static_cast<std::size_t>(one.sensor)];
+      }
+      spec.fault[static_cast<std::size_t>(spec.faults++)] = one;
     }
   }
+  if (spec.faults == 1) spec.largest_mdb = mdb;
   return spec;
 }
 
-std::uint32_t faulty_of(const Spec& spec) noexcept {
+std::uint32_t faulty_of(const ToolPlan& tool, const Spec& spec) noexcept {
   std::uint32_t bits = 0;
   for (int k = 0; k < spec.faults; ++k) {
     const SpecFault& fault = spec.fault[static_cast<std::size_t>(k)];
-    if (fault.sensor >= 0) bits |= 1U << fault.sensor;
+    if (fault.sensor >= 0) bits |= tool.unit_with(fault.sensor);
     if (fault.kind == static_cast<int>(scenario::FaultKind::exchange)) {
-      bits |= 1U << static_cast<unsigned>(fault.magnitude);
+      bits |= tool.unit_with(static_cast<int>(fault.magnitude));
     }
   }
   return bits;

@@ -45,7 +45,7 @@ constexpr double kCertainRate = 0.05;
 constexpr double kMostSpread = 0.01;
 
 /// So many of the others are doubted at once, at most: all that the provisional grade bears of eight; among more
-/// sensors the choices would take too long.
+/// units the choices would take too long.
 constexpr int most_doubted(int n) noexcept { return n <= 8 ? 4 : 3; }
 
 /// Scatter of the residual of a channel against the estimate of others.
@@ -70,15 +70,17 @@ ResidualScatter residual_scatter(const SensorArray& array, const BlockAccumulato
   return {variance / expected, block.covariance(i, i) - own_noise, variance - expected};
 }
 
-/// True where the scatter of channel i is its own, whichever `grade` sensors of `calm` are missing in the estimate:
-/// with at most that many faulty ones among them, some choice leaves healthy sensors only, and those would have
-/// predicted a movement of the tool.
+/// True where the scatter of channel i is its own, whichever `grade` units of `calm` are missing in the estimate: with
+/// at most that many faulty ones among them, some choice leaves healthy sensors only, and those would have predicted a
+/// movement of the tool.
 bool own_for_certain(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise, SensorSet calm,
                      int i, int grade) noexcept {
   const double least_ratio = scatter_factor(1, block.size(), kCertainRate);
-  for (SensorSet left = SensorSet::first(grade); array.all().contains(left); left = next_of_same_size(left)) {
-    if (!calm.contains(left)) continue;
-    const LeastSquares ls = least_squares(array, calm - left);
+  const SensorUnits& units = array.units();
+  const SensorSet doubted = units.units_of(calm);
+  for (SensorSet left = SensorSet::first(grade); units.all().contains(left); left = next_of_same_size(left)) {
+    if (!doubted.contains(left)) continue;
+    const LeastSquares ls = least_squares(array, calm - units.sensors_of(left));
     if (!ls.valid) return false;
     const ResidualScatter r = residual_scatter(array, block, noise, ls, i);
     // Few that lie badly say little of what the others feel: noise times a large factor.
@@ -242,6 +244,13 @@ double scatter_factor(int n, int size, double rate) noexcept {
 
 namespace {
 
+/// So few units at rest may all hang at what they last said, in a tool that the others rightly show to move. A chip
+/// feels every movement by itself, so that all may hang but one, and that one alone may be noisy just as well: of chips
+/// it is the provisional grade, at which those that move check each other (docs/theory.md, section 5.7).
+int most_that_hang(const SensorArray& array, SensorSet judged) noexcept {
+  return array.units().grouped() ? provisional_grade(array, judged) : confirmed_grade(array, judged);
+}
+
 /// Sorts the scattering channels: noisy ones, and whether the rest leaves the tool at rest.
 void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& block, const BlockNoise& noise,
                             const LeastSquares& ls, double factor, ScatterRecord* record,
@@ -253,7 +262,7 @@ void tell_noise_from_motion(const SensorArray& array, const BlockAccumulator& bl
     }
   }
   if (out.scattering.empty()) return;
-  const int grade = std::min(provisional_grade(array, calm | out.scattering), most_doubted(array.size()));
+  const int grade = std::min(provisional_grade(array, calm | out.scattering), most_doubted(array.units().size()));
   for (int i = 0; i < array.size(); ++i) {
     if (!out.scattering.has(i)) continue;
     const ResidualScatter r = residual_scatter(array, block, noise, ls, i);
@@ -316,9 +325,8 @@ BlockJudgement judge_block(const SensorArray& array, const BlockAccumulator& blo
   const bool at_hand = known != nullptr && known->valid && known->used == calm;
   const LeastSquares ls = at_hand ? *known : least_squares(array, calm);
   out.quiet = ls.valid;
-  // So few ones at rest may all hang at what they last said, in a tool that the others rightly show to move.
   const bool may_hang = out.scattering.size() >= 3 && rank_of(array, out.scattering) == 3 &&
-                        calm.size() <= confirmed_grade(array, judged);
+                        array.units().count(calm) <= most_that_hang(array, judged);
   if (ls.valid && may_hang) {
     out.quiet = false;
   } else if (ls.valid) {

@@ -21,7 +21,7 @@ void for_each_subset(int universe, int size, F&& f) noexcept {
   }
 }
 
-/// Calls f(F) for every subset of `monitored` with at most `depth` members, and none of more than three, smallest
+/// Calls f(F) for every set of units of `monitored` with at most `depth` members, and none of more than three, smallest
 /// first.
 template <class F>
 void for_each_fault_set(SensorSet monitored, int n, int depth, F&& f) noexcept {
@@ -82,7 +82,10 @@ void Isolation::clear() noexcept {
 
 void Isolation::pose(const SensorArray& array, SensorSet monitored) noexcept {
   const int c = plumb::coplanarity(array, monitored);
-  if (c + 1 != voting_size_ || !monitored_.contains(monitored) || universe_ != array.size()) clear();
+  const SensorUnits& units = array.units();
+  // What a chip without an axis reads was never tested.
+  const bool whole = (units.whole(monitored) & monitored_) == monitored;
+  if (c + 1 != voting_size_ || !monitored_.contains(monitored) || units_.size() != units.size() || !whole) clear();
   resume(array, monitored, c);
 }
 
@@ -92,26 +95,28 @@ void Isolation::resume(const SensorArray& array, SensorSet monitored) noexcept {
 
 void Isolation::resume(const SensorArray& array, SensorSet monitored, int c) noexcept {
   monitored_ = monitored;
-  universe_ = static_cast<std::int8_t>(array.size());
+  units_ = array.units();
   coplanarity_ = static_cast<std::int8_t>(c);
   voting_size_ = static_cast<std::int8_t>(c + 1);
-  const int sensors = (monitored & array.all()).size();
-  const bool strict_possible = universe_ <= kStrictCapacity;
-  strict_ = static_cast<std::int8_t>(strict_possible ? plumb::confirmed_grade(sensors, c) : 0);
-  parity_ = static_cast<std::int8_t>(plumb::provisional_grade(sensors, c));
+  const int units = units_.count(monitored & array.all());
+  const bool strict_possible = units_.size() <= kStrictCapacity;
+  strict_ = static_cast<std::int8_t>(strict_possible ? plumb::confirmed_grade(units, c) : 0);
+  parity_ = static_cast<std::int8_t>(plumb::provisional_grade(units, c));
   if (!strict_possible && parity_ > kScanDepth) parity_ = kScanDepth;
   voting_ = 0;
   if (strict_ < 1) return;
-  for_each_subset(universe_, voting_size_, [&](SensorSet s, int) {
-    if (monitored_.contains(s)) ++voting_;
+  const SensorSet asked = monitored_units();
+  for_each_subset(units_.size(), voting_size_, [&](SensorSet u, int) {
+    if (asked.contains(u)) ++voting_;
   });
 }
 
 int Isolation::live() const noexcept {
   int count = 0;
   if (strict_ < 1) return count;
-  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (monitored_.contains(s) && !is_rejected(index)) ++count;
+  const SensorSet asked = monitored_units();
+  for_each_subset(units_.size(), voting_size_, [&](SensorSet u, int index) {
+    if (asked.contains(u) && !is_rejected(index)) ++count;
   });
   return count;
 }
@@ -124,10 +129,10 @@ bool Isolation::any_rejected() const noexcept {
 
 bool Isolation::has_rejected_subset(SensorSet set) const noexcept {
   if (strict_ < 1) return false;
-  const SensorSet all = SensorSet::first(universe_);
+  const SensorSet all = units_.all(), whole = units_.units_within(set, units_.grouped() ? monitored_ : set);
   int index = 0;
-  for (SensorSet s = SensorSet::first(voting_size_); all.contains(s); s = next_of_same_size(s), ++index) {
-    if (is_rejected(index) && set.contains(s)) return true;
+  for (SensorSet u = SensorSet::first(voting_size_); all.contains(u); u = next_of_same_size(u), ++index) {
+    if (is_rejected(index) && whole.contains(u)) return true;
   }
   return false;
 }
@@ -135,7 +140,7 @@ bool Isolation::has_rejected_subset(SensorSet set) const noexcept {
 SensorSet Isolation::exclude_by_parity(const BlockTests& tests, SensorSet corroborating) const noexcept {
   const TestLimits& limits = tests.limits();
   // Where a monitored sensor did not deliver, the published grade does not hold for the rest: no sensor is excluded.
-  const SensorSet asked = monitored_;
+  const SensorSet asked = monitored_, units = monitored_units();
   const int grade = provisional_grade();
   if (grade < 1 || !tests.block().usable.contains(asked)) return {};
   SensorSet cleared;
@@ -143,15 +148,16 @@ SensorSet Isolation::exclude_by_parity(const BlockTests& tests, SensorSet corrob
     if (cleared.contains(s)) return;
     if (!corroborating.contains(s) || tests.of(s).parity_consistent(limits)) cleared = cleared | s;
   };
-  if (universe_ <= kStrictCapacity) {
-    const int size = asked.size() - grade;
-    for_each_subset(universe_, size, [&](SensorSet s, int) {
-      if (asked.contains(s)) hear(s);
+  if (units_.size() <= kStrictCapacity) {
+    const int size = units.size() - grade;
+    for_each_subset(units_.size(), size, [&](SensorSet u, int) {
+      if (units.contains(u)) hear(sensors_of(u));
     });
   }
-  for_each_fault_set(asked, universe_, grade < kScanDepth ? grade : kScanDepth, [&](SensorSet f) { hear(asked - f); });
+  for_each_fault_set(units, units_.size(), grade < kScanDepth ? grade : kScanDepth,
+                     [&](SensorSet f) { hear(asked - sensors_of(f)); });
   const SensorSet excluded = asked - cleared;
-  if (excluded.empty() || excluded.size() > grade) return {};
+  if (excluded.empty() || units_.count(excluded) > grade) return {};
   const SetTest& rest = tests.of(asked - excluded);
   const bool agree = rest.tested && rest.parity_consistent(limits);
   return agree ? excluded : SensorSet{};
@@ -172,11 +178,13 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet corroborating
 
   const bool delivered = panel.delivered == monitored_;
   const bool one_gravity = delivered && holds_one_gravity(tests, panel, hears, record_);
+  const SensorSet asked = monitored_units();
   SensorSet innocent;
-  for_each_subset(universe_, voting_size_, [&](SensorSet s, int index) {
-    if (!monitored_.contains(s) || is_rejected(index)) return;
+  for_each_subset(units_.size(), voting_size_, [&](SensorSet u, int index) {
+    if (!asked.contains(u) || is_rejected(index)) return;
+    const SensorSet s = sensors_of(u);
     if (!corroborating.contains(s) || consistent_here(s)) {
-      if (one_gravity && contradicts_one_gravity(tests, s, hears, record_)) return;
+      if (one_gravity && contradicts_one_gravity(tests, panel, u, hears, record_)) return;
       innocent = innocent | s;
       ++out.live;
     } else {
@@ -185,7 +193,7 @@ IsolationAnswer Isolation::vote(const BlockTests& tests, SensorSet corroborating
   });
   out.no_consistent_hypothesis = out.live == 0;
   const SensorSet suspected = monitored_ - innocent;
-  if (!out.no_consistent_hypothesis && !suspected.empty() && suspected.size() <= strict_) {
+  if (!out.no_consistent_hypothesis && !suspected.empty() && units_.count(suspected) <= strict_) {
     const SensorSet survivors = monitored_ - suspected;
     const bool tested = tests.of(survivors).tested;
     if (tested && consistent_here(survivors)) out.strict = suspected;
@@ -198,6 +206,7 @@ namespace {
 /// One explanation of a block: `faults` are faulty, and `rest` healthy.
 struct Hypothesis {
   SensorSet faults, rest;
+  int size = 0;           ///< so many units are faulty
   const SetTest& test;    ///< of the rest
   bool explains = false;  ///< the rest is tested, and nothing speaks against it
 };
@@ -209,7 +218,7 @@ class CommonFaults {
   CommonFaults(SensorSet monitored, int most, SensorSet corroborating) noexcept
       : common_(monitored), corroborating_(corroborating), most_(most) {}
   void note(const Hypothesis& h) noexcept {
-    if (h.faults.size() <= most_ && (h.explains || !h.test.tested || !corroborating_.contains(h.rest))) {
+    if (h.size <= most_ && (h.explains || !h.test.tested || !corroborating_.contains(h.rest))) {
       common_ = common_ & h.faults;
       any_ = true;
     }
@@ -230,7 +239,7 @@ class Levels {
       : tests_(tests), used_(used), protect_(protect) {}
   void note(const Hypothesis& h) noexcept {
     if (!used_.tested) return;
-    const auto size = static_cast<size_t>(h.faults.size());
+    const auto size = static_cast<size_t>(h.size);
     if (!h.test.tested) raise(size, mirror_separation_rad(tests_, used_.x_mps2, h.rest, protect_));
     if (!h.explains) return;
     raise(size, separation_rad(tests_, used_.x_mps2, h.rest, h.test, protect_));
@@ -267,7 +276,7 @@ class Levels {
 };
 
 void note_explanation(const Hypothesis& h, FaultSetScan& out) noexcept {
-  const int size = h.faults.size();
+  const int size = h.size;
   for (int i = 0; i < kCapacity; ++i) {
     if (h.rest.has(i) && size < out.minimum_faults[static_cast<size_t>(i)])
       out.minimum_faults[static_cast<size_t>(i)] = static_cast<std::uint8_t>(size);
@@ -301,7 +310,7 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   const SetTest& used = tests.of(in_service & tests.block().usable);
   const Grounds by = grounds(tests);
   Levels levels(tests, used, protect);
-  CommonFaults common(monitored, assumed_faults, corroborating);
+  CommonFaults common(monitored_, assumed_faults, corroborating);
   const int most = faults_covered(protect, protect.suspected(confirmed_grade()), confirmed_grade());
   if (depth < most) depth = most;
   // Who is provisionally excluded is out of the estimate as if excluded: the next fault is also one of those that are
@@ -310,10 +319,10 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   for (const bool of_those_left : {false, true}) {
     const SensorSet all = of_those_left ? left : monitored;
     if (of_those_left && left == monitored) break;
-    for_each_fault_set(all, universe_, of_those_left ? protect.faults : depth, [&](SensorSet f) {
-      const SensorSet rest = all - f;
+    for_each_fault_set(units_.units_of(all), units_.size(), of_those_left ? protect.faults : depth, [&](SensorSet u) {
+      const SensorSet f = sensors_of(u), rest = all - f;
       const SetTest& test = tests.of(rest);
-      const Hypothesis h = {f, rest, test, explains(limits, by, rest, test)};
+      const Hypothesis h = {f, rest, u.size(), test, explains(limits, by, rest, test)};
       levels.note(h);
       if (of_those_left) return;
       common.note(h);
@@ -324,7 +333,7 @@ FaultSetScan Isolation::scan(const BlockTests& tests, SensorSet in_service, int 
   for_each_common_cause(tests.array(), left, monitored - left, [&](SensorSet alike) {
     const SensorSet rest = left - alike;
     const SetTest& test = tests.of(rest);
-    levels.note({SensorSet::of(alike.lowest()), rest, test, explains(limits, by, rest, test)});
+    levels.note({alike, rest, 1, test, explains(limits, by, rest, test)});
   });
   const int suspected = protect.suspected(out.least <= kScanDepth ? out.least : 0);
   out.covered = faults_covered(protect, suspected, confirmed_grade());
@@ -346,8 +355,8 @@ bool Isolation::bounded_without(const BlockTests& tests, SensorSet in_service, c
   const int faults = scan.least > scan.covered ? scan.least : scan.covered;
   if (!unsuspected.tested || faults > kScanDepth) return false;
   const Grounds by = grounds(tests);
-  return all_fault_sets(monitored, universe_, faults, [&](SensorSet f) {
-    const SensorSet rest = monitored - f;
+  return all_fault_sets(units_.units_of(monitored), units_.size(), faults, [&](SensorSet u) {
+    const SensorSet rest = monitored - sensors_of(u);
     const SetTest& t = tests.of(rest);
     if (!t.tested) return mirror_separation_rad(tests, unsuspected.x_mps2, rest, protect) <= limit_rad;
     return !explains(tests.limits(), by, rest, t) ||

@@ -14,18 +14,16 @@ constexpr double kMinLeverage = 0.002;
 /// the length less well, are off by is noise on top of the same error, and must not be held against them first.
 constexpr double kDoubtShare = 0.5;
 
-/// Sensors of the smallest sets that are asked.
-int smallest_asked(int coplanarity) noexcept { return coplanarity + 2 > 4 ? coplanarity + 2 : 4; }
-
-/// The sets that are asked, one after another: large ones first, smaller ones only while none agrees with gravity.
+/// The sets of units that are asked, one after another: large ones first, smaller ones only while none agrees with
+/// gravity.
 class Questions {
  public:
   explicit Questions(const ReferencePanel& panel) noexcept
-      : asked_(panel.delivered),
-        all_(SensorSet::first(panel.universe)),
-        smallest_(smallest_asked(panel.coplanarity)),
-        few_(panel.universe <= kStrictCapacity),
-        deep_(panel.delivered.size() - (panel.universe <= kStrictCapacity ? kScanDepth : kScanDepth - 1)) {
+      : asked_(panel.asked()),
+        all_(panel.units.all()),
+        smallest_(panel.smallest_checked()),
+        few_(panel.universe() <= kStrictCapacity),
+        deep_(asked_.size() - (few_ ? kScanDepth : kScanDepth - 1)) {
     begin(asked_.size() < smallest_ ? 0 : asked_.size());
     find(false);
   }
@@ -76,12 +74,13 @@ struct Testimony {
   LengthError off;      ///< what it claims
 };
 
-Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, const ParitySums& sums, SensorSet set,
+Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, const ParitySums& sums, SensorSet units,
                        int rank) noexcept {
   const TestLimits& limits = tests.limits();
+  const SensorSet set = panel.sensors_of(units);
   Testimony out;
   const SetTest& t = tests.of(set);
-  if (!t.tested || !t.parity_consistent(limits)) return out;  // four or more: there is parity
+  if (!t.tested || !t.parity_consistent(limits)) return out;  // one unit to spare: there is parity
   if (!sums.agrees(tests.array(), limits, set)) return out;
   if (t.least_leverage < kMinLeverage && !tests.corroborates_norm(set, t)) return out;
   const double off = t.norm < 0.0 ? -t.norm : t.norm;
@@ -89,10 +88,9 @@ Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, con
   out.heard = true;
   out.doubts = off > kDoubtShare * limit;
   // A claim that leaves one fault alone is believed whatever the set is off by: one fault in a tool that moves
-  // steadily is likelier than several that pass for a healthy set. A sensor that did not deliver counts among those
-  // left.
-  if (panel.monitored.size() - set.size() < 2) return out;
-  out.claim = ReferenceClaims::index_of(set, rank, panel.universe);
+  // steadily is likelier than several that pass for a healthy set. A unit that did not deliver counts among those left.
+  if (panel.units.count(panel.monitored) - units.size() < 2) return out;
+  out.claim = ReferenceClaims::index_of(units, rank, panel.universe());
   out.off = length_error(tests, t);
   return out;
 }
@@ -120,12 +118,17 @@ NormMismatchDoubt doubt_reference(const BlockTests& tests, const ReferencePanel&
     if (!t.heard) continue;
     agrees = agrees || !t.doubts;
     const bool refuted = t.claim >= 0 && claims.refutes(t);
-    if (t.doubts && !refuted) doubt.add(asked.set());
+    if (t.doubts && !refuted) doubt.add(panel.sensors_of(asked.set()));
   }
   return doubt;
 }
 
 }  // namespace
+
+int ReferencePanel::smallest_checked() const noexcept {
+  // Of chips two may do; sensors lie in a plane by twos at least, so that it takes four.
+  return units.grouped() || coplanarity > 2 ? coplanarity + 2 : 4;
+}
 
 void NormMismatchDoubt::add(SensorSet set) noexcept {
   if (count_ < kMax) set_[static_cast<std::size_t>(count_)] = set;

@@ -60,20 +60,22 @@ double binomial(int n, int k) noexcept {
   return out;
 }
 
-/// What the provisional grade's own vote takes: every set with sensor i that it hears must be rejected.
+/// What the provisional grade's own vote takes: every set of units with that of sensor i that it hears must be
+/// rejected.
 class SetAside {
  public:
   SetAside(const SensorArray& array, const TestSettings& settings, const ErrorBudget& budget) noexcept
       : array_(array), settings_(settings), budget_(budget), grade_(provisional_grade(array, array.all())) {
-    if (array.size() > kStrictCapacity && grade_ > kScanDepth) grade_ = kScanDepth;
-    for (int m = 0; m <= grade_; ++m) sets_ += hears(m) ? binomial(array.size() - 1, m) : 0.0;
+    const int units = array.units().size();
+    if (units > kStrictCapacity && grade_ > kScanDepth) grade_ = kScanDepth;
+    for (int m = 0; m <= grade_; ++m) sets_ += hears(m) ? binomial(units - 1, m) : 0.0;
   }
 
   double of(int i) const noexcept {
     if (grade_ < 1) return kInfinity;
     double worst = 0.0;
     for (int m = 0; m <= grade_; ++m) {
-      const double bias = hears(m) ? shift(m) * hardest(i, m) : 0.0;
+      const double bias = hears(m) ? hardest(i, m) : 0.0;
       if (bias > worst) worst = bias;
     }
     return worst;
@@ -83,23 +85,30 @@ class SetAside {
   /// Fault sets are heard one by one up to the depth of the scan, and those of the grade's own size.
   bool hears(int m) const noexcept { return m <= kScanDepth || m == grade_; }
 
-  /// Shift of the parity of a set without m sensors that rejects it, the chance of a miss shared among all sets.
-  double shift(int m) const noexcept {
-    const int dof = array_.size() - m - 3;
+  /// Shift of the parity of a set of `sensors`, without m units, that rejects it, the chance of a miss shared among all
+  /// sets.
+  double shift(int m, int sensors) const noexcept {
+    const int dof = sensors - 3;
     const double alarm = m == 0 ? budget_.limits.parity_alarm[index(dof)] : 0.0;
     const double reject = budget_.limits.reject[index(dof)];
     const double limit = (alarm > reject ? alarm : reject) + budget_.parity_systematic;
     return detectable_shift(limit, dof, settings_.missed_detection / sets_) + budget_.parity_systematic;
   }
 
-  /// Largest `unit_bias` over all choices of m others to omit.
+  /// Largest bias of sensor i that is needed over all choices of m other units to omit.
   double hardest(int i, int m) const noexcept {
+    const SensorUnits& units = array_.units();
     const SensorSet others = array_.all().without(i);
-    if (m == 0) return unit_bias(array_, others, i, settings_.samples);
+    if (m == 0) return shift(0, array_.size()) * unit_bias(array_, others, i, settings_.samples);
     double worst = 0.0;
-    for (SensorSet out = SensorSet::first(m); array_.all().contains(out); out = next_of_same_size(out)) {
-      if (out.has(i)) continue;
-      const double bias = unit_bias(array_, others - out, i, settings_.samples);
+    Readings of_size{};  // the shift is the same for all sets of so many sensors, and dear
+    for (SensorSet out = SensorSet::first(m); units.all().contains(out); out = next_of_same_size(out)) {
+      if (out.has(units.of(i))) continue;
+      const SensorSet rest = others - units.sensors_of(out);
+      const int sensors = rest.size() + 1;
+      double& needed = of_size[index(sensors - 1)];
+      if (!(needed > 0.0)) needed = shift(m, sensors);
+      const double bias = needed * unit_bias(array_, rest, i, settings_.samples);
       if (bias > worst) worst = bias;
     }
     return worst;

@@ -13,6 +13,15 @@ namespace {
 /// A bias within 20 deg of a direction lies along it.
 const double kAlong = std::cos(rad_from_deg(20.0));
 
+/// The sensors that lie along the direction of any of these.
+SensorSet alike_of(const SensorArray& array, SensorSet sensors) noexcept {
+  SensorSet out;
+  for (int i = 0; i < array.size(); ++i) {
+    if (sensors.has(i)) out = out | of_direction(array, array.all(), array.axis(i));
+  }
+  return out;
+}
+
 }  // namespace
 
 const char* to_string(CommonSign sign) noexcept {
@@ -28,10 +37,16 @@ std::optional<CommonCause> common_cause(const SensorArray& array, const Mat3& ou
                                         const Verdict& last) {
   const SensorSet moved = run.excluded;
   if (!moved.empty()) {
-    const SensorSet alike = of_direction(array, array.all(), array.axis(moved.lowest()));
+    // A chip is excluded with all of its axes, whichever the cause has moved.
+    const SensorUnits& units = array.units();
+    const SensorSet alike =
+        units.grouped() ? alike_of(array, moved) : of_direction(array, array.all(), array.axis(moved.lowest()));
     if (!alike.contains(moved) || alike.size() < 2) return std::nullopt;
-    if (moved.size() > 1) return CommonCause{CommonSign::several, moved, alike - moved};
-    if (run.length_off_after_exclusion) return CommonCause{CommonSign::remaining, moved, alike - moved};
+    const bool share = units.count(of_direction(array, moved, array.axis(moved.lowest()))) > 1;
+    if (units.count(moved) > 1 && !share) return std::nullopt;
+    if (share) return CommonCause{CommonSign::several, moved, alike - moved};
+    if (run.length_off_after_exclusion && alike != moved)
+      return CommonCause{CommonSign::remaining, moved, alike - moved};
     return std::nullopt;
   }
   const Vec3& bias = last.norm_mismatch.bias_mps2;  // output frame

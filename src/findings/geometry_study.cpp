@@ -149,8 +149,8 @@ void map_attitudes(const OneAttitude& one, GeometryStudy& study) {
   s.not_guaranteed_share = blind / weight;
 }
 
-std::vector<WorstCase> worst_cases(const SensorArray& array, const GeometryStudy& study) {
-  const int most = array.size() - 1 - study.merit.coplanarity;
+std::vector<WorstCase> worst_cases(const GeometryStudy& study) {
+  const int most = study.merit.units - 1 - study.merit.coplanarity;
   std::vector<WorstCase> out;
   for (int m = 1; m <= most; ++m) {
     out.push_back({m, study.constants.worst_fault(m),
@@ -162,7 +162,9 @@ std::vector<WorstCase> worst_cases(const SensorArray& array, const GeometryStudy
 
 void find_warnings(GeometryStudy& study) {
   const int near_singular = study.merit.near_singular_triples;
-  if (study.merit.min_triple_det < kMinTripleDet) {
+  // Axes of chips are parallel by design, and each chip determines a vector or not, whatever the others do.
+  const bool chips = study.merit.units < static_cast<int>(study.sensors.size());
+  if (study.merit.min_triple_det < kMinTripleDet && !chips) {
     study.warnings.push_back(
         {FindingCode::near_singular_triples, -1, static_cast<double>(near_singular), kMinTripleDet});
   }
@@ -183,7 +185,7 @@ void find_limits(const SensorArray& array, GeometryStudy& study) {
   if (study.common.visibility < kUnseenBias)
     add(FindingCode::common_bias_unobservable, norm(study.common.vector_error));
   if (!study.hidden.empty()) add(FindingCode::unobservable_permutations, static_cast<double>(study.hidden.size()));
-  if (array.size() > kStrictCapacity) add(FindingCode::many_sensors, array.size(), kStrictCapacity);
+  if (study.merit.units > kStrictCapacity) add(FindingCode::many_sensors, study.merit.units, kStrictCapacity);
   add(FindingCode::common_rotation);  // of every array
   add(FindingCode::common_scale);
 }
@@ -237,7 +239,7 @@ GeometryStudy study_geometry(const GeometrySubject& subject) {
   out.thresholds = thresholds_of(array, subject.gravity, subject.settings);
   out.common = common_bias(array);
   out.polarity = best_polarity(array);
-  const int spare = array.size() - 1 - out.merit.coplanarity;
+  const int spare = out.merit.units - 1 - out.merit.coplanarity;
   out.correlated_grade = spare > 0 ? spare / 2 : 0;
   out.sensors = sensors_of(subject);
   find_remounts(array, out.sensors);
@@ -257,7 +259,7 @@ GeometryStudy study_geometry(const GeometrySubject& subject) {
   }
   const Readings isolated = guaranteed_isolation_mps2(array, subject.settings, out.thresholds, one.get());
   for (int i = 0; i < array.size(); ++i) out.sensors[at(i)].guaranteed_isolation_mps2 = isolated[at(i)];
-  out.worst = worst_cases(array, out);
+  out.worst = worst_cases(out);
   find_warnings(out);
   find_limits(array, out);
   return out;

@@ -23,7 +23,7 @@ constexpr double kCorroborating = 4.0;
 /// More faults than this at once are rarer than a wrong covariance: they have to explain what is on record all the
 /// better.
 constexpr double kCorroboratingFew = 2.5;
-/// Arrays of up to so many sensors are searched for every fault set of their grade.
+/// Arrays of up to so many units are searched for every fault set of their grade.
 constexpr int kSearched = 8;
 /// Sets tested at an attitude in one block of the search: less work than a vote of eight sensors.
 constexpr int kTestsPerBlock = 150;
@@ -66,10 +66,10 @@ double ln_chance(double ratio, double degrees) noexcept {
   return 0.5 * degrees * (1.0 + std::log(ratio)) - 0.5 * std::log(kPi * degrees);
 }
 
-/// ln of the number of fault sets of `size` among `sensors`: each may be innocent by chance.
-double ln_sets(int sensors, int size) noexcept {
+/// ln of the number of fault sets of `size` among `units`: each may be innocent by chance.
+double ln_sets(int units, int size) noexcept {
   double sets = 1.0;
-  for (int k = 1; k <= size; ++k) sets *= static_cast<double>(sensors - size + k) / k;
+  for (int k = 1; k <= size; ++k) sets *= static_cast<double>(units - size + k) / k;
   return std::log(sets);
 }
 
@@ -171,7 +171,9 @@ bool CalibrationCheck::corroborates(const Terms& terms, SensorSet monitored, Sen
   // Were all sensors off by what they are together, and the rest of them by chance no more than this?
   const Fit all = fit(terms, monitored, 0.0);
   const double ratio = std::fmax(rest.sum / rest.degrees, 1.0) / std::fmax(all.sum / all.degrees, 1.0);
-  return ln_chance(ratio, independent(rest, set)) + ln_sets(monitored.size(), isolated.size()) <= kLnMostChance;
+  const SensorUnits& units = terms.array.units();
+  return ln_chance(ratio, independent(rest, set)) + ln_sets(units.count(monitored), units.count(isolated)) <=
+         kLnMostChance;
 }
 
 /// An error of bias and axis, alike in size, makes at two attitudes u and v errors of a sensor correlated by
@@ -227,7 +229,7 @@ double CalibrationCheck::least_tolerance_mps2(const Terms& terms, SensorSet moni
 
 bool CalibrationCheck::explained_without(const Terms& terms, SensorSet monitored, SensorSet faulty,
                                          int& tests) const noexcept {
-  const double most = faulty.size() > kScanDepth ? kCorroboratingFew : kCorroborating;
+  const double most = terms.array.units().count(faulty) > kScanDepth ? kCorroboratingFew : kCorroborating;
   const Fit rest = fit(terms, monitored - faulty, 0.0, most);
   tests += rest.tests;
   // Too few attitudes at which the rest delivered refute nothing.
@@ -242,19 +244,20 @@ bool CalibrationCheck::search(const Terms& terms, SensorSet monitored, int grade
   // Contradicted once, it is likelier to be so again than for a sensor to have failed meanwhile. And on a full record
   // four faults at once are no explanation any more.
   const int most = finding_.contradicted ? 0 : grade;
-  const bool all_sizes = most < kScanDepth || (terms.array.size() <= kSearched && size_ < kMost);
+  const SensorUnits& units = terms.array.units();
+  const bool all_sizes = most < kScanDepth || (units.size() <= kSearched && size_ < kMost);
   const int depth = all_sizes ? most : kScanDepth;
-  const SensorSet every = terms.array.all();
+  const SensorSet every = units.all(), asked = units.units_of(monitored);
   SensorSet f = first;
   int tests = 0;
   for (int size = first.size(); size <= depth; f = SensorSet::first(++size)) {
     for (; every.contains(f); f = next_of_same_size(f)) {
-      if (!monitored.contains(f)) continue;
+      if (!asked.contains(f)) continue;
       if (tests >= kTestsPerBlock) {
         next_ = f;
         return false;
       }
-      if (explained_without(terms, monitored, f, tests)) return false;
+      if (explained_without(terms, monitored, units.sensors_of(f), tests)) return false;
     }
   }
   contradict(terms, monitored);

@@ -33,9 +33,8 @@ SensorSet move_sensors(Action::Bits actions, const NamedSensors& named, SensorLe
   }
   if ((actions & (Action::reinstate | Action::rearm)) != 0) {
     const bool reinstates = (actions & Action::reinstate) != 0;
-    moved = reinstates
-                ? SensorSet::of(((named.proven & (s.excluded | s.provisionally_excluded)) - s.readmitted).lowest())
-                : named.reset;
+    const SensorSet proven = (named.proven & (s.excluded | s.provisionally_excluded)) - s.readmitted;
+    moved = reinstates ? named.units.whole(SensorSet::of(proven.lowest())) & proven : named.reset;
     if (reinstates) s.readmitted = s.readmitted | moved;
     s.excluded = s.excluded - moved;
     s.provisionally_excluded = s.provisionally_excluded - moved;

@@ -88,12 +88,23 @@ void Diagnosis::ask_about(const Terms& terms, const BlockTests& tests, const Blo
 }
 
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
-/// turned, whatever the others make of the direction: a faulty sensor that steps is no new attitude.
-bool Diagnosis::is_still_there(const Terms& terms) const noexcept {
+/// turned, whatever the others make of the direction: a faulty sensor that steps is no new attitude. A chip is enough,
+/// and one that is dead or stuck reads the same for ever: it speaks only if it is asked, and measures gravity.
+bool Diagnosis::is_still_there(const Terms& terms, const BlockTests& tests, SensorSet voters) const noexcept {
   const auto samples = static_cast<double>(station_.samples);
   const SensorArray& array = terms.in_force.array;
-  const SensorSet same = reads_the_same(array, terms.last.evidence, station_.reading_mps2, samples);
-  return rank_of(array, same & station_.delivered) == 3;
+  const SensorSet same =
+      reads_the_same(array, terms.last.evidence, station_.reading_mps2, samples) & station_.delivered;
+  const SensorUnits& units = array.units();
+  if (!units.grouped()) return rank_of(array, same) == 3;
+  const auto measures_gravity = [&](SensorSet set) {
+    const SetTest& t = tests.of(set);
+    return t.tested && t.consistent(terms.settings.limits);
+  };
+  bool still = measures_gravity(same & voters);
+  for (int u = 0; u < units.size() && !still; ++u)
+    still = measures_gravity(units.sensors_of(SensorSet::of(u)) & same & voters);
+  return still;
 }
 
 /// A station at which the question was asked, and no block gave the candidate for an answer, takes it back.
@@ -115,7 +126,7 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
   const bool nowhere = !(norm(station_.direction) > 0.0);
   const MonitorConfig& config = terms.settings.config;
   const bool turned = nowhere || angle_between_rad(station_.direction, direction) > config.station_angle_rad;
-  if (!station_.open || tag != station_.tag || (turned && !is_still_there(terms))) {
+  if (!station_.open || tag != station_.tag || (turned && !is_still_there(terms, tests, voters))) {
     leave_station();
     station_.open = true;
     station_.tag = tag;
@@ -133,11 +144,13 @@ void Diagnosis::follow_station(const Terms& terms, const BlockTests& tests, cons
 /// What scatters may be all that shows of a movement: the confirmed grade bears so many faulty ones that hang that the
 /// healthy ones at rest lie in one plane, and do not feel a movement across it. So its average rejects nothing. But a
 /// sensor that alone scatters, whichever others are doubted, while these agree, is the answer of this station by that.
+/// A chip that scatters beside a single one feels the tool move, or is noisy: nothing tells which.
 SensorSet Diagnosis::isolated_by_scatter(const Terms& terms, const BlockTests& tests) const noexcept {
-  const SensorSet noisy = terms.facts.noisy();
-  if (noisy.size() != 1 || isolation_.confirmed_grade() < 1) return {};
+  const SensorUnits& units = terms.in_force.array.units();
+  if (units.count(terms.facts.noisy()) != 1 || isolation_.confirmed_grade() < 1) return {};
+  const SensorSet noisy = units.whole(terms.facts.noisy()) & isolation_.monitored();
   const bool checked = isolation_.provisional_grade() >= 1;
-  if (checked && !terms.facts.noisy_for_certain().contains(noisy)) return {};
+  if (checked ? !terms.facts.noisy_for_certain().contains(terms.facts.noisy()) : units.grouped()) return {};
   const SensorSet others = isolation_.monitored() - noisy;
   const TestLimits& limits = terms.settings.limits;
   const SetTest& rest = tests.of(others & tests.block().usable);
@@ -192,8 +205,8 @@ void Diagnosis::note_suspicion(const Terms& terms, const BlockTests& tests, cons
   if (survivors.tested) episode_.agreeing.add(known_direction(survivors, apart_rad), apart_rad);
 }
 
-SensorSet Diagnosis::noise_confirmed(const ChannelFacts& facts) const noexcept {
-  const SensorSet out = facts.noisy_long_enough();
+SensorSet Diagnosis::noise_confirmed(const SensorArray& array, const ChannelFacts& facts) const noexcept {
+  const SensorSet out = array.units().whole(facts.noisy_long_enough());
   const bool at_stations = episode_.by_scatter && episode_.agreeing.size() >= ChannelFacts::kConfirm;
   return at_stations && isolation_.provisional_grade() >= 1 ? out | episode_.candidate : out;
 }
@@ -208,8 +221,8 @@ bool Diagnosis::may_exclude(const Terms& terms, SensorSet isolated) const noexce
 
 SensorSet Diagnosis::isolated(const Terms& terms) const noexcept {
   const SensorSet monitored = isolation_.monitored();
-  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() && scan_.asserted.size() <= asserted_left_ &&
-      may_exclude(terms, scan_.asserted))
+  if (asserted_left_ > 0 && episode_.open && !scan_.asserted.empty() &&
+      terms.in_force.array.units().count(scan_.asserted) <= asserted_left_ && may_exclude(terms, scan_.asserted))
     return scan_.asserted;
   if (isolation_.confirmed_grade() < 1 || episode_.candidate.empty()) return {};
   const int survivors = (monitored - episode_.candidate).size();
@@ -234,7 +247,8 @@ Conclusion Diagnosis::conclude(const Terms& terms, const BlockReport& report, No
         episode_.open && noise.learned && report.kind == Kind::alarm && report.cause == Cause::parity;
     const SensorSet odd = by_parity && may_exclude(terms, answer_.parity) ? answer_.parity : SensorSet{};
     // Where all sensors may be noisier than stated, the scatter of one may be its share of that.
-    const SensorSet scatters = noise.learned || noise.others_as_stated ? noise_confirmed(terms.facts) : SensorSet{};
+    const SensorSet scatters =
+        noise.learned || noise.others_as_stated ? noise_confirmed(terms.in_force.array, terms.facts) : SensorSet{};
     out.aside = aside_ = (odd | scatters) & terms.machine.sensors.in_service;
   }
   if (out.refuted) asserted_left_ = -1;
@@ -259,7 +273,7 @@ void Diagnosis::rescan(const Terms& terms, const BlockTests& tests, double turn_
   int depth = std::max(priors, asserted_left_);
   if (episode_.open && isolation_.confirmed_grade() > depth) depth = isolation_.confirmed_grade();
   const SensorLedger& sensors = terms.machine.sensors;
-  const int aside = (sensors.provisionally_excluded & terms.last.evidence.usable).size();
+  const int aside = terms.in_force.array.units().count(sensors.provisionally_excluded & terms.last.evidence.usable);
   scan_ = isolation_.scan(tests, sensors.in_service, depth, asserted_left_,
                           {priors, terms.settings.k_integrity, aside, episode_.open, terms.machine.not_yet_validated},
                           corroborating(terms));

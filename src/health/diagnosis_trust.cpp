@@ -61,12 +61,13 @@ bool Diagnosis::isolation_timed_out(const Terms& terms) const noexcept {
          (!terms.machine.timed_out || unbounded_run_ >= terms.settings.config.passed_blocks);
 }
 
-/// Whether the block is explained by no more faults than the grade bears, with enough sensors left to check one
-/// another. Another attitude may then single that explanation out; and where none does, because two of them are images
-/// of each other, no attitude speaks against the tool.
-bool Diagnosis::is_isolable(const BlockEvidence& evidence) const noexcept {
+/// Whether the block is explained by no more faults than the grade bears, with enough left to check one another: four
+/// sensors, or of chips one more than determine a vector. Another attitude may then single that explanation out; and
+/// where none does, because two of them are images of each other, no attitude speaks against the tool.
+bool Diagnosis::is_isolable(const SensorArray& array, const BlockEvidence& evidence) const noexcept {
   const int grade = std::max(isolation_.confirmed_grade(), isolation_.provisional_grade());
-  return scan_.least <= grade && (isolation_.monitored() & evidence.usable).size() - scan_.least >= 4;
+  const int left = array.units().count(isolation_.monitored() & evidence.usable) - scan_.least;
+  return scan_.least <= grade && left >= (array.units().grouped() ? isolation_.coplanarity() + 2 : 4);
 }
 
 /// Blocks in a row in which the doubt had neither a bound nor a way out. A bound: of the estimate, or of that of the
@@ -78,7 +79,7 @@ void Diagnosis::count_unbounded(const Terms& terms, const BlockTests& tests, con
   bool within = bounded(config.alert_limit_rad);
   if (!within && terms.machine.mode == Mode::suspect && (is_out_of_stations(terms) || is_out_of_blocks(terms))) {
     const ProtectionTerms by{terms.settings.protection_faults, terms.settings.k_integrity};
-    within = (!is_out_of_blocks(terms) && is_isolable(tests.block())) ||
+    within = (!is_out_of_blocks(terms) && is_isolable(terms.in_force.array, tests.block())) ||
              isolation_.bounded_without(tests, terms.machine.sensors.in_service, scan_, by,
                                         config.alert_limit_rad - turn_rad);
   }
@@ -149,12 +150,17 @@ void Diagnosis::examine_probation(const Terms& terms, const BlockTests& tests, c
   const MonitorConfig& config = terms.settings.config;
   const SensorSet asked = ((s.excluded | s.provisionally_excluded) - (s.readmitted | s.absent)) & evidence.usable &
                           terms.last.calm & terms.in_force.calibrated;
+  // A chip is asked as a whole, less the channels that are lost.
+  const SensorUnits& units = terms.in_force.array.units();
+  const SensorSet whole =
+      units.units_within(asked, ((s.excluded | s.provisionally_excluded) - s.absent) & terms.in_force.calibrated);
   SensorSet fine;
-  for (int i = 0; i < terms.in_force.array.size(); ++i) {
-    if (!asked.has(i)) continue;
-    const SetTest& t = tests.of((s.in_service & evidence.usable).with(i));
+  for (int u = 0; u < units.size(); ++u) {
+    if (!whole.has(u)) continue;
+    const SensorSet unit = units.sensors_of(SensorSet::of(u)) & asked;
+    const SetTest& t = tests.of((s.in_service & evidence.usable) | unit);
     if (t.tested && t.consistent(limits) && t.parity <= config.clear_fraction * t.parity_alarm_limit(limits))
-      fine = fine.with(i);
+      fine = fine | unit;
   }
   const SensorSet still = on_probation_ & fine;
   if (still.empty()) probation_.clear();

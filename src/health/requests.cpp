@@ -47,7 +47,8 @@ Expected<void> HealthMonitor::set_rotation(const Rotation& rotation) noexcept {
 
 void HealthMonitor::set_motion(const MotionFinding& finding) noexcept {
   InMotion& motion = state_.requests.motion;
-  const SensorSet excluded = finding.excluded & state_.in_force.array.all();
+  const SensorArray& array = state_.in_force.array;
+  const SensorSet excluded = array.units().whole(finding.excluded & array.all());
   if (finding.alarm == motion.found.alarm && excluded == motion.found.excluded) return;
   if (!configured_ || !whole()) return;  // the next block says so
   motion.found = {finding.alarm, excluded};

@@ -39,7 +39,7 @@ SensorSet HealthMonitor::carry_out(const Decision& decision, const SensorLedger&
   const Action::Bits actions = decision.actions;
   SensorSet named = decision.sensors;
   if ((actions & Action::exclude) != 0) {
-    d.spend_asserted(named.size());
+    d.spend_asserted(s.in_force.array.units().count(named));
     d.forget_episode();
   }
   if ((actions & Action::exclude_provisionally) != 0) d.grade_by_parity();
@@ -83,7 +83,8 @@ HealthEvent HealthMonitor::decide(EventMask raised, EventMask from_motion, doubl
                  lost & all,
                  s.intake.gate.back(),
                  d.on_probation(),
-                 (s.requests.reset_sensors - lost) & (calibrated ? s.in_force.calibrated : all)};
+                 (s.requests.reset_sensors - lost) & (calibrated ? s.in_force.calibrated : all),
+                 s.in_force.array.units()};
   input.protection_within = d.unbounded_run() < s.settings.config.passed_blocks;
   input.calibrated = calibrated;
   input.passed_blocks = s.settings.config.passed_blocks;
@@ -93,7 +94,8 @@ HealthEvent HealthMonitor::decide(EventMask raised, EventMask from_motion, doubl
     return set == before.in_service ? s.service.size : s.classify(set);
   });
   const HealthEvent event = decision.event;
-  const bool by_noise = event == HealthEvent::provisional_exclusion && d.noise_confirmed(s.facts).contains(d.aside());
+  const bool by_noise =
+      event == HealthEvent::provisional_exclusion && d.noise_confirmed(s.in_force.array, s.facts).contains(d.aside());
   const bool refused = event == HealthEvent::no_consistent_hypothesis && s.studies.check.refused();
   const SensorSet named = carry_out(decision, before);
   s.requests.reset_sensors = s.requests.reset_pending ? SensorSet{} : s.requests.reset_sensors;

@@ -95,6 +95,9 @@ std::uint64_t HealthMonitor::identity(const MonitorSetup& setup) const noexcept 
   out.put(setup.array.uncertainty());
   out.put(setup.output_frame);
   out.put(setup.lever_arms_known);
+  if (setup.array.units().grouped()) {  // arrays without chips keep the name that they had
+    for (int i = 0; i < n; ++i) out.put_bits(static_cast<std::uint64_t>(setup.array.units().of(i)), 1);
+  }
   if (kSingle) out.put(kSingle);                     // readings that add up to other sums
   if (!setup.calibrated) out.put(setup.calibrated);  // what was written before there was the choice keeps its name
   return out.crc();

@@ -268,6 +268,17 @@ std::string read_package(const TomlTable& table) {
   return name;
 }
 
+/// The chips by number, in the order of the file; 0 where a sensor states none.
+void number_chips(const std::vector<std::string>& package, Datasheet& sheet) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < package.size(); ++i) {
+    if (package[i].empty()) continue;
+    const auto found = std::find(names.begin(), names.end(), package[i]);
+    sheet.sensor[i].row.chip = static_cast<std::uint8_t>(found - names.begin() + 1);
+    if (found == names.end()) names.push_back(package[i]);
+  }
+}
+
 /// Without a temperature in the log, nothing may depend on it, and every row gets the reference.
 void settle_temperature(const std::vector<TomlTable>& tables, const Datasheet& sheet, InputSpec& input) {
   if (!input.temperature_column.empty()) return;
@@ -305,10 +316,11 @@ void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out)
   out.datasheet.size = static_cast<int>(tables.size());
   refuse_twins(tables, ids, "id", "give every sensor its own id (parallel axes are allowed, equal ids are not)");
   refuse_twins(tables, columns, "column", "give every sensor its own column of the log");
+  for (const TomlTable& table : tables) out.package.push_back(read_package(table));
+  number_chips(out.package, out.datasheet);
   out.array = built_array(tables, out.datasheet);
   settle_temperature(tables, out.datasheet, out.input);
   out.lever_arm_m = read_lever_arms(tables);
-  for (const TomlTable& table : tables) out.package.push_back(read_package(table));
   out.input.sensor_columns = columns;
 }
 

@@ -207,6 +207,7 @@ Calibration read_content(const Source& source, const Json& root, const ArrayFile
     rows[i].id = make_id(source.text_of(one, "id").c_str());
     source.numbers_of(one, "axis", rows[i].axis.data(), 3);
     rows[i].sigma_mps2 = source.number_of(one, "sigma_mps2");
+    rows[i].chip = array.datasheet.sensor[i].row.chip;
     SensorCoefficients& c = out.model.sensor[i];
     source.numbers_of(one, "scale", c.scale.data(), 4);
     source.numbers_of(one, "bias_mps2", c.bias.data(), 4);

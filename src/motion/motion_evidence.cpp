@@ -39,7 +39,7 @@ int FaultUnits::grade(const SensorArray& array, SensorSet sensors) const noexcep
   for (int removed = 1; removed <= size_ && removed <= kMotionDepth + 1; ++removed) {
     for (SensorSet some = SensorSet::first(removed); all.contains(some); some = next_of_same_size(some)) {
       const SensorSet rest = sensors - sensors_of(some);
-      if (coplanarity(array, rest) >= rest.size()) return removed >= 2 ? removed - 2 : 0;
+      if (!spans_space(array, rest)) return removed >= 2 ? removed - 2 : 0;
     }
   }
   return kMotionDepth;

@@ -87,7 +87,7 @@ bool MotionMonitor::check_each_other(SensorSet sensors) const noexcept {
 /// After the sensors that are monitored or isolated have changed.
 void MotionMonitor::trust() noexcept {
   const SensorSet rest = monitored() - verdict_.isolated;
-  trusted_ = coplanarity(array_, rest) < rest.size() ? rest : monitored();
+  trusted_ = spans_space(array_, rest) ? rest : monitored();
   new (&force_) ForceEstimator(array_, units_, trusted_);
 }
 

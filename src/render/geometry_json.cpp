@@ -96,6 +96,7 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
                                         {"min_triple_det", f.min_triple_det},
                                         {"max_triple_condition", finite_or_null(f.max_triple_condition)},
                                         {"common_bias_visibility", f.common_bias_visibility},
+                                        {"units", f.units},
                                         {"coplanarity", f.coplanarity},
                                         {"confirmed_grade", f.confirmed_grade},
                                         {"provisional_grade", f.provisional_grade},

@@ -67,8 +67,10 @@ std::string merit_text(const GeometrySubject& subject, const GeometryStudy& stud
   out += line("  worst condition of a triple", fmt::format("{:.4g}", f.max_triple_condition));
   out +=
       line("  near-singular triples", fmt::format("{} of {}", f.near_singular_triples, subject.array.triple_count()));
-  out += line("  most axes in one plane, c", fmt::format("{}", f.coplanarity));
-  out += "\nfaulty sensors that can be isolated\n";
+  const bool chips = f.units < subject.array.size();
+  if (chips) out += line("  units, n: chips, and sensors on none", fmt::format("{}", f.units));
+  out += line(chips ? "  most units in one plane, c" : "  most axes in one plane, c", fmt::format("{}", f.coplanarity));
+  out += chips ? "\nfaulty units that can be isolated\n" : "\nfaulty sensors that can be isolated\n";
   out += line("  with confirmation, n - 1 - c", fmt::format("{}   over several attitudes", f.confirmed_grade));
   out += line("  provisionally, by parity alone, n - 2 - c",
               fmt::format("{}   at once, without gravity, reversible", f.provisional_grade));

@@ -42,6 +42,7 @@ std::string wiring_words(const findings::HiddenWiring& wiring, const SensorArray
 std::string geometry_words(const findings::Finding& f, const findings::GeometrySubject& subject,
                            const findings::GeometryStudy& study) {
   const SensorArray& array = subject.array;
+  const bool chips = array.units().grouped();
   switch (f.code) {
     case Code::near_singular_triples:
       return fmt::format(
@@ -54,15 +55,22 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
           "in the worst case a fault must exceed {:.0f} errors of a reading before it can be isolated (more than "
           "{:.0f}). Spread the axes more evenly",
           f.value, f.limit);
-    case Code::no_isolation: return "one faulty sensor cannot be isolated";
+    case Code::no_isolation:
+      return chips ? "one faulty chip cannot be isolated: another chip is needed"
+                   : "one faulty sensor cannot be isolated";
     case Code::critical_sensors:
       return fmt::format("without {} the vector is undetermined",
                          sensor_names(critical_sensors(array, array.all()), array));
     case Code::gravity_needed:
+      if (chips)
+        return "the parity test detects but cannot isolate a faulty chip: isolation needs the length of gravity and "
+               "several attitudes, and a chip that keeps the length, as a turned one does, is detected only. With one "
+               "chip more it is isolated";
       return "the parity test detects but cannot isolate a fault: isolation needs the length of gravity and several "
              "attitudes";
     case Code::correlated_faults:
-      return "an error of one sensor that matches a mirror image leaves two hypotheses at that attitude";
+      return chips ? "an error of one chip that keeps the length of gravity leaves two hypotheses"
+                   : "an error of one sensor that matches a mirror image leaves two hypotheses at that attitude";
     case Code::common_bias_unobservable:
       return fmt::format("a bias common to all sensors is invisible in parity and moves the vector by {:.2f} of it",
                          f.value);
@@ -71,8 +79,8 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
           "{} {} not detectable at any attitude; give plumb calibrate one known attitude (--known-attitude)",
           count_text(study.hidden.size(), "wiring error"), by_count(study.hidden.size(), "is", "are"));
     case Code::many_sensors:
-      return fmt::format("above {} sensors the monitor has no confirmed grade, and no provisional grade above {}",
-                         kStrictCapacity, kScanDepth);
+      return fmt::format("above {} {} the monitor has no confirmed grade, and no provisional grade above {}",
+                         kStrictCapacity, chips ? "units" : "sensors", kScanDepth);
     case Code::common_rotation:
       return "gravity shows neither the mounting of the axes in the housing nor a wrong sign convention (`reads`)";
     case Code::common_scale: return "a common scale error is detectable only against the value of gravity";

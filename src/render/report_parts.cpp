@@ -275,6 +275,7 @@ verification::ArrayFacts array_facts(const findings::GeometrySubject& subject, c
   verification::ArrayFacts out;
   out.confirmed_grade = study.merit.confirmed_grade;
   out.provisional_grade = study.merit.provisional_grade;
+  out.units = study.merit.units;
   const double level_rad =
       study.sizes.at[static_cast<std::size_t>(findings::SizeCondition::as_stated)].protection_level_at_rest_rad;
   out.protection_level_deg = known(deg_from_rad(level_rad), level_rad < kPi);

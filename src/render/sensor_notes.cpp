@@ -85,16 +85,19 @@ SensorNote common_note_of(const findings::CommonCause& found, const io::ArrayFil
             check};
   }
   const std::string moved = names_with_chips(found.moved, array, sensors);
+  const bool chips = sensors.units().grouped();
   if (found.sign == findings::CommonSign::remaining) {
-    return {"common",
-            fmt::format("{} was excluded, and without it the length of gravity is still off: {} that moved {} as well "
-                        "explains that, and a fault of one sensor does not",
-                        moved, causes, others),
-            check};
+    return {
+        "common",
+        fmt::format("{} {} excluded, and without {} the length of gravity is still off: {} that moved {} as well "
+                    "explains that, and a fault of one {} does not",
+                    moved, chips ? "were" : "was", chips ? "them" : "it", causes, others, chips ? "chip" : "sensor"),
+        check};
   }
   return {"common",
-          fmt::format("{} were excluded and lie along one direction: {} explains that as well as several faults{}",
-                      moved, causes, others.empty() ? "" : ", and may have moved " + others + " too"),
+          fmt::format("{} were excluded and {}: {} explains that as well as several faults{}", moved,
+                      chips ? "their axes lie alike" : "lie along one direction", causes,
+                      others.empty() ? "" : ", and may have moved " + others + " too"),
           check};
 }
 

@@ -84,21 +84,6 @@ Missing missing_in(const io::ArrayFile& array, bool calibrated, bool commissione
   return missing;
 }
 
-/// Fault units: the chips by name, numbered in the order of the file.
-std::array<std::uint8_t, kCapacity> chips_of(const io::ArrayFile& array) {
-  std::array<std::uint8_t, kCapacity> out{};
-  std::vector<std::string> names;
-  for (int i = 0; i < array.array.size(); ++i) {
-    const std::string name = io::package_of(array, i);
-    if (name.empty()) continue;
-    const auto found = std::find(names.begin(), names.end(), name);
-    const auto number = static_cast<std::size_t>(found - names.begin()) + 1;
-    if (found == names.end()) names.push_back(name);
-    out[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(number);
-  }
-  return out;
-}
-
 MotionErrors errors_of(const io::ArrayFile& array, const Calibration* calibration, int i, double days,
                        const io::MotionCalibration* commissioned) {
   const auto k = static_cast<std::size_t>(i);
@@ -133,7 +118,7 @@ MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calib
     out.lever_arm_m[k] = commissioned != nullptr ? commissioned->sensor[k].lever_arm_m : array.lever_arm_m[k];
     out.errors[k] = errors_of(array, calibration, i, days, commissioned);
   }
-  out.chip = chips_of(array);
+  for (int i = 0; i < array.array.size(); ++i) out.chip[static_cast<std::size_t>(i)] = array.array.row(i).chip;
   if (array.input.rotation_columns.empty()) return out;
   out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
   out.gyro = gyro_of(spec.gyro, commissioned);

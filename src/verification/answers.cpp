@@ -16,13 +16,19 @@ namespace {
 
 double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
+/// A grade counts these: chips, where the array file states them, with the sensors that are on none.
+std::string units_text(const ArrayFacts& array) {
+  const bool chips = array.units > 0 && array.units < static_cast<int>(array.sensors.size());
+  return chips ? count_text(array.units, "unit") + " (chips, and sensors on none)"
+               : count_text(array.sensors.size(), "sensor");
+}
+
 /// What not to trust, in one sentence.
 std::string distrust_of(const Facts& facts) {
   const int grade = facts.array.confirmed_grade;
-  std::string out = grade > 0
-                        ? fmt::format("any output once more than {} of {} {} faulty; ", grade,
-                                      count_text(facts.array.sensors.size(), "sensor"), by_count(grade, "is", "are"))
-                        : std::string("any isolation of a sensor: this array cannot isolate a fault; ");
+  std::string out = grade > 0 ? fmt::format("any output once more than {} of {} {} faulty; ", grade,
+                                            units_text(facts.array), by_count(grade, "is", "are"))
+                              : std::string("any isolation of a sensor: this array cannot isolate a fault; ");
   out +=
       "any output during an alert or with only three sensors in use; several sensors that all show the same wrong "
       "gravity";
@@ -59,12 +65,15 @@ Answer how_large(const ArrayFacts& array) {
 
 std::vector<Answer> answers_of(const Facts& facts) {
   const ArrayFacts& array = facts.array;
+  const int sensors = static_cast<int>(array.sensors.size());
+  const bool chips = array.units > 0 && array.units < sensors;
   std::vector<Answer> out;
   out.push_back(
       {"How many faults?", fmt::format("{}", array.confirmed_grade),
        fmt::format(
-           "faulty sensors of {} at once are isolated and excluded, given several attitudes; {} at a single attitude",
-           array.sensors.size(), array.provisional_grade)});
+           "faulty {} of {} at once are isolated and excluded, given several attitudes; {} at a single attitude",
+           chips ? "units (chips, and sensors on none)" : "sensors", chips ? array.units : sensors,
+           array.provisional_grade)});
   out.push_back(how_large(array));
   const std::optional<double>& level = array.protection_level_deg;
   out.push_back({"Protection level?", level ? fmt::format("{:.3g} deg", *level) : "unbounded",

@@ -31,6 +31,7 @@ struct CForm {
       s.full_scale_raw = setup.full_scale_raw[a];
       s.resolution_raw = setup.resolution_raw[a];
       std::memcpy(s.lever_arm_m, setup.lever_arm_m[a].data(), sizeof s.lever_arm_m);
+      s.chip = setup.array.row(i).chip;
     }
     config.sensors = n;
     config.sensor = sensor.data();

@@ -119,6 +119,23 @@ TEST(CFunctions, ASnapshotCarriesOn) {
   }
 }
 
+TEST(CFunctions, ChipsCountAsInTheSetup) {
+  Life life(6, 5);
+  const CForm plain(life.tool.rig.setup);
+  CForm form(life.tool.rig.setup);
+  for (std::size_t i = 0; i < 6; ++i) form.sensor[i].chip = static_cast<std::int32_t>(1 + i / 2);
+  plumb_verdict verdict;
+  plumb_verdict_defaults(&verdict);
+  const auto grade_of = [&](const CForm& given) {
+    Memory memory;
+    EXPECT_EQ(memory.init(&given.config).code, PLUMB_OK);
+    EXPECT_EQ(plumb_monitor_verdict(memory.monitor, &verdict).code, PLUMB_OK);
+    return verdict.confirmed_grade;
+  };
+  EXPECT_EQ(grade_of(plain), 3);
+  EXPECT_EQ(grade_of(form), 1) << "three units, of which one may lie in a plane";
+}
+
 TEST(CFunctions, AnswerEveryMisuse) {
   Life life(4, 7);
   CForm form(life.tool.rig.setup);
@@ -150,6 +167,8 @@ TEST(CFunctions, AnswerEveryMisuse) {
   EXPECT_EQ(refused([](CForm& f) { f.sensor[1].axis[0] = 2.0; }).index, 1);
   EXPECT_EQ(refused([](CForm& f) { f.sensor[1].scale[2] = std::nan(""); }).code, code(Errc::not_finite));
   EXPECT_EQ(refused([](CForm& f) { f.sensor[3].misfit_mps2 = -1.0; }).index, 3);
+  EXPECT_EQ(refused([](CForm& f) { f.sensor[2].chip = 256; }).index, 2);
+  EXPECT_EQ(refused([](CForm& f) { f.sensor[2].chip = -1; }).code, code(Errc::out_of_range));
   EXPECT_EQ(refused([](CForm& f) { f.config.window = 0; }).code, code(Errc::out_of_range));
   EXPECT_EQ(refused([](CForm& f) { f.config.gravity_mps2 = 1.0; }).code, code(Errc::implausible_gravity));
   EXPECT_EQ(refused([](CForm&) {}).code, PLUMB_OK);

@@ -70,7 +70,7 @@ TEST(ReferenceClaims, AreUpdatedAtAVoteAndOnlyReadOtherwise) {
   const GravityReference low{0.99 * kG0_mps2, 1e-4, GravityModel::value};
   const GravityReference high{1.01 * kG0_mps2, 1e-4, GravityModel::value};
   const BlockTests above(array, low, limits, block), below(array, high, limits, block);
-  const ReferencePanel panel = {array.all(), array.all(), array.size(), coplanarity(array, array.all())};
+  const ReferencePanel panel = {array.all(), array.all(), array.units(), coplanarity(array, array.all())};
   const int told = static_cast<int>(kTold.bits);
   VoteRecord record;
   EXPECT_TRUE(hear_doubt(above, panel, record).excuses(array.all()));

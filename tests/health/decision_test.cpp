@@ -53,7 +53,7 @@ Place moved_to(Action::Bits action, Place from, bool asked, bool chosen) {
 /// Who is asked about, for each action; all other sets hold everybody, so that a mistaken one is noticed.
 NamedSensors naming(Action::Bits action, SensorSet asked) {
   const SensorSet all = SensorSet::first(kSensors);
-  NamedSensors named{all, all, all, all, all, all};
+  NamedSensors named{all, all, all, all, all, all, {}};
   (action == Action::exclude                 ? named.isolated
    : action == Action::exclude_provisionally ? named.suspected
    : action == Action::mark_absent           ? named.lost

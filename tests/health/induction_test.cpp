@@ -143,8 +143,13 @@ class Induction {
   /// Names for the events that are not raised: whoever could be named, is. None of it may matter.
   NamedSensors everyone(const Machine& m) const {
     const SensorLedger& s = m.state.sensors;
-    return {s.in_service | s.provisionally_excluded, s.in_service, all_ - s.absent, s.absent,
-            s.excluded | s.provisionally_excluded,   all_};
+    return {s.in_service | s.provisionally_excluded,
+            s.in_service,
+            all_ - s.absent,
+            s.absent,
+            s.excluded | s.provisionally_excluded,
+            all_,
+            {}};
   }
   void every_input(const Machine& m) {
     const SensorLedger& s = m.state.sensors;

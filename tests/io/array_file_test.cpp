@@ -28,6 +28,18 @@ TEST(ArrayFile, ReadsOnWhichChipASensorIs) {
   }
 }
 
+// Verifies: REQ-206
+TEST(ArrayFile, SensorsOfOnePackageAreOneUnit) {
+  std::string text = changed("id = \"A2\"", "id = \"A2\"\npackage = \"left\"");
+  EXPECT_FALSE(array_of(text).array.units().grouped()) << "alone on its chip";
+  text = changed("id = \"A4\"", "id = \"A4\"\npackage = \"left\"", text);
+  text = changed("id = \"A1\"", "id = \"A1\"\npackage = \"right\"", text);
+  const ArrayFile file = array_of(text);
+  EXPECT_EQ(file.array.units().size(), 3);
+  EXPECT_EQ(file.array.units().whole(SensorSet::of(1)), SensorSet::of(1).with(3));
+  EXPECT_EQ(file.datasheet.array()->units().size(), 3) << "what a fit makes its array of";
+}
+
 // Verifies: REQ-065
 TEST(ArrayFile, ReadsHowTheToolTurnsAndWhereTheSensorsSit) {
   EXPECT_TRUE(array_of().lever_arm_m.empty());

@@ -127,6 +127,18 @@ TEST(CalibrationFile, HasTheSameBytesForTheSameContent) {
   EXPECT_EQ(json.substr(0, 49), "{\n \"schema\": \"plumb-calibration\",\n \"version\": 2,\n");
 }
 
+/// They are a matter of the array file, whose calibration it is.
+// Verifies: REQ-206
+TEST(CalibrationFile, IsReadWithTheChipsOfTheArrayFile) {
+  std::string text = changed("id = \"A2\"", "id = \"A2\"\npackage = \"left\"");
+  text = changed("id = \"A4\"", "id = \"A4\"\npackage = \"left\"", text);
+  const auto file = read_calibration(written("cal.json", good_json()), array_of(text));
+  ASSERT_TRUE(file.has_value());
+  EXPECT_EQ(file->calibration.array.units().size(), 3);
+  const auto fitted = calibration_of(array_of(text), &third);
+  EXPECT_EQ(fitted->array.units().size(), 3);
+}
+
 TEST(CalibrationFile, KeepsContext) {
   const ArrayFile array = array_of();
   const std::string path = written("cal.json", "");

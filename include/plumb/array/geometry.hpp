@@ -50,22 +50,24 @@ ParityBasis parity_basis(const SensorArray& array, SensorSet used) noexcept;
 /// The sensors of `set` whose axes lie within 10 deg of the line of `axis` (unit length), in either sense.
 SensorSet of_direction(const SensorArray& array, SensorSet set, const Vec3& axis) noexcept;
 
-/// c(H): the largest number of axes of `used` within kPlaneTolerance of one plane (of any two axes of
-/// the array, in use or not, so that a loss never raises a grade); 2 in general position, |used| where
-/// rank < 3.
+/// Whether the axes of `used` have rank 3 and do not lie within kPlaneTolerance of one plane.
+bool spans_space(const SensorArray& array, SensorSet used) noexcept;
+
+/// c(H): the largest number of units of `used` (sensors, where no chips are stated) all of whose axes lie within
+/// kPlaneTolerance of one plane (of any two axes of the array, in use or not, so that a loss never raises a grade); 2
+/// for sensors in general position, 0 for triads, all units where rank < 3.
 int coplanarity(const SensorArray& array, SensorSet used) noexcept;
 
-/// m_strict = |used| - 1 - c, never below 0 (docs/theory.md, section 5.1; n-3 is the case of general position).
+/// m_strict = units - 1 - c, never below 0 (docs/theory.md, sections 5.1 and 5.7; n-3 is the case of sensors in general
+/// position).
 int confirmed_grade(const SensorArray& array, SensorSet used) noexcept;
-/// The same of so many sensors whose coplanarity number is known.
-constexpr int confirmed_grade(int sensors, int coplanarity) noexcept {
-  return sensors - 1 > coplanarity ? sensors - 1 - coplanarity : 0;
+/// The same of so many units whose coplanarity number is known.
+constexpr int confirmed_grade(int units, int coplanarity) noexcept {
+  return units - 1 > coplanarity ? units - 1 - coplanarity : 0;
 }
-/// m_parity = |used| - 2 - c, never below 0; needs no gravity.
+/// m_parity = units - 2 - c, never below 0; needs no gravity.
 int provisional_grade(const SensorArray& array, SensorSet used) noexcept;
-constexpr int provisional_grade(int sensors, int coplanarity) noexcept {
-  return confirmed_grade(sensors - 1, coplanarity);
-}
+constexpr int provisional_grade(int units, int coplanarity) noexcept { return confirmed_grade(units - 1, coplanarity); }
 
 /// Sensors whose loss leaves rank < 3 (coplanarity within the rank tolerance of 0.05, so a nearly
 /// coplanar rest counts as lost too).
@@ -80,6 +82,7 @@ struct FiguresOfMerit {
   double min_triple_det = 0.0;     ///< smallest |det| over all triples
   double max_triple_condition = 0.0;
   double common_bias_visibility = 0.0;  ///< |V'1|/|1|, V = parity basis (docs/theory.md, section 1.4)
+  int units = 0;  ///< what may fail at once: chips where they are stated, else sensors; all that follows counts them
   int coplanarity = 0;
   int confirmed_grade = 0;
   int provisional_grade = 0;

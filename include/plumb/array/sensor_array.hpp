@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "plumb/array/sensor_units.hpp"
 #include "plumb/core/config.hpp"
 #include "plumb/core/detail/fields.hpp"
 #include "plumb/core/error.hpp"
@@ -23,10 +24,13 @@ struct SensorRow {
   SensorId id{};
   Vec3 axis{};              ///< unit vector in the tool frame
   double sigma_mps2 = 0.0;  ///< white noise of one sample, 1 sigma
+  /// Sensors of one chip, which may fail together, bear the same number; 0: a unit of its own.
+  std::uint8_t chip = 0;
 
   /// A monitor that calibrates itself first turns axes.
   static constexpr auto fields() noexcept {
-    return field_list(not_stored(&SensorRow::id), &SensorRow::axis, &SensorRow::sigma_mps2);
+    return field_list(not_stored(&SensorRow::id), &SensorRow::axis, &SensorRow::sigma_mps2,
+                      not_stored(&SensorRow::chip));
   }
 };
 
@@ -114,6 +118,8 @@ class SensorArray {
   const SensorRow& row(int i) const noexcept { return rows_[static_cast<std::size_t>(i)]; }
   const Vec3& axis(int i) const noexcept { return row(i).axis; }
   double sigma_mps2(int i) const noexcept { return row(i).sigma_mps2; }
+  /// What may fail at once.
+  const SensorUnits& units() const noexcept { return units_; }
 
   /// All C(n,3) triples in lexicographic order, near-singular ones included.
   int triple_count() const noexcept { return triple_count_of(size_); }
@@ -146,7 +152,8 @@ class SensorArray {
   static constexpr auto fields() noexcept {
     return field_list(per_sensor(&SensorArray::rows_), not_stored(&SensorArray::triples_),
                       not_stored(&SensorArray::form_), &SensorArray::uncertainty_, not_stored(&SensorArray::size_),
-                      not_stored(&SensorArray::perfectly_known_), not_stored(&SensorArray::taken_for_exact_));
+                      not_stored(&SensorArray::perfectly_known_), not_stored(&SensorArray::taken_for_exact_),
+                      not_stored(&SensorArray::units_));
   }
 
   std::array<SensorRow, kCapacity> rows_{};
@@ -156,6 +163,7 @@ class SensorArray {
   int size_ = 0;
   bool perfectly_known_ = true;
   SensorSet taken_for_exact_;
+  SensorUnits units_;
 };
 
 }  // namespace PLUMB_ABI

@@ -71,6 +71,7 @@ typedef struct plumb_sensor {
   double stability_per_day_mps2;          /* more for every day since */
   double stability_per_degc_mps2;         /* more for every degree from reference_degc */
   double stability_per_degc_per_min_mps2; /* more for every degree a minute */
+  int32_t chip; /* sensors of one chip bear the same number, 1 .. 255; 0 = a unit of its own */
 } plumb_sensor;
 
 typedef struct plumb_config {
@@ -96,7 +97,7 @@ typedef struct plumb_config {
   /* Settings of the monitor; `plumb_config_defaults` fills them in. A value out of its range is out_of_range, with the
    * index of the field in plumb/health/monitor_config.hpp, which also has the reasons. */
   int32_t window;             /* samples per block, 1 .. 32 (libraries for 16 and 24 sensors: .. 256) */
-  int32_t assumed_faults;     /* claim: never more than 0 .. 3 faulty sensors; -1 = no claim */
+  int32_t assumed_faults;     /* claim: never more than 0 .. 3 faulty sensors, or chips; -1 = no claim */
   int32_t isolation_stations; /* attitudes over which an answer must stay unique before a sensor is excluded, 1 .. 20 */
   int32_t isolation_timeout;  /* attitudes under suspicion before `failed`, unless bounded, 1 .. 24 */
   int32_t passed_blocks;      /* passed blocks in a row that end suspicion, 1 .. 1000 */
@@ -271,12 +272,12 @@ typedef struct plumb_verdict {
   uint8_t sensor_cause[PLUMB_C_SENSORS]; /* why it is out of service or suspected: plumb_cause_text; 0 = it is not */
   uint8_t
       minimum_faults[PLUMB_C_SENSORS]; /* fewest faults that explain the data with it healthy; 255: no explanation */
-  int32_t confirmed_grade;             /* faulty sensors that those not excluded can still isolate for good */
-  int32_t provisional_grade;           /* ... that they can exclude provisionally, by parity alone */
-  int32_t consistent_hypotheses;       /* sets of sensors that still explain the data */
-  int32_t stations_on_record;          /* attitudes under suspicion, which count towards the timeout */
-  int32_t stations_wanted;             /* attitudes that a recalibration still needs; 0 unless it collects */
-  int32_t block_fill;                  /* samples of the block being collected, 0 .. window */
+  int32_t confirmed_grade;       /* faulty sensors, or chips, that those not excluded can still isolate for good */
+  int32_t provisional_grade;     /* ... that they can exclude provisionally, by parity alone */
+  int32_t consistent_hypotheses; /* sets of sensors that still explain the data */
+  int32_t stations_on_record;    /* attitudes under suspicion, which count towards the timeout */
+  int32_t stations_wanted;       /* attitudes that a recalibration still needs; 0 unless it collects */
+  int32_t block_fill;            /* samples of the block being collected, 0 .. window */
 
   double statistic; /* of the test that decided: standard deviations (parity, norm) or m/s^2 (mae) */
   double limit;     /* its limit, same unit */

@@ -22,13 +22,18 @@ struct ToolPlan {
   std::string name;
   int sensors = 0;
   std::array<std::array<double, 3>, kMostSensors> axis{};
+  std::array<std::uint8_t, kMostSensors> chip{};       ///< alike for sensors that fail together; 0 = a unit of its own
   std::array<double, kMostSensors> sigma_mps2{};       ///< of one row
   std::array<double, kMostSensors> detectable_mps2{};  ///< MDB: missed by parity in one block in a thousand; 0 = none
   double volt_per_mps2 = 0.0;                          ///< scale factor, raw unit
   double resolution_raw = 0.0;                         ///< one code [V]; 0 = not known, nothing is rounded
   /// Of each sensor, the four figures of a `Stability` in their order; all zero: not stated.
   std::array<std::array<double, 4>, kMostSensors> stability{};
-  int grade = 0;  ///< confirmed grade: faults that the monitor promises to bear
+  int grade = 0;  ///< confirmed grade: faulty units that the monitor promises to bear
+
+  /// The sensors of the chip that this one is on, itself among them, as bits.
+  std::uint32_t unit_with(int sensor) const noexcept;
+  int units() const noexcept;
 };
 
 enum class AttitudeKind : std::uint8_t { random, roll_test, drilling_path, fixed };
@@ -56,7 +61,7 @@ struct FaultPlan {
 /// What is the same for all scenarios of a cell.
 struct Cell {
   int tool = 0, attitude = 0, fault = 0;
-  int faulty = 0;               ///< sensors at fault
+  int faulty = 0;               ///< units at fault: chips where the tool states them, else sensors
   double gravity_sigmas = 0.0;  ///< true gravity minus the configured one
 };
 
@@ -109,8 +114,8 @@ struct Spec {
 /// Scenario `number` of the plan: counter-based, so any number may be asked for in any order.
 Spec spec_of(const Plan& plan, std::uint64_t number);
 
-/// Sensors of the spec that are faulty at any time, as bits.
-std::uint32_t faulty_of(const Spec& spec) noexcept;
+/// Sensors of the spec that are faulty at any time, as bits: those of a chip together.
+std::uint32_t faulty_of(const ToolPlan& tool, const Spec& spec) noexcept;
 
 }  // namespace campaign
 }  // namespace plumb

@@ -1,5 +1,8 @@
 /// Who is at fault: which sets of sensors can still explain the evidence of an episode.
 ///
+/// What is counted are units: sensors, or chips with all their axes where the array states them (docs/theory.md,
+/// section 5.7). A fault set is made of units, and a sensor is never suspected without the others of its chip.
+///
 /// A sensor is excluded only if every explanation with at most m faults contains it (theorem T5:
 /// a sensor healthy throughout the episode is never excluded while the sensors healthy throughout
 /// have rank 3, at most m are not, and systematic errors are within their bounds).
@@ -16,7 +19,7 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// Largest binomial coefficient over kStrictCapacity: the most sets of one size that can vote.
+/// Largest binomial coefficient over kStrictCapacity: the most sets of units of one size that can vote.
 constexpr int max_voting_sets() noexcept {
   long best = 1;
   for (int k = 1; k <= kStrictCapacity; ++k) {
@@ -47,14 +50,14 @@ struct IsolationAnswer {
   }
 };
 
-/// Outcome of scanning the fault sets of at most kScanDepth members.
+/// Outcome of scanning the fault sets of at most kScanDepth units.
 struct FaultSetScan {
-  std::array<std::uint8_t, kCapacity> minimum_faults{};  ///< s_i, 255 = none found
+  std::array<std::uint8_t, kCapacity> minimum_faults{};  ///< s_i of each sensor, in units; 255 = none found
   SensorSet suspects;                                    ///< union of the consistent fault sets of least size
-  SensorSet asserted;  ///< intersection of the consistent fault sets of at most `assumed_faults` members
+  SensorSet asserted;  ///< intersection of the consistent fault sets of at most `assumed_faults` units
   int least = 255;     ///< size of the smallest consistent fault set
   Flag protection_available;
-  int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many members
+  int covered = 0;              ///< K: the protection level is over consistent fault sets of at most so many units
   Flag bears_more = true;       ///< that is the priors' number on top of what an alarm on record takes to explain
   double protection_rad = 0.0;  ///< of what is felt, g + a
 
@@ -68,9 +71,9 @@ struct FaultSetScan {
 
 class Isolation {
  public:
-  /// Poses the problem on the sensors `monitored` (those not excluded). Rejected sets stay rejected as long as
-  /// the size of the test subsets is unchanged and they consist of monitored sensors (projection); otherwise none is
-  /// rejected.
+  /// Poses the problem on the sensors `monitored` (those not excluded). Rejected sets stay rejected as long as the size
+  /// of the test subsets is unchanged, they consist of monitored units (projection) and no unit has lost a part of its
+  /// sensors; otherwise none is rejected.
   void pose(const SensorArray& array, SensorSet monitored) noexcept;
   /// After the rejected sets have been read back: poses the problem to which they belong.
   void resume(const SensorArray& array, SensorSet monitored) noexcept;
@@ -87,9 +90,9 @@ class Isolation {
   /// that scatters beyond its noise reads on average may be noise, or motion that faulty ones hide by hanging.
   IsolationAnswer vote(const BlockTests& tests, SensorSet corroborating = SensorSet::first(kCapacity)) noexcept;
 
-  /// Fault sets of at most kScanDepth members against this block and the episode's rejected sets; the protection level
+  /// Fault sets of at most kScanDepth units against this block and the episode's rejected sets; the protection level
   /// is the largest separation from the estimate of `in_service` over the consistent fault sets of at most
-  /// `faults_covered` members (solution separation; of those in service alone, too, where some are provisionally
+  /// `faults_covered` units (solution separation; of those in service alone, too, where some are provisionally
   /// excluded). Where two or more sensors of one direction are provisionally excluded, all others of it in service are
   /// one fault more: a common cause. Where the sensors that a fault set leaves measure in one plane only, the mirrored
   /// vector counts. For the assumed answer a fault set that leaves others than `corroborating`, or too few to be
@@ -115,11 +118,14 @@ class Isolation {
     rejected_[static_cast<std::size_t>(index) / 64U] |= std::uint64_t{1} << (static_cast<unsigned>(index) % 64U);
   }
   void resume(const SensorArray& array, SensorSet monitored, int coplanarity) noexcept;
+  /// The monitored sensors of a set of units, and the units that have any.
+  SensorSet sensors_of(SensorSet units) const noexcept { return units_.sensors_of(units) & monitored_; }
+  SensorSet monitored_units() const noexcept { return units_.units_of(monitored_); }
   bool any_rejected() const noexcept;
   bool has_rejected_subset(SensorSet set) const noexcept;
   /// Who is asked about gravity.
   ReferencePanel panel_of(const BlockTests& tests) const noexcept {
-    return {monitored_, monitored_ & tests.block().usable, universe_, coplanarity_};
+    return {monitored_, monitored_ & tests.block().usable, units_, coplanarity_};
   }
   /// What is held against a hypothesis about a block, beside the test of the sensors that it leaves.
   struct Grounds {
@@ -135,7 +141,7 @@ class Isolation {
   VoteRecord record_;
   SensorSet monitored_;
   int voting_ = 0;               ///< test subsets within the monitored sensors
-  std::int8_t universe_ = 0;     ///< configured sensors, over which sets are numbered
+  SensorUnits units_;            ///< configured, over which sets are numbered
   std::int8_t voting_size_ = 3;  ///< c + 1
   std::int8_t coplanarity_ = 2;
   std::int8_t strict_ = 0;
@@ -145,7 +151,7 @@ class Isolation {
   static constexpr auto fields() noexcept {
     using I = Isolation;
     return field_list(&I::rejected_, &I::record_, not_stored(&I::monitored_), not_stored(&I::voting_),
-                      not_stored(&I::universe_), not_stored(&I::voting_size_), not_stored(&I::coplanarity_),
+                      not_stored(&I::units_), not_stored(&I::voting_size_), not_stored(&I::coplanarity_),
                       not_stored(&I::strict_), not_stored(&I::parity_));
   }
 };

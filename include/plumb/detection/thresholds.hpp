@@ -52,7 +52,7 @@ struct SensorThresholds {
 struct Thresholds {
   std::array<SensorThresholds, kCapacity> sensor{};
   /// T7 with the errors of the budget and the limits of the tests [m/s^2]: fault[m] is detected by parity beside m - 1
-  /// others, fault[2m] is suspected by every explanation with at most m faults.
+  /// other units, fault[2m] is suspected by every explanation with at most m faulty units.
   FaultBounds sure{};
   /// Bound on the tilt error at any attitude while nothing alarms: the worst single bias that can go undetected, noise
   /// and calibration (docs/theory.md, section 7.1), and the turn by the acceleration allowed for. pi where parity does
@@ -69,7 +69,7 @@ double guaranteed_detection_mps2(const SensorArray& array, const TestSettings& s
 double protection_level_rad(const SensorArray& array, const GravityReference& gravity,
                             const TestSettings& settings) noexcept;
 
-/// Sensors beyond kStrictCapacity: `provisional_exclusion_mps2` for grades up to kScanDepth, as the vote does it.
+/// Units beyond kStrictCapacity: `provisional_exclusion_mps2` for grades up to kScanDepth, as the vote does it.
 Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravity,
                          const TestSettings& settings) noexcept;
 

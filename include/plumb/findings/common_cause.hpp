@@ -14,7 +14,7 @@ namespace findings {
 
 /// What tells it.
 enum class CommonSign : std::uint8_t {
-  several,    ///< two or more sensors of this direction, and no others, were excluded
+  several,    ///< two or more sensors of this direction, and no others, were excluded; or two or more chips
   remaining,  ///< one was excluded, and the length of gravity was off without it
   length      ///< the length of gravity is off along this direction, and no sensor was excluded
 };

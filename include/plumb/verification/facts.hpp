@@ -31,6 +31,7 @@ struct Note {
 
 struct ArrayFacts {
   int confirmed_grade = 0, provisional_grade = 0;
+  int units = 0;                               ///< what these count: chips where they are stated, else sensors
   std::optional<double> protection_level_deg;  ///< nothing where parity does not check every sensor
   double gravity_mps2 = 0.0;
   std::vector<SensorFacts> sensors;

@@ -31,7 +31,7 @@ void Judge::begin(const Plan& plan, const Spec& spec, campaign::Outcome& outcome
   block_end_ = plan.window - 1;
   outcome.blocks = 0;
   outcome.first_fault_block = outcome.alarm_block = outcome.isolated_block = -1;
-  outcome.faulty = campaign::faulty_of(spec);
+  outcome.faulty = campaign::faulty_of(plan.tools[static_cast<size_t>(spec.tool)], spec);
   outcome.excluded = outcome.provisionally_excluded = outcome.ever_excluded = outcome.ever_provisionally_excluded = 0;
   outcome.failed = false;
   for (int k = 0; k < spec.faults; ++k) {

@@ -20,6 +20,7 @@ Datasheet datasheet_of(const ToolPlan& tool) noexcept {
     sensor.row.id = make_id(("a" + std::to_string(i + 1)).c_str());
     sensor.row.axis = tool.axis[a];
     sensor.row.sigma_mps2 = tool.sigma_mps2[a];
+    sensor.row.chip = tool.chip[a];
     sensor.coefficients.scale[0] = tool.volt_per_mps2;
     sensor.resolution_raw = tool.resolution_raw;
   }

@@ -47,10 +47,10 @@ double constant_length_error_mps2(const BlockTests& tests) noexcept;
 /// same everywhere is refuted.
 class ReferenceClaims {
  public:
-  /// Arrays of up to so many sensors have room for every set; larger ones for their sets of four.
+  /// Arrays of up to so many units have room for every set; larger ones for their sets of four.
   static constexpr int kAllSets = kStrictCapacity < 8 ? kStrictCapacity : 8;
   static constexpr int kMax = kStrictCapacity <= 8 ? 1 << kAllSets : 1820;
-  /// Where a set is kept: `rank` is its number among all of its size; -1 where there is no room.
+  /// Where a set of units is kept: `rank` is its number among all of its size; -1 where there is no room.
   static constexpr int index_of(SensorSet set, int rank, int universe) noexcept {
     if (universe <= kAllSets) return static_cast<int>(set.bits);
     return set.size() == 4 && rank < kMax ? rank : -1;
@@ -97,10 +97,18 @@ struct VoteRecord {
 
 /// Who is asked about gravity at one block.
 struct ReferencePanel {
-  SensorSet monitored;  ///< the sensors that are not excluded
-  SensorSet delivered;  ///< those of them that delivered: who is asked
-  int universe = 0;     ///< configured sensors, over which sets are numbered
+  SensorSet monitored;       ///< the sensors that are not excluded
+  SensorSet delivered;       ///< those of them that delivered
+  const SensorUnits& units;  ///< configured, over which sets are numbered
   int coplanarity = 0;
+
+  int universe() const noexcept { return units.size(); }
+  /// The units that delivered with all of their monitored sensors: who is asked.
+  SensorSet asked() const noexcept { return units.units_within(delivered, monitored); }
+  /// The monitored sensors of a set of units.
+  SensorSet sensors_of(SensorSet set) const noexcept { return units.sensors_of(set) & monitored; }
+  /// Units of the smallest sets whose parity checks every member.
+  int smallest_checked() const noexcept;
 };
 
 /// The sets that doubt gravity at a vote: what they claim goes on record, and each is judged by all of its claims. A

@@ -2,6 +2,7 @@
 /// where the machine goes. Small plain states, so that tests/health/induction_test.cpp can try all of them.
 #pragma once
 
+#include "plumb/array/sensor_units.hpp"
 #include "plumb/core/detail/fields.hpp"
 #include "plumb/core/sensor_set.hpp"
 #include "plumb/health/monitor_config.hpp"
@@ -27,8 +28,9 @@ struct NamedSensors {
   SensorSet suspected;  ///< found faulty at the provisional grade or in motion, to be provisionally excluded
   SensorSet lost;       ///< channels that have fallen silent
   SensorSet back;       ///< channels that deliver again
-  SensorSet proven;     ///< on probation, and through it
+  SensorSet proven;     ///< on probation, and through it; one unit at a time is reinstated
   SensorSet reset;      ///< named by the host
+  SensorUnits units;    ///< of the array; by default every sensor is one
 };
 
 struct DecisionState {

@@ -96,7 +96,7 @@ class Diagnosis {
     consistent_ = isolation_.live();
   }
   void resume(const SensorArray& array, SensorSet monitored) noexcept { isolation_.resume(array, monitored); }
-  /// An exclusion uses up so many of the faults that the integrator asserts.
+  /// An exclusion uses up so many of the faulty units that the integrator asserts.
   void spend_asserted(int faults) noexcept;
   void grade_by_parity() noexcept { last_grade_ = Grade::provisional; }
   void suspect_for(Cause cause) noexcept { suspicion_ = cause; }
@@ -118,8 +118,8 @@ class Diagnosis {
   bool probation_passed(const MonitorConfig& config) const noexcept;
   /// Isolated at the confirmed or the assumed grade, over the stations that it takes.
   SensorSet isolated(const Terms& terms) const noexcept;
-  /// Those that scatter by themselves for long enough.
-  SensorSet noise_confirmed(const ChannelFacts& facts) const noexcept;
+  /// Those that scatter by themselves for long enough, with the chips that they are on.
+  SensorSet noise_confirmed(const SensorArray& array, const ChannelFacts& facts) const noexcept;
   bool isolation_timed_out(const Terms& terms) const noexcept;
   bool bounded(double alert_limit_rad) const noexcept {
     return scan_.protection_available && scan_.protection_rad <= alert_limit_rad;
@@ -130,7 +130,7 @@ class Diagnosis {
   RotationRequest rotation_request(const Terms& terms) const noexcept;
 
  private:
-  bool is_still_there(const Terms& terms) const noexcept;
+  bool is_still_there(const Terms& terms, const BlockTests& tests, SensorSet voters) const noexcept;
   /// Who is at fault by one station.
   struct Suspicion {
     SensorSet isolated;
@@ -142,7 +142,7 @@ class Diagnosis {
   void note_suspicion(const Terms& terms, const BlockTests& tests, const Suspicion& suspected) noexcept;
   bool is_out_of_stations(const Terms& terms) const noexcept;
   bool is_out_of_blocks(const Terms& terms) const noexcept;
-  bool is_isolable(const BlockEvidence& evidence) const noexcept;
+  bool is_isolable(const SensorArray& array, const BlockEvidence& evidence) const noexcept;
   bool may_exclude(const Terms& terms, SensorSet isolated) const noexcept;
   bool note_predictions(const Terms& terms, const Vec3& x_mps2) noexcept;
   SensorSet corroborating(const Terms& terms) const noexcept;
