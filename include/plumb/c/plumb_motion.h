@@ -184,8 +184,7 @@ typedef struct plumb_inclination_config {
   uint32_t struct_size;      /* set by plumb_inclination_config_defaults */
   double axis[3];            /* unit vector, tool frame; along the hole and downwards for a drilling tool */
   double axis_bound_rad;     /* how far the axis that is meant may be from it, 0 .. pi; no default [rad] */
-  double velocity_bound_mps; /* within a window the velocity of the reference point differs from some constant velocity
-                                by no more, 0 .. 100; no default [m/s] */
+  double velocity_bound_mps; /* velocity less some constant one, within a window, 0 .. 100; no default [m/s] */
   double window_s;           /* 128 sample periods .. 600 [s] */
   double gravity_mps2;       /* 1 .. 30 [m/s^2] */
   double gravity_bound_mps2; /* of what is stated as gravity, 0 .. 0.5 [m/s^2] */
