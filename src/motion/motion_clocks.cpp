@@ -218,7 +218,8 @@ void MotionClocks::draw_sensor(const Ring& ring, const Place& at, double lag_s, 
 void MotionClocks::draw_gyro(const Ring& ring, const Place& at, double lag_s, std::size_t gyro,
                              MotionSample& out) const noexcept {
   for (std::uint64_t k = at.number - kBefore; k <= at.number + kAfter; ++k) {
-    if ((ring.rates[slot(k)] >> gyro & 1U) == 0) return;
+    const unsigned rates = ring.rates[slot(k)];
+    if ((rates >> gyro & 1U) == 0) return;
   }
   const auto& w = rate_radps_[gyro];
   const auto second_about = [&](std::uint64_t k) {
