@@ -146,6 +146,22 @@ ForceOfSet force_of(const SensorArray& array, const MotionSetup& setup, const Mo
   return out;
 }
 
+/// What the parity of the true readings of a set may be against that of the readings, some of which are at full scale.
+struct FullScale {
+  bool may_be_more = false, may_be_less = false;
+};
+
+FullScale beyond_full_scale(const MotionSet& set, const MotionReadings& readings) noexcept {
+  FullScale out;
+  for (std::size_t k = 0; k < set.size; ++k) {
+    const bool upwards = readings.at_least.has(set.sensor[k]), downwards = readings.at_most.has(set.sensor[k]);
+    const bool counts_up = set.null[k] > 0.0;
+    out.may_be_more = out.may_be_more || (counts_up ? upwards : downwards);
+    out.may_be_less = out.may_be_less || (counts_up ? downwards : upwards);
+  }
+  return out;
+}
+
 /// A mean of the angular acceleration over two blocks is the difference of two mean rates over the length of one.
 RotationTerm bounded(const MotionSetup& setup, const MotionMeans& means) noexcept {
   RotationTerm out;
@@ -218,7 +234,6 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
   const bool clipped = !readings.usable.contains(set.all);
   if (clipped && !(readings.usable | readings.at_least | readings.at_most).contains(set.all)) return false;
   double parity = 0.0, variance = 0.0, limit = 0.0, axes = 0.0;
-  bool may_be_more = false, may_be_less = false;  // what the parity of the true readings is against `parity`
   for (std::size_t k = 0; k < set.size; ++k) {
     const auto i = static_cast<std::size_t>(set.sensor[k]);
     const double v = set.null[k], sigma = array.sigma_mps2(static_cast<int>(i));
@@ -226,14 +241,12 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
     variance += v * v * sigma * sigma;
     limit += std::fabs(v) * readings.error_mps2[i];
     axes += std::fabs(v) * setup.errors[i].axis_rad;
-    const bool upwards = readings.at_least.has(set.sensor[k]), downwards = readings.at_most.has(set.sensor[k]);
-    may_be_more = may_be_more || (v > 0.0 ? upwards : downwards);
-    may_be_less = may_be_less || (v > 0.0 ? downwards : upwards);
   }
   limit += readings.noise_factor * std::sqrt(variance);
   if (clipped) {
     limit += (axes + norm(set.rest)) * setup.force_bound_mps2;
-    return (parity > limit && !may_be_less) || (parity < -limit && !may_be_more);
+    const FullScale truth = beyond_full_scale(set, readings);
+    return (parity > limit && !truth.may_be_less) || (parity < -limit && !truth.may_be_more);
   }
   const double force = force_bound(array, setup, set, readings);
   limit += axes * force;

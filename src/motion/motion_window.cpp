@@ -77,11 +77,10 @@ void MotionWindow::append(Sums& to, const Sums& part, double first_share, double
     x[0] += y[0];
     x[1] += first_share * y[0] + part_share * y[1];
   };
-  const SensorSet any = SensorSet::first(sensors_);
-  const auto all_of = [&](SensorSet so_far, SensorSet more) { return (to.count == 0 ? any : so_far) & more; };
-  to.usable = all_of(to.usable, part.usable);
-  to.at_least = all_of(to.at_least, part.at_least);
-  to.at_most = all_of(to.at_most, part.at_most);
+  const bool first = to.count == 0;
+  to.usable = first ? part.usable : to.usable & part.usable;
+  to.at_least = first ? part.at_least : to.at_least & part.at_least;
+  to.at_most = first ? part.at_most : to.at_most & part.at_most;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sensors_); ++i) {
     add(to.reading[i], part.reading[i]);
     add(to.square[i], part.square[i]);
