@@ -72,10 +72,11 @@ double rate_bound_of(FlightKind kind) {
   return 0.0;
 }
 
-SensorArray array_of(const std::vector<Vec3>& axes) {
+SensorArray array_of(const std::vector<Vec3>& axes, bool triads) {
   std::array<SensorRow, kCapacity> rows{};
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    rows[i] = {make_id(("a" + std::to_string(i + 1)).c_str()), axes[i], kNoise_mps2};
+    const auto chip = static_cast<std::uint8_t>(triads ? 1 + i / 3 : 0);
+    rows[i] = {make_id(("a" + std::to_string(i + 1)).c_str()), axes[i], kNoise_mps2, chip};
   }
   const Expected<SensorArray> made = SensorArray::make(rows.data(), static_cast<int>(axes.size()));
   if (!made) throw std::runtime_error(describe(made.error().code));
@@ -126,7 +127,6 @@ MotionSetup stated_setup(const FlightCase& one, const std::vector<Vec3>& arms) {
   for (std::size_t i = 0; i < arms.size(); ++i) {
     out.lever_arm_m[i] = arms[i];
     out.errors[i] = {1e-3, 70e-6, 2e-5, 1e-3, 1.5e-3, 1e-3 * kG0_mps2};
-    if (one.array == FlightArray::triads) out.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
   }
   out.gyros = one.gyros;
   out.gyro = {0.01, 0.01, rad_from_deg(0.35), rad_from_deg(0.1), 20e-6};
@@ -139,18 +139,14 @@ MotionSetup stated_setup(const FlightCase& one, const std::vector<Vec3>& arms) {
 
 FlightBrief brief_of(const FlightCase& one) {
   FlightBrief out;
-  out.array = array_of(axes_of(one));
+  out.array = array_of(axes_of(one), one.array == FlightArray::triads);
   out.setup = stated_setup(one, arms_of(one));
   for (const auto& fault : one.faults) {
     out.onset_s = fault.onset_s < out.onset_s ? fault.onset_s : out.onset_s;
     out.faulty = out.faulty | fault.sensors;
   }
   for (const auto& fault : one.gyro_faults) out.onset_s = fault.onset_s < out.onset_s ? fault.onset_s : out.onset_s;
-  out.may_blame = out.faulty;
-  const FaultUnits units(out.array, out.setup);
-  for (int k = 0; k < units.size(); ++k) {
-    if (!(units[k] & out.faulty).empty()) out.may_blame = out.may_blame | units[k];
-  }
+  out.may_blame = out.array.units().whole(out.faulty);
   return out;
 }
 

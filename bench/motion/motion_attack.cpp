@@ -60,16 +60,17 @@ Told told_of(const FlightCase& one) {
 /// Units that lie, as many as are promised for; one where a fault is at best detected, and nobody may be blamed.
 void draw_liars(AttackKind kind, int more_units, const FlightCase& one, const FlightBrief& brief, Draw& draw,
                 LieScene* scene, int* units_lying) {
-  const FaultUnits units(brief.array, brief.setup);
+  const SensorUnits& units = brief.array.units();
   const bool any = kind == AttackKind::adaptive;
   const bool gyro = kind == AttackKind::gyro || kind == AttackKind::both || (any && draw.below(3) == 0);
   if (gyro) scene->gyro = draw.below(one.gyros);
   if (kind == AttackKind::gyro) return;
-  const int grade = std::min(units.grade(brief.array, brief.array.all()), brief.setup.max_faults);
+  const int grade = std::min(motion_grade(brief.array, brief.array.all()), brief.setup.max_faults);
   const int most = std::max(grade, 1) - (gyro && one.gyros == 1 ? 1 : 0);
   if (most < 1) return;
   const int lying = more_units > 0 ? most + more_units : 1 + draw.below(most);
-  while (units.count_in(scene->liars) < lying) scene->liars = scene->liars | units[draw.below(units.size())];
+  while (units.count(scene->liars) < lying)
+    scene->liars = scene->liars | units.sensors_of(SensorSet::of(draw.below(units.size())));
   *units_lying = lying;
 }
 
@@ -168,7 +169,7 @@ class Attack {
     if (force.validity == ForceValidity::none) return false;
     const bool gyro_lies = attacked && scene_.gyro >= 0;
     if (gyro_lies && force.gyro_assumed) return false;
-    const int lying = attacked ? FaultUnits(brief_.array, brief_.setup).count_in(force.used & scene_.liars) : 0;
+    const int lying = attacked ? brief_.array.units().count(force.used & scene_.liars) : 0;
     const int gyro_units = gyro_lies && one_.gyros == 1 ? 1 : 0;
     return lying + gyro_units <= (force.validity == ForceValidity::bounded ? 1 : 0);
   }

@@ -22,11 +22,10 @@ class Drone {
     plumb::SensorRow rows[kSensors];
     for (std::size_t i = 0; i < spec.axis.size(); ++i) {
       const char id[] = {'a', static_cast<char>('1' + i), '\0'};
-      rows[i] = {plumb::make_id(id), spec.axis[i], kNoise_mps2};
+      rows[i] = {plumb::make_id(id), spec.axis[i], kNoise_mps2, static_cast<std::uint8_t>(1 + i / 3)};
       setup_.lever_arm_m[i] = spec.lever_arm_m[i];
       // Of data sheets: 1 mm, 70 us, 2e-5 of the mean square, 0.1 %, 1.5 mrad, 1 mg.
       setup_.errors[i] = {1e-3, 70e-6, 2e-5, 1e-3, 1.5e-3, 1e-3 * plumb::kG0_mps2};
-      setup_.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
     }
     const plumb::Expected<plumb::SensorArray> array = plumb::SensorArray::make(rows, kSensors);
     if (array) array_ = *array;  // else empty: the monitor refuses it

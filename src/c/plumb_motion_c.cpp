@@ -20,6 +20,7 @@ Expected<SensorArray> array_of(const plumb_motion_config& config) noexcept {
     rows[k].id = {'s', static_cast<char>('0' + k / 10), static_cast<char>('0' + k % 10)};
     std::copy(from.axis, from.axis + 3, rows[k].axis.begin());
     rows[k].sigma_mps2 = from.sigma_mps2;
+    rows[k].chip = static_cast<std::uint8_t>(from.chip);  // in range: `take_sensors` has asked
   }
   return SensorArray::make(rows.data(), config.sensors);
 }
@@ -32,7 +33,6 @@ plumb_error take_sensors(const plumb_motion_config& config, MotionSetup& setup) 
     if (e.code != PLUMB_OK) return e;
     if (from.chip < 0 || from.chip > 255)
       return answer({Errc::out_of_range, static_cast<int>(k), static_cast<double>(from.chip), 255.0});
-    setup.chip[k] = static_cast<std::uint8_t>(from.chip);
     std::copy(from.lever_arm_m, from.lever_arm_m + 3, setup.lever_arm_m[k].begin());
     setup.errors[k] = {from.lever_bound_m, from.lag_bound_s,    from.rectification_bound,
                        from.scale_bound,   from.axis_bound_rad, from.bias_bound_mps2};

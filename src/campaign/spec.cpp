@@ -111,8 +111,10 @@ Spec spec_of(const Plan& plan, std::uint64_t number) {
       spec.fault[static_cast<std::size_t>(spec.faults++)] = one;
       continue;
     }
-    const SensorSet failing = struck.next(draws);
-    for (one.sensor = failing.lowest(); one.sensor < tool.sensors && spec.faults < kMostFaults; ++one.sensor) {
+    SensorSet failing = struck.next(draws);
+    const int room = kMostFaults - spec.faults - (units - 1 - k);  // every unit after this one needs a place
+    if (failing.size() > room) failing = SensorSet::of(failing.lowest());
+    for (one.sensor = failing.lowest(); one.sensor < tool.sensors; ++one.sensor) {
       if (!failing.has(one.sensor)) continue;
       if (fault.most_mdb > 0.0) {
         mdb = size_in_mdb(fault, draws);

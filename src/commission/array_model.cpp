@@ -7,18 +7,10 @@ inline namespace PLUMB_ABI {
 namespace commission {
 namespace {
 
-/// By sensor, the number of its arm.
+/// By sensor, the number of its arm: the axes of a chip share one.
 std::vector<int> arms_of(const ArrayOnBoard& on_board) {
   std::vector<int> out;
-  int arms = 0;
-  for (int i = 0; i < on_board.array.size(); ++i) {
-    const std::uint8_t chip = on_board.setup.chip[static_cast<std::size_t>(i)];
-    int arm = -1;
-    for (int j = 0; j < i && chip != 0; ++j) {
-      if (on_board.setup.chip[static_cast<std::size_t>(j)] == chip) arm = out[static_cast<std::size_t>(j)];
-    }
-    out.push_back(arm >= 0 ? arm : arms++);
-  }
+  for (int i = 0; i < on_board.array.size(); ++i) out.push_back(on_board.array.units().of(i));
   return out;
 }
 

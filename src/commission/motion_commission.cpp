@@ -32,7 +32,8 @@ Expected<SensorArray> array_of(const MotionFit& fit, double noise_mps2) {
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 row = row_of(fit.unit[u], c);
       const std::string id = std::string("u") + std::to_string(u + 1) + "xyz"[c];
-      rows.push_back({make_id(id.c_str()), scaled(row, 1.0 / norm(row)), noise_mps2});
+      rows.push_back({make_id(id.c_str()), scaled(row, 1.0 / norm(row)), noise_mps2,
+                      static_cast<std::uint8_t>(rows.size() / 3 + 1)});
     }
   }
   return SensorArray::make(rows.data(), static_cast<int>(rows.size()));
@@ -110,7 +111,6 @@ MotionSetup setup_of(const MotionFit& fit, const BoundRule& rule) {
     const FittedUnit& unit = fit.unit[i / 3];
     out.lever_arm_m[i] = minus(unit.arm_m, middle);
     out.errors[i] = errors_of(unit, i % 3, rule);
-    out.chip[i] = static_cast<std::uint8_t>(i / 3 + 1);
   }
   return out;
 }

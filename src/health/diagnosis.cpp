@@ -87,6 +87,17 @@ void Diagnosis::ask_about(const Terms& terms, const BlockTests& tests, const Blo
   station_.clear();
 }
 
+bool Diagnosis::some_measure_gravity(const Terms& terms, const BlockTests& tests, SensorSet sensors) noexcept {
+  const SensorUnits& units = terms.in_force.array.units();
+  const auto measures_gravity = [&](SensorSet set) {
+    const SetTest& t = tests.of(set);
+    return t.tested && t.consistent(terms.settings.limits);
+  };
+  bool out = measures_gravity(sensors);
+  for (int u = 0; u < units.size() && !out; ++u) out = measures_gravity(units.sensors_of(SensorSet::of(u)) & sensors);
+  return out;
+}
+
 /// Whether enough sensors to determine a vector read what they read when the station began. Then the tool has not
 /// turned, whatever the others make of the direction: a faulty sensor that steps is no new attitude. A chip is enough,
 /// and one that is dead or stuck reads the same for ever: it speaks only if it is asked, and measures gravity.
@@ -95,16 +106,7 @@ bool Diagnosis::is_still_there(const Terms& terms, const BlockTests& tests, Sens
   const SensorArray& array = terms.in_force.array;
   const SensorSet same =
       reads_the_same(array, terms.last.evidence, station_.reading_mps2, samples) & station_.delivered;
-  const SensorUnits& units = array.units();
-  if (!units.grouped()) return rank_of(array, same) == 3;
-  const auto measures_gravity = [&](SensorSet set) {
-    const SetTest& t = tests.of(set);
-    return t.tested && t.consistent(terms.settings.limits);
-  };
-  bool still = measures_gravity(same & voters);
-  for (int u = 0; u < units.size() && !still; ++u)
-    still = measures_gravity(units.sensors_of(SensorSet::of(u)) & same & voters);
-  return still;
+  return array.units().grouped() ? some_measure_gravity(terms, tests, same & voters) : rank_of(array, same) == 3;
 }
 
 /// A station at which the question was asked, and no block gave the candidate for an answer, takes it back.

@@ -29,14 +29,23 @@ bool Diagnosis::expected(HealthEvent event, const DecisionState& machine) const 
          (event == HealthEvent::norm_mismatch || event == HealthEvent::no_consistent_hypothesis);
 }
 
+/// One chip determines a vector by itself, and a dead one is at rest in any flight. Where others scatter that determine
+/// one as well, some of those at rest must measure gravity (docs/theory.md, section 5.7).
+bool Diagnosis::is_rest_witnessed(const Terms& terms, const BlockTests& tests) noexcept {
+  const SensorArray& array = terms.in_force.array;
+  if (!array.units().grouped() || rank_of(array, terms.last.scattering) < 3) return true;
+  return some_measure_gravity(terms, tests, terms.last.calm & terms.machine.sensors.in_service);
+}
+
 /// The timeout counts doubt, not alarms alone: a block between the limit to leave suspect and the one to enter it would
 /// else hold the monitor there for ever. It rests at a norm mismatch, by which no sensor in service is suspected.
-void Diagnosis::count_doubt(const Terms& terms, const BlockReport& report) noexcept {
+void Diagnosis::count_doubt(const Terms& terms, const BlockTests& tests, const BlockReport& report) noexcept {
   // The contradiction for which the host had a fit made is not new, and the fit needs more stations than the isolation
   // timeout allows.
   const bool known = answer_.no_consistent_hypothesis && expected(HealthEvent::no_consistent_hypothesis, terms.machine);
   episode_.note_suspected((episode_.candidate | terms.machine.sensors.provisionally_excluded).size());
   if (!report.doubtful(terms.machine.mode) || known || terms.in_force.owes_calibration()) return;
+  if (!is_rest_witnessed(terms, tests)) return;
   const MonitorConfig& config = terms.settings.config;
   episode_.stations.add(station_.direction, config.distinct_attitude_angle_rad);
   if (episode_.doubtful_blocks < config.isolation_timeout_blocks) ++episode_.doubtful_blocks;

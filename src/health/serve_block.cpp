@@ -292,7 +292,7 @@ EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTe
   d.ask_about(terms, tests, report, s.requests.motion.served & s.machine.sensors.provisionally_excluded);
   d.follow_station(terms, tests, report, sample.station);
   if (d.episode().open && report.kind != Kind::reference) d.vote(terms, tests);
-  d.count_doubt(terms, report);
+  d.count_doubt(terms, tests, report);
   const bool contradicted = check_calibration(report);
   d.count_clean(terms, tests, report, s.machine);
   d.follow_rest(terms, report);

@@ -5,41 +5,11 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-FaultUnits::FaultUnits(const SensorArray& array, const MotionSetup& setup) noexcept {
-  const int n = array.size() < kMotionCapacity ? array.size() : kMotionCapacity;
-  SensorSet placed;
-  for (int i = 0; i < n; ++i) {
-    if (placed.has(i)) continue;
-    SensorSet unit = SensorSet::of(i);
-    const std::uint8_t chip = setup.chip[static_cast<std::size_t>(i)];
-    for (int j = i + 1; j < n && chip != 0; ++j) {
-      if (setup.chip[static_cast<std::size_t>(j)] == chip) unit = unit.with(j);
-    }
-    placed = placed | unit;
-    unit_[static_cast<std::size_t>(size_++)] = unit;
-  }
-}
-
-SensorSet FaultUnits::sensors_of(SensorSet units) const noexcept {
-  SensorSet out;
-  for (int k = 0; k < size_; ++k) {
-    if (units.has(k)) out = out | (*this)[k];
-  }
-  return out;
-}
-
-int FaultUnits::count_in(SensorSet sensors) const noexcept {
-  int count = 0;
-  for (int k = 0; k < size_; ++k) count += ((*this)[k] & sensors).empty() ? 0 : 1;
-  return count;
-}
-
-int FaultUnits::grade(const SensorArray& array, SensorSet sensors) const noexcept {
-  const SensorSet all = SensorSet::first(size_);
-  for (int removed = 1; removed <= size_ && removed <= kMotionDepth + 1; ++removed) {
-    for (SensorSet some = SensorSet::first(removed); all.contains(some); some = next_of_same_size(some)) {
-      const SensorSet rest = sensors - sensors_of(some);
-      if (!spans_space(array, rest)) return removed >= 2 ? removed - 2 : 0;
+int motion_grade(const SensorArray& array, SensorSet sensors) noexcept {
+  const SensorUnits& units = array.units();
+  for (int removed = 1; removed <= units.size() && removed <= kMotionDepth + 1; ++removed) {
+    for (SensorSet some = SensorSet::first(removed); units.all().contains(some); some = next_of_same_size(some)) {
+      if (!spans_space(array, sensors - units.sensors_of(some))) return removed >= 2 ? removed - 2 : 0;
     }
   }
   return kMotionDepth;
@@ -74,12 +44,12 @@ void RejectedSets::keep_within(SensorSet sensors) noexcept {
   size_ = kept;
 }
 
-MotionAnswer RejectedSets::answer(const FaultUnits& units, SensorSet sensors, int most) const noexcept {
+MotionAnswer RejectedSets::answer(const SensorUnits& units, SensorSet sensors, int most) const noexcept {
   MotionAnswer out;
   if (empty()) return out;
   out.least = most + 1;
   SensorSet common = sensors;
-  const SensorSet all = SensorSet::first(units.size());
+  const SensorSet all = units.all();
   for (int size = 1; size <= most && size <= kMotionDepth && size <= units.size(); ++size) {
     for (SensorSet some = SensorSet::first(size); all.contains(some); some = next_of_same_size(some)) {
       const SensorSet faults = units.sensors_of(some) & sensors;

@@ -36,10 +36,10 @@ const char* to_string(ForceValidity validity) noexcept {
   return "?";
 }
 
-ForceEstimator::ForceEstimator(const SensorArray& array, const FaultUnits& units, SensorSet sensors) noexcept
-    : all_(fit_of(array, sensors)) {
+ForceEstimator::ForceEstimator(const SensorArray& array, SensorSet sensors) noexcept : all_(fit_of(array, sensors)) {
+  const SensorUnits& units = array.units();
   for (int k = 0; k < units.size(); ++k) {
-    const SensorSet rest = sensors - units[k];
+    const SensorSet rest = sensors - units.sensors_of(SensorSet::of(k));
     if (rest != sensors) without_[static_cast<std::size_t>(k)] = fit_of(array, rest);
   }
 }
@@ -92,7 +92,7 @@ ForceTerm ForceEstimator::dominant_of(const Explanation& one, const MotionSetup&
 /// The bound is the largest reach, over no fault and over one unit at fault that explains what is on record. A unit
 /// whose loss leaves no vector is not covered. There is no bound where it takes more than one unit to explain what is
 /// on record, and where readings are so large that a sum overflows.
-SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnits& units, const MotionMeans& means,
+SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const SensorUnits& units, const MotionMeans& means,
                                        const MotionReadings& readings, const ForceEvidence& evidence) const noexcept {
   SpecificForce out;
   out.time_s = means.time_s;
@@ -113,7 +113,7 @@ SpecificForce ForceEstimator::estimate(const MotionSetup& setup, const FaultUnit
     if (one.reach_mps2 > worst.reach_mps2) worst = one;
   };
   for (int k = 0; k < units.size(); ++k) {
-    const SensorSet unit = units[k] & out.used;
+    const SensorSet unit = units.sensors_of(SensorSet::of(k)) & out.used;
     if (unit.empty() || !evidence.rejected->explained_by(unit | evidence.isolated)) continue;
     explained = true;
     const Fit& fit = without_[static_cast<std::size_t>(k)];

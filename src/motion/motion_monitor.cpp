@@ -40,8 +40,7 @@ Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSe
   new (this) MotionMonitor();  // in place, as all that is large: not on the stack
   array_ = array;
   setup_ = setup;
-  new (&sets_) MotionSets(array, setup);
-  units_ = FaultUnits(array, setup);
+  new (&sets_) MotionSets(array);
   new (&window_) MotionWindow(array.size(), setup.gyros, setup.sample_period_s);
   noise_quantile_ = quantile_of(setup, sets_.size());
   in_service_ = array.all();
@@ -64,7 +63,7 @@ void MotionMonitor::forget() noexcept {
 }
 
 int MotionMonitor::most_faults() const noexcept {
-  const int left = setup_.max_faults - units_.count_in(verdict_.excluded);
+  const int left = setup_.max_faults - array_.units().count(verdict_.excluded);
   const int most = grade_ < left ? grade_ : left;
   return most < 0 ? 0 : most;
 }
@@ -74,7 +73,7 @@ void MotionMonitor::refit() noexcept {
   const SensorSet sensors = monitored();
   with_gyro_.keep_within(sensors);
   without_gyro_.keep_within(sensors);
-  grade_ = units_.grade(array_, sensors);
+  grade_ = motion_grade(array_, sensors);
   redundant_ = sets_.any_within(sensors);
   trust();
   news_ = true;
@@ -88,7 +87,7 @@ bool MotionMonitor::check_each_other(SensorSet sensors) const noexcept {
 void MotionMonitor::trust() noexcept {
   const SensorSet rest = monitored() - verdict_.isolated;
   trusted_ = spans_space(array_, rest) ? rest : monitored();
-  new (&force_) ForceEstimator(array_, units_, trusted_);
+  new (&force_) ForceEstimator(array_, trusted_);
 }
 
 bool MotionMonitor::reject(const MotionReadings& readings, RejectedSets* record) noexcept {
@@ -141,13 +140,13 @@ void MotionMonitor::judge(int scale, int lowest) noexcept {
 void MotionMonitor::answer(double time_s) noexcept {
   const SensorSet before = verdict_.isolated;
   const int most = most_faults();
-  const MotionAnswer found = with_gyro_.answer(units_, monitored(), most);
+  const MotionAnswer found = with_gyro_.answer(array_.units(), monitored(), most);
   verdict_.suspects = found.suspects;
   verdict_.isolated = found.isolated;
   verdict_.least_faults = found.least;
   gyro_explains_ = false;
   if (doubts_gyro() && !with_gyro_.empty()) {
-    const MotionAnswer beside = without_gyro_.answer(units_, monitored(), most > 0 ? most - 1 : 0);
+    const MotionAnswer beside = without_gyro_.answer(array_.units(), monitored(), most > 0 ? most - 1 : 0);
     gyro_explains_ = most == 0 || beside.least <= most - 1;
     if (gyro_explains_) verdict_.isolated = found.isolated & beside.isolated;
   }
@@ -230,8 +229,8 @@ SpecificForce MotionMonitor::force_of(const MotionMeans& means, const MotionRead
   evidence.gyro_assumed = doubts_gyro() && !gyro_explains_;
   evidence.without_gyro = gyro_explains_ ? &without_gyro : nullptr;
   const SensorSet used = readings.usable & trusted_;
-  if (used == force_.all().used) return force_.estimate(setup_, units_, means, readings, evidence);
-  return ForceEstimator(array_, units_, used).estimate(setup_, units_, means, readings, evidence);
+  if (used == force_.all().used) return force_.estimate(setup_, array_.units(), means, readings, evidence);
+  return ForceEstimator(array_, used).estimate(setup_, array_.units(), means, readings, evidence);
 }
 
 }  // namespace PLUMB_ABI

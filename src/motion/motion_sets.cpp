@@ -43,24 +43,13 @@ SensorSet members_of(const MotionSet& set) noexcept {
   return out;
 }
 
-SensorSet chips_of(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept {
-  SensorSet out = members;
-  for (int i = 0; i < array.size(); ++i) {
-    for (int j = 0; j < array.size(); ++j) {
-      const std::uint8_t chip = setup.chip[static_cast<std::size_t>(i)];
-      if (members.has(j) && chip != 0 && chip == setup.chip[static_cast<std::size_t>(j)]) out = out.with(i);
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
-MotionSets::MotionSets(const SensorArray& array, const MotionSetup& setup) noexcept {
+MotionSets::MotionSets(const SensorArray& array) noexcept {
   const int n = array.size() < kMotionCapacity ? array.size() : kMotionCapacity;
   for (int size = 2; size <= 4 && size <= n; ++size) {
     const SensorSet all = SensorSet::first(n);
-    for (SensorSet s = SensorSet::first(size); all.contains(s); s = next_of_same_size(s)) add(array, setup, s);
+    for (SensorSet s = SensorSet::first(size); all.contains(s); s = next_of_same_size(s)) add(array, s);
   }
 }
 
@@ -78,7 +67,7 @@ bool MotionSets::has_subset_of(SensorSet members) const noexcept {
   return false;
 }
 
-void MotionSets::add(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept {
+void MotionSets::add(const SensorArray& array, SensorSet members) noexcept {
   if (size_ == kMotionSets || has_subset_of(members)) return;
   MotionSet set;
   for (SensorSet rest = members; !rest.empty(); rest = rest.without(rest.lowest())) {
@@ -93,7 +82,7 @@ void MotionSets::add(const SensorArray& array, const MotionSetup& setup, SensorS
     set.rest = plus(set.rest, scaled(array.axis(set.sensor[k]), set.null[k]));
   }
   if (norm(set.rest) > kMotionRest) return;
-  set.all = set.size == 4 ? members : chips_of(array, setup, members);
+  set.all = set.size == 4 ? members : array.units().whole(members);
   set.least_singular = smallest_singular(array, set.all);
   if (set.least_singular == 0.0) set.all = members;
   if (set.least_singular == 0.0) {

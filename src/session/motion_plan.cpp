@@ -118,7 +118,6 @@ MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calib
     out.lever_arm_m[k] = commissioned != nullptr ? commissioned->sensor[k].lever_arm_m : array.lever_arm_m[k];
     out.errors[k] = errors_of(array, calibration, i, days, commissioned);
   }
-  for (int i = 0; i < array.array.size(); ++i) out.chip[static_cast<std::size_t>(i)] = array.array.row(i).chip;
   if (array.input.rotation_columns.empty()) return out;
   out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
   out.gyro = gyro_of(spec.gyro, commissioned);
@@ -246,7 +245,7 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
                         : not_judged(array, "gravity", "is too uncertain for an inclination in motion",
                                      "state a smaller sigma, or leave motion.velocity_bound_mps out"));
   }
-  if (MotionSets(out.array, out.setup).size() == 0)
+  if (MotionSets(out.array).size() == 0)
     return refuse(not_judged(array, "sensor", "has no axes that check each other whatever the force is",
                              "motion needs four axes, three in a plane or two parallel ones"));
   return out;

@@ -27,7 +27,7 @@ struct CMotion {
       std::memcpy(sensor[k].axis, array.axis(i).data(), sizeof sensor[k].axis);
       std::memcpy(sensor[k].lever_arm_m, setup.lever_arm_m[k].data(), sizeof sensor[k].lever_arm_m);
       sensor[k].sigma_mps2 = array.sigma_mps2(i);
-      sensor[k].chip = setup.chip[k];
+      sensor[k].chip = array.row(i).chip;
       sensor[k].lever_bound_m = e.lever_m;
       sensor[k].lag_bound_s = e.lag_s;
       sensor[k].rectification_bound = e.rectification;

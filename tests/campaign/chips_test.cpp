@@ -48,6 +48,24 @@ TEST(CampaignOfChips, TheGradeCountsThemAndEachFailsWithAllOfItsAxesOrOne) {
   EXPECT_EQ(axes.size(), 5U);
 }
 
+/// Three chips have nine axes, and there is room for eight faults: the chip that does not fit fails with one axis.
+// Negative: REQ-206
+TEST(CampaignOfChips, AsManyFailAsTheCellSaysWhereNotAllAxesFit) {
+  Plan plan = of_the_drone("1").plan;
+  ToolPlan& tool = plan.tools[0];
+  tool.sensors = 12;
+  for (std::size_t i = 0; i < 12; ++i) tool.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
+  for (Cell& cell : plan.cells) cell.faulty = 3;
+  std::map<int, int> axes;
+  for (std::uint64_t number = 0; number < 400; ++number) {
+    const Spec spec = spec_of(plan, number);
+    EXPECT_EQ(SensorSet(faulty_of(tool, spec)).size(), 9) << number;
+    ++axes[spec.faults];
+  }
+  for (const int count : {3, 5, 7}) EXPECT_GE(axes[count], 20) << count;
+  EXPECT_EQ(axes.size(), 3U);
+}
+
 // Verifies: REQ-206
 TEST(CampaignOfChips, NoHealthyChipIsExcludedAndTheFaultyOnesAreAsAWhole) {
   const CampaignFile file = of_the_drone("1");

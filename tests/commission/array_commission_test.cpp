@@ -83,9 +83,9 @@ Flown fly(Shape shape, std::uint64_t seed, double duration_s, scenario::FlightKi
   setup.gyro = {0.01, 0.01, 0.006, kGyroNoise_radps, 2e-5};
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    rows.push_back({make_id(("s" + std::to_string(i)).c_str()), spec.axis[k], spec.noise_mps2});
+    rows.push_back({make_id(("s" + std::to_string(i)).c_str()), spec.axis[k], spec.noise_mps2,
+                    shape == Shape::cone ? std::uint8_t{0} : static_cast<std::uint8_t>(i / 3 + 1)});
     if (shape == Shape::cone || i % 3 == 0) off = {wrong(), wrong(), wrong()};
-    setup.chip[k] = shape == Shape::cone ? std::uint8_t{0} : static_cast<std::uint8_t>(i / 3 + 1);
     setup.lever_arm_m[k] = plus(spec.lever_arm_m[k], off);
     setup.errors[k] = {0.0, 0.0, 0.0, stated.scale, stated.axis_rad, stated.bias_mps2};
     out.on_board.lever_bound_m[k] = -1.0;

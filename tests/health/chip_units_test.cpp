@@ -79,6 +79,26 @@ TEST(ChipUnits, OfTwoTriadsTheOneThatFeelsTheToolMoveIsNotTakenForNoisy) {
   }
 }
 
+/// A dead chip is at rest in any flight, and the other one alone determines a vector: what it turns by is no station,
+/// and the doubt does not run out. On the ground it is told as if nothing had been.
+// Negative: REQ-206
+TEST(ChipUnits, OfTwoTriadsADeadOneInFlightDoesNotRunOutOfStations) {
+  for (const ChipFault fault : {ChipFault::dead, ChipFault::stuck}) {
+    for (int k = 0; k < 10; ++k) {
+      ChipRig tool(chip_array(2), {}, static_cast<std::uint64_t>(100 + k));
+      tool.fail(k % 2, fault, static_cast<std::uint64_t>(7000 + k));
+      for (int block = 0; block < 60; ++block) {
+        const Verdict& v = tool.shaken(0.3 * kG0_mps2);
+        ASSERT_NE(v.state, HealthState::failed) << to_string(fault) << " " << k << ", block " << block;
+        ASSERT_TRUE(v.excluded.empty());
+        ASSERT_NE(v.validity, Validity::valid);
+      }
+      for (int s = 0; s < 5; ++s) tool.station(kBlocks);
+      EXPECT_EQ(tool.rig.monitor.verdict().excluded, tool.failed) << to_string(fault) << " " << k;
+    }
+  }
+}
+
 // Verifies: REQ-206, REQ-070
 TEST(ChipUnits, GradesCountUnits) {
   const auto grades = [](const SensorArray& array) {

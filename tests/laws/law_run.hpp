@@ -140,6 +140,21 @@ inline void expect_some_excluded(std::uint64_t told, const LawCount& count, doub
   EXPECT_GE(static_cast<double>(told), share * static_cast<double>(count.cases));
 }
 
+/// The law of which each case is a `Case`: it runs once, and remembers whom it isolated. At least a `share` isolate
+/// one.
+template <class Case>
+void expect_law_of_cases(int law, std::uint64_t wanted, double share) {
+  std::uint64_t told = 0;
+  const LawCount count = run_law(law, wanted, [&told](std::uint64_t number, TrialNoise& noise) {
+    Case one(number, noise);
+    const LawOutcome out = one.run();
+    told += one.isolated.empty() ? 0U : 1U;
+    return out;
+  });
+  EXPECT_EQ(count.broken, 0U);
+  expect_some_excluded(told, count, share);
+}
+
 /// A monitor over a tool, one block mean a step: a station is a sample that stands for 32, or for more.
 class Watch {
  public:

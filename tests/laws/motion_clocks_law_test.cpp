@@ -117,15 +117,7 @@ class Case {
 
 // Verifies: REQ-207
 TEST(Law, TwentyOneWithClocksOfTheirOwnNobodyHealthyIsIsolatedAndTheForceIsWithinItsBound) {
-  std::uint64_t told = 0;
-  const LawCount count = run_law(21, kLawCases / 5, [&told](std::uint64_t number, TrialNoise& noise) {
-    Case one(number, noise);
-    const LawOutcome out = one.run();
-    told += one.isolated.empty() ? 0U : 1U;
-    return out;
-  });
-  EXPECT_EQ(count.broken, 0U);
-  plumb_test::expect_some_excluded(told, count, 0.05);
+  plumb_test::expect_law_of_cases<Case>(21, kLawCases / 5, 0.05);
 }
 
 }  // namespace

@@ -106,15 +106,7 @@ class Case {
 
 // Verifies: REQ-201, REQ-204, REQ-205
 TEST(Law, NineteenInMotionNobodyHealthyIsIsolatedAndTheForceIsWithinItsBound) {
-  std::uint64_t told = 0;
-  const LawCount count = run_law(19, kLawCases, [&told](std::uint64_t number, TrialNoise& noise) {
-    Case one(number, noise);
-    const LawOutcome out = one.run();
-    told += one.isolated.empty() ? 0U : 1U;
-    return out;
-  });
-  EXPECT_EQ(count.broken, 0U);
-  plumb_test::expect_some_excluded(told, count, 0.05);
+  plumb_test::expect_law_of_cases<Case>(19, kLawCases, 0.05);
 }
 
 }  // namespace

@@ -11,6 +11,22 @@
 namespace plumb_test {
 inline namespace PLUMB_ABI {
 
+/// A tool that does not turn, and chips without errors.
+inline plumb::MotionSetup still_setup() {
+  plumb::MotionSetup out;
+  out.rate_bound_radps = 1e-9;
+  return out;
+}
+
+/// Four sensors on a clock that agrees with the common one.
+inline plumb::ClockSetup one_clock() {
+  plumb::ClockSetup out;
+  out.clocks = 1;
+  out.clock[0].sensors = plumb::SensorSet::first(4);
+  out.clock[0].valid_s = 1000.0;
+  return out;
+}
+
 /// `setup` with clocks for n sensors in turn, each of another rate and offset; the gyros are on the first ones.
 inline plumb::ClockSetup clocks_of(int n, int clocks, const plumb::MotionSetup& setup, Noise& noise) {
   constexpr std::array<double, 5> kPeriods{0.5, 0.8, 1.0, 1.003, 1.25};

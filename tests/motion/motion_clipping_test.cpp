@@ -57,7 +57,6 @@ RC_GTEST_PROP(MotionClippingLaw, AForceBeyondFullScaleAccusesNobody, ()) {
   const bool chips = *rc::gen::arbitrary<bool>();
   MotionSetup setup = motion_setup(6, *rc::gen::arbitrary<std::uint32_t>());
   setup.gyros = 2;
-  if (chips) setup.chip = {1, 1, 1, 2, 2, 2};
   Flight flight(drawn_array(chips), setup, *rc::gen::arbitrary<std::uint32_t>());
   flight.motion.draw_errors(*rc::gen::arbitrary<bool>());
   const double full_scale_mps2 = 3.0 + 0.01 * *rc::gen::inRange(0, 2000);
@@ -124,7 +123,6 @@ TEST(MotionClipping, ASaturatedSensorIsIsolatedWithinSamples) {
 TEST(MotionClipping, AChipThatIsSaturatedOnOneAxisIsIsolated) {
   MotionSetup setup = motion_setup(6);
   setup.gyros = 2;
-  setup.chip = {1, 1, 1, 2, 2, 2};
   Flight two(plumb_test::parallel_triads(2), setup, 7);
   for (std::uint64_t k = 0; k < 600; ++k) {
     if (k == 300) two.saturated = SensorSet::of(4);
@@ -191,7 +189,7 @@ TEST(MotionClipping, TurnedAxesAreInTheLimitOfAReadingAtFullScale) {
   setup.gyros = 2;
   setup.force_bound_mps2 = 10.0;
   for (std::size_t i = 0; i < 4; ++i) setup.errors[i].axis_rad = kTurn_rad;
-  const MotionSets sets(array, setup);
+  const MotionSets sets(array);
   ASSERT_EQ(sets.size(), 1);
   for (const double turn_rad : {0.9 * kTurn_rad, 6.0 * kTurn_rad}) {
     for (const double side : {-1.0, 1.0}) {

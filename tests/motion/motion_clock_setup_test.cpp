@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "motion/rigid_motion.hpp"
+#include "motion/clocked_motion.hpp"
 #include "plumb/motion/motion_clocks.hpp"
 
 // Serves: REQ-207
@@ -13,25 +13,12 @@ namespace {
 
 using namespace plumb;
 using plumb_test::cone_array;
-
-/// A tool that does not turn, and chips without errors.
-MotionSetup plain_setup() {
-  MotionSetup out;
-  out.rate_bound_radps = 1e-9;
-  return out;
-}
-
-ClockSetup one_clock() {
-  ClockSetup out;
-  out.clocks = 1;
-  out.clock[0].sensors = SensorSet::first(4);
-  out.clock[0].valid_s = 1000.0;
-  return out;
-}
+using plumb_test::one_clock;
+using plumb_test::still_setup;
 
 template <class Change>
 Error refused(Change change) {
-  MotionSetup setup = plain_setup();
+  MotionSetup setup = still_setup();
   setup.gyros = 1;
   ClockSetup clocks = one_clock();
   clocks.clock[0].gyro[0] = true;
@@ -65,7 +52,7 @@ TEST(MotionClockSetup, WhatIsStatedIsChecked) {
 }
 
 TEST(MotionClockSetup, LagAndNoiseGrowByWhatIsStated) {
-  MotionSetup setup = plain_setup();
+  MotionSetup setup = still_setup();
   setup.gyros = 1;
   setup.gyro.noise_radps = 0.01;
   setup.gyro.lag_s = 1e-5;

@@ -24,15 +24,10 @@ using plumb_test::ChipClocks;
 using plumb_test::clocks_of;
 using plumb_test::cone_array;
 using plumb_test::Noise;
+using plumb_test::one_clock;
+using plumb_test::still_setup;
 
 static_assert(std::is_trivially_copyable_v<MotionClocks>);
-
-/// Nothing is off but the clocks, and the tool does not turn.
-MotionSetup plain_setup() {
-  MotionSetup out;
-  out.rate_bound_radps = 1e-9;
-  return out;
-}
 
 /// n sensors that all feel `signal`, each by a clock of its own.
 struct Bench {
@@ -69,7 +64,7 @@ struct Bench {
 // Verifies: REQ-207
 RC_GTEST_PROP(MotionClocks, CubicsAreMetExactlyWhateverOffsetAndRate, ()) {
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
-  MotionSetup motion = plain_setup();
+  MotionSetup motion = still_setup();
   motion.gyros = 2;
   Bench bench(4, motion, noise);
   bench.configure();
@@ -137,7 +132,7 @@ TEST(MotionClocks, TonesAreWithinTheLimits) {
   Noise noise(1);
   Ratios ratios;
   for (int k = 0; k < 3000; ++k) {
-    const MotionSetup motion = plain_setup();
+    const MotionSetup motion = still_setup();
     Bench bench(4, motion, noise);
     double highest_hz = 0.45 / motion.sample_period_s;
     for (std::size_t c = 0; c < 4; ++c)
@@ -170,7 +165,7 @@ TEST(MotionClocks, LagAloneDoesNotAccountForWhatInterpolationAdds) {
   Noise noise(2);
   Ratios ratios;
   for (int k = 0; k < 50; ++k) {
-    Bench bench(4, plain_setup(), noise);
+    Bench bench(4, still_setup(), noise);
     bench.configure();
     ChipClocks chips(bench.stated, noise, true);
     const double phase = 7.0 * noise.uniform();
@@ -186,7 +181,7 @@ TEST(MotionClocks, ShocksAreWithinTheLimits) {
   Noise noise(3);
   Ratios ratios;
   for (int k = 0; k < 1000; ++k) {
-    Bench bench(4, plain_setup(), noise);
+    Bench bench(4, still_setup(), noise);
     double highest_hz = 1e9;
     for (std::size_t c = 0; c < 4; ++c)
       highest_hz = std::fmin(highest_hz, 0.25 / bench.stated.clock[c].sample_period_s);
@@ -208,7 +203,7 @@ TEST(MotionClocks, ShocksAreWithinTheLimits) {
 TEST(MotionClocks, NoiseIsWithinWhatIsStated) {
   for (const double share : {0.25, 1.0, 1.003, 2.5}) {
     Noise noise(4);
-    Bench bench(4, plain_setup(), noise);
+    Bench bench(4, still_setup(), noise);
     for (std::size_t c = 0; c < 4; ++c) bench.stated.clock[c].sample_period_s = 0.001 * share;
     bench.stated.wait_s = 0.03 * share;
     bench.configure();
@@ -242,7 +237,7 @@ TEST(MotionClocks, NoiseIsWithinWhatIsStated) {
 /// Three chips deliver, one does not: after the wait the instants come without it.
 TEST(MotionClocks, AChipThatFallsSilentIsLeftOutAfterTheWait) {
   Noise noise(5);
-  Bench bench(4, plain_setup(), noise);
+  Bench bench(4, still_setup(), noise);
   bench.configure();
   ChipClocks chips(bench.stated, noise, false);
   double latest_s = 0.0;
@@ -273,18 +268,10 @@ MotionSample stamped(double time_s, double reading_mps2 = 1.0) {
   return s;
 }
 
-ClockSetup one_clock() {
-  ClockSetup out;
-  out.clocks = 1;
-  out.clock[0].sensors = SensorSet::first(4);
-  out.clock[0].valid_s = 1000.0;
-  return out;
-}
-
 TEST(MotionClocks, SaysWhatBecameOfASample) {
   const auto clocks = std::make_unique<MotionClocks>();
   EXPECT_EQ(clocks->push(0, stamped(0.0)), ClockPush::not_configured);
-  ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), plain_setup(), one_clock()).has_value());
+  ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), still_setup(), one_clock()).has_value());
   EXPECT_EQ(clocks->push(-1, stamped(0.0)), ClockPush::unknown_clock);
   EXPECT_EQ(clocks->push(1, stamped(0.0)), ClockPush::unknown_clock);
   EXPECT_EQ(clocks->push(0, stamped(std::numeric_limits<double>::quiet_NaN())), ClockPush::not_finite);
@@ -303,7 +290,7 @@ TEST(MotionClocks, SaysWhatBecameOfASample) {
 template <class Distort>
 std::array<SensorSet, 2> drawn_about(Distort distort) {
   const auto clocks = std::make_unique<MotionClocks>();
-  EXPECT_TRUE(clocks->configure(cone_array(4, 0.01), plain_setup(), one_clock()).has_value());
+  EXPECT_TRUE(clocks->configure(cone_array(4, 0.01), still_setup(), one_clock()).has_value());
   std::array<SensorSet, 2> out{};
   for (int k = 0; k <= 40; ++k) {
     MotionSample s = stamped(0.001 * k + 0.0004);
@@ -339,7 +326,7 @@ TEST(MotionClocks, WhatCannotBeInterpolatedIsNotDelivered) {
 TEST(MotionClocks, FullScaleThroughoutIsFullScaleInBetween) {
   for (const bool both_senses : {false, true}) {
     const auto clocks = std::make_unique<MotionClocks>();
-    ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), plain_setup(), one_clock()).has_value());
+    ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), still_setup(), one_clock()).has_value());
     int drawn = 0;
     for (int k = 0; k <= 40; ++k) {
       MotionSample s = stamped(0.001 * k + 0.0004);
@@ -362,7 +349,7 @@ TEST(MotionClocks, FullScaleThroughoutIsFullScaleInBetween) {
 TEST(MotionClocks, AClockIsStatedAnew) {
   const auto clocks = std::make_unique<MotionClocks>();
   EXPECT_FALSE(clocks->set_clock(0, 0.0, 0.0, 0.0).has_value());
-  ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), plain_setup(), one_clock()).has_value());
+  ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), still_setup(), one_clock()).has_value());
   EXPECT_FALSE(clocks->set_clock(1, 0.0, 0.0, 0.0).has_value());
   EXPECT_EQ(clocks->set_clock(0, 0.0, 0.1, 0.0).error(), (Error{Errc::out_of_range, 202}));
   EXPECT_EQ(clocks->push(0, stamped(1500.0)), ClockPush::not_valid);
@@ -372,7 +359,7 @@ TEST(MotionClocks, AClockIsStatedAnew) {
 
 TEST(MotionClocks, TheHostsTimeMayJump) {
   const auto clocks = std::make_unique<MotionClocks>();
-  ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), plain_setup(), one_clock()).has_value());
+  ASSERT_TRUE(clocks->configure(cone_array(4, 0.01), still_setup(), one_clock()).has_value());
   MotionSample s;
   for (const double now_s : {0.0, 500.0, 1.0, -300.0, 1e10, 2.0}) {
     int drawn = 0;
@@ -386,7 +373,7 @@ TEST(MotionClocks, TheHostsTimeMayJump) {
 
 RC_GTEST_PROP(MotionClocks, IsTotalOverAllBitPatterns, ()) {
   Noise noise(*rc::gen::arbitrary<std::uint64_t>());
-  Bench bench(4, plain_setup(), noise);
+  Bench bench(4, still_setup(), noise);
   bench.configure();
   MotionSample s, common;
   for (int k = 0; k < 200; ++k) {

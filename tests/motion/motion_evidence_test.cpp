@@ -19,7 +19,7 @@ using plumb_test::make_array;
 
 RC_GTEST_PROP(RejectedSetsLaw, AnswerAsASearchOverAllSets, ()) {
   const int n = *rc::gen::inRange(4, kMotionCapacity + 1), most = *rc::gen::inRange(0, kMotionDepth + 1);
-  const FaultUnits units(cone_array(n), MotionSetup{});
+  const SensorUnits units = cone_array(n).units();
   const auto sets =
       *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::inRange(1U, 1U << static_cast<unsigned>(n)));
   RejectedSets rejected;
@@ -52,7 +52,7 @@ RC_GTEST_PROP(RejectedSetsLaw, AnswerAsASearchOverAllSets, ()) {
 /// isolated.
 RC_GTEST_PROP(RejectedSetsLaw, IsolateNoHealthySensor, ()) {
   const int n = *rc::gen::inRange(4, kMotionCapacity + 1), most = *rc::gen::inRange(1, kMotionDepth + 1);
-  const FaultUnits units(cone_array(n), MotionSetup{});
+  const SensorUnits units = cone_array(n).units();
   SensorSet faulty;
   for (int k = 0; k < most; ++k) faulty = faulty.with(*rc::gen::inRange(0, n));
   RejectedSets rejected;
@@ -64,7 +64,6 @@ RC_GTEST_PROP(RejectedSetsLaw, IsolateNoHealthySensor, ()) {
 }
 
 TEST(RejectedSets, ForgetThoseThatLeave) {
-  const FaultUnits units(cone_array(6), MotionSetup{});
   RejectedSets rejected;
   rejected.add(SensorSet(0b001111));
   rejected.add(SensorSet(0b111100));
@@ -77,7 +76,7 @@ TEST(RejectedSets, ForgetThoseThatLeave) {
 
 /// Every set of four that holds one sensor: that sensor, and no other one alone.
 TEST(RejectedSets, HaveRoomForEverySet) {
-  const FaultUnits units(cone_array(kMotionCapacity), MotionSetup{});
+  const SensorUnits units = cone_array(kMotionCapacity).units();
   RejectedSets rejected;
   for (SensorSet s = SensorSet::first(4); SensorSet::first(kMotionCapacity).contains(s); s = next_of_same_size(s)) {
     if (s.has(0)) {
@@ -91,27 +90,21 @@ TEST(RejectedSets, HaveRoomForEverySet) {
   EXPECT_EQ(answer.suspects, SensorSet::of(0));
 }
 
-TEST(FaultUnits, OfSensorsHaveTheGradeOfMotion) {
+TEST(MotionGrade, OfSensorsIsTheProvisionalOne) {
   for (int n = 4; n <= kMotionCapacity; ++n) {
     const SensorArray array = cone_array(n);
-    const FaultUnits units(array, MotionSetup{});
-    EXPECT_EQ(units.size(), n);
     const int expected = provisional_grade(array, array.all());
-    EXPECT_EQ(units.grade(array, array.all()), expected < kMotionDepth ? expected : kMotionDepth) << n;
+    EXPECT_EQ(motion_grade(array, array.all()), expected < kMotionDepth ? expected : kMotionDepth) << n;
   }
 }
 
 /// T12: of three parallel chips one can be told, of two none.
 // Negative: REQ-209
-TEST(FaultUnits, OfChipsCountChips) {
+TEST(MotionGrade, OfChipsCountsChips) {
   for (int chips = 1; chips <= 2; ++chips) {
     const SensorArray array = plumb_test::parallel_triads(chips);
-    MotionSetup setup;
-    for (std::size_t i = 0; i < 6; ++i) setup.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
-    const FaultUnits units(array, setup);
-    EXPECT_EQ(units.size(), chips);
-    EXPECT_EQ(units[0], SensorSet::first(3));
-    EXPECT_EQ(units.grade(array, array.all()), 0);
+    EXPECT_EQ(array.units().size(), chips);
+    EXPECT_EQ(motion_grade(array, array.all()), 0);
   }
   // Two chips and two single sensors along the diagonals: one chip's loss leaves five axes, so one unit is told.
   AxisList axes{};
@@ -119,14 +112,10 @@ TEST(FaultUnits, OfChipsCountChips) {
   const double third = std::sqrt(1.0 / 3.0);
   axes[6] = {third, third, third};
   axes[7] = {third, -third, third};
-  const SensorArray array = make_array(axes, 8, 0.01);
-  MotionSetup setup;
-  for (std::size_t i = 0; i < 6; ++i) setup.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
-  const FaultUnits units(array, setup);
-  EXPECT_EQ(units.size(), 4);
-  EXPECT_EQ(units.grade(array, array.all()), 0) << "both chips gone, two axes are left";
-  EXPECT_EQ(units.count_in(SensorSet(0b01000011)), 2);
-  EXPECT_EQ(units.sensors_of(SensorSet(0b0101)), SensorSet(0b01000111));
+  const SensorArray array = plumb_test::in_chips(make_array(axes, 8, 0.01), 3, 6);
+  EXPECT_EQ(array.units().size(), 4);
+  EXPECT_EQ(motion_grade(array, array.all()), 0) << "both chips gone, two axes are left";
+  EXPECT_EQ(array.units().count(SensorSet(0b01000011)), 2);
 }
 
 }  // namespace

@@ -136,8 +136,7 @@ TEST(MotionMonitor, FourSensorsDetectAndIsolateNone) {
 TEST(MotionMonitor, AChipIsExcludedWhole) {
   MotionSetup setup = motion_setup(8, 3);
   setup.gyros = 2;
-  for (std::size_t i = 0; i < 8; ++i) setup.chip[i] = static_cast<std::uint8_t>(1 + i / 2);
-  Flight flight(cone_array(8, 0.01), setup, 3);
+  Flight flight(plumb_test::in_chips(cone_array(8, 0.01), 2), setup, 3);
   add_bias_from(flight, 0.3, 4, 2.0);
   flight.fly(0, 900);
   EXPECT_EQ(flight.ever_isolated, SensorSet(0b00110000));

@@ -28,7 +28,7 @@ struct Flight {
   Flight(int n, std::uint64_t seed, double sigma_mps2, double highest_hz = 20.0)
       : array(cone_array(n, sigma_mps2)),
         setup(motion_setup(n, seed)),
-        sets(array, setup),
+        sets(array),
         window(n, setup.gyros, setup.sample_period_s),
         motion(array, setup, seed, highest_hz) {}
   MotionReadings readings(int scale, RotationSource source) const {
@@ -150,10 +150,10 @@ struct TwoTriads {
       axes[i][i % 3] = 1.0;
       if (i >= 3) axes[i] = plus(axes[i], scaled(plumb_test::random_direction(luck), 0.019 * luck.uniform()));
       axes[i] = scaled(axes[i], 1.0 / norm(axes[i]));
-      setup.chip[i] = chips ? static_cast<std::uint8_t>(1 + i / 3) : std::uint8_t{0};
     }
     array = plumb_test::make_array(axes, 6, 1e-4);
-    sets = MotionSets(array, setup);
+    if (chips) array = plumb_test::in_chips(array, 3);
+    sets = MotionSets(array);
     readings.usable = array.all();
     readings.noise_factor = 1.0;
   }

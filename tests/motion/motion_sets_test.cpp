@@ -33,7 +33,7 @@ void expect_sound(const SensorArray& array, const MotionSets& sets) {
 
 TEST(MotionSets, OfAPaperToolAreOneSetWithEqualWeights) {
   const SensorArray array = plumb_test::tetrahedron();
-  const MotionSets sets(array, MotionSetup{});
+  const MotionSets sets(array);
   ASSERT_EQ(sets.size(), 1);
   for (const double v : sets[0].null) EXPECT_NEAR(std::fabs(v), 0.5, 1e-12);
   expect_sound(array, sets);
@@ -42,7 +42,7 @@ TEST(MotionSets, OfAPaperToolAreOneSetWithEqualWeights) {
 TEST(MotionSets, OfAConeAreAllFours) {
   for (int n = 4; n <= kCapacity; ++n) {
     const SensorArray array = cone_array(n);
-    const MotionSets sets(array, MotionSetup{});
+    const MotionSets sets(array);
     EXPECT_EQ(sets.size(), n * (n - 1) * (n - 2) * (n - 3) / 24);
     expect_sound(array, sets);
   }
@@ -53,7 +53,7 @@ TEST(MotionSets, OfParallelTriadsArePairs) {
   AxisList axes{};
   for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = i == 4 ? -1.0 : 1.0;
   const SensorArray array = make_array(axes, 6, 0.01);
-  const MotionSets sets(array, MotionSetup{});
+  const MotionSets sets(array);
   ASSERT_EQ(sets.size(), 3);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(sets[k].all, SensorSet::of(k).with(k + 3));
   expect_sound(array, sets);
@@ -66,7 +66,7 @@ TEST(MotionSets, OfThreeInAPlaneAreThatThree) {
   axes[2] = {std::sqrt(0.5), std::sqrt(0.5), 0.0};
   axes[3] = {0.0, 0.6, 0.8};
   const SensorArray array = make_array(axes, 4, 0.01);
-  const MotionSets sets(array, MotionSetup{});
+  const MotionSets sets(array);
   ASSERT_EQ(sets.size(), 1);
   EXPECT_EQ(sets[0].all, SensorSet::first(3));
   expect_sound(array, sets);
@@ -79,7 +79,7 @@ TEST(MotionSets, OfAxesParallelButForADegreeCarryWhatIsLeft) {
   axes[2] = {0.0, 0.0, 1.0};
   axes[3] = {std::cos(rad_from_deg(1.0)), std::sin(rad_from_deg(1.0)), 0.0};
   const SensorArray array = make_array(axes, 4, 0.01);
-  const MotionSets sets(array, MotionSetup{});
+  const MotionSets sets(array);
   ASSERT_EQ(sets.size(), 1);
   EXPECT_EQ(sets[0].all, SensorSet::of(0).with(3));
   EXPECT_GT(norm(sets[0].rest), 0.01);
@@ -90,10 +90,8 @@ TEST(MotionSets, OfAxesParallelButForADegreeCarryWhatIsLeft) {
 TEST(MotionSets, OfChipsCountAllTheirAxes) {
   AxisList axes{};
   for (std::size_t i = 0; i < 6; ++i) axes[i][i % 3] = 1.0;
-  const SensorArray array = make_array(axes, 6, 0.01);
-  MotionSetup setup;
-  for (std::size_t i = 0; i < 6; ++i) setup.chip[i] = static_cast<std::uint8_t>(1 + i / 3);
-  const MotionSets sets(array, setup), alone(array, MotionSetup{});
+  const SensorArray single = make_array(axes, 6, 0.01);
+  const MotionSets sets(plumb_test::in_chips(single, 3)), alone(single);
   ASSERT_EQ(sets.size(), 3);
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(sets[k].all, SensorSet::first(6));

@@ -154,13 +154,23 @@ inline plumb::MotionSetup motion_setup(int n, std::uint64_t seed = 1) {
   return out;
 }
 
-/// Three chips, each three axes at right angles, in the same position but for their arms.
+/// The same axes: every so many sensors in a row, of the first `sensors`, are on one chip.
+inline plumb::SensorArray in_chips(const plumb::SensorArray& array, int axes, int sensors = plumb::kCapacity) {
+  std::array<plumb::SensorRow, plumb::kCapacity> rows{};
+  for (int i = 0; i < array.size(); ++i) {
+    rows[static_cast<std::size_t>(i)] = array.row(i);
+    if (i < sensors) rows[static_cast<std::size_t>(i)].chip = static_cast<std::uint8_t>(1 + i / axes);
+  }
+  return *plumb::SensorArray::make(rows.data(), array.size());
+}
+
+/// Chips, each three axes at right angles, in the same position but for their arms.
 inline plumb::SensorArray parallel_triads(int chips, double sigma_mps2 = 0.01) {
   plumb::AxisList axes{};
   for (int c = 0; c < chips; ++c) {
     for (int k = 0; k < 3; ++k) axes[static_cast<std::size_t>(3 * c + k)][static_cast<std::size_t>(k)] = 1.0;
   }
-  return make_array(axes, 3 * chips, sigma_mps2);
+  return in_chips(make_array(axes, 3 * chips, sigma_mps2), 3);
 }
 
 }  // namespace PLUMB_ABI

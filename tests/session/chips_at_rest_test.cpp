@@ -116,6 +116,30 @@ TEST(ChipsAtRest, OfThreeADeadOneIsNoWitnessOfRest) {
   EXPECT_TRUE(tool.rig.ever_blamed.empty());
 }
 
+/// Two chips have lost an axis each, so that none of the three is checked in flight.
+// Negative: REQ-206
+TEST(ChipsAtRest, OfThreeADeadOneBesideTwoWithoutAnAxisDoesNotRunOutOfStations) {
+  ChipRig tool(chip_array(3));
+  const SensorSet lost = SensorSet::of(0).with(7);
+  Noise where(5);
+  const auto block = [&](double rms_mps2) {
+    const Vec3 at = scaled(random_direction(where), kG0_mps2);
+    for (int row = 0; row < tool.rig.setup.config.window; ++row) {
+      const Vec3 a = plus(at, {rms_mps2 * where.normal(), rms_mps2 * where.normal(), rms_mps2 * where.normal()});
+      Sample s = tool.rig.sample(scaled(a, 1.0 / norm(a)), norm(a));
+      s.delivered = s.delivered - lost;
+      tool.rig.step(s);
+    }
+  };
+  for (int k = 0; k < 4; ++k) block(0.3 * kG0_mps2);
+  tool.fail(1, ChipFault::dead, 3);
+  for (int k = 0; k < 60; ++k) {
+    block(0.3 * kG0_mps2);
+    ASSERT_NE(tool.rig.monitor.verdict().state, HealthState::failed) << "block " << k;
+    ASSERT_NE(tool.rig.monitor.verdict().validity, Validity::valid);
+  }
+}
+
 /// k = 2m: two of four that turned alike agree as the healthy two do.
 // Negative: REQ-206
 TEST(ChipsAtRest, TwoOfFourTurnedAlikeAreDetectedAndNobodyIsExcludedForGood) {

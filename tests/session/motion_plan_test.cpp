@@ -66,8 +66,8 @@ TEST(MotionPlan, TakesOverWhatTheFileStates) {
   EXPECT_EQ(s.gyro.bias_radps, 0.006);
   EXPECT_EQ(s.gyro.noise_radps, 0.0017);
   EXPECT_EQ(s.gyro.lag_s, 20e-6);
-  EXPECT_EQ(s.chip[0], s.chip[2]);
-  EXPECT_NE(s.chip[2], s.chip[3]);
+  EXPECT_EQ(plan->array.units().size(), 3);
+  EXPECT_EQ(plan->array.units().whole(SensorSet::of(2)), SensorSet::first(3));
   EXPECT_EQ(s.max_faults, kMotionDepth);
   EXPECT_NEAR(plan->clip_raw[0], 0.995 * 156.9, 1e-9);
   MotionMonitor monitor;
@@ -77,7 +77,7 @@ TEST(MotionPlan, TakesOverWhatTheFileStates) {
 TEST(MotionPlan, SensorsWithoutAPackageAreUnitsOfTheirOwn) {
   const auto plan = plan_of(without_all("package", drone_text()));
   ASSERT_TRUE(plan.has_value());
-  for (const std::uint8_t chip : plan->setup.chip) EXPECT_EQ(chip, 0);
+  EXPECT_FALSE(plan->array.units().grouped());
 }
 
 TEST(MotionPlan, ASamplingRateIsAPeriod) {

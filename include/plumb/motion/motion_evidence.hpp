@@ -8,26 +8,10 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
-/// What fails at once: a sensor, or all sensors of a chip (T12).
-class FaultUnits {
- public:
-  FaultUnits() noexcept = default;
-  FaultUnits(const SensorArray& array, const MotionSetup& setup) noexcept;
-
-  int size() const noexcept { return size_; }
-  SensorSet operator[](int k) const noexcept { return unit_[static_cast<std::size_t>(k)]; }
-  /// The sensors of several units, given as bits.
-  SensorSet sensors_of(SensorSet units) const noexcept;
-  /// Those that have a member in `sensors`.
-  int count_in(SensorSet sensors) const noexcept;
-  /// The most units at once that parity isolates one of within `sensors`: whatever is taken away beside it leaves a
-  /// vector (T11; n - 2 - c where every sensor is a unit). 0 where a fault is detected at best.
-  int grade(const SensorArray& array, SensorSet sensors) const noexcept;
-
- private:
-  std::array<SensorSet, static_cast<std::size_t>(kMotionCapacity)> unit_{};
-  int size_ = 0;
-};
+/// The most units at once (`SensorArray::units`) that parity isolates one of within `sensors`: whatever is taken away
+/// beside it leaves a vector (T11, T12; n - 2 - c where every sensor is a unit), at most kMotionDepth. 0 where a fault
+/// is detected at best.
+int motion_grade(const SensorArray& array, SensorSet sensors) noexcept;
 
 /// What the fault sets that explain all rejected sets have in common.
 struct MotionAnswer {
@@ -49,7 +33,7 @@ class RejectedSets {
   /// Forgets those with a member outside `sensors`.
   void keep_within(SensorSet sensors) noexcept;
   /// Over the fault sets of at most `most` units with members in `sensors`.
-  MotionAnswer answer(const FaultUnits& units, SensorSet sensors, int most) const noexcept;
+  MotionAnswer answer(const SensorUnits& units, SensorSet sensors, int most) const noexcept;
 
  private:
   static constexpr int kMost = kMotionSets;

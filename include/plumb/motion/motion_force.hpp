@@ -47,10 +47,10 @@ struct ForceEvidence {
 class ForceEstimator {
  public:
   ForceEstimator() noexcept = default;
-  ForceEstimator(const SensorArray& array, const FaultUnits& units, SensorSet sensors) noexcept;
+  ForceEstimator(const SensorArray& array, SensorSet sensors) noexcept;
 
   const LeastSquares& all() const noexcept { return all_.map; }
-  SpecificForce estimate(const MotionSetup& setup, const FaultUnits& units, const MotionMeans& means,
+  SpecificForce estimate(const MotionSetup& setup, const SensorUnits& units, const MotionMeans& means,
                          const MotionReadings& readings, const ForceEvidence& evidence) const noexcept;
 
  private:

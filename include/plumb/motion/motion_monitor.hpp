@@ -75,7 +75,6 @@ class MotionMonitor {
   SensorArray array_;
   MotionSetup setup_;
   MotionSets sets_;
-  FaultUnits units_;
   MotionWindow window_;
   RejectedSets with_gyro_;     ///< sound while the gyro is, or one of two
   RejectedSets without_gyro_;  ///< sound whatever the gyro reads

@@ -34,7 +34,7 @@ class MotionSets {
  public:
   MotionSets() noexcept = default;
   /// At most kMotionCapacity sensors; of more sets than fit the last are left out, which loses power and adds no error.
-  MotionSets(const SensorArray& array, const MotionSetup& setup) noexcept;
+  explicit MotionSets(const SensorArray& array) noexcept;
 
   int size() const noexcept { return size_; }
   const MotionSet& operator[](int k) const noexcept { return sets_[static_cast<std::size_t>(k)]; }
@@ -46,7 +46,7 @@ class MotionSets {
   double largest_gain() const noexcept { return largest_gain_; }
 
  private:
-  void add(const SensorArray& array, const MotionSetup& setup, SensorSet members) noexcept;
+  void add(const SensorArray& array, SensorSet members) noexcept;
   bool has_subset_of(SensorSet members) const noexcept;
 
   std::array<MotionSet, static_cast<std::size_t>(kMotionSets)> sets_{};

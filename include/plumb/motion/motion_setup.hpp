@@ -46,7 +46,8 @@ inline constexpr double kMostReading_mps2 = 1e4;
 /// turn by `axis_rad` each are off by up to sqrt(2) times that together.
 double relative_error(const GyroErrors& bounds) noexcept;
 
-/// All that a `MotionMonitor` is told beside the array, whose sigmas are the noise of a sample.
+/// All that a `MotionMonitor` is told beside the array, whose sigmas are the noise of a sample and whose chips are what
+/// fails at once.
 struct MotionSetup {
   double sample_period_s = 0.001;
   std::array<Vec3, kCapacity> lever_arm_m{};  ///< from the reference point, tool frame
@@ -59,10 +60,8 @@ struct MotionSetup {
   double rate_bound_radps = 0.0;    ///< the fastest that the tool turns, 0 = unknown
   double force_bound_mps2 = 160.0;  ///< the largest specific force that it feels, averaged over two blocks
   double false_alarms_per_hour = 1e-3;
-  double dwell_s = 0.064;  ///< a sensor is excluded once it has been isolated for so long
-  double quiet_s = 5.0;    ///< rejected sets are forgotten after so long without a new one
-  /// Sensors of one chip, which may fail together, bear the same number; 0: a unit of its own.
-  std::array<std::uint8_t, kCapacity> chip{};
+  double dwell_s = 0.064;         ///< a sensor is excluded once it has been isolated for so long
+  double quiet_s = 5.0;           ///< rejected sets are forgotten after so long without a new one
   int max_faults = kMotionDepth;  ///< units at once; never more than the geometry allows
   /// Blocks of fewer samples are not judged, and no force is published of them. More than 1 where chips have clocks of
   /// their own and are interpolated to a common one: of a few samples vibration makes what no lag accounts for.

@@ -58,7 +58,7 @@ class Diagnosis {
                       std::uint32_t tag) noexcept;
   /// Asks who is at fault, and keeps the answer.
   void vote(const Terms& terms, const BlockTests& tests) noexcept;
-  void count_doubt(const Terms& terms, const BlockReport& report) noexcept;
+  void count_doubt(const Terms& terms, const BlockTests& tests, const BlockReport& report) noexcept;
   /// Passed blocks in a row, and what they prove: written to `machine`.
   void count_clean(const Terms& terms, const BlockTests& tests, const BlockReport& report,
                    DecisionState& machine) noexcept;
@@ -130,6 +130,9 @@ class Diagnosis {
   RotationRequest rotation_request(const Terms& terms) const noexcept;
 
  private:
+  /// Whether these sensors together, or those of one unit among them, determine a vector of the length of gravity.
+  static bool some_measure_gravity(const Terms& terms, const BlockTests& tests, SensorSet sensors) noexcept;
+  static bool is_rest_witnessed(const Terms& terms, const BlockTests& tests) noexcept;
   bool is_still_there(const Terms& terms, const BlockTests& tests, SensorSet voters) const noexcept;
   /// Who is at fault by one station.
   struct Suspicion {
