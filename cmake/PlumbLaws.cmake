@@ -1,4 +1,4 @@
-# The laws of isolation over ten thousand cases each (tests/laws), those that users get (tests/laws/shipped), and
+# The laws of isolation over some thousand cases each (tests/laws), those that users get (tests/laws/shipped), and
 # the planted defects that they must catch (tests/laws/defects, label defect).
 
 # Compiled once, linked once with the library as it is and once with every planted defect.

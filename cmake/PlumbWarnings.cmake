@@ -48,7 +48,7 @@ endfunction()
 # plumb_optimise_less(TARGET): a fast build compiles what reads files and writes text once per run with -O1: a quarter of the
 # time of GCC. What goes over samples stays as it ships.
 function(plumb_optimise_less target)
-  if(PLUMB_FAST_BUILD AND CMAKE_BUILD_TYPE STREQUAL "Release")
+  if(PLUMB_FAST_BUILD)
     target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()

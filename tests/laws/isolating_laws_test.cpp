@@ -116,7 +116,7 @@ TEST(Law, ThreeCorrelatedFaultsOfAnAssumedNumberAreExcludedAndNoOtherSensor) {
 TEST(Law, FiveMoreFaultsThanAnyGradeAreIsolatedLateAndSeldomWrong) {
   static std::uint64_t hasty = 0, contradicted = 0, not_failed = 0, wrong = 0;
   hasty = contradicted = not_failed = wrong = 0;
-  const LawCount count = run_law(5, kLawCases, [](std::uint64_t number, TrialNoise& noise) {
+  const LawCount count = run_law(5, 5 * kLawCases, [](std::uint64_t number, TrialNoise& noise) {
     Strata strata(number);
     const LawTool& tool = tool_of(strata);
     const Lie lie = strata.of(std::array<Lie, 3>{Lie::constant, Lie::stuck, Lie::random});
