@@ -1,5 +1,5 @@
-// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J]: what a motion monitor finds in simulated flights, how
-// fast, how often wrong, as Markdown with 95 % Clopper-Pearson intervals. WHAT is
+// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J] [--kind KIND]: what a motion monitor finds in simulated
+// flights, how fast, how often wrong, as Markdown with 95 % Clopper-Pearson intervals. WHAT is
 //   healthy  false alarms, bounds and their slack, by what flies and by the number of sensors
 //   faults   detection and isolation by fault and number of sensors
 //   chips    the same of three and two parallel triads, whole chips failing
@@ -36,6 +36,7 @@ struct Settings {
   std::uint64_t flights = 100;
   std::uint64_t seed = 1;
   unsigned jobs = 2;
+  std::string kind;  ///< of the flights of `healthy` and `beyond`; empty: every kind
 };
 
 template <class Make>
@@ -115,6 +116,7 @@ void healthy(const Settings& s, double factor) {
       "| flight | sensors | flights | alarm, %% | blamed | sample: bound passed | mean bound, mg | rms error, mg | "
       "block: bound passed | mean bound, mg | rms error, mg |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int kind = 0; kind < plumb::scenario::kFlightKinds; ++kind) {
+    if (!s.kind.empty() && s.kind != to_string(static_cast<FlightKind>(kind))) continue;
     for (const Layout& layout : kLayouts) {
       FlightCase like;
       like.kind = static_cast<FlightKind>(kind);
@@ -315,6 +317,13 @@ void rivals(const Settings& s) {
       mg(limits.parity_mps2));
 }
 
+bool is_kind(const std::string& word) {
+  for (int kind = 0; kind < plumb::scenario::kFlightKinds; ++kind) {
+    if (word == to_string(static_cast<FlightKind>(kind))) return true;
+  }
+  return false;
+}
+
 bool read(int argc, char** argv, Settings* out) {
   if (argc < 2) return false;
   out->what = argv[1];
@@ -327,6 +336,8 @@ bool read(int argc, char** argv, Settings* out) {
       out->seed = value;
     else if (key == "--jobs" && value > 0)
       out->jobs = static_cast<unsigned>(value);
+    else if (key == "--kind" && is_kind(argv[k + 1]))
+      out->kind = argv[k + 1];
     else
       return false;
   }
@@ -340,7 +351,8 @@ int main(int argc, char** argv) {
   if (!read(argc, argv, &s)) {
     std::fprintf(
         stderr,
-        "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond|rivals [--flights N] [--seed S] [--jobs J]\n");
+        "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond|rivals [--flights N] [--seed S] [--jobs J]\n"
+        "                          [--kind drone|drilling|car|launch]  (of healthy and beyond: only these)\n");
     return 2;
   }
   if (s.what == "healthy") {
