@@ -189,7 +189,7 @@ void bind_object(py::module_& module) {
           "SpecificForce of the last two samples.")
       .def_property_readonly(
           "block", [](const MotionVerdict& v) { return force_of(v, v.verdict.block); },
-          "SpecificForce of the last two blocks of 32 samples: tighter and later.")
+          "SpecificForce of the last two blocks of block_samples[2] samples, as a rule 32: tighter and later.")
       .def_property_readonly(
           "inclination_ended", [](const MotionVerdict& v) { return v.inclination_ended; },
           "`inclination` is new with this sample: a window has ended, or why there is none.")

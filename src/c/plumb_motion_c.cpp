@@ -53,6 +53,7 @@ void take_settings(const plumb_motion_config& config, MotionSetup& setup) noexce
   setup.quiet_s = config.quiet_s;
   setup.max_faults = config.max_faults;
   setup.shortest_block = config.shortest_block;
+  std::copy(config.block_samples, config.block_samples + kMotionScales, setup.block_samples.begin());
 }
 
 plumb_specific_force force_of(const SpecificForce& from) noexcept {
@@ -139,6 +140,7 @@ plumb_error plumb_motion_config_defaults(plumb_motion_config* config) noexcept {
   config->struct_size = sizeof(plumb_motion_config);
   config->max_faults = d.max_faults;
   config->shortest_block = d.shortest_block;
+  std::copy(d.block_samples.begin(), d.block_samples.end(), config->block_samples);
   config->sample_period_s = d.sample_period_s;
   config->force_bound_mps2 = d.force_bound_mps2;
   config->false_alarms_per_hour = d.false_alarms_per_hour;

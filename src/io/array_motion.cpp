@@ -97,11 +97,14 @@ struct CountKey {
 
 constexpr CountKey kCounts[] = {
     {"max_faults", kMotionDepth, "the most units that may be faulty at once", &MotionSetup::max_faults},
-    {"shortest_block", 32, "the samples of the shortest blocks to be judged", &MotionSetup::shortest_block},
+    {"shortest_block", kLongestBlock / 2, "the samples of the shortest blocks to be judged",
+     &MotionSetup::shortest_block},
 };
 
+constexpr const char* kBlocks = "block_samples";
+
 std::vector<std::string> known_motion_keys() {
-  std::vector<std::string> out = {kPeriod.key, kRate.key, kVelocity.key, kWindow.key};
+  std::vector<std::string> out = {kPeriod.key, kRate.key, kVelocity.key, kWindow.key, kBlocks};
   for (const CountKey& key : kCounts) out.emplace_back(key.key);
   for (const LimitKey& key : kLimits) out.emplace_back(key.figure.key);
   return with_motion_keys(std::move(out));
@@ -119,6 +122,30 @@ void read_count(const TomlTable& table, const CountKey& count, MotionSetup& limi
     table.fail(table.line_of(count.key), count.key, "is " + std::to_string(value) + ", out of range",
                std::string("give ") + count.words + ", 1 to " + std::to_string(count.most));
   limits.*count.field = static_cast<int>(value);
+}
+
+/// Each longer block is put together from the shorter ones before it.
+void read_blocks(const TomlTable& table, MotionSetup& limits) {
+  const std::string remedy = "write four whole numbers, each a multiple of the one before: " + std::string(kBlocks) +
+                             " = [1, 4, 32, 256]; the first is 1, the last at most " + std::to_string(kLongestBlock);
+  if (const TomlNode* list = table.find(kBlocks); list != nullptr) {
+    if (list->kind != TomlNode::Kind::array || list->items.size() != limits.block_samples.size())
+      table.fail(list->line, kBlocks, "must be a list of four lengths", remedy);
+    for (std::size_t k = 0; k < limits.block_samples.size(); ++k) {
+      const TomlNode& item = list->items[k];
+      const int part = k == 0 ? 1 : limits.block_samples[k - 1];
+      const bool whole = item.kind == TomlNode::Kind::integer && item.integer >= 1 && item.integer <= kLongestBlock;
+      const int samples = whole ? static_cast<int>(item.integer) : 0;
+      if (!whole || samples % part != 0 || samples == (k == 0 ? 0 : part) || (k == 0 && samples != 1))
+        table.fail(item.line, kBlocks, "has a length that does not fit, number " + std::to_string(k + 1), remedy);
+      limits.block_samples[k] = samples;
+    }
+  }
+  if (limits.shortest_block > limits.block_samples[2])
+    table.fail(table.line_of("shortest_block"), "shortest_block",
+               "is " + std::to_string(limits.shortest_block) + ", longer than the third of the blocks (" +
+                   std::to_string(limits.block_samples[2]) + ")",
+               "give 1 to " + std::to_string(limits.block_samples[2]) + ", or longer block_samples");
 }
 
 GyroSpec read_gyro(const TomlTable& table, const InputSpec& input) {
@@ -167,6 +194,7 @@ MotionSpec read_motion(const TomlNode& root, const std::string& file, const Inpu
     out.inclination_window_s = window_s.value_or(out.inclination_window_s);
     for (const LimitKey& key : kLimits) read_into(table, key.figure, out.limits.*key.field);
     for (const CountKey& key : kCounts) read_count(table, key, out.limits);
+    read_blocks(table, out.limits);
     MotionBounds usual;
     (void)read_motion_bounds(table, usual);
     out.sensor.fill(usual);

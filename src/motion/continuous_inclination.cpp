@@ -13,8 +13,6 @@ constexpr double kNoiseFactor = 7.0;
 constexpr double kOutOfStep = 0.25;
 /// A force beyond all accelerometers is none.
 constexpr double kMostForce_mps2 = 1e6;
-/// Samples of one block of `MotionVerdict::block`.
-constexpr double kSamples = 32.0;
 
 bool usable(const Vec3& rate_radps) noexcept { return norm(rate_radps) <= kMostRate_radps; }  // false for a NaN
 
@@ -33,7 +31,7 @@ Expected<void> ContinuousInclination::configure(const SensorArray& array, const 
                                                 const InclinationSetup& setup) noexcept {
   configured_ = false;
   if (const Expected<void> sound = check(array, motion); !sound) return sound;
-  const double block_s = kSamples * motion.sample_period_s;
+  const double block_s = motion.block_samples[2] * motion.sample_period_s;
   const std::array<Expected<void>, 6> checks = {within(norm(setup.axis), 1.0 - 1e-6, 1.0 + 1e-6, 200),
                                                 within(setup.axis_bound_rad, 0.0, kPi, 201),
                                                 within(setup.velocity_bound_mps, 0.0, 100.0, 202),
@@ -49,6 +47,7 @@ Expected<void> ContinuousInclination::configure(const SensorArray& array, const 
   gyros_ = motion.gyros;
   gyro_corroborated_ = motion.gyro_corroborated;
   block_s_ = block_s;
+  block_samples_ = motion.block_samples[2];
   configured_ = true;
   return {};
 }
@@ -131,11 +130,12 @@ bool ContinuousInclination::publish() noexcept {
   const double length_s = pairs * step_s;
   const double own = (1.0 + relative_error(gyro_)) *
                      (gyro_.bias_radps + kNoiseFactor * gyro_.noise_radps / std::sqrt(window_.samples));
-  const double across_radps = window_.across_radps / (pairs * kSamples) +
+  const double across_radps = window_.across_radps / (pairs * block_samples_) +
                               2.0 * gyro_.lag_s * window_.most_radps / length_s + own * (pairs + 1.0) / pairs;
   const double force = window_.force_mps2 / pairs;
-  // Sums over samples take accelerations near half the sample rate for slower ones: 2 / 32 more covers any tone.
-  const double velocity = 2.0 * setup_.velocity_bound_mps / length_s * (1.0 + 2.0 / kSamples);
+  // Sums over samples take accelerations near half the sample rate for slower ones: 2 / n more, with blocks
+  // of n samples, covers any tone.
+  const double velocity = 2.0 * setup_.velocity_bound_mps / length_s * (1.0 + 2.0 / block_samples_);
   const double turning = setup_.velocity_bound_mps * across_radps;
   const double error = window_.bound_mps2 / pairs + velocity + turning;
   const double least = setup_.gravity_mps2 - setup_.gravity_bound_mps2;

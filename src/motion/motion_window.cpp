@@ -23,14 +23,15 @@ double MotionMeans::noise_share() const noexcept {
   return (4.0 * n * n - 1.0) / (6.0 * n * n * n);
 }
 
-MotionWindow::MotionWindow(int sensors, int gyros, double sample_period_s) noexcept
-    : sensors_(sensors), gyros_(gyros), period_s_(sample_period_s) {}
+MotionWindow::MotionWindow(int sensors, int gyros, double sample_period_s, const BlockSamples& blocks) noexcept
+    : sensors_(sensors), gyros_(gyros), blocks_(blocks), period_s_(sample_period_s) {}
 
 /// In place: a second window would not be small on a stack.
 void MotionWindow::clear() noexcept {
   const int sensors = sensors_, gyros = gyros_;
   const double period_s = period_s_;
-  new (this) MotionWindow(sensors, gyros, period_s);
+  const BlockSamples blocks = blocks_;
+  new (this) MotionWindow(sensors, gyros, period_s, blocks);
 }
 
 MotionWindow::Sums MotionWindow::sums_of(const MotionSample& sample) noexcept {
@@ -171,7 +172,7 @@ void MotionWindow::take(const Sums& sample) noexcept {
   scales_[0].filling = sample;
   for (std::size_t s = 0; s < kMotionScales; ++s) {
     Scale& scale = scales_[s];
-    const int samples = kMotionSamples[s];
+    const int samples = blocks_[s];
     if (s > 0) {
       const Sums& part = scales_[s - 1].last;
       append(scale.filling, part, static_cast<double>(scale.filling.count) / samples,

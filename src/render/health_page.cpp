@@ -162,7 +162,8 @@ Section motion_view(const Json& report, const PagePictures& pictures) {
       "tool is at rest.");
   out.picture("Specific force in motion", picture_of(pictures, "motion.svg"),
               "Length of the specific force and the bound of its error over time",
-              "Of blocks of 32 samples; where the run is long, each point stands for several, by the largest bound. "
+              "Of blocks (32 samples each unless the array file states block_samples); where the run is long, each "
+              "point stands for several, by the largest bound. "
               "Orange: contradictions are on record. A gap: no bound.");
   ViewRows rows;
   for (const Json& e : m["events"])

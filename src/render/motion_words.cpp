@@ -75,7 +75,7 @@ ForceTerm main_term(const MotionRun& run) {
 }
 
 std::string force_words(const MotionRun& run) {
-  if (run.blocks == 0) return "none of the blocks of 32 samples has a bounded specific force";
+  if (run.blocks == 0) return "none of the blocks has a bounded specific force";
   std::string out = fmt::format(
       "of {}: bound of the error {:.3g} mg0 on average, {:.3g} mg0 at most (t = {:.3f} s); largest part: {}",
       count_text(run.blocks, "block"), kMg0 * run.bound_sum_mps2 / static_cast<double>(run.blocks),

@@ -240,7 +240,9 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
     ContinuousInclination trial;
     if (const Expected<void> sound = trial.configure(out.array, out.setup, *out.inclination); !sound)
       return refuse(sound.error().index == 203
-                        ? not_judged(array, "motion.inclination_window_s", "is shorter than 128 samples",
+                        ? not_judged(array, "motion.inclination_window_s",
+                                     "is shorter than four blocks, " + std::to_string(4 * out.setup.block_samples[2]) +
+                                         " samples",
                                      "state a longer window, or leave velocity_bound_mps out")
                         : not_judged(array, "gravity", "is too uncertain for an inclination in motion",
                                      "state a smaller sigma, or leave motion.velocity_bound_mps out"));

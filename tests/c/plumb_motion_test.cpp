@@ -47,6 +47,7 @@ struct CMotion {
     config.rate_bound_radps = setup.rate_bound_radps;
     config.sample_period_s = setup.sample_period_s;
     config.shortest_block = setup.shortest_block;
+    std::copy(setup.block_samples.begin(), setup.block_samples.end(), config.block_samples);
     config.max_faults = setup.max_faults;
   }
   plumb_error init() { return plumb_motion_init(storage.data(), 8 * storage.size(), &config, &motion); }
@@ -156,6 +157,7 @@ TEST(CMotion, SaysWhatIsWrongWithASetUp) {
   EXPECT_EQ(refused([](CMotion& c) { c.sensor[1].axis[0] = 9.0; }).code, number(Errc::axis_not_unit));
   EXPECT_EQ(refused([](CMotion& c) { c.config.gyros = 3; }).index, 101);
   EXPECT_EQ(refused([](CMotion& c) { c.config.shortest_block = 33; }).index, 113);
+  EXPECT_EQ(refused([](CMotion& c) { c.config.block_samples[2] = 33; }).index, 116);
 }
 
 TEST(CMotion, MisuseIsAnsweredAndLeavesNoForceBehind) {

@@ -26,6 +26,7 @@ dwell_s = 0.05
 quiet_s = 4
 max_faults = 1
 shortest_block = 4
+block_samples = [1, 5, 40, 200]
 lever_arm_bound_m = 0.001
 lag_bound_s = 70e-6
 vibration_rectification_per_mps2 = 2e-5
@@ -74,6 +75,7 @@ TEST(ArrayMotion, ReadsEveryKey) {
   EXPECT_EQ(motion.limits.quiet_s, 4.0);
   EXPECT_EQ(motion.limits.max_faults, 1);
   EXPECT_EQ(motion.limits.shortest_block, 4);
+  EXPECT_EQ(motion.limits.block_samples, (BlockSamples{1, 5, 40, 200}));
   for (std::size_t k = 0; k < 4; ++k) {
     const MotionBounds& sensor = motion.sensor[k];
     EXPECT_EQ(sensor.lever_arm_m, 0.001);
@@ -134,7 +136,14 @@ TEST(ArrayMotion, RefusesEveryNumberBeyondItsRangeWithItsLine) {
       {"dwell_s = 0.05", "dwell_s = 11", "motion.dwell_s"},
       {"quiet_s = 4", "quiet_s = nan", "motion.quiet_s"},
       {"max_faults = 1", "max_faults = 5", "motion.max_faults"},
-      {"shortest_block = 4", "shortest_block = 33", "motion.shortest_block"},
+      {"shortest_block = 4", "shortest_block = 41", "motion.shortest_block"},
+      {"[1, 5, 40, 200]", "32", "motion.block_samples"},
+      {"[1, 5, 40, 200]", "[1, 5, 40]", "motion.block_samples"},
+      {"[1, 5, 40, 200]", "[5, 10, 40, 200]", "motion.block_samples"},
+      {"[1, 5, 40, 200]", "[1, 5, 42, 210]", "motion.block_samples"},
+      {"[1, 5, 40, 200]", "[1, 5, 40, 40]", "motion.block_samples"},
+      {"[1, 5, 40, 200]", "[1, 5, 40, 40000]", "motion.block_samples"},
+      {"[1, 5, 40, 200]", "[1, 5, 40.0, 200]", "motion.block_samples"},
       {"max_faults = 1", "max_faults = 0", "motion.max_faults"},
       {"lever_arm_bound_m = 0.001", "lever_arm_bound_m = 2", "motion.lever_arm_bound_m"},
       {"lag_bound_s = 70e-6", "lag_bound_s = 70", "motion.lag_bound_s"},

@@ -66,6 +66,8 @@ class Case {
     MotionSetup out = plumb_test::motion_setup(n_, static_cast<std::uint64_t>(1e6 * noise.uniform()));
     out.gyros = failure_ == Failure::sensor_and_one_gyro_of_two ? 2 : 1;
     out.dwell_s = 0.01;
+    constexpr BlockSamples kBlocks[] = {kMotionSamples, {1, 2, 6, 30}, {1, 5, 10, 20}};
+    out.block_samples = kBlocks[strata_.digit(3)];
     luck_ = plumb_test::Noise(static_cast<std::uint64_t>(1e15 * noise.uniform()));
     return out;
   }

@@ -52,6 +52,27 @@ TEST(MotionMonitor, WhatIsNotJudgedIsNeverSaidToBeWithoutContradiction) {
   }
 }
 
+/// The same fault in blocks of other lengths: longer ones find what is smaller.
+TEST(MotionMonitor, JudgesBlocksOfTheStatedLengths) {
+  const auto isolated = [](const BlockSamples& blocks, double bias_mps2) {
+    MotionSetup setup = motion_setup(6, 3);
+    setup.gyros = 2;
+    setup.block_samples = blocks;
+    Flight flight(cone_array(6, 1.0), setup, 3);
+    flight.fly(0, 6000);
+    EXPECT_TRUE(flight.ever_excluded.empty());
+    EXPECT_FALSE(flight.monitor.verdict().alarm);
+    EXPECT_GT(flight.bounded, 0);
+    EXPECT_NEAR(flight.monitor.verdict().block.span_s, blocks[2] * setup.sample_period_s, 1e-9);
+    flight.distort = [&](MotionSample& s) { s.reading_mps2[4] += bias_mps2; };
+    flight.fly(6000, 14000);
+    return flight.ever_excluded;
+  };
+  EXPECT_TRUE(isolated({1, 3, 12, 60}, 6.0) == SensorSet::of(4));
+  EXPECT_TRUE(isolated({1, 2, 4, 8}, 2.0).empty());
+  EXPECT_TRUE(isolated({1, 10, 100, 1000}, 2.0) == SensorSet::of(4));
+}
+
 /// As a clock of its own makes of vibration: two samples up and two down, for which no lag accounts.
 TEST(MotionMonitor, BlocksBelowTheShortestAreNotJudged) {
   for (const int shortest : {1, 32}) {
@@ -362,6 +383,14 @@ TEST(MotionMonitor, RefusesWhatItCannotUse) {
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyros = 3; }), (Error{Errc::out_of_range, 101}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.gyro.lag_s = std::nan(""); }), (Error{Errc::not_finite, 106}));
   EXPECT_EQ(refused(five, [](MotionSetup& s) { s.max_faults = 9; }), (Error{Errc::out_of_range, 112}));
+  EXPECT_EQ(refused(five, [](MotionSetup& s) { s.shortest_block = 33; }), (Error{Errc::out_of_range, 113}));
+  const std::pair<BlockSamples, int> spoilt[] = {{{2, 4, 32, 256}, 114},  {{1, 1, 32, 256}, 115},
+                                                 {{1, 4, 30, 256}, 116},  {{1, 4, 32, 32}, 117},
+                                                 {{1, 4, 32, 4128}, 117}, {{1, 4, -8, 256}, 116}};
+  for (const auto& [blocks, index] : spoilt) {
+    EXPECT_EQ(refused(five, [&blocks = blocks](MotionSetup& s) { s.block_samples = blocks; }),
+              (Error{Errc::out_of_range, index}));
+  }
 }
 
 TEST(MotionMonitor, ThatWasNeverConfiguredSaysNothing) {

@@ -38,14 +38,20 @@ double weight(int k, int samples) {
 
 RC_GTEST_PROP(MotionWindow, EveryScaleIsTheWeightedMeanOfItsSamples, ()) {
   plumb_test::Noise noise(*rc::gen::arbitrary<std::uint32_t>());
-  MotionWindow window(3, 1, kPeriod_s);
+  BlockSamples blocks = kMotionSamples;
+  for (std::size_t s = 1; s < blocks.size() && *rc::gen::arbitrary<bool>(); ++s)
+    blocks[s] = blocks[s - 1] * *rc::gen::inRange(2, 7);
+  for (std::size_t s = 1; s < blocks.size(); ++s) {
+    if (blocks[s] % blocks[s - 1] != 0 || blocks[s] == blocks[s - 1]) blocks[s] = 3 * blocks[s - 1];
+  }
+  MotionWindow window(3, 1, kPeriod_s, blocks);
   std::vector<MotionSample> past;
   for (int k = 0; k < 600; ++k) {
     const Vec3 rate{noise.normal(), noise.normal(), noise.normal()};
     past.push_back(sample_of(k, 10.0 * noise.normal(), rate));
     window.add(past.back());
     for (int s = 0; s < kMotionScales; ++s) {
-      const int n = kMotionSamples[static_cast<std::size_t>(s)];
+      const int n = blocks[static_cast<std::size_t>(s)];
       RC_ASSERT(((window.ended() >> static_cast<unsigned>(s)) & 1U) == ((k % n == 0 && k >= 2 * n) ? 1U : 0U));
       if ((window.ended() >> static_cast<unsigned>(s) & 1U) == 0) continue;
       double bend = 0.0;

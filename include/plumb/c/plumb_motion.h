@@ -39,7 +39,8 @@ typedef struct plumb_motion_config {
   int32_t gyros;                /* triads in every sample, 0 .. 2 */
   int32_t gyro_corroborated;    /* 1: the host knows by other means that the gyro is right */
   int32_t max_faults;           /* units at fault at once that are searched for, 0 .. 4 */
-  int32_t shortest_block;       /* samples of the shortest blocks judged, 1 .. 32 */
+  int32_t shortest_block;       /* samples of the shortest blocks judged, 1 .. block_samples[2] */
+  int32_t block_samples[4];     /* 1, then multiples of the one before, .. 4096; the third is that of the block force */
   double sample_period_s;       /* 1e-5 .. 1 [s] */
   double gyro_scale_bound;      /* relative, 0 .. 0.4 */
   double gyro_axis_bound_rad;   /* turn of its axes, 0 .. 0.4 [rad] */

@@ -102,7 +102,8 @@ class ContinuousInclination {
   GyroErrors gyro_;
   int gyros_ = 0;
   bool gyro_corroborated_ = false;
-  double block_s_ = 0.0;  ///< of 32 samples
+  double block_s_ = 0.0;        ///< of `MotionVerdict::block`
+  double block_samples_ = 0.0;  ///< likewise
   InclinationInterval interval_;
   Sums window_;
   Turning filling_, last_;     ///< the block at hand, and the one before it

@@ -26,7 +26,7 @@ const char* to_string(MotionCause cause) noexcept;
 
 struct MotionVerdict {
   SpecificForce sample;      ///< of the last two samples
-  SpecificForce block;       ///< of the last two blocks of 32 samples: tighter and later
+  SpecificForce block;       ///< of the last two blocks of `block_samples[2]` samples, as a rule 32: tighter and later
   bool block_ended = false;  ///< `block` is new with this sample
   bool alarm = false;        ///< some rejected set is on record
   SensorSet rejected;        ///< members of the sets that the last sample's blocks rejected
@@ -56,7 +56,7 @@ class MotionMonitor {
  private:
   /// Whether a gyro that failed is a hypothesis: a single one that nothing corroborates.
   bool doubts_gyro() const noexcept { return setup_.gyros == 1 && !setup_.gyro_corroborated; }
-  /// Bit s: blocks of kMotionSamples[s] are judged.
+  /// Bit s: the blocks of scale s are judged.
   unsigned judged_scales() const noexcept;
   /// `lowest`: the first of the scales that are judged at this sample.
   void judge(int scale, int lowest) noexcept;

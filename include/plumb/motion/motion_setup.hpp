@@ -46,6 +46,13 @@ inline constexpr double kMostReading_mps2 = 1e4;
 /// turn by `axis_rad` each are off by up to sqrt(2) times that together.
 double relative_error(const GyroErrors& bounds) noexcept;
 
+/// Samples of the blocks of four scales: 1 first, then multiples of the one before, the last at most kLongestBlock. The
+/// third is that of `MotionVerdict::block`.
+inline constexpr int kMotionScales = 4;
+using BlockSamples = std::array<int, kMotionScales>;
+inline constexpr BlockSamples kMotionSamples{1, 4, 32, 256};
+inline constexpr int kLongestBlock = 4096;
+
 /// All that a `MotionMonitor` is told beside the array, whose sigmas are the noise of a sample and whose chips are what
 /// fails at once.
 struct MotionSetup {
@@ -66,6 +73,7 @@ struct MotionSetup {
   /// Blocks of fewer samples are not judged, and no force is published of them. More than 1 where chips have clocks of
   /// their own and are interpolated to a common one: of a few samples vibration makes what no lag accounts for.
   int shortest_block = 1;
+  BlockSamples block_samples = kMotionSamples;
 };
 
 /// One reading of all accelerometers and gyros at one instant.
@@ -85,7 +93,8 @@ struct MotionSample {
 /// Errors: too_few_sensors, too_many_sensors (limit kMotionCapacity); out_of_range and not_finite, with the value, the
 /// bound that it broke, and index = the sensor, or 100 and more for what concerns no sensor: sample_period_s 100,
 /// gyros, gyro.scale 102, axis_rad, bias_radps, noise_radps, lag_s 106, rate_bound_radps, force_bound_mps2 108,
-/// false_alarms_per_hour, dwell_s 110, quiet_s, max_faults 112, shortest_block (1 to 32) 113.
+/// false_alarms_per_hour, dwell_s 110, quiet_s, max_faults 112, shortest_block (1 to
+/// block_samples[2]) 113, and 114 + k for block_samples[k], which is no multiple of the one before.
 Expected<void> check(const SensorArray& array, const MotionSetup& setup) noexcept;
 
 }  // namespace PLUMB_ABI

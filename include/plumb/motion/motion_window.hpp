@@ -1,7 +1,7 @@
 /// Means over two adjacent blocks, weighted by a triangle: with these weights the mean of a derivative is the
 /// difference of the two block means over the length of a block, exactly (theorem T11), so that what skew, bandwidth
-/// and lever arms do follows from sums. Blocks of 1, 4, 32 and 256 samples; a larger one is put together from smaller
-/// ones.
+/// and lever arms do follows from sums. Blocks of four lengths (`BlockSamples`); a longer one is put together from
+/// shorter ones.
 #pragma once
 
 #include <array>
@@ -10,9 +10,6 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-
-inline constexpr int kMotionScales = 4;
-inline constexpr std::array<int, kMotionScales> kMotionSamples{1, 4, 32, 256};
 
 /// Symmetric 3 x 3: xx, yy, zz, xy, xz, yz.
 using Symmetric = std::array<double, 6>;
@@ -56,7 +53,7 @@ struct MotionMeans {
 class MotionWindow {
  public:
   MotionWindow() noexcept = default;
-  MotionWindow(int sensors, int gyros, double sample_period_s) noexcept;
+  MotionWindow(int sensors, int gyros, double sample_period_s, const BlockSamples& blocks = kMotionSamples) noexcept;
 
   /// Takes a sample in. It counts once the next one has come, which shows what happened after it. Where its time does
   /// not follow the last one by about one period, or is not finite, all begins anew.
@@ -98,7 +95,6 @@ class MotionWindow {
     std::array<Vec3, kGyros> acceleration_before{};
     bool acceleration_known = false;
   };
-  static_assert(kMotionSamples[0] == 1);
 
   Sums sums_of(const MotionSample& sample) noexcept;
   void take(const Sums& sample) noexcept;
@@ -113,6 +109,7 @@ class MotionWindow {
   std::array<Vec3, kGyros> step_radps_{};            ///< likewise
   int sensors_ = 0;
   int gyros_ = 0;
+  BlockSamples blocks_ = kMotionSamples;
   double period_s_ = 0.0;
   double time_s_ = 0.0;
   double origin_s_ = 0.0;      ///< of the first sample of the window
