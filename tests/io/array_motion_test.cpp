@@ -136,14 +136,7 @@ TEST(ArrayMotion, RefusesEveryNumberBeyondItsRangeWithItsLine) {
       {"dwell_s = 0.05", "dwell_s = 11", "motion.dwell_s"},
       {"quiet_s = 4", "quiet_s = nan", "motion.quiet_s"},
       {"max_faults = 1", "max_faults = 5", "motion.max_faults"},
-      {"shortest_block = 4", "shortest_block = 41", "motion.shortest_block"},
-      {"[1, 5, 40, 200]", "32", "motion.block_samples"},
-      {"[1, 5, 40, 200]", "[1, 5, 40]", "motion.block_samples"},
-      {"[1, 5, 40, 200]", "[5, 10, 40, 200]", "motion.block_samples"},
-      {"[1, 5, 40, 200]", "[1, 5, 42, 210]", "motion.block_samples"},
-      {"[1, 5, 40, 200]", "[1, 5, 40, 40]", "motion.block_samples"},
-      {"[1, 5, 40, 200]", "[1, 5, 40, 40000]", "motion.block_samples"},
-      {"[1, 5, 40, 200]", "[1, 5, 40.0, 200]", "motion.block_samples"},
+      {"shortest_block = 4", "shortest_block = 2049", "motion.shortest_block"},
       {"max_faults = 1", "max_faults = 0", "motion.max_faults"},
       {"lever_arm_bound_m = 0.001", "lever_arm_bound_m = 2", "motion.lever_arm_bound_m"},
       {"lag_bound_s = 70e-6", "lag_bound_s = 70", "motion.lag_bound_s"},
@@ -162,6 +155,20 @@ TEST(ArrayMotion, RefusesEveryNumberBeyondItsRangeWithItsLine) {
     const std::string text = changed(one.from, one.to, with_motion());
     expect_refused(text, line_of(text, one.to), one.field, {"out of range", "give "});
   }
+}
+
+TEST(ArrayMotion, RefusesBlocksThatAreNotMadeOfOneAnother) {
+  const std::string blocks = "[1, 5, 40, 200]", text = with_motion();
+  for (const char* spoilt : {"[5, 10, 40, 200]", "[1, 5, 42, 210]", "[1, 5, 40, 40]", "[1, 5, 40, 40000]",
+                             "[1, 5, 40.0, 200]", "[1, 5, -40, 200]"}) {
+    expect_refused(changed(blocks, spoilt, text), line_of(text, blocks), "motion.block_samples",
+                   {"has a length that does not fit", "write four whole numbers, each a multiple of the one before"});
+  }
+  for (const char* spoilt : {"32", "[1, 5, 40]", "[]"})
+    expect_refused(changed(blocks, spoilt, text), line_of(text, blocks), "motion.block_samples",
+                   {"must be a list of four lengths"});
+  expect_refused(changed("shortest_block = 4", "shortest_block = 41", text), line_of(text, "shortest_block"),
+                 "motion.shortest_block", {"is 41, longer than the third of the blocks (40)", "give 1 to 40"});
 }
 
 TEST(ArrayMotion, RefusesWhatIsNoNumberOrNoKey) {
