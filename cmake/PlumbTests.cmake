@@ -328,6 +328,7 @@ target_link_libraries(plumb_model_shim PUBLIC plumb_8)
 if(PLUMB_BUILD_HOST AND TARGET plumb_tool)
   plumb_test_executable(plumb_model_tests LABEL model ROOMS model LIBRARIES plumb_model_shim
     SLOW Model/BreadthFirst.*/1 Model/BreadthFirst.*/2  # five and six sensors
+         Model/BreadthFirst.*/3 Model/BreadthFirst.*/4  # chips
     LONGER Model/*)
   add_dependencies(plumb_model_tests plumb_tool)
   target_compile_definitions(plumb_model_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")

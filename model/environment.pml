@@ -3,6 +3,8 @@
    Faults. `ever` holds the sensors that were wrong at some block of the episode. Which of them is wrong at which block
    is left open, so that faults that stay, glitch, recover and move from sensor to sensor are all among the runs. The
    bound: at least three of the sensors that isolation is posed on were healthy throughout (n - 3 faults for n sensors).
+   With chips a fault is one of a unit, with all of its axes or some, and the bound leaves so many healthy units as span
+   space however they lie: n - 1 - FLAT faults for n units. A channel is lost alone.
 
    Verdicts. Any block may be clean, short of clean, alarming, off gravity or no evidence at all (motion, heat, age),
    whatever is wrong: nothing is assumed about detection. Accusations obey the soundness theorem (T5, proofs/coq): at the
@@ -55,31 +57,62 @@ inline pick(universe, set) {
   od
 }
 
+/* The same of units: all of a unit that is in the universe, or nothing of it. */
+#if defined(CHIPS) && !defined(AXES_ALONE)  /* with AXES_ALONE an axis of a chip may be suspected alone: REQ-206 falls */
+#define LOWER(i) (mates[i] & ((1 << (i)) - 1))
+inline pick_units(universe, set) {
+  set = 0; i = 0;
+  do
+  :: i < SENSORS ->
+       if
+       :: ((universe) & LOWER(i)) == 0
+       :: ((universe) & LOWER(i)) == 0 && HAS(universe, i) &&
+          (mates[i] != (1 << i) || HAS(rep | APART(ever) | APART(suspected) | APART(lost), i) || (i > 0 && HAS(set, i - 1))) ->
+            set = set | (mates[i] & (universe))
+       :: ((universe) & LOWER(i)) != 0
+       fi;
+       i++
+  :: else -> i = 0; break
+  od
+}
+#else
+#define pick_units pick
+#endif
+
 #define ACCUSES (mode == NOMINAL || mode == ISOLATED || mode == SUSPECT || mode == RECALIBRATING)
 /* What is on record of an episode in these modes is forgotten before it can matter. */
 #define RECORDS (mode != FAILED && mode != INITIAL)
-#define HEALTHY_THROUGHOUT COUNT(MONITORED & ~ever)
+#define HEALTHY_THROUGHOUT UNITS(MONITORED & ~ever)
+#define SPAN  (FLAT(MONITORED) + 1)  /* so many units span space */
+#define CHECK (FLAT(MONITORED) + 2)  /* so many check one another */
 #ifdef MOVING
 #define SOUND_STRICT 1
 #define ACCUSABLE ((HEALTHY_THROUGHOUT >= 3) -> (MONITORED & ever) : MONITORED)
 #else
-#define SOUND_STRICT HEALTHY_THROUGHOUT >= 3
+#define SOUND_STRICT HEALTHY_THROUGHOUT >= SPAN
 #define ACCUSABLE (MONITORED & ever)
 #endif
 /* All that has been the matter with a sensor in this run and has left a trace. */
 #define TOUCHED (ever | out | absent | readmitted)
-#define MOST_FAULTS (SENSORS - 3)
+#define MOST_FAULTS (UNITS(ALL) - 1 - FLAT(ALL))
 /* With four and five sensors one channel more may fall silent than sensors may be wrong, so that the rank can be lost,
    and sensors return by probation. With six it is the sets of three faults that matter: one channel may be silent at a
-   time, and returns are left to the smaller arrays. */
-#if SENSORS == 6
+   time, and returns are left to the smaller arrays. With chips one channel may be silent at a time, and units return; fits,
+   freezes and two events at the end of one block, in which chips change nothing, are left to the arrays without. */
+#ifdef CHIPS
+#define ALL_OF_IT 0
+#define BEARABLE(silent) (COUNT(absent | (silent)) <= 1 && UNITS(TOUCHED | (silent)) <= MOST_FAULTS)
+#define RETURNS 1
+#elif SENSORS == 6
+#define ALL_OF_IT 1
 #define BEARABLE(silent) (COUNT(absent | (silent)) <= 1 && COUNT(TOUCHED | (silent)) <= MOST_FAULTS)
 #define RETURNS 0
 #else
+#define ALL_OF_IT 1
 #define BEARABLE(silent) (COUNT(TOUCHED | (silent)) <= MOST_FAULTS + 1)
 #define RETURNS 1
 #endif
-#define SOUND_PARITY HEALTHY_THROUGHOUT >= 4
+#define SOUND_PARITY HEALTHY_THROUGHOUT >= CHECK
 
 inline block_kind() {
   if
@@ -95,32 +128,32 @@ inline block_kind() {
   fi
 }
 
-/* How many sensors are wrong at once never exceeds the bound. */
+/* How many units are wrong at once never exceeds the bound. */
 inline onset() {
-  pick(MONITORED & ~ever, wrong);
+  pick_units(MONITORED & ~ever, wrong);
 #ifdef MOVING
   if :: COUNT(MONITORED & ~wrong) >= 3 || wrong == 0 -> ever = ever | wrong :: else -> wrong = 0 fi
 #else
   if
-  :: HEALTHY_THROUGHOUT - COUNT(wrong) >= 3 && COUNT(TOUCHED | wrong) <= MOST_FAULTS -> ever = ever | wrong
+  :: HEALTHY_THROUGHOUT - UNITS(wrong) >= SPAN && UNITS(TOUCHED | wrong) <= MOST_FAULTS -> ever = ever | wrong
   :: else -> wrong = 0
   fi
 #endif
 }
 
-/* Without a sensor to spare, or with fewer than three left, nobody is convicted. */
-#define ANSWERABLE (suspected != 0 && COUNT(MONITORED) >= 4 && COUNT(MONITORED & ~suspected) >= 3)
+/* Without a unit to spare, or with fewer left than span space, nobody is convicted. */
+#define ANSWERABLE (suspected != 0 && UNITS(MONITORED) >= CHECK && UNITS(MONITORED & ~suspected) >= SPAN)
 
 inline ballot() {
   if
   :: regime == FAULTY -> ever = ever | (broken & MONITORED); isolated = broken & MONITORED & ~suspected; wrong = 0
   :: else ->
-       if :: COUNT(MONITORED) >= 4 && SOUND_STRICT && regime != VIOLATED -> among = ACCUSABLE; pick(among & ~suspected, isolated); among = 0
+       if :: UNITS(MONITORED) >= CHECK && SOUND_STRICT && regime != VIOLATED -> among = ACCUSABLE; pick_units(among & ~suspected, isolated); among = 0
           :: else -> isolated = 0
        fi
   fi;
   if
-  :: isolated != 0 && COUNT(MONITORED & ~(suspected | isolated)) >= 3 -> suspected = suspected | isolated; standing = 0; agree = 0
+  :: isolated != 0 && UNITS(MONITORED & ~(suspected | isolated)) >= SPAN -> suspected = suspected | isolated; standing = 0; agree = 0
   :: else
   fi;
   isolated = 0;
@@ -172,7 +205,9 @@ inline count_clean() {
        fi;
        if
        :: !open && !not_yet_validated && RECORDS && mode != SUSPECT && regime == FREE && RETURNS ->
-            pick((out | aside) & ~(readmitted | absent), proven);
+            among = (out | aside) & ~absent;
+            among = among & ~WHOLE(among & readmitted);  /* asked as a whole: none of it has been back before */
+            pick_units(among, proven); among = 0;
             if
             :: probation & proven -> probation = probation & proven
             :: else -> probation = proven; probation_stations = 0
@@ -200,7 +235,7 @@ inline quiet_block() {
   if :: kind == CLEAN && not_yet_validated && clean_run + 1 >= R_BLOCKS && excited -> if :: shows = 1 :: regime == FREE -> shows = 0 fi :: else fi;
   if :: vote -> ballot() :: else fi;
   if
-  :: kind == ALARMING && COUNT(MONITORED) >= 4 && regime != FAULTY && !standing -> if :: result = 1 :: result = 0 fi
+  :: kind == ALARMING && UNITS(MONITORED) >= CHECK && regime != FAULTY && !standing -> if :: result = 1 :: result = 0 fi
   :: else
   fi;
   if :: RECORDS -> count_doubt() :: else fi;
@@ -210,10 +245,10 @@ inline quiet_block() {
   :: else
   fi;
   if
-  :: ACCUSES && open && kind == ALARMING && COUNT(MONITORED) >= 5 && (regime == FREE || regime == DOUBTING) &&
+  :: ACCUSES && open && kind == ALARMING && UNITS(MONITORED) >= CHECK + 1 && (regime == FREE || regime == DOUBTING) &&
      result == 0 && !(lost | back) ->
        among = (SOUND_PARITY -> serving & ever : serving);
-       pick(among, to_aside); among = 0;
+       pick_units(among, to_aside); among = 0;
        if :: to_aside != 0 && COUNT(serving & ~to_aside) >= 3 -> raised = raised | BIT(PROVISIONAL_EXCLUSION)
           :: else -> to_aside = 0
        fi
@@ -255,7 +290,7 @@ inline sample() {
   :: mode == FAILED -> pick(ALL, named); raised = BIT(RESET)
   :: mode != FAILED -> named = ALL; raised = BIT(RESET)
   :: open && RECORDS -> onset()
-  :: MAY_RECALIBRATE -> raised = BIT(RECALIBRATE)
+  :: ALL_OF_IT && MAY_RECALIBRATE -> raised = BIT(RECALIBRATE)
   :: outcome_of_fit()
   fi
 }
@@ -276,7 +311,7 @@ inline outcome_of_fit() {
 inline coincidence() {
   if
   :: skip
-  :: regime == FREE ->
+  :: ALL_OF_IT && regime == FREE ->
        if
        :: HAS(rep & ~absent, 0) -> lost = 1
        :: HAS(rep & ~absent, 1) -> lost = 2
@@ -287,13 +322,13 @@ inline coincidence() {
        :: else
        fi;
        if :: BEARABLE(lost) -> raised = BIT(CHANNEL_LOST) :: else -> lost = 0 fi
-  :: regime == FREE && absent -> back = absent; raised = BIT(CHANNEL_BACK)
+  :: ALL_OF_IT && regime == FREE && absent -> back = absent; raised = BIT(CHANNEL_BACK)
   fi
 }
 
 /* Whatever may be said of motion, and of whomever: what the table does not take up from there is said as well. */
 inline motion() {
-  pick(serving, to_aside);
+  pick_units(serving, to_aside);
   found = (1 << EVENTS) - 1;
   if :: to_aside == 0 -> found = found & ~BIT(PROVISIONAL_EXCLUSION) :: else fi;
   isolated = serving
@@ -313,11 +348,11 @@ inline choose() {
        quiet_block();
        outcome_of_fit();
        if
-       :: MAY_RECALIBRATE && kind == CLEAN && regime == FREE -> raised = raised | BIT(RECALIBRATE)
+       :: ALL_OF_IT && MAY_RECALIBRATE && kind == CLEAN && regime == FREE -> raised = raised | BIT(RECALIBRATE)
        :: skip
        fi;
        if
-       :: raised & FREEZABLE && regime == FREE -> raised = raised & ~FREEZABLE
+       :: ALL_OF_IT && raised & FREEZABLE && regime == FREE -> raised = raised & ~FREEZABLE
        :: skip
        fi
   fi;

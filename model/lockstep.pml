@@ -41,6 +41,7 @@ inline run_code() {
     I.isolated = now.isolated; I.suspected = now.to_aside; I.lost = now.lost; I.back = now.back;
     I.proven = now.proven; I.reset = now.named;
     I.protection_within = now.within; I.passed_blocks = R_BLOCKS; I.sensors = SENSORS;
+    plumb_tell_units(I.unit);
     /* What recalibrating was entered from must be read in recalibrating alone: elsewhere another value changes nothing. */
     T = S;
     T.base = NOMINAL;
@@ -74,6 +75,7 @@ inline compare() {
 inline tidy() {
   raised = 0; found = 0; in_motion = 0; isolated = 0; to_aside = 0; lost = 0; back = 0; proven = 0; named = 0; within = 0;
   event = NONE; does = 0; moved = 0; kind = SAMPLE; excited = 0; shows = 0; vote = 0; wrong = 0; result = 0;
+  if :: !ALL_OF_IT -> suspicion = OTHER :: else fi;  /* it leads to fits alone */
   ever = (open -> ever & MONITORED : 0);
   if :: mode != RECALIBRATING -> base = SUSPECT :: else fi;
 #ifdef CODE
@@ -86,10 +88,13 @@ active proctype tool() {
   atomic {
     if
     :: calibrated = 1
-    :: mode = INITIAL
+    :: ALL_OF_IT -> mode = INITIAL
     fi;
     d_step {
       write_table();
+#ifdef CHIPS
+      write_units();
+#endif
       serving = ALL; not_yet_validated = 1; event = NONE;
 #ifdef CODE
       c_code { S.mode = now.mode; S.base = now.base; S.in_service = now.serving; S.not_yet_validated = 1; S.calibrated = now.calibrated; };
@@ -110,9 +115,9 @@ active proctype tool() {
        :: regime = UNSEEN
        :: regime = VIOLATED
        :: !open && doubt == 0 && PUBLISHES(mode) && aside == 0 && COUNT(serving) > 3 ->
-            pick(serving, broken);
+            pick_units(serving, broken);
             if
-            :: broken != 0 && COUNT(serving & ~broken) >= 3 -> regime = FAULTY
+            :: broken != 0 && UNITS(serving & ~broken) > FLAT(serving) -> regime = FAULTY
             :: else -> broken = 0; regime = UNSEEN
             fi
        fi;

@@ -21,6 +21,15 @@ inline look() {
 #define CHANGED (mode != m0_ || serving != serving0_ || aside != aside0_ || out != out0_ || absent != absent0_)
 
 inline judge() {
+#ifdef CHIPS
+  /* REQ-206: a unit leaves with all of it that served, and returns with all of it that was tested. */
+  if
+  :: event == EXCLUSION || event == PROVISIONAL_EXCLUSION ->
+       assert(WITHIN(WHOLE(moved) & serving0_, moved) && (WHOLE(moved) & serving) == 0)
+  :: event == PROBATION_PASSED -> assert(UNITS(moved) <= 1 && WITHIN(WHOLE(moved) & proven & (out0_ | aside0_), moved))
+  :: else
+  fi;
+#endif
   /* S4: one place for every sensor */
   assert((serving | aside | out | absent) == ALL && COUNT(serving) + COUNT(aside) + COUNT(out) + COUNT(absent) == SENSORS);
   /* S3: fewer than three in service is failed; failed publishes nothing */
@@ -42,7 +51,7 @@ inline judge() {
   if
   :: event == EXCLUSION ->
        assert(WITHIN(moved, ever0_) && WITHIN(out & ~out0_, moved))
-  :: event == PROVISIONAL_EXCLUSION && !in_motion && COUNT(monitored0_ & ~ever0_) >= 4 -> assert(WITHIN(moved, ever0_))
+  :: event == PROVISIONAL_EXCLUSION && !in_motion && UNITS(monitored0_ & ~ever0_) >= FLAT(monitored0_) + 2 -> assert(WITHIN(moved, ever0_))
   :: else
   fi;
   /* S6: only the suspected, after their stations, and never so that fewer than three are left */
@@ -61,7 +70,7 @@ inline judge() {
   /* S9: back by probation, by acquittal of who was only set aside, or by the operator out of failed */
   assert(WITHIN(CAME_BACK, (event == PROBATION_PASSED || (event == RESET && m0_ == FAILED) -> moved :
                             (event == EXCLUSION -> aside0_ : 0))));
-  assert(event != PROBATION_PASSED || COUNT(CAME_BACK) <= 1);
+  assert(event != PROBATION_PASSED || UNITS(CAME_BACK) <= 1);
   /* S10: who has come back by probation once does not do so again, and nobody excluded comes back by an acquittal */
   assert(event != PROBATION_PASSED || WITHIN(CAME_BACK, readmitted & ~readmitted0_));
   assert(event == RESET || WITHIN(CAME_BACK & out0_, readmitted & ~readmitted0_));
@@ -69,7 +78,7 @@ inline judge() {
   /* S12: isolation timeout is bounded by a protection level, or an explanation is left that the rest corroborates, or failed.
      It is over after (n + 1) P stations in doubt at most: each of them takes one from what is left (TO_GO), and nothing
      but the end of the episode gives any back. */
-  assert(most <= SENSORS && doubt <= P_STATIONS);
+  assert(most <= UNITS(ALL) && doubt <= P_STATIONS);
   assert(event != ISOLATION_TIMEOUT || m0_ != SUSPECT || (within -> (mode == SUSPECT && timed_out) : mode == FAILED));
   /* In failed the qualifier tells a failure by patience from one by what is left. */
   assert(mode != FAILED || m0_ == FAILED || timed_out == (event == ISOLATION_TIMEOUT));

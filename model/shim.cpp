@@ -1,5 +1,5 @@
-// The real decision layer behind model/shim.h. With PLUMB_MODEL_DEFECT one cell of the table is wrong: the lock-step
-// must notice.
+// The real decision layer behind model/shim.h. With PLUMB_MODEL_DEFECT one cell of the table is wrong, with
+// PLUMB_MODEL_FORGETS_CHIPS every sensor is a unit whatever the array says: the lock-step must notice.
 #include "shim.h"
 
 #include "plumb/health/detail/decision.hpp"
@@ -36,6 +36,17 @@ const TransitionTable kTable = table_with_a_defect();
 constexpr const TransitionTable& kTable = kTransitionTable;
 #endif
 
+SensorUnits units_of([[maybe_unused]] const plumb_model_input& input) {
+#ifdef PLUMB_MODEL_FORGETS_CHIPS
+  return SensorUnits{};
+#else
+  return SensorUnits::of_chips(input.sensors, [&input](int i) {
+    const SensorSet unit(input.unit[i]);
+    return unit.size() > 1 ? unit.lowest() + 1 : 0;
+  });
+#endif
+}
+
 unsigned char byte_of(SensorSet set) { return static_cast<unsigned char>(set.bits); }
 
 }  // namespace
@@ -53,9 +64,8 @@ plumb_model_answer plumb_model_step(plumb_model_state* state, const plumb_model_
   DecisionInput in;
   in.raised = input->raised;
   in.from_motion = input->from_motion;
-  // The specification knows sensors, and no chips: every sensor is a unit.
   in.named = {SensorSet(input->isolated), SensorSet(input->suspected), SensorSet(input->lost), SensorSet(input->back),
-              SensorSet(input->proven),   SensorSet(input->reset),     SensorUnits{}};
+              SensorSet(input->proven),   SensorSet(input->reset),     units_of(*input)};
   in.protection_within = input->protection_within != 0;
   in.calibrated = state->calibrated != 0;
   in.passed_blocks = input->passed_blocks;

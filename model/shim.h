@@ -1,5 +1,6 @@
 /* The decision layer for C, as the lock-step model and the breadth-first search call it: bytes without padding, no
-   pointers, sensors in general position. Masks are sets of sensors, numbers of modes and events are those of the model.
+   pointers, sensors in general position, alone or in chips. Masks are sets of sensors, numbers of modes and events are
+   those of the model.
  */
 #ifndef PLUMB_MODEL_SHIM_H
 #define PLUMB_MODEL_SHIM_H
@@ -18,6 +19,7 @@ typedef struct {
   unsigned raised, from_motion; /* one bit per event */
   unsigned char isolated, suspected, lost, back, proven, reset;
   unsigned char protection_within, passed_blocks, sensors;
+  unsigned char unit[8]; /* of every sensor: those that fail with it, as a set with itself in it */
 } plumb_model_input;
 
 typedef struct {

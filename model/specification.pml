@@ -1,7 +1,8 @@
 /* The state machine of the monitor, written by hand from docs/requirements and docs/theory.md (section 5). Nothing here is
    generated and nothing of the library is included: lockstep.pml runs the compiled decision layer beside it.
 
-   SENSORS sensors in general position. A set of sensors is a mask, bit i stands for sensor i. */
+   SENSORS sensors in general position. A set of sensors is a mask, bit i stands for sensor i. CHIPS, where it is defined, is
+   the size of every unit: 2111 is a chip of two axes and three single sensors. Without it every sensor is a unit. */
 
 /* Counters are smaller than in a tool (E = 4, P = 6, K = 6, M = 3, R = 3 there). With four sensors two steps of each are
    one to count and one to arrive; with more sensors, where the sets are what matters, some arrive at once. */
@@ -23,6 +24,8 @@
 #define HAS(s, i)  (((s) >> (i)) & 1)
 #define COUNT(s)   (HAS(s,0) + HAS(s,1) + HAS(s,2) + HAS(s,3) + HAS(s,4) + HAS(s,5))
 #define WITHIN(a, b) (((a) & ~(b)) == 0)
+
+#include "units.pml"
 
 /* Modes: the states, with the first calibration as a mode of its own. */
 #define NOMINAL       0
@@ -231,7 +234,7 @@ byte suspected;            /* in every live fault set of the confirmed grade: th
 bit standing;            /* the survivors are alive together, so the suspected are the answer */
 byte agree;              /* stations at which that answer stood */
 byte doubt;              /* stations in doubt */
-byte most;               /* sensors at most that the answer and those set aside came to in this episode */
+byte most;               /* units at most that the answer and those set aside came to in this episode */
 byte clean_stations;     /* clean stations since */
 byte probation, probation_stations;
 byte pending;            /* what a block said while a channel event or a reset was taken */
@@ -243,9 +246,13 @@ bit fit;                 /* stations held out of the fit were clean */
 bit held;                /* no evidence for good */
 
 #define MONITORED (serving | aside)
+#ifdef CHIPS
+#define SUSPECTED (standing -> UNITS(suspected | aside) : UNITS(aside))
+#else
 #define SUSPECTED COUNT((standing -> suspected : 0) | aside)
-/* Stations in doubt that an episode has left before the isolation timeout is over: (n + 1) P at first. */
-#define TO_GO ((SENSORS - most) * P_STATIONS + P_STATIONS - doubt)
+#endif
+/* Stations in doubt that an episode has left before the isolation timeout is over: (n + 1) P at first, n units. */
+#define TO_GO ((UNITS(ALL) - most) * P_STATIONS + P_STATIONS - doubt)
 #define PUBLISHES(m) ((m) == NOMINAL || (m) == ISOLATED || (m) == DEGRADED)
 /* Recalibrating is published as the state it came from, the first calibration as nothing. */
 #define SHOWS_OUTPUT (PUBLISHES(mode) || (mode == RECALIBRATING && base != SUSPECT))
@@ -306,7 +313,11 @@ inline move_sensors() {
        out = out | moved
   :: does & REINSTATE ->
        moved = proven & (out | aside) & ~readmitted;
+#ifdef CHIPS  /* one unit at a time, with all of it that was tested */
+       moved = moved & WHOLE(moved & ((~moved) + 1));
+#else
        moved = moved & ((~moved) + 1);                 /* one at a time */
+#endif
        readmitted = readmitted | moved;
        out = out & ~moved; aside = aside & ~moved;
        serving = serving | moved

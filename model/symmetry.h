@@ -1,8 +1,9 @@
 /* Included by pan.c. Sensors of an array in general position are interchangeable to the decision layer, but for the one
    rule that probation returns the lowest first, and there each of them may be the only one proven. So only how many
-   sensors stand alike counts: after every step the sensors are put in the order of what is known of them.
-   tests/model/breadth_first_test.cpp does the same with its own code and without the shortcuts of environment.pml, and
-   must count the same states. In a replay the names of the sensors follow them. */
+   sensors stand alike counts: after every step the sensors are put in the order of what is known of them. With chips
+   the axes of one are interchangeable, and so are whole chips of the same size. tests/model/breadth_first_test.cpp does
+   the same with its own code and without the shortcuts of environment.pml, and must count the same states. In a replay
+   the names of the sensors follow them. */
 #include <stdio.h>
 
 extern int readtrail; /* of pan.c: a trail is being replayed */
@@ -13,11 +14,63 @@ extern int readtrail; /* of pan.c: a trail is being replayed */
 static int plumb_order[8];
 static int plumb_names[8] = {1, 2, 3, 4, 5, 6, 7, 8};
 
+/* The unit of a sensor, as a set; its sensors have successive numbers. */
+static unsigned plumb_unit(int i) {
+#ifdef CHIPS
+  return mates[i];
+#else
+  return 1u << i;
+#endif
+}
+
+/* With the sensor before: an axis of the same chip, or both single. */
+static int plumb_exchangeable(int i) {
+  return plumb_unit(i) == plumb_unit(i - 1) ||
+         (__builtin_popcount(plumb_unit(i)) == 1 && __builtin_popcount(plumb_unit(i - 1)) == 1);
+}
+
+#ifdef CODE
+static void plumb_tell_units(unsigned char* unit) {
+  int i;
+  for (i = 0; i < SENSORS; ++i) unit[i] = plumb_unit(i);
+}
+#endif
+
 static unsigned plumb_place(unsigned mask) {
   unsigned sorted = 0;
   int i;
   for (i = 0; i < SENSORS; ++i) sorted |= ((mask >> plumb_order[i]) & 1u) << i;
   return sorted;
+}
+
+/* Units in order: of neighbours of the same size the one of which more is known goes first. */
+static void plumb_sort_units(unsigned* known) {
+#ifdef CHIPS
+  int moved = 1;
+  while (moved) {
+    int first = 0;
+    moved = 0;
+    while (first < SENSORS) {
+      const int size = __builtin_popcount(mates[first]), next = first + size;
+      int k = 0;
+      if (next < SENSORS && __builtin_popcount(mates[next]) == size) {
+        while (k < size && known[first + k] == known[next + k]) ++k;
+        if (k < size && known[first + k] < known[next + k]) {
+          moved = 1;
+          for (k = 0; k < size; ++k) {
+            const unsigned word = known[first + k];
+            const int place = plumb_order[first + k];
+            known[first + k] = known[next + k];
+            known[next + k] = word;
+            plumb_order[first + k] = plumb_order[next + k];
+            plumb_order[next + k] = place;
+          }
+        }
+      }
+      first = next;
+    }
+  }
+#endif
 }
 
 static void plumb_sort(void) {
@@ -27,13 +80,19 @@ static void plumb_sort(void) {
     unsigned word = 0;
 #define PLUMB_KNOWN(m) word = word << 1 | ((now.m >> i) & 1u);
     PLUMB_MASKS(PLUMB_KNOWN)
-    for (k = i; k > 0 && known[k - 1] < word; --k) {
+#ifdef CHIPS
+#define PLUMB_ALIKE(a, b) (mates[a] == mates[b])
+#else
+#define PLUMB_ALIKE(a, b) 1
+#endif
+    for (k = i; k > 0 && PLUMB_ALIKE(k - 1, i) && known[k - 1] < word; --k) {
       known[k] = known[k - 1];
       plumb_order[k] = plumb_order[k - 1];
     }
     known[k] = word;
     plumb_order[k] = i;
   }
+  plumb_sort_units(known);
 #define PLUMB_PLACE(m) now.m = plumb_place(now.m);
   PLUMB_MASKS(PLUMB_PLACE)
 #ifdef CODE
@@ -45,7 +104,7 @@ static void plumb_sort(void) {
 #endif
   now.rep = 0;
   for (i = 0; i < SENSORS; ++i) {
-    if (i == 0 || known[i] != known[i - 1]) now.rep |= 1u << i;
+    if (i == 0 || known[i] != known[i - 1] || !plumb_exchangeable(i)) now.rep |= 1u << i;
   }
   if (readtrail) {
     for (i = 0; i < SENSORS; ++i) names[i] = plumb_names[plumb_order[i]];

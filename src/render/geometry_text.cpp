@@ -11,6 +11,7 @@
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "size_fields.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -107,6 +108,7 @@ std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& 
   for (int i = 0; i < subject.array.size(); ++i)
     out += fmt::format("  {:<15}", study.sensors[at(i)].id) +
            text_row_or(kThresholdFields, widths, instead_of(i), subject, study, i);
+  if (subject.array.units().grouped()) out += fmt::format("  {}\n", kSizesOfOneAxis);
   if (subject.file) out += "  drift since the calibration: " + drift_words(*subject.file, 0.0) + "\n";
   return out;
 }
@@ -133,6 +135,9 @@ std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& s
                           "worst",
                           g0_from_mps2(s.least_clear_mps2), s.best_inclination_deg, s.best_toolface_deg,
                           g0_from_mps2(s.largest_clear_mps2)));
+  if (subject.array.units().grouped())
+    out +=
+        "  of one axis at fault; a whole chip may fail and keep the length, as by a turn: other chips isolate that\n";
   return out;
 }
 

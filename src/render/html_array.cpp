@@ -141,16 +141,20 @@ Section array_view(const Json& report, const PagePictures& pictures) {
               "Seen from above the xy plane; z points down the tool. Dashed: down to the xy plane.");
   put_sizes(a["detection_sizes"], out);
   sensor_tables(a, out);
-  out.table("Figures of merit", {"figure", "value"},
-            {{"noise gain of the vector (GDOP)", f["gdop"]},
-             {"condition of the axes", f["condition"]},
-             {"angle between the nearest two axes, deg", f["nearest_angle_deg"]},
-             {"smallest determinant of a group of three", f["min_triple_det"]},
-             {"most axes in one plane", f["coplanarity"]},
-             {"faulty sensors isolated with confirmation (confirmed grade)", f["confirmed_grade"]},
-             {"faulty sensors excluded provisionally (provisional grade)", f["provisional_grade"]},
-             {"correlated faulty sensors that can be isolated", f["correlated_grade"]},
-             {"sensors without which there is no vector", joined_list(a["critical_sensors"])}});
+  const bool chips = has_chips(a);
+  const std::string faulty = chips ? "faulty units" : "faulty sensors";
+  if (chips) out.text(kSizesOfOneAxis);
+  ViewRows merit = {{"noise gain of the vector (GDOP)", f["gdop"]},
+                    {"condition of the axes", f["condition"]},
+                    {"angle between the nearest two axes, deg", f["nearest_angle_deg"]},
+                    {"smallest determinant of a group of three", f["min_triple_det"]},
+                    {chips ? "most units in one plane" : "most axes in one plane", f["coplanarity"]},
+                    {faulty + " isolated with confirmation (confirmed grade)", f["confirmed_grade"]},
+                    {faulty + " excluded provisionally (provisional grade)", f["provisional_grade"]},
+                    {"correlated " + faulty + " that can be isolated", f["correlated_grade"]},
+                    {"sensors without which there is no vector", joined_list(a["critical_sensors"])}};
+  if (chips) merit.insert(merit.begin() + 4, std::vector<ViewCell>{"units: chips, and sensors on none", f["units"]});
+  out.table("Figures of merit", {"figure", "value"}, merit);
   const char* map = "geometry-attitudes.svg";
   if (!a["attitude_map"]["rows"].empty()) {
     out.picture("Attitudes that hide a fault, and mirror attitudes", picture_of(pictures, map),

@@ -49,7 +49,7 @@ std::string mdb_words(const Json& mdb_mps2) {
       low == high ? high : low + " to " + high);
 }
 
-void fault_table(const Json& faults, Section& out) {
+void fault_table(const Json& faults, bool chips, Section& out) {
   ViewRows rows, times;
   for (const Json& g : faults["by_fault"]) {
     const bool clean = g["wrong_exclusion"]["count"] == 0;
@@ -68,7 +68,7 @@ void fault_table(const Json& faults, Section& out) {
   }
   out.table(
       "By fault and size",
-      {"fault", "sensors", "detected", "isolated exactly", "healthy one excluded", "misleading",
+      {"fault", chips ? "units" : "sensors", "detected", "isolated exactly", "healthy one excluded", "misleading",
        "tilt before alarm, deg", "tilt while usable, deg"},
       rows,
       "k/n (interval): " + std::string(study::kIntervalNote) +
@@ -79,8 +79,9 @@ void fault_table(const Json& faults, Section& out) {
               "turned.") +
           mdb_words(faults["mdb_mps2"]));
   out.table("Times from the onset, s",
-            {"fault", "sensors", "detected", "median", "95 %", "last", "isolated", "median", "95 %", "last"}, times, "",
-            true);
+            {"fault", chips ? "units" : "sensors", "detected", "median", "95 %", "last", "isolated", "median", "95 %",
+             "last"},
+            times, "", true);
 }
 
 /// The result of a longer campaign, which is what the verdict judges.
@@ -214,10 +215,13 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
         count_text(plan["stations"].get<std::uint64_t>(), "station"),
         count_text(plan["cells"].get<std::uint64_t>(), "combination"), plan["seed"].dump(),
         joined_list(plan["attitudes"]), block_words(report["subject"], plan), shown(plan["alert_limit_deg"]),
-        count_text(faults["largest_faulty"].get<std::uint64_t>(), "simultaneous sensor fault")));
+        count_text(
+            faults["largest_faulty"].get<std::uint64_t>(),
+            has_chips(report["array"]) ? "simultaneous fault of a chip or sensor" : "simultaneous sensor fault",
+            has_chips(report["array"]) ? "simultaneous faults of chips or sensors" : "simultaneous sensor faults")));
     rates_table(faults["rates"], out);
     reused_table(faults, out);
-    fault_table(faults, out);
+    fault_table(faults, has_chips(report["array"]), out);
     confusion_table(faults["confusion"], out);
     if (!faults["by_size"].empty()) {
       ViewRows sizes;

@@ -107,6 +107,10 @@ PagePicture picture_of(const PagePictures& pictures, const std::string& name);
 Section verdict_view(const Json& report);
 Section array_view(const Json& report, const PagePictures& pictures);
 Section calibration_view(const Json& report, const PagePictures& pictures);
+/// Whether the array of a report states chips, so that grades and faults count units.
+inline bool has_chips(const Json& array) {
+  return array["figures_of_merit"]["units"].get<std::size_t>() < array["sensors"].size();
+}
 Section campaign_view(const Json& report, const PagePictures& pictures);
 Section machine_view(const Json& report);
 Section trace_view(const Json& report);

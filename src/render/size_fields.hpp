@@ -12,6 +12,11 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace render {
 
+/// What the sizes of single sensors are for, where the array has chips (docs/theory.md, section 5.7).
+inline constexpr const char* kSizesOfOneAxis =
+    "sizes are of one axis at fault; of orthogonal triads of equal noise a whole chip's error of that length is at "
+    "least as visible";
+
 inline constexpr double kDegrees = 180.0 / kPi;
 
 /// pi bounds nothing.

@@ -18,20 +18,22 @@ double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 /// A grade counts these: chips, where the array file states them, with the sensors that are on none.
 std::string units_text(const ArrayFacts& array) {
-  const bool chips = array.units > 0 && array.units < static_cast<int>(array.sensors.size());
-  return chips ? count_text(array.units, "unit") + " (chips, and sensors on none)"
-               : count_text(array.sensors.size(), "sensor");
+  return array.chips() ? count_text(array.units, "unit") + " (chips, and sensors on none)"
+                       : count_text(array.sensors.size(), "sensor");
 }
 
 /// What not to trust, in one sentence.
 std::string distrust_of(const Facts& facts) {
   const int grade = facts.array.confirmed_grade;
+  const bool chips = facts.array.chips();
+  const char* const none = chips ? "any isolation of a chip or sensor: this array cannot isolate a fault; "
+                                 : "any isolation of a sensor: this array cannot isolate a fault; ";
   std::string out = grade > 0 ? fmt::format("any output once more than {} of {} {} faulty; ", grade,
                                             units_text(facts.array), by_count(grade, "is", "are"))
-                              : std::string("any isolation of a sensor: this array cannot isolate a fault; ");
-  out +=
-      "any output during an alert or with only three sensors in use; several sensors that all show the same wrong "
-      "gravity";
+                              : std::string(none);
+  out += fmt::format(
+      "any output during an alert or with only three sensors in use; several {} that all show the same wrong gravity",
+      chips ? "units" : "sensors");
   if (facts.wiring.state != WiringFacts::State::confirmed)
     out += "; inclination and toolface as a whole: no known attitude confirms the wiring";
   if (facts.calibration.predicted())
@@ -55,10 +57,14 @@ Answer how_large(const ArrayFacts& array) {
   const std::optional<double> least = worst(array, &SensorFacts::detectable_mps2);
   const std::optional<double> sure = worst(array, &SensorFacts::sure_isolation_mps2);
   if (!least) return {"How large?", "never", "nothing checks every sensor"};
-  return {"How large?", fmt::format("{:.3g} mg0", mg0(*least)),
-          "minimum detectable bias: constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
-              (sure ? fmt::format("; guaranteed isolation threshold {:.3g} mg0", mg0(*sure))
-                    : std::string("; no size of error is sure to be isolated"))};
+  return {
+      "How large?", fmt::format("{:.3g} mg0", mg0(*least)),
+      "minimum detectable bias: constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
+          std::string(array.chips() ? ", one axis of a chip being a sensor here (of orthogonal triads of equal noise "
+                                      "a whole chip's error of this length is at least as visible)"
+                                    : "") +
+          (sure ? fmt::format("; guaranteed isolation threshold {:.3g} mg0", mg0(*sure))
+                : std::string("; no size of error is sure to be isolated"))};
 }
 
 }  // namespace
@@ -66,7 +72,7 @@ Answer how_large(const ArrayFacts& array) {
 std::vector<Answer> answers_of(const Facts& facts) {
   const ArrayFacts& array = facts.array;
   const int sensors = static_cast<int>(array.sensors.size());
-  const bool chips = array.units > 0 && array.units < sensors;
+  const bool chips = array.chips();
   std::vector<Answer> out;
   out.push_back(
       {"How many faults?", fmt::format("{}", array.confirmed_grade),

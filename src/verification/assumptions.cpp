@@ -56,9 +56,10 @@ std::string drift_sentence(const UserLimits& limits) {
 std::vector<std::string> assumptions_of(const UserLimits& limits, const Facts& facts) {
   std::vector<std::string> out = {standstill_words(limits)};
   if (!limits.drift.empty()) out.push_back(drift_sentence(limits));
-  out.push_back(fmt::format("At most {} {} faulty at once; no guarantee holds beyond {} (confirmed grade).",
-                            count_text(limits.faults, "sensor"), by_count(limits.faults, "is", "are"),
-                            facts.array.confirmed_grade));
+  const std::string faulty = facts.array.chips() ? count_text(limits.faults, "unit") + " (chips, and sensors on none)"
+                                                 : count_text(limits.faults, "sensor");
+  out.push_back(fmt::format("At most {} {} faulty at once; no guarantee holds beyond {} (confirmed grade).", faulty,
+                            by_count(limits.faults, "is", "are"), facts.array.confirmed_grade));
   out.push_back(
       fmt::format("Gravity is {:.6f} m/s^2 within three times its stated sigma; the noise of every sensor is "
                   "white and as stated in the array file.",

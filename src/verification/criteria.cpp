@@ -106,7 +106,9 @@ void judge_array(const UserLimits& limits, const Facts& facts, Criteria& out) {
   const int grade = facts.array.confirmed_grade;
   out.judge(CriterionId::faults_isolated, grade >= limits.faults,
             {fmt::format("at least {}", limits.faults), limits.faults_from}, fmt::format("{} (confirmed grade)", grade),
-            fmt::format("the array isolates {} with confirmation, {} {} required", count_text(grade, "faulty sensor"),
+            fmt::format("the array isolates {} with confirmation, {} {} required",
+                        facts.array.chips() ? count_text(grade, "faulty unit") + " (chips, and sensors on none)"
+                                            : count_text(grade, "faulty sensor"),
                         limits.faults, by_count(limits.faults, "is", "are")));
   judge_protection(limits, facts, out);
   if (!limits.fault_mps2) return;

@@ -199,6 +199,30 @@ TEST(ChipUnits, AChipIsReinstatedAsAWhole) {
   EXPECT_EQ(last.sensors, chip_at(1)) << "in one event";
 }
 
+/// A host returns what it names, and nothing else: the rest of the chip is on probation as before.
+// Verifies: REQ-206
+TEST(ChipUnits, AResetReturnsTheAxesNamedAndNotTheRestOfTheirChip) {
+  MonitorConfig config;
+  config.reset_key = 7;
+  ChipRig tool(chip_array(2), config);
+  tool.fail(1, ChipFault::one_axis, 5);
+  for (int s = 0; s < 5; ++s) tool.station(4);
+  ASSERT_EQ(tool.rig.monitor.verdict().excluded, chip_at(1));
+  const auto silent_row = [&tool](SensorSet lost) {
+    Sample s = tool.rig.sample(direction_at(40, 10), kG0_mps2);
+    s.delivered = s.delivered - lost;
+    tool.rig.step(s);
+  };
+  for (int k = 0; k < 4 * tool.rig.setup.config.window; ++k) silent_row(SensorSet::of(0));
+  ASSERT_EQ(tool.rig.monitor.verdict().state, HealthState::failed) << "two axes are no vector";
+  ASSERT_TRUE(tool.rig.monitor.reset(7, SensorSet::of(3)).has_value());
+  silent_row(SensorSet::of(0));
+  const Verdict& v = tool.rig.monitor.verdict();
+  EXPECT_EQ(v.state, HealthState::suspect);
+  EXPECT_EQ(v.in_service, SensorSet::of(1).with(2).with(3));
+  EXPECT_EQ(v.excluded, SensorSet::of(4).with(5));
+}
+
 /// A channel that falls silent is known to be lost: the other axes of its chip stay, and the grade is that of what they
 /// span.
 // Verifies: REQ-206

@@ -9,10 +9,13 @@
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
+#include "model/units.hpp"
 #include "shim.h"
 
 namespace plumb_model {
@@ -38,8 +41,6 @@ enum Event : std::uint8_t {
 enum class Block : std::uint8_t { sample, no_evidence, clean, soft, alarming, off_gravity };
 enum Doubt : std::uint8_t { other, of_gravity, none_alive };
 
-using Set = std::uint8_t;
-inline int count(unsigned s) { return __builtin_popcount(s); }
 inline unsigned bit(Event e) { return 1U << e; }
 
 struct Limits {
@@ -57,13 +58,19 @@ static_assert(sizeof(World) == sizeof(plumb_model_state) + 14, "no padding: stat
 
 class Search {
  public:
-  Search(int sensors, Limits limits) : n_(sensors), all_(static_cast<Set>((1U << sensors) - 1U)), limits_(limits) {}
+  Search(Units units, Limits limits)
+      : units_(std::move(units)),
+        n_(units_.sensors()),
+        all_(static_cast<Set>((1U << n_) - 1U)),
+        limits_(limits),
+        all_of_it_(!units_.chips()) {}
 
   std::uint64_t states() const { return seen_.size(); }
   std::uint64_t steps() const { return steps_; }
 
   void run() {
     for (const bool calibrated : {true, false}) {
+      if (!calibrated && !all_of_it_) continue;
       World w;
       w.machine.mode = calibrated ? suspect : initial;
       w.machine.base = suspect;
@@ -95,25 +102,28 @@ class Search {
   static bool collects(const World& w) { return w.machine.mode == recalibrating || w.machine.mode == initial; }
   static bool records(const World& w) { return w.machine.mode != failed && w.machine.mode != initial; }
   static bool accuses(const World& w) { return w.machine.mode <= suspect || w.machine.mode == recalibrating; }
-  static int healthy_throughout(const World& w) { return count(monitored(w) & ~w.ever); }
+  int healthy_throughout(const World& w) const { return units_.of(monitored(w) & ~w.ever); }
+  int flat(const World& w) const { return units_.flat(monitored(w)); }
   static bool expected(const World& w, Doubt what) {
     return w.machine.mode == recalibrating && w.machine.base == suspect && w.suspicion == what;
   }
   static Set touched(const World& w) { return w.ever | w.machine.excluded | w.machine.absent | w.machine.readmitted; }
-  int most_faults() const { return n_ - 3; }
+  int most_faults() const { return units_.of(all_) - 1 - units_.flat(all_); }
   bool bearable(const World& w, Set silent) const {
-    const int in_all = count(touched(w) | silent);
-    return n_ == 6 ? count(w.machine.absent | silent) <= 1 && in_all <= most_faults() : in_all <= most_faults() + 1;
+    const int in_all = units_.of(touched(w) | silent);
+    return n_ == 6 || units_.chips() ? count(w.machine.absent | silent) <= 1 && in_all <= most_faults()
+                                     : in_all <= most_faults() + 1;
   }
   bool answerable(const World& w) const {
-    return w.suspected != 0 && count(monitored(w)) >= 4 && count(monitored(w) & ~w.suspected) >= 3;
+    return w.suspected != 0 && units_.of(monitored(w)) >= flat(w) + 2 &&
+           units_.of(monitored(w) & ~w.suspected) >= flat(w) + 1;
   }
   int needed(const World& w) const {
     return count(monitored(w) & ~w.suspected) <= 3 ? std::max(2, limits_.stations) : limits_.stations;
   }
-  static bool may_recalibrate(const World& w) {
+  bool may_recalibrate(const World& w) const {
     const plumb_model_state& m = w.machine;
-    if (m.provisionally_excluded != 0) return false;
+    if (!all_of_it_ || m.provisionally_excluded != 0) return false;
     if (publishes(m.mode)) return !w.open && !m.not_yet_validated;
     return m.mode == suspect && count(m.in_service) > 3 &&
            (w.suspicion == none_alive || (w.suspicion == of_gravity && !w.open));
@@ -124,6 +134,16 @@ class Search {
     for (unsigned s = of;; s = (s - 1) & of) {
       use(static_cast<Set>(s));
       if (s == 0) return;
+    }
+  }
+  /// The same, of every unit all that is in `of` or nothing.
+  template <class Use>
+  void whole_subsets(Set of, Use&& use) const {
+    const std::vector<Set> parts = units_.parts(of);
+    for (unsigned chosen = 0; chosen < 1U << parts.size(); ++chosen) {
+      unsigned set = 0;
+      for (std::size_t k = 0; k < parts.size(); ++k) set |= ((chosen >> k) & 1U) != 0 ? parts[k] : 0U;
+      use(static_cast<Set>(set));
     }
   }
   /// Runs `next` as it stands, and again with the change, where that is possible.
@@ -173,9 +193,10 @@ class Search {
 
   template <class Next>
   void onset(const Step& s, Next&& next) {
-    subsets(monitored(s.w) & ~s.w.ever, [&](Set wrong) {
+    whole_subsets(monitored(s.w) & ~s.w.ever, [&](Set wrong) {
       Step t = s;
-      const bool bounded = healthy_throughout(s.w) - count(wrong) >= 3 && count(touched(s.w) | wrong) <= most_faults();
+      const bool bounded = healthy_throughout(s.w) - units_.of(wrong) >= flat(s.w) + 1 &&
+                           units_.of(touched(s.w) | wrong) <= most_faults();
       if (bounded) t.w.ever |= wrong;
       next(t);
     });
@@ -188,6 +209,7 @@ class Search {
     s.kind = kind;
     if (kind == Block::no_evidence) return motion(s);
     attitude(s);
+    if (!all_of_it_) return;
     for (int i = 0; i < n_; ++i) {
       const Set one = static_cast<Set>(1U << i);
       if ((w.machine.absent & one) != 0 || !bearable(w, one)) continue;
@@ -206,7 +228,7 @@ class Search {
   /// A block in motion: nothing, or whatever a monitor in motion may say, of whomever.
   void motion(const Step& s) {
     take(s);
-    subsets(s.w.machine.in_service, [&](Set away) {
+    whole_subsets(s.w.machine.in_service, [&](Set away) {
       Step t = s;
       t.in.from_motion = (1U << none) - 1U;
       if (away == 0) t.in.from_motion &= ~bit(provisional_exclusion);
@@ -240,11 +262,11 @@ class Search {
   void ballot(const Step& s, bool excited, bool proves) {
     const bool channel = (s.in.lost | s.in.back) != 0;
     if (!(s.w.open && records(s.w)) || s.kind == Block::off_gravity || channel) return contradict(s, excited, proves);
-    const bool sound = count(monitored(s.w)) >= 4 && healthy_throughout(s.w) >= 3;
+    const bool sound = units_.of(monitored(s.w)) >= flat(s.w) + 2 && healthy_throughout(s.w) >= flat(s.w) + 1;
     const Set accusable = sound ? static_cast<Set>(monitored(s.w) & s.w.ever & ~s.w.suspected) : Set{0};
-    subsets(accusable, [&](Set grown) {
+    whole_subsets(accusable, [&](Set grown) {
       Step t = s;
-      if (grown != 0 && count(monitored(s.w) & ~(s.w.suspected | grown)) >= 3) {
+      if (grown != 0 && units_.of(monitored(s.w) & ~(s.w.suspected | grown)) >= flat(s.w) + 1) {
         t.w.suspected |= grown;
         t.w.standing = t.w.agree = 0;
       }
@@ -264,7 +286,7 @@ class Search {
 
   void contradict(const Step& s, bool excited, bool proves) {
     count_blocks(s, excited, proves, false);
-    if (s.kind == Block::alarming && count(monitored(s.w)) >= 4 && !s.w.standing)
+    if (s.kind == Block::alarming && units_.of(monitored(s.w)) >= flat(s.w) + 2 && !s.w.standing)
       count_blocks(s, excited, proves, true);
   }
 
@@ -272,7 +294,7 @@ class Search {
     Step t = s;
     World& w = t.w;
     plumb_model_state& m = w.machine;
-    const int suspected = count((w.standing ? w.suspected : 0U) | m.provisionally_excluded);
+    const int suspected = units_.of((w.standing ? w.suspected : 0U) | m.provisionally_excluded);
     if (records(w) && suspected > w.most) {
       w.most = static_cast<std::uint8_t>(suspected);
       w.doubt = 0;
@@ -301,9 +323,14 @@ class Search {
 
   void probe(const Step& s, bool excited) {
     const plumb_model_state& m = s.w.machine;
-    if (s.w.open || m.not_yet_validated || !records(s.w) || m.mode == suspect || n_ == 6) return raise(s, false);
-    const Set asked = static_cast<Set>((m.excluded | m.provisionally_excluded) & ~(m.readmitted | m.absent));
-    subsets(asked, [&](Set fine) {
+    if (s.w.open || m.not_yet_validated || !records(s.w) || m.mode == suspect || (n_ == 6 && all_of_it_))
+      return raise(s, false);
+    // A unit is asked with all that is out of it, unless some of that has returned once.
+    unsigned asked = 0;
+    for (const Set part : units_.parts((m.excluded | m.provisionally_excluded) & ~m.absent)) {
+      if ((part & m.readmitted) == 0) asked |= part;
+    }
+    whole_subsets(static_cast<Set>(asked), [&](Set fine) {
       Step t = s;
       World& w = t.w;
       if ((w.probation & fine) != 0) {
@@ -345,11 +372,12 @@ class Search {
     const plumb_model_state& m = s.w.machine;
     const bool channel = (s.in.lost | s.in.back) != 0;
     count_isolation_timeout(s);
-    if (!(accuses(s.w) && s.w.open && s.kind == Block::alarming && count(monitored(s.w)) >= 5) || nothing_alive ||
-        channel)
+    if (!(accuses(s.w) && s.w.open && s.kind == Block::alarming && units_.of(monitored(s.w)) >= flat(s.w) + 3) ||
+        nothing_alive || channel)
       return;
-    const Set accusable = healthy_throughout(s.w) >= 4 ? static_cast<Set>(m.in_service & s.w.ever) : Set{m.in_service};
-    subsets(accusable, [&](Set aside) {
+    const bool sound = healthy_throughout(s.w) >= flat(s.w) + 2;
+    const Set accusable = sound ? static_cast<Set>(m.in_service & s.w.ever) : Set{m.in_service};
+    whole_subsets(accusable, [&](Set aside) {
       if (aside == 0 || count(m.in_service & ~aside) < 3) return;
       Step t = s;
       t.in.suspected = aside;
@@ -375,6 +403,7 @@ class Search {
   void conclude(const Step& s) {
     const auto freeze = [&](const Step& t) {
       take(t);
+      if (!all_of_it_) return;
       Step u = t;
       u.in.raised &=
           ~(bit(exclusion) | bit(provisional_exclusion) | bit(probation_passed) | bit(recalibrate) | bit(fit_accepted));
@@ -406,6 +435,7 @@ class Search {
     s.in.raised |= static_cast<unsigned>(w.pending) << no_consistent_hypothesis;
     s.in.passed_blocks = static_cast<unsigned char>(limits_.passed_blocks);
     s.in.sensors = static_cast<unsigned char>(n_);
+    for (int i = 0; i < n_; ++i) s.in.unit[i] = units_.unit_of(i);
     constexpr unsigned kKept = 1U << no_consistent_hypothesis | 1U << alarm | 1U << norm_mismatch;
     if (before.mode == recalibrating && (s.in.raised & kKept) != 0) s.in.raised &= ~bit(isolation_timeout);
     if ((s.in.raised & kKept) != 0) w.alarmed = collects(w) ? 1 : 0;
@@ -445,7 +475,7 @@ class Search {
       default: break;
     }
     const int mode = w.machine.mode;
-    if (mode != suspect && mode != recalibrating) {
+    if (!all_of_it_ || (mode != suspect && mode != recalibrating)) {
       w.suspicion = other;
     }
     if (mode != recalibrating) w.machine.base = suspect;
@@ -465,10 +495,7 @@ class Search {
     for (int i = 0; i < n_; ++i) {
       for (std::size_t k = 0; k < sets.size(); ++k) columns[static_cast<std::size_t>(i)] |= ((*sets[k] >> i) & 1U) << k;
     }
-    for (int i = 1; i < n_; ++i) {
-      for (auto k = static_cast<std::size_t>(i); k > 0 && columns[k] < columns[k - 1]; --k)
-        std::swap(columns[k], columns[k - 1]);
-    }
+    in_order(columns);
     for (std::size_t k = 0; k < sets.size(); ++k) {
       unsigned set = 0;
       for (int i = 0; i < n_; ++i) set |= ((columns[static_cast<std::size_t>(i)] >> k) & 1U) << i;
@@ -479,9 +506,30 @@ class Search {
     if (seen_.insert(bytes).second) frontier_.push_back(w);
   }
 
+  /// The axes of a chip in order, then the units of each size.
+  void in_order(std::array<unsigned, 8>& columns) const {
+    std::map<int, std::vector<std::vector<unsigned>>> by_size;
+    auto at = columns.begin();
+    for (const int size : units_.sizes()) {
+      std::vector<unsigned> unit(at, at + size);
+      std::sort(unit.begin(), unit.end());
+      by_size[size].push_back(unit);
+      at += size;
+    }
+    std::map<int, std::size_t> used;
+    for (auto& of_a_size : by_size) std::sort(of_a_size.second.begin(), of_a_size.second.end());
+    at = columns.begin();
+    for (const int size : units_.sizes()) {
+      const std::vector<unsigned>& unit = by_size[size][used[size]++];
+      at = std::copy(unit.begin(), unit.end(), at);
+    }
+  }
+
+  Units units_;
   int n_;
   Set all_;
   Limits limits_;
+  bool all_of_it_;  ///< fits, freezes, two events at a time: in arrays without chips
   std::unordered_set<std::string> seen_;
   std::deque<World> frontier_;
   std::uint64_t steps_ = 0;

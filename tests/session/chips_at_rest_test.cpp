@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plumb/findings/geometry_study.hpp"
+#include "plumb/render/geometry_report.hpp"
 #include "support/chip_tool.hpp"
 
 namespace chips_at_rest_test {
@@ -185,6 +186,8 @@ TEST(ChipsAtRest, GeometryCountsChipsAndDoesNotAdviseToTurnOne) {
     subject.gravity = {kG0_mps2, 1e-4 * kG0_mps2, GravityModel::value};
     const findings::GeometryStudy study = findings::study_geometry(subject);
     EXPECT_EQ(study.merit.units, array.units().size());
+    const std::string text = render::geometry_text(subject, study);
+    EXPECT_EQ(text.find("one axis at fault") != std::string::npos, array.units().grouped()) << text;
     return !study.warnings.empty();
   };
   EXPECT_FALSE(warned(chip_array(3)));

@@ -61,6 +61,32 @@ TEST(VerificationLimits, AreReadWithTheirUnits) {
   EXPECT_FALSE(limits("").false_alarm_rate);
 }
 
+/// Six sensors in two chips: what counts chips says so, and an array without chips is told as before.
+// Verifies: REQ-206
+TEST(VerificationWords, CountUnitsWhereTheArrayHasChips) {
+  verification::Facts facts = calibrated_facts();
+  facts.array.sensors.assign(6, {0.02, 0.1});
+  const auto told = [&facts](int units) {
+    facts.array.units = units;
+    const verification::Report report = verification::judge(limits("faults = 2"), facts);
+    std::string out;
+    for (const auto& one : report.criteria) out += one.reason + "\n";
+    for (const auto& one : report.assumptions) out += one + "\n";
+    for (const auto& one : report.answers) out += one.label + "\n";
+    return out;
+  };
+  const std::string chips = told(2), single = told(6);
+  EXPECT_TRUE(plumb_test::says(chips, {"isolates 1 faulty unit (chips, and sensors on none) with confirmation",
+                                       "At most 2 units (chips, and sensors on none) are faulty at once",
+                                       "more than 1 of 2 units (chips, and sensors on none) is faulty",
+                                       "several units that all show", "one axis of a chip being a sensor here"}));
+  EXPECT_EQ(single, told(0));
+  EXPECT_EQ(single.find("unit"), std::string::npos) << single;
+  EXPECT_EQ(single.find("chip"), std::string::npos) << single;
+  EXPECT_TRUE(plumb_test::says(single, {"isolates 1 faulty sensor with confirmation", "At most 2 sensors are faulty",
+                                        "several sensors that all show"}));
+}
+
 TEST(VerificationLimits, AreRefusedWithLineAndRemedy) {
   EXPECT_TRUE(
       plumb_test::says(refusal("[limits]\nalert_limt = \"1 deg\"\n"), {"limits.toml:2", "alert_limt", "alert_limit"}));

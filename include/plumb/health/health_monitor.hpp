@@ -59,7 +59,7 @@ class HealthMonitor {
   const Verdict& step(const Sample& sample) noexcept;
   const Verdict& verdict() const noexcept { return verdict_; }
 
-  /// Leaves `failed` at the next step: the named sensors return to service where they deliver.
+  /// Leaves `failed` at the next step: the named sensors serve again where they deliver; of a chip the named axes.
   /// Error: wrong_key. Ignored in any other state (model/state_table.txt).
   Expected<void> reset(std::uint64_t key, SensorSet sensors) noexcept;
 

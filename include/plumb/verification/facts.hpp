@@ -36,6 +36,7 @@ struct ArrayFacts {
   double gravity_mps2 = 0.0;
   std::vector<SensorFacts> sensors;
   std::vector<Note> notes;  ///< warnings and known limits of its geometry
+  bool chips() const { return units > 0 && units < static_cast<int>(sensors.size()); }
 };
 
 struct CalibrationFacts {
