@@ -43,7 +43,8 @@ void limits_tables(const Json& array, Section& out) {
   ViewRows worst, levels, triples;
   for (const Json& row : array["worst_case"]) worst.push_back(page_row(shown(row["faults"]), kWorstFields, row));
   if (!worst.empty())
-    out.table("Worst case, in errors e of a healthy reading", page_head("faulty sensors", kWorstFields), worst,
+    out.table("Worst case, in errors e of a healthy reading",
+              page_head(has_chips(array) ? "faulty units" : "faulty sensors", kWorstFields), worst,
               "At any attitude, for any readings of the other faulty sensors, correlated or not.");
   for (const Json& row : array["protection_levels"])
     levels.push_back({row["sigma_mg0"], row["one_sample_deg"], row["block_deg"]});

@@ -63,7 +63,9 @@ class Search {
         n_(units_.sensors()),
         all_(static_cast<Set>((1U << n_) - 1U)),
         limits_(limits),
-        all_of_it_(!units_.chips()) {}
+        all_of_it_(!units_.chips()) {
+    for (int i = 0; i < n_; ++i) unit_of_[static_cast<std::size_t>(i)] = units_.unit_of(i);
+  }
 
   std::uint64_t states() const { return seen_.size(); }
   std::uint64_t steps() const { return steps_; }
@@ -139,6 +141,7 @@ class Search {
   /// The same, of every unit all that is in `of` or nothing.
   template <class Use>
   void whole_subsets(Set of, Use&& use) const {
+    if (!units_.chips()) return subsets(of, use);
     const std::vector<Set> parts = units_.parts(of);
     for (unsigned chosen = 0; chosen < 1U << parts.size(); ++chosen) {
       unsigned set = 0;
@@ -435,7 +438,7 @@ class Search {
     s.in.raised |= static_cast<unsigned>(w.pending) << no_consistent_hypothesis;
     s.in.passed_blocks = static_cast<unsigned char>(limits_.passed_blocks);
     s.in.sensors = static_cast<unsigned char>(n_);
-    for (int i = 0; i < n_; ++i) s.in.unit[i] = units_.unit_of(i);
+    std::memcpy(s.in.unit, unit_of_.data(), unit_of_.size());
     constexpr unsigned kKept = 1U << no_consistent_hypothesis | 1U << alarm | 1U << norm_mismatch;
     if (before.mode == recalibrating && (s.in.raised & kKept) != 0) s.in.raised &= ~bit(isolation_timeout);
     if ((s.in.raised & kKept) != 0) w.alarmed = collects(w) ? 1 : 0;
@@ -508,6 +511,10 @@ class Search {
 
   /// The axes of a chip in order, then the units of each size.
   void in_order(std::array<unsigned, 8>& columns) const {
+    if (!units_.chips()) {
+      std::sort(columns.begin(), columns.begin() + n_);
+      return;
+    }
     std::map<int, std::vector<std::vector<unsigned>>> by_size;
     auto at = columns.begin();
     for (const int size : units_.sizes()) {
@@ -526,6 +533,7 @@ class Search {
   }
 
   Units units_;
+  std::array<unsigned char, 8> unit_of_{};
   int n_;
   Set all_;
   Limits limits_;

@@ -22,12 +22,16 @@ class Units {
       first += static_cast<unsigned>(size);
     }
     sensors_ = static_cast<int>(first);
+    for (unsigned set = 0; set < 1U << first; ++set) {  // looked up at every step of the search
+      of_.push_back(static_cast<int>(parts(set).size()));
+      flat_.push_back(most_in_a_plane(set));
+    }
   }
   int sensors() const { return sensors_; }
   const std::vector<int>& sizes() const { return sizes_; }
   bool chips() const { return sensors_ > static_cast<int>(sizes_.size()); }
   /// Number of units with a sensor among these.
-  int of(unsigned sensors) const { return static_cast<int>(parts(sensors).size()); }
+  int of(unsigned sensors) const { return of_[sensors]; }
   /// What of every unit is among these sensors, unit after unit.
   std::vector<Set> parts(unsigned sensors) const {
     std::vector<Set> out;
@@ -43,7 +47,10 @@ class Units {
     return 0;
   }
   /// The largest number of units that have at most two sensors together: these may lie in one plane.
-  int flat(unsigned sensors) const {
+  int flat(unsigned sensors) const { return flat_[sensors]; }
+
+ private:
+  int most_in_a_plane(unsigned sensors) const {
     int most = 0;
     const std::vector<Set> all = parts(sensors);
     for (std::size_t a = 0; a < all.size(); ++a) {
@@ -55,9 +62,9 @@ class Units {
     return most;
   }
 
- private:
   std::vector<int> sizes_;
   std::vector<Set> members_;
+  std::vector<int> of_, flat_;
   int sensors_ = 0;
 };
 

@@ -250,7 +250,7 @@ typedef struct plumb_verdict {
   uint8_t protection_available; /* 1: the protection levels are bounds */
   uint8_t wants_rotation;       /* 1: another attitude would help; turn_... says which */
   uint8_t recalibration_phase;  /* plumb_recalibration_phase */
-  uint8_t faults_covered;       /* faulty sensors that the protection level holds for; 0 without a level */
+  uint8_t faults_covered;       /* faulty sensors, or chips, that the level holds for; 0 without a level */
   uint16_t usable;              /* bits PLUMB_USABLE_...: what of this verdict may be used */
   uint16_t qualifiers;          /* bits, from PLUMB_NOT_YET_VALIDATED to PLUMB_ALIGNMENT_UNSTATED */
   plumb_transition transition;  /* sequence != 0: something changed at this sample */
