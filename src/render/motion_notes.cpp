@@ -61,14 +61,15 @@ std::string samples_of(const session::ClockRun& run, std::uint64_t count) {
   return count_text(count, "sample") + " of " + run.name;
 }
 
-void add_steps(const session::ClockRun& run, std::vector<MotionNote>& out) {
+/// False where the sample period is another one: what else is wrong follows from it.
+bool add_steps(const session::ClockRun& run, std::vector<MotionNote>& out) {
   const double period_s = run.clock.sample_period_s, mean_s = run.mean_step_s();
   if (mean_s > 0.0 && std::fabs(mean_s / period_s - 1.0) > kPeriodShare) {
     out.push_back(
         {"clock_period",
          fmt::format("samples of {} are {:.4g} s apart, and sample_period_s is {:.4g} s", run.name, mean_s, period_s),
          fmt::format("set sample_period_s = {:.4g} in {}", mean_s, table_of(run))});
-    return;  // gaps and early samples follow from it
+    return false;
   }
   if (run.anew > 0)
     out.push_back(
@@ -83,6 +84,7 @@ void add_steps(const session::ClockRun& run, std::vector<MotionNote>& out) {
                                "and did not count",
                                samples_of(run, run.early), run.first_early_s),
                    "log the time at which the chip took a sample, not that at which it arrived"});
+  return true;
 }
 
 /// Of one clock, where its samples are not as the array file says.
@@ -93,7 +95,7 @@ void add_chip(const session::ClockRun& run, std::vector<MotionNote>& out) {
                                   : "see whether its columns, and that of its time, are filled"});
     return;
   }
-  add_steps(run, out);
+  if (!add_steps(run, out)) return;
   if (run.not_valid > 0)
     out.push_back(
         {"clock_not_valid",
