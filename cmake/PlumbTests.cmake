@@ -471,7 +471,7 @@ add_test(NAME example.navigation_files_are_short  # the first below 20 lines, al
 
 # The Python module, and the page that shows it.
 if(TARGET plumb_python)
-  foreach(name IN ITEMS plumb verdict motion motion_rest inclination page hypothesis)
+  foreach(name IN ITEMS plumb verdict motion motion_rest motion_clocks inclination page hypothesis)
     add_test(NAME python.${name}
       COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=$<TARGET_FILE_DIR:plumb_python>" "PLUMB_TOOL=$<TARGET_FILE:plumb_tool>"
               "PLUMB_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "${Python_EXECUTABLE}" -B

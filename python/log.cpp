@@ -1,6 +1,7 @@
 // Logs: samples as numpy columns, from arrays, from a CSV file, or played from a scenario.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -59,6 +60,14 @@ Log columns(const std::vector<plumb::Sample>& samples, int sensors) {
   return log;
 }
 
+/// Of chips with clocks of their own: as many a row as the array file states.
+py::array_t<double> clock_times(const std::vector<double>& clock_s, std::size_t clocks) {
+  const auto wide = static_cast<py::ssize_t>(clocks);
+  py::array_t<double> out({static_cast<py::ssize_t>(clock_s.size()) / wide, wide});
+  std::copy(clock_s.begin(), clock_s.end(), out.mutable_data());
+  return out;
+}
+
 /// Of one gyro; NaN where the rate is not known.
 py::array_t<double> rates(const std::vector<plumb::Rotation>& turn) {
   const auto rows = static_cast<py::ssize_t>(turn.size());
@@ -78,10 +87,12 @@ Log read_log(const Array& array, const std::string& path) {
   LogReader reader = taken(LogReader::open(path, *array, plumb::io::BadRowPolicy::stop));
   std::vector<plumb::Sample> samples;
   std::array<std::vector<plumb::Rotation>, plumb::kGyros> turn;
+  std::vector<double> clock_s;
   plumb::Sample sample;
   LogReader::Next status = reader.next(sample);
   for (; status == LogReader::Next::row; status = reader.next(sample)) {
     samples.push_back(sample);
+    clock_s.insert(clock_s.end(), reader.clock_s().begin(), reader.clock_s().end());
     if (!array->input.rotation_columns.empty()) turn[0].push_back(reader.rotation());
     if (!array->input.second_rotation_columns.empty()) turn[1].push_back(reader.second_rotation());
   }
@@ -90,6 +101,7 @@ Log read_log(const Array& array, const std::string& path) {
   for (std::size_t g = 0; g < turn.size(); ++g) {
     if (!turn[g].empty()) log.rate_radps[g] = rates(turn[g]);
   }
+  if (!clock_s.empty()) log.clock_s = clock_times(clock_s, array->input.clock_columns.size());
   return log;
 }
 
@@ -214,6 +226,7 @@ Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
     : one_sample_(log.one_sample),
       rows_(log.raw.ndim() > 0 ? log.raw.shape(0) : 0),
       sensors_(array.array.size()),
+      clocks_(static_cast<int>(array.input.clock_columns.size())),
       default_temperature_degc_(array.input.default_temperature_degc) {
   raw_ = column<double>(log.raw, "raw", sensors_);
   time_ = column<double>(log.time_s, "time_s", 0);
@@ -227,6 +240,7 @@ Log::View::View(const Log& log, const plumb::io::ArrayFile& array)
     temperature_ = column<double>(log.temperature_degc, "temperature_degc", 0);
   }
   for (std::size_t g = 0; g < rate_.size(); ++g) rate_[g] = column<double>(log.rate_radps[g], kRateNames[g], 3, "axis");
+  if (clocks_ > 0) clock_ = column<double>(log.clock_s, "clock_s", clocks_, "[[clock]] of the array file");
 }
 
 plumb::Rotation Log::View::rotation(std::size_t gyro, py::ssize_t row) const {
@@ -238,6 +252,12 @@ plumb::Rotation Log::View::rotation(std::size_t gyro, py::ssize_t row) const {
     out.rate_radps[c] = rate;
     out.turning = out.turning || rate != 0.0;
   }
+  return out;
+}
+
+plumb::io::ClockTimes Log::View::clock_s(py::ssize_t row) const {
+  plumb::io::ClockTimes out = plumb::io::kNoClockTimes;
+  for (int c = 0; c < clocks_ && has_clocks(); ++c) out[static_cast<std::size_t>(c)] = clock_.at(row, c);
   return out;
 }
 
@@ -262,19 +282,23 @@ void bind_log(py::module_& module) {
       "where it lies, without a copy, whatever its strides. NaN is a value that is not finite; `delivered`\n"
       "(rows, sensors) is False where a channel did not deliver. `station` is a tag, 0 = none (a label in a\n"
       "CSV file is its tag minus 1). `temperature_degc` is a column or one number. `rate_radps` and\n"
-      "`second_rate_radps` (rows, 3), tool frame, are the rates of up to two gyros; NaN = not known.")
+      "`second_rate_radps` (rows, 3), tool frame, are the rates of up to two gyros; NaN = not known.\n"
+      "`clock_s` (rows, clocks) has what the clocks of chips say that have their own, in the order of [[clock]] in "
+      "the\n"
+      "array file; NaN or the time of the row before = the chip has delivered no new sample.")
       .def(py::init([](const py::object& time_s, const py::object& raw, py::object temperature_degc,
                        py::object delivered, py::object station, py::object count, py::object roll_group,
-                       py::object rate_radps, py::object second_rate_radps) {
-             return Log{
-                 doubles(time_s, "time_s"), doubles(raw, "raw"), std::move(temperature_degc),
-                 std::move(delivered),      std::move(station),  std::move(count),
-                 std::move(roll_group),     py::none(),          {std::move(rate_radps), std::move(second_rate_radps)}};
+                       py::object rate_radps, py::object second_rate_radps, py::object clock_s) {
+             return Log{doubles(time_s, "time_s"),   doubles(raw, "raw"),
+                        std::move(temperature_degc), std::move(delivered),
+                        std::move(station),          std::move(count),
+                        std::move(roll_group),       py::none(),
+                        std::move(clock_s),          {std::move(rate_radps), std::move(second_rate_radps)}};
            }),
            py::arg("time_s"), py::arg("raw"), py::arg("temperature_degc") = py::none(),
            py::arg("delivered") = py::none(), py::arg("station") = py::none(), py::arg("count") = py::none(),
            py::arg("roll_group") = py::none(), py::arg("rate_radps") = py::none(),
-           py::arg("second_rate_radps") = py::none())
+           py::arg("second_rate_radps") = py::none(), py::arg("clock_s") = py::none())
       .def_property(
           "time_s", [](const Log& log) { return log.time_s; },
           [](Log& log, const py::object& from) { log.time_s = doubles(from, "time_s"); },
@@ -287,6 +311,8 @@ void bind_log(py::module_& module) {
       .def_readwrite("station", &Log::station)
       .def_readwrite("count", &Log::count, "raw samples behind a row")
       .def_readwrite("roll_group", &Log::roll_group)
+      .def_readwrite("clock_s", &Log::clock_s,
+                     "(rows, clocks), s, by the clock of each [[clock]] of the array file; None: there are none")
       .def_property(
           "rate_radps", [](const Log& log) { return log.rate_radps[0]; },
           [](Log& log, py::object from) { log.rate_radps[0] = std::move(from); },

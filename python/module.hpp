@@ -16,6 +16,7 @@
 
 #include "plumb/health/rotation.hpp"
 #include "plumb/io/array_file.hpp"
+#include "plumb/io/log_writer.hpp"
 #include "plumb/motion/motion_setup.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 
@@ -53,6 +54,7 @@ using Array = std::shared_ptr<plumb::io::ArrayFile>;
 struct Log {
   Doubles time_s, raw;
   py::object temperature_degc, delivered, station, count, roll_group, truth;
+  py::object clock_s = py::none();  ///< (rows, clocks), of chips with clocks of their own
   std::array<py::object, plumb::kGyros> rate_radps;
   bool one_sample = false;  ///< made of the arguments of a step: shapes are told without the rows
 
@@ -68,6 +70,9 @@ class Log::View {
   bool one_sample() const { return one_sample_; }
   plumb::Sample at(py::ssize_t row) const;  // touches no Python object
   double time_s(py::ssize_t row) const { return time_.at(row); }
+  bool has_clocks() const { return clock_.data != nullptr; }
+  /// One a [[clock]]; touches no Python object.
+  plumb::io::ClockTimes clock_s(py::ssize_t row) const;
   bool turns(std::size_t gyro) const { return rate_[gyro].data != nullptr; }
   /// Touches no Python object. A rate that is not finite is not known; without a column the tool does not turn.
   plumb::Rotation rotation(std::size_t gyro, py::ssize_t row) const;
@@ -99,7 +104,8 @@ class Log::View {
   bool one_sample_ = false;
   py::ssize_t rows_ = 0;
   int sensors_ = 0;
-  Column<double> time_, raw_, temperature_;
+  int clocks_ = 0;
+  Column<double> time_, raw_, temperature_, clock_;
   Column<bool> delivered_;
   Column<std::uint32_t> station_, count_, roll_group_;
   std::array<Column<double>, plumb::kGyros> rate_;

@@ -2,12 +2,14 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <variant>
 
 #include "monitor.hpp"
 #include "motion_row.hpp"
 #include "plumb/health/motion_link.hpp"
+#include "plumb/session/motion_feed.hpp"
 #include "plumb/session/motion_plan.hpp"
 
 namespace plumb_python {
@@ -33,6 +35,7 @@ class MotionMonitor {
       : array_(std::move(array)),
         plan_(plan_of(*array_, calibration, days)),
         sampler_(plan_),
+        feed_(plan_),
         monitor_(std::make_unique<plumb::MotionMonitor>()) {
     if (const auto configured = monitor_->configure(plan_.array, plan_.setup); !configured)
       throw Refused(plumb::io::from_error(configured.error()).text());
@@ -45,8 +48,9 @@ class MotionMonitor {
   py::array_t<MotionRow> run(const Log& log);
   /// Before the first row of a log is judged: rates as the array file says, and times that are numbers.
   void check(const Log::View& view) const;
-  /// One row of a log, of a monitor that is `idle`. Touches no Python object.
-  void step(const Log::View& view, py::ssize_t row, MotionRow& to);
+  /// One row of a log, of a monitor that is `idle`, and what is judged by it: one row of verdicts, or, where chips have
+  /// clocks of their own, as many as there are common instants. Touches no Python object.
+  void step(const Log::View& view, py::ssize_t row, std::vector<MotionRow>& to);
 
   void set_in_service(const std::variant<std::uint32_t, std::vector<std::string>>& sensors);
   MotionVerdict verdict() {
@@ -62,17 +66,19 @@ class MotionMonitor {
 
  private:
   void check_gyro(std::size_t gyro, bool given) const;
+  void check_clocks(bool given) const;
   MotionVerdict told(const plumb::MotionVerdict& verdict) const {
     return {array_, time_s_, verdict, new_window_,
             inclination_ ? std::optional(inclination_->interval()) : std::nullopt};
   }
-  const plumb::MotionVerdict& step(const plumb::Sample& row,
-                                   const std::array<plumb::Rotation, plumb::kGyros>& turn) noexcept;
+  void take(const Log::View& view, py::ssize_t row) noexcept;
+  const plumb::MotionVerdict& judge(const plumb::MotionSample& sample) noexcept;
 
   Turnstile turnstile_;
   Array array_;
   plumb::session::MotionPlan plan_;
   plumb::session::MotionSampler sampler_;
+  plumb::session::MotionFeed feed_;
   std::unique_ptr<plumb::MotionMonitor> monitor_;
   std::optional<plumb::ContinuousInclination> inclination_;  ///< where the array file bounds the velocity
   bool new_window_ = false;
@@ -92,8 +98,17 @@ void MotionMonitor::check_gyro(std::size_t gyro, bool given) const {
            "name its columns in [input] " + key + " and its bounds in [gyro], or leave the rates out");
 }
 
+/// Without their times no chip would be known to have delivered anything.
+void MotionMonitor::check_clocks(bool given) const {
+  if (feed_.stated() > 0 && !given)
+    refuse("clock_s: is missing, and the array file states clocks of chips",
+           "give what these clocks say, (rows, " + std::to_string(feed_.stated()) +
+               "), NaN where a chip has delivered nothing");
+}
+
 void MotionMonitor::check(const Log::View& view) const {
   for (std::size_t g = 0; g < kRateNames.size(); ++g) check_gyro(g, view.turns(g));
+  check_clocks(view.has_clocks());
   for (py::ssize_t r = 0; r < view.rows(); ++r) {
     const double time_s = view.time_s(r);
     if (std::isfinite(time_s)) continue;
@@ -103,23 +118,38 @@ void MotionMonitor::check(const Log::View& view) const {
   }
 }
 
-const plumb::MotionVerdict& MotionMonitor::step(const plumb::Sample& row,
-                                                const std::array<plumb::Rotation, plumb::kGyros>& turn) noexcept {
-  plumb::MotionSample sample = sampler_.sample(row);
-  for (std::size_t g = 0; g < turn.size(); ++g) {
-    sample.rate_given[g] = turn[g].rate_known;
-    sample.rate_radps[g] = turn[g].rate_radps;
+void MotionMonitor::take(const Log::View& view, py::ssize_t row) noexcept {
+  plumb::MotionSample sample = sampler_.sample(view.at(row));
+  for (std::size_t g = 0; g < kRateNames.size(); ++g) {
+    const plumb::Rotation turn = view.rotation(g, row);
+    sample.rate_given[g] = turn.rate_known;
+    sample.rate_radps[g] = turn.rate_radps;
   }
-  time_s_ = row.time_s;
+  feed_.take(sample, view.clock_s(row).data());
+}
+
+const plumb::MotionVerdict& MotionMonitor::judge(const plumb::MotionSample& sample) noexcept {
+  time_s_ = sample.time_s;
   const plumb::MotionVerdict& verdict = monitor_->step(sample);
   new_window_ = inclination_ && inclination_->step(sample, verdict);
   return verdict;
 }
 
-void MotionMonitor::step(const Log::View& view, py::ssize_t row, MotionRow& to) {
-  const plumb::MotionVerdict& verdict = step(view.at(row), {view.rotation(0, row), view.rotation(1, row)});
-  write_row(time_s_, verdict, array_->output_frame, to);
-  write_inclination(new_window_, inclination_ ? &inclination_->interval() : nullptr, to);
+void MotionMonitor::step(const Log::View& view, py::ssize_t row, std::vector<MotionRow>& to) {
+  take(view, row);
+  plumb::MotionSample sample;
+  while (feed_.next(sample)) {
+    const plumb::MotionVerdict& verdict = judge(sample);
+    MotionRow& out = to.emplace_back();
+    write_row(time_s_, verdict, array_->output_frame, out);
+    write_inclination(new_window_, inclination_ ? &inclination_->interval() : nullptr, out);
+  }
+}
+
+py::array_t<MotionRow> as_array(const std::vector<MotionRow>& rows) {
+  py::array_t<MotionRow> out(static_cast<py::ssize_t>(rows.size()));
+  if (!rows.empty()) std::memcpy(out.mutable_data(), rows.data(), rows.size() * sizeof(MotionRow));
+  return out;
 }
 
 /// A log of one row, so that one and the same code reads and refuses.
@@ -145,22 +175,30 @@ Log one_row(double time_s, const py::object& raw, const std::array<py::object, p
 MotionVerdict MotionMonitor::step(double time_s, const py::object& raw,
                                   const std::array<py::object, plumb::kGyros>& rate_radps,
                                   std::optional<double> temperature_degc, const py::object& delivered) {
+  if (feed_.has_clocks())
+    refuse("step: the array file states clocks of chips, and a row then gives no verdict, one or several",
+           "give the rows that have come to run, which goes on where it was");
   const Log::View view(one_row(time_s, raw, rate_radps, temperature_degc, delivered), *array_);
   check(view);
   (void)idle();
-  return told(step(view.at(0), {view.rotation(0, 0), view.rotation(1, 0)}));
+  take(view, 0);
+  plumb::MotionSample sample;
+  (void)feed_.next(sample);
+  return told(judge(sample));
 }
 
 py::array_t<MotionRow> MotionMonitor::run(const Log& log) {
   const Log::View view(log, *array_);
   check(view);
-  py::array_t<MotionRow> out(view.rows());
-  MotionRow* to = out.mutable_data();
+  std::vector<MotionRow> out;
+  out.reserve(static_cast<std::size_t>(view.rows()));
   (void)idle();
-  const Turnstile::Inside inside(turnstile_);
-  const py::gil_scoped_release others_may_run;
-  for (py::ssize_t r = 0; r < view.rows(); ++r) step(view, r, *to++);
-  return out;
+  {
+    const Turnstile::Inside inside(turnstile_);
+    const py::gil_scoped_release others_may_run;
+    for (py::ssize_t r = 0; r < view.rows(); ++r) step(view, r, out);
+  }
+  return as_array(out);
 }
 
 void MotionMonitor::set_in_service(const std::variant<std::uint32_t, std::vector<std::string>>& sensors) {
@@ -185,9 +223,9 @@ py::tuple run_both(Monitor& rest, MotionMonitor& motion, const Log& log) {
   const Log::View view(log, *rest.array());
   motion.check(view);
   py::array_t<VerdictRow> at_rest(view.rows());
-  py::array_t<MotionRow> in_motion(view.rows());
+  std::vector<MotionRow> in_motion;
+  in_motion.reserve(static_cast<std::size_t>(view.rows()));
   VerdictRow* to_rest = at_rest.mutable_data();
-  MotionRow* to_motion = in_motion.mutable_data();
   plumb::HealthMonitor& health = rest.idle();
   plumb::MotionMonitor& fast = motion.idle();
   {
@@ -199,10 +237,10 @@ py::tuple run_both(Monitor& rest, MotionMonitor& motion, const Log& log) {
       write_row(verdict, rest.array()->output_frame, *to_rest++);
       if (plumb::settles_motion(verdict)) fast.forget();
       fast.set_in_service(verdict.in_service);
-      motion.step(view, r, *to_motion++);
+      motion.step(view, r, in_motion);
     }
   }
-  return py::make_tuple(std::move(at_rest), std::move(in_motion));
+  return py::make_tuple(std::move(at_rest), as_array(in_motion));
 }
 
 }  // namespace
@@ -231,10 +269,13 @@ void bind_motion(py::module_& module) {
           "rate_radps and second_rate_radps: (3), tool frame [rad/s], for each gyro that the array file names; NaN =\n"
           "it delivered none. temperature_degc: else default_temperature of the array file. delivered: (sensors),\n"
           "bool. Raises Error where a shape does not fit, a rate is missing or the time is not finite; then nothing\n"
-          "was judged. A sample that does not follow the last one by the stated period has cause irregular_time.")
+          "was judged. A sample that does not follow the last one by the stated period has cause irregular_time. Not\n"
+          "where the array file states clocks of chips: give the rows to run as they come.")
       .def("run", &MotionMonitor::run, py::arg("log"),
            "Step all samples of a Log, which needs rate_radps for each gyro that the array file names. Returns a\n"
-           "structured array (motion_dtype), one row per sample: MOTION_FIELDS, FORCE_FIELDS and INCLINATION_FIELDS "
+           "structured array (motion_dtype), one row per sample, or per common instant where the array file states "
+           "clocks of\n"
+           "chips (the Log then needs clock_s): MOTION_FIELDS, FORCE_FIELDS and INCLINATION_FIELDS "
            "say\n"
            "what each figure is and in which unit. cause, validity, dominant, status and widest are indices into\n"
            "MOTION_CAUSES, FORCE_VALIDITIES, FORCE_TERMS, INCLINATION_STATUSES and INCLINATION_TERMS; sets of sensors\n"

@@ -47,7 +47,8 @@ io::FileExpected<io::LogStatistics> convert(const ConvertOptions& options, const
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     const std::uint64_t now = reader->statistics().temperature_held;
     const io::FileExpected<void> written =
-        writer->write(sample, {now != held, reader->rotation(), reader->depth_m(), reader->second_rotation()});
+        writer->write(sample, {now != held, reader->rotation(), reader->depth_m(), reader->second_rotation(),
+                               io::clock_times(reader->clock_s())});
     if (!written) return tl::unexpected<io::FileError>(written.error());
     held = now;
     progress.at(reader->statistics().rows, sample.time_s);

@@ -67,7 +67,8 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
     scenario::Delivery::Parcel parcel;
     while (delivery.pop(parcel)) {
       const io::FileExpected<void> written = writer->write(
-          parcel.sample, {false, parcel.beside.rotation, parcel.beside.depth_m, parcel.beside.second_rotation});
+          parcel.sample,
+          {false, parcel.beside.rotation, parcel.beside.depth_m, parcel.beside.second_rotation, parcel.beside.clock_s});
       if (!written) return written;
       ++rows;
     }
@@ -75,7 +76,9 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
   };
   for (; status == io::LogReader::Next::row; status = reader->next(sample)) {
     injector.apply(sample);
-    delivery.push(sample, injector.now(), {reader->depth_m(), reader->rotation(), reader->second_rotation()});
+    delivery.push(
+        sample, injector.now(),
+        {reader->depth_m(), reader->rotation(), reader->second_rotation(), io::clock_times(reader->clock_s())});
     const io::FileExpected<void> written = deliver();
     if (!written) return tl::unexpected<io::FileError>(written.error());
   }

@@ -17,8 +17,8 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_sections() {
-  static const std::vector<std::string> names = {"name",   "gravity", "monitor", "input",
-                                                 "output", "motion",  "gyro",    "sensor"};
+  static const std::vector<std::string> names = {"name",   "gravity", "monitor", "input", "output",
+                                                 "motion", "gyro",    "clock",   "sensor"};
   return names;
 }
 
@@ -197,6 +197,7 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   out.input = read_input(root, path, out.datasheet.reads);
   out.motion = read_motion(root, path, out.input);
   read_sensors(root, path, out);
+  read_clocks(root, path, out);
   out.output_frame = read_frame(root, path);
   out.fingerprint = fingerprint_of(out.datasheet);
   return out;

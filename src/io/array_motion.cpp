@@ -3,46 +3,12 @@
 #include <string>
 
 #include "array_parts.hpp"
-#include "text_tools.hpp"
-#include "toml_table.hpp"
+#include "motion_figure.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 namespace {
-
-/// One number: what it may be (as `plumb::check` of a MotionSetup has it), and how it is written.
-struct Figure {
-  const char* key;
-  const char* unit;  ///< empty: a ratio
-  double least, most;
-  const char* example;
-};
-
-double read_figure(const TomlTable& table, const Figure& figure) {
-  const TomlNode& value = *table.find(figure.key);
-  const std::string form = std::string("write a number") +
-                           (*figure.unit != '\0' ? std::string(" in ") + figure.unit + ", without quotes" : "") + ": " +
-                           figure.key + " = " + figure.example;
-  const bool ratio = *figure.unit == '\0' && value.kind == TomlNode::Kind::text;
-  const bool number = value.kind == TomlNode::Kind::number || value.kind == TomlNode::Kind::integer;
-  if (!ratio && !number)
-    table.fail(value.line, figure.key, std::string("is ") + value.kind_name() + ", must be a number", form);
-  const double given = ratio ? table.quantity(Quantity::ratio, figure.key, 0.0) : value.number;
-  if (given >= figure.least && given <= figure.most) return given;
-  const std::string unit = *figure.unit != '\0' ? std::string(" ") + figure.unit : "";
-  table.fail(value.line, figure.key, "is " + brief(given) + unit + ", out of range",
-             "give a value from " + brief(figure.least) + " to " + brief(figure.most) + unit + ", for example " +
-                 figure.key + " = " + figure.example);
-}
-
-void read_into(const TomlTable& table, const Figure& figure, std::optional<double>& out) {
-  if (table.has(figure.key)) out = read_figure(table, figure);
-}
-
-void read_into(const TomlTable& table, const Figure& figure, double& out) {
-  if (table.has(figure.key)) out = read_figure(table, figure);
-}
 
 struct BoundKey {
   Figure figure;
@@ -75,6 +41,8 @@ constexpr Figure kPeriod{"sample_period_s", "s", 1e-5, 1.0, "0.001"};
 constexpr Figure kRate{"rate_bound_radps", "rad/s", 0.0, 1000.0, "8"};
 constexpr Figure kVelocity{"velocity_bound_mps", "m/s", 0.0, 100.0, "0.3"};
 constexpr Figure kWindow{"inclination_window_s", "s", 0.01, 600.0, "10"};
+/// As far as that of any clock may be: five periods of 10 us to forty of a second.
+constexpr Figure kWait{"clock_wait_s", "s", 5e-5, 40.0, "0.01"};
 
 struct LimitKey {
   Figure figure;
@@ -104,7 +72,7 @@ constexpr CountKey kCounts[] = {
 constexpr const char* kBlocks = "block_samples";
 
 std::vector<std::string> known_motion_keys() {
-  std::vector<std::string> out = {kPeriod.key, kRate.key, kVelocity.key, kWindow.key, kBlocks};
+  std::vector<std::string> out = {kPeriod.key, kRate.key, kVelocity.key, kWindow.key, kWait.key, kBlocks};
   for (const CountKey& key : kCounts) out.emplace_back(key.key);
   for (const LimitKey& key : kLimits) out.emplace_back(key.figure.key);
   return with_motion_keys(std::move(out));
@@ -189,6 +157,7 @@ MotionSpec read_motion(const TomlNode& root, const std::string& file, const Inpu
     read_into(table, kPeriod, out.sample_period_s);
     read_into(table, kRate, out.rate_bound_radps);
     read_into(table, kVelocity, out.velocity_bound_mps);
+    read_into(table, kWait, out.clock_wait_s);
     std::optional<double> window_s;
     read_into(table, kWindow, window_s);
     out.inclination_window_s = window_s.value_or(out.inclination_window_s);

@@ -29,6 +29,8 @@ bool read_motion_bounds(const TomlTable& table, MotionBounds& bounds);
 InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);
 /// Fills `out.datasheet`, `out.array` and the columns; `out.input` and `out.gravity` must be set.
 void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out);
+/// [[clock]], by the sensors, the gyros and [motion] of `out`, which must be set.
+void read_clocks(const TomlNode& root, const std::string& file, ArrayFile& out);
 
 /// The whole of it from its tree; throws Refusal.
 ArrayFile array_of(const TomlNode& root, const std::string& text, const std::string& path);

@@ -50,6 +50,8 @@ FileExpected<void> LogReader::State::check_binary() const {
   for (std::size_t k = 0; k < rates.size() && done; ++k) done = check_unit(rates[k], "rad/s", "[input] rotation_radps");
   for (std::size_t k = 0; k < second_rates.size() && done; ++k)
     done = check_unit(second_rates[k], "rad/s", "[input] second_rotation_radps");
+  for (std::size_t k = 0; k < clocks.size() && done; ++k)
+    done = check_unit(clocks[k], plog_time_unit(input.time_unit_s), "[input] time_unit");
   for (std::size_t k = 0; k < sensors.size() && done; ++k) {
     if (!same_raw_unit(binary->header().columns[sensors[k]].text, input.unit))
       done = check_unit(sensors[k], input.unit.name, "[input] unit");

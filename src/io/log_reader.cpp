@@ -121,6 +121,13 @@ FileExpected<void> LogReader::State::map_columns() {
     if (!column) return tl::unexpected<FileError>(column.error());
     second_rates.push_back(*column);
   }
+  for (std::size_t c = 0; c < input.clock_columns.size(); ++c) {
+    const FileExpected<std::size_t> column =
+        column_of(input.clock_columns[c], "clock[" + std::to_string(c + 1) + "].time");
+    if (!column) return tl::unexpected<FileError>(column.error());
+    clocks.push_back(*column);
+  }
+  clock_s.resize(clocks.size());
   for (std::size_t i = 0; i < input.sensor_columns.size(); ++i) {
     const FileExpected<std::size_t> column =
         column_of(input.sensor_columns[i], "sensor[" + std::to_string(i + 1) + "].column");
@@ -173,6 +180,7 @@ LogReader& LogReader::operator=(LogReader&& other) noexcept = default;
 LogReader::~LogReader() = default;
 
 const Rotation& LogReader::rotation() const noexcept { return state_->rotation; }
+const std::vector<double>& LogReader::clock_s() const noexcept { return state_->clock_s; }
 const Rotation& LogReader::second_rotation() const noexcept { return state_->second_rotation; }
 
 FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {

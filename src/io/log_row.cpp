@@ -138,6 +138,19 @@ inline bool LogReader::State::fill_rotation(const std::vector<std::size_t>& colu
   return true;
 }
 
+/// An empty cell or nan is a chip that has delivered nothing new, and no fault of the row.
+template <bool kBinary>
+inline bool LogReader::State::fill_clocks() {
+  for (std::size_t c = 0; c < clocks.size(); ++c) {
+    double value = 0.0;
+    const CellKind kind = number_in<kBinary>(clocks[c], value);
+    if (kind == CellKind::text) return refuse_cell(clocks[c], " is not a time");
+    if (kind == CellKind::number && std::isinf(value)) return refuse(clocks[c], "the time is not finite");
+    clock_s[c] = kind == CellKind::number ? value * input.time_unit_s : std::nan("");
+  }
+  return true;
+}
+
 template <bool kBinary>
 inline bool LogReader::State::fill_depth() {
   depth_m = std::nan("");
@@ -204,7 +217,7 @@ bool LogReader::State::fill_row(Sample& sample) {
   sample = kNoSample;
   return fill_time<kBinary>(sample) && fill_tags<kBinary>(sample) && fill_temperature<kBinary>(sample) &&
          fill_rotation<kBinary>(rates, rotation) && fill_rotation<kBinary>(second_rates, second_rotation) &&
-         fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
+         fill_clocks<kBinary>() && fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
 }
 template bool LogReader::State::fill_row<true>(Sample& sample);
 template bool LogReader::State::fill_row<false>(Sample& sample);

@@ -42,6 +42,8 @@ struct LogReader::State {
   std::vector<std::size_t> sensors;
   std::vector<std::size_t> filters;
   std::vector<std::size_t> rates, second_rates;
+  std::vector<std::size_t> clocks;
+  std::vector<double> clock_s;
   Rotation rotation, second_rotation;
   double depth_m = 0.0;  ///< NaN: not known
   int line = 0;
@@ -100,6 +102,8 @@ struct LogReader::State {
   bool fill_temperature(Sample& sample);
   template <bool kBinary>
   bool fill_rotation(const std::vector<std::size_t>& columns, Rotation& out);
+  template <bool kBinary>
+  bool fill_clocks();
   template <bool kBinary>
   bool fill_depth();
   template <bool kBinary>

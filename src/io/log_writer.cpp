@@ -1,5 +1,6 @@
 #include "plumb/io/log_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -28,6 +29,14 @@ double time_cell(double time_s, double unit_s) {
     if (neighbour * unit_s == time_s) return neighbour;
   }
   return quotient;
+}
+
+/// Of a clock; empty where the column is another one's already: two clocks may share a column, and it may be the log's.
+std::string own_clock_column(const InputSpec& input, std::size_t clock) {
+  const std::string& column = input.clock_columns[clock];
+  bool taken = column == input.time_column;
+  for (std::size_t c = 0; c < clock; ++c) taken = taken || input.clock_columns[c] == column;
+  return taken ? std::string() : column;
 }
 
 bool is_binary(const std::string& path) {
@@ -70,10 +79,17 @@ class Cells {
 
 }  // namespace
 
+ClockTimes clock_times(const std::vector<double>& clock_s) noexcept {
+  ClockTimes out = kNoClockTimes;
+  std::copy_n(clock_s.begin(), std::min(clock_s.size(), out.size()), out.begin());
+  return out;
+}
+
 LogWriter::LogWriter(OutputFile file, const InputSpec& input, Columns columns) : file_(std::move(file)), input_(input) {
   if (columns != Columns::samples) return;
   input_.rotation_columns.clear();
   input_.second_rotation_columns.clear();
+  input_.clock_columns.clear();
 }
 LogWriter::LogWriter(LogWriter&& other) noexcept = default;
 LogWriter& LogWriter::operator=(LogWriter&& other) noexcept = default;
@@ -88,6 +104,7 @@ void LogWriter::choose_constants() {
                  filter.column == input_.temperature_column || filter.column == input_.depth_column;
     for (const std::string& column : input_.rotation_columns) taken = taken || filter.column == column;
     for (const std::string& column : input_.second_rotation_columns) taken = taken || filter.column == column;
+    for (const std::string& column : input_.clock_columns) taken = taken || filter.column == column;
     for (const std::string& column : input_.sensor_columns) taken = taken || filter.column == column;
     if (!taken) constant.push_back(filter);
   }
@@ -110,6 +127,7 @@ FileExpected<void> LogWriter::begin_csv() {
   for (const ColumnFilter& filter : input_.where) add(filter.column);
   for (const std::string& column : input_.rotation_columns) add(column);
   for (const std::string& column : input_.second_rotation_columns) add(column);
+  for (std::size_t c = 0; c < input_.clock_columns.size(); ++c) add(own_clock_column(input_, c));
   for (const std::string& column : input_.sensor_columns) add(column);
   header += '\n';
   return file_.write(header);
@@ -130,6 +148,8 @@ FileExpected<void> LogWriter::begin_binary() {
     header.columns.push_back(PlogColumn{filter.column, true, filter.text});
   for (const std::string& column : input_.rotation_columns) add(column, "rad/s");
   for (const std::string& column : input_.second_rotation_columns) add(column, "rad/s");
+  for (std::size_t c = 0; c < input_.clock_columns.size(); ++c)
+    add(own_clock_column(input_, c), plog_time_unit(input_.time_unit_s));
   for (const std::string& column : input_.sensor_columns) add(column, input_.unit.name);
   if (input_.time_column.empty()) header.rate_hz = input_.rate_hz;
   if (const std::string misfit = plog_misfit(header); !misfit.empty()) {
@@ -164,6 +184,11 @@ FileExpected<void> LogWriter::write(const Sample& sample, const Notes& notes) {
   };
   rates(input_.rotation_columns, notes.rotation);
   rates(input_.second_rotation_columns, notes.second_rotation);
+  for (std::size_t c = 0; c < input_.clock_columns.size(); ++c) {
+    if (own_clock_column(input_, c).empty()) continue;
+    const double time_s = notes.clock_s[c];
+    cells.number(std::isfinite(time_s), time_cell(time_s, input_.time_unit_s));
+  }
   for (std::size_t i = 0; i < input_.sensor_columns.size(); ++i) {
     cells.number(sample.delivered.has(static_cast<int>(i)), sample.raw[i]);
   }

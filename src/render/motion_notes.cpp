@@ -51,6 +51,70 @@ void add_clock(const MotionInputs& in, const MotionSetup& setup, std::vector<Mot
                    "log the time at which a sample was taken, not that at which it arrived"});
 }
 
+/// Where so many instants, and this share of them, lack a chip, it is no start of a log.
+constexpr std::uint64_t kMostAbsent = 64;
+constexpr double kMostAbsentShare = 0.01;
+
+const char* table_of(const session::ClockRun& run) { return run.of_the_log ? "[motion]" : "its [[clock]]"; }
+
+std::string samples_of(const session::ClockRun& run, std::uint64_t count) {
+  return count_text(count, "sample") + " of " + run.name;
+}
+
+/// False where the sample period is another one: what else is wrong follows from it.
+bool add_steps(const session::ClockRun& run, std::vector<MotionNote>& out) {
+  const double period_s = run.clock.sample_period_s, mean_s = run.mean_step_s();
+  if (mean_s > 0.0 && std::fabs(mean_s / period_s - 1.0) > kPeriodShare) {
+    out.push_back(
+        {"clock_period",
+         fmt::format("samples of {} are {:.4g} s apart, and sample_period_s is {:.4g} s", run.name, mean_s, period_s),
+         fmt::format("set sample_period_s = {:.4g} in {}", mean_s, table_of(run))});
+    return false;
+  }
+  if (run.anew > 0)
+    out.push_back(
+        {"clock_gaps",
+         fmt::format("before {} one is missing, or the clock has jumped, the first at t = {:.3f} s: this chip "
+                     "is left out until six more have come",
+                     samples_of(run, run.anew), run.first_anew_s),
+         "log every sample of the chip, with the time at which it was taken"});
+  if (run.early > 0)
+    out.push_back({"clock_early",
+                   fmt::format("{} came less than 0.9 sample periods after the one before, the first at t = {:.3f} s, "
+                               "and did not count",
+                               samples_of(run, run.early), run.first_early_s),
+                   "log the time at which the chip took a sample, not that at which it arrived"});
+  return true;
+}
+
+/// Of one clock, where its samples are not as the array file says.
+void add_chip(const session::ClockRun& run, std::vector<MotionNote>& out) {
+  if (run.samples == 0) {
+    out.push_back({"clock_silent", fmt::format("{} delivered no sample", run.name),
+                   run.of_the_log ? "see whether its columns are filled"
+                                  : "see whether its columns, and that of its time, are filled"});
+    return;
+  }
+  if (!add_steps(run, out)) return;
+  if (run.not_valid > 0)
+    out.push_back(
+        {"clock_not_valid",
+         fmt::format("{} lie further than valid_s = {:.6g} s from since_s = {:.6g} s, the first at t = {:.3f} "
+                     "s, and did not count",
+                     samples_of(run, run.not_valid), run.clock.valid_s, run.clock.since_s, run.first_not_valid_s),
+         "compare the clock with the common one again and state offset_s and since_s of that time, or a longer "
+         "valid_s where rate_bound allows it"});
+  const bool often = run.absent > kMostAbsent &&
+                     static_cast<double>(run.absent) > kMostAbsentShare * static_cast<double>(run.instants);
+  if (often && run.not_valid == 0)
+    out.push_back(
+        {"clock_absent",
+         fmt::format("{} is missing in {} of {}; by the stated clock its samples are {:.4g} s older than "
+                     "their rows on average, and clock_wait_s is {:.4g} s",
+                     run.name, run.absent, count_text(run.instants, "common instant"), run.mean_late_s(), run.wait_s),
+         run.of_the_log ? "log every sample" : "log every sample, and compare offset_s and rate with the log"});
+}
+
 std::string deg_words(const RateInputs& in, double most_radps) {
   if (rad_from_deg(in.largest_radps) > most_radps) return "";
   return fmt::format("; taken as deg/s it would be {:.3g} rad/s, so the columns seem to hold deg/s",
@@ -63,13 +127,13 @@ struct Gyro {
   const char *rate, *columns;
 };
 
-void add_rates(const Gyro& gyro, std::uint64_t rows, const MotionSetup& setup, std::vector<MotionNote>& out) {
+void add_rates(const Gyro& gyro, const MotionSetup& setup, std::vector<MotionNote>& out) {
   const RateInputs& in = gyro.in;
   const bool stated = setup.rate_bound_radps > 0.0;
   if (in.missing > 0)
     out.push_back({"rate_missing",
                    fmt::format("{} is missing in {} of {}, the first at t = {:.3f} s: {}", gyro.rate, in.missing,
-                               count_text(rows, "row"), in.first_missing_s,
+                               count_text(in.rates + in.missing, "row"), in.first_missing_s,
                                stated ? "there rate_bound_radps counts in its place, and bounds are wide"
                                       : "nothing is judged there"),
                    stated ? "log the rates of every sample"
@@ -94,12 +158,11 @@ void add_rates(const Gyro& gyro, std::uint64_t rows, const MotionSetup& setup, s
 std::vector<MotionNote> motion_notes(const session::MotionRun& run, const MotionSetup& setup) {
   std::vector<MotionNote> out;
   add_clock(run.inputs, setup, out);
+  for (const session::ClockRun& clock : run.clocks) add_chip(clock, out);
   const MotionInputs& in = run.inputs;
   if (setup.gyros > 0)
-    add_rates({in.gyro[0], setup.gyros > 1 ? "the rate of the first gyro" : "the rate", "rotation_radps"}, in.rows,
-              setup, out);
-  if (setup.gyros > 1)
-    add_rates({in.gyro[1], "the rate of the second gyro", "second_rotation_radps"}, in.rows, setup, out);
+    add_rates({in.gyro[0], setup.gyros > 1 ? "the rate of the first gyro" : "the rate", "rotation_radps"}, setup, out);
+  if (setup.gyros > 1) add_rates({in.gyro[1], "the rate of the second gyro", "second_rotation_radps"}, setup, out);
   return out;
 }
 

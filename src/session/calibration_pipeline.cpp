@@ -135,6 +135,7 @@ bool worth_a_second_look(const CalibrationRun& run, const io::ArrayFile& array) 
 io::ArrayFile with_what_a_fit_reads(io::ArrayFile array) {
   array.input.depth_column.clear();
   array.input.rotation_columns.clear();
+  array.input.clock_columns.clear();
   return array;
 }
 

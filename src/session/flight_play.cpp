@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "clock_plan.hpp"
+#include "clocked_flight.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/session/interrupt.hpp"
@@ -153,7 +155,15 @@ FlightPlay::FlightPlay(const io::ArrayFile& array, const FlightRequest& request,
       flight_(spec),
       injector_(std::move(injector)),
       model_(request.calibration != nullptr ? request.calibration->model : array.datasheet.model()),
-      rate_hz_(spec.rate_hz) {}
+      rate_hz_(spec.rate_hz) {
+  if (array.motion.clocks.empty()) return;
+  MotionSetup period;
+  period.sample_period_s = 1.0 / spec.rate_hz;
+  period.gyros = spec.gyros;
+  clocked_ = std::make_unique<ClockedFlight>(spec, clock_plan_of(array, period));
+}
+
+FlightPlay::~FlightPlay() = default;
 
 io::FileExpected<std::unique_ptr<FlightPlay>> FlightPlay::make(const io::ArrayFile& array,
                                                                const FlightRequest& request) {
@@ -184,6 +194,30 @@ Sample FlightPlay::sample_of(const scenario::FlightSample& flown) const {
   return out;
 }
 
+/// What a host logs next.
+FlightPlay::Row FlightPlay::next() {
+  Row out;
+  std::array<bool, kGyros> given = {true, true};
+  if (clocked_ == nullptr) {
+    out.flown = flight_.next();
+    out.sample = sample_of(out.flown);
+  } else {
+    const ClockedFlight::Row row = clocked_->next();
+    out.flown = row.flown;
+    out.sample = sample_of(row.flown);
+    out.sample.delivered = row.delivered;
+    out.notes.clock_s = row.clock_s;
+    given = row.rate_given;
+  }
+  const auto rotation = [&out, &given](std::size_t gyro) {
+    const Vec3& rate_radps = out.flown.rate_radps[gyro];
+    return given[gyro] ? Rotation{norm(rate_radps) > 0.0, true, rate_radps} : Rotation{true, false, {}};
+  };
+  out.notes.rotation = rotation(0);
+  out.notes.second_rotation = rotation(1);
+  return out;
+}
+
 io::FileExpected<void> FlightPlay::run(const std::string& log_path, const std::string& truth_path) {
   std::unique_ptr<FlightTruth> truth;
   io::FileExpected<void> done;
@@ -198,17 +232,16 @@ io::FileExpected<void> FlightPlay::run(const std::string& log_path, const std::s
   if (!log) return tl::unexpected<io::FileError>(log.error());
   Progress progress("flying " + array_.name);
   const auto rows = static_cast<std::uint64_t>(std::llround(request_.duration_s * rate_hz_));
-  while (done && rows_ < rows && !interrupted()) {
-    const scenario::FlightSample flown = flight_.next();
-    Sample sample = sample_of(flown);
-    const SensorSet faulty = injector_.apply(sample);
-    const auto rotation = [&flown](std::size_t gyro) {
-      return Rotation{norm(flown.rate_radps[gyro]) > 0.0, true, flown.rate_radps[gyro]};
-    };
-    done = log->write(sample, {false, rotation(0), std::nan(""), rotation(1)});
-    if (done && truth) done = truth->write(flown, faulty);
-    last_time_s_ = flown.time_s;
-    progress.at(++rows_, flown.time_s);
+  const double end_s = request_.duration_s - 0.5 / rate_hz_;
+  while (done && !interrupted()) {
+    if (clocked_ == nullptr && rows_ == rows) break;
+    Row row = next();
+    if (clocked_ != nullptr && row.flown.time_s > end_s) break;
+    const SensorSet faulty = injector_.apply(row.sample);
+    done = log->write(row.sample, row.notes);
+    if (done && truth) done = truth->write(row.flown, faulty);
+    last_time_s_ = row.flown.time_s;
+    progress.at(++rows_, row.flown.time_s);
   }
   if (done) done = log->commit();
   return done && truth ? truth->commit() : done;

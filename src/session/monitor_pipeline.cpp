@@ -94,19 +94,28 @@ tl::unexpected<io::FileError> refused_setup(const Error& reason, const io::Array
   return tl::unexpected<io::FileError>(error);
 }
 
+/// What the clocks of the chips say at row k.
+void take_clocks(const stepping::Rows& rows, std::size_t k, std::vector<double>& out) {
+  const auto clocks = static_cast<std::size_t>(rows.clocks);
+  out.assign(rows.clock_s.data() + k * clocks, rows.clock_s.data() + (k + 1) * clocks);
+}
+
 /// Every sink every row whose verdict somebody wanted: it chooses itself.
 io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& said,
                             const std::vector<VerdictSink*>& sinks) {
   stepping_detail::Unpacker unpacker(said.bytes.data());
   Sample sample;
   Verdict verdict;
+  std::vector<double> clock_s;
   for (const std::size_t k : said.row) {
+    if (rows.clocks > 0) take_clocks(rows, k, clock_s);
     stepping_detail::take_row(rows, k, sample);
     unpacker(verdict);
     for (VerdictSink* sink : sinks) {
       if (!rows.depth_m.empty()) sink->at_depth(rows.depth_m[k]);
       if (!rows.turn.empty()) sink->at_turn(rows.turn[k]);
       if (!rows.second_turn.empty()) sink->at_second_turn(rows.second_turn[k]);
+      if (rows.clocks > 0) sink->at_clocks(clock_s);
       const io::FileExpected<void> taken = sink->take(sample, verdict);
       if (!taken) return taken;
     }
@@ -118,6 +127,8 @@ io::FileExpected<void> tell(const stepping::Rows& rows, const stepping::Said& sa
 void take_one(const stepping::Rows& rows, std::size_t k, const stepping::Found& found, stepping::Rows& one) {
   const auto sensors = static_cast<std::size_t>(rows.sensors);
   one.sensors = rows.sensors;
+  one.clocks = rows.clocks;
+  if (rows.clocks > 0) take_clocks(rows, k, one.clock_s);
   one.row.assign(1, rows.row[k]);
   one.raw.assign(rows.raw_of(k), rows.raw_of(k) + sensors);
   if (!rows.turn.empty()) one.turn.assign(1, rows.turn[k]);

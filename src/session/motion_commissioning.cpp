@@ -46,6 +46,10 @@ io::FileError refused(const io::ArrayFile& array, const char* field, const std::
 
 std::optional<io::FileError> unfit(const io::ArrayFile& array) {
   const int n = array.array.size();
+  if (!array.motion.clocks.empty())
+    return refused(array, "clock[1]", "states a clock of its own, and a fit in motion takes sensors on one clock",
+                   "fit a log in which all chips sample together, with an array file without [[clock]], or state "
+                   "lever arms, lags and rectification with their bounds");
   if (array.input.rotation_columns.empty())
     return refused(array, "input.rotation_radps", "is missing, and lever arms show only by the rates of a gyro",
                    "log the rates of a gyro and name their columns: rotation_radps = [\"wx\", \"wy\", \"wz\"]");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clock_plan.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/motion/motion_sets.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
@@ -235,6 +236,10 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
     if (full_scale_raw > 0.0) out.clip_raw[k] = kClipShare * full_scale_raw;
   }
   if (const Expected<void> sound = check(out.array, out.setup); !sound) return refuse(beyond_use(array, sound.error()));
+  if (!array.motion.clocks.empty()) {
+    out.clocks = clock_plan_of(array, out.setup);
+    if (std::optional<io::FileError> refused = apply_clocks(array, out)) return refuse(*std::move(refused));
+  }
   if (array.motion.velocity_bound_mps) {
     out.inclination = inclination_setup_of(array);
     ContinuousInclination trial;

@@ -42,7 +42,12 @@ io::FileExpected<void> put(io::OutputFile& file, const std::string& line, bool l
 }  // namespace
 
 MotionWatch::MotionWatch(const MotionPlan& plan)
-    : plan_(plan), monitor_(std::make_unique<MotionMonitor>()), sampler_(plan_), inputs_(plan.setup.sample_period_s) {
+    : plan_(plan),
+      monitor_(std::make_unique<MotionMonitor>()),
+      sampler_(plan_),
+      feed_(plan_),
+      inputs_(plan.setup.sample_period_s),
+      clock_s_(feed_.stated(), std::nan("")) {
   (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
   if (plan.inclination) (void)inclination_.emplace().configure(plan_.array, plan_.setup, *plan.inclination);
 }
@@ -50,12 +55,12 @@ MotionWatch::MotionWatch(const MotionPlan& plan)
 void MotionWatch::at_turn(const stepping::Turn& turn) { turn_[0] = turn; }
 void MotionWatch::at_second_turn(const stepping::Turn& turn) { turn_[1] = turn; }
 
-MotionSample MotionWatch::sample_of(const Sample& sample) {
+MotionSample MotionWatch::row_of(const Sample& sample) {
   MotionSample out = sampler_.sample(sample);
-  inputs_.add(sample.time_s);
+  if (!feed_.has_clocks()) inputs_.add(sample.time_s);
   for (std::size_t g = 0; g < static_cast<std::size_t>(plan_.setup.gyros); ++g) {
     if (!turn_[g]) continue;
-    inputs_.add_rate(g, turn_[g]->rate_known, turn_[g]->rate_radps);
+    if (!feed_.has_clocks()) inputs_.add_rate(g, turn_[g]->rate_known, turn_[g]->rate_radps);
     out.rate_given[g] = turn_[g]->rate_known;
     out.rate_radps[g] = turn_[g]->rate_radps;
   }
@@ -101,11 +106,13 @@ void MotionWatch::count(const MotionVerdict& verdict, double time_s) {
     }
   }
   run.inputs = inputs_.found();
+  if (feed_.has_clocks()) {
+    for (std::size_t g = 0; g < run.inputs.gyro.size(); ++g) run.inputs.gyro[g] = feed_.rates(g);
+  }
   run.last = verdict;
 }
 
 io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& verdict) {
-  events_.clear();
   if (settles_motion(verdict)) {
     const SensorSet excluded = monitor_->verdict().excluded;
     if (!excluded.empty())
@@ -113,18 +120,28 @@ io::FileExpected<void> MotionWatch::take(const Sample& sample, const Verdict& ve
     monitor_->forget();
   }
   monitor_->set_in_service(verdict.in_service);
+  feed_.take(row_of(sample), clock_s_.data());
+  turn_ = {};
+  io::FileExpected<void> done;
+  MotionSample moved;
+  while (done && feed_.next(moved)) done = judge(moved);
+  if (feed_.has_clocks()) run_.clocks = feed_.clocks();
+  return done;
+}
+
+io::FileExpected<void> MotionWatch::judge(const MotionSample& sample) {
+  if (feed_.has_clocks()) inputs_.add(sample.time_s);
   const MotionVerdict before = monitor_->verdict();
-  const MotionSample moved = sample_of(sample);
-  const MotionVerdict& now = monitor_->step(moved);
+  const MotionVerdict& now = monitor_->step(sample);
   note_events(before, now, sample.time_s);
   count(now, sample.time_s);
   found_ = {now.alarm, now.excluded.bits};
-  turn_ = {};
   for (MotionSink* sink : sinks_) {
     const io::FileExpected<void> taken = sink->take(sample.time_s, now, events_);
     if (!taken) return taken;
   }
-  return follow_inclination(moved, now);
+  events_.clear();
+  return follow_inclination(sample, now);
 }
 
 io::FileExpected<void> MotionWatch::follow_inclination(const MotionSample& sample, const MotionVerdict& verdict) {

@@ -19,6 +19,7 @@ bool is_live(const LogSpec& log) {
 RowPump::RowPump(io::LogReader& reader, const io::ArrayFile& array, bool live) : reader_(reader), array_(array) {
   for (stepping::Rows& rows : batches_) {
     rows.sensors = array.array.size();
+    rows.clocks = static_cast<int>(array.input.clock_columns.size());
     free_[free_count_++] = &rows;
   }
   if (!live) thread_ = std::thread([this] { read_ahead(); });
@@ -37,7 +38,7 @@ RowPump::~RowPump() {
 /// At most so many rows, fewer where the log ends. The vectors keep their length from
 /// batch to batch, so that a row is written where it stands; only the last batch is cut.
 void RowPump::fill(stepping::Rows& rows, std::size_t most) {
-  const auto sensors = static_cast<std::size_t>(rows.sensors);
+  const auto sensors = static_cast<std::size_t>(rows.sensors), clocks = static_cast<std::size_t>(rows.clocks);
   const bool turns = !array_.input.rotation_columns.empty(), has_depth = !array_.input.depth_column.empty();
   const bool turns_twice = !array_.input.second_rotation_columns.empty();
   const auto turn_of = [](const Rotation& r) { return stepping::Turn{r.turning, r.rate_known, r.rate_radps}; };
@@ -50,6 +51,7 @@ void RowPump::fill(stepping::Rows& rows, std::size_t most) {
                    sample_.count,  sample_.roll_group};
     std::copy_n(sample_.raw.data(), sensors, rows.raw.data() + k * sensors);
     if (has_depth) rows.depth_m[k] = reader_.depth_m();
+    if (clocks > 0) std::copy_n(reader_.clock_s().begin(), clocks, rows.clock_s.data() + k * clocks);
     if (turns) rows.turn[k] = turn_of(reader_.rotation());
     if (turns_twice) rows.second_turn[k] = turn_of(reader_.second_rotation());
   }

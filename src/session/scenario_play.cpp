@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "clock_plan.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/records.hpp"
@@ -117,7 +118,8 @@ io::FileExpected<void> ScenarioPlay::put(io::LogWriter& log, const Sample& sampl
   ++rows_;
   const bool turning = norm(truth.rate_radps) > 0.0;
   const Rotation rotation{turning, true, truth.rate_radps};
-  io::FileExpected<void> done = log.write(sample, {false, rotation, truth.depth_m, rotation});
+  io::FileExpected<void> done =
+      log.write(sample, {false, rotation, truth.depth_m, rotation, shown_by_clocks(file_.array, sample.time_s)});
   return done && truth_ ? truth_->write(sample.time_s, truth) : done;
 }
 

@@ -166,6 +166,16 @@ class CalibrateMotion : public ::testing::Test {
   static inline std::unique_ptr<Hangar> hangar_;
 };
 
+// Negative: REQ-207
+TEST_F(CalibrateMotion, ChipsWithClocksOfTheirOwnAreRefused) {
+  const std::string clock =
+      "[[clock]]\npackage = \"imu2\"\ntime = \"t_s\"\noffset_bound_s = 0\nrate_bound = 0\n\n[[sensor]]";
+  const Outcome told = commission(with(drone(), "[[sensor]]", clock), "flight.csv");
+  EXPECT_EQ(told.code, 3);
+  EXPECT_TRUE(says(told.err, {"clock[1]: states a clock of its own, and a fit in motion takes sensors on one clock",
+                              "Remedy: fit a log in which all chips sample together"}));
+}
+
 TEST_F(CalibrateMotion, WrongArmsAreFoundAndTheMonitorGoesByThem) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const std::string array = wrong_tool(seed);

@@ -48,6 +48,7 @@ def array_keys(root, tool, folder):
         has = f"[{table}]\n" in array
         text = array.replace(f"[{table}]\n", f"[{table}]\n{probe}") if has else array + f"\n[{table}]\n{probe}"
         yield table, known_keys(tool, folder, text, "geometry", "probe.toml")
+    yield "clock", known_keys(tool, folder, array + f"\n[[clock]]\n{probe}", "geometry", "probe.toml")
     yield "sensor", known_keys(tool, folder, array.replace("[[sensor]]\n", "[[sensor]]\n" + probe, 1), "geometry", "probe.toml")
     prior = array.replace("prior = {", "prior = {zzzz = 1, ", 1)
     yield "sensor.prior", known_keys(tool, folder, prior, "geometry", "probe.toml")

@@ -46,6 +46,7 @@ struct InputSpec {
   double default_temperature_degc = 25.0;
   std::vector<std::string> rotation_columns;  ///< x, y, z of the rate of turn [rad/s], tool frame; empty: not logged
   std::vector<std::string> second_rotation_columns;  ///< the same of a second gyro, for motion; empty: none
+  std::vector<std::string> clock_columns;            ///< one a [[clock]], may repeat: the time by it, in `time_unit_s`
   std::string depth_column;                          ///< measured depth, for reports; empty: not logged
   double depth_unit_m = 1.0;                         ///< metres per unit of that column
   std::vector<ColumnFilter> where;

@@ -1,11 +1,13 @@
-/// What an array file states for a monitor of motion: [motion], [gyro], and the bounds of each sensor. What it does not
-/// state stays empty, and the session says which key is missing. Contract: docs/array-file.md, "Motion".
+/// What an array file states for a monitor of motion: [motion], [gyro], [[clock]], and the bounds of each sensor. What
+/// it does not state stays empty, and the session says which key is missing. Contract: docs/array-file.md, "Motion".
 #pragma once
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "plumb/motion/motion_setup.hpp"
+#include "plumb/motion/motion_clocks.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -28,6 +30,14 @@ struct GyroSpec {
   bool corroborated = false;  ///< the host knows by other means that it is right
 };
 
+/// [[clock]]: a chip, gyros or both that sample by a clock of their own.
+struct ClockSpec {
+  std::string name;    ///< in reports: the package, else the gyro
+  std::string column;  ///< of the log: the time by this clock
+  std::optional<double> sample_period_s;
+  MotionClock clock;  ///< all but the sample period, which may be that of [motion]
+};
+
 struct MotionSpec {
   bool stated = false;     ///< there is a table [motion]
   bool mentioned = false;  ///< some key of motion is given; without [motion] it has no effect
@@ -37,6 +47,8 @@ struct MotionSpec {
   double inclination_window_s = 10.0;
   MotionSetup limits;  ///< force_bound_mps2, false_alarms_per_hour, dwell_s, quiet_s, max_faults; else as it is made
   GyroSpec gyro;
+  std::vector<ClockSpec> clocks;  ///< at most kMotionClocks; what names none is on the time of the log
+  std::optional<double> clock_wait_s;
   std::array<MotionBounds, kCapacity> sensor{};
 };
 

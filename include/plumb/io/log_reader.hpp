@@ -73,6 +73,8 @@ class LogReader {
   const Rotation& rotation() const noexcept;
   /// The same by the second gyro.
   const Rotation& second_rotation() const noexcept;
+  /// What the clocks of the chips say there, one a [[clock]] of the array file; NaN: its chip has delivered nothing.
+  const std::vector<double>& clock_s() const noexcept;
   /// Measured depth at the sample delivered last [m]; NaN where the log does not say.
   double depth_m() const noexcept;
   const FileError& error() const noexcept;

@@ -2,9 +2,11 @@
 /// ".plog", a binary log.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "plumb/core/sample.hpp"
 #include "plumb/health/rotation.hpp"
@@ -17,11 +19,22 @@ namespace io {
 
 class PlogWriter;
 
+/// One a [[clock]] of the array file.
+using ClockTimes = std::array<double, static_cast<std::size_t>(kMotionClocks)>;
+/// No chip with a clock of its own has delivered anything.
+inline constexpr ClockTimes kNoClockTimes = [] {
+  ClockTimes out{};
+  for (double& time_s : out) time_s = std::numeric_limits<double>::quiet_NaN();
+  return out;
+}();
+/// What `LogReader::clock_s` says, for a row that is written.
+ClockTimes clock_times(const std::vector<double>& clock_s) noexcept;
+
 class LogWriter {
  public:
   enum class Columns : std::uint8_t {
-    samples,  ///< all but the rates of turn
-    all,      ///< the rates of turn too, where [input] names them
+    samples,  ///< all but the rates of turn and the times of chips
+    all,      ///< these too, where the array file names them
   };
   /// What a row says beyond its sample.
   struct Notes {
@@ -29,10 +42,12 @@ class LogWriter {
     Rotation rotation;                                          ///< with Columns::all
     double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< not finite: the cell stays empty
     Rotation second_rotation{};                                 ///< by the second gyro
+    ClockTimes clock_s = kNoClockTimes;                         ///< NaN: the cell stays empty
   };
 
   /// Columns: time, station, count, temperature, depth (those that [input] names), the columns of `where` with
-  /// their values, the rates of turn, then the sensors. Without a time column the time is left to the reader.
+  /// their values, the rates of turn, the times of chips with clocks of their own, then the sensors. Without a time
+  /// column the time is left to the reader.
   static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array,
                                         Columns columns = Columns::samples);
 

@@ -1,6 +1,7 @@
 /// The way of the rows from the tool to the monitor: rows are lost, come twice, in another order, with other times.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "plumb/core/config.hpp"
 #include "plumb/core/sample.hpp"
 #include "plumb/health/rotation.hpp"
+#include "plumb/motion/motion_clocks.hpp"
 #include "plumb/scenario/fault.hpp"
 
 namespace plumb {
@@ -23,6 +25,8 @@ class Delivery {
     double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< measured depth; NaN: not said
     Rotation rotation;
     Rotation second_rotation{};  ///< by the second gyro
+    /// By the clocks of chips that have their own, one a [[clock]] of the array file; it means nothing here.
+    std::array<double, static_cast<std::size_t>(kMotionClocks)> clock_s{};
   };
   struct Parcel {
     Sample sample;

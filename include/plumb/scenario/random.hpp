@@ -29,6 +29,7 @@ enum class Purpose : std::uint8_t {
   link = 10,        ///< rows that are lost; sub-stream = position in the list of faults
   campaign = 11,    ///< what happens in a scenario of a campaign
   flight = 12,      ///< motion, errors and noise of a simulated flight; sub-stream by part
+  clock = 13,       ///< of a chip: what it is off by, where its samples lie, their noise; sub-stream by part
 };
 
 class Stream {

@@ -1,5 +1,6 @@
 /// A flight of the array of a file, simulated into a log as `plumb simulate --flight` does it. Errors of sensors and
-/// gyro are drawn within the bounds that the file states for motion: it is the tool that the file describes.
+/// gyro, and of clocks of chips, are drawn within the bounds that the file states for motion: it is the tool that the
+/// file describes.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,8 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace session {
 
+class ClockedFlight;
+
 struct FlightRequest {
   scenario::FlightKind kind = scenario::FlightKind::drone;
   double duration_s = 10.0;
@@ -32,6 +35,9 @@ io::FileExpected<scenario::FlightSpec> flight_spec_of(const io::ArrayFile& array
 
 class FlightPlay {
  public:
+  ~FlightPlay();
+  FlightPlay(const FlightPlay&) = delete;
+  FlightPlay& operator=(const FlightPlay&) = delete;
   static io::FileExpected<std::unique_ptr<FlightPlay>> make(const io::ArrayFile& array, const FlightRequest& request);
 
   /// Once, to its end or to Ctrl-C. "-": standard output. `truth_path` may be empty.
@@ -44,11 +50,18 @@ class FlightPlay {
  private:
   FlightPlay(const io::ArrayFile& array, const FlightRequest& request, const scenario::FlightSpec& spec,
              scenario::Injector injector);
+  struct Row {
+    scenario::FlightSample flown;
+    Sample sample;
+    io::LogWriter::Notes notes;
+  };
   Sample sample_of(const scenario::FlightSample& flown) const;
+  Row next();
 
   const io::ArrayFile& array_;
   FlightRequest request_;
   scenario::Flight flight_;
+  std::unique_ptr<ClockedFlight> clocked_;  ///< in its place, where chips have clocks of their own
   scenario::Injector injector_;
   SensorModel model_;
   double rate_hz_;

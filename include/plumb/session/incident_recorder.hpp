@@ -35,6 +35,7 @@ class IncidentRecorder final : public VerdictSink, public MotionSink {
   void at_depth(double depth_m) override { notes_.depth_m = depth_m; }
   void at_turn(const stepping::Turn& turn) override;
   void at_second_turn(const stepping::Turn& turn) override;
+  void at_clocks(const std::vector<double>& clock_s) override { notes_.clock_s = io::clock_times(clock_s); }
   /// Of the same row, before it: a monitor of motion runs ahead in the list of sinks.
   io::FileExpected<void> take(double time_s, const MotionVerdict& verdict,
                               const std::vector<io::MotionEvent>& events) override;

@@ -35,6 +35,8 @@ class VerdictSink {
   /// Likewise, where it names columns with the rate of rotation.
   virtual void at_turn(const stepping::Turn&) {}
   virtual void at_second_turn(const stepping::Turn&) {}
+  /// Likewise, where it states clocks of chips: what each says, one a [[clock]]; NaN: the chip has delivered nothing.
+  virtual void at_clocks(const std::vector<double>&) {}
   /// What the monitor at rest is to be told before its next sample, by a sink that judges motion; null of the others.
   virtual const stepping::Found* found_in_motion() const { return nullptr; }
 };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "plumb/core/sample.hpp"
 #include "plumb/io/array_file.hpp"
@@ -15,10 +17,19 @@ namespace session {
 /// Sigmas of what calibration leaves that count as a bound in motion: the factor of `plumb::commission`.
 inline constexpr double kMotionSigmas = 3.0;
 
+/// Chips with clocks of their own: those of [[clock]] in their order, then that of the log where anything is left to
+/// it.
+struct ClockPlan {
+  ClockSetup setup;
+  std::vector<std::string> name;  ///< in reports
+  std::size_t stated = 0;         ///< in the array file
+};
+
 struct MotionPlan {
-  SensorArray array;  ///< calibrated
+  SensorArray array;  ///< calibrated; with clocks of chips those of `with_clocks`, as the set-up
   SensorModel model;
   MotionSetup setup;
+  std::optional<ClockPlan> clocks;              ///< where the file states one
   std::optional<InclinationSetup> inclination;  ///< where the file bounds the velocity
   std::array<double, kCapacity> clip_raw{};     ///< from here on a reading counts as clipped; infinite: nowhere
 };

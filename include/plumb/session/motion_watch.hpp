@@ -11,6 +11,7 @@
 #include "plumb/io/motion_records.hpp"
 #include "plumb/motion/motion_monitor.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
+#include "plumb/session/motion_feed.hpp"
 #include "plumb/session/motion_inputs.hpp"
 #include "plumb/session/motion_plan.hpp"
 
@@ -22,7 +23,7 @@ inline constexpr std::size_t kMotionCauses = 7;
 
 /// What a run showed in motion.
 struct MotionRun {
-  std::uint64_t samples = 0;  ///< rows
+  std::uint64_t samples = 0;  ///< rows, or common instants where chips have clocks of their own
   std::uint64_t judged = 0;   ///< of them those with enough redundancy, a known rotation and a regular clock
   std::uint64_t alarms = 0;   ///< how often one began
   std::uint64_t in_alarm = 0;
@@ -41,7 +42,8 @@ struct MotionRun {
   /// Windows with an inclination, and how often there was none for another reason than before; the last of each.
   std::uint64_t inclinations = 0, inclination_breaks = 0;
   InclinationInterval inclination, no_inclination;
-  MotionInputs inputs;
+  MotionInputs inputs;  ///< its steps are those of what was judged, its rates as they were delivered
+  std::vector<ClockRun> clocks;
   MotionVerdict last;
 
   std::uint64_t samples_with(MotionCause cause) const noexcept { return why[static_cast<std::size_t>(cause)]; }
@@ -69,11 +71,13 @@ class MotionWatch final : public VerdictSink {
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_turn(const stepping::Turn& turn) override;
   void at_second_turn(const stepping::Turn& turn) override;
+  void at_clocks(const std::vector<double>& clock_s) override { clock_s_ = clock_s; }
   const stepping::Found* found_in_motion() const override { return &found_; }
   const MotionRun& run() const noexcept { return run_; }
 
  private:
-  MotionSample sample_of(const Sample& sample);
+  MotionSample row_of(const Sample& sample);
+  io::FileExpected<void> judge(const MotionSample& sample);
   void note_events(const MotionVerdict& before, const MotionVerdict& now, double time_s);
   void count(const MotionVerdict& verdict, double time_s);
   io::FileExpected<void> follow_inclination(const MotionSample& sample, const MotionVerdict& verdict);
@@ -82,8 +86,10 @@ class MotionWatch final : public VerdictSink {
   std::unique_ptr<MotionMonitor> monitor_;
   std::optional<ContinuousInclination> inclination_;
   MotionSampler sampler_;
+  MotionFeed feed_;
   MotionInputsWatch inputs_;
   std::array<std::optional<stepping::Turn>, kGyros> turn_{};  ///< of the sample to come, by gyro
+  std::vector<double> clock_s_;                               ///< likewise, one a [[clock]]
   std::vector<io::MotionEvent> events_;                       ///< of the sample at hand
   std::vector<MotionSink*> sinks_;
   stepping::Found found_;

@@ -36,11 +36,13 @@ struct Found {
 /// Rows one after the other, as the log has them.
 struct Rows {
   int sensors = 0;
+  int clocks = 0;  ///< of chips that have their own
   std::vector<Row> row;
   std::vector<double> raw;        ///< `sensors` of them a row
   std::vector<Turn> turn;         ///< one a row where the log says how the tool turns, else none
   std::vector<Turn> second_turn;  ///< likewise, by the second gyro
   std::vector<double> depth_m;    ///< likewise
+  std::vector<double> clock_s;    ///< `clocks` of them a row; NaN: the chip has delivered nothing
   std::vector<Found> found;       ///< one a row where a monitor in motion runs beside, else none
 
   const double* raw_of(std::size_t k) const noexcept { return raw.data() + k * static_cast<std::size_t>(sensors); }
@@ -50,6 +52,7 @@ struct Rows {
     turn.resize(turns ? count : 0);
     second_turn.resize(turns_twice ? count : 0);
     depth_m.resize(has_depth ? count : 0);
+    clock_s.resize(count * static_cast<std::size_t>(clocks));
   }
 };
 
