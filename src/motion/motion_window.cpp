@@ -121,15 +121,14 @@ Vec3 MotionWindow::acceleration(const Scale& scale, std::size_t gyro) noexcept {
   return scaled(minus(scale.last.rate[gyro], scale.before.rate[gyro]), 1.0 / (scale.last.count * span_s(scale)));
 }
 
-void MotionWindow::close(Scale& scale) const noexcept {
+void MotionWindow::close(Scale& scale, const Sums& full) const noexcept {
   scale.acceleration_known = scale.before.count > 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_) && scale.acceleration_known; ++g) {
     scale.acceleration_known = scale.acceleration_known && scale.last.given[g] && scale.before.given[g];
     scale.acceleration_before[g] = acceleration(scale, g);
   }
   scale.before = scale.last;
-  scale.last = scale.filling;
-  scale.filling = Sums{};
+  scale.last = full;
 }
 
 void MotionWindow::add(const MotionSample& sample) noexcept {
@@ -169,19 +168,19 @@ void MotionWindow::add(const MotionSample& sample) noexcept {
 
 /// Into the blocks of all scales, as far as they fill.
 void MotionWindow::take(const Sums& sample) noexcept {
-  scales_[0].filling = sample;
-  for (std::size_t s = 0; s < kMotionScales; ++s) {
+  close(scales_[0], sample);  // a block of one sample
+  for (std::size_t s = 1; s < kMotionScales; ++s) {
+    if (scales_[s - 1].before.count > 0) ended_ |= 1U << (s - 1);
     Scale& scale = scales_[s];
     const int samples = blocks_[s];
-    if (s > 0) {
-      const Sums& part = scales_[s - 1].last;
-      append(scale.filling, part, static_cast<double>(scale.filling.count) / samples,
-             static_cast<double>(part.count) / samples);
-    }
+    const Sums& part = scales_[s - 1].last;
+    append(scale.filling, part, static_cast<double>(scale.filling.count) / samples,
+           static_cast<double>(part.count) / samples);
     if (scale.filling.count < samples) return;
-    close(scale);
-    if (scale.before.count > 0) ended_ |= 1U << s;
+    close(scale, scale.filling);
+    scale.filling = Sums{};
   }
+  if (scales_[kMotionScales - 1].before.count > 0) ended_ |= 1U << (kMotionScales - 1);
 }
 
 MotionMeans MotionWindow::means(int scale) const noexcept {

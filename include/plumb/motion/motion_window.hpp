@@ -99,7 +99,7 @@ class MotionWindow {
   Sums sums_of(const MotionSample& sample) noexcept;
   void take(const Sums& sample) noexcept;
   void append(Sums& to, const Sums& part, double first_share, double part_share) const noexcept;
-  void close(Scale& scale) const noexcept;
+  void close(Scale& scale, const Sums& full) const noexcept;
   static double span_s(const Scale& scale) noexcept;
   static Vec3 acceleration(const Scale& scale, std::size_t gyro) noexcept;
 
