@@ -76,10 +76,11 @@ TEST(VerificationWords, CountUnitsWhereTheArrayHasChips) {
     return out;
   };
   const std::string chips = told(2), single = told(6);
-  EXPECT_TRUE(plumb_test::says(chips, {"isolates 1 faulty unit (chips, and sensors on none) with confirmation",
-                                       "At most 2 units (chips, and sensors on none) are faulty at once",
-                                       "more than 1 of 2 units (chips, and sensors on none) is faulty",
-                                       "several units that all show", "one axis of a chip being a sensor here"}));
+  EXPECT_TRUE(plumb_test::says(
+      chips,
+      {"isolates 1 faulty unit (chips, and sensors on none) with confirmation",
+       "At most 2 units (chips, and sensors on none) are faulty at once", "one axis of a chip being a sensor here",
+       "more than 1 of 2 units (chips, and sensors on none) is faulty", "several units that all show"}));
   EXPECT_EQ(single, told(0));
   EXPECT_EQ(single.find("unit"), std::string::npos) << single;
   EXPECT_EQ(single.find("chip"), std::string::npos) << single;
