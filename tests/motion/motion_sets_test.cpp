@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "motion/rigid_motion.hpp"
 #include "support/simulated_tool.hpp"
 
 // Serves: REQ-201
