@@ -1,5 +1,6 @@
 #include "clock_plan.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace plumb {
@@ -55,6 +56,26 @@ std::optional<io::FileError> apply_clocks(const io::ArrayFile& array, MotionPlan
                        "is beyond what motion can be judged with: motion is not judged",
                        "state smaller bounds of the clock and of lags, or a clock nearer to the common one",
                        io::ExitCode::invalid_input};
+}
+
+/// Clocks that share a column deliver together, and those without one once every common period.
+double rows_per_sample(const io::ArrayFile& array, int sensor) noexcept {
+  const double common_s =
+      array.motion.sample_period_s.value_or(array.input.rate_hz > 0.0 ? 1.0 / array.input.rate_hz : 1e-3);
+  const std::vector<io::ClockSpec>& clocks = array.motion.clocks;
+  const auto period_s = [common_s](const io::ClockSpec& one) { return one.sample_period_s.value_or(common_s); };
+  SensorSet left = array.array.all();
+  double rows_per_s = 0.0, own_s = 0.0;
+  for (std::size_t c = 0; c < clocks.size(); ++c) {
+    left = left - clocks[c].clock.sensors;
+    if (clocks[c].clock.sensors.has(sensor)) own_s = period_s(clocks[c]);
+    bool shared = false;
+    for (std::size_t b = 0; b < c; ++b) shared = shared || clocks[b].column == clocks[c].column;
+    rows_per_s += shared ? 0.0 : 1.0 / period_s(clocks[c]);
+  }
+  if (own_s == 0.0) return 1.0;
+  if (!left.empty()) rows_per_s += 1.0 / common_s;
+  return std::fmax(1.0, own_s * rows_per_s);
 }
 
 double stamp_of(const MotionClock& clock, double common_s) noexcept {

@@ -16,6 +16,9 @@ ClockPlan clock_plan_of(const io::ArrayFile& array, const MotionSetup& setup);
 /// Makes array and set-up of `plan` those that its clocks feed; or why they cannot be, and nothing has changed.
 std::optional<io::FileError> apply_clocks(const io::ArrayFile& array, MotionPlan& plan);
 
+/// Rows per sample of a sensor, at most, where every row holds a new sample of some chip; 1 of what has no [[clock]].
+double rows_per_sample(const io::ArrayFile& array, int sensor) noexcept;
+
 /// The time by `clock` at a common one: what `MotionClocks` turns back.
 double stamp_of(const MotionClock& clock, double common_s) noexcept;
 double common_time_of(const MotionClock& clock, double stamp_s) noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "clock_plan.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/session/interrupt.hpp"
@@ -65,12 +66,25 @@ std::unique_ptr<MonitorSetup> setup_of(const io::ArrayFile& array, const Calibra
   return setup;
 }
 
+/// At rest a sample that stands in r rows counts r times: a mean then scatters as one of noise that is the root of r
+/// larger does, and is judged as that.
+Expected<void> allow_for_repeats(const io::ArrayFile& array, SensorArray& monitored) {
+  if (array.motion.clocks.empty()) return {};
+  std::array<SensorRow, kCapacity> rows{};
+  for (int i = 0; i < monitored.size(); ++i) {
+    rows[static_cast<std::size_t>(i)] = monitored.row(i);
+    rows[static_cast<std::size_t>(i)].sigma_mps2 *= std::sqrt(rows_per_sample(array, i));
+  }
+  return monitored.set_rows(rows.data());
+}
+
 /// null: the monitor is to calibrate itself.
 Expected<std::unique_ptr<MonitorSetup>> setup_of(const io::ArrayFile& array, const Calibration* calibration,
                                                  double days) {
-  if (calibration != nullptr) return setup_of(array, *calibration, days);
-  auto setup = setup_of(array);
-  const Expected<void> known = set_datasheet(array.datasheet, *setup);
+  auto setup = calibration != nullptr ? setup_of(array, *calibration, days) : setup_of(array);
+  Expected<void> known;
+  if (calibration == nullptr) known = set_datasheet(array.datasheet, *setup);
+  if (known) known = allow_for_repeats(array, setup->array);
   if (!known) return tl::unexpected<Error>(known.error());
   return setup;
 }

@@ -1,15 +1,22 @@
 // Chips with clocks of their own, from the array file through simulate, monitor, convert and incidents.
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tool_runner.hpp"
+#include "motion_runner.hpp"
+#include "support/simulated_tool.hpp"
 
 namespace clocked_motion_test {
 namespace {
 
 using namespace plumb_test;
+using namespace motion_runner;
+using plumb::scaled;
+using plumb::Vec3;
 using Json = nlohmann::json;
 
 const std::string kClocks = PLUMB_SOURCE_DIR "/examples/motion/drone_clocks.toml";
@@ -18,30 +25,6 @@ class Hangar : public Directory {
  public:
   explicit Hangar(const std::string& text = read_text(kClocks)) { write_text(*this / "array.toml", text); }
 };
-
-Outcome fly(const Directory& where, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"simulate", "--flight", "drone", "array.toml", "--out", "flight.csv"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run(where, arguments);
-}
-
-Outcome monitor(const Directory& where, const std::vector<std::string>& more, const std::string& log = "flight.csv") {
-  std::vector<std::string> arguments = {"monitor", "--array", "array.toml", "--calibrate-first", "--log", log};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run(where, arguments);
-}
-
-Json motion_of(const Outcome& outcome) {
-  std::istringstream in(outcome.out);
-  std::string line, last;
-  while (std::getline(in, line)) last = line;
-  const Json summary = Json::parse(last, nullptr, false);
-  if (!summary.is_object() || !summary.contains("summary")) {
-    ADD_FAILURE() << outcome.out << outcome.err;
-    return {};
-  }
-  return summary["summary"].value("motion", Json());
-}
 
 // Verifies: REQ-207
 TEST(ClockedMotion, TheTwoCommandsOfTheExampleIsolateTheDeadChip) {
@@ -121,6 +104,41 @@ TEST(ClockedMotion, ABinaryLogAndAnIncidentKeepTheTimesOfTheChips) {
   const Json again = motion_of(monitor(where, {"--json"}, "found/incident-0001.csv"));
   EXPECT_EQ(again["isolated"].size(), 3U);
   EXPECT_EQ(again["isolated"][0]["id"], "x2");
+}
+
+/// At rest, in an attitude after another. A row for every sample of imu3 at 2.5 kHz, which repeats those of the others
+/// at 500 Hz: as if each were new, some of the blocks would raise an alarm.
+std::string repeating_log(double duration_s) {
+  Noise noise(6);
+  std::string out = "t_s,t1_s,t2_s,t3_s,wx,wy,wz,ux,uy,uz,x1,y1,z1,x2,y2,z2,x3,y3,z3\n";
+  std::array<double, 9> reading{};
+  Vec3 force{};
+  for (int row = 0; row < static_cast<int>(2500.0 * duration_s); ++row) {
+    const double time_s = 0.0004 * row, sampled_s = 0.0004 * (row - row % 5);
+    if (row % 1000 == 0) force = scaled(random_direction(noise), 9.81733);
+    for (std::size_t i = row % 5 == 0 ? 0 : 6; i < 9; ++i) reading[i] = force[i % 3] + 0.02 * noise.normal();
+    out += fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},0.1,0,0,0.1,0,0", time_s, sampled_s, sampled_s, time_s);
+    for (const double y : reading) out += fmt::format(",{:.5f}", y);
+    out += '\n';
+  }
+  return out;
+}
+
+// Negative: REQ-207
+TEST(ClockedMotion, RowsThatRepeatASampleRaiseNoAlarmAtRest) {
+  std::string text = read_text(kClocks);
+  for (const auto& [from, to] :
+       {std::pair("sample_period_s = 0.0005", "sample_period_s = 0.002"),
+        std::pair("offset_s = -0.0123", "offset_s = 0"), std::pair("offset_s = 4.25", "offset_s = 0"),
+        std::pair("since_s = 4.25", "since_s = 0"), std::pair("30e-6", "0"), std::pair("-12e-6", "0")}) {
+    while (text.find(from) != std::string::npos) text = with(text, from, to);
+  }
+  const Hangar where(text);
+  write_text(where / "rest.csv", repeating_log(30.0));
+  const Outcome outcome = monitor(where, {"--events", "events.jsonl"}, "rest.csv");
+  EXPECT_TRUE(says(outcome.out, {"new calibration accepted", "nominal", "excluded    -"}))
+      << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out.find("disagree with one another"), std::string::npos) << outcome.out;
 }
 
 TEST(ClockedMotion, WhatCannotBeDoneWithClocksIsRefused) {

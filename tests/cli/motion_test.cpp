@@ -5,40 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tool_runner.hpp"
+#include "motion_runner.hpp"
 
 namespace cli_motion_test {
 namespace {
 
 using namespace plumb_test;
+using namespace motion_runner;
 using Json = nlohmann::json;
 
 const std::string kDrone = PLUMB_SOURCE_DIR "/examples/motion/drone.toml";
-
-Outcome fly(const Directory& where, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"simulate", "--flight", "drone", "array.toml", "--out", "flight.csv"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run(where, arguments);
-}
-
-Outcome monitor(const Directory& where, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"monitor", "--array", "array.toml", "--calibrate-first", "--log", "flight.csv"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run(where, arguments);
-}
-
-/// The object `motion` of the summary.
-Json motion_of(const Outcome& outcome) {
-  std::istringstream in(outcome.out);
-  std::string line, last;
-  while (std::getline(in, line)) last = line;
-  const Json summary = Json::parse(last, nullptr, false);
-  if (!summary.is_object() || !summary.contains("summary")) {
-    ADD_FAILURE() << outcome.out << outcome.err;
-    return {};
-  }
-  return summary["summary"].value("motion", Json());
-}
 
 /// By its header, one map a row.
 std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {

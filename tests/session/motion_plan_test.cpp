@@ -8,6 +8,7 @@
 
 #include "motion_support.hpp"
 #include "plumb/motion/motion_monitor.hpp"
+#include "plumb/session/monitor_pipeline.hpp"
 #include "plumb/session/motion_plan.hpp"
 
 namespace motion_plan_test {
@@ -217,6 +218,28 @@ TEST(MotionPlan, ARowWithoutTemperatureHasTheLastOne) {
   EXPECT_NEAR(std::fabs(warm_mps2), 1.0, 1e-9);
   row.temperature_degc = std::numeric_limits<double>::infinity();
   EXPECT_EQ(sampler.sample(row).reading_mps2[0], warm_mps2);
+}
+
+/// A chip at 2 kHz stands in 3.25 of the 6500 rows a second that three clocks make at most, one at 2.5 kHz in 2.6.
+// Verifies: REQ-207
+TEST(MotionPlan, AtRestNoiseIsLargerByTheRowsThatRepeatASample) {
+  const auto factors = [](const std::string& text) {
+    const io::ArrayFile array = array_of(text);
+    const auto monitor = session::make_monitor(array, nullptr);
+    EXPECT_TRUE(monitor.has_value());
+    std::vector<double> out;
+    for (int i = 0; i < array.array.size(); i += 3)
+      out.push_back((*monitor)->array().sigma_mps2(i) / array.array.sigma_mps2(i));
+    return out;
+  };
+  const std::string clocked = plumb_test::read_text(PLUMB_SOURCE_DIR "/examples/motion/drone_clocks.toml");
+  const std::vector<double> found = factors(clocked);
+  EXPECT_NEAR(found[0], std::sqrt(3.25), 1e-12);
+  EXPECT_NEAR(found[1], std::sqrt(3.25), 1e-12);
+  EXPECT_NEAR(found[2], std::sqrt(2.6), 1e-12);
+  // On one column they deliver together: 2000 rows a second, and 2500.
+  EXPECT_NEAR(factors(plumb_test::with(clocked, "t2_s\"", "t1_s\""))[0], std::sqrt(2.25), 1e-12);
+  for (const double one : factors(drone_text())) EXPECT_EQ(one, 1.0);
 }
 
 }  // namespace
