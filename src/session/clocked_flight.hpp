@@ -43,7 +43,8 @@ class ClockedFlight {
     double due_s() const noexcept;
   };
   Chip drawn_chip(const MotionClock& stated, std::size_t number, bool of_the_log) const;
-  /// The chip whose next sample comes first before the next row at a whole period; as many as there are chips: none does.
+  /// The chip whose next sample comes first before the next row at a whole period; as many as there are chips: none
+  /// does.
   std::size_t first_due(double before_s) const noexcept;
   void sample(std::size_t chip, double time_s);
   scenario::FlightSample at(double time_s);
