@@ -52,6 +52,10 @@ function(plumb_core_library target capacity)
   target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen tl::expected)
   plumb_precompile(${target} ${PLUMB_COMMON_HEADERS})
+  # A planted defect takes the place of one object of the archive: there every source keeps its own.
+  if(NOT (PLUMB_PLANT_DEFECTS AND PLUMB_BUILD_TESTS AND target MATCHES "^plumb_(8|24)$"))
+    plumb_batch(${target})
+  endif()
   if(PLUMB_FAST_STEP)
     set(often calibration/sensor_model core/storage_map detection/block detection/channel_monitor detection/combination_mae
       detection/lanes detection/near_lengths health/health_monitor health/intake health/memory)

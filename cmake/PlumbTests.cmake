@@ -117,7 +117,8 @@ endif()
 
 plumb_test_executable(plumb_core_tests LABEL core ROOMS ${PLUMB_CORE_ROOMS} c LIBRARIES plumb_c_8 plumb_8
   COMPUTING calibration/closed_form calibration/outlier detection/exact_sum detection/false_alarm
-    detection/fitted_false_alarm health/forged_fields health/induction motion/motion_clocks motion/motion_clocks_flight
+    detection/fitted_false_alarm detection/isolation_oracle health/bit_flip health/forged_fields health/induction
+    health/snapshot health/snapshot_laws motion/motion_clocks motion/motion_clocks_flight
     numeric/symmetric_eigen
   LONGER Acceptance.* BitFlips.* CFunctions.* ExactSum.* ExtremeNumbers.* FalseAlarm.* FirstCalibration*.* Fit*.*
     ForgedFields.* HalfNormalMeanQuantile.* Induction.* IsolationOracle.* IsolationRates.* LevelMisfit.* *Law.* *Laws.*
@@ -165,6 +166,7 @@ if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
     ROOMS paper scenario study io findings testing verification render cli recordings docs
+    COMPUTING scenario/flight
     SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* MotionCommand.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
@@ -326,7 +328,7 @@ plumb_compile_settings(plumb_model_shim)
 target_include_directories(plumb_model_shim PUBLIC "${PROJECT_SOURCE_DIR}/model")
 target_link_libraries(plumb_model_shim PUBLIC plumb_8)
 if(PLUMB_BUILD_HOST AND TARGET plumb_tool)
-  plumb_test_executable(plumb_model_tests LABEL model ROOMS model LIBRARIES plumb_model_shim
+  plumb_test_executable(plumb_model_tests LABEL model ROOMS model LIBRARIES plumb_model_shim COMPUTING model/breadth_first
     SLOW Model/BreadthFirst.*/1 Model/BreadthFirst.*/2  # five and six sensors
          Model/BreadthFirst.*/3 Model/BreadthFirst.*/4  # chips
     LONGER Model/*)

@@ -21,10 +21,10 @@ double across_tool(const Vec3& g) noexcept { return std::sqrt(g[0] * g[0] + g[1]
 /// no number behind all, and a sign is behind those: this is asked in every sample, also where doubles are software.
 bool has_variances(const Mat3& covariance) noexcept {
   const auto variance = [&covariance](size_t k) {
-    constexpr std::uint64_t kInfinity = 0x7FF0'0000'0000'0000U;
+    constexpr std::uint64_t kBitsOfInfinity = 0x7FF0'0000'0000'0000U;
     std::uint64_t bits = 0;
     std::memcpy(&bits, &covariance[4 * k], sizeof bits);
-    return bits < kInfinity;
+    return bits < kBitsOfInfinity;
   };
   return variance(0) && variance(1) && variance(2);
 }
