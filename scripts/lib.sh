@@ -5,7 +5,7 @@
 PLUMB_ROOT="$(CDPATH="" cd -P -- "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd -P)"
 PLUMB_STEP=""
 PLUMB_CORE_ROOMS=(core numeric array gravity calibration detection navigation motion health c)  # floors 1 to 4
-export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # without it ccache passes precompiled headers by
+export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros,locale}"  # without the first two ccache passes precompiled headers by
 
 # step TEXT...: says what comes next, and how long the script has run; named again if it fails.
 step() {
