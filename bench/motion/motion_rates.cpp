@@ -1,4 +1,4 @@
-// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J] [--kind KIND]: what a motion monitor finds in simulated
+// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J] [--kind KIND] [--layout N]: what a motion monitor finds in simulated
 // flights, how fast, how often wrong, as Markdown with 95 % Clopper-Pearson intervals. WHAT is
 //   healthy  false alarms, bounds and their slack, by what flies and by the number of sensors
 //   faults   detection and isolation by fault and number of sensors
@@ -36,7 +36,8 @@ struct Settings {
   std::uint64_t flights = 100;
   std::uint64_t seed = 1;
   unsigned jobs = 2;
-  std::string kind;  ///< of the flights of `healthy` and `beyond`; empty: every kind
+  std::string kind;    ///< of the flights of `healthy` and `beyond`; empty: every kind
+  std::string layout;  ///< of their arrays; empty: every one
 };
 
 template <class Make>
@@ -118,6 +119,7 @@ void healthy(const Settings& s, double factor) {
   for (int kind = 0; kind < plumb::scenario::kFlightKinds; ++kind) {
     if (!s.kind.empty() && s.kind != to_string(static_cast<FlightKind>(kind))) continue;
     for (const Layout& layout : kLayouts) {
+      if (!s.layout.empty() && s.layout != layout.name) continue;
       FlightCase like;
       like.kind = static_cast<FlightKind>(kind);
       like.array = layout.array;
@@ -324,6 +326,10 @@ bool is_kind(const std::string& word) {
   return false;
 }
 
+bool is_layout(const std::string& word) {
+  return std::any_of(std::begin(kLayouts), std::end(kLayouts), [&](const Layout& one) { return word == one.name; });
+}
+
 bool read(int argc, char** argv, Settings* out) {
   if (argc < 2) return false;
   out->what = argv[1];
@@ -338,6 +344,8 @@ bool read(int argc, char** argv, Settings* out) {
       out->jobs = static_cast<unsigned>(value);
     else if (key == "--kind" && is_kind(argv[k + 1]))
       out->kind = argv[k + 1];
+    else if (key == "--layout" && is_layout(argv[k + 1]))
+      out->layout = argv[k + 1];
     else
       return false;
   }
@@ -352,7 +360,8 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond|rivals [--flights N] [--seed S] [--jobs J]\n"
-        "                          [--kind drone|drilling|car|launch]  (of healthy and beyond: only these)\n");
+        "                          [--kind drone|drilling|car|launch] [--layout 4|5|6|8|12|'3 triads']\n"
+        "                          (of healthy and beyond: only these)\n");
     return 2;
   }
   if (s.what == "healthy") {
