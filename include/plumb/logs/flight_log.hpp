@@ -1,0 +1,76 @@
+/// What a log of a flight controller says of its accelerometers: a reader hands it on record by record, so that the
+/// memory it takes does not grow with the log. One reader per format, one interface.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "plumb/io/file_error.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace logs {
+
+using Axes = std::array<double, 3>;
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+constexpr Axes kAbsentAxes = {kAbsent, kAbsent, kAbsent};
+
+/// What a record of a source is.
+enum class RecordKind : std::uint8_t {
+  sample,  ///< one reading
+  mean,    ///< the mean of several: `count` and, where the log has it, `variance`
+};
+
+/// One message stream with the readings of one accelerometer chip, in the axes of the log (forward, right, down in PX4
+/// and ArduPilot; those of the frame_id in ROS).
+struct ImuSource {
+  std::string name;             ///< of the message and its instance: "sensor_accel[1]"
+  int instance = 0;             ///< counted from 0, as the log counts
+  std::uint64_t device_id = 0;  ///< 0 where the log does not say
+  RecordKind kind = RecordKind::sample;
+};
+
+/// What is absent is NaN, or 0 where it counts.
+struct ImuRecord {
+  double time_s = kAbsent;  ///< since the log's own zero
+  Axes specific_force_mps2 = kAbsentAxes;
+  Axes rate_radps = kAbsentAxes;  ///< of the same record, where the message has it
+  double temperature_degc = kAbsent;
+  std::array<std::uint32_t, 3> clipped{};  ///< samples at the end of the range since the last record
+  std::uint32_t count = 1;                 ///< readings in a mean
+  Axes variance_m2ps4 = kAbsentAxes;       ///< of the readings of a mean
+};
+
+/// Who is told what a log holds. `source` comes before the first record of that number; numbers count from 0.
+class LogSink {
+ public:
+  virtual ~LogSink() = default;
+  virtual void source(std::size_t number, const ImuSource& source) = 0;
+  virtual void record(std::size_t number, const ImuRecord& record) = 0;
+  virtual void parameter(const std::string& name, double value) = 0;
+  /// What is wrong with the bytes at `offset` and what was left out for it, in a sentence without an end. A reader goes
+  /// on behind it where it can.
+  virtual void note(std::uint64_t offset, const std::string& what) = 0;
+};
+
+/// What a reader has seen. Every count is of what could be read.
+struct LogExtent {
+  std::uint64_t bytes = 0;       ///< of the file
+  std::uint64_t read_bytes = 0;  ///< until where it could be read
+  std::uint64_t records = 0;     ///< handed on
+  double dropped_s = 0.0;        ///< seconds that the logger says it lost
+};
+
+/// PX4's ULog, https://docs.px4.io/main/en/dev_log/ulog_file_format.html. Refused where it is none, or cannot be read
+/// at all; what is damaged or cut short is noted, and what could be read is handed on.
+io::FileExpected<LogExtent> read_ulog(const std::string& path, LogSink& sink);
+
+/// ArduPilot's DataFlash log (.bin), read as `read_ulog` reads.
+io::FileExpected<LogExtent> read_dataflash(const std::string& path, LogSink& sink);
+
+}  // namespace logs
+}  // namespace PLUMB_ABI
+}  // namespace plumb

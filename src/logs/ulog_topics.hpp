@@ -1,0 +1,86 @@
+/// The topics of PX4 with readings of an accelerometer, and records out of their messages (private to src/logs).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <utility>
+
+#include "plumb/core/config.hpp"
+#include "plumb/logs/flight_log.hpp"
+#include "ulog_format.hpp"
+#include "ulog_notes.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace logs {
+
+constexpr std::array<const char*, 5> kUlogTopics = {"sensor_accel", "vehicle_imu", "vehicle_imu_status",
+                                                    "sensor_combined", "vehicle_acceleration"};
+constexpr std::size_t kNoUlogTopic = kUlogTopics.size();
+
+/// Its place in kUlogTopics, or kNoUlogTopic.
+std::size_t ulog_topic(std::string_view name) noexcept;
+
+/// Where the readings of a topic stand in its messages.
+struct UlogReadings {
+  UlogCell time;           ///< of publishing, us
+  UlogCell sample_time;    ///< of sampling, us; before that of publishing
+  UlogCell relative_time;  ///< us from `time` to the sample
+  UlogCell device;
+  UlogCell temperature;
+  UlogCell samples;    ///< in the mean
+  UlogCell rate_hz;    ///< of the samples in the mean
+  UlogCell dt;         ///< `force` is a change of velocity in this time
+  UlogCell rate_dt;    ///< `rate` is an angle turned in this time
+  UlogCell clip_mask;  ///< bit 0 is x
+  UlogCells force;
+  UlogCells rate;
+  UlogCells clips;
+  UlogCells variance;
+  bool clips_add_up = false;  ///< counted since the start, not since the last message
+  RecordKind kind = RecordKind::sample;
+};
+
+/// The error is the name of a field that the topic lacks.
+tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const UlogLayout& layout);
+
+/// Numbers the sources and hands their records on.
+class UlogSources {
+ public:
+  UlogSources(LogSink& sink, UlogNotes& notes) : sink_(sink), notes_(notes) {}
+
+  /// The header's timestamp: times are seconds since this one.
+  void set_zero(std::uint64_t zero_us) noexcept { zero_us_ = zero_us; }
+  /// `payload` holds all of the message that `readings` speak of.
+  void add(std::uint64_t offset, std::size_t topic, int instance, const UlogReadings& readings,
+           const unsigned char* payload);
+  std::uint64_t records() const noexcept { return records_; }
+
+ private:
+  struct State {
+    std::size_t number = 0;
+    std::uint64_t device = 0;
+    double last_time_s = kAbsent;
+    std::array<std::uint64_t, 3> last_clips{};
+  };
+  /// False where the message is none of readings; says so.
+  bool read(std::uint64_t offset, const UlogReadings& readings, const unsigned char* payload, ImuRecord& out);
+  State& state_of(std::size_t topic, int instance, const UlogReadings& readings, const unsigned char* payload);
+  void check_time(std::uint64_t offset, const State& state, const char* topic, double time_s);
+  double time_s(const UlogReadings& readings, const unsigned char* payload) const noexcept;
+  bool refuse(std::uint64_t offset, const char* what);
+
+  LogSink& sink_;
+  UlogNotes& notes_;
+  std::uint64_t zero_us_ = 0;
+  std::uint64_t records_ = 0;
+  std::map<std::pair<std::size_t, int>, State> states_;
+};
+
+}  // namespace logs
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,128 @@
+/// Who is told what a log holds and keeps it, and small logs of PX4 to tell, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plumb/logs/flight_log.hpp"
+#include "ulog_bytes.hpp"
+
+namespace ulog_told {
+
+using namespace plumb;
+using namespace plumb::logs;
+using namespace ulog_bytes;
+
+struct Told final : LogSink {
+  std::vector<ImuSource> sources;
+  std::vector<std::pair<std::size_t, ImuRecord>> records;
+  std::vector<std::pair<std::string, double>> parameters;
+  std::vector<std::pair<std::uint64_t, std::string>> notes;
+
+  void source(std::size_t number, const ImuSource& source) override {
+    EXPECT_EQ(number, sources.size());
+    sources.push_back(source);
+  }
+  void record(std::size_t number, const ImuRecord& record) override {
+    EXPECT_LT(number, sources.size());
+    records.emplace_back(number, record);
+  }
+  void parameter(const std::string& name, double value) override { parameters.emplace_back(name, value); }
+  void note(std::uint64_t offset, const std::string& what) override { notes.emplace_back(offset, what); }
+
+  std::size_t of(const std::string& name) const {
+    const auto found =
+        std::find_if(sources.begin(), sources.end(), [&](const ImuSource& one) { return one.name == name; });
+    return static_cast<std::size_t>(found - sources.begin());
+  }
+  std::vector<ImuRecord> records_of(const std::string& name) const {
+    std::vector<ImuRecord> out;
+    for (const auto& one : records) {
+      if (one.first == of(name)) out.push_back(one.second);
+    }
+    return out;
+  }
+  bool noted(const std::string& words) const {
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const auto& note) { return note.second.find(words) != std::string::npos; });
+  }
+  std::string all_notes() const {
+    std::string out;
+    for (const auto& note : notes) out += std::to_string(note.first) + ": " + note.second + "\n";
+    return out;
+  }
+};
+
+inline double norm(const Axes& axes) { return std::sqrt(axes[0] * axes[0] + axes[1] * axes[1] + axes[2] * axes[2]); }
+
+/// In the directory of temporary files, and gone with it.
+class LogFile {
+ public:
+  explicit LogFile(const std::string& bytes)
+      : path_(::testing::TempDir() + "ulog_test_" + std::to_string(::getpid()) + ".ulg") {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  LogFile(const LogFile&) = delete;
+  LogFile& operator=(const LogFile&) = delete;
+  ~LogFile() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+inline io::FileExpected<LogExtent> read_bytes(const std::string& bytes, Told& told) {
+  const LogFile file(bytes);
+  return read_ulog(file.path(), told);
+}
+
+inline Told told_of(const std::string& bytes) {
+  Told out;
+  const auto extent = read_bytes(bytes, out);
+  EXPECT_TRUE(extent.has_value()) << extent.error().text();
+  return out;
+}
+
+inline const std::string kAccelFormat =
+    "sensor_accel:uint64_t timestamp;uint64_t timestamp_sample;uint32_t device_id;float x;float y;float z;"
+    "float temperature;uint32_t error_count;uint8_t[3] clip_counter;uint8_t samples;uint8_t[4] _padding0;";
+inline const std::string kStatusFormat =
+    "vehicle_imu_status:uint64_t timestamp;uint32_t accel_device_id;uint32_t[3] accel_clipping;float accel_rate_hz;"
+    "float[3] mean_accel;float[3] mean_gyro;float[3] var_accel;float temperature_accel;uint8_t[4] _padding0;";
+
+inline std::string accel(int id, std::uint64_t time_us, float z, std::uint64_t device = 42, std::uint64_t samples = 1) {
+  return data(id, u64(time_us + 7) + u64(time_us) + u32(device) + f32(0.5F, -0.25F, z) + f32(31.5F) + u32(0) + u8(1) +
+                      u8(2) + u8(3) + u8(samples));
+}
+inline std::string status(std::uint64_t time_us, std::uint64_t clipped) {
+  return data(3, u64(time_us) + u32(77) + u32(clipped) + u32(0) + u32(5) + f32(400.0F) + f32(0.0F, 0.0F, -9.8F) +
+                     f32(0.1F, 0.2F, 0.3F) + f32(1e-3F, 2e-3F, 3e-3F) + f32(40.0F));
+}
+inline std::string begin(unsigned incompatible = 0, const std::vector<std::uint64_t>& appended = {0, 0, 0}) {
+  return header() + flags(incompatible, appended) + format(kAccelFormat) + format(kStatusFormat) +
+         subscription(0, 1, "sensor_accel") + subscription(1, 2, "sensor_accel") +
+         subscription(0, 3, "vehicle_imu_status");
+}
+
+/// Two instances, parameters, a sync, a dropout: all that a short flight writes.
+inline std::string small_log() {
+  std::string out = begin() + parameter("int32_t CAL_ACC0_ID", u32(42)) + parameter("float CAL_ACC0_XOFF", f32(0.25F));
+  for (std::uint64_t k = 0; k < 6; ++k) {
+    out += accel(1, 1500000 + 1000 * k, -9.75F) + accel(2, 1500300 + 1000 * k, -9.5F, 43);
+    if (k == 2) out += sync_mark() + dropout(250);
+    if (k % 2 == 1) out += status(1600000 + 50000 * k, 4 * k);
+  }
+  return out;
+}
+
+}  // namespace ulog_told
