@@ -192,6 +192,15 @@ if(TARGET plumb_scenario)
   endforeach()
 endif()
 
+# Logs of other programs.
+plumb_sources(logs_sources logs)
+if(TARGET plumb_io AND logs_sources)
+  add_library(plumb_logs STATIC ${logs_sources})
+  plumb_library(plumb_logs logs)
+  target_link_libraries(plumb_logs PUBLIC plumb_io plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_batch(plumb_logs)
+endif()
+
 # What is wrong with an array, a recording or a fit.
 plumb_sources(findings_sources findings)
 if(TARGET plumb_io AND findings_sources)
