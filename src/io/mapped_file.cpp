@@ -1,4 +1,4 @@
-#include "mapped_file.hpp"
+#include "plumb/io/mapped_file.hpp"
 
 #include <sys/stat.h>
 

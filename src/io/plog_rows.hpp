@@ -6,8 +6,8 @@
 #include <string>
 
 #include "csv.hpp"
-#include "mapped_file.hpp"
 #include "plog_format.hpp"
+#include "plumb/io/mapped_file.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {

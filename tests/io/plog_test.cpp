@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "../../src/io/mapped_file.hpp"
 #include "../../src/io/plog_format.hpp"
 #include "io_test_support.hpp"
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
+#include "plumb/io/mapped_file.hpp"
 #include "plumb/io/units.hpp"
 
 namespace plog_test {

@@ -1,4 +1,4 @@
-/// A file in memory, a window at a time (private to src/io): what is mapped stays small however long the file is.
+/// A file in memory, a window at a time: what is mapped stays small however long the file is.
 #pragma once
 
 #include <boost/interprocess/file_mapping.hpp>
