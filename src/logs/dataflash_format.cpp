@@ -141,10 +141,10 @@ void DataflashFormats::fmt(const unsigned char* message, std::uint64_t offset) {
   std::memcpy(next.letters.data(), message + 9, next.letters.size());
   std::memcpy(next.labels.data(), message + 25, next.labels.size());
   Layout& layout = layouts_[type];
-  const std::string about = "FMT of type " + std::to_string(type) + " (" + next.name_text() + ") ";
+  const auto about = [&] { return "FMT of type " + std::to_string(type) + " (" + next.name_text() + ") "; };
   if (next.length < kHeadBytes || (type == kFmtType && next.length != kFmtLength)) {
     if (!notes_.wants(Trouble::bad_format, offset)) return;
-    notes_.say(offset, about + "gives a length of " + std::to_string(next.length) +
+    notes_.say(offset, about() + "gives a length of " + std::to_string(next.length) +
                            " bytes, which cannot be: it is passed over");
     return;
   }
@@ -155,7 +155,7 @@ void DataflashFormats::fmt(const unsigned char* message, std::uint64_t offset) {
     return;
   }
   if (known && notes_.wants(Trouble::redefined, offset)) {
-    notes_.say(offset, about + "differs from the one before (" + layout.name_text() + "): from here on it holds");
+    notes_.say(offset, about() + "differs from the one before (" + layout.name_text() + "): from here on it holds");
   }
   if (known) unit_chars_[type] = UnitChars{};
   for (const Named& named : kNamed) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
@@ -73,7 +74,8 @@ struct Read {
 };
 
 inline std::string file_of(const std::string& bytes) {
-  const std::string path = testing::TempDir() + "dataflash_test.bin";
+  // Tests run side by side.
+  const std::string path = testing::TempDir() + "dataflash_" + std::to_string(::getpid()) + ".bin";
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
