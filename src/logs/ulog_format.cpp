@@ -57,7 +57,7 @@ bool parse_field(std::string_view text, UlogField& out) {
 
 bool is_padding(const UlogField& field) noexcept { return field.name.compare(0, 8, "_padding") == 0; }
 
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
   return "\"" + io::printable_line(name.substr(0, UlogFormats::kLongestName)) + "\"";
 }
 
@@ -165,21 +165,22 @@ std::string UlogFormats::define(std::string_view text) {
     const std::string_view one = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (one.empty()) continue;
-    if (fields.size() == kMostFieldsOfOne) return "the format " + quoted(name) + " has more than 1024 fields, left out";
+    if (fields.size() == kMostFieldsOfOne)
+      return "the format " + in_quotes(name) + " has more than 1024 fields, left out";
     UlogField field;
     if (!parse_field(one, field))
-      return "the format " + quoted(name) + " has no field in " + quoted(one) + ", left out";
+      return "the format " + in_quotes(name) + " has no field in " + in_quotes(one) + ", left out";
     fields.push_back(std::move(field));
   }
-  if (fields.empty()) return "the format " + quoted(name) + " has no fields, left out";
+  if (fields.empty()) return "the format " + in_quotes(name) + " has no fields, left out";
   const auto known = formats_.find(name);
   if (known != formats_.end()) {
     if (same_fields(known->second, fields)) return {};
-    return "the format " + quoted(name) + " comes a second time with other fields, the first one stays";
+    return "the format " + in_quotes(name) + " comes a second time with other fields, the first one stays";
   }
-  if (formats_.size() == kMostFormats) return "more than 2048 formats, " + quoted(name) + " is left out";
+  if (formats_.size() == kMostFormats) return "more than 2048 formats, " + in_quotes(name) + " is left out";
   if (fields_ + fields.size() > kMostFields)
-    return "more than 32768 fields in all formats together, " + quoted(name) + " is left out";
+    return "more than 32768 fields in all formats together, " + in_quotes(name) + " is left out";
   fields_ += fields.size();
   formats_.emplace(name, std::move(fields));
   return {};
@@ -200,12 +201,12 @@ tl::expected<std::uint32_t, std::string> UlogFormats::field_size(  // NOLINT(mis
 tl::expected<std::uint32_t, std::string> UlogFormats::nested_size(  // NOLINT(misc-no-recursion) kDeepest levels
     const std::string& name, int depth, Sizes& known) const {
   const auto format = formats_.find(name);
-  if (format == formats_.end()) return tl::make_unexpected("the log has no format " + quoted(name));
+  if (format == formats_.end()) return tl::make_unexpected("the log has no format " + in_quotes(name));
   if (depth > kDeepest) return tl::make_unexpected(std::string("its formats are nested more than 16 deep"));
   constexpr std::uint32_t kOpen = 0;
   const auto entry = known.emplace(name, kOpen);
   if (!entry.second) {
-    if (entry.first->second == kOpen) return tl::make_unexpected("the format " + quoted(name) + " contains itself");
+    if (entry.first->second == kOpen) return tl::make_unexpected("the format " + in_quotes(name) + " contains itself");
     return entry.first->second;
   }
   std::uint32_t size = 0;
@@ -213,7 +214,7 @@ tl::expected<std::uint32_t, std::string> UlogFormats::nested_size(  // NOLINT(mi
     const auto bytes = field_size(field, depth, known);
     if (!bytes) return bytes;
     if (*bytes > kLargest - size)
-      return tl::make_unexpected("the format " + quoted(name) + " is larger than a message can be");
+      return tl::make_unexpected("the format " + in_quotes(name) + " is larger than a message can be");
     size += *bytes;
   }
   entry.first->second = size;
