@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "plumb/core/vec3.hpp"
 #include "plumb/logs/flight_log.hpp"
 #include "ulog_told.hpp"
 
@@ -186,7 +187,7 @@ RC_GTEST_PROP(UlogDamageProperties, NoByteThatWasChangedDoesHarm, ()) {
   RC_ASSERT(extent->bytes == bytes.size());
   RC_ASSERT(extent->records == told.records.size());
   for (const auto& note : told.notes) RC_ASSERT(note.first < bytes.size());
-  for (const auto& one : told.records) RC_ASSERT(std::isfinite(norm(one.second.specific_force_mps2)));
+  for (const auto& one : told.records) RC_ASSERT(std::isfinite(plumb::norm(one.second.specific_force_mps2)));
 }
 
 RC_GTEST_PROP(UlogDamageProperties, OneChangedByteCostsFewRecords, ()) {

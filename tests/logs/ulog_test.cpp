@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "plumb/core/vec3.hpp"
 #include "plumb/logs/flight_log.hpp"
 #include "support/recording.hpp"
 #include "ulog_told.hpp"
@@ -155,7 +156,7 @@ void expect_log(const std::string& name, const std::vector<Expected>& sources, s
     const auto records = told.records_of(source.name);
     EXPECT_EQ(records.size(), source.records) << source.name;
     double sum = 0.0;
-    for (const ImuRecord& record : records) sum += norm(record.specific_force_mps2);
+    for (const ImuRecord& record : records) sum += plumb::norm(record.specific_force_mps2);
     EXPECT_NEAR(sum / static_cast<double>(records.size()), 9.8, 0.5) << source.name;
     EXPECT_LT(records.back().time_s - records.front().time_s, 100.0) << source.name;
     EXPECT_GT(records.back().time_s, records.front().time_s) << source.name;

@@ -63,8 +63,6 @@ struct Told final : LogSink {
   }
 };
 
-inline double norm(const Axes& axes) { return std::sqrt(axes[0] * axes[0] + axes[1] * axes[1] + axes[2] * axes[2]); }
-
 /// In the directory of temporary files, and gone with it.
 class LogFile {
  public:
