@@ -45,7 +45,7 @@ inline std::string names_of(plumb::SensorSet set) {
   return out + "}";
 }
 
-/// Cases of each law where nobody asks for more; .ci/run --deep asks for ten times as many, the same numbered ones first.
+/// Cases of each law where nobody asks for more; .ci/run --deep asks for ten times as many, the same ones first.
 inline constexpr std::uint64_t kLawCases = 2000;
 
 /// Whether a word is a whole number, in digits alone; then it is left in `number`.
