@@ -1,5 +1,5 @@
-// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J] [--kind KIND] [--layout N]: what a motion monitor finds in
-// simulated flights, how fast, how often wrong, as Markdown with 95 % Clopper-Pearson intervals. WHAT is
+// plumb_motion_rates WHAT [--flights N] [--seed S] [--jobs J] [--kind KIND] [--layout N]: what a motion monitor finds
+// in simulated flights, how fast, how often wrong, as Markdown with 95 % Clopper-Pearson intervals. WHAT is
 //   healthy  false alarms, bounds and their slack, by what flies and by the number of sensors
 //   faults   detection and isolation by fault and number of sensors
 //   chips    the same of three and two parallel triads, whole chips failing
