@@ -9,7 +9,7 @@ include(GoogleTest)
 # plumb_discover(EXECUTABLE LABEL <label> [PREFIX <prefix of the tests' names>] [SLOW <suite>...] [LONGER <suite>...])
 # Registers the tests of an executable, each once: those of SLOW with the label slow, those of neither SLOW nor LONGER
 # with the label quick. A suite is a pattern of --gtest_filter; SLOW "*" makes all of them slow. With PLUMB_ONE_PROCESS the
-# quick ones are one test: an instrumented program takes longer to start than most of them to run.
+# quick ones are one test, which begins first: an instrumented program takes longer to start than most of them to run.
 function(plumb_discover name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;PREFIX" "SLOW;LONGER")
   list(JOIN arg_SLOW ":" slow)
@@ -31,7 +31,7 @@ function(plumb_discover name)
     list(REMOVE_ITEM kinds quick)
     add_test(NAME "${arg_PREFIX}${name}.quick" COMMAND ${name} "--gtest_filter=${quick_filter}" --gtest_brief=1)
     set_tests_properties("${arg_PREFIX}${name}.quick" PROPERTIES
-      LABELS "${arg_LABEL};quick" TIMEOUT 1200 ENVIRONMENT "RC_PARAMS=${PLUMB_RC_PARAMS}")
+      LABELS "${arg_LABEL};quick" TIMEOUT 1200 COST 1000 ENVIRONMENT "RC_PARAMS=${PLUMB_RC_PARAMS}")
   endif()
   foreach(kind IN LISTS kinds)
     gtest_discover_tests(${name}
