@@ -165,7 +165,7 @@ void DataflashReader::open_gap(const unsigned char* bytes, std::size_t rest, std
 void DataflashReader::close_gap(std::uint64_t end) {
   in_gap_ = false;
   const bool is_unknown = gap_type_ >= 0;
-  if (!notes_.wants(is_unknown ? Trouble::unknown_type : Trouble::passed_over, gap_)) return;
+  if (!notes_.wanted(is_unknown ? DataflashTrouble::unknown_type : DataflashTrouble::passed_over, gap_)) return;
   const std::string bytes = std::to_string(end - gap_) + " bytes were passed over";
   notes_.say(gap_, is_unknown ? "no FMT describes messages of type " + std::to_string(gap_type_) + ": " + bytes
                               : "no whole message begins here: " + bytes);

@@ -88,7 +88,7 @@ void DataflashContent::look_at_clock(double time_s, std::uint64_t offset) {
     clock_s_ = std::fmax(clock_s_, time_s);
     return;
   }
-  if (notes_.wants(Trouble::clock, offset)) {
+  if (notes_.wanted(DataflashTrouble::clock, offset)) {
     notes_.say(offset, "the clock goes back from " + seconds(clock_s_) + " to " + seconds(time_s) +
                            ": the flight controller was started anew, records go on with its new time");
   }
@@ -114,7 +114,7 @@ bool DataflashContent::instance_at(const unsigned char* message, const Layout& l
     instance = static_cast<std::size_t>(read);
     return true;
   }
-  if (notes_.wants(Trouble::bad_instance, offset)) {
+  if (notes_.wanted(DataflashTrouble::bad_instance, offset)) {
     notes_.say(offset, "a message " + layout.name_text() + " names an instance that cannot be: it is left out");
   }
   return false;
@@ -155,10 +155,10 @@ void DataflashContent::reading(const unsigned char* message, const Layout& layou
     finite = finite && !std::isnan(record.specific_force_mps2[k]);
   }
   record.temperature_degc = finite_or_absent(number_at(message, columns.temperature));
-  if (!finite && notes_.wants(Trouble::no_number, offset)) {
+  if (!finite && notes_.wanted(DataflashTrouble::no_number, offset)) {
     notes_.say(offset, "a record of " + source.name + " has a specific force that is no finite number: absent there");
   }
-  if (record.time_s < source.last_s && notes_.wants(Trouble::clock, offset)) {
+  if (record.time_s < source.last_s && notes_.wanted(DataflashTrouble::clock, offset)) {
     notes_.say(offset, "the time of " + source.name + " goes back from " + seconds(source.last_s) + " to " +
                            seconds(record.time_s));
   }
@@ -195,7 +195,7 @@ void DataflashContent::parameter(const unsigned char* message, const Columns& co
   const std::string_view name = text_at(message, columns.name);
   const double value = number_at(message, columns.value);
   if (!is_parameter_name(name)) {
-    if (!notes_.wants(Trouble::bad_parameter, offset)) return;
+    if (!notes_.wanted(DataflashTrouble::bad_parameter, offset)) return;
     notes_.say(offset, "the parameter '" + io::printable_line(name) + "' has no name that can be one: left out");
     return;
   }

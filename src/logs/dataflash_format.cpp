@@ -143,7 +143,7 @@ void DataflashFormats::fmt(const unsigned char* message, std::uint64_t offset) {
   Layout& layout = layouts_[type];
   const auto about = [&] { return "FMT of type " + std::to_string(type) + " (" + next.name_text() + ") "; };
   if (next.length < kHeadBytes || (type == kFmtType && next.length != kFmtLength)) {
-    if (!notes_.wants(Trouble::bad_format, offset)) return;
+    if (!notes_.wanted(DataflashTrouble::bad_format, offset)) return;
     notes_.say(offset, about() + "gives a length of " + std::to_string(next.length) +
                            " bytes, which cannot be: it is passed over");
     return;
@@ -154,7 +154,7 @@ void DataflashFormats::fmt(const unsigned char* message, std::uint64_t offset) {
       layout.labels == next.labels) {
     return;
   }
-  if (known && notes_.wants(Trouble::redefined, offset)) {
+  if (known && notes_.wanted(DataflashTrouble::redefined, offset)) {
     notes_.say(offset, about() + "differs from the one before (" + layout.name_text() + "): from here on it holds");
   }
   if (known) unit_chars_[type] = UnitChars{};
@@ -215,7 +215,7 @@ void DataflashFormats::settle(std::uint8_t type, Layout& layout, std::uint64_t o
   layout.faults_told = true;
   std::string wrong = contradiction(layout);
   if (wrong.empty() && !layout.usable) wrong = "lacks a column that is needed: its messages are passed over";
-  if (wrong.empty() || !notes_.wants(Trouble::bad_format, offset)) return;
+  if (wrong.empty() || !notes_.wanted(DataflashTrouble::bad_format, offset)) return;
   notes_.say(offset, "FMT of " + layout.name_text() + " " + wrong);
 }
 

@@ -36,7 +36,6 @@ struct Field {
 double number_at(const unsigned char* message, const Field& field) noexcept;
 /// Empty where the column is absent, or is no text.
 std::string_view text_at(const unsigned char* message, const Field& field) noexcept;
-std::string_view text_of(const unsigned char* bytes, std::size_t size) noexcept;
 
 enum class Family : std::uint8_t { other, imu, acc, vibe, parm, unit, mult, fmtu, dsf };
 

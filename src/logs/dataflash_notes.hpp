@@ -1,19 +1,16 @@
-/// What a reader of a DataFlash log has to say of its bytes, without a damaged log filling the screen.
+/// What can be wrong with a DataFlash log (private to src/logs).
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <string>
 
+#include "log_notes.hpp"
 #include "plumb/core/config.hpp"
-#include "plumb/logs/flight_log.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace logs {
 
-enum class Trouble : std::uint8_t {
+enum class DataflashTrouble : std::uint8_t {
   passed_over,    ///< bytes that are no message
   unknown_type,   ///< a message that no FMT describes
   bad_format,     ///< an FMT that contradicts itself
@@ -26,23 +23,9 @@ enum class Trouble : std::uint8_t {
   count
 };
 
-class DataflashNotes {
- public:
-  explicit DataflashNotes(LogSink& sink) : sink_(sink) {}
-  /// Counts a trouble, and says whether it shall be noted still: a caller writes the sentence only then.
-  bool wants(Trouble trouble, std::uint64_t offset) noexcept;
-  void say(std::uint64_t offset, const std::string& what) { sink_.note(offset, what); }
-  /// How many were left out, kind by kind.
-  void sum_up();
+const char* words_of(DataflashTrouble trouble) noexcept;
 
- private:
-  struct Tally {
-    std::uint64_t seen = 0;
-    std::uint64_t first_untold = 0;
-  };
-  LogSink& sink_;
-  std::array<Tally, static_cast<std::size_t>(Trouble::count)> tallies_{};
-};
+using DataflashNotes = LogNotes<DataflashTrouble>;
 
 }  // namespace logs
 }  // namespace PLUMB_ABI

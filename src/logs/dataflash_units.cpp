@@ -83,16 +83,16 @@ double usual_factor(std::string_view label, char letter, bool is_time) noexcept 
   }
 }
 
-}  // namespace
-
-double number_at(const unsigned char* message, const Field& field) noexcept {
-  return field.present() ? raw_at(message + field.offset, field.letter) * field.factor : kAbsent;
-}
-
 std::string_view text_of(const unsigned char* bytes, std::size_t size) noexcept {
   const char* text = reinterpret_cast<const char*>(bytes);  // NOLINT(*-reinterpret-cast): bytes of a file as text
   const void* end = std::memchr(text, 0, size);
   return {text, end == nullptr ? size : static_cast<std::size_t>(static_cast<const char*>(end) - text)};
+}
+
+}  // namespace
+
+double number_at(const unsigned char* message, const Field& field) noexcept {
+  return field.present() ? raw_at(message + field.offset, field.letter) * field.factor : kAbsent;
 }
 
 std::string_view text_at(const unsigned char* message, const Field& field) noexcept {
@@ -105,7 +105,8 @@ std::string_view text_at(const unsigned char* message, const Field& field) noexc
 }
 
 /// A multiplier of FMTU holds for the number as it stands in the log: it replaces the hundredth that the letters c, C,
-/// e and E imply. What FMTU leaves open is taken as the label has it.
+/// e and E imply. What FMTU leaves open is taken as the label has it. NaN where FMTU names what is not known here: a
+/// reading of an unknown unit is no reading.
 double DataflashFormats::factor(std::uint8_t type, Layout& layout, std::size_t index, std::string_view label,
                                 Quantity quantity, std::uint64_t offset) {
   struct Unit {
@@ -135,21 +136,26 @@ double DataflashFormats::factor(std::uint8_t type, Layout& layout, std::size_t i
     if (candidate.quantity == quantity && candidate.label == unit_label) unit = &candidate;
   }
   const double multiplier = multiplier_id == 0 ? 0.0 : multipliers_[multiplier_id];
-  const bool known = unit != nullptr && !(multiplier < 0.0);
+  const bool is_open = unit_id == '-' || unit_id == '?';
+  const bool known = (unit != nullptr || is_open) && !(multiplier < 0.0);
+  const double unit_factor = unit != nullptr ? unit->factor : 1.0;
   double out = usual;
-  if (known && multiplier > 0.0) {
-    out = multiplier * unit->factor;
-  } else if (known && quantity != Quantity::time) {
-    out = usual * unit->factor;
+  if (!known) {
+    out = kAbsent;
+  } else if (multiplier > 0.0) {
+    out = multiplier * unit_factor;
+  } else if (quantity != Quantity::time) {
+    out = usual * unit_factor;
   }
   if (std::abs(out / usual - 1.0) < 1e-9) out = usual;  // 1e-6 and not what a product makes of it
-  if ((known && !(std::abs(out - usual) > 0.0)) || layout.units_told || !notes_.wants(Trouble::unit, offset))
+  if ((known && !(std::abs(out - usual) > 0.0)) || layout.units_told || !notes_.wanted(DataflashTrouble::unit, offset))
     return out;
   const std::string column = layout.name_text() + "." + std::string(label);
   const std::string stated = "has the unit '" + io::printable_line(unit_label) + "' and the multiplier '" +
                              io::printable_line({&unit_chars_[type].multipliers[index], multiplier_id == 0 ? 0U : 1U}) +
                              "'";
-  notes_.say(offset, column + " " + stated + (known ? ": converted" : ", one of them unknown here: taken as usual"));
+  notes_.say(offset,
+             column + " " + stated + (known ? ": converted" : ", one of them unknown here: its readings are left out"));
   return out;
 }
 

@@ -3,9 +3,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace logs {
-namespace {
 
-const char* words_of(UlogTrouble trouble) {
+const char* words_of(UlogTrouble trouble) noexcept {
   switch (trouble) {
     case UlogTrouble::header: return "the header";
     case UlogTrouble::flags: return "flag bits";
@@ -16,31 +15,13 @@ const char* words_of(UlogTrouble trouble) {
     case UlogTrouble::unknown_id: return "data without a subscription";
     case UlogTrouble::data_size: return "data of another size than their format";
     case UlogTrouble::lacking: return "topics that lack a field";
-    case UlogTrouble::value: return "readings that are none";
+    case UlogTrouble::value: return "readings that are not numbers, or are marked as invalid";
     case UlogTrouble::time: return "times that go back";
     case UlogTrouble::device: return "records of another device";
     case UlogTrouble::parameter: return "parameters";
-    case UlogTrouble::count_of_these: break;
+    case UlogTrouble::count: break;
   }
   return "";
-}
-
-}  // namespace
-
-bool UlogNotes::wanted(UlogTrouble trouble, std::uint64_t offset) {
-  Tally& tally = tallies_[static_cast<std::size_t>(trouble)];
-  ++tally.seen;
-  tally.last_offset = offset;
-  return tally.seen <= kMost;
-}
-
-void UlogNotes::sum_up() {
-  for (std::size_t k = 0; k < tallies_.size(); ++k) {
-    const Tally& tally = tallies_[k];
-    if (tally.seen <= kMost) continue;
-    sink_.note(tally.last_offset, std::to_string(tally.seen - kMost) + " more notes on " +
-                                      words_of(static_cast<UlogTrouble>(k)) + " are left out; the last is on this one");
-  }
 }
 
 }  // namespace logs

@@ -28,9 +28,9 @@ TEST(DataflashDamage, FindsItsWayAfterGarbage) {
   imu_at(log, 3e6);
   const Read out = read(log);
   EXPECT_EQ(out.heard.records.size(), 2U);  // what garbage follows may have been cut short
-  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.told();
+  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.all_notes();
   EXPECT_NE(out.heard.notes[0].what.find(std::to_string(bytes) + " bytes were passed over"), std::string::npos)
-      << out.heard.told();
+      << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, AMessageThatWasCutShortIsNotReadWithTheNextOnesBytes) {
@@ -44,7 +44,7 @@ TEST(DataflashDamage, AMessageThatWasCutShortIsNotReadWithTheNextOnesBytes) {
   const Read out = read(log);
   ASSERT_EQ(out.heard.records.size(), 4U);
   for (const auto& [source, record] : out.heard.records) EXPECT_EQ(record.specific_force_mps2[2], -9.75);
-  EXPECT_EQ(out.heard.notes.size(), 1U) << out.heard.told();
+  EXPECT_EQ(out.heard.notes.size(), 1U) << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, SkipsAMessageThatNoFmtDescribes) {
@@ -55,9 +55,9 @@ TEST(DataflashDamage, SkipsAMessageThatNoFmtDescribes) {
   imu_at(log, 2e6);
   const Read out = read(log);
   EXPECT_EQ(out.heard.records.size(), 2U);
-  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.told();
+  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.all_notes();
   EXPECT_EQ(out.heard.notes[0].offset, at);
-  EXPECT_NE(out.heard.notes[0].what.find("type 99: 8 bytes"), std::string::npos) << out.heard.told();
+  EXPECT_NE(out.heard.notes[0].what.find("type 99: 8 bytes"), std::string::npos) << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, TheSameTroubleIsToldFiveTimesAndThenCounted) {
@@ -68,8 +68,8 @@ TEST(DataflashDamage, TheSameTroubleIsToldFiveTimesAndThenCounted) {
   }
   const Read out = read(log);
   EXPECT_EQ(out.heard.records.size(), 100U);
-  ASSERT_EQ(out.heard.notes.size(), 6U) << out.heard.told();
-  EXPECT_NE(out.heard.notes[5].what.find("95 more"), std::string::npos) << out.heard.told();
+  ASSERT_EQ(out.heard.notes.size(), 6U) << out.heard.all_notes();
+  EXPECT_NE(out.heard.notes[5].what.find("95 more"), std::string::npos) << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, TakesAnFmtThatIsDefinedAnew) {
@@ -83,7 +83,7 @@ TEST(DataflashDamage, TakesAnFmtThatIsDefinedAnew) {
   const Read out = read(log);
   ASSERT_EQ(out.heard.records.size(), 3U);
   EXPECT_EQ(out.heard.records[2].second.specific_force_mps2, (Axes{1.0, 2.0, 3.0}));
-  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.told();
+  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.all_notes();
   EXPECT_EQ(out.heard.notes[0].offset, at);
 }
 
@@ -103,15 +103,15 @@ TEST(DataflashDamage, GoesOnPastAnFmtThatContradictsItself) {
   imu_at(rest, 2e6);
   const Read out = read(bytes + rest.bytes().substr(bytes.size()));
   ASSERT_TRUE(out.is_read);
-  ASSERT_EQ(out.heard.records.size(), 3U) << out.heard.told();
+  ASSERT_EQ(out.heard.records.size(), 3U) << out.heard.all_notes();
   EXPECT_EQ(out.heard.sources[0].name, "IMU[1]");
   EXPECT_EQ(out.heard.sources[1].name, "IMU[2]");
   EXPECT_DOUBLE_EQ(out.heard.records[1].second.time_s, 1.0);
   EXPECT_EQ(out.heard.sources[2].name, "IMU[0]");
-  EXPECT_EQ(out.heard.notes.size(), 5U) << out.heard.told();
-  EXPECT_EQ(out.heard.notes_with("length of 2 bytes"), 1U) << out.heard.told();
-  EXPECT_EQ(out.heard.notes_with("40 bytes long"), 1U) << out.heard.told();
-  EXPECT_EQ(out.heard.notes_with("unknown format letter '?'"), 1U) << out.heard.told();
+  EXPECT_EQ(out.heard.notes.size(), 5U) << out.heard.all_notes();
+  EXPECT_EQ(out.heard.notes_with("length of 2 bytes"), 1U) << out.heard.all_notes();
+  EXPECT_EQ(out.heard.notes_with("40 bytes long"), 1U) << out.heard.all_notes();
+  EXPECT_EQ(out.heard.notes_with("unknown format letter '?'"), 1U) << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, ReadingsThatAreNoNumberAreAbsent) {
@@ -124,7 +124,7 @@ TEST(DataflashDamage, ReadingsThatAreNoNumberAreAbsent) {
   ASSERT_EQ(out.heard.records.size(), 1U);
   EXPECT_EQ(out.heard.records[0].second.specific_force_mps2[0], 0.75);
   EXPECT_TRUE(std::isnan(out.heard.records[0].second.specific_force_mps2[1]));
-  EXPECT_EQ(out.heard.notes_with("no finite number"), 1U) << out.heard.told();
+  EXPECT_EQ(out.heard.notes_with("no finite number"), 1U) << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, ParametersWithoutANameAreLeftOut) {
@@ -135,7 +135,7 @@ TEST(DataflashDamage, ParametersWithoutANameAreLeftOut) {
   const Read out = read(log);
   ASSERT_EQ(out.heard.parameters.size(), 1U);
   EXPECT_EQ(out.heard.parameters[0].first, "SIXTEEN_LETTERS_");
-  EXPECT_EQ(out.heard.notes_with("\\x1b"), 1U) << out.heard.told();
+  EXPECT_EQ(out.heard.notes_with("\\x1b"), 1U) << out.heard.all_notes();
 }
 
 TEST(DataflashDamage, SaysWhereALogHasNoAccelerometer) {
@@ -163,9 +163,9 @@ TEST(DataflashDamage, RefusesWhatIsNone) {
     const Read out = read(bytes);
     ASSERT_FALSE(out.is_read) << what;
     EXPECT_NE(out.error.what.find(what), std::string::npos) << out.error.text();
-    EXPECT_TRUE(out.heard.notes.empty()) << out.heard.told();
+    EXPECT_TRUE(out.heard.notes.empty()) << out.heard.all_notes();
   }
-  Heard heard;
+  Told heard;
   EXPECT_FALSE(read_dataflash(testing::TempDir() + "no/such/file.bin", heard).has_value());
   EXPECT_FALSE(read_dataflash(testing::TempDir(), heard).has_value());
 }

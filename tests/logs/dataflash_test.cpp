@@ -22,7 +22,7 @@ TEST(Dataflash, HandsOnWhatAnImuMessageHolds) {
   imu_at(log, 1234567, 1);
   const Read out = read(log);
   ASSERT_TRUE(out.is_read);
-  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.told();
+  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.all_notes();
   ASSERT_EQ(out.heard.sources.size(), 1U);
   EXPECT_EQ(out.heard.sources[0].name, "IMU[1]");
   EXPECT_EQ(out.heard.sources[0].instance, 1);
@@ -40,14 +40,14 @@ TEST(Dataflash, HandsOnWhatAnImuMessageHolds) {
 TEST(Dataflash, KeepsInstancesAndMessagesApart) {
   const Read out = read(everything());
   ASSERT_TRUE(out.is_read);
-  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.told();
+  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.all_notes();
   ASSERT_EQ(out.heard.sources.size(), 4U);
   EXPECT_EQ(out.heard.sources[2].name, "IMU[2]");
   EXPECT_EQ(out.heard.sources[3].name, "ACC[1]");
   EXPECT_EQ(out.heard.sources[0].device_id, 2753028U);
   EXPECT_EQ(out.heard.sources[1].device_id, 0U);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(out.heard.of(k).size(), 4U);
-  const ImuRecord acc = out.heard.of(3)[0];
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(out.heard.records_of(k).size(), 4U);
+  const ImuRecord acc = out.heard.records_of(3)[0];
   EXPECT_DOUBLE_EQ(acc.time_s, 0.9999);  // when it was sampled, not when it was written
   EXPECT_EQ(acc.specific_force_mps2, (Axes{0.5, 0.25, -9.5}));
   EXPECT_TRUE(std::isnan(acc.rate_radps[0]));
@@ -57,7 +57,7 @@ TEST(Dataflash, KeepsInstancesAndMessagesApart) {
 }
 
 TEST(Dataflash, TheFirstLookAtClipsIsNoIncrement) {
-  const std::vector<ImuRecord> records = read(everything()).heard.of(2);
+  const std::vector<ImuRecord> records = read(everything()).heard.records_of(2);
   ASSERT_EQ(records.size(), 4U);
   EXPECT_EQ(records[0].clipped[0], 0U);
   EXPECT_EQ(records[1].clipped[0], 0U);
@@ -82,17 +82,17 @@ TEST(Dataflash, ReadsLogsWithoutInstanceColumn) {
   log.message(3, {2e6, 0.0, 1.0, 2.0, 3.0});
   const Read out = read(log);
   ASSERT_TRUE(out.is_read);
-  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.told();
+  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.all_notes();
   ASSERT_EQ(out.heard.sources.size(), 3U);
   EXPECT_EQ(out.heard.sources[0].name, "IMU[0]");
   EXPECT_EQ(out.heard.sources[1].name, "IMU[1]");
   EXPECT_EQ(out.heard.sources[1].device_id, 1442082U);
   EXPECT_EQ(out.heard.sources[2].name, "ACC[2]");
-  EXPECT_EQ(out.heard.of(0)[0].clipped[0], 0U);
-  EXPECT_EQ(out.heard.of(1)[0].clipped[0], 2U);
-  EXPECT_EQ(out.heard.of(2)[0].clipped[0], 3U);  // there is no IMU of the instance 2
-  EXPECT_EQ(out.heard.of(1)[0].temperature_degc, 30.0);
-  EXPECT_DOUBLE_EQ(out.heard.of(2)[0].time_s, 2.0);  // a driver that does not know when it sampled writes 0
+  EXPECT_EQ(out.heard.records_of(0)[0].clipped[0], 0U);
+  EXPECT_EQ(out.heard.records_of(1)[0].clipped[0], 2U);
+  EXPECT_EQ(out.heard.records_of(2)[0].clipped[0], 3U);  // there is no IMU of the instance 2
+  EXPECT_EQ(out.heard.records_of(1)[0].temperature_degc, 30.0);
+  EXPECT_DOUBLE_EQ(out.heard.records_of(2)[0].time_s, 2.0);  // a driver that does not know when it sampled writes 0
 }
 
 TEST(Dataflash, ReadsMilliseconds) {
@@ -123,7 +123,7 @@ TEST(Dataflash, ReadsEveryFormatLetterOfANumber) {
     const Read out = read(log);
     ASSERT_EQ(out.heard.records.size(), 1U) << c.letter;
     EXPECT_DOUBLE_EQ(out.heard.records[0].second.specific_force_mps2[2], c.read) << c.letter;
-    EXPECT_TRUE(out.heard.notes.empty()) << out.heard.told();
+    EXPECT_TRUE(out.heard.notes.empty()) << out.heard.all_notes();
   }
 }
 
@@ -141,9 +141,9 @@ TEST(Dataflash, ConvertsUnitsThatTheLogNames) {
   EXPECT_DOUBLE_EQ(record.rate_radps[2], 0.5 * 3.14159265358979323846 / 180.0);
   EXPECT_DOUBLE_EQ(record.specific_force_mps2[0], 0.75 * 0.5 * 0.01);
   EXPECT_EQ(record.specific_force_mps2[1], -1.5);
-  EXPECT_EQ(record.specific_force_mps2[2], -9.75);
-  EXPECT_EQ(out.heard.notes_with("converted"), 3U) << out.heard.told();  // once a column, not once a message
-  EXPECT_EQ(out.heard.notes_with("unknown"), 1U) << out.heard.told();
+  EXPECT_TRUE(std::isnan(record.specific_force_mps2[2]));                     // of a unit that nobody knows: no reading
+  EXPECT_EQ(out.heard.notes_with("converted"), 3U) << out.heard.all_notes();  // once a column, not once a message
+  EXPECT_EQ(out.heard.notes_with("unknown here: its readings are left out"), 1U) << out.heard.all_notes();
 }
 
 TEST(Dataflash, NotesAClockThatStartsAnew) {
@@ -156,7 +156,7 @@ TEST(Dataflash, NotesAClockThatStartsAnew) {
   imu_at(log, 3e6);
   const Read out = read(log);
   ASSERT_EQ(out.heard.records.size(), 3U);
-  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.told();
+  ASSERT_EQ(out.heard.notes.size(), 1U) << out.heard.all_notes();
   EXPECT_EQ(out.heard.notes[0].offset, second);
   EXPECT_NE(out.heard.notes[0].what.find("from 90.000 s to 2.000 s"), std::string::npos);
   EXPECT_EQ(out.heard.records[2].second.clipped[0], 0U);  // counts of another start are no increment
@@ -175,10 +175,10 @@ TEST(Dataflash, NotesErrorsThatGrowOncePerInstance) {
   }
   log.message(kDsf, {2e6, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   const Read out = read(log);
-  ASSERT_EQ(out.heard.notes.size(), 2U) << out.heard.told();
+  ASSERT_EQ(out.heard.notes.size(), 2U) << out.heard.all_notes();
   EXPECT_NE(out.heard.notes[0].what.find("IMU[0]"), std::string::npos);
-  EXPECT_NE(out.heard.notes[0].what.find("38 of the accelerometer"), std::string::npos) << out.heard.told();
-  EXPECT_NE(out.heard.notes[1].what.find("lost (DSF.Dp) from here on: 4"), std::string::npos) << out.heard.told();
+  EXPECT_NE(out.heard.notes[0].what.find("38 of the accelerometer"), std::string::npos) << out.heard.all_notes();
+  EXPECT_NE(out.heard.notes[1].what.find("lost (DSF.Dp) from here on: 4"), std::string::npos) << out.heard.all_notes();
 }
 
 TEST(Dataflash, FindsMessagesAcrossTheWindows) {
@@ -187,7 +187,7 @@ TEST(Dataflash, FindsMessagesAcrossTheWindows) {
   while (log.size() < (9U << 20U)) imu_at(log, 1e6 + 1000.0 * static_cast<double>(count++));
   const Read out = read(log);
   EXPECT_EQ(out.heard.records.size(), count);
-  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.told();
+  EXPECT_TRUE(out.heard.notes.empty()) << out.heard.all_notes();
 }
 
 }  // namespace

@@ -1,89 +1,32 @@
-/// What the tests of DataFlash logs share: a sink that keeps what it is told, and a log with everything in it.
+/// What the tests of DataFlash logs share: reading bytes, and a log with everything in it.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <fstream>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "dataflash_bytes.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/logs/flight_log.hpp"
+#include "told.hpp"
 
 namespace dataflash_test_support {
 
 using namespace plumb::logs;
+using namespace logs_told;
 using namespace dataflash_bytes;
 
-struct Note {
-  std::uint64_t offset;
-  std::string what;
-};
-
-struct Heard : LogSink {
-  void source(std::size_t number, const ImuSource& source) override {
-    EXPECT_EQ(number, sources.size());
-    sources.push_back(source);
-  }
-  void record(std::size_t number, const ImuRecord& record) override {
-    EXPECT_LT(number, sources.size());
-    records.emplace_back(number, record);
-  }
-  void parameter(const std::string& name, double value) override { parameters.emplace_back(name, value); }
-  void note(std::uint64_t offset, const std::string& what) override {
-    EXPECT_FALSE(what.empty());
-    EXPECT_EQ(what.find_first_of("\n\r\x1b"), std::string::npos) << what;
-    notes.push_back({offset, what});
-  }
-  /// Of the records of one source.
-  std::vector<ImuRecord> of(std::size_t number) const {
-    std::vector<ImuRecord> out;
-    for (const auto& [source, record] : records) {
-      if (source == number) out.push_back(record);
-    }
-    return out;
-  }
-  std::size_t notes_with(const std::string& text) const {
-    std::size_t count = 0;
-    for (const Note& note : notes) count += note.what.find(text) != std::string::npos ? 1U : 0U;
-    return count;
-  }
-  std::string told() const {
-    std::string out;
-    for (const Note& note : notes) out += std::to_string(note.offset) + ": " + note.what + "\n";
-    return out;
-  }
-
-  std::vector<ImuSource> sources;
-  std::vector<std::pair<std::size_t, ImuRecord>> records;
-  std::vector<std::pair<std::string, double>> parameters;
-  std::vector<Note> notes;
-};
-
 struct Read {
-  Heard heard;
+  Told heard;
   bool is_read = false;
   LogExtent extent;
   plumb::io::FileError error;
 };
 
-inline std::string file_of(const std::string& bytes) {
-  // Tests run side by side.
-  const std::string path = testing::TempDir() + "dataflash_" + std::to_string(::getpid()) + ".bin";
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
-}
-
 inline Read read(const std::string& bytes) {
   Read out;
-  const std::string path = file_of(bytes);
-  const auto extent = read_dataflash(path, out.heard);
+  const LogFile file(bytes);
+  const auto extent = read_dataflash(file.path(), out.heard);
   out.is_read = extent.has_value();
   if (extent) {
     out.extent = *extent;
@@ -92,36 +35,15 @@ inline Read read(const std::string& bytes) {
     EXPECT_EQ(extent->records, out.heard.records.size());
   } else {
     out.error = extent.error();
-    EXPECT_EQ(out.error.file, path);
+    EXPECT_EQ(out.error.file, file.path());
     EXPECT_FALSE(out.error.what.empty());
     EXPECT_FALSE(out.error.remedy.empty());
   }
   for (const Note& note : out.heard.notes) EXPECT_LE(note.offset, bytes.size()) << note.what;
-  std::remove(path.c_str());
   return out;
 }
 
 inline Read read(const Log& log) { return read(log.bytes()); }
-
-inline bool same(double a, double b) { return (std::isnan(a) && std::isnan(b)) || !(std::abs(a - b) > 0.0); }
-
-inline bool same(const ImuRecord& a, const ImuRecord& b) {
-  bool out = same(a.time_s, b.time_s) && same(a.temperature_degc, b.temperature_degc) && a.clipped == b.clipped;
-  for (std::size_t k = 0; k < 3; ++k) {
-    out = out && same(a.specific_force_mps2[k], b.specific_force_mps2[k]) && same(a.rate_radps[k], b.rate_radps[k]);
-  }
-  return out;
-}
-
-inline void expect_prefix(const Heard& part, const Heard& whole) {
-  ASSERT_LE(part.records.size(), whole.records.size());
-  for (std::size_t k = 0; k < part.records.size(); ++k) {
-    ASSERT_EQ(part.records[k].first, whole.records[k].first);
-    ASSERT_TRUE(same(part.records[k].second, whole.records[k].second)) << k;
-  }
-  ASSERT_LE(part.parameters.size(), whole.parameters.size());
-  for (std::size_t k = 0; k < part.parameters.size(); ++k) ASSERT_EQ(part.parameters[k], whole.parameters[k]);
-}
 
 /// A log with everything that is read, some hundred messages.
 inline Log everything() {

@@ -150,7 +150,7 @@ void expect_log(const std::string& name, const std::vector<Expected>& sources, s
   EXPECT_EQ(told.parameters.size(), parameters);
   EXPECT_EQ(told.sources.size(), sources.size());
   for (const Expected& source : sources) {
-    const std::size_t number = told.of(source.name);
+    const std::size_t number = told.number_of(source.name);
     ASSERT_LT(number, told.sources.size()) << source.name;
     EXPECT_EQ(told.sources[number].device_id, source.device) << source.name;
     const auto records = told.records_of(source.name);

@@ -1,83 +1,22 @@
-/// Who is told what a log holds and keeps it, and small logs of PX4 to tell, for tests.
+/// Small logs of PX4, and what they tell, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <fstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "plumb/logs/flight_log.hpp"
+#include "told.hpp"
 #include "ulog_bytes.hpp"
 
 namespace ulog_told {
 
 using namespace plumb;
 using namespace plumb::logs;
+using namespace logs_told;
 using namespace ulog_bytes;
-
-struct Told final : LogSink {
-  std::vector<ImuSource> sources;
-  std::vector<std::pair<std::size_t, ImuRecord>> records;
-  std::vector<std::pair<std::string, double>> parameters;
-  std::vector<std::pair<std::uint64_t, std::string>> notes;
-
-  void source(std::size_t number, const ImuSource& source) override {
-    EXPECT_EQ(number, sources.size());
-    sources.push_back(source);
-  }
-  void record(std::size_t number, const ImuRecord& record) override {
-    EXPECT_LT(number, sources.size());
-    records.emplace_back(number, record);
-  }
-  void parameter(const std::string& name, double value) override { parameters.emplace_back(name, value); }
-  void note(std::uint64_t offset, const std::string& what) override { notes.emplace_back(offset, what); }
-
-  std::size_t of(const std::string& name) const {
-    const auto found =
-        std::find_if(sources.begin(), sources.end(), [&](const ImuSource& one) { return one.name == name; });
-    return static_cast<std::size_t>(found - sources.begin());
-  }
-  std::vector<ImuRecord> records_of(const std::string& name) const {
-    std::vector<ImuRecord> out;
-    for (const auto& one : records) {
-      if (one.first == of(name)) out.push_back(one.second);
-    }
-    return out;
-  }
-  bool noted(const std::string& words) const {
-    return std::any_of(notes.begin(), notes.end(),
-                       [&](const auto& note) { return note.second.find(words) != std::string::npos; });
-  }
-  std::string all_notes() const {
-    std::string out;
-    for (const auto& note : notes) out += std::to_string(note.first) + ": " + note.second + "\n";
-    return out;
-  }
-};
-
-/// In the directory of temporary files, and gone with it.
-class LogFile {
- public:
-  explicit LogFile(const std::string& bytes)
-      : path_(::testing::TempDir() + "ulog_test_" + std::to_string(::getpid()) + ".ulg") {
-    std::ofstream(path_, std::ios::binary) << bytes;
-  }
-  LogFile(const LogFile&) = delete;
-  LogFile& operator=(const LogFile&) = delete;
-  ~LogFile() { std::remove(path_.c_str()); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 inline io::FileExpected<LogExtent> read_bytes(const std::string& bytes, Told& told) {
   const LogFile file(bytes);
