@@ -68,7 +68,8 @@ struct LogExtent {
 /// at all; what is damaged or cut short is noted, and what could be read is handed on.
 io::FileExpected<LogExtent> read_ulog(const std::string& path, LogSink& sink);
 
-/// ArduPilot's DataFlash log (.bin), read as `read_ulog` reads.
+/// ArduPilot's DataFlash log (.bin), read as `read_ulog` reads. It counts the clips of a chip, not of an axis: all of
+/// them stand in `clipped[0]`. A reading of a unit that is not known here is absent, and that is noted.
 io::FileExpected<LogExtent> read_dataflash(const std::string& path, LogSink& sink);
 
 }  // namespace logs
