@@ -31,6 +31,7 @@ struct ImuSource {
   int instance = 0;             ///< counted from 0, as the log counts
   std::uint64_t device_id = 0;  ///< 0 where the log does not say
   RecordKind kind = RecordKind::sample;
+  bool uncalibrated = false;  ///< readings before the calibration that is installed in the autopilot
 };
 
 /// What is absent is NaN, or 0 where it counts.
