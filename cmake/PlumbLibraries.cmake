@@ -197,7 +197,12 @@ plumb_sources(logs_sources logs)
 if(TARGET plumb_io AND logs_sources)
   add_library(plumb_logs STATIC ${logs_sources})
   plumb_library(plumb_logs logs)
-  target_link_libraries(plumb_logs PUBLIC plumb_io plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_find_header(TARGET plumb_zstd HEADER zstd.h DEBIAN libzstd-dev)
+  plumb_find_header(TARGET plumb_lz4 HEADER lz4frame.h DEBIAN liblz4-dev)
+  plumb_find_header(TARGET plumb_sqlite3 HEADER sqlite3.h DEBIAN libsqlite3-dev)
+  target_link_libraries(plumb_logs PUBLIC plumb_io plumb_24
+    PRIVATE "$<BUILD_INTERFACE:Boost::headers>" "$<BUILD_INTERFACE:plumb_deflate>" deflate
+      "$<BUILD_INTERFACE:plumb_zstd>" zstd "$<BUILD_INTERFACE:plumb_lz4>" lz4 "$<BUILD_INTERFACE:plumb_sqlite3>" sqlite3)
   plumb_batch(plumb_logs)
 endif()
 
