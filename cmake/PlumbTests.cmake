@@ -190,7 +190,7 @@ endif()
 
 # Another one: coefficients need files and nothing above them.
 if(TARGET plumb_coefficients)
-  plumb_test_executable(plumb_coefficients_tests LABEL host ROOMS coefficients LIBRARIES plumb_coefficients plumb_io plumb_24
+  plumb_test_executable(plumb_coefficients_tests LABEL host ROOMS coefficients LIBRARIES plumb_coefficients plumb_logs plumb_io plumb_24
     LONGER CoefficientLaws.*)
 endif()
 

@@ -64,7 +64,6 @@ std::vector<ChipCoefficients> ardupilot_chips(const Parameters& parameters, std:
     // Instances that the vehicle does not have are id 0, with the other parameters at their defaults.
     const bool stated = parameters.has(names.chip + "OFFS_X") && !parameters.has(names.chip + "_ID");
     if (parameters.value_or(names.chip + "_ID", 0.0) == 0.0 && !stated) continue;
-    bool untouched = true;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string scale = names.chip + "SCAL_" + kAxis[k];
       chip.offset[0][k] = parameters.need(names.chip + "OFFS_" + kAxis[k]);
@@ -72,9 +71,8 @@ std::vector<ChipCoefficients> ardupilot_chips(const Parameters& parameters, std:
       if (!(chip.matrix[4 * k] > 0.0))
         parameters.refuse(scale, "is " + io::brief(chip.matrix[4 * k]) + ", must be above 0",
                           "calibrate the accelerometers of the vehicle again");
-      untouched = untouched && chip.offset[0][k] == 0.0 && chip.matrix[4 * k] == 1.0;
     }
-    if (untouched) notes.push_back(chip.name + " has offsets 0 and scales 1, as before any calibration");
+    if (is_untouched(chip)) notes.push_back(chip.name + kUntouched);
     const double thermal = parameters.value_or(names.thermal + "ENABLE", 0.0);
     if (thermal == 1.0) add_thermal(parameters, names, chip);
     if (thermal == 2.0)

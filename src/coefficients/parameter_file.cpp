@@ -100,6 +100,8 @@ std::string parameter_prefix(Form form, int instance) {
   return "INS_ACC" + (instance > 1 ? number : "");
 }
 
+bool is_untouched(const ChipCoefficients& chip) noexcept { return chip.offset[0] == Vec3{} && chip.matrix == kNoTurn; }
+
 Parameters parse_parameters(const std::string& text, const std::string& path, Form form) {
   Parameters out(path);
   int line = 0;

@@ -46,6 +46,10 @@ Parameters parse_parameters(const std::string& text, const std::string& path, Fo
 /// How an accelerometer is called in the names of its parameters: "CAL_ACC0", "INS_ACC", "INS_ACC2", "INS4_ACC".
 std::string parameter_prefix(Form form, int instance);
 
+/// As before any calibration.
+inline constexpr const char* kUntouched = " has offsets 0 and scales 1, as before any calibration";
+bool is_untouched(const ChipCoefficients& chip) noexcept;
+
 /// The chips of them; what is not taken over goes to `notes`. Throw a Refusal.
 std::vector<ChipCoefficients> px4_chips(const Parameters& parameters, std::vector<std::string>& notes);
 std::vector<ChipCoefficients> ardupilot_chips(const Parameters& parameters, std::vector<std::string>& notes);

@@ -66,6 +66,7 @@ std::vector<ChipCoefficients> px4_chips(const Parameters& parameters, std::vecto
         parameters.refuse(scale, "is " + io::brief(chip.matrix[4 * k]) + ", must be above 0",
                           "calibrate the accelerometers of the vehicle again");
     }
+    if (is_untouched(chip)) notes.push_back(chip.name + kUntouched);
     note_unused(parameters, chip.name, notes);
     if (parameters.value_or("TC_A_ENABLE", 0.0) == 1.0) add_thermal(parameters, id, chip, notes);
     out.push_back(chip);
