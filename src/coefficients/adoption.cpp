@@ -205,9 +205,23 @@ TemperatureSpan span_of(const io::ArrayFile& array, const std::vector<SensorStat
   return {t_ref, t_ref};
 }
 
+/// PX4 (commander/accelerometer_calibration) and ArduPilot (AccelCalibrator) take 9.80665 m/s^2 for the length of
+/// gravity where they calibrate, and nobody says where that was: near here, as far as one can tell.
+double common_scale_of(const io::ArrayFile& array, const std::vector<CoefficientFile>& files,
+                       std::vector<std::string>& notes) {
+  const bool of_autopilot = std::any_of(files.begin(), files.end(), [](const CoefficientFile& file) {
+    return file.form == Form::px4 || file.form == Form::ardupilot;
+  });
+  if (!of_autopilot) return 0.0;
+  const double off = std::fabs(kG0_mps2 / array.gravity.g_mps2 - 1.0);
+  notes.push_back("autopilots calibrate against 9.80665 m/s^2, and gravity here is " + io::brief(array.gravity.g_mps2) +
+                  ": a scale common to all sensors of " + io::brief(1e6 * off, 3) + " ppm is allowed for, 1 sigma");
+  return off;
+}
+
 /// In the covariance of the array, as the priors of a datasheet are.
 Calibration calibration_of(const io::ArrayFile& array, const std::vector<SensorStatement>& sensors,
-                           const TemperatureSpan& span) {
+                           const TemperatureSpan& span, double common_scale) {
   Datasheet stated = array.datasheet;
   for (const SensorStatement& one : sensors) {
     DatasheetSensor& sensor = stated.sensor[at(one.sensor)];
@@ -227,7 +241,9 @@ Calibration calibration_of(const io::ArrayFile& array, const std::vector<SensorS
   Calibration out;
   out.model = stated.model();
   out.array = *rows;
-  out.array.set_uncertainty(stated.uncertainty());
+  RowUncertainty uncertainty = stated.uncertainty();
+  uncertainty.common_scale = common_scale;
+  out.array.set_uncertainty(uncertainty);
   FitReport& report = out.report;
   report.parameters = 4 * stated.size;
   report.temperature_min_degc = span.min_degc;
@@ -277,7 +293,8 @@ Adoption adopted(const io::ArrayFile& array, const std::vector<CoefficientFile>&
     check_plausible(array, one);
   }
   out.span = span_of(array, out.sensors, choice, out.notes);
-  out.calibration = calibration_of(array, out.sensors, out.span);
+  out.common_scale = common_scale_of(array, files, out.notes);
+  out.calibration = calibration_of(array, out.sensors, out.span, out.common_scale);
   return out;
 }
 

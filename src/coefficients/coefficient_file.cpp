@@ -70,8 +70,11 @@ CoefficientFile of_parameters(const Parameters& parameters, Form form, const std
   return out;
 }
 
-CoefficientFile parsed(const std::string& text, const std::string& path, const io::ArrayFile& array,
+CoefficientFile parsed(const std::string& bytes, const std::string& path, const io::ArrayFile& array,
                        std::optional<Form> stated, int file_number) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  const bool marked = bytes.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0;
+  const std::string text = marked ? bytes.substr(kByteOrderMark.size()) : bytes;
   const Form form = stated ? *stated : detected(text, path);
   CoefficientFile out;
   if (form == Form::px4 || form == Form::ardupilot) {
@@ -83,8 +86,8 @@ CoefficientFile parsed(const std::string& text, const std::string& path, const i
   }
   out.path = path;
   out.form = form;
-  out.bytes = text.size();
-  out.hash = io::fnv1a(text.data(), text.size());
+  out.bytes = bytes.size();
+  out.hash = io::fnv1a(bytes.data(), bytes.size());
   return out;
 }
 

@@ -1,6 +1,7 @@
 // The table of coefficients as JSON: the keys of the array file, with `sigma` for the uncertainties.
 #include <exception>
 
+#include "../io/calibration_json.hpp"
 #include "../io/text_tools.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/units.hpp"
@@ -154,7 +155,7 @@ std::string json_text(const std::vector<TableRow>& rows) {
     if (!sigma.empty()) one["sigma"] = std::move(sigma);
     sensors.push_back(std::move(one));
   }
-  return io::object({{"schema", kSchema}, {"version", kVersion}, {"sensors", std::move(sensors)}}).dump(1) + "\n";
+  return io::printed(io::object({{"schema", kSchema}, {"version", kVersion}, {"sensors", std::move(sensors)}})) + "\n";
 }
 
 }  // namespace coefficients

@@ -158,6 +158,7 @@ io::Json adoption_json(const Adoption& adoption, const io::ArrayFile& array) {
                      {"validated", false},
                      {"temperature_min_degc", adoption.span.min_degc},
                      {"temperature_max_degc", adoption.span.max_degc},
+                     {"common_scale_sigma", adoption.common_scale},
                      {"chips", chips_json(adoption.chips, adoption.chip_names, array)},
                      {"sensors", std::move(sensors)},
                      {"notes", adoption.notes}});

@@ -10,8 +10,9 @@ const std::string kGood = px4_text(0, {0.1, 0.0, 0.0}, {1.0, 1.0, 1.0});
 
 TEST(Adoption, TheUncertaintyStatedIsThatOfTheCalibration) {
   const auto array = drone();
-  const auto found = adopted(array, kGood);
+  const auto found = adopted(array, "id,scale,bias\nx1,1,0 mg\ny1,1,0 mg\nz1,1,0 mg\n");
   ASSERT_TRUE(found.has_value()) << found.error().text();
+  EXPECT_EQ(found->common_scale, 0.0);
   const plumb::SensorArray& rows = found->calibration.array;
   // Of the sensor along x: scale 1e-3 along x, axis 0.01 along y and z, bias 0.05.
   const double expected[] = {1e-6, 1e-4, 1e-4, 2.5e-3};
@@ -22,6 +23,16 @@ TEST(Adoption, TheUncertaintyStatedIsThatOfTheCalibration) {
   // e_cal: sqrt(G^2 (1e-6 + 2e-4) / 3 + 0.05^2).
   EXPECT_NEAR(found->calibration.report.e_cal_mps2[0], std::sqrt(9.81 * 9.81 * 2.01e-4 / 3.0 + 2.5e-3), 1e-15);
   EXPECT_DOUBLE_EQ(rows.sigma_mps2(0), 0.5e-3 * 9.80665);
+}
+
+TEST(Adoption, AutopilotsCalibrateAgainstG0AndThatIsAllowedFor) {
+  const auto found = adopted(drone(), kGood);
+  ASSERT_TRUE(found.has_value()) << found.error().text();
+  const double off = 1.0 - 9.80665 / 9.81;
+  EXPECT_NEAR(found->common_scale, off, 1e-15);
+  EXPECT_NEAR(found->calibration.array.row_covariance(0, 0), 1e-6 + off * off, 1e-18);
+  EXPECT_NEAR(found->calibration.array.row_covariance(0, 5), off * off, 1e-18) << "x1 and y1 have it in common";
+  EXPECT_NE(found->notes.back().find("341 ppm is allowed for"), std::string::npos) << found->notes.back();
 }
 
 TEST(Adoption, TheNoiseIsThatOfTheArrayFileInTheNewScale) {
@@ -127,7 +138,8 @@ TEST(Adoption, TheTemperaturesAreThoseStated) {
   ASSERT_TRUE(alone.has_value());
   EXPECT_EQ(alone->span.min_degc, 25.0);
   EXPECT_EQ(alone->span.max_degc, 25.0);
-  EXPECT_NE(alone->notes.back().find("25 degC alone"), std::string::npos);
+  ASSERT_EQ(alone->notes.size(), 3U);
+  EXPECT_NE(alone->notes[1].find("25 degC alone"), std::string::npos);
   pc::AdoptionChoice choice = usual_choice();
   choice.span = pc::TemperatureSpan{-10.0, 60.0};
   const auto stated = adopted(array, kGood, choice);

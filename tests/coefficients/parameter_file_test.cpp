@@ -56,7 +56,7 @@ TEST(Px4Coefficients, AreReadAsGroundStationsWriteThem) {
       "1\t1\tCAL_ACC0_ZOFF\t0\t9\r\n1\t1\tCAL_ACC0_ZSCALE\t1\t9\r\n1\t1\tCAL_ACC1_ID\t0\t6\r\n"
       "1\t1\tCAL_GYRO0_XOFF\t0.01\t9\r\n";
   for (const std::string& text :
-       std::vector<std::string>{columns, px4_text(0, {0.5, 0.0, 0.0}, {1.25, 1.0, 1.0}),
+       std::vector<std::string>{columns, "\xef\xbb\xbf" + columns, px4_text(0, {0.5, 0.0, 0.0}, {1.25, 1.0, 1.0}),
                                 "CAL_ACC0_XOFF=0.5\nCAL_ACC0_XSCALE = 1.25 # by hand\nCAL_ACC0_YOFF,0\n"
                                 "CAL_ACC0_YSCALE,1\nCAL_ACC0_ZOFF 0\nCAL_ACC0_ZSCALE 1"}) {
     const auto file = pc::parse_coefficients(text, "v.params", array);

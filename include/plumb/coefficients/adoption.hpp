@@ -27,6 +27,8 @@ struct Adoption {
   std::vector<std::string> chip_names;   ///< of these, in the file: "CAL_ACC0"
   std::vector<std::string> notes;        ///< what is not taken over, and what holds only as far as stated
   TemperatureSpan span;
+  /// Autopilots calibrate against g0 wherever they are: 1 sigma of the scale that all sensors share for it, else 0.
+  double common_scale = 0.0;
   std::string forms;                  ///< "px4", "px4, csv"
   std::string file_name;              ///< without folders; of several: all of them
   std::uint64_t bytes = 0, hash = 0;  ///< of the files: all bytes, and of several the hash of their hashes
