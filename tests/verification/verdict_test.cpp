@@ -208,9 +208,18 @@ TEST(VerificationVerdict, APredictedCalibrationIsOpenAndSaysWhatToRecord) {
 }
 
 TEST(VerificationVerdict, CoefficientsThatNothingHasTestedAreOpen) {
-  EXPECT_EQ(verdict_of([](Facts& f) { f.calibration = {true, "calibration file", "", ""}; }), Result::met);
-  EXPECT_EQ(verdict_of([](Facts& f) { f.calibration = {true, "known coefficients", "", ""}; }), Result::open);
-  EXPECT_EQ(verdict_of([](Facts& f) { f.calibration = {false, "known coefficients", "why", ""}; }), Result::not_met);
+  EXPECT_EQ(verdict_of([](verification::Facts& f) {
+              f.calibration = {true, "calibration file", "", ""};
+            }),
+            Result::met);
+  EXPECT_EQ(verdict_of([](verification::Facts& f) {
+              f.calibration = {true, "known coefficients", "", ""};
+            }),
+            Result::open);
+  EXPECT_EQ(verdict_of([](verification::Facts& f) {
+              f.calibration = {false, "known coefficients", "why", ""};
+            }),
+            Result::not_met);
 }
 
 /// The verdict that is written is that on the figures which the sections show.
