@@ -35,11 +35,11 @@ constexpr const char* kImportAbout =
     "log.csv with one row for each instant, the readings of all chips aligned in time.";
 constexpr const char* kImportNotes =
     "Rows have the instants of the slowest chip; the others are interpolated to them, and cells across a gap stay\n"
-    "empty. What the log holds before the autopilot's own calibration comes with installed.params, for\n"
-    "plumb calibrate --from.\n\n"
+    "empty. What is known of the calibration comes with them, for plumb calibrate --from: installed.params with the\n"
+    "autopilot's parameters where the log holds readings before them, else corrected.csv. The last lines say what to\n"
+    "run next.\n\n"
     "Examples:\n"
     "  plumb import flight.ulg --out flight\n"
-    "  plumb monitor --array flight/array.toml --calibrate-first --log flight/log.csv\n"
     "  plumb import flight.ulg --message sensor_accel --align nearest --out raw\n\n";
 
 io::FileError failed(const std::string& file, std::string what, std::string remedy, io::ExitCode code) {
@@ -143,27 +143,35 @@ io::FileExpected<void> read_gravity(ImportOptions& options) {
   return {};
 }
 
+/// The file beside the log with what is known of its calibration.
+std::string coefficients_path(const ImportOptions& options, const review::ImportPlan& plan) {
+  return (fs::path(options.out) / (plan.uncalibrated ? "installed.params" : "corrected.csv")).string();
+}
+
 std::string next_words(const ImportOptions& options, const review::ImportPlan& plan) {
-  const std::string array = (fs::path(options.out) / "array.toml").string();
-  const std::string log = (fs::path(options.out) / "log.csv").string();
-  std::string out = "\nNext:\n";
-  if (!plan.parameters_text.empty()) {
-    out += fmt::format(
-        "  plumb calibrate --array {} --from {} --uncertainty \"bias=10 mg, scale=2000 ppm, axis=0.5 deg\" --out {}\n",
-        io::shell_word(array), io::shell_word((fs::path(options.out) / "installed.params").string()),
-        io::shell_word((fs::path(options.out) / "calibration.json").string()));
+  const std::string array = io::shell_word((fs::path(options.out) / "array.toml").string());
+  const std::string log = io::shell_word((fs::path(options.out) / "log.csv").string());
+  if (plan.coefficients_text.empty()) {
+    return fmt::format("\nNext:\n  plumb monitor --array {} --calibrate-first --log {}\n", array, log);
   }
-  return out + fmt::format("  plumb monitor --array {} --calibrate-first --log {}\n", io::shell_word(array),
-                           io::shell_word(log));
+  const std::string calibration = io::shell_word((fs::path(options.out) / "calibration.json").string());
+  return fmt::format(
+      "\nNext:\n  plumb calibrate --array {} --from {}{} --out {}\n  plumb monitor --array {} --calibration {} --log "
+      "{}\n",
+      array, io::shell_word(coefficients_path(options, plan)),
+      plan.uncalibrated ? " --uncertainty \"bias=0.05 m/s^2, scale=0.5 %, axis=0.5 deg\"" : "", calibration, array,
+      calibration, log);
 }
 
 io::ExitCode run_import(ImportOptions& options) {
   if (const io::FileExpected<void> gravity = read_gravity(options); !gravity) return report(gravity.error());
   const std::string array_path = (fs::path(options.out) / "array.toml").string();
   const std::string params_path = (fs::path(options.out) / "installed.params").string();
+  const std::string table_path = (fs::path(options.out) / "corrected.csv").string();
   const std::string log_path = (fs::path(options.out) / "log.csv").string();
   if (const std::optional<io::FileError> clash =
-          overwritten({{"--out", array_path}, {"--out", params_path}, {"--out", log_path}}, {{"LOG", options.log}}))
+          overwritten({{"--out", array_path}, {"--out", params_path}, {"--out", table_path}, {"--out", log_path}},
+                      {{"LOG", options.log}}))
     return report(*clash);
   const io::FileExpected<review::LogDigest> digest = review::digest_log(options.log);
   if (!digest) return report(digest.error());
@@ -180,10 +188,12 @@ io::ExitCode run_import(ImportOptions& options) {
   if (plan->left_out > 0)
     print_error(
         fmt::format("plumb: {} left out: an array has 24 sensors at most.\n", count_text(plan->left_out, "chip")));
-  if (!plan->parameters_text.empty()) {
-    if (const io::FileExpected<void> kept = io::write_file(params_path, plan->parameters_text); !kept)
+  if (!plan->coefficients_text.empty()) {
+    const std::string path = coefficients_path(options, *plan);
+    if (const io::FileExpected<void> kept = io::write_file(path, plan->coefficients_text); !kept)
       return report(kept.error());
-    print(fmt::format("{}: the calibration that is installed in the autopilot\n", params_path));
+    print(path + (plan->uncalibrated ? ": the calibration that is installed in the autopilot\n"
+                                     : ": the readings have the autopilot's calibration; what it may be off by\n"));
   }
   const io::FileExpected<std::string> written = write_log(options, *digest, *plan, array_path);
   if (!written) return report(written.error());

@@ -22,6 +22,8 @@ constexpr double kUnknownScatter_mps2 = 0.05;
 constexpr double kLeastScatter_mps2 = 0.002;
 /// A block of the monitor is about this long, and has 32 rows where it can.
 constexpr double kBlock_s = 2.0;
+/// What an accelerometer is off by after an autopilot's calibration by hand, 1 sigma: bias, scale, axis.
+constexpr const char* kCorrectedUncertainty = "0.05 m/s^2,0.5 %,0.5 deg";
 
 std::string family_of(const std::string& source) { return source.substr(0, source.find('[')); }
 
@@ -119,6 +121,16 @@ std::string parameters_of(const LogDigest& digest) {
   return out;
 }
 
+/// Readings that the autopilot has corrected already: nothing is left but what its own calibration is off by.
+std::string corrected_coefficients(std::size_t chips) {
+  std::string out = "id,scale,bias,sigma_bias,sigma_scale,sigma_axis\n";
+  for (std::size_t chip = 0; chip < chips; ++chip) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      out += fmt::format("{}{},1,0 m/s^2,{}\n", static_cast<char>('x' + axis), chip, kCorrectedUncertainty);
+  }
+  return out;
+}
+
 }  // namespace
 
 io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogReview& found,
@@ -155,7 +167,8 @@ io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogRevie
     plan.uncalibrated = plan.uncalibrated || source.source.uncalibrated;
   }
   plan.array_text = head_of(digest, plan, settings) + sensors_of(digest, plan, found);
-  if (plan.uncalibrated && !digest.parameters.empty()) plan.parameters_text = parameters_of(digest);
+  if (!plan.uncalibrated) plan.coefficients_text = corrected_coefficients(plan.sources.size());
+  if (plan.uncalibrated && !digest.parameters.empty()) plan.coefficients_text = parameters_of(digest);
   return plan;
 }
 

@@ -25,10 +25,12 @@ struct ImportPlan {
   std::vector<double> longest_gap_s;
   std::size_t rates_from = kNoChip;  ///< the source with the rates that are taken
   bool temperature = false;
-  bool uncalibrated = false;    ///< the readings are those before the autopilot's calibration
-  std::size_t left_out = 0;     ///< chips beyond what an array can have
-  std::string array_text;       ///< three sensors for each chip along x, y and z; chips as packages
-  std::string parameters_text;  ///< those of the installed calibration, as QGroundControl writes them; "" without need
+  bool uncalibrated = false;  ///< the readings are those before the autopilot's calibration
+  std::size_t left_out = 0;   ///< chips beyond what an array can have
+  std::string array_text;     ///< three sensors for each chip along x, y and z; chips as packages
+  /// For `plumb calibrate --from`: the parameters of the installed calibration, as QGroundControl writes them, or for
+  /// readings that have it already a table of scale 1 and bias 0; "" where the log has neither.
+  std::string coefficients_text;
 };
 
 /// Refused where the log has no accelerometer, or none in `message`; the error has no file name.
