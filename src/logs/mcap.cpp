@@ -47,9 +47,13 @@ class McapReader {
   /// The head of a chunk and its packed bytes as far as they are there; null where it contradicts itself.
   const unsigned char* chunk_at(std::uint64_t offset, std::uint64_t size, McapChunk& out, std::uint64_t& there);
   void read_records();
-  void take(const Head& head);
+  /// Whether a record may be what its head says it is: an end that is none would cost all that follows.
+  bool is_sound(const Head& head) const noexcept;
+  /// Where the next one begins.
+  std::uint64_t take(const Head& head);
   void take_small(const Head& head);
-  void take_chunk(const Head& head);
+  std::uint64_t take_chunk(const Head& head);
+  void count(const Head& head);
   void mend(const Head& head);
   bool is_chain(std::uint64_t offset);
   std::uint64_t next_record(std::uint64_t from);
@@ -93,7 +97,8 @@ const unsigned char* McapReader::chunk_at(std::uint64_t offset, std::uint64_t si
   return file_.at(begin + chunk->head, static_cast<std::size_t>(there));
 }
 
-void McapReader::take_chunk(const Head& head) {
+std::uint64_t McapReader::take_chunk(const Head& head) {
+  const std::uint64_t end = at_ + kMcapHead + head.size;
   McapChunk chunk;
   std::uint64_t there = 0;
   const unsigned char* packed = chunk_at(at_, head.size, chunk, there);
@@ -101,9 +106,15 @@ void McapReader::take_chunk(const Head& head) {
     if (notes_.wanted(RosTrouble::chunk, at_))
       notes_.say(at_, "the head of a chunk contradicts its size of " + std::to_string(head.size) +
                           " bytes, the chunk is left out");
-    return;
+    return end;
   }
   content_.chunk(chunk, packed, there, at_);
+  const std::uint64_t own_end = at_ + kMcapHead + chunk.head + chunk.packed;
+  if (own_end == end || !is_chain(own_end)) return end;
+  if (notes_.wanted(RosTrouble::chunk, at_))
+    notes_.say(at_, "a chunk of " + std::to_string(head.size) + " bytes ends at byte " + std::to_string(own_end) +
+                        " by its content, the log is read on from there");
+  return own_end;
 }
 
 /// Schemas, channels, and messages outside of chunks.
@@ -122,18 +133,38 @@ void McapReader::take_small(const Head& head) {
     notes_.say(at_, "a record has " + std::to_string(head.size) + " bytes, more than 16 MiB, it is left out");
 }
 
-void McapReader::take(const Head& head) {
+bool McapReader::is_sound(const Head& head) const noexcept {
+  constexpr std::uint64_t kFooter = 20;
+  constexpr std::uint64_t kLongestDataEnd = 64;  // 4, and fields of a later version
+  if (!is_mcap_op(head.op) || head.size > size_ - at_ - kMcapHead) return false;
+  if (head.op == static_cast<unsigned char>(McapOp::footer)) return head.size == kFooter;
+  return head.op != static_cast<unsigned char>(McapOp::data_end) || head.size <= kLongestDataEnd;
+}
+
+/// The statistics say how many messages there are: what was lost without a trace is found out.
+void McapReader::count(const Head& head) {
+  const unsigned char* bytes = head.size < 8 ? nullptr : file_.at(at_ + kMcapHead, 8);
+  if (bytes == nullptr) return;
+  const std::uint64_t stated = mcap_whole(bytes, 8);
+  if (stated != content_.messages() && notes_.wanted(RosTrouble::record, at_))
+    notes_.say(at_, "the log says that it has " + std::to_string(stated) + " messages, " +
+                        std::to_string(content_.messages()) + " were found");
+}
+
+std::uint64_t McapReader::take(const Head& head) {
   switch (static_cast<McapOp>(head.op)) {
     case McapOp::schema:
     case McapOp::channel:
     case McapOp::message:
       if (!in_summary_) take_small(head);
-      return;
+      break;
     case McapOp::chunk: return take_chunk(head);
-    case McapOp::data_end: in_summary_ = true; return;
-    case McapOp::footer: has_footer_ = true; return;
-    case McapOp::header: return;
+    case McapOp::data_end: in_summary_ = true; break;
+    case McapOp::statistics: count(head); break;
+    case McapOp::footer: has_footer_ = true; break;
+    case McapOp::header: break;
   }
+  return at_ + kMcapHead + head.size;
 }
 
 /// Whether records follow one another from here on, or one ends where the log does.
@@ -190,9 +221,10 @@ void McapReader::mend(const Head& head) {
   at_ = next_record(at_ + 1);
   is_cut_ = at_ == size_;
   if (!notes_.wanted(RosTrouble::record, place)) return;
-  const std::string what = is_mcap_op(head.op) ? "a record of " + std::to_string(head.size) + " bytes has " +
-                                                     std::to_string(rest) + " before the end of the file"
-                                               : "no record begins here";
+  const std::string what = is_mcap_op(head.op) && head.size > rest
+                               ? "a record of " + std::to_string(head.size) + " bytes has " + std::to_string(rest) +
+                                     " before the end of the file"
+                               : "no record begins here";
   notes_.say(place, what + (at_ < size_ ? ": what comes before byte " + std::to_string(at_) + " is left out"
                                         : ": it and what follows are left out"));
 }
@@ -207,13 +239,11 @@ void McapReader::read_records() {
                                        : "the file became shorter while it was read, the rest is left out");
       return;
     }
-    if (!is_mcap_op(head.op) || head.size > rest - kMcapHead) {
+    if (!is_sound(head)) {
       mend(head);
       continue;
     }
-    take(head);
-    at_ += kMcapHead + head.size;
-    read_ = at_;
+    at_ = read_ = take(head);
   }
 }
 

@@ -88,6 +88,7 @@ void McapContent::message(const McapMessage& message, std::uint64_t offset) {
 void McapContent::record(unsigned char op, const unsigned char* bytes, std::size_t size, std::uint64_t offset) {
   bool is_whole = true;
   if (op == static_cast<unsigned char>(McapOp::message)) {
+    ++messages_;
     const auto found = mcap_message(bytes, size);
     is_whole = found.has_value();
     if (found) message(*found, offset);

@@ -32,6 +32,8 @@ class McapContent {
   bool is_read(std::uint16_t channel) const;
   void finish() { topics_.finish(); }
   std::uint64_t records() const noexcept { return topics_.records(); }
+  /// Of all channels, read or not.
+  std::uint64_t messages() const noexcept { return messages_; }
 
   /// A text that stays where it is: "", "zstd", "lz4", or "?" for any other.
   static std::string_view compression_of(std::string_view text) noexcept;
@@ -53,6 +55,7 @@ class McapContent {
   RosNotes& notes_;
   RosTopics topics_;
   Unpacker unpacker_;
+  std::uint64_t messages_ = 0;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, Channel> channels_;
 };

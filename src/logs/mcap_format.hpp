@@ -22,6 +22,7 @@ enum class McapOp : std::uint8_t {
   channel = 0x04,
   message = 0x05,
   chunk = 0x06,
+  statistics = 0x0B,
   data_end = 0x0F,
 };
 /// Of the records that the format knows, and those that it leaves to others.

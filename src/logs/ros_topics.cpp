@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1000000000;
 constexpr std::size_t kOtherTypesTold = 10;
+/// A message of an IMU has some 330 bytes.
+constexpr std::size_t kLongestMessage = 1U << 20U;
 /// Of messages of an IMU that are not read: as many topics are remembered as told.
 constexpr std::size_t kMostOtherTypes = 256;
 
@@ -35,8 +37,12 @@ bool speaks_of_imu(std::string_view name) {
   return lower.find("imu") != std::string::npos || lower.find("accel") != std::string::npos;
 }
 
-bool is_finite(const Axes& axes) noexcept {
-  return std::all_of(axes.begin(), axes.end(), [](double x) { return std::isfinite(x); });
+/// Larger ones are bits of something else: no accelerometer and no gyroscope comes near, and their squares may
+/// overflow.
+constexpr double kLargestReading = 1e9;
+
+bool is_reading(const Axes& axes) noexcept {
+  return std::all_of(axes.begin(), axes.end(), [](double x) { return std::abs(x) <= kLargestReading; });
 }
 
 }  // namespace
@@ -89,25 +95,35 @@ double RosTopics::time_s(std::int64_t time_ns) {
   return static_cast<double>(seconds) + static_cast<double>(time_ns % kSecond_ns) * 1e-9;
 }
 
+std::string_view RosTopics::parse(const unsigned char* bytes, std::size_t size, RosImu& out) {
+  constexpr std::array<unsigned char, 4> kZstd = {0x28, 0xB5, 0x2F, 0xFD};  // CDR begins with 00
+  if (size < kZstd.size() || !std::equal(kZstd.begin(), kZstd.end(), bytes)) return parse_ros_imu(bytes, size, out);
+  if (unpacker_.unpack("zstd", bytes, size, kLongestMessage) != Unpacker::Outcome::whole)
+    return "the message is packed with zstd and cannot be unpacked";
+  return parse_ros_imu(unpacker_.data(), unpacker_.size(), out);
+}
+
+std::int64_t RosTopics::stamp_ns(Topic& topic, const RosImu& imu, std::int64_t log_time_ns, std::uint64_t offset) {
+  const std::int64_t stamp_ns = std::int64_t{imu.sec} * kSecond_ns + imu.nanosec;
+  if (stamp_ns != 0 && imu.nanosec < kSecond_ns) return stamp_ns;
+  if (++topic.without_stamp == 1 && notes_.wanted(RosTrouble::stamp, offset))
+    notes_.say(offset, topic.name +
+                           (imu.nanosec == 0 ? ": the stamp of a header is 0"
+                                             : ": the stamp of a header has more than 1e9 nanoseconds") +
+                           ", the time at which the message was recorded is used where that is so");
+  return log_time_ns;
+}
+
 void RosTopics::take(std::size_t topic, std::int64_t log_time_ns, const unsigned char* bytes, std::size_t size,
                      std::uint64_t offset) {
   if (topic >= topics_.size()) return;
   Topic& from = topics_[topic];
   RosImu imu;
-  const std::string_view trouble = parse_ros_imu(bytes, size, imu);
+  const std::string_view trouble = parse(bytes, size, imu);
   if (!trouble.empty()) return refuse(from, RosTrouble::message, offset, trouble);
   if (!imu.has_force) return refuse(from, RosTrouble::value, offset, "the driver says it measures no acceleration");
-  if (!is_finite(imu.specific_force_mps2))
+  if (!is_reading(imu.specific_force_mps2))
     return refuse(from, RosTrouble::value, offset, "the specific force is no number");
-  std::int64_t stamp_ns = std::int64_t{imu.sec} * kSecond_ns + imu.nanosec;
-  if (stamp_ns == 0 || imu.nanosec >= kSecond_ns) {
-    stamp_ns = log_time_ns;
-    if (++from.without_stamp == 1 && notes_.wanted(RosTrouble::stamp, offset))
-      notes_.say(offset, from.name +
-                             (imu.nanosec == 0 ? ": the stamp of a header is 0"
-                                               : ": the stamp of a header has more than 1e9 nanoseconds") +
-                             ", the time at which the message was recorded is used where that is so");
-  }
   if (from.source == kNoSource) {
     from.source = sources_++;
     ImuSource source;
@@ -116,9 +132,9 @@ void RosTopics::take(std::size_t topic, std::int64_t log_time_ns, const unsigned
     sink_.source(from.source, source);
   }
   ImuRecord record;
-  record.time_s = time_s(stamp_ns);
+  record.time_s = time_s(stamp_ns(from, imu, log_time_ns, offset));
   record.specific_force_mps2 = imu.specific_force_mps2;
-  if (is_finite(imu.rate_radps)) record.rate_radps = imu.rate_radps;
+  if (is_reading(imu.rate_radps)) record.rate_radps = imu.rate_radps;
   record.variance_m2ps4 = imu.variance_m2ps4;
   if (record.time_s < from.last_time_s && notes_.wanted(RosTrouble::time, offset))
     notes_.say(offset, "the time of " + from.name + " goes back by " +

@@ -91,6 +91,27 @@ TEST(McapDamage, BehindADamagedSizeTheNextRecordsAreFound) {
   EXPECT_TRUE(nothing.noted("are left out")) << nothing.all_notes();
 }
 
+TEST(McapDamage, AnEndThatIsNoneAndAChunkWithAWrongSizeCostNoMore) {
+  std::string wrong_size = chunk(imus(2, 2));
+  wrong_size[2] = '\x04';  // 772 and not 1796 bytes, or the like: within the file
+  std::string end = chunk(imus(2, 2));
+  end[0] = '\x02';
+  std::string no_data_end = chunk(imus(2, 2));
+  no_data_end[0] = '\x0F';
+  for (const std::string& middle : {wrong_size, end, no_data_end}) {
+    const Told told = told_of(bag_with(middle + chunk(imus(4, 2)) + chunk(imus(6, 2))));
+    EXPECT_GE(told.records.size(), 9U) << told.all_notes();
+    EXPECT_EQ(told.notes.size(), 1U) << told.all_notes();
+  }
+}
+
+TEST(McapDamage, MessagesThatWereLostAreCounted) {
+  const auto statistics = [](std::uint64_t count) { return record(0x0B, whole(count, 8) + std::string(38, '\0')); };
+  const std::string begin = header() + described() + chunk(imus(0, 3), "zstd") + imus(3, 1) + data_end();
+  EXPECT_EQ(told_of(begin + statistics(4) + footer()).all_notes(), "");
+  EXPECT_TRUE(told_of(begin + statistics(7) + footer()).noted("it has 7 messages, 4 were found"));
+}
+
 TEST(McapDamage, MessagesThatAreNoneAreLeftOut) {
   ros_bytes::Imu infinite;
   infinite.force[1] = std::nan("");

@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mcap_told.hpp"
 #include "plumb/logs/flight_log.hpp"
+#include "ros_fixture.hpp"
 
 namespace mcap_test {
 namespace {
@@ -116,6 +115,14 @@ TEST(Mcap, WhatIsNotReadIsNotedOnceEach) {
   EXPECT_EQ(told.notes.size(), 5U) << told.all_notes();
 }
 
+TEST(Mcap, AMessagePackedByTheRecorderIsUnpacked) {
+  const std::string one = ros_bytes::imu(ros_bytes::imu_at(3));
+  const Told told = told_of(bag_of({zstd(one), zstd(one).substr(0, 40), zstd(std::string(2U << 20U, 'x'))}));
+  ASSERT_EQ(told.records.size(), 1U);
+  EXPECT_DOUBLE_EQ(told.records[0].second.time_s, 0.28);
+  EXPECT_EQ(told.notes_with("packed with zstd and cannot be unpacked"), 2U) << told.all_notes();
+}
+
 TEST(Mcap, ATopicOfTwoPublishersIsOneSource) {
   const Told told = told_of(header() + described() + channel(2, 1, "/imu/data") + imu_message(1, ros_bytes::imu_at(0)) +
                             imu_message(2, ros_bytes::imu_at(1)) + data_end() + footer());
@@ -123,28 +130,13 @@ TEST(Mcap, ATopicOfTwoPublishersIsOneSource) {
   EXPECT_EQ(told.records.size(), 2U);
 }
 
-/// By the TypeScript library of the format, @mcap/core 2.2.2, with messages by @foxglove/rosmsg2-serialization 3.1.0.
 TEST(McapFixtures, FilesOfTheFormatsOwnLibraryAreRead) {
   for (const std::string name : {"mcap_core_chunks.mcap", "mcap_core_plain.mcap"}) {
     Told told;
-    const std::string path = std::string(PLUMB_SOURCE_DIR) + "/tests/logs/fixtures/" + name;
-    const auto extent = read_mcap(path, told);
+    const auto extent = read_mcap(ros_fixture::path_of(name), told);
     ASSERT_TRUE(extent.has_value()) << extent.error().text();
-    EXPECT_EQ(told.all_notes(), "") << name;
     EXPECT_EQ(extent->read_bytes, extent->bytes) << name;
-    ASSERT_EQ(told.sources.size(), 2U) << name;
-    EXPECT_EQ(told.sources[0].name, "/imu/left") << name;
-    EXPECT_EQ(told.sources[1].frame_id, "imu_right_link") << name;
-    const auto left = told.records_of("/imu/left");
-    ASSERT_EQ(left.size(), 20U) << name;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      const auto n = static_cast<double>(k);
-      EXPECT_DOUBLE_EQ(left[k].time_s, 0.125 + 0.01 * n) << name;
-      EXPECT_EQ(left[k].specific_force_mps2, (Axes{0.25 * n, -0.5, 9.8125})) << name;
-      EXPECT_EQ(left[k].rate_radps, (Axes{0.5, 0.0625 * n, -1.0})) << name;
-      EXPECT_EQ(left[k].variance_m2ps4, (Axes{0.25, 0.5, 0.75})) << name;
-    }
-    EXPECT_EQ(told.records_of("/imu/right").size(), 20U) << name;
+    ASSERT_NO_FATAL_FAILURE(ros_fixture::expect_left_and_right(told)) << name;
   }
 }
 

@@ -80,6 +80,11 @@ io::FileExpected<LogExtent> read_dataflash(const std::string& path, LogSink& sin
 /// Time 0 is a whole second, which the parameter `log_zero_unix_s` gives in seconds since 1970.
 io::FileExpected<LogExtent> read_mcap(const std::string& path, LogSink& sink);
 
+/// One SQLite file (.db3) of a bag of ROS 2, of old and new column sets: the same messages as `read_mcap`, in the order
+/// in which they were recorded. Nothing is written, neither to the file nor beside it; what is in a -wal file beside it is
+/// not read, and that is noted. The offset of a note is that of the page that SQLite read last.
+io::FileExpected<LogExtent> read_rosbag2(const std::string& path, LogSink& sink);
+
 /// The formats that are read here.
 enum class LogFormat : std::uint8_t { ulog, dataflash, mcap, rosbag2, csv };
 constexpr std::array<LogFormat, 5> kLogFormats = {LogFormat::ulog, LogFormat::dataflash, LogFormat::mcap,
