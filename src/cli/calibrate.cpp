@@ -37,7 +37,8 @@ struct CalibrateOptions {
   bool suggest = false;
   bool json = false;
   bool verbose = false;
-  bool rolls = false;  ///< something was said about the roll groups
+  bool rolls = false;              ///< something was said about the roll groups
+  const char* of_a_fit = nullptr;  ///< an option of the fit of a log at rest that was given
 };
 
 constexpr const char* kCalibrateAbout =
@@ -130,7 +131,7 @@ const char* option_of_a_fit(const CalibrateOptions& options) {
   for (const auto& [given, option] : at_rest) {
     if (given) return option;
   }
-  return nullptr;
+  return options.of_a_fit;
 }
 
 io::FileError wrong_use(const char* option, const std::string& what, const std::string& remedy) {
@@ -279,7 +280,10 @@ Command add_calibrate(const Options& tool) {
   command
       .add_option(
           "--hold-out",
-          [options](const std::string& text) { return session::read_hold_out(text, options->choice.hold_out); },
+          [options](const std::string& text) {
+            options->of_a_fit = "--hold-out";
+            return session::read_hold_out(text, options->choice.hold_out);
+          },
           "check the fit by predicting stations that were held out of it: a number of folds, a fraction (once), "
           "`one` at a time, or `none`; by default 4 folds, below 16 stations one at a time")
       .type_name("K|FRACTION|one|none");
@@ -287,6 +291,7 @@ Command add_calibrate(const Options& tool) {
       .add_option(
           "--temperature-order",
           [options](const std::string& text) {
+            options->of_a_fit = "--temperature-order";
             return session::read_temperature_order(text, options->choice.temperature.order);
           },
           "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
@@ -303,7 +308,11 @@ Command add_calibrate(const Options& tool) {
           "form --use-range-degc=-20,60")
       .type_name("LO,HI");
   command.add_flag(
-      "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
+      "--keep-outliers",
+      [options] {
+        options->of_a_fit = "--keep-outliers";
+        options->choice.fit.reject_outliers = false;
+      },
       "plain least squares: keep stations whose residuals exceed the noise");
   command
       .add_option(

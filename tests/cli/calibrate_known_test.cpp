@@ -165,6 +165,9 @@ TEST(CalibrateKnown, OptionsThatDoNotBelongTogetherAreRefused) {
   const std::vector<std::string> base = {"calibrate", "--array", "drone.toml", "--out", "cal.json"};
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--from", "v.params", "--log", "x.csv"}, "--log: belongs to a calibration from a log, not to --from"},
+      {{"--from", "v.params", "--hold-out", "4"}, "--hold-out: belongs to a calibration from a log, not to --from"},
+      {{"--from", "v.params", "--keep-outliers"}, "--keep-outliers: belongs to a calibration from a log"},
+      {{"--from", "v.params", "--temperature-order", "1"}, "--temperature-order: belongs to a calibration from a log"},
       {{"--from", "v.params", "--export", "px4"}, "--export: does not go with --from"},
       {{"--from", "v.params", "--calibration", "c.json"}, "--calibration: does not go with --from"},
       {{"--from", "v.params", "--motion", "m.csv"}, "--motion: does not go with --from"},
