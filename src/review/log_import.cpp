@@ -111,12 +111,30 @@ std::string sensors_of(const LogDigest& digest, const ImportPlan& plan, const Lo
 }
 
 /// Tab-separated: vehicle, component, name, value, type (9 is a float, 6 a whole number).
-std::string parameters_of(const LogDigest& digest) {
+std::string parameter_line(const std::string& name, double value) {
+  const bool whole = name.size() > 3 && name.compare(name.size() - 3, 3, "_ID") == 0;
+  return whole ? fmt::format("1\t1\t{}\t{:.0f}\t6\n", name, value) : fmt::format("1\t1\t{}\t{:.17g}\t9\n", name, value);
+}
+
+/// The installed calibration of each chip that is taken, numbered as in the array file: the autopilot keeps them by
+/// device, in an order of its own. Empty where a chip has none.
+std::string parameters_of(const LogDigest& digest, const LogReview& found, const ImportPlan& plan) {
   std::string out = "# Vehicle-Id Component-Id Name Value Type\n";
+  for (std::size_t chip = 0; chip < plan.sources.size(); ++chip) {
+    const auto summary = std::find_if(found.chips.begin(), found.chips.end(), [&](const ChipSummary& one) {
+      return std::find(one.sources.begin(), one.sources.end(), plan.sources[chip]) != one.sources.end();
+    });
+    if (summary == found.chips.end() || !summary->calibration.present) return "";
+    const std::string prefix = fmt::format("CAL_ACC{}_", chip);
+    out += parameter_line(prefix + "ID", static_cast<double>(summary->device_id));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string axis(1, static_cast<char>('X' + k));
+      out += parameter_line(prefix + axis + "OFF", summary->calibration.offset_mps2[k]);
+      out += parameter_line(prefix + axis + "SCALE", summary->calibration.scale[k]);
+    }
+  }
   for (const auto& [name, value] : digest.parameters) {
-    const bool whole = name.size() > 3 && name.compare(name.size() - 3, 3, "_ID") == 0;
-    out +=
-        whole ? fmt::format("1\t1\t{}\t{:.0f}\t6\n", name, value) : fmt::format("1\t1\t{}\t{:.17g}\t9\n", name, value);
+    if (name.rfind("TC_A", 0) == 0) out += parameter_line(name, value);
   }
   return out;
 }
@@ -168,7 +186,7 @@ io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogRevie
   }
   plan.array_text = head_of(digest, plan, settings) + sensors_of(digest, plan, found);
   if (!plan.uncalibrated) plan.coefficients_text = corrected_coefficients(plan.sources.size());
-  if (plan.uncalibrated && !digest.parameters.empty()) plan.coefficients_text = parameters_of(digest);
+  if (plan.uncalibrated) plan.coefficients_text = parameters_of(digest, found, plan);
   return plan;
 }
 

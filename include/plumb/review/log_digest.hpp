@@ -86,7 +86,7 @@ struct LogDigest {
   std::string name;
   double block_s = 1.0;
   std::vector<SourceDigest> sources;
-  std::map<std::string, double> parameters;  ///< of accelerometers and of the board's mounting
+  std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*
   std::vector<Note> notes;
   logs::LogExtent extent;
 };
