@@ -13,6 +13,7 @@
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/units.hpp"
 #include "plumb/render/review_report.hpp"
+#include "plumb/review/time_skew.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -55,11 +56,11 @@ std::vector<Outcome> review_all(const ReviewOptions& options, const review::Revi
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t k = next++; k < out.size() && !interrupted(); k = next++) {
-      const io::FileExpected<review::LogDigest> digest = review::digest_log(options.logs[k]);
-      if (digest)
-        out[k].review = review::review_log(*digest, settings);
+      const io::FileExpected<review::LogReview> found = review::review_file(options.logs[k], settings);
+      if (found)
+        out[k].review = *found;
       else
-        out[k].error = digest.error();
+        out[k].error = found.error();
     }
   };
   const unsigned machine = std::max(1U, std::thread::hardware_concurrency());

@@ -83,6 +83,13 @@ ReviewSentence of_times(const Finding& f, const LogReview& in) {
                         count_text(static_cast<std::uint64_t>(f.figure), "time")),
             "", "treat delays and rates of this log with care; update the firmware"};
   }
+  if (f.code == FindingCode::skew) {
+    const std::size_t late = f.figure > 0.0 ? f.other : f.chip;
+    const std::size_t early = f.figure > 0.0 ? f.chip : f.other;
+    return {fmt::format("{} shows motion {:.1f} ms later than {} (+-{:.1f}; limit {:.0f} ms)", chip_name(in, late),
+                        1000.0 * std::abs(f.figure), chip_name(in, early), 1000.0 * f.uncertainty, 1000.0 * f.limit),
+            "", "compare filters and time stamps of both drivers; state the delay to whatever fuses them"};
+  }
   if (f.code == FindingCode::stopped) {
     return {fmt::format("{} says nothing for the last {:.1f} s while the log goes on", chip_name(in, f.chip), f.figure),
             "", "the chip or its bus failed in flight: check connectors and power, replace it before the next flight"};
@@ -129,6 +136,7 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
               "", "let it warm up before the flight, or calibrate it over temperature"};
     case FindingCode::gaps:
     case FindingCode::backwards:
+    case FindingCode::skew:
     case FindingCode::stopped: return of_times(f, in);
     case FindingCode::uncalibrated:
     case FindingCode::far_offset:
@@ -169,6 +177,7 @@ std::string code_word(FindingCode code) {
     case FindingCode::drift: return "drift";
     case FindingCode::gaps: return "gaps";
     case FindingCode::backwards: return "backwards";
+    case FindingCode::skew: return "skew";
     case FindingCode::stopped: return "stopped";
     case FindingCode::uncalibrated: return "uncalibrated";
     case FindingCode::far_offset: return "far_offset";

@@ -60,6 +60,11 @@ constexpr double kUnchangedInMotion = 20.0;
 constexpr double kMotionSeen_mps2 = 0.5;
 /// Attitudes further apart than this are different ones; chips that read gravity further apart are mounted differently.
 constexpr double kAttitude_deg = 20.0;
+/// Two chips further apart in time than this see another motion in a filter that takes them as simultaneous: at 1 rad/s
+/// 10 ms are half a degree, or 0.1 m/s^2 across gravity. Judged over the seconds with most motion.
+constexpr double kSkew_s = 0.01;
+constexpr double kSkewWindow_s = 10.0;
+constexpr double kSkewMotion_mps2 = 0.3;
 /// Records missing: a share of the log's time, and one gap.
 constexpr double kLostShare = 0.01;
 constexpr double kLongGap_s = 1.0;

@@ -32,6 +32,7 @@ enum class FindingCode : std::uint8_t {
   drift,         ///< the reading at rest wanders within one stretch
   gaps,          ///< records are missing
   backwards,     ///< time goes back
+  skew,          ///< two chips show the same motion at different times
   stopped,       ///< the chip says nothing any more while others go on
   uncalibrated,  ///< the autopilot has no calibration of this chip
   far_offset,    ///< the installed calibration has an offset or a scale that no sensor in order needs
@@ -41,9 +42,9 @@ enum class FindingCode : std::uint8_t {
 
 constexpr std::size_t kNoChip = static_cast<std::size_t>(-1);
 
-/// Units of `figure`, `limit` and `uncertainty` (95 %): m/s^2, but degrees of orientation, seconds of gaps and stopped,
-/// readings of clipping and backwards, 1 of far_scale, bytes of damage. Of what does not change, `figure` is what it
-/// reads and `limit` how many readings are alike.
+/// Units of `figure`, `limit` and `uncertainty` (95 %): m/s^2, but degrees of orientation, seconds of gaps, skew and
+/// stopped, readings of clipping and backwards, 1 of far_scale, bytes of damage. Of what does not change, `figure` is
+/// what it reads and `limit` how many readings are alike.
 struct Finding {
   FindingCode code = FindingCode::damage;
   Grade grade = Grade::orange;
@@ -87,6 +88,8 @@ struct ChipSummary {
   double vibration_mps2 = logs::kAbsent;  ///< the worst cell in motion, root of the sum of the axes' variances
   double vibration_at_s = logs::kAbsent;
   std::uint64_t clipped = 0;
+  double lag_s = logs::kAbsent;  ///< behind the first chip that is fast enough, by the motion that both saw
+  double lag_uncertainty_s = logs::kAbsent;
 };
 
 /// A stretch at rest: what each chip read, NaN where it did not.
