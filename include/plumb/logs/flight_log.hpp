@@ -31,7 +31,8 @@ struct ImuSource {
   int instance = 0;             ///< counted from 0, as the log counts
   std::uint64_t device_id = 0;  ///< 0 where the log does not say
   RecordKind kind = RecordKind::sample;
-  std::string frame_id;  ///< the axes that the readings are in, by name; empty where the log names none
+  bool uncalibrated = false;  ///< readings before the calibration that is installed in the autopilot
+  std::string frame_id;       ///< the axes that the readings are in, by name; empty where the log names none
 };
 
 /// What is absent is NaN, or 0 where it counts.
