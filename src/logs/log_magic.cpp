@@ -74,18 +74,6 @@ constexpr std::array<KnownFile, 45> kKnownFiles = {{
 }};
 // clang-format on
 
-bool is_wide(std::string_view begin) noexcept {
-  if (begin.substr(0, 2) == "\xFF\xFE"sv || begin.substr(0, 2) == "\xFE\xFF"sv) return true;
-  // Without a mark: every other byte of figures and Latin letters is zero.
-  const std::size_t pairs = begin.size() / 2;
-  std::size_t even = 0, odd = 0;
-  for (std::size_t k = 0; k + 1 < begin.size(); k += 2) {
-    even += begin[k] == 0 ? 1U : 0U;
-    odd += begin[k + 1] == 0 ? 1U : 0U;
-  }
-  return pairs >= 4 && ((even * 10 >= pairs * 9 && odd == 0) || (odd * 10 >= pairs * 9 && even == 0));
-}
-
 bool is_control(char c) noexcept {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f') || byte == 0x7F;
@@ -100,8 +88,22 @@ const KnownFile* known_file(std::string_view begin) noexcept {
   return found == kKnownFiles.end() ? nullptr : found;
 }
 
+TextWidth text_width(std::string_view begin) noexcept {
+  if (begin.substr(0, 2) == "\xFF\xFE"sv) return TextWidth::wide_le;
+  if (begin.substr(0, 2) == "\xFE\xFF"sv) return TextWidth::wide_be;
+  const std::size_t pairs = std::min(begin.size(), kMagicBytes) / 2;
+  std::size_t even = 0, odd = 0;
+  for (std::size_t k = 0; k < 2 * pairs; k += 2) {
+    even += begin[k] == 0 ? 1U : 0U;
+    odd += begin[k + 1] == 0 ? 1U : 0U;
+  }
+  if (pairs >= 4 && odd * 10 >= pairs * 9 && even == 0) return TextWidth::wide_le;
+  if (pairs >= 4 && even * 10 >= pairs * 9 && odd == 0) return TextWidth::wide_be;
+  return TextWidth::bytes;
+}
+
 bool is_text(std::string_view begin) noexcept {
-  if (is_wide(begin)) return true;
+  if (text_width(begin) != TextWidth::bytes) return true;
   if (begin.find('\0') != std::string_view::npos) return false;
   const auto controls = static_cast<std::size_t>(std::count_if(begin.begin(), begin.end(), is_control));
   return controls * 50 <= begin.size();

@@ -29,6 +29,10 @@ constexpr std::size_t kMagicBytes = 512;
 /// Null where the first bytes of a file are those of none that is known.
 const KnownFile* known_file(std::string_view begin) noexcept;
 
+/// What a character of a text takes: UTF-16 is known by its mark, or by the zeros between figures and Latin letters.
+enum class TextWidth : std::uint8_t { bytes, wide_le, wide_be };
+TextWidth text_width(std::string_view begin) noexcept;
+
 /// Whether they may be text in UTF-8, in UTF-16 or in a code page: no zero bytes but in UTF-16, few control characters.
 bool is_text(std::string_view begin) noexcept;
 

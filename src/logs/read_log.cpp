@@ -61,10 +61,9 @@ io::FileExpected<LogExtent> read_log(const std::string& path, LogSink& sink) {
     case LogFormat::dataflash: return read_dataflash(path, sink);
     case LogFormat::mcap: return read_mcap(path, sink);
     case LogFormat::rosbag2: return read_rosbag2(path, sink);
-    default: break;
+    case LogFormat::csv: return read_csv_log(path, sink);
   }
-  return tl::make_unexpected(io::FileError{path, 0, "", std::string("is ") + to_string(*format) + ", which is not read",
-                                           "give a ULog (.ulg) or a DataFlash log (.bin)"});
+  return read_csv_log(path, sink);
 }
 
 }  // namespace logs

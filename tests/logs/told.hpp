@@ -44,6 +44,11 @@ struct Told final : plumb::logs::LogSink {
     notes.push_back({offset, what});
   }
 
+  void detected(const std::string& what) override {
+    EXPECT_TRUE(sources.empty());
+    understood = what;
+  }
+
   /// Its number, or that of the sources where there is none of this name.
   std::size_t number_of(const std::string& name) const {
     const auto found =
@@ -73,6 +78,7 @@ struct Told final : plumb::logs::LogSink {
   std::vector<std::pair<std::size_t, ImuRecord>> records;
   std::vector<std::pair<std::string, double>> parameters;
   std::vector<Note> notes;
+  std::string understood;
 };
 
 /// In the directory of temporary files, and gone with it. Tests run side by side.

@@ -56,6 +56,8 @@ class LogSink {
   /// What is wrong with the bytes at `offset` and what was left out for it, in a sentence without an end. A reader goes
   /// on behind it where it can.
   virtual void note(std::uint64_t offset, const std::string& what) = 0;
+  /// How the log was understood where it does not say so itself: a sentence without an end, before the first source.
+  virtual void detected(const std::string& what) { (void)what; }
 };
 
 /// What a reader has seen. Every count is of what could be read.
@@ -81,9 +83,15 @@ io::FileExpected<LogExtent> read_dataflash(const std::string& path, LogSink& sin
 io::FileExpected<LogExtent> read_mcap(const std::string& path, LogSink& sink);
 
 /// One SQLite file (.db3) of a bag of ROS 2, of old and new column sets: the same messages as `read_mcap`, in the order
-/// in which they were recorded. Nothing is written, neither to the file nor beside it; what is in a -wal file beside it is
-/// not read, and that is noted. The offset of a note is that of the page that SQLite read last.
+/// in which they were recorded. Nothing is written, neither to the file nor beside it; what is in a -wal file beside it
+/// is not read, and that is noted. The offset of a note is that of the page that SQLite read last.
 io::FileExpected<LogExtent> read_rosbag2(const std::string& path, LogSink& sink);
+
+/// A table of text: one row a time with columns of one chip or several, or one line a message as ArduPilot's tools
+/// export DataFlash logs. Separators, decimal comma, encoding, units and the column of time are found out and told by
+/// `LogSink::detected`; what had to be judged by magnitude is noted. plumb/logs/csv_log.hpp takes hints. Times are as
+/// they stand in the file; those since 1970 count from a whole second as in `read_mcap`.
+io::FileExpected<LogExtent> read_csv_log(const std::string& path, LogSink& sink);
 
 /// The formats that are read here.
 enum class LogFormat : std::uint8_t { ulog, dataflash, mcap, rosbag2, csv };
