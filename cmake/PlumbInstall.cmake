@@ -26,7 +26,7 @@ if(TARGET plumb_paper)
 endif()
 
 set(PLUMB_INSTALLED_HOST FALSE)
-foreach(name IN ITEMS scenario study commission io logs findings session campaign verification render)
+foreach(name IN ITEMS scenario study commission io logs review findings session campaign verification render)
   if(TARGET plumb_${name})
     install(TARGETS plumb_${name} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     list(APPEND rooms ${name})

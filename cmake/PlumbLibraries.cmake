@@ -201,6 +201,15 @@ if(TARGET plumb_io AND logs_sources)
   plumb_batch(plumb_logs)
 endif()
 
+# What a log says of its accelerometers, without an array file.
+plumb_sources(review_sources review)
+if(TARGET plumb_logs AND review_sources)
+  add_library(plumb_review STATIC ${review_sources})
+  plumb_library(plumb_review review)
+  target_link_libraries(plumb_review PUBLIC plumb_logs)
+  plumb_batch(plumb_review)
+endif()
+
 # What is wrong with an array, a recording or a fit.
 plumb_sources(findings_sources findings)
 if(TARGET plumb_io AND findings_sources)
@@ -270,7 +279,7 @@ if(TARGET plumb_session AND TARGET plumb_verification AND render_sources)
   plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
   add_library(plumb_render STATIC ${render_sources})
   plumb_library(plumb_render render)
-  target_link_libraries(plumb_render PUBLIC plumb_session plumb_findings plumb_verification plumb_study plumb_io fmt::fmt
+  target_link_libraries(plumb_render PUBLIC plumb_session plumb_findings plumb_review plumb_verification plumb_study plumb_io fmt::fmt
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_render)
   plumb_optimise_less(plumb_render)

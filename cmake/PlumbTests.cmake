@@ -165,13 +165,13 @@ include(PlumbLaws)
 if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
-    ROOMS paper scenario study io logs findings testing verification render cli recordings docs
+    ROOMS paper scenario study io logs review findings testing verification render cli recordings docs
     COMPUTING scenario/flight
     SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* MotionCommand.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
-    LIBRARIES plumb_testing plumb_render plumb_findings plumb_logs plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
+    LIBRARIES plumb_testing plumb_render plumb_findings plumb_review plumb_logs plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
   if(TARGET plumb_host_tests)  # flights with a monitor of motion on board, as plumb_motion_rates plays them
     target_sources(plumb_host_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/motion/flight_case.cpp")
     target_include_directories(plumb_host_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/motion")

@@ -6,6 +6,11 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace command {
+Option Option::several() const {
+  option_->expected(1, CLI::detail::expected_max_vector_size);
+  return *this;
+}
+
 Option Option::required() const { return Option(*option_->required()); }
 Option Option::type_name(const std::string& name) const { return Option(*option_->type_name(name)); }
 Option Option::check(const TextReader& wrong) const { return Option(*option_->check(wrong)); }

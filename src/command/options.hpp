@@ -35,6 +35,8 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option required() const;
+  /// One value or more after it: for files without an option of their own.
+  Option several() const;
   /// What --help shows in the place of the value: "CAL.json".
   Option type_name(const std::string& name) const;
   Option check(const TextReader& wrong) const;

@@ -17,7 +17,9 @@ std::string exit_codes_help() {
          "  4  the calibration was not accepted (the report says why and what to record next)\n"
          "  5  the monitor ended in the state `failed`\n"
          "  6  a verification did not pass\n"
-         "  7  nothing was judged: no block of the log was at rest\n";
+         "  7  nothing was judged: no block of the log was at rest\n"
+         "  8  plumb review: the worst finding is orange\n"
+         "  9  plumb review: the worst finding is red\n";
 }
 
 std::string seed_refusal(const std::string& text) {

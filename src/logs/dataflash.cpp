@@ -1,19 +1,17 @@
 // ArduPilot's DataFlash log: where its messages begin and end. What they mean is in dataflash_content.
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "dataflash_content.hpp"
 #include "dataflash_format.hpp"
 #include "dataflash_notes.hpp"
+#include "log_magic.hpp"
 #include "plumb/io/mapped_file.hpp"
 #include "plumb/logs/flight_log.hpp"
 
@@ -29,37 +27,7 @@ tl::unexpected<io::FileError> refuse(const std::string& path, std::string what, 
   return tl::unexpected<io::FileError>(io::FileError{path, 0, "", std::move(what), std::move(remedy)});
 }
 
-constexpr std::uint64_t kMagicBytes = 16;
 constexpr const char* kGiveBin = "give the .bin file that ArduPilot writes";
-
-struct Magic {
-  std::string_view bytes;
-  const char* what;
-  const char* remedy;
-};
-
-/// What is often taken for a DataFlash log.
-const Magic* recognised(std::string_view begin) noexcept {
-  using namespace std::string_view_literals;
-  static constexpr std::array<Magic, 10> kMagic = {{
-      {"FMT,"sv, "is a DataFlash log turned into text", "give the .bin file that it was made from"},
-      {"ULog\x01\x12\x35"sv, "is a ULog, the log of PX4", "read it as a ULog"},
-      {"\x1F\x8B"sv, "is packed with gzip", "unpack it with gunzip"},
-      {"\x28\xB5\x2F\xFD"sv, "is packed with zstd", "unpack it with unzstd"},
-      {"\xFD"
-       "7zXZ\0"sv,
-       "is packed with xz", "unpack it with unxz"},
-      {"PK\x03\x04"sv, "is a zip archive", "unpack it"},
-      {"\x89MCAP0\r\n"sv, "is an MCAP file", kGiveBin},
-      {"SQLite format 3\0"sv, "is an SQLite database (perhaps a bag of ROS 2)", kGiveBin},
-      {"#ROSBAG V"sv, "is a bag of ROS 1", kGiveBin},
-      {"\x89HDF\r\n"sv, "is an HDF5 file", kGiveBin},
-  }};
-  for (const Magic& magic : kMagic) {
-    if (begin.substr(0, magic.bytes.size()) == magic.bytes) return &magic;
-  }
-  return nullptr;
-}
 
 class DataflashReader {
  public:
@@ -183,23 +151,15 @@ void DataflashReader::note_torn(const unsigned char* message, std::size_t rest, 
 }
 
 /// Why a file cannot be opened, or is none that can be read; empty where nothing speaks against it.
-tl::expected<void, io::FileError> looked_at(const std::string& path, io::MappedFile& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    return refuse(path, "cannot be opened" + (error ? ": " + error.message() : std::string()), "check the path");
-  }
-  if (!std::filesystem::is_regular_file(status)) return refuse(path, "is no regular file", kGiveBin);
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size == 0) return refuse(path, "is empty (0 bytes)", kGiveBin);
-  if (!file.open(path)) return refuse(path, "cannot be read", "check the permissions of the file");
-  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), kMagicBytes));
-  const unsigned char* bytes = file.at(0, count);
-  if (bytes == nullptr) return refuse(path, "cannot be read at its first byte", "check the disk");
-  // NOLINTNEXTLINE(*-reinterpret-cast): bytes of a file as text
-  const Magic* magic = recognised({reinterpret_cast<const char*>(bytes), count});
-  if (magic == nullptr) return {};
-  return refuse(path, std::string(magic->what) + ", no DataFlash log (.bin)", magic->remedy);
+io::FileExpected<void> looked_at(const std::string& path, io::MappedFile& file) {
+  if (auto opened = open_log(path, kGiveBin, file); !opened) return opened;
+  const std::string_view begin = first_bytes(file, kMagicBytes);
+  constexpr std::string_view kAsText = "FMT,";
+  if (begin.substr(0, kAsText.size()) == kAsText)
+    return refuse(path, "is a DataFlash log turned into text, no DataFlash log (.bin)", "read it as CSV");
+  const KnownFile* known = known_file(begin);
+  if (known == nullptr || known->kind == FileKind::dataflash) return {};
+  return refuse(path, std::string(known->what) + ", no DataFlash log (.bin)", known->remedy);
 }
 
 }  // namespace

@@ -1,16 +1,13 @@
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <system_error>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
+#include "log_magic.hpp"
 #include "plumb/io/mapped_file.hpp"
 #include "plumb/logs/flight_log.hpp"
 #include "ulog_messages.hpp"
@@ -70,17 +67,7 @@ class UlogReader {
 };
 
 io::FileExpected<void> UlogReader::open() {
-  struct stat status {};
-  if (::stat(path_.c_str(), &status) != 0) {
-    return tl::make_unexpected(
-        error("cannot be read: " + std::generic_category().message(errno), "check the path and the permissions"));
-  }
-  if (!S_ISREG(status.st_mode)) return tl::make_unexpected(error("is no regular file", "name a ULog file (.ulg)"));
-  if (status.st_size == 0) {
-    return tl::make_unexpected(
-        error("has 0 bytes; a ULog begins with a header of 16", "copy the log from the flight controller again"));
-  }
-  if (!file_.open(path_)) return tl::make_unexpected(error("cannot be read", "check the permissions of the file"));
+  if (auto opened = open_log(path_, "name a ULog file (.ulg)", file_); !opened) return opened;
   size_ = file_.size();
   return {};
 }
@@ -90,6 +77,8 @@ io::FileExpected<void> UlogReader::read_header() {
   const unsigned char* bytes = file_.at(0, there);
   if (bytes == nullptr) return tl::make_unexpected(error("cannot be read at byte 0", "copy the log again"));
   if (!std::equal(bytes, bytes + there, kUlogMagic.begin())) {
+    const KnownFile* known = known_file(first_bytes(file_, kMagicBytes));
+    if (known != nullptr) return tl::make_unexpected(error(std::string(known->what) + ", no ULog", known->remedy));
     return tl::make_unexpected(
         error("is no ULog: it does not begin with \"ULog\" 01 12 35 at byte 0", "give a log of PX4 (.ulg)"));
   }

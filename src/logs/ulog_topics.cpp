@@ -133,6 +133,8 @@ tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const U
     out.temperature = layout.cell("temperature");
     out.clips = layout.three("clip_counter");
     out.samples = layout.cell("samples");
+    // Drivers of older firmware corrected the readings and kept the raw ones beside them.
+    out.uncalibrated = !layout.cell("x_raw");
   } else if (topic == kVehicleImu) {
     set_imu(layout, out);
     if (!out.dt) return tl::make_unexpected("delta_velocity_dt");
@@ -196,6 +198,7 @@ UlogSources::State& UlogSources::state_of(std::size_t topic, int instance, const
   source.instance = instance;
   source.device_id = state.device = whole_or_zero(payload, readings.device);
   source.kind = readings.kind;
+  source.uncalibrated = readings.uncalibrated;
   // More than one sample in its FIFO: PX4 hands on their mean.
   if (readings.samples && ulog_number(payload, readings.samples) > 1.0) source.kind = RecordKind::mean;
   sink_.source(state.number, source);

@@ -42,6 +42,7 @@ struct UlogReadings {
   UlogCells clips;
   UlogCells variance;
   bool clips_add_up = false;  ///< counted since the start, not since the last message
+  bool uncalibrated = false;  ///< before the calibration of the autopilot
   RecordKind kind = RecordKind::sample;
 };
 

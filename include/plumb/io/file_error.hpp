@@ -21,6 +21,8 @@ enum class ExitCode {
   monitor_failed = 5,  ///< the monitor ended in `failed`
   verification_failed = 6,
   nothing_judged = 7,  ///< no block was at rest: the run says nothing about any sensor
+  review_orange = 8,   ///< the worst finding of a review
+  review_red = 9,
 };
 constexpr int to_int(ExitCode code) noexcept { return static_cast<int>(code); }
 

@@ -31,6 +31,7 @@ struct ImuSource {
   int instance = 0;             ///< counted from 0, as the log counts
   std::uint64_t device_id = 0;  ///< 0 where the log does not say
   RecordKind kind = RecordKind::sample;
+  bool uncalibrated = false;  ///< readings before the calibration that is installed in the autopilot
 };
 
 /// What is absent is NaN, or 0 where it counts.
@@ -71,6 +72,20 @@ io::FileExpected<LogExtent> read_ulog(const std::string& path, LogSink& sink);
 /// ArduPilot's DataFlash log (.bin), read as `read_ulog` reads. It counts the clips of a chip, not of an axis: all of
 /// them stand in `clipped[0]`. A reading of a unit that is not known here is absent, and that is noted.
 io::FileExpected<LogExtent> read_dataflash(const std::string& path, LogSink& sink);
+
+/// The formats that are read here.
+enum class LogFormat : std::uint8_t { ulog, dataflash, mcap, rosbag2, csv };
+constexpr std::array<LogFormat, 5> kLogFormats = {LogFormat::ulog, LogFormat::dataflash, LogFormat::mcap,
+                                                  LogFormat::rosbag2, LogFormat::csv};
+/// "ULog", "DataFlash", "MCAP", "rosbag2", "CSV".
+const char* to_string(LogFormat format) noexcept;
+
+/// Which one a file is, by its first bytes; its name counts for nothing. Any text is taken for CSV. The error names
+/// what the file is instead, where that is known: packed, a bag of ROS 1, a spreadsheet.
+io::FileExpected<LogFormat> log_format(const std::string& path);
+
+/// The one door: reads the log with the reader of its `log_format`.
+io::FileExpected<LogExtent> read_log(const std::string& path, LogSink& sink);
 
 }  // namespace logs
 }  // namespace PLUMB_ABI

@@ -1,0 +1,178 @@
+#include "plumb/review/log_digest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace review {
+namespace {
+
+constexpr std::size_t kMostParameters = 1024;
+constexpr std::size_t kMostNotes = 256;
+/// A block index beyond this is no time of a log: it would not fit into a double without loss.
+constexpr double kFurthestBlock = 4.0e15;
+
+bool finite(const Axes& axes) noexcept {
+  return std::all_of(axes.begin(), axes.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool starts_with(const std::string& text, const char* beginning) { return text.rfind(beginning, 0) == 0; }
+
+/// One record as a block of its own.
+SourceBlock block_of(const logs::ImuRecord& record) noexcept {
+  SourceBlock out;
+  out.records = 1;
+  const bool spread = record.count > 1 && finite(record.variance_m2ps4);
+  out.weight = spread ? static_cast<double>(record.count) : 1.0;
+  out.mean_mps2 = out.least_mps2 = out.most_mps2 = record.specific_force_mps2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (spread) out.squares_m2ps4[k] = std::max(record.variance_m2ps4[k], 0.0) * (out.weight - 1.0);
+    out.clipped[k] = record.clipped[k];
+  }
+  if (finite(record.rate_radps)) {
+    out.rates = 1;
+    out.fastest_radps = std::hypot(record.rate_radps[0], record.rate_radps[1], record.rate_radps[2]);
+  }
+  if (std::isfinite(record.temperature_degc)) {
+    out.temperatures = 1;
+    out.temperature_degc = record.temperature_degc;
+  }
+  return out;
+}
+
+}  // namespace
+
+double SourceBlock::deviation_mps2(std::size_t axis) const noexcept {
+  return weight > 1.0 ? std::sqrt(squares_m2ps4[axis] / (weight - 1.0)) : 0.0;
+}
+
+// Means and squares are joined as by Chan, Golub and LeVeque (1979).
+void SourceBlock::add(const SourceBlock& other) noexcept {
+  if (other.records == 0) return;
+  if (records == 0) {
+    const std::int64_t kept = index;
+    *this = other;
+    index = kept;
+    return;
+  }
+  const double sum = weight + other.weight;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double step = other.mean_mps2[k] - mean_mps2[k];
+    mean_mps2[k] += step * (other.weight / sum);
+    squares_m2ps4[k] += other.squares_m2ps4[k] + step * step * (weight * other.weight / sum);
+    least_mps2[k] = std::min(least_mps2[k], other.least_mps2[k]);
+    most_mps2[k] = std::max(most_mps2[k], other.most_mps2[k]);
+    clipped[k] += other.clipped[k];
+  }
+  weight = sum;
+  records += other.records;
+  rates += other.rates;
+  fastest_radps = std::max(fastest_radps, other.fastest_radps);
+  temperatures += other.temperatures;
+  if (other.temperatures > 0)
+    temperature_degc += (other.temperature_degc - temperature_degc) * other.temperatures / temperatures;
+}
+
+void Intervals::add(double interval_s) noexcept {
+  if (!(interval_s > 0.0)) return;
+  const double place = (std::log2(interval_s) - kLeast) * kPerOctave;
+  const double last = static_cast<double>(bins_.size() - 1);
+  Bin& bin = bins_[static_cast<std::size_t>(std::clamp(place, 0.0, last))];
+  ++bin.count;
+  bin.sum_s += interval_s;
+  ++count_;
+}
+
+double Intervals::usual_s() const noexcept {
+  std::uint64_t below = 0;
+  for (const Bin& bin : bins_) {
+    below += bin.count;
+    if (2 * below > count_) return bin.sum_s / static_cast<double>(bin.count);
+  }
+  return logs::kAbsent;
+}
+
+Intervals::Gaps Intervals::gaps(double times) const noexcept {
+  Gaps out;
+  const double usual = usual_s();
+  for (const Bin& bin : bins_) {
+    if (bin.count == 0 || !(bin.sum_s > times * usual * static_cast<double>(bin.count))) continue;
+    out.count += bin.count;
+    out.lost_s += bin.sum_s - usual * static_cast<double>(bin.count);
+  }
+  return out;
+}
+
+void LogDigester::source(std::size_t number, const logs::ImuSource& source) {
+  if (number >= digest_.sources.size()) {
+    digest_.sources.resize(number + 1);
+    readings_.resize(number + 1);
+  }
+  digest_.sources[number].source = source;
+}
+
+void LogDigester::double_blocks() {
+  digest_.block_s *= 2.0;
+  for (Reading& reading : readings_) {
+    std::map<std::int64_t, SourceBlock> out;
+    for (const auto& [index, block] : reading.blocks) {
+      const std::int64_t wider = index >= 0 ? index / 2 : (index - 1) / 2;
+      SourceBlock& into = out.try_emplace(out.end(), wider)->second;
+      into.index = wider;
+      into.add(block);
+    }
+    reading.blocks = std::move(out);
+  }
+}
+
+void LogDigester::record(std::size_t number, const logs::ImuRecord& record) {
+  if (number >= digest_.sources.size()) return;
+  SourceDigest& digest = digest_.sources[number];
+  const bool timed = std::abs(record.time_s) < kFurthestBlock * digest_.block_s;  // false for NaN
+  if (!timed || !finite(record.specific_force_mps2)) {
+    ++digest.unreadable;
+    return;
+  }
+  Reading& reading = readings_[number];
+  const double interval_s = record.time_s - reading.last_s;
+  if (interval_s < 0.0) ++digest.backwards;
+  digest.intervals.add(interval_s);
+  if (interval_s > digest.longest_gap_s) {
+    digest.longest_gap_s = interval_s;
+    digest.longest_gap_at_s = reading.last_s;
+  }
+  reading.last_s = record.time_s;
+  digest.first_s = std::fmin(digest.first_s, record.time_s);
+  digest.last_s = std::fmax(digest.last_s, record.time_s);
+  ++digest.records;
+  const auto index = static_cast<std::int64_t>(std::floor(record.time_s / digest_.block_s));
+  SourceBlock& block = reading.blocks.try_emplace(reading.blocks.end(), index)->second;
+  block.index = index;
+  block.add(block_of(record));
+  while (reading.blocks.size() > most_blocks_) double_blocks();
+}
+
+void LogDigester::parameter(const std::string& name, double value) {
+  const bool wanted = starts_with(name, "CAL_ACC") || starts_with(name, "INS_ACC") || starts_with(name, "SENS_BOARD");
+  if (wanted && digest_.parameters.size() < kMostParameters) digest_.parameters[name] = value;
+}
+
+void LogDigester::note(std::uint64_t offset, const std::string& what) {
+  if (digest_.notes.size() < kMostNotes) digest_.notes.push_back({offset, what});
+}
+
+LogDigest LogDigester::take(std::string name, const logs::LogExtent& extent) {
+  digest_.name = std::move(name);
+  digest_.extent = extent;
+  for (std::size_t k = 0; k < readings_.size(); ++k) {
+    digest_.sources[k].blocks.reserve(readings_[k].blocks.size());
+    for (const auto& [index, block] : readings_[k].blocks) digest_.sources[k].blocks.push_back(block);
+  }
+  return std::move(digest_);
+}
+
+}  // namespace review
+}  // namespace PLUMB_ABI
+}  // namespace plumb
