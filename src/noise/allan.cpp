@@ -19,7 +19,8 @@ constexpr std::size_t kLeastMeans = 3;
 /// flicker noise fall as lag^-2 there).
 constexpr double kLagsPerStep = 64.0, kReach = 8.0;
 
-/// Of flicker and walk the covariance at a long lag is a small difference of large numbers; this much of it is rounding.
+/// Of flicker and walk the covariance at a long lag is a small difference of large numbers; this much of it is
+/// rounding.
 constexpr double kNegligible = 1e-9;
 
 }  // namespace
@@ -77,21 +78,26 @@ double equivalent_freedom(const Coefficients& noise, std::size_t readings, std::
   const double m = static_cast<double>(samples), count = static_cast<double>(readings + 1 - 2 * samples);
   const double variance = second_difference_covariance(unit, m, 0.0);
   if (!(variance > 0.0)) return 1.0;
-  // Sum over all lags from -count to count of (1 - |lag|/count) rho^2, in steps where m is long.
+  // Sum over all lags of (1 - |lag|/count) rho^2, in steps where m is long. Quantisation correlates at the lags 0, m
+  // and 2m alone, which steps would pass over or count too often: it is added there.
+  Variances smooth = unit;
+  smooth[index(Term::quantisation)] = 0.0;
+  const auto squared = [m, variance](const Variances& of, double lag) {
+    const double rho = second_difference_covariance(of, m, lag) / variance;
+    return std::fabs(rho) > kNegligible ? rho * rho : 0.0;
+  };
   const double stride = std::max(1.0, std::floor(m / kLagsPerStep));
   const double reach = std::min(count, kReach * m);
-  double sum = 0.0;
-  for (double lag = stride; lag < reach; lag += stride) {
-    const double rho = second_difference_covariance(unit, m, lag) / variance;
-    if (std::fabs(rho) > kNegligible) sum += (1.0 - lag / count) * rho * rho;
+  double sum = 0.5 * squared(smooth, 0.0);
+  for (double lag = stride; lag < reach; lag += stride) sum += (1.0 - lag / count) * squared(smooth, lag);
+  double all = 2.0 * stride * sum + 1.0 - squared(smooth, 0.0);
+  for (const double lag : {m, 2.0 * m}) {
+    if (lag < count) all += 2.0 * (1.0 - lag / count) * (squared(unit, lag) - squared(smooth, lag));
   }
-  // At the middle lag the whole stride counts, less what its two halves hold beyond lag 0 itself.
-  const double all = stride > 1.0 ? stride * (1.0 + 2.0 * sum) : 1.0 + 2.0 * sum;
   return std::max(1.0, count / all);
 }
 
-void add_intervals(std::vector<AllanPoint>& points, const Coefficients& noise, std::size_t readings,
-                   double period_s) {
+void add_intervals(std::vector<AllanPoint>& points, const Coefficients& noise, std::size_t readings, double period_s) {
   for (AllanPoint& point : points) {
     point.freedom = equivalent_freedom(noise, readings, point.samples, period_s);
     const boost::math::chi_squared law(point.freedom);
