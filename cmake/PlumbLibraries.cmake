@@ -210,6 +210,15 @@ if(TARGET plumb_logs AND review_sources)
   plumb_batch(plumb_review)
 endif()
 
+# What noise a log at rest shows.
+plumb_sources(noise_sources noise)
+if(TARGET plumb_io AND noise_sources)
+  add_library(plumb_noise STATIC ${noise_sources})
+  plumb_library(plumb_noise noise)
+  target_link_libraries(plumb_noise PUBLIC plumb_io plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_batch(plumb_noise)
+endif()
+
 # What is wrong with an array, a recording or a fit.
 plumb_sources(findings_sources findings)
 if(TARGET plumb_io AND findings_sources)
@@ -279,7 +288,7 @@ if(TARGET plumb_session AND TARGET plumb_verification AND render_sources)
   plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
   add_library(plumb_render STATIC ${render_sources})
   plumb_library(plumb_render render)
-  target_link_libraries(plumb_render PUBLIC plumb_session plumb_findings plumb_review plumb_verification plumb_study plumb_io fmt::fmt
+  target_link_libraries(plumb_render PUBLIC plumb_session plumb_findings plumb_noise plumb_review plumb_verification plumb_study plumb_io fmt::fmt
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_render)
   plumb_optimise_less(plumb_render)

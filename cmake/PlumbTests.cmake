@@ -188,6 +188,12 @@ if(TARGET plumb_commission)
     LONGER ArrayCommission.* BoardMotion.* MotionCommission.* QuadrotorMotion.*)
 endif()
 
+# Simulations by the thousand.
+if(TARGET plumb_noise)
+  plumb_test_executable(plumb_noise_tests LABEL host ROOMS noise LIBRARIES plumb_noise plumb_scenario plumb_io plumb_24
+    COMPUTING noise/coverage LONGER NoiseCoverage.*)
+endif()
+
 # The reports as others read them: their schemas, the findings as SARIF, and the pages in a browser.
 if(TARGET plumb_tool)
   find_program(PLUMB_PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

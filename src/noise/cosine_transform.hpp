@@ -1,8 +1,8 @@
 /// The cosine transform DCT-II, orthonormal (private to src/noise).
 ///
-/// It makes both white noise and a random walk (less its mean) uncorrelated exactly, and 1/f noise between them nearly so:
-/// the differences of a walk are white, and become a sine transform. So the powers of the components are independent
-/// chi-squares, without a taper and at any slope.
+/// It makes both white noise and a random walk (less its mean) uncorrelated exactly, and 1/f noise between them nearly
+/// so: the differences of a walk are white, and become a sine transform. So the powers of the components are
+/// independent chi-squares, without a taper and at any slope.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ class CosineTransform {
   std::unique_ptr<Plan> plan_;
 };
 
-/// The largest number up to `count` (>= 4) that is a multiple of four with no prime factor above five: within 1 % from some
-/// thousand on.
+/// The largest number up to `count` (>= 4) that is a multiple of four with no prime factor above five: within 1 % from
+/// some thousand on.
 std::size_t fast_length(std::size_t count) noexcept;
 
 }  // namespace noise

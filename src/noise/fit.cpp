@@ -78,7 +78,8 @@ Fitted fit_up_to(const std::vector<PowerBin>& all, double highest_hz) {
   return {std::move(likelihood), maximum, misfit};
 }
 
-/// Up to the highest frequency below which the terms describe the log; up to half the sampling rate where there is none.
+/// Up to the highest frequency below which the terms describe the log; up to half the sampling rate where there is
+/// none.
 Fitted fit_where_it_holds(const std::vector<PowerBin>& all, double half_rate_hz, double& highest_hz) {
   Fitted whole = fit_up_to(all, half_rate_hz);
   highest_hz = half_rate_hz;
@@ -104,23 +105,23 @@ NoiseFit fit_noise(const std::vector<double>& readings, double period_s, const s
   std::vector<double> rest = readings;
   const double slope = take_line_off(rest, period_s);
   NoiseFit out;
-  const Fitted fitted = fit_where_it_holds(power_bins(std::move(rest), period_s, left_out), 0.5 / period_s, out.highest_hz);
+  const Fitted fitted =
+      fit_where_it_holds(power_bins(std::move(rest), period_s, left_out), 0.5 / period_s, out.highest_hz);
   out.misfit = fitted.misfit.ratio;
   out.misfit_hz = fitted.misfit.frequency_hz;
-  Interval squares;  // the walk's at last
+  const SquareIntervals squares = square_intervals(fitted.likelihood, fitted.maximum);
   for (std::size_t t = 0; t < kNoiseTerms; ++t) {
-    squares = square_interval(fitted.likelihood, fitted.maximum, t);
     TermEstimate& term = out.terms[t];
     term.value = std::sqrt(fitted.maximum.squares[t]);
-    term.low = std::sqrt(squares.low);
-    term.high = std::sqrt(squares.high);
+    term.low = std::sqrt(squares[t].low);
+    term.high = std::sqrt(squares[t].high);
     term.visible = term.low > 0.0;
   }
-  const Interval slopes = slope_interval(fitted.likelihood, fitted.maximum, squares);
+  const Interval slopes = slope_interval(fitted.likelihood, fitted.maximum, squares[index(Term::random_walk)]);
   TermEstimate& line = out.terms[index(Term::drift_rate)];
   line.value = slope + fitted.maximum.slope;
-  line.low = slope + slopes.low;
-  line.high = slope + slopes.high;
+  line.low = std::min(line.value, slope + slopes.low);
+  line.high = std::max(line.value, slope + slopes.high);
   line.visible = line.low > 0.0 || line.high < 0.0;
   const Coefficients values = out.values();
   for (const Term term : kAllTerms) {

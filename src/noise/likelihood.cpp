@@ -147,8 +147,7 @@ Maximum Likelihood::maximum(const Held& held, const Maximum* start) const {
     double part = 1.0, gain = 0.0;
     for (int halving = 0; halving < kMostHalvings; ++halving, part *= 0.5) {
       Variances squares{};
-      for (std::size_t t = 0; t < kNoiseTerms; ++t)
-        squares[t] = best.squares[t] + part * (aim[t] - best.squares[t]);
+      for (std::size_t t = 0; t < kNoiseTerms; ++t) squares[t] = best.squares[t] + part * (aim[t] - best.squares[t]);
       const Maximum tried = evaluate(squares, held);
       gain = best.deviance - tried.deviance;
       if (gain > 0.0) {

@@ -1,8 +1,9 @@
 /// The likelihood of the powers of a log, and its maximum over the terms of noise (private to src/noise).
 ///
 /// The power of a bin is chi-square with a scale that is linear in the squares of the coefficients, none of which is
-/// negative. The freedom that a fitted line takes is accounted for (restricted likelihood, REML), also where the line is held
-/// to find its interval. The maximum is found by Fisher scoring: least squares again and again, with weights from the last fit.
+/// negative. The freedom that a fitted line takes is accounted for (restricted likelihood, REML), also where the line
+/// is held to find its interval. The maximum is found by Fisher scoring: least squares again and again, with weights
+/// from the last fit.
 #pragma once
 
 #include <cstddef>

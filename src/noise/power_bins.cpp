@@ -16,10 +16,12 @@ namespace {
 constexpr std::size_t kWhole = std::size_t{1} << 18;
 /// Pieces of longer ones; their components from kPieceFirst on count, the lower frequencies come from means over kMean.
 constexpr std::size_t kPiece = std::size_t{1} << 14, kPieceFirst = 256, kMean = 32;
-/// The lowest components stand alone, each with its line; higher ones are taken together within this ratio of frequencies.
+/// The lowest components stand alone, each with its line; higher ones are taken together within this ratio of
+/// frequencies.
 constexpr std::size_t kAlone = 64;
 constexpr double kBinRatio = 1.025;
-/// The lowest components of 1/f noise feel the ends of the log: their power is computed from covariances up to this one.
+/// The lowest components of 1/f noise feel the ends of the log: their power is computed from covariances up to this
+/// one.
 constexpr std::size_t kFlickerExact = 16;
 /// ... on a log of this length, which stands for any longer one: beyond the ends only the ratio of lengths counts.
 constexpr std::size_t kFlickerLength = 512;
@@ -44,8 +46,8 @@ std::vector<double> flicker_ends() {
       for (std::size_t j = 1; j < i; ++j) power += 2.0 * sine[i] * sine[j] * covariance[i - j];
     }
     const double across = 2.0 * std::sin(0.5 * angle);
-    const double expected = power_of_unit_terms(0.5 * static_cast<double>(k) / static_cast<double>(m),
-                                                1.0)[index(Term::bias_instability)];
+    const double expected =
+        power_of_unit_terms(0.5 * static_cast<double>(k) / static_cast<double>(m), 1.0)[index(Term::bias_instability)];
     out[k] = power * 2.0 / static_cast<double>(m) / (across * across) / expected;
   }
   return out;
@@ -68,8 +70,7 @@ PowerBin bin_at(const Place& place, std::size_t first, std::size_t last) {
   if (first == last && first <= kFlickerExact) bin.unit_power[index(Term::bias_instability)] *= ends[first];
   if (place.whole && first == last && first % 2 == 1) {
     const double half = 0.5 * kPi * middle / n;
-    bin.component_of_line =
-        -place.period_s * std::sqrt(2.0 / n) / (2.0 * std::sin(half) * std::tan(half));
+    bin.component_of_line = -place.period_s * std::sqrt(2.0 / n) / (2.0 * std::sin(half) * std::tan(half));
   }
   return bin;
 }
@@ -136,9 +137,14 @@ double piece_first_hz(double period_s) {
 
 }  // namespace
 
+std::size_t longest_piece_of_fit(std::size_t readings) noexcept {
+  return readings > kWhole ? kPiece : fast_length(readings);
+}
+
 double take_line_off(std::vector<double>& readings, double period_s) noexcept {
   const double n = static_cast<double>(readings.size()), middle = 0.5 * (n - 1.0);
-  double first = readings.empty() ? 0.0 : readings.front(), mean = 0.0, slope = 0.0, k = 0.0;
+  const double first = readings.empty() ? 0.0 : readings.front();
+  double mean = 0.0, slope = 0.0, k = 0.0;
   for (const double y : readings) {
     mean += (y - first) / n;
     slope += (k - middle) * (y - first);

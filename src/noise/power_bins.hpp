@@ -1,4 +1,5 @@
-/// The power of a log's cosine components in narrow bands, and what each term of noise adds to it (private to src/noise).
+/// The power of a log's cosine components in narrow bands, and what each term of noise adds to it (private to
+/// src/noise).
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,8 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace noise {
 
-/// Components of about one frequency. Under the model their power is `unit_power` times the squares of the coefficients, and
-/// power_sum over that is chi-square of `count` degrees of freedom.
+/// Components of about one frequency. Under the model their power is `unit_power` times the squares of the
+/// coefficients, and power_sum over that is chi-square of `count` degrees of freedom.
 struct PowerBin {
   double frequency_hz = 0.0;
   double count = 0.0;
@@ -30,6 +31,9 @@ std::vector<PowerBin> power_bins(std::vector<double> readings, double period_s, 
 
 /// The same bins of a log of `readings` samples, with no data in them: what such a log would show.
 std::vector<PowerBin> empty_bins(std::size_t readings, double period_s);
+
+/// The longest piece of such a log that is transformed at its own rate.
+std::size_t longest_piece_of_fit(std::size_t readings) noexcept;
 
 /// The line through the readings by least squares, taken off them; returns its slope [unit/s].
 double take_line_off(std::vector<double>& readings, double period_s) noexcept;

@@ -75,8 +75,7 @@ Variances power_of_unit_terms(double cycles, double period_s) noexcept {
   out[index(Term::bias_instability)] =
       sine_squared * (hurwitz_zeta_3(cycles) + hurwitz_zeta_3(1.0 - cycles)) / (2.0 * kPi * kPi * kPi);
   // Differences of means of a random walk: variance 2/3, neighbours 1/6.
-  out[index(Term::random_walk)] =
-      period_s * (2.0 / 3.0 + std::cos(2.0 * kPi * cycles) / 3.0) / (4.0 * sine_squared);
+  out[index(Term::random_walk)] = period_s * (2.0 / 3.0 + std::cos(2.0 * kPi * cycles) / 3.0) / (4.0 * sine_squared);
   return out;
 }
 

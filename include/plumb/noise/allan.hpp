@@ -38,10 +38,11 @@ std::vector<std::size_t> averaging_lengths(std::size_t readings, int per_octave)
 /// The deviation at each of `averaging_lengths`, without intervals.
 std::vector<AllanPoint> allan_deviation(const std::vector<double>& sums, double period_s, int per_octave);
 
-/// Equivalent degrees of freedom of the overlapping estimate over `samples` of `readings` readings, if the noise is that of
-/// these terms (the drift rate does not count): 2 E^2/Var of the mean of squared second differences of the phase, by their
-/// covariances. At least 1.
-double equivalent_freedom(const Coefficients& noise, std::size_t readings, std::size_t samples, double period_s) noexcept;
+/// Equivalent degrees of freedom of the overlapping estimate over `samples` of `readings` readings, if the noise is
+/// that of these terms (the drift rate does not count): 2 E^2/Var of the mean of squared second differences of the
+/// phase, by their covariances. At least 1.
+double equivalent_freedom(const Coefficients& noise, std::size_t readings, std::size_t samples,
+                          double period_s) noexcept;
 
 /// 95 % intervals by chi-square, with the degrees of freedom of that noise.
 void add_intervals(std::vector<AllanPoint>& points, const Coefficients& noise, std::size_t readings, double period_s);

@@ -1,7 +1,7 @@
 /// The terms of noise in a log at rest, each with its interval.
 ///
-/// Method: maximum likelihood on the powers of the cosine components of the log (docs/noise.md). The intervals are those of
-/// the profile likelihood: what a coefficient may be while the others fit as well as they can.
+/// Method: maximum likelihood on the powers of the cosine components of the log (docs/noise.md). The intervals are
+/// those of the profile likelihood: what a coefficient may be while the others fit as well as they can.
 #pragma once
 
 #include <array>
@@ -34,11 +34,11 @@ struct TermEstimate {
 
 struct NoiseFit {
   std::array<TermEstimate, kTerms> terms{};  ///< by `index`
-  /// The fit goes by frequencies up to this: less than half the sampling rate where the highest ones are not of these terms
-  /// (an output filter).
+  /// The fit goes by frequencies up to this: less than half the sampling rate where the highest ones are not of these
+  /// terms (an output filter).
   double highest_hz = 0.0;
-  /// Largest deviation of the power in an octave from the fitted one, as a ratio (1 = none), beyond what chance does; and
-  /// where. 1 where the terms describe the log.
+  /// Largest deviation of the power in an octave from the fitted one, as a ratio (1 = none), beyond what chance does;
+  /// and where. 1 where the terms describe the log.
   double misfit = 1.0;
   double misfit_hz = 0.0;
 
@@ -49,8 +49,8 @@ struct NoiseFit {
 /// Fewest readings of a fit.
 inline constexpr std::size_t kLeastReadings = 256;
 
-/// Readings one `period_s` apart, at least kLeastReadings of them, all finite, not all alike; any unit. `left_out`: bands
-/// with lines in the spectrum, which are none of the terms.
+/// Readings one `period_s` apart, at least kLeastReadings of them, all finite, not all alike; any unit. `left_out`:
+/// bands with lines in the spectrum, which are none of the terms.
 NoiseFit fit_noise(const std::vector<double>& readings, double period_s, const std::vector<Band>& left_out);
 
 }  // namespace noise

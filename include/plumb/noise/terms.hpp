@@ -1,7 +1,7 @@
 /// The terms of noise that an accelerometer at rest shows, and what each adds to the Allan variance.
 ///
-/// Source: IEEE Std 952-1997, annex C (definitions of Q, N, B, K, R and their slopes); Greenhall and Riley, Uncertainty of
-/// stability variances based on finite differences, 2003 (the covariances).
+/// Source: IEEE Std 952-1997, annex C (definitions of Q, N, B, K, R and their slopes); Greenhall and Riley, Uncertainty
+/// of stability variances based on finite differences, 2003 (the covariances).
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ const char* to_string(Term term) noexcept;
 /// "Q", "N", "B", "K", "R".
 const char* symbol(Term term) noexcept;
 
-/// One number a term, by `index`: coefficients Q, N, B, K [unit of the readings with the time units above] and R, which may
-/// be negative.
+/// One number a term, by `index`: coefficients Q, N, B, K [unit of the readings with the time units above] and R, which
+/// may be negative.
 using Coefficients = std::array<double, kTerms>;
 /// Squares Q^2, N^2, B^2, K^2.
 using Variances = std::array<double, kNoiseTerms>;
@@ -46,9 +46,9 @@ double allan_variance(Term term, double coefficient, double tau_s) noexcept;
 /// All terms together.
 double allan_variance(const Coefficients& coefficients, double tau_s) noexcept;
 
-/// What each noise term, with the coefficient 1, adds to the power of the component at `cycles` per sample (0 < cycles <=
-/// 1/2) of samples that are means over `period_s` [unit^2; white noise of variance 1 a sample has power 1]. Aliases are
-/// included; no edge effects.
+/// What each noise term, with the coefficient 1, adds to the power of the component at `cycles` per sample (0 < cycles
+/// <= 1/2) of samples that are means over `period_s` [unit^2; white noise of variance 1 a sample has power 1]. Aliases
+/// are included; no edge effects.
 Variances power_of_unit_terms(double cycles, double period_s) noexcept;
 
 }  // namespace noise
