@@ -197,7 +197,12 @@ plumb_sources(logs_sources logs)
 if(TARGET plumb_io AND logs_sources)
   add_library(plumb_logs STATIC ${logs_sources})
   plumb_library(plumb_logs logs)
-  target_link_libraries(plumb_logs PUBLIC plumb_io plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_find_header(TARGET plumb_zstd HEADER zstd.h DEBIAN libzstd-dev)
+  plumb_find_header(TARGET plumb_lz4 HEADER lz4frame.h DEBIAN liblz4-dev)
+  plumb_find_header(TARGET plumb_sqlite3 HEADER sqlite3.h DEBIAN libsqlite3-dev)
+  target_link_libraries(plumb_logs PUBLIC plumb_io plumb_24
+    PRIVATE "$<BUILD_INTERFACE:Boost::headers>" "$<BUILD_INTERFACE:plumb_deflate>" deflate
+      "$<BUILD_INTERFACE:plumb_zstd>" zstd "$<BUILD_INTERFACE:plumb_lz4>" lz4 "$<BUILD_INTERFACE:plumb_sqlite3>" sqlite3)
   plumb_batch(plumb_logs)
 endif()
 
@@ -217,6 +222,16 @@ if(TARGET plumb_io AND noise_sources)
   plumb_library(plumb_noise noise)
   target_link_libraries(plumb_noise PUBLIC plumb_io plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_noise)
+endif()
+
+# Coefficients that others have found, and calibrations in the forms of others.
+plumb_sources(coefficients_sources coefficients)
+if(TARGET plumb_io AND coefficients_sources)
+  add_library(plumb_coefficients STATIC ${coefficients_sources})
+  plumb_library(plumb_coefficients coefficients)
+  target_compile_definitions(plumb_coefficients PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")  # in what it writes
+  target_link_libraries(plumb_coefficients PUBLIC plumb_io plumb_24)
+  plumb_batch(plumb_coefficients)
 endif()
 
 # What is wrong with an array, a recording or a fit.
@@ -288,7 +303,7 @@ if(TARGET plumb_session AND TARGET plumb_verification AND render_sources)
   plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
   add_library(plumb_render STATIC ${render_sources})
   plumb_library(plumb_render render)
-  target_link_libraries(plumb_render PUBLIC plumb_session plumb_findings plumb_noise plumb_review plumb_verification plumb_study plumb_io fmt::fmt
+  target_link_libraries(plumb_render PUBLIC plumb_session plumb_coefficients plumb_findings plumb_noise plumb_review plumb_verification plumb_study plumb_io fmt::fmt
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_render)
   plumb_optimise_less(plumb_render)

@@ -194,6 +194,12 @@ if(TARGET plumb_noise)
     COMPUTING noise/coverage LONGER NoiseCoverage.*)
 endif()
 
+# Another one: coefficients need files and nothing above them.
+if(TARGET plumb_coefficients)
+  plumb_test_executable(plumb_coefficients_tests LABEL host ROOMS coefficients LIBRARIES plumb_coefficients plumb_logs plumb_io plumb_24
+    LONGER CoefficientLaws.*)
+endif()
+
 # The reports as others read them: their schemas, the findings as SARIF, and the pages in a browser.
 if(TARGET plumb_tool)
   find_program(PLUMB_PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "calibrate_known.hpp"
 #include "calibrate_motion.hpp"
 #include "fit_pictures.hpp"
 #include "known_attitude_option.hpp"
@@ -27,6 +28,7 @@ struct CalibrateOptions {
   session::LogSpec log;
   std::string calibration;  ///< to which `motion` adds
   std::string motion;       ///< empty: a calibration at rest
+  KnownCoefficientOptions known;
   std::string out;
   session::CalibrationChoice choice;
   std::string plots;
@@ -35,7 +37,8 @@ struct CalibrateOptions {
   bool suggest = false;
   bool json = false;
   bool verbose = false;
-  bool rolls = false;  ///< something was said about the roll groups
+  bool rolls = false;              ///< something was said about the roll groups
+  const char* of_a_fit = nullptr;  ///< an option of the fit of a log at rest that was given
 };
 
 constexpr const char* kCalibrateAbout =
@@ -56,6 +59,13 @@ constexpr const char* kCalibrateNotes =
     "stays\n"
     "as it was calibrated (docs/motion.md, Commissioning):\n"
     "  plumb calibrate --array tool.toml --calibration calibration.json --motion flight.csv --out in-motion.json\n\n"
+    "Known coefficients need no log (docs/calibration.md, Known coefficients). Their uncertainty has to be stated, "
+    "and\n"
+    "nothing has tested them: a monitor trusts them after its own validation.\n"
+    "  plumb calibrate --array drone.toml --from vehicle.params --uncertainty \"bias=5 mg, scale=1000 ppm, axis=0.5 "
+    "deg\" \\\n"
+    "    --out calibration.json\n"
+    "  plumb calibrate --array drone.toml --calibration calibration.json --export px4 --out calibrated.params\n\n"
     "Ctrl-C ends the reading; the fit then uses the stations found so far, and says so.\n\n";
 
 /// The number that the text is, or what is wrong with it.
@@ -111,37 +121,70 @@ io::FileExpected<void> draw_fit(const CalibrateOptions& options, const session::
   return {};
 }
 
-/// A calibration is made at rest or in motion: which options belong together.
+/// What belongs to the fit of a log at rest, as far as it is given.
+const char* option_of_a_fit(const CalibrateOptions& options) {
+  const std::pair<bool, const char*> at_rest[] = {
+      {!options.log.path.empty(), "--log"},   {!options.known_attitudes.empty(), "--known-attitude"},
+      {options.choice.paper_fits, "--paper"}, {!options.plots.empty(), "--plots"},
+      {options.rolls, "--roll-axis"},         {options.suggest, "--suggest"},
+      {options.verbose, "--verbose"}};
+  for (const auto& [given, option] : at_rest) {
+    if (given) return option;
+  }
+  return options.of_a_fit;
+}
+
+io::FileError wrong_use(const char* option, const std::string& what, const std::string& remedy) {
+  return io::FileError{option, 0, "", what, remedy, io::ExitCode::usage};
+}
+
+/// A calibration is made at rest, in motion or of known coefficients: which options belong together.
 std::optional<io::FileError> misuse(const CalibrateOptions& options) {
-  const auto wrong = [](const char* option, const std::string& what, const std::string& remedy) {
-    return io::FileError{option, 0, "", what, remedy, io::ExitCode::usage};
-  };
+  if (std::optional<io::FileError> wrong = misuse_of(options.known, options.calibration)) return wrong;
+  const char* const of_a_fit = option_of_a_fit(options);
+  if (options.known.given()) {
+    const char* const mode = options.known.from.empty() ? "--export" : "--from";
+    if (of_a_fit != nullptr)
+      return wrong_use(of_a_fit, std::string("belongs to a calibration from a log, not to ") + mode, "leave it out");
+    const bool tagged = !options.tag.date.empty() || !options.tag.serial.empty();
+    if (tagged && options.known.from.empty())
+      return wrong_use(options.tag.date.empty() ? "--serial" : "--date", "belongs to a calibration that is made",
+                       "leave it out: the forms of others hold none");
+    if (!options.motion.empty())
+      return wrong_use("--motion", std::string("does not go with ") + mode, "add it to the calibration afterwards");
+    return std::nullopt;
+  }
   if (options.motion.empty()) {
     if (options.log.path.empty())
-      return wrong("--log", "is required", "give the log of still attitudes, or --calibration and --motion");
+      return wrong_use(
+          "--log", "is required",
+          "give the log of still attitudes, --from with known coefficients, or --calibration and --motion");
     if (!options.calibration.empty())
-      return wrong("--calibration", "belongs to --motion; a calibration at rest begins anew", "leave it out");
+      return wrong_use("--calibration", "belongs to --motion; a calibration at rest begins anew", "leave it out");
     return std::nullopt;
   }
   if (options.calibration.empty())
-    return wrong("--motion", "adds to a calibration made at rest, and none is given",
-                 "calibrate with --log first, then give --calibration CAL.json");
-  const std::pair<bool, const char*> at_rest[] = {{!options.log.path.empty(), "--log"},
-                                                  {!options.known_attitudes.empty(), "--known-attitude"},
-                                                  {options.choice.paper_fits, "--paper"},
-                                                  {!options.plots.empty(), "--plots"},
-                                                  {!options.tag.serial.empty(), "--serial"},
-                                                  {options.rolls, "--roll-axis"},
-                                                  {options.suggest, "--suggest"},
-                                                  {options.verbose, "--verbose"}};
-  for (const auto& [given, option] : at_rest) {
-    if (given) return wrong(option, "belongs to a calibration at rest, not to --motion", "leave it out");
-  }
+    return wrong_use("--motion", "adds to a calibration made at rest, and none is given",
+                     "calibrate with --log first, then give --calibration CAL.json");
+  if (of_a_fit != nullptr)
+    return wrong_use(of_a_fit, "belongs to a calibration at rest, not to --motion", "leave it out");
+  if (!options.tag.serial.empty())
+    return wrong_use("--serial", "belongs to a calibration at rest, not to --motion", "leave it out");
   return std::nullopt;
+}
+
+io::ExitCode run_known(const CalibrateOptions& options) {
+  const ChebyshevSpan& use = options.choice.temperature.use_degc;
+  KnownCoefficientFiles files = {options.array,      options.calibration, options.out, options.tag.date,
+                                 options.tag.serial, std::nullopt,        options.json};
+  if (use.lowest < use.highest) files.span = coefficients::TemperatureSpan{use.lowest, use.highest};
+  return options.known.from.empty() ? run_calibrate_export(options.known, files)
+                                    : run_calibrate_from(options.known, files);
 }
 
 io::ExitCode run_calibrate(const CalibrateOptions& options) {
   if (const std::optional<io::FileError> wrong = misuse(options)) return report(*wrong);
+  if (options.known.given()) return run_known(options);
   if (!options.motion.empty())
     return run_calibrate_motion({options.array,
                                  options.calibration,
@@ -207,16 +250,21 @@ Command add_calibrate(const Options& tool) {
   command
       .add_option("--log", options->log.path,
                   "the log of still attitudes, CSV with a header row; `-` reads standard input. Required without "
-                  "--motion")
+                  "--motion, --from and --export")
       .type_name("LOG.csv");
   command
       .add_option("--motion", options->motion,
                   "a log in motion instead, with the rates of a gyro: fits lever arms, lags and rectification and adds "
                   "them to --calibration")
       .type_name("FLIGHT.csv");
-  command.add_option("--calibration", options->calibration, "with --motion: the calibration at rest that it adds to")
+  command
+      .add_option("--calibration", options->calibration,
+                  "with --motion: the calibration at rest that it adds to; with --export: the one to write")
       .type_name("CAL.json");
-  command.add_option("--out", options->out, "the calibration file to write").required().type_name("CAL.json");
+  add_known_coefficient_options(command, options->known);
+  command.add_option("--out", options->out, "the calibration file to write; with --export that of the others")
+      .required()
+      .type_name("CAL.json");
   command
       .add_option("--date", options->tag.date,
                   "when the log was recorded; kept in the calibration file: drift per day (stability_per_day) counts "
@@ -232,7 +280,10 @@ Command add_calibrate(const Options& tool) {
   command
       .add_option(
           "--hold-out",
-          [options](const std::string& text) { return session::read_hold_out(text, options->choice.hold_out); },
+          [options](const std::string& text) {
+            options->of_a_fit = "--hold-out";
+            return session::read_hold_out(text, options->choice.hold_out);
+          },
           "check the fit by predicting stations that were held out of it: a number of folds, a fraction (once), "
           "`one` at a time, or `none`; by default 4 folds, below 16 stations one at a time")
       .type_name("K|FRACTION|one|none");
@@ -240,6 +291,7 @@ Command add_calibrate(const Options& tool) {
       .add_option(
           "--temperature-order",
           [options](const std::string& text) {
+            options->of_a_fit = "--temperature-order";
             return session::read_temperature_order(text, options->choice.temperature.order);
           },
           "polynomials of scale and bias over the temperature: their order, or `auto`, the highest that the stations "
@@ -252,10 +304,15 @@ Command add_calibrate(const Options& tool) {
             return session::read_use_range(text, options->choice.temperature.use_degc);
           },
           "temperatures at which the calibration will be used, for the errors to expect there; by default those of the "
-          "stations. A negative one needs the form --use-range-degc=-20,60")
+          "stations. With --from: over which the coefficients hold within their uncertainty. A negative one needs the "
+          "form --use-range-degc=-20,60")
       .type_name("LO,HI");
   command.add_flag(
-      "--keep-outliers", [options] { options->choice.fit.reject_outliers = false; },
+      "--keep-outliers",
+      [options] {
+        options->of_a_fit = "--keep-outliers";
+        options->choice.fit.reject_outliers = false;
+      },
       "plain least squares: keep stations whose residuals exceed the noise");
   command
       .add_option(

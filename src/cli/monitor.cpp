@@ -274,7 +274,7 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
   if (!days) return report(days.error());
   print_error(
       render::undated_note(*array, *calibration, options.calibration) +
-      render::exact_note(*calibration, options.calibration) +
+      render::exact_note(*calibration, options.calibration) + render::stated_note(*calibration, options.calibration) +
       render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
   if (array->monitor.mode == MonitorMode::plumb)  // the paper's method has no bound
     print_error(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)));

@@ -96,9 +96,9 @@ io::FileExpected<review::ReviewSettings> settings_of(const ReviewOptions& option
     gravity.error().file = "--gravity";
     return tl::unexpected<io::FileError>(gravity.error());
   }
-  return tl::unexpected<io::FileError>(io::FileError{"--gravity", 0, "", "\"" + options.gravity + "\" is not above zero",
-                                                     "give the local gravity, for example \"9.81 m/s^2\"",
-                                                     io::ExitCode::usage});
+  return tl::unexpected<io::FileError>(
+      io::FileError{"--gravity", 0, "", "\"" + options.gravity + "\" is not above zero",
+                    "give the local gravity, for example \"9.81 m/s^2\"", io::ExitCode::usage});
 }
 
 std::string text_of(const std::vector<review::LogReview>& logs, const std::vector<render::UnreadLog>& unread,
@@ -146,7 +146,10 @@ Command add_review(const Options& tool) {
   auto options = std::make_shared<ReviewOptions>();
   const Options command =
       tool.add_command("review", "review logs of autopilots and robots: which accelerometer disagrees; no array file");
-  command.add_option("LOG", options->logs, "Logs: ULog, DataFlash, ROS 2 bag or CSV").several().required().type_name("FILE...");
+  command.add_option("LOG", options->logs, "Logs: ULog, DataFlash, ROS 2 bag or CSV")
+      .several()
+      .required()
+      .type_name("FILE...");
   command.add_option("--html", options->page, "Write a page with everything that was found").type_name("FILE.html");
   command
       .add_option("--gravity", options->gravity,

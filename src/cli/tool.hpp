@@ -46,6 +46,7 @@ Command add_geometry(const Options& tool);
 Command add_calibrate(const Options& tool);
 Command add_monitor(const Options& tool);
 Command add_review(const Options& tool);
+Command add_import(const Options& tool);
 Command add_simulate(const Options& tool);
 Command add_inject(const Options& tool);
 Command add_convert(const Options& tool);

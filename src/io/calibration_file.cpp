@@ -186,6 +186,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
                                {"plumb_version", context.plumb_version}});
   if (!context.date.empty()) root["provenance"]["date"] = context.date;
   if (!context.serial.empty()) root["provenance"]["serial"] = context.serial;
+  if (!context.coefficients.empty()) root["provenance"]["coefficients"] = context.coefficients;
   put_attitudes(context, root);
   root["report"] = from_report(calibration.report, n);
   root["sensors"] = from_sensors(calibration);

@@ -292,6 +292,7 @@ CalibrationContext read_context(const Source& source, const Json& root) {
   }
   if (root.contains("attitudes")) read_attitudes(source, root["attitudes"], context);
   if (provenance.contains("serial")) context.serial = source.text_of(provenance, "serial");
+  if (provenance.contains("coefficients")) context.coefficients = source.text_of(provenance, "coefficients");
   return context;
 }
 

@@ -59,6 +59,8 @@ io::FileExpected<LogExtent> read_log(const std::string& path, LogSink& sink) {
   switch (*format) {
     case LogFormat::ulog: return read_ulog(path, sink);
     case LogFormat::dataflash: return read_dataflash(path, sink);
+    case LogFormat::mcap: return read_mcap(path, sink);
+    case LogFormat::rosbag2: return read_rosbag2(path, sink);
     default: break;
   }
   return tl::make_unexpected(io::FileError{path, 0, "", std::string("is ") + to_string(*format) + ", which is not read",

@@ -53,18 +53,20 @@ Json basis_json(const io::ArrayFile& array, const io::CalibrationFile* file, dou
                          {"alignment", alignment_json(array, findings::alignment_of(array, file))}});
   if (file == nullptr) return out;
   const FitReport& fit = file->calibration.report;
+  const bool fitted = file->context.coefficients.empty();
   out["calibration"] = io::object({{"log", file->context.log_file},
                                    {"made_by", file->context.plumb_version},
                                    {"date", file->context.date},
                                    {"serial", file->context.serial},
                                    {"g_mps2", file->context.gravity.g_mps2},
                                    {"stations", fit.stations},
-                                   {"norm_rms_mps2", fit.norm_rms_mps2},
-                                   {"parity_rms_mps2", fit.parity_rms_mps2},
-                                   {"p_value", fit.p_value},
+                                   {"norm_rms_mps2", fitted ? Json(fit.norm_rms_mps2) : Json()},
+                                   {"parity_rms_mps2", fitted ? Json(fit.parity_rms_mps2) : Json()},
+                                   {"p_value", fitted ? Json(fit.p_value) : Json()},
                                    {"temperature_min_degc", fit.temperature_min_degc},
                                    {"temperature_max_degc", fit.temperature_max_degc},
                                    {"sensors", coefficients_of(file->calibration)}});
+  if (!fitted) out["calibration"]["coefficients"] = file->context.coefficients;
   return out;
 }
 

@@ -36,6 +36,14 @@ std::string exact_note(const io::CalibrationFile& calibration, const std::string
   return words.empty() ? "" : "plumb: note: " + words + "\n";
 }
 
+std::string stated_note(const io::CalibrationFile& calibration, const std::string& path) {
+  if (calibration.context.coefficients.empty()) return "";
+  return "plumb: note: " + path + " was not fitted: it holds known coefficients (" + calibration.context.coefficients +
+         ", " + calibration.context.log_file +
+         "), which no station of this array has tested; every limit rests on the uncertainty stated with them. Remedy: "
+         "hold the tool still in several orientations first, so that the monitor validates them.\n";
+}
+
 std::string noise_note(const io::ArrayFile& array, SensorSet changed, const std::string& path) {
   if (changed.empty()) return "";
   return "plumb: note: " + array.path + " states another noise of " + sensor_names(changed, array.array) +

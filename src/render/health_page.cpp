@@ -241,19 +241,24 @@ Section basis_view(const Json& report) {
     out.text("There was no calibration file: the run began by calibrating itself.");
     return out;
   }
-  out.table("Calibration, as it was read", {"figure", "value"},
-            {{"log", c["log"]},
-             {"date of the log", told(c["date"])},
-             {"serial number of the tool", told(c["serial"])},
-             {"made by", "plumb " + c["made_by"].get<std::string>()},
-             {"stations", c["stations"]},
-             {"length of gravity then, m/s^2", fixed(c["g_mps2"], 1.0, 6)},
-             {"lowest temperature, degC", c["temperature_min_degc"]},
-             {"highest temperature, degC", c["temperature_max_degc"]},
-             {"rms of |G| less gravity, mg0", shown(c["norm_rms_mps2"], kMg0)},
-             {"rms of parity, mg0", shown(c["parity_rms_mps2"], kMg0)},
-             {"chance of such residuals or worse", c["p_value"]}},
-            "Date and serial number are those given to plumb calibrate. The hash of the file is in the next section.");
+  out.table(
+      "Calibration, as it was read", {"figure", "value"},
+      {{"log", c["log"]},
+       {"date of the log", told(c["date"])},
+       {"serial number of the tool", told(c["serial"])},
+       {"made by", "plumb " + c["made_by"].get<std::string>()},
+       {"stations", c["stations"]},
+       {"length of gravity then, m/s^2", fixed(c["g_mps2"], 1.0, 6)},
+       {"lowest temperature, degC", c["temperature_min_degc"]},
+       {"highest temperature, degC", c["temperature_max_degc"]},
+       {"rms of |G| less gravity, mg0", shown(c["norm_rms_mps2"], kMg0)},
+       {"rms of parity, mg0", shown(c["parity_rms_mps2"], kMg0)},
+       {"chance of such residuals or worse", c["p_value"]}},
+      (c.contains("coefficients")
+           ? "Nothing was fitted: these are coefficients of the form " + c["coefficients"].get<std::string>() +
+                 ", with the uncertainty that was stated. "
+           : std::string()) +
+          "Date and serial number are those given to plumb calibrate. The hash of the file is in the next section.");
   ViewRows rows;
   for (const Json& s : c["sensors"])
     rows.push_back({s["id"], shown(s["bias_mps2"][0], kMg0), s["scale_raw_per_mps2"][0], fixed(s["axis"][0], 1.0, 5),

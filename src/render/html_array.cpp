@@ -186,6 +186,9 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
     planned_tables(c, out);
   } else {
     out.text("From " + mode + ".");
+    if (mode == "known coefficients")
+      out.notice("Not fitted: coefficients and uncertainty are as stated, and no station of this tool has tested them.",
+                 "open");
   }
   if (!c["accepted"].get<bool>())
     out.notice("Refused: " + c["reason"].get<std::string>() + ". " + c.value("remedy", ""), "bad");
@@ -209,6 +212,7 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
                                    {"outliers", "outlier stations"},
                                    {"date", "date of the log"},
                                    {"serial", "serial number of the tool"},
+                                   {"coefficients", "not fitted; coefficients of the form"},
                                    {"made_by", "made by plumb"}}) {
     if (figures.contains(key) && !figures[key].is_null() && figures[key] != "")
       rows.push_back({words, shown(figures[key])});

@@ -171,8 +171,9 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
   if (!wiring) return tl::unexpected<io::FileError>(wiring.error());
   const SensorArray& rows = file->calibration.array;
   const FitReport& report = file->calibration.report;
-  CalibrationPart out = part_with(
-      {true, "calibration file", "", rows.taken_for_exact().empty() ? "" : sensor_names(rows.taken_for_exact(), rows)});
+  const bool stated = !file->context.coefficients.empty();
+  CalibrationPart out = part_with({true, stated ? "known coefficients" : "calibration file", "",
+                                   rows.taken_for_exact().empty() ? "" : sensor_names(rows.taken_for_exact(), rows)});
   out.section["file"] = io::object({{"stations", report.stations},
                                     {"parameters", report.parameters},
                                     {"rank", report.rank},
@@ -189,6 +190,15 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
                                     {"serial", file->context.serial},
                                     {"log", file->context.log_file},
                                     {"made_by", file->context.plumb_version}});
+  if (stated) {
+    out.section["file"] = io::object({{"coefficients", file->context.coefficients},
+                                      {"temperature_min_degc", report.temperature_min_degc},
+                                      {"temperature_max_degc", report.temperature_max_degc},
+                                      {"date", file->context.date},
+                                      {"serial", file->context.serial},
+                                      {"log", file->context.log_file},
+                                      {"made_by", file->context.plumb_version}});
+  }
   out.section["sensors"] = sensors_of(file->calibration);
   put_housing(*wiring, array, &file->calibration, out);
   if (!out.facts.taken_for_exact.empty()) out.section["taken_for_exact"] = out.facts.taken_for_exact;

@@ -28,18 +28,19 @@ Json chip_json(const LogReview& in, std::size_t i) {
                           {"scale", axes_json(chip.calibration.scale)},
                           {"applied_here", chip.calibration.applied_here}});
   }
-  return object({{"name", chip.name},
-                 {"device_id", chip.device_id},
-                 {"rate_hz", finite_or_null(chip.rate_hz)},
-                 {"from_s", finite_or_null(chip.from_s)},
-                 {"to_s", finite_or_null(chip.to_s)},
-                 {"temperature_degc", Json::array({finite_or_null(chip.coldest_degc), finite_or_null(chip.warmest_degc)})},
-                 {"off_gravity_at_rest_mps2", finite_or_null(off_gravity_mps2(in, i))},
-                 {"scatter_at_rest_mps2", axes_json(chip.scatter_mps2)},
-                 {"vibration_mps2", finite_or_null(chip.vibration_mps2)},
-                 {"vibration_at_s", finite_or_null(chip.vibration_at_s)},
-                 {"clipped", chip.clipped},
-                 {"installed_calibration", calibration}});
+  return object(
+      {{"name", chip.name},
+       {"device_id", chip.device_id},
+       {"rate_hz", finite_or_null(chip.rate_hz)},
+       {"from_s", finite_or_null(chip.from_s)},
+       {"to_s", finite_or_null(chip.to_s)},
+       {"temperature_degc", Json::array({finite_or_null(chip.coldest_degc), finite_or_null(chip.warmest_degc)})},
+       {"off_gravity_at_rest_mps2", finite_or_null(off_gravity_mps2(in, i))},
+       {"scatter_at_rest_mps2", axes_json(chip.scatter_mps2)},
+       {"vibration_mps2", finite_or_null(chip.vibration_mps2)},
+       {"vibration_at_s", finite_or_null(chip.vibration_at_s)},
+       {"clipped", chip.clipped},
+       {"installed_calibration", calibration}});
 }
 
 Json name_or_null(const LogReview& in, std::size_t chip) {
@@ -49,19 +50,20 @@ Json name_or_null(const LogReview& in, std::size_t chip) {
 Json finding_json(const LogReview& in, const review::Finding& finding) {
   const ReviewSentence sentence = sentence_of(finding, in);
   const bool undecided = finding.other != review::kNoChip;
-  return object({{"code", code_word(finding.code)},
-                 {"grade", grade_word(finding.grade)},
-                 {"chip", undecided ? Json() : name_or_null(in, finding.chip)},
-                 {"one_of", undecided ? Json::array({in.chips[finding.chip].name, in.chips[finding.other].name}) : Json()},
-                 {"axis", finding.axis < 0 ? Json() : Json(std::string(1, static_cast<char>('x' + finding.axis)))},
-                 {"figure", finite_or_null(finding.figure)},
-                 {"limit", finite_or_null(finding.limit)},
-                 {"uncertainty", finite_or_null(finding.uncertainty)},
-                 {"from_s", finite_or_null(finding.from_s)},
-                 {"to_s", finite_or_null(finding.to_s)},
-                 {"times", finding.times},
-                 {"text", sentence.what},
-                 {"to_do", sentence.remedy}});
+  return object(
+      {{"code", code_word(finding.code)},
+       {"grade", grade_word(finding.grade)},
+       {"chip", undecided ? Json() : name_or_null(in, finding.chip)},
+       {"one_of", undecided ? Json::array({in.chips[finding.chip].name, in.chips[finding.other].name}) : Json()},
+       {"axis", finding.axis < 0 ? Json() : Json(std::string(1, static_cast<char>('x' + finding.axis)))},
+       {"figure", finite_or_null(finding.figure)},
+       {"limit", finite_or_null(finding.limit)},
+       {"uncertainty", finite_or_null(finding.uncertainty)},
+       {"from_s", finite_or_null(finding.from_s)},
+       {"to_s", finite_or_null(finding.to_s)},
+       {"times", finding.times},
+       {"text", sentence.what},
+       {"to_do", sentence.remedy}});
 }
 
 Json stretch_json(const review::Stretch& stretch) {
@@ -69,10 +71,8 @@ Json stretch_json(const review::Stretch& stretch) {
   Json uncertainties = Json::array();
   for (const review::Axes& mean : stretch.mean_mps2) means.push_back(axes_json(mean));
   for (const double u : stretch.uncertainty_mps2) uncertainties.push_back(finite_or_null(u));
-  return object({{"from_s", stretch.from_s},
-                 {"to_s", stretch.to_s},
-                 {"mean_mps2", means},
-                 {"uncertainty_mps2", uncertainties}});
+  return object(
+      {{"from_s", stretch.from_s}, {"to_s", stretch.to_s}, {"mean_mps2", means}, {"uncertainty_mps2", uncertainties}});
 }
 
 Json log_json(const LogReview& in) {
@@ -115,7 +115,8 @@ Json review_json(const std::vector<LogReview>& logs, const std::vector<UnreadLog
   Json list = Json::array();
   for (const LogReview& log : logs) list.push_back(log_json(log));
   Json others = Json::array();
-  for (const UnreadLog& log : unread) others.push_back(object({{"name", log.name}, {"why", io::printable_line(log.why)}}));
+  for (const UnreadLog& log : unread)
+    others.push_back(object({{"name", log.name}, {"why", io::printable_line(log.why)}}));
   Json devices = Json::array();
   for (const DeviceTrend& trend : trends_of(logs)) {
     Json seen = Json::array();

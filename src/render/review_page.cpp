@@ -37,7 +37,8 @@ Section fleet_view(const std::vector<LogReview>& logs, const std::vector<UnreadL
                     fmt::format("{:.0f}", log.at_rest_s), answer_of(log)});
   }
   for (const UnreadLog& log : unread)
-    rows.push_back({io::printable_line(log.name), ViewCell("NOT READ", "open"), "-", "-", "-", io::printable_line(log.why)});
+    rows.push_back(
+        {io::printable_line(log.name), ViewCell("NOT READ", "open"), "-", "-", "-", io::printable_line(log.why)});
   out.table("Every log", {"log", "grade", "accelerometers", "s", "at rest, s", "answer"}, rows);
   const std::vector<DeviceTrend> trends = trends_of(logs);
   if (trends.empty()) return out;
@@ -49,7 +50,8 @@ Section fleet_view(const std::vector<LogReview>& logs, const std::vector<UnreadL
     }
   }
   out.table("The same accelerometer in several logs", {"device", "log", "at rest, m/s^2 off gravity", "warmest, degC"},
-            devices, "A change from log to log beyond the uncertainty of gravity is drift, a shock or a new calibration.");
+            devices,
+            "A change from log to log beyond the uncertainty of gravity is drift, a shock or a new calibration.");
   return out;
 }
 
@@ -75,8 +77,8 @@ void add_chips(const LogReview& log, Section& out) {
                     figure(chip.vibration_mps2, "{:.1f}"), std::to_string(chip.clipped), calibration_words(chip)});
   }
   out.table("Accelerometers",
-            {"name in the log", "device", "rate, Hz", "degC", "at rest, m/s^2 off gravity", "scatter at rest x, y, z, m/s^2",
-             "worst vibration, m/s^2", "clipped", "installed calibration"},
+            {"name in the log", "device", "rate, Hz", "degC", "at rest, m/s^2 off gravity",
+             "scatter at rest x, y, z, m/s^2", "worst vibration, m/s^2", "clipped", "installed calibration"},
             rows);
 }
 
@@ -101,11 +103,11 @@ Section log_view(const LogReview& log, std::size_t number) {
   Section out(fmt::format("log{}", number), io::printable_line(log.name), grade_word(log));
   out.notice(std::string(grade_word(log)) + ": " + answer_of(log), tone_of(log));
   if (log.chips.empty()) return out;
-  out.figures({{"Accelerometers", std::to_string(log.chips.size()), "in this log"},
-               {"At rest", fmt::format("{:.0f} s", log.at_rest_s),
-                count_text(log.stretches.size(), "stretch", "stretches")},
-               {"Agreement in motion", figure(log.motion_agreement_mps2, "{:.2f} m/s^2"),
-                fmt::format("median of {}", count_text(log.motion_cells, "cell"))}});
+  out.figures(
+      {{"Accelerometers", std::to_string(log.chips.size()), "in this log"},
+       {"At rest", fmt::format("{:.0f} s", log.at_rest_s), count_text(log.stretches.size(), "stretch", "stretches")},
+       {"Agreement in motion", figure(log.motion_agreement_mps2, "{:.2f} m/s^2"),
+        fmt::format("median of {}", count_text(log.motion_cells, "cell"))}});
   add_findings(log, out);
   add_chips(log, out);
   add_stretches(log, out);
@@ -128,8 +130,9 @@ std::string review_html(const std::vector<LogReview>& logs, const std::vector<Un
   PageFrame frame;
   frame.title = "Review of accelerometers";
   frame.lead = "What the logs say of their accelerometers, without an array file and without a calibration of plumb.";
-  frame.footer = "Made by plumb review. docs/review.md lists every limit with its source. GREEN: nothing found in what "
-                 "was judged; what was not is listed.";
+  frame.footer =
+      "Made by plumb review. docs/review.md lists every limit with its source. GREEN: nothing found in what "
+      "was judged; what was not is listed.";
   return sections_html(frame, std::move(sections));
 }
 

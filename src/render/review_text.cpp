@@ -66,17 +66,15 @@ std::string findings_text(const LogReview& in) {
 std::string rest_words(const LogReview& in) {
   if (in.stretches.empty()) return "At rest: never for 3 s or more.";
   return fmt::format("At rest: {:.1f} s in {}. Gravity is taken as {:.3f} m/s^2, +-{:.3f}.", in.at_rest_s,
-                     count_text(in.stretches.size(), "stretch", "stretches"), in.gravity_mps2,
-                     in.gravity_half_mps2);
+                     count_text(in.stretches.size(), "stretch", "stretches"), in.gravity_mps2, in.gravity_half_mps2);
 }
 
 std::string notes_text(const LogReview& in, bool all) {
   if (in.notes.empty()) return "";
-  if (!all)
-    return fmt::format("The reader left {} (--notes shows them).\n",
-                       count_text(in.notes.size(), "note"));
+  if (!all) return fmt::format("The reader left {} (--notes shows them).\n", count_text(in.notes.size(), "note"));
   std::string out = "Notes of the reader:\n";
-  for (const review::Note& note : in.notes) out += fmt::format("  byte {}: {}.\n", note.offset, io::printable_line(note.what));
+  for (const review::Note& note : in.notes)
+    out += fmt::format("  byte {}: {}.\n", note.offset, io::printable_line(note.what));
   return out;
 }
 
@@ -89,11 +87,11 @@ const char* grade_word(const LogReview& one) noexcept {
 std::string review_text(const LogReview& one, bool notes) {
   std::string out = fmt::format("{}: {}\n{}\n", io::printable_line(one.name), grade_word(one), answer_of(one));
   if (one.chips.empty()) return out + notes_text(one, notes);
-  out += fmt::format("\nLog: {:.1f} s, {}, {} bytes of {} read{}. {}\n", one.to_s - one.from_s,
-                     count_text(one.chips.size(), "accelerometer"), one.extent.read_bytes, one.extent.bytes,
-                     one.extent.dropped_s > 0.0 ? fmt::format(", {:.2f} s lost by the logger", one.extent.dropped_s)
-                                                : "",
-                     rest_words(one));
+  out +=
+      fmt::format("\nLog: {:.1f} s, {}, {} bytes of {} read{}. {}\n", one.to_s - one.from_s,
+                  count_text(one.chips.size(), "accelerometer"), one.extent.read_bytes, one.extent.bytes,
+                  one.extent.dropped_s > 0.0 ? fmt::format(", {:.2f} s lost by the logger", one.extent.dropped_s) : "",
+                  rest_words(one));
   if (one.motion_cells > 0) {
     out += fmt::format("In motion: compared in {}, difference {:.2f} m/s^2 (median).\n",
                        count_text(one.motion_cells, "cell"), one.motion_agreement_mps2);

@@ -41,25 +41,26 @@ ReviewSentence of_disagreement(const Finding& f, const LogReview& in) {
   const bool motion = f.code == FindingCode::motion_disagreement;
   const std::string when = motion ? "in motion" : "at rest";
   const std::string figures = fmt::format("{:.2f} m/s^2 ({:.0f} mg0, +-{:.2f} for noise{}; limit {:.2f})", f.figure,
-                                          milli_g0(f.figure), f.uncertainty,
-                                          motion ? " and lever arms" : "", f.limit);
+                                          milli_g0(f.figure), f.uncertainty, motion ? " and lever arms" : "", f.limit);
   if (f.other != kNoChip) {
     const bool two = in.chips.size() == 2;
-    return {fmt::format("{} differ by {} {}: which one is wrong cannot be told from this log", both(f, in), figures,
-                        when),
-            "",
-            two ? "hold the vehicle still in six attitudes and review that log: the lengths of gravity tell; or calibrate both"
-                : "calibrate all accelerometers, then fly again"};
+    return {
+        fmt::format("{} differ by {} {}: which one is wrong cannot be told from this log", both(f, in), figures, when),
+        "",
+        two ? "hold the vehicle still in six attitudes and review that log: the lengths of gravity tell; or calibrate "
+              "both"
+            : "calibrate all accelerometers, then fly again"};
   }
-  const std::string why = f.told_by_length ? "its length of gravity is wrong, that of the other one is right"
-                                           : "the others agree";
+  const std::string why =
+      f.told_by_length ? "its length of gravity is wrong, that of the other one is right" : "the others agree";
   return {fmt::format("{} differs by {} {}, and {}", chip_name(in, f.chip), figures, when, why), "",
           "calibrate this accelerometer; if it differs again, take it out of use"};
 }
 
 ReviewSentence of_stillness(const Finding& f, const LogReview& in) {
   const std::string subject = f.axis < 0 ? chip_name(in, f.chip) : axis_word(f.axis) + " of " + chip_name(in, f.chip);
-  const std::string moved = f.grade == review::Grade::red ? " while other axes moved" : " (others changed or were noisy)";
+  const std::string moved =
+      f.grade == review::Grade::red ? " while other axes moved" : " (others changed or were noisy)";
   return {fmt::format("{} stands still at {:.3f} m/s^2 for {}{}", subject, f.figure,
                       count_text(static_cast<std::uint64_t>(f.limit), "record"), moved),
           "", "check the wiring and the driver; replace the chip where it happens again"};
@@ -110,9 +111,10 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
     case FindingCode::disagreement:
     case FindingCode::motion_disagreement: return of_disagreement(f, in);
     case FindingCode::orientation:
-      return {fmt::format("{} and another chip read gravity in directions that are {:.0f} deg apart, with equal lengths",
-                          f.other == kNoChip ? chip_name(in, f.chip) : both(f, in), f.figure),
-              "", "state how each chip is mounted; where it should be aligned, check its mounting"};
+      return {
+          fmt::format("{} and another chip read gravity in directions that are {:.0f} deg apart, with equal lengths",
+                      f.other == kNoChip ? chip_name(in, f.chip) : both(f, in), f.figure),
+          "", "state how each chip is mounted; where it should be aligned, check its mounting"};
     case FindingCode::axis_stuck:
     case FindingCode::chip_frozen: return of_stillness(f, in);
     case FindingCode::clipping:
@@ -182,7 +184,8 @@ std::string sentence_of(OpenQuestion question) {
       return "one accelerometer: nothing to compare it with, its errors across gravity stay unseen";
     case OpenQuestion::two_chips:
       return "two accelerometers: a difference is seen, which one is wrong only where its length of gravity tells";
-    case OpenQuestion::never_at_rest: return "never at rest for 3 s: lengths of gravity, noise and drift are not judged";
+    case OpenQuestion::never_at_rest:
+      return "never at rest for 3 s: lengths of gravity, noise and drift are not judged";
     case OpenQuestion::never_in_motion: return "always at rest: vibration and agreement in motion are not judged";
     case OpenQuestion::one_attitude:
       return "one attitude at rest: errors across gravity are seen only as differences between chips";
@@ -219,7 +222,8 @@ std::string answer_of(const LogReview& in) {
     return worst.what + (more == 0 ? "." : fmt::format("; and {}.", count_text(more, "more finding")));
   }
   if (!in.judged) return "Nothing was judged: never at rest, and no two accelerometers to compare.";
-  const std::string subject = in.chips.size() == 1 ? "The accelerometer" : fmt::format("All {} accelerometers", in.chips.size());
+  const std::string subject =
+      in.chips.size() == 1 ? "The accelerometer" : fmt::format("All {} accelerometers", in.chips.size());
   const std::string verb = in.chips.size() == 1 ? "reads" : "read";
   if (in.stretches.empty()) return subject + " agree in motion; none was seen at rest.";
   return subject + " " + verb + " gravity at rest" + (in.chips.size() > 1 ? " and agree." : ".");

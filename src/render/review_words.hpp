@@ -41,7 +41,8 @@ struct DeviceTrend {
   std::vector<double> warmest_degc;
 };
 std::vector<DeviceTrend> trends_of(const std::vector<review::LogReview>& logs);
-/// Of the lengths at rest: mean over the stretches, weighted by their durations, minus the gravity that was judged by; NaN without one.
+/// Of the lengths at rest: mean over the stretches, weighted by their durations, minus the gravity that was judged by;
+/// NaN without one.
 double off_gravity_mps2(const review::LogReview& in, std::size_t chip);
 
 }  // namespace render

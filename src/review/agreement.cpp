@@ -88,8 +88,8 @@ std::size_t told_by_others(const Comparison& chips) {
 /// Differences of two chips, cell by cell; NaN where one of them says nothing.
 using Differences = std::vector<Axes>;
 
-/// The scatter of the differences about a cell: 2.5 times the median step from cell to cell nearby, which is 5.4 standard
-/// deviations of noise that is equal along three axes. What stays for several cells is no scatter.
+/// The scatter of the differences about a cell: 2.5 times the median step from cell to cell nearby, which is 5.4
+/// standard deviations of noise that is equal along three axes. What stays for several cells is no scatter.
 double scatter_about(const Differences& differences, std::size_t cell) {
   const std::size_t from = cell > kNearbyCells ? cell - kNearbyCells : 0;
   const std::size_t to = std::min(differences.size(), cell + kNearbyCells + 1);
@@ -157,7 +157,8 @@ Comparison averaged(const std::vector<Comparison>& cells, const std::vector<doub
   std::fill(out.allowed_mps2.begin(), out.allowed_mps2.end(), 0.0);
   for (std::size_t c = from; c < to; ++c) {
     bool all = true;
-    for (std::size_t i = 0; i < out.readings.size(); ++i) all = all && (!out.readings[i].there || cells[c].readings[i].there);
+    for (std::size_t i = 0; i < out.readings.size(); ++i)
+      all = all && (!out.readings[i].there || cells[c].readings[i].there);
     if (!all) continue;
     count += 1.0;
     lever_mps2 += levers_mps2[c];
@@ -264,8 +265,7 @@ Opinion opinion_of(const Comparison& chips, const GravityKnown& gravity, bool at
   return out;
 }
 
-void judge_rest(const std::vector<Cell>& cells, const LogDigest& digest, const GravityKnown& gravity,
-                LogReview& out) {
+void judge_rest(const std::vector<Cell>& cells, const LogDigest& digest, const GravityKnown& gravity, LogReview& out) {
   std::vector<Finding> found;  // the worst of each chip or pair
   for (const Cell& cell : cells) {
     const Comparison chips = compare_at_rest(cell);

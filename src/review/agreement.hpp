@@ -32,7 +32,7 @@ struct Comparison {
 
 /// What a cell says.
 struct Opinion {
-  bool compared = false;       ///< two chips or more
+  bool compared = false;  ///< two chips or more
   bool disagree = false;
   double figure_mps2 = 0.0;    ///< the largest difference of two, or of the named one from the nearest other
   double allowed_mps2 = 0.0;   ///< of that pair
@@ -50,8 +50,7 @@ Opinion opinion_of(const Comparison& chips, const GravityKnown& gravity, bool at
 std::vector<Reading> readings_of(const Cell& cell);
 
 void judge_rest(const std::vector<Cell>& cells, const LogDigest& digest, const GravityKnown& gravity, LogReview& out);
-void judge_motion(const std::vector<Cell>& cells, const LogDigest& digest, const GravityKnown& gravity,
-                  LogReview& out);
+void judge_motion(const std::vector<Cell>& cells, const LogDigest& digest, const GravityKnown& gravity, LogReview& out);
 
 }  // namespace review
 }  // namespace PLUMB_ABI

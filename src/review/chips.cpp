@@ -116,7 +116,8 @@ std::vector<ChipSummary> chips_of(const LogDigest& digest) {
     if (chip.device_id == 0) chip.device_id = source.device_id;
     chip.sources.push_back(k);
     const bool first = chip.sources.size() == 1;
-    const bool better = family_of(source.name) == family && family_of(digest.sources[chip.judged].source.name) != family;
+    const bool better =
+        family_of(source.name) == family && family_of(digest.sources[chip.judged].source.name) != family;
     if (first || better) chip.judged = k;
   }
   std::sort(chips.begin(), chips.end(), [&](const ChipSummary& a, const ChipSummary& b) {

@@ -31,8 +31,8 @@ constexpr std::size_t kAveragedCells = 4;
 constexpr int kMotionRun = 5;
 /// Readings that a window of time must have to be judged.
 constexpr double kWindowReadings = 10.0;
-/// A source is at rest where its scatter is at most this many times the least that it shows in the log, and no more than
-/// the upper figure; below the lower one it always is.
+/// A source is at rest where its scatter is at most this many times the least that it shows in the log, and no more
+/// than the upper figure; below the lower one it always is.
 constexpr double kStillRatio = 4.0;
 constexpr double kStillAlways_mps2 = 0.05;
 constexpr double kStillNever_mps2 = 0.3;

@@ -93,9 +93,9 @@ void add_still(const LogDigest& digest, std::size_t chip, const std::vector<std:
   const bool whole = axes.size() == 3;
   const bool long_enough = run.readings >= kUnchangedReadings && (whole || others_busy(blocks, run, axes.front()));
   if (!moved && !long_enough) return;
-  Finding finding = finding_of(whole ? FindingCode::chip_frozen : FindingCode::axis_stuck,
-                               moved ? Grade::red : Grade::orange, chip, blocks[run.last].mean_mps2[axes.front()],
-                               run.readings);
+  Finding finding =
+      finding_of(whole ? FindingCode::chip_frozen : FindingCode::axis_stuck, moved ? Grade::red : Grade::orange, chip,
+                 blocks[run.last].mean_mps2[axes.front()], run.readings);
   finding.axis = whole ? -1 : static_cast<int>(axes.front());
   finding.from_s = time_of(span.from, digest);
   finding.to_s = time_of(span.to, digest);
@@ -121,9 +121,9 @@ void check_vibration(const std::vector<Cell>& motion, const LogDigest& digest, L
       }
     }
     if (axis < 0 || summary.vibration_mps2 <= kVibration_mps2) continue;
-    Finding finding = finding_of(FindingCode::vibration,
-                                 summary.vibration_mps2 > kStrongVibration_mps2 ? Grade::red : Grade::orange, chip,
-                                 summary.vibration_mps2, kVibration_mps2);
+    Finding finding =
+        finding_of(FindingCode::vibration, summary.vibration_mps2 > kStrongVibration_mps2 ? Grade::red : Grade::orange,
+                   chip, summary.vibration_mps2, kVibration_mps2);
     finding.axis = axis;
     finding.from_s = finding.to_s = summary.vibration_at_s;
     out.findings.push_back(finding);
@@ -135,8 +135,8 @@ void check_clipping(const LogDigest& digest, LogReview& out) {
     const ChipSummary& summary = out.chips[chip];
     if (static_cast<double>(summary.clipped) <= kClippedReadings) continue;
     double readings = 0.0;
-    Finding finding = finding_of(FindingCode::clipping, Grade::orange, chip, static_cast<double>(summary.clipped),
-                                 kClippedReadings);
+    Finding finding =
+        finding_of(FindingCode::clipping, Grade::orange, chip, static_cast<double>(summary.clipped), kClippedReadings);
     for (const std::size_t source : summary.sources) {
       double here = 0.0;
       for (const SourceBlock& block : digest.sources[source].blocks) {
@@ -177,8 +177,8 @@ void check_times(const LogDigest& digest, LogReview& out) {
       out.findings.push_back(finding);
     }
     if (source.backwards > 0) {
-      out.findings.push_back(finding_of(FindingCode::backwards, Grade::orange, chip,
-                                        static_cast<double>(source.backwards), 0.0));
+      out.findings.push_back(
+          finding_of(FindingCode::backwards, Grade::orange, chip, static_cast<double>(source.backwards), 0.0));
     }
     const double silent_s = out.to_s - summary.to_s;
     if (silent_s > std::max(kStopped_s, kGapIntervals * usual_s)) {

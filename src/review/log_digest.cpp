@@ -155,7 +155,7 @@ void LogDigester::record(std::size_t number, const logs::ImuRecord& record) {
 }
 
 void LogDigester::parameter(const std::string& name, double value) {
-  const bool wanted = starts_with(name, "CAL_ACC") || starts_with(name, "INS_ACC") || starts_with(name, "SENS_BOARD");
+  const bool wanted = starts_with(name, "CAL_ACC") || starts_with(name, "INS_ACC") || starts_with(name, "TC_A");
   if (wanted && digest_.parameters.size() < kMostParameters) digest_.parameters[name] = value;
 }
 

@@ -51,9 +51,8 @@ void set_open(const LogDigest& digest, bool moved, LogReview& out) {
     out.open.push_back(OpenQuestion::one_attitude);
   }
   if (!moved) out.open.push_back(OpenQuestion::never_in_motion);
-  const bool slow = std::all_of(out.chips.begin(), out.chips.end(), [](const ChipSummary& chip) {
-    return !(chip.rate_hz >= kFastHz);
-  });
+  const bool slow = std::all_of(out.chips.begin(), out.chips.end(),
+                                [](const ChipSummary& chip) { return !(chip.rate_hz >= kFastHz); });
   if (slow) out.open.push_back(OpenQuestion::slow_log);
   if (digest.parameters.empty()) out.open.push_back(OpenQuestion::no_calibration_in_log);
 }

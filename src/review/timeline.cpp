@@ -16,7 +16,7 @@ namespace {
 /// A source seen through windows of several blocks.
 struct Watcher {
   std::map<std::int64_t, SourceBlock> windows;
-  double still_mps2 = 0.0;  ///< scatter up to which it is at rest
+  double still_mps2 = 0.0;             ///< scatter up to which it is at rest
   Axes mean_mps2 = logs::kAbsentAxes;  ///< of the stretch so far
   double weight = 0.0;
 };

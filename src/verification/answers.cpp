@@ -38,6 +38,8 @@ std::string distrust_of(const Facts& facts) {
     out += "; inclination and toolface as a whole: no known attitude confirms the wiring";
   if (facts.calibration.predicted())
     out += "; every figure here, because the tool was not calibrated: they come from a simulated calibration";
+  if (facts.calibration.stated())
+    out += "; any output beyond the stated uncertainty of the coefficients, which nothing has tested";
   if (!facts.calibration.accepted)
     out += "; any figure here: the calibration was refused, and they are of an exact tool";
   return out;

@@ -68,6 +68,10 @@ std::vector<std::string> assumptions_of(const UserLimits& limits, const Facts& f
     out.push_back(
         "No calibration was given: what it leaves is predicted from a simulated stand with sensors drawn from the "
         "priors of the array file. Verify again with the real one (--stations or --calibration).");
+  if (facts.calibration.stated())
+    out.push_back(
+        "The calibration was not fitted: coefficients and their uncertainty are as stated, and no station of this tool "
+        "has tested either.");
   if (!facts.calibration.taken_for_exact.empty())
     out.push_back("The calibration is exact for " + facts.calibration.taken_for_exact +
                   ": it states no uncertainty of them, so no limit and no protection level includes its errors. "

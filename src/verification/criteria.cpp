@@ -132,6 +132,10 @@ void judge_calibration(const CalibrationFacts& calibration, Criteria& out) {
     return out.add(CriterionId::calibration_accepted, asked, found, Result::open,
                    "this tool was not calibrated: section 3 lists what to record; give the log (--stations) or the "
                    "calibration (--calibration)");
+  if (calibration.accepted && calibration.stated())
+    return out.add(CriterionId::calibration_accepted, asked, calibration.mode + ", not fitted", Result::open,
+                   "no station of this tool has tested the coefficients that were stated: record some attitudes and "
+                   "calibrate with plumb calibrate --log");
   out.judge(CriterionId::calibration_accepted, calibration.accepted, asked, found,
             "the calibration was refused: " + calibration.reason);
 }

@@ -15,8 +15,8 @@ using namespace plumb_test;
 /// Three accelerometers of PX4, 40 s at 50 Hz, the first half at rest; chip `bad` reads `error` too much along x.
 std::string flight(int bad = -1, double error = 0.0) {
   using namespace ulog_bytes;
-  std::string out = header(0) + flags() +
-                    format("sensor_accel:uint64_t timestamp;uint32_t device_id;float x;float y;float z;");
+  std::string out =
+      header(0) + flags() + format("sensor_accel:uint64_t timestamp;uint32_t device_id;float x;float y;float z;");
   for (int chip = 0; chip < 3; ++chip) out += subscription(chip, chip, "sensor_accel");
   unsigned noise = 1;
   const auto next = [&noise] {
@@ -65,7 +65,8 @@ TEST(ReviewCommand, TheOneThatDisagreesIsNamedWithFigureLimitPlaceAndRemedy) {
   EXPECT_DOUBLE_EQ(worst["limit"].get<double>(), 0.35);
   EXPECT_LT(worst["to_s"].get<double>(), 21.0);
   EXPECT_NE(worst["to_do"], "");
-  EXPECT_TRUE(says(run(where, {"review", "bad.ulg"}).out, {"bad.ulg: RED", "sensor_accel[1] differs by 1.5", "To do: "}));
+  EXPECT_TRUE(
+      says(run(where, {"review", "bad.ulg"}).out, {"bad.ulg: RED", "sensor_accel[1] differs by 1.5", "To do: "}));
 }
 
 TEST(ReviewCommand, HalfOfWhatForbidsArmingIsOrange) {
@@ -81,7 +82,8 @@ TEST(ReviewCommand, ManyLogsAreATableAndTheWorstDecidesTheCode) {
   where.put("text.ulg", "\x1b[2Jno log\n\x01");
   const Outcome outcome = run(where, {"review", "one.ulg", "two.ulg", "text.ulg", "absent.ulg", "--html", "page.html"});
   EXPECT_EQ(outcome.code, 9);
-  EXPECT_TRUE(says(outcome.out, {"one.ulg", "GREEN", "RED", "NOT READ", "The same accelerometer in several logs", "501"}));
+  EXPECT_TRUE(
+      says(outcome.out, {"one.ulg", "GREEN", "RED", "NOT READ", "The same accelerometer in several logs", "501"}));
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
   EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos);
   const std::string page = where.text("page.html");

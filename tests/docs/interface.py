@@ -73,7 +73,7 @@ def campaign_keys(root, tool, folder):
 
 
 def calibration_file(root, tool, folder):
-    """One with all of its sections: roll groups, and the paper's fits."""
+    """One with all of its sections: roll groups, the paper's fits, and where coefficients come from that were not fitted."""
     array = (root / "examples/paper_tool.toml").read_text(encoding="utf-8")
     (folder / "array.toml").write_text(array.replace("[input]\n", '[input]\nroll_group = "ring"\n'), encoding="utf-8")
     attitudes = [f'{{inclination = "{inclination} deg", toolface = "{45 * k} deg"}}'
@@ -81,10 +81,15 @@ def calibration_file(root, tool, folder):
     (folder / "rolls.toml").write_text(ROLLS % ", ".join(attitudes), encoding="utf-8")
     for arguments in (["simulate", "rolls.toml", "--out", "log.csv"],
                       ["calibrate", "--array", "array.toml", "--log", "log.csv", "--out", "cal.json", "--paper",
-                       "--date", "2026-01-31", "--serial", "7"]):
+                       "--date", "2026-01-31", "--serial", "7"],
+                      ["calibrate", "--array", "array.toml", "--calibration", "cal.json", "--export", "csv", "--out", "known.csv"],
+                      ["calibrate", "--array", "array.toml", "--from", "known.csv", "--out", "known.json"]):
         done = run(tool, folder, *arguments)
         assert done.returncode == 0, done.stderr + done.stdout
-    return json.loads((folder / "cal.json").read_text(encoding="utf-8"))
+    root = json.loads((folder / "cal.json").read_text(encoding="utf-8"))
+    known = json.loads((folder / "known.json").read_text(encoding="utf-8"))
+    root["provenance"]["coefficients"] = known["provenance"]["coefficients"]
+    return root
 
 
 def paths(value, prefix=""):
@@ -186,6 +191,9 @@ def names_of(root, tool):
         out["scenario file"] = dotted(scenario_keys(tool, folder))
         out["campaign file"] = dotted(campaign_keys(root, tool, folder))
         out["calibration file"] = list(dict.fromkeys(paths(calibration_file(root, tool, folder))))
+        table = text("src/coefficients/sensor_table.cpp")
+        out["table of coefficients"] = names_in(table, "columns = {")
+        out["forms of coefficients"] = words_of(text("src/coefficients/coefficient_file.cpp"), "Form")
         out["commands and options"] = list(options_of(tool, folder))
         out["exit codes"] = [" ".join(code) for code in
                              re.findall(r"^  (\d)  (.*)$", run(tool, folder, "--help").stdout, re.M)]

@@ -1,5 +1,5 @@
-/// A simulated vehicle for tests of the review: chips that read specific force with errors that a test chooses. It knows
-/// nothing of the code that judges them.
+/// A simulated vehicle for tests of the review: chips that read specific force with errors that a test chooses. It
+/// knows nothing of the code that judges them.
 #pragma once
 
 #include <array>
@@ -95,8 +95,7 @@ inline std::size_t count_of(const plumb::review::LogReview& review, plumb::revie
   return out;
 }
 
-inline const plumb::review::Finding* first_of(const plumb::review::LogReview& review,
-                                              plumb::review::FindingCode code) {
+inline const plumb::review::Finding* first_of(const plumb::review::LogReview& review, plumb::review::FindingCode code) {
   for (const plumb::review::Finding& finding : review.findings) {
     if (finding.code == code) return &finding;
   }

@@ -42,7 +42,8 @@ RC_GTEST_PROP(LogDigestLaw, MomentsAreThoseOfAllReadingsHoweverManyBlocks, ()) {
   const auto values = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(-1000, 1000)));
   const auto most = *rc::gen::inRange<std::size_t>(1, 9);
   std::vector<ImuRecord> records;
-  for (std::size_t k = 0; k < values.size(); ++k) records.push_back(reading(0.3 * static_cast<double>(k) - 4.0, values[k]));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    records.push_back(reading(0.3 * static_cast<double>(k) - 4.0, values[k]));
   const LogDigest digest = digest_of(records, most);
   double mean = 0.0;
   for (const int v : values) mean += v;

@@ -207,6 +207,21 @@ TEST(VerificationVerdict, APredictedCalibrationIsOpenAndSaysWhatToRecord) {
             Result::not_met);
 }
 
+TEST(VerificationVerdict, CoefficientsThatNothingHasTestedAreOpen) {
+  EXPECT_EQ(verdict_of([](verification::Facts& f) {
+              f.calibration = {true, "calibration file", "", ""};
+            }),
+            Result::met);
+  EXPECT_EQ(verdict_of([](verification::Facts& f) {
+              f.calibration = {true, "known coefficients", "", ""};
+            }),
+            Result::open);
+  EXPECT_EQ(verdict_of([](verification::Facts& f) {
+              f.calibration = {false, "known coefficients", "why", ""};
+            }),
+            Result::not_met);
+}
+
 /// The verdict that is written is that on the figures which the sections show.
 TEST(VerificationVerdict, IsOnTheFiguresThatTheSectionsShow) {
   const Json& report = paper_report();

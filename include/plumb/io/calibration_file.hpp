@@ -34,8 +34,10 @@ struct CalibrationContext {
   std::uint64_t log_hash = 0;  ///< FNV-1a of the bytes of the log
   int stations = 0;            ///< used by the fit
   std::string plumb_version;
-  std::string date;          ///< of the log, "2026-03-31"; empty: not given
-  std::string serial;        ///< of the tool; empty: not given
+  std::string date;    ///< of the log, "2026-03-31"; empty: not given
+  std::string serial;  ///< of the tool; empty: not given
+  /// Not empty: nothing was fitted; the form of the file in `log_file` that stated the coefficients ("px4").
+  std::string coefficients;
   GravityReference gravity;  ///< that the fit assumed
   std::vector<Vec3> down;    ///< by station of the log, as the fit shows it, tool frame; 0 where it shows none
   std::vector<KnownAttitude> known_attitudes;  ///< what was stated of those stations

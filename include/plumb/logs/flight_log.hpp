@@ -32,6 +32,7 @@ struct ImuSource {
   std::uint64_t device_id = 0;  ///< 0 where the log does not say
   RecordKind kind = RecordKind::sample;
   bool uncalibrated = false;  ///< readings before the calibration that is installed in the autopilot
+  std::string frame_id;       ///< the axes that the readings are in, by name; empty where the log names none
 };
 
 /// What is absent is NaN, or 0 where it counts.
@@ -42,7 +43,7 @@ struct ImuRecord {
   double temperature_degc = kAbsent;
   std::array<std::uint32_t, 3> clipped{};  ///< samples at the end of the range since the last record
   std::uint32_t count = 1;                 ///< readings in a mean
-  Axes variance_m2ps4 = kAbsentAxes;       ///< of the readings of a mean
+  Axes variance_m2ps4 = kAbsentAxes;       ///< of the readings of a mean; of a sample what its driver declares
 };
 
 /// Who is told what a log holds. `source` comes before the first record of that number; numbers count from 0.
@@ -72,6 +73,17 @@ io::FileExpected<LogExtent> read_ulog(const std::string& path, LogSink& sink);
 /// ArduPilot's DataFlash log (.bin), read as `read_ulog` reads. It counts the clips of a chip, not of an axis: all of
 /// them stand in `clipped[0]`. A reading of a unit that is not known here is absent, and that is noted.
 io::FileExpected<LogExtent> read_dataflash(const std::string& path, LogSink& sink);
+
+/// MCAP (https://mcap.dev/spec): `sensor_msgs/msg/Imu` in CDR, a source a topic, named like it. It streams forward and
+/// needs no summary. Chunks may be packed with zstd or lz4; one whose check sum is wrong, or that unpacks to more than
+/// 256 MiB, is left out and noted. Times are the headers'; where one is 0, the time at which the message was recorded.
+/// Time 0 is a whole second, which the parameter `log_zero_unix_s` gives in seconds since 1970.
+io::FileExpected<LogExtent> read_mcap(const std::string& path, LogSink& sink);
+
+/// One SQLite file (.db3) of a bag of ROS 2, of old and new column sets: the same messages as `read_mcap`, in the order
+/// in which they were recorded. Nothing is written, neither to the file nor beside it; what is in a -wal file beside it is
+/// not read, and that is noted. The offset of a note is that of the page that SQLite read last.
+io::FileExpected<LogExtent> read_rosbag2(const std::string& path, LogSink& sink);
 
 /// The formats that are read here.
 enum class LogFormat : std::uint8_t { ulog, dataflash, mcap, rosbag2, csv };

@@ -19,6 +19,9 @@ std::string exact_words(const io::CalibrationFile& calibration, const std::strin
 /// The same as a line for standard error.
 std::string exact_note(const io::CalibrationFile& calibration, const std::string& path);
 
+/// A note for standard error: the calibration was not fitted, but made of known coefficients. Else empty.
+std::string stated_note(const io::CalibrationFile& calibration, const std::string& path);
+
 /// A note for standard error: of the sensors in `changed` the array file states another noise than when the calibration
 /// was made. Empty where there are none.
 std::string noise_note(const io::ArrayFile& array, SensorSet changed, const std::string& path);

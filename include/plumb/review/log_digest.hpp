@@ -1,5 +1,5 @@
-/// What is kept of a log while it is read: moments of short blocks, so that a log of any length fits into memory that is
-/// bounded beforehand.
+/// What is kept of a log while it is read: moments of short blocks, so that a log of any length fits into memory that
+/// is bounded beforehand.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct SourceBlock {
   Axes squares_m2ps4{};
   Axes least_mps2{}, most_mps2{};
   std::array<std::uint64_t, 3> clipped{};
-  double fastest_radps = 0.0;  ///< the longest rate
+  double fastest_radps = 0.0;     ///< the longest rate
   double temperature_degc = 0.0;  ///< the mean
 
   /// Standard deviation of single readings; 0 where fewer than two are there.
@@ -70,8 +70,8 @@ struct SourceDigest {
   logs::ImuSource source;
   std::vector<SourceBlock> blocks;  ///< in order of time, gaps left out
   std::uint64_t records = 0;
-  std::uint64_t unreadable = 0;  ///< without a time or an axis: left out
-  std::uint64_t backwards = 0;   ///< older than the record before
+  std::uint64_t unreadable = 0;                            ///< without a time or an axis: left out
+  std::uint64_t backwards = 0;                             ///< older than the record before
   double first_s = logs::kAbsent, last_s = logs::kAbsent;  ///< the least and the greatest time
   Intervals intervals;
   double longest_gap_s = 0.0, longest_gap_at_s = 0.0;
@@ -86,7 +86,7 @@ struct LogDigest {
   std::string name;
   double block_s = 1.0;
   std::vector<SourceDigest> sources;
-  std::map<std::string, double> parameters;  ///< of accelerometers and of the board's mounting
+  std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*
   std::vector<Note> notes;
   logs::LogExtent extent;
 };

@@ -28,11 +28,11 @@ enum class FindingCode : std::uint8_t {
   chip_frozen,          ///< no axis of a chip changes
   clipping,
   vibration,
-  noise,        ///< scatter at rest above the class of the sensor
-  drift,        ///< the reading at rest wanders within one stretch
-  gaps,         ///< records are missing
-  backwards,    ///< time goes back
-  stopped,      ///< the chip says nothing any more while others go on
+  noise,         ///< scatter at rest above the class of the sensor
+  drift,         ///< the reading at rest wanders within one stretch
+  gaps,          ///< records are missing
+  backwards,     ///< time goes back
+  stopped,       ///< the chip says nothing any more while others go on
   uncalibrated,  ///< the autopilot has no calibration of this chip
   far_offset,    ///< the installed calibration has an offset or a scale that no sensor in order needs
   far_scale,
@@ -62,8 +62,8 @@ enum class OpenQuestion : std::uint8_t {
   two_chips,      ///< which of two is wrong is told only by the length of gravity
   never_at_rest,  ///< lengths at rest, noise and drift
   never_in_motion,
-  one_attitude,   ///< an error across gravity, or of scale, is seen only in part
-  slow_log,       ///< vibration and noise: fewer than kFastHz readings a second
+  one_attitude,  ///< an error across gravity, or of scale, is seen only in part
+  slow_log,      ///< vibration and noise: fewer than kFastHz readings a second
   no_calibration_in_log,
 };
 
@@ -83,8 +83,8 @@ struct ChipSummary {
   double rate_hz = logs::kAbsent;
   double from_s = logs::kAbsent, to_s = logs::kAbsent;
   double coldest_degc = logs::kAbsent, warmest_degc = logs::kAbsent;
-  Axes scatter_mps2 = logs::kAbsentAxes;    ///< at rest, standard deviation of single readings
-  double vibration_mps2 = logs::kAbsent;    ///< the worst cell in motion, root of the sum of the axes' variances
+  Axes scatter_mps2 = logs::kAbsentAxes;  ///< at rest, standard deviation of single readings
+  double vibration_mps2 = logs::kAbsent;  ///< the worst cell in motion, root of the sum of the axes' variances
   double vibration_at_s = logs::kAbsent;
   std::uint64_t clipped = 0;
 };
@@ -104,9 +104,9 @@ struct LogReview {
   std::vector<Stretch> stretches;
   double at_rest_s = 0.0;
   double gravity_mps2 = 0.0, gravity_half_mps2 = 0.0;  ///< by which lengths were judged, and half its range
-  std::size_t motion_cells = 0;        ///< in which at least two chips were compared
-  double motion_agreement_mps2 = logs::kAbsent;  ///< the median over them of the largest difference
-  std::vector<Finding> findings;  ///< the worst first
+  std::size_t motion_cells = 0;                        ///< in which at least two chips were compared
+  double motion_agreement_mps2 = logs::kAbsent;        ///< the median over them of the largest difference
+  std::vector<Finding> findings;                       ///< the worst first
   std::vector<OpenQuestion> open;
   std::vector<Note> notes;
   bool judged = false;  ///< something was compared with something

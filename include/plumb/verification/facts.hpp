@@ -41,10 +41,12 @@ struct ArrayFacts {
 
 struct CalibrationFacts {
   bool accepted = false;
-  std::string mode;             ///< "predicted", "stations", "calibration file"
+  std::string mode;             ///< "predicted", "stations", "calibration file", "known coefficients"
   std::string reason;           ///< of a refusal
   std::string taken_for_exact;  ///< names of the sensors of which it states no uncertainty
   bool predicted() const { return mode == "predicted"; }
+  /// Of a calibration file in which nothing was fitted: no station of this tool has tested it.
+  bool stated() const { return mode == "known coefficients"; }
 };
 
 /// What is known of the wirings that gravity cannot see. Open until a known attitude has spoken.

@@ -1,0 +1,42 @@
+/// From a log of another program to files of plumb: an array file for its chips, and what its log is to hold.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plumb/review/log_review.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace review {
+
+struct ImportSettings {
+  std::string message;                 ///< of the log, "sensor_accel"; empty: the one that the review judges by
+  bool rates = false;                  ///< with the rate of the first chip that has one
+  std::optional<double> gravity_mps2;  ///< else that of the ground of the Earth, as wide as that is
+};
+
+/// What of the log is taken.
+struct ImportPlan {
+  std::vector<std::size_t> sources;  ///< of the digest, one for each chip, in the order of the array file
+  std::size_t reference = 0;         ///< whose instants the rows have: the slowest, so that nothing is made up
+  std::vector<double> longest_gap_s;
+  std::size_t rates_from = kNoChip;  ///< the source with the rates that are taken
+  bool temperature = false;
+  bool uncalibrated = false;  ///< the readings are those before the autopilot's calibration
+  std::size_t left_out = 0;   ///< chips beyond what an array can have
+  std::string array_text;     ///< three sensors for each chip along x, y and z; chips as packages
+  /// For `plumb calibrate --from`: the parameters of the installed calibration, as QGroundControl writes them, or for
+  /// readings that have it already a table of scale 1 and bias 0; "" where the log has neither.
+  std::string coefficients_text;
+};
+
+/// Refused where the log has no accelerometer, or none in `message`; the error has no file name.
+io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogReview& found,
+                                         const ImportSettings& settings = {});
+
+}  // namespace review
+}  // namespace PLUMB_ABI
+}  // namespace plumb
