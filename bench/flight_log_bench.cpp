@@ -8,6 +8,7 @@
 #include <string>
 
 #include "../tests/logs/dataflash_bytes.hpp"
+#include "../tests/logs/mcap_bytes.hpp"
 #include "../tests/logs/ulog_bytes.hpp"
 #include "plumb/review/log_digest.hpp"
 
@@ -55,6 +56,44 @@ std::string dataflash() {
   return log.bytes();
 }
 
+/// Chunks of 1 MB, as `ros2 bag record` writes them. Figures that change as a sensor's do: noise packs badly.
+std::string mcap(const std::string& compression) {
+  using namespace mcap_bytes;
+  std::string out = header() + described(1, "/imu0") + described(2, "/imu1") + described(3, "/imu2");
+  std::string records;
+  std::uint64_t noise = 1;
+  for (int k = 0; k < kInstants; ++k) {
+    for (unsigned chip = 1; chip <= 3; ++chip) {
+      ros_bytes::Imu imu = ros_bytes::imu_at(k);
+      for (double* x : {imu.force.data(), imu.force.data() + 1, imu.force.data() + 2, imu.rate.data()}) {
+        noise = noise * 6364136223846793005U + 1442695040888963407U;
+        *x += 1e-3 * static_cast<double>(noise >> 48U);
+      }
+      records += imu_message(chip, imu);
+    }
+    if (records.size() < (1U << 20U) && k + 1 < kInstants) continue;
+    const std::string packed = compression == "zstd" ? zstd(records) : compression == "lz4" ? lz4(records) : records;
+    out += raw_chunk(records.size(), 0, compression, packed);
+    records.clear();
+  }
+  return out + data_end() + footer();
+}
+
+std::string csv() {
+  std::string out = "time_s";
+  for (const char* chip : {"imu0", "imu1", "imu2"}) {
+    for (const char* column : {"_ax_mps2", "_ay_mps2", "_az_mps2", "_gx_degps", "_gy_degps", "_gz_degps"})
+      out += std::string(",") + chip + column;
+  }
+  out += '\n';
+  for (int k = 0; k < kInstants; ++k) {
+    out += std::to_string(0.001 * k);
+    for (int c = 0; c < 18; ++c) out += "," + std::to_string(0.01 * ((k + c) % 977));
+    out += '\n';
+  }
+  return out;
+}
+
 /// In the directory of temporary files, and gone with it.
 class File {
  public:
@@ -94,6 +133,10 @@ void read(benchmark::State& state, const std::string& bytes) {
 
 void BM_ReadUlog(benchmark::State& state) { read(state, ulog()); }
 void BM_ReadDataflash(benchmark::State& state) { read(state, dataflash()); }
+void BM_ReadMcap(benchmark::State& state) { read(state, mcap("")); }
+void BM_ReadMcapZstd(benchmark::State& state) { read(state, mcap("zstd")); }
+void BM_ReadMcapLz4(benchmark::State& state) { read(state, mcap("lz4")); }
+void BM_ReadCsv(benchmark::State& state) { read(state, csv()); }
 
 void BM_DigestUlog(benchmark::State& state) {
   const File file(ulog());
@@ -103,6 +146,10 @@ void BM_DigestUlog(benchmark::State& state) {
 
 BENCHMARK(BM_ReadUlog)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadDataflash)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReadMcap)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReadMcapZstd)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReadMcapLz4)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReadCsv)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_DigestUlog)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/log_writer.hpp"
 #include "plumb/io/output_file.hpp"
+#include "plumb/io/printable.hpp"
 #include "plumb/io/units.hpp"
 #include "plumb/logs/log_aligner.hpp"
 #include "plumb/review/log_import.hpp"
@@ -198,6 +199,8 @@ io::ExitCode run_import(ImportOptions& options) {
   const io::FileExpected<std::string> written = write_log(options, *digest, *plan, array_path);
   if (!written) return report(written.error());
   print(*written);
+  if (!digest->understood.empty())
+    print_error(fmt::format("plumb: {}: read as {}.\n", options.log, io::printable_line(digest->understood)));
   for (const review::Note& note : digest->notes)
     print_error(fmt::format("plumb: {}: byte {}: {}.\n", options.log, note.offset, note.what));
   if (interrupted()) {

@@ -83,6 +83,7 @@ bool is_px4_source(std::string_view stem, CsvSource& out) {
        {"sensor_accel", "sensor_combined", "vehicle_imu_status", "vehicle_imu", "vehicle_acceleration"}) {
     if (before.size() < topic.size() || before.substr(before.size() - topic.size()) != topic) continue;
     out.instance = std::stoi(std::string(number));
+    out.uncalibrated = topic == "sensor_accel";
     out.name = std::string(topic) + "[" + std::to_string(out.instance) + "]";
     return true;
   }

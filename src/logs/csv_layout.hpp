@@ -25,6 +25,7 @@ using CsvColumns = std::array<std::size_t, 3>;
 struct CsvSource {
   std::string name;
   int instance = 0;
+  bool uncalibrated = false;  ///< as `ImuSource` says it
   CsvColumns force = {kNoColumn, kNoColumn, kNoColumn};
   CsvColumns rate = {kNoColumn, kNoColumn, kNoColumn};
   std::size_t temperature = kNoColumn;

@@ -131,6 +131,7 @@ bool CsvWide::force_of(const CsvSource& source, std::uint64_t offset, std::uint6
 bool CsvWide::name_of(const CsvSource& source, std::uint64_t offset, std::uint64_t line, ImuSource& out) {
   out.name = source.name;
   out.instance = source.instance;
+  out.uncalibrated = source.uncalibrated;
   if (source.name.find("mean") != std::string::npos) out.kind = RecordKind::mean;
   if (layout_.device != kNoColumn) {
     const std::string_view cell = bare(cells_[layout_.device]);

@@ -91,6 +91,7 @@ Json log_json(const LogReview& in) {
   for (const review::Note& note : in.notes)
     notes.push_back(object({{"offset", note.offset}, {"text", io::printable_line(note.what)}}));
   return object({{"name", in.name},
+                 {"read_as", io::printable_line(in.understood)},
                  {"grade", grade_word(in)},
                  {"answer", answer_of(in)},
                  {"judged", in.judged},

@@ -86,6 +86,7 @@ const char* grade_word(const LogReview& one) noexcept {
 
 std::string review_text(const LogReview& one, bool notes) {
   std::string out = fmt::format("{}: {}\n{}\n", io::printable_line(one.name), grade_word(one), answer_of(one));
+  if (!one.understood.empty()) out += "Read as " + io::printable_line(one.understood) + ".\n";
   if (one.chips.empty()) return out + notes_text(one, notes);
   out +=
       fmt::format("\nLog: {:.1f} s, {}, {} bytes of {} read{}. {}\n", one.to_s - one.from_s,

@@ -106,6 +106,7 @@ void note_damage(const LogDigest& digest, LogReview& out) {
 LogReview review_log(const LogDigest& digest, const ReviewSettings& settings) {
   LogReview out;
   out.name = digest.name;
+  out.understood = digest.understood;
   out.extent = digest.extent;
   out.chips = chips_of(digest);
   for (const ChipSummary& chip : out.chips) {

@@ -218,6 +218,7 @@ TEST(CsvLog, FilesOfUlog2csvAreAlignedByTheirTime) {
   EXPECT_DOUBLE_EQ(second.records[0].second.time_s, 1.5003);
   EXPECT_DOUBLE_EQ(second.records[0].second.temperature_degc, 32.5);
   EXPECT_EQ(second.sources[0].instance, 1);
+  EXPECT_TRUE(second.sources[0].uncalibrated);
   EXPECT_EQ(first.notes_with("x, y, z"), 0U) << first.all_notes();
   const Told combined = told_of_table(
       "timestamp,gyro_rad[0],gyro_rad[1],gyro_rad[2],accelerometer_timestamp_relative,"
@@ -226,6 +227,7 @@ TEST(CsvLog, FilesOfUlog2csvAreAlignedByTheirTime) {
       {}, "log_3_sensor_combined_0.csv");
   ASSERT_EQ(combined.records.size(), 1U);
   EXPECT_EQ(combined.sources[0].name, "sensor_combined[0]");
+  EXPECT_FALSE(combined.sources[0].uncalibrated);
   EXPECT_EQ(combined.records[0].second.rate_radps, (Axes{1.0, 2.0, 3.0}));
   EXPECT_DOUBLE_EQ(combined.records[0].second.time_s, 2.0);
 }

@@ -8,6 +8,7 @@
 
 #include "dataflash_test_support.hpp"
 #include "plumb/logs/flight_log.hpp"
+#include "ros_fixture.hpp"
 #include "told.hpp"
 #include "ulog_told.hpp"
 
@@ -86,6 +87,19 @@ TEST(ReadLog, WhatIsNoLogIsNamedForWhatItIs) {
   EXPECT_NE(log_format("/").error().what.find("directory"), std::string::npos);
   EXPECT_FALSE(log_format("/nowhere/at/all").has_value());
   EXPECT_NE(log_format("/dev/null").error().what.find("no regular file"), std::string::npos);
+}
+
+TEST(ReadLog, BagsAndTablesComeThroughTheSameDoor) {
+  for (const std::string name : {"mcap_core_chunks.mcap", "sqlite_cli_new.db3"}) {
+    Told told;
+    ASSERT_TRUE(read_log(ros_fixture::path_of(name), told).has_value()) << name;
+    ASSERT_NO_FATAL_FAILURE(ros_fixture::expect_left_and_right(told)) << name;
+  }
+  Told table;
+  const LogFile file("time_s;ax_mps2;ay_mps2;az_mps2\n0;0,5;-0,25;9,5\n0,01;0,5;-0,25;9,5\n");
+  ASSERT_TRUE(read_log(file.path(), table).has_value());
+  EXPECT_EQ(table.records.size(), 2U);
+  EXPECT_NE(table.understood.find("decimal comma"), std::string::npos) << table.understood;
 }
 
 TEST(ReadLog, TheReaderOfTheFormatReadsIt) {

@@ -84,6 +84,7 @@ struct Note {
 
 struct LogDigest {
   std::string name;
+  std::string understood;  ///< how, where a log does not say itself: the layout of a table; else empty
   double block_s = 1.0;
   std::vector<SourceDigest> sources;
   std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*
@@ -104,6 +105,7 @@ class LogDigester final : public logs::LogSink {
   void record(std::size_t number, const logs::ImuRecord& record) override;
   void parameter(const std::string& name, double value) override;
   void note(std::uint64_t offset, const std::string& what) override;
+  void detected(const std::string& what) override { digest_.understood = what; }
   LogDigest take(std::string name, const logs::LogExtent& extent);
 
  private:

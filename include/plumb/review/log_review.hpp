@@ -101,6 +101,7 @@ struct Stretch {
 
 struct LogReview {
   std::string name;
+  std::string understood;  ///< as `LogDigest` has it
   double from_s = logs::kAbsent, to_s = logs::kAbsent;
   logs::LogExtent extent;
   std::vector<ChipSummary> chips;
