@@ -123,10 +123,12 @@ NoiseFit fit_noise(const std::vector<double>& readings, double period_s, const s
   line.low = std::min(line.value, slope + slopes.low);
   line.high = std::max(line.value, slope + slopes.high);
   line.visible = line.low > 0.0 || line.high < 0.0;
-  const Coefficients values = out.values();
+  Coefficients values = out.values();
   for (const Term term : kAllTerms) {
     TermEstimate& one = out.terms[index(term)];
     const double most = std::max(std::fabs(one.low), std::fabs(one.high));
+    // A walk that the log does not exclude hides a drift.
+    if (term == Term::drift_rate) values[index(Term::random_walk)] = out.of(Term::random_walk).high;
     if (!one.visible) one.more_hours = more_hours(term, 0.5 * most, values, readings.size(), period_s);
   }
   return out;

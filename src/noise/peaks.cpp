@@ -9,9 +9,10 @@ inline namespace PLUMB_ABI {
 namespace noise {
 namespace {
 
-/// Bins from f/kAround to f*kAround make the floor at f, at least kFewest on either side and at most kMost.
+/// Bins from f/kAround to f*kAround make the floor at f, at most kMost on either side, and as many above as below where
+/// there are kFewest: slow terms make a steep spectrum, of which the median is in the middle.
 constexpr double kAround = 1.25;
-constexpr std::size_t kFewest = 12, kMost = 160;
+constexpr std::size_t kFewest = 3, kUsual = 12, kMost = 160;
 /// Chance of one false peak in a spectrum, and the least that one stands above the floor.
 constexpr double kFalsePeak = 1e-3, kLeastOverFloor = 2.0;
 /// A peak goes on while the density is above this times the floor.
@@ -28,9 +29,9 @@ std::vector<double> floor_of(const std::vector<double>& density, double freedom)
   const std::size_t last = density.size() - 1;
   for (std::size_t k = 1; k <= last; ++k) {
     const double f = static_cast<double>(k);
-    const std::size_t below = std::clamp(k - static_cast<std::size_t>(f / kAround), kFewest, kMost);
-    const std::size_t above = std::clamp(static_cast<std::size_t>(f * kAround) - k, kFewest, kMost);
-    const std::size_t from = k > below ? k - below : 1, to = std::min(last, k + above);
+    const std::size_t reach = std::clamp(static_cast<std::size_t>(f * kAround) - k, kUsual, kMost);
+    const std::size_t side = std::max(kFewest, std::min({reach, k - 1, last - k}));
+    const std::size_t from = k > side ? k - side : 1, to = std::min(last, k + side);
     around.assign(density.begin() + static_cast<std::ptrdiff_t>(from),
                   density.begin() + static_cast<std::ptrdiff_t>(to) + 1);
     const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);

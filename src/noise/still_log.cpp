@@ -41,8 +41,10 @@ double median_of(std::vector<double> values) {
 }
 
 void note(Stretch& out, BreakCode code, double time_s, double value) {
-  ++out.breaks_found;
-  if (out.breaks.size() < kBreaksKept) out.breaks.push_back({code, time_s, value});
+  Breaks& kind = out.breaks[static_cast<std::size_t>(code)];
+  const Break one{code, time_s, value};
+  if (kind.count++ == 0 || one.time_s < kind.first.time_s) kind.first = one;
+  if (kind.count == 1 || one.value > kind.worst.value) kind.worst = one;
 }
 
 /// Sets the period and how even the steps of time are.
@@ -253,7 +255,6 @@ Stretch longest_stretch(const StillLog& log, std::size_t column) {
   std::vector<Piece> at_rest;
   for (std::size_t p = 0; p < pieces.size(); ++p)
     cut_at_motion(std::move(pieces[p]), blocks[p], length, usual, out, at_rest);
-  std::sort(out.breaks.begin(), out.breaks.end(), [](const Break& a, const Break& b) { return a.time_s < b.time_s; });
   const auto longest = std::max_element(at_rest.begin(), at_rest.end(), [](const Piece& a, const Piece& b) {
     return a.readings.size() < b.readings.size();
   });

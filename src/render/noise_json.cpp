@@ -63,9 +63,15 @@ Json whiteness_json(const noise::Whiteness& w) {
 }
 
 Json breaks_json(const noise::Stretch& stretch) {
-  Json out = Json::array();
-  for (const noise::Break& one : stretch.breaks)
-    out.push_back(object({{"code", noise::to_string(one.code)}, {"time_s", one.time_s}, {"value", one.value}}));
+  Json out = Json::object();
+  for (const noise::BreakCode code : {noise::BreakCode::gap, noise::BreakCode::silent, noise::BreakCode::motion}) {
+    const noise::Breaks& kind = stretch.breaks_of(code);
+    if (kind.count == 0) continue;
+    out[noise::to_string(code)] = object({{"count", kind.count},
+                                          {"first_s", kind.first.time_s},
+                                          {"worst_s", kind.worst.time_s},
+                                          {"worst", kind.worst.value}});
+  }
   return out;
 }
 
@@ -81,8 +87,7 @@ Json axis_json(const NoiseAxis& axis) {
                      {"rate_hz", study.stretch.period_s > 0.0 ? Json(1.0 / study.stretch.period_s) : Json()},
                      {"duration_s", study.duration_s},
                      {"filled", study.stretch.filled},
-                     {"breaks", breaks_json(study.stretch)},
-                     {"breaks_found", study.stretch.breaks_found}});
+                     {"breaks", breaks_json(study.stretch)}});
   if (!judged) return out;
   out["mean"] = study.mean;
   out["resolution"] = study.stretch.resolution > 0.0 ? Json(study.stretch.resolution) : Json();

@@ -24,32 +24,29 @@ std::string stretch_words(const AxisStudy& study) {
 
 /// Of one kind of breaks, one remark.
 void add_breaks(const AxisStudy& study, noise::BreakCode code, std::vector<NoiseRemark>& out) {
-  const std::vector<noise::Break>& breaks = study.stretch.breaks;
-  const auto first = std::find_if(breaks.begin(), breaks.end(), [code](const auto& b) { return b.code == code; });
-  if (first == breaks.end()) return;
-  const auto count = std::count_if(breaks.begin(), breaks.end(), [code](const auto& b) { return b.code == code; });
-  const auto worst = std::max_element(breaks.begin(), breaks.end(), [code](const auto& a, const auto& b) {
-    return (a.code == code ? a.value : 0.0) < (b.code == code ? b.value : 0.0);
-  });
-  const std::string times = count == 1 ? std::string("once") : fmt::format("{} times", count);
+  const noise::Breaks& breaks = study.stretch.breaks_of(code);
+  if (breaks.count == 0) return;
+  const noise::Break& first = breaks.first;
+  const double worst = breaks.worst.value;
+  const std::string times = breaks.count == 1 ? std::string("once") : fmt::format("{} times", breaks.count);
   switch (code) {
     case noise::BreakCode::gap:
       out.push_back({study.name,
                      fmt::format("rows are missing {}, first {:.3g} s at t = {:.6g} s, at most {:.3g} s; {}", times,
-                                 first->value, first->time_s, worst->value, stretch_words(study)),
+                                 first.value, first.time_s, worst, stretch_words(study)),
                      "record without gaps: slow terms need one long stretch"});
       return;
     case noise::BreakCode::silent:
       out.push_back({study.name,
                      fmt::format("the column delivers nothing {}, first for {:.3g} s at t = {:.6g} s; {}", times,
-                                 first->value, first->time_s, stretch_words(study)),
+                                 first.value, first.time_s, stretch_words(study)),
                      "check the channel, or the recorder"});
       return;
     case noise::BreakCode::motion:
       out.push_back({study.name,
                      fmt::format("it moves {}, first at t = {:.6g} s, at most {:.3g} times what rest does from one "
                                  "second to the next; {}",
-                                 times, first->time_s, worst->value, stretch_words(study)),
+                                 times, first.time_s, worst, stretch_words(study)),
                      "hold the tool still, away from steps and machines, while it is recorded"});
       return;
   }

@@ -47,6 +47,15 @@ TEST(NoiseSpectrum, WhiteNoiseHasNoPeaks) {
   EXPECT_LE(peaks, 1);  // one in a thousand spectra by chance
 }
 
+TEST(NoiseSpectrum, SlowNoiseHasNoPeaks) {
+  int peaks = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    simulated_noise::Source source({0.0, 1e-3, 2e-2, 2e-2, 1e-3}, 20000, kPeriod_s);
+    peaks += power_spectrum(source.draw(seed), kPeriod_s).peaks.empty() ? 0 : 1;
+  }
+  EXPECT_LE(peaks, 1);
+}
+
 TEST(NoiseSpectrum, NamesLinesByFrequencyAndAmplitude) {
   std::vector<double> readings = white(100000, 3);
   add_line(readings, 23.4, 0.5);

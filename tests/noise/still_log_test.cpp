@@ -37,7 +37,7 @@ TEST(StillLog, AGoodLogIsTakenWhole) {
   EXPECT_EQ(out.readings, log.columns[0].readings);
   EXPECT_NEAR(out.period_s, 0.01, 1e-9);
   EXPECT_EQ(out.begin_s, 100.0);
-  EXPECT_EQ(out.breaks_found, 0U);
+  for (const Breaks& kind : out.breaks) EXPECT_EQ(kind.count, 0U);
   EXPECT_EQ(out.filled, 0U);
   EXPECT_EQ(out.resolution, 0.0);
 }
@@ -57,10 +57,10 @@ TEST(StillLog, AGapCutsTheLog) {
   const Stretch out = longest_stretch(log, 0);
   EXPECT_EQ(out.readings.size(), 3000U);
   EXPECT_NEAR(out.begin_s, 127.5, 1e-6);
-  ASSERT_EQ(out.breaks.size(), 1U);
-  EXPECT_EQ(out.breaks[0].code, BreakCode::gap);
-  EXPECT_NEAR(out.breaks[0].value, 7.5, 0.02);
-  EXPECT_NEAR(out.breaks[0].time_s, 120.0, 0.02);
+  const Breaks& gaps = out.breaks_of(BreakCode::gap);
+  EXPECT_EQ(gaps.count, 1U);
+  EXPECT_NEAR(gaps.first.value, 7.5, 0.02);
+  EXPECT_NEAR(gaps.first.time_s, 120.0, 0.02);
 }
 
 TEST(StillLog, SingleRowsThatAreMissingAreFilled) {
@@ -79,9 +79,9 @@ TEST(StillLog, ASilentColumnIsCut) {
   for (std::size_t k = 1000; k < 1100; ++k) log.columns[0].readings[k] = kNaN;
   const Stretch out = longest_stretch(log, 0);
   EXPECT_EQ(out.readings.size(), 3900U);
-  ASSERT_EQ(out.breaks.size(), 1U);
-  EXPECT_EQ(out.breaks[0].code, BreakCode::silent);
-  EXPECT_NEAR(out.breaks[0].value, 1.0, 0.02);
+  EXPECT_EQ(out.breaks_of(BreakCode::silent).count, 1U);
+  EXPECT_EQ(out.breaks_of(BreakCode::gap).count, 0U);
+  EXPECT_NEAR(out.breaks_of(BreakCode::silent).worst.value, 1.0, 0.02);
 }
 
 TEST(StillLog, AKnockAndATurnCutTheLog) {
@@ -92,11 +92,11 @@ TEST(StillLog, AKnockAndATurnCutTheLog) {
   EXPECT_EQ(out.refused, Refused::no);
   EXPECT_GE(out.begin_s, 190.0);
   EXPECT_GT(out.readings.size(), 10700U);
-  ASSERT_EQ(out.breaks_found, 2U);
-  EXPECT_EQ(out.breaks[0].code, BreakCode::motion);
-  EXPECT_NEAR(out.breaks[0].time_s, 130.0, 1.0);
-  EXPECT_NEAR(out.breaks[1].time_s, 190.0, 1.0);
-  EXPECT_GT(out.breaks[1].value, 10.0);
+  const Breaks& motion = out.breaks_of(BreakCode::motion);
+  EXPECT_EQ(motion.count, 2U);
+  EXPECT_NEAR(motion.first.time_s, 130.0, 1.0);
+  EXPECT_NEAR(motion.worst.time_s, 190.0, 1.0);
+  EXPECT_GT(motion.worst.value, 10.0);
 }
 
 TEST(StillLog, SlowNoiseIsNoMotion) {
@@ -104,7 +104,7 @@ TEST(StillLog, SlowNoiseIsNoMotion) {
   log.rate_hz = 100.0;
   log.columns = {{"a1", simulated_noise::Source({2e-5, 1e-3, 4e-3, 4e-3, 1e-3}, 60000, 0.01).draw(7)}};
   const Stretch out = longest_stretch(log, 0);
-  EXPECT_EQ(out.breaks_found, 0U);
+  for (const Breaks& kind : out.breaks) EXPECT_EQ(kind.count, 0U);
   EXPECT_EQ(out.readings.size(), 60000U);
 }
 

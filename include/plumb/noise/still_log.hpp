@@ -1,6 +1,7 @@
 /// A log at rest as the study of noise needs it: readings on an even grid of time, without gaps and knocks.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -24,10 +25,10 @@ struct StillLog {
 };
 
 /// What stands in the way of one even stretch.
-enum class BreakCode : std::uint8_t {
-  gap,     ///< rows are missing: value = seconds without a row
-  silent,  ///< the column delivers nothing: value = seconds
-  motion,  ///< it moves: value = scatter or step over one second, in units of the usual one
+enum class BreakCode : std::uint8_t {  // in the order of Stretch::breaks
+  gap,                                 ///< rows are missing: value = seconds without a row
+  silent,                              ///< the column delivers nothing: value = seconds
+  motion,                              ///< it moves: value = scatter or step over one second, in units of the usual one
 };
 const char* to_string(BreakCode code) noexcept;
 
@@ -35,6 +36,15 @@ struct Break {
   BreakCode code = BreakCode::gap;
   double time_s = 0.0;  ///< where
   double value = 0.0;
+};
+
+inline constexpr std::size_t kBreakCodes = 3;
+
+/// Breaks of one kind.
+struct Breaks {
+  std::size_t count = 0;
+  Break first;
+  Break worst;  ///< of the largest value
 };
 
 /// Why a column has no stretch to judge.
@@ -53,13 +63,13 @@ struct Stretch {
   double begin_s = 0.0;  ///< time of the first reading
   /// Part of the steps of time that are off by more than half a step; above kIrregular no row counts as missing alone.
   double irregular = 0.0;
-  std::size_t filled = 0;     ///< readings that were missing alone, taken from their neighbours
-  std::size_t rows = 0;       ///< of the whole log
-  std::vector<Break> breaks;  ///< in the whole log, the first kBreaksKept
-  std::size_t breaks_found = 0;
-  double resolution = 0.0;  ///< the least difference of two readings
+  std::size_t filled = 0;                  ///< readings that were missing alone, taken from their neighbours
+  std::size_t rows = 0;                    ///< of the whole log
+  std::array<Breaks, kBreakCodes> breaks;  ///< in the whole log, by code
+  double resolution = 0.0;  ///< the least difference of two readings, where they are few; 0: they are many
+
+  const Breaks& breaks_of(BreakCode code) const noexcept { return breaks[static_cast<std::size_t>(code)]; }
 };
-inline constexpr std::size_t kBreaksKept = 20;
 inline constexpr double kIrregular = 0.02;
 
 /// The longest stretch of that column that is at rest and without a gap. Up to five missing rows are filled. Rest is
