@@ -88,7 +88,7 @@ io::FileExpected<review::ReviewSettings> settings_of(const ReviewOptions& option
   review::ReviewSettings out;
   if (options.gravity.empty()) return out;
   io::FileExpected<double> gravity = io::parse_quantity(io::Quantity::acceleration, options.gravity);
-  if (gravity && *gravity > 0.0) {
+  if (gravity && *gravity >= 1.0 && *gravity <= 30.0) {
     out.gravity_mps2 = *gravity;
     return out;
   }
@@ -98,7 +98,7 @@ io::FileExpected<review::ReviewSettings> settings_of(const ReviewOptions& option
     return tl::unexpected<io::FileError>(gravity.error());
   }
   return tl::unexpected<io::FileError>(
-      io::FileError{"--gravity", 0, "", "\"" + options.gravity + "\" is not above zero",
+      io::FileError{"--gravity", 0, "", "\"" + options.gravity + "\" is not from 1 to 30 m/s^2",
                     "give the local gravity, for example \"9.81 m/s^2\"", io::ExitCode::usage});
 }
 

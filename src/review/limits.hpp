@@ -23,6 +23,12 @@ constexpr double kLeverArm_m = 0.1;
 /// Cells on either side from which the scatter of differences is taken, and the fewest steps that tell it.
 constexpr std::size_t kNearbyCells = 10;
 constexpr std::size_t kFewestSteps = 4;
+/// Cells are no longer: a chip that is slower than ten readings in one is not compared in motion.
+constexpr double kLongestCell_s = 60.0;
+/// More than this many chips are not judged: the work grows with their square.
+constexpr std::size_t kMostChips = 24;
+/// A block of one record that is further from all others has a wrong time.
+constexpr double kStray_s = 60.0;
 /// Times the median step that scatter is taken for.
 constexpr double kScatterSteps = 2.5;
 /// Cells on either side over which readings are averaged.

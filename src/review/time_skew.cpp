@@ -15,6 +15,8 @@ namespace {
 constexpr double kStepsPerInterval = 4.0;
 constexpr double kMostSteps = 4000.0;
 constexpr std::size_t kFewestReadings = 50;
+/// Of what the best shift explains, a second one must explain less than this.
+constexpr double kAmbiguous = 0.8;
 
 double usual_interval(const Course& course) {
   std::vector<double> intervals;
@@ -65,6 +67,18 @@ Misfit misfit(const Course& first, const Course& second, double lag_s, double ga
   return out;
 }
 
+/// Periodic motion looks the same a period later: another shift explains nearly as much, with a ridge in between.
+bool another_least(const std::vector<Misfit>& tried, std::vector<Misfit>::const_iterator least) {
+  const double explained = least->scatter - least->squares;
+  const auto lower = [](const Misfit& a, const Misfit& b) { return a.squares < b.squares; };
+  for (auto other = tried.begin(); other != tried.end(); ++other) {
+    if (other == least || least->scatter - other->squares < kAmbiguous * explained) continue;
+    const auto ridge = std::max_element(std::min(other, least), std::max(other, least), lower);
+    if (ridge->squares - least->squares > 0.5 * explained) return true;
+  }
+  return false;
+}
+
 double scatter_of(const SourceBlock& block) noexcept {
   return std::hypot(block.deviation_mps2(0), block.deviation_mps2(1), block.deviation_mps2(2));
 }
@@ -80,7 +94,7 @@ std::optional<Skew> skew_of(const Course& first, const Course& second, double mo
   const int steps = static_cast<int>(most_s / step_s);
   std::vector<Misfit> tried;
   for (int k = -steps; k <= steps; ++k) tried.push_back(misfit(first, second, k * step_s, gap_s, most_s + step_s));
-  const auto least = std::min_element(tried.begin(), tried.end(),
+  const auto least = std::min_element(tried.cbegin(), tried.cend(),
                                       [](const Misfit& a, const Misfit& b) { return a.mean() < b.mean(); });
   if (least == tried.begin() || least + 1 >= tried.end() || !(least->readings > 0.0)) return std::nullopt;
   if (least->squares > 0.5 * least->scatter) return std::nullopt;
@@ -92,6 +106,7 @@ std::optional<Skew> skew_of(const Course& first, const Course& second, double mo
   const auto rise = [&] { return (least - apart)->squares - 2.0 * here + (least + apart)->squares; };
   while (apart <= room && rise() < 2.0 * here) apart += static_cast<std::ptrdiff_t>(kStepsPerInterval);
   if (apart > room) return std::nullopt;
+  if (another_least(tried, least)) return std::nullopt;
   const double before = (least - apart)->squares, after = (least + apart)->squares;
   const double width_s = step_s * static_cast<double>(apart);
   const double curvature = (before - 2.0 * here + after) / (width_s * width_s);
