@@ -105,6 +105,8 @@ class Assignment {
   std::size_t first_of(ColumnKind kind) const;
   void find_sources();
   tl::expected<void, CsvTrouble> find_time();
+  bool may_be_time(std::size_t column) const;
+  void find_nanoseconds();
   std::optional<TimeForm> form_by_name(const ColumnName& name) const;
   TimeForm form_by_size();
   tl::expected<void, CsvTrouble> find_unit(CsvSource& source);
@@ -216,7 +218,6 @@ std::optional<TimeForm> Assignment::form_by_name(const ColumnName& name) const {
     default: break;
   }
   if (writer_ == Writer::px4) return TimeForm::microseconds;
-  if (writer_ == Writer::ros) return TimeForm::nanoseconds;
   return std::nullopt;
 }
 
@@ -247,10 +248,35 @@ TimeForm Assignment::form_by_size() {
   return TimeForm::seconds;
 }
 
+/// A number, or a date with a time: a date alone says too little.
+bool Assignment::may_be_time(std::size_t column) const {
+  double value = 0.0;
+  std::int64_t time_ns = 0;
+  const std::string& cell = rows_.front()[column];
+  return parse_number(cell, out_.dialect.decimal, value) == CellKind::number ||
+         parse_time(cell, out_.dialect.decimal, TimeForm::date, time_ns);
+}
+
+/// "header.stamp.sec" and "header.stamp.nanosec": the time is in two columns.
+void Assignment::find_nanoseconds() {
+  const auto all_of = [this](std::size_t column, const auto& holds) {
+    return std::all_of(rows_.begin(), rows_.end(), [&](const auto& row) { return holds(bare(row[column])); });
+  };
+  const auto is_whole = [](std::string_view cell) {
+    return !cell.empty() && cell.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  const auto is_rest = [&is_whole](std::string_view cell) { return is_whole(cell) && cell.size() <= 9; };
+  if (names_[out_.time].unit != ColumnUnit::s || !all_of(out_.time, is_whole)) return;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    if (names_[k].kind == ColumnKind::time && names_[k].unit == ColumnUnit::ns && all_of(k, is_rest))
+      out_.nanoseconds = k;
+  }
+}
+
 tl::expected<void, CsvTrouble> Assignment::find_time() {
   int best = 0;
   for (std::size_t k = 0; k < names_.size(); ++k) {
-    if (names_[k].kind != ColumnKind::time) continue;
+    if (names_[k].kind != ColumnKind::time || !may_be_time(k)) continue;
     const std::string plain = lowered(bare(out_.header[k]));
     const int rank = contains(plain, "sample")            ? 4
                      : contains(plain, "header")          ? 3
@@ -274,6 +300,7 @@ tl::expected<void, CsvTrouble> Assignment::find_time() {
   }
   const auto form = form_by_name(names_[out_.time]);
   out_.time_form = form ? *form : form_by_size();
+  find_nanoseconds();
   return {};
 }
 

@@ -41,6 +41,7 @@ struct CsvLayout {
   std::uint64_t data_line = 0;    ///< the first line of readings
   std::size_t time = kNoColumn;
   TimeForm time_form = TimeForm::seconds;
+  std::size_t nanoseconds = kNoColumn;  ///< beside whole seconds: the rest of the time
   std::size_t instance = kNoColumn;
   std::size_t device = kNoColumn;
   std::vector<CsvSource> sources;

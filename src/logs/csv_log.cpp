@@ -66,7 +66,7 @@ class CsvWide {
       for (const CsvColumns* columns : {&source.force, &source.rate})
         for (const std::size_t c : *columns) last_ = c == kNoColumn ? last_ : std::max(last_, c);
     }
-    if (layout_.time != kNoColumn) last_ = std::max(last_, layout_.time);
+    for (const std::size_t c : {layout_.time, layout_.nanoseconds}) last_ = c == kNoColumn ? last_ : std::max(last_, c);
   }
 
   void take(std::string_view line, bool is_whole, std::uint64_t offset, std::uint64_t number);
@@ -108,7 +108,14 @@ bool CsvWide::time_of(std::uint64_t offset, std::uint64_t line, std::int64_t& ou
     out_ns = static_cast<std::int64_t>(static_cast<double>(rows_) / rate_hz_ * 1e9);
     return true;
   }
-  if (parse_time(cells_[layout_.time], layout_.dialect.decimal, layout_.time_form, out_ns)) return true;
+  std::int64_t rest_ns = 0;
+  const bool has_rest =
+      layout_.nanoseconds == kNoColumn || parse_time(cells_[layout_.nanoseconds], '.', TimeForm::nanoseconds, rest_ns);
+  if (has_rest && parse_time(cells_[layout_.time], layout_.dialect.decimal, layout_.time_form, out_ns)) {
+    constexpr std::int64_t kLatest_ns = 9000000000000000000;
+    out_ns += std::abs(out_ns) < kLatest_ns && std::abs(rest_ns) < 1000000000 ? rest_ns : 0;
+    return true;
+  }
   return refuse(CsvTroubleKind::time, offset, line,
                 "\"" + io::printable_line(bare(cells_[layout_.time]).substr(0, 40)) + "\" is no time");
 }

@@ -83,7 +83,8 @@ struct UnitTokens {
   ColumnUnit unit;
   bool of_time;
 };
-constexpr std::array<UnitTokens, 26> kUnitTokens = {{
+constexpr std::array<UnitTokens, 28> kUnitTokens = {{
+    {{"nanosec", "", ""}, 1, ColumnUnit::ns, true},     {{"nsecs", "", ""}, 1, ColumnUnit::ns, true},
     {{"m", "s", "2"}, 3, ColumnUnit::mps2, false},      {{"m", "s", "s"}, 3, ColumnUnit::mps2, false},
     {{"mps", "2", ""}, 2, ColumnUnit::mps2, false},     {{"ms", "2", ""}, 2, ColumnUnit::mps2, false},
     {{"mss", "", ""}, 1, ColumnUnit::mps2, false},      {{"rad", "s", ""}, 2, ColumnUnit::radps, false},
@@ -105,12 +106,15 @@ using Tokens = std::vector<std::string>;
 Tokens tokens_of(std::string_view name) {
   Tokens out;
   char before = '\0';
-  for (const char c : name) {
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    const char c = name[k];
     if (!is_letter(c) && !is_digit(c)) {
       before = '\0';
       continue;
     }
-    const bool is_new = before == '\0' || is_digit(c) != is_digit(before) || (is_capital(c) && !is_capital(before));
+    const bool is_before_small = k + 1 < name.size() && is_letter(name[k + 1]) && !is_capital(name[k + 1]);
+    const bool is_new = before == '\0' || is_digit(c) != is_digit(before) ||
+                        (is_capital(c) && (!is_capital(before) || is_before_small));  // "AccX", "IMUAcc"
     if (is_new) out.emplace_back();
     out.back() += lower(c);
     before = c;
@@ -135,7 +139,8 @@ struct Fused {
   ColumnKind kind;
   ColumnUnit unit;
 };
-constexpr std::array<Fused, 13> kFused = {{{"a", ColumnKind::force, ColumnUnit::none},
+constexpr std::array<Fused, 14> kFused = {{{"accl", ColumnKind::force, ColumnUnit::none},
+                                           {"a", ColumnKind::force, ColumnUnit::none},
                                            {"acc", ColumnKind::force, ColumnUnit::none},
                                            {"accel", ColumnKind::force, ColumnUnit::none},
                                            {"acceleration", ColumnKind::force, ColumnUnit::none},
@@ -176,10 +181,11 @@ ColumnUnit take_unit(Tokens& tokens, bool is_time) {
   return ColumnUnit::none;
 }
 
-constexpr std::array<std::string_view, 11> kTimeWords = {
-    "time", "timestamp", "stamp", "date", "datetime", "epoch", "zeit", "sampletimefine", "unixtime", "secs", "seconds"};
-constexpr std::array<std::string_view, 7> kForceWords = {
-    "acc", "accel", "acceleration", "accelerations", "accelerometer", "accelerometers", "beschleunigung"};
+constexpr std::array<std::string_view, 12> kTimeWords = {"time",     "timestamp", "stamp", "date",
+                                                         "datetime", "epoch",     "zeit",  "unixtime",
+                                                         "secs",     "seconds",   "datum", "uhrzeit"};
+constexpr std::array<std::string_view, 8> kForceWords = {
+    "acc", "accel", "acceleration", "accelerations", "accelerometer", "accelerometers", "beschleunigung", "accl"};
 constexpr std::array<std::string_view, 6> kRateWords = {"gyr", "gyro", "gyroscope", "gyroscopes", "angular", "omega"};
 /// In "linear_acceleration.x", "angular velocity x", "ax_cnt".
 constexpr std::array<std::string_view, 9> kWordsBesides = {"linear", "velocity", "axis", "cnt", "count",

@@ -177,8 +177,7 @@ bool McapReader::is_chain(std::uint64_t offset) {
     McapChunk chunk;
     std::uint64_t there = 0;
     if (head.op == static_cast<unsigned char>(McapOp::chunk)) {
-      if (chunk_at(offset, head.size, chunk, there) == nullptr) return false;
-      return true;  // two sizes that agree
+      return chunk_at(offset, head.size, chunk, there) != nullptr;  // two sizes that agree
     }
     offset += kMcapHead + head.size;
   }

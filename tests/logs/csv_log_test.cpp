@@ -173,6 +173,27 @@ TEST(CsvLog, TimesAreReadInEveryForm) {
   }
 }
 
+TEST(CsvLog, ATimeMayStandInTwoColumnsOrBesideADate) {
+  const Told stamps = told_of_table(
+      "header.stamp.sec,header.stamp.nanosec,header.frame_id,linear_acceleration.x,linear_acceleration.y,"
+      "linear_acceleration.z,angular_velocity.x,angular_velocity.y,angular_velocity.z\n"
+      "1700000001,500000000,imu,0.5,-0.25,9.5,1,2,3\n1700000002,10000000,imu,0.5,-0.25,9.5,1,2,3\n");
+  ASSERT_EQ(stamps.records.size(), 2U) << stamps.understood << stamps.all_notes();
+  EXPECT_DOUBLE_EQ(stamps.records[0].second.time_s, 0.5);
+  EXPECT_DOUBLE_EQ(stamps.records[1].second.time_s, 1.01);
+  EXPECT_EQ(stamps.records[0].second.rate_radps, (Axes{1.0, 2.0, 3.0}));
+  EXPECT_EQ(stamps.all_notes(), "");
+  const Told clock = told_of_table("Datum;Uhrzeit;IMUAccX [g];IMUAccY [g];IMUAccZ [g]\n29.02.2024;12:00:00,5;0;0;1\n");
+  ASSERT_EQ(clock.records.size(), 1U) << clock.understood;
+  EXPECT_DOUBLE_EQ(clock.records[0].second.time_s, 43200.5);
+  EXPECT_EQ(clock.sources[0].name, "imu");
+  const Told plotted = told_of_table(
+      "__time,/imu/linear_acceleration/x,/imu/linear_acceleration/y,/imu/linear_acceleration/z\n"
+      "1700000001.25,0.5,-0.25,9.5\n");
+  ASSERT_EQ(plotted.records.size(), 1U);
+  EXPECT_DOUBLE_EQ(plotted.records[0].second.time_s, 0.25);
+}
+
 TEST(CsvLog, SeveralChipsRatesAndTemperatures) {
   const Told told = told_of_table(
       "time_s,imu0_ax_g,imu0_ay_g,imu0_az_g,imu0_gx_dps,imu0_gy_dps,imu0_gz_dps,imu0_temp_degC,"
