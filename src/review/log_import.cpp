@@ -16,7 +16,7 @@ inline namespace PLUMB_ABI {
 namespace review {
 namespace {
 
-constexpr std::size_t kMostChips = static_cast<std::size_t>(kCapacity) / 3;
+constexpr std::size_t kMostImported = static_cast<std::size_t>(kCapacity) / 3;
 /// Scatter that is declared where the log was never at rest, and the least that is declared.
 constexpr double kUnknownScatter_mps2 = 0.05;
 constexpr double kLeastScatter_mps2 = 0.002;
@@ -169,7 +169,7 @@ io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogRevie
   for (const ChipSummary& chip : found.chips) {
     const std::size_t source = source_of(digest, chip, settings.message);
     if (source == kNoChip) continue;
-    if (plan.sources.size() < kMostChips)
+    if (plan.sources.size() < kMostImported)
       plan.sources.push_back(source);
     else
       ++plan.left_out;
