@@ -1,5 +1,6 @@
 #include <array>
 #include <cctype>
+#include <optional>
 #include <string_view>
 
 #include "plumb/noise/load_log.hpp"
@@ -33,6 +34,21 @@ std::vector<std::string> words_of(const std::string& name) {
   return out;
 }
 
+std::optional<double> time_unit_of_word(std::string_view word) {
+  static const std::array<std::pair<std::string_view, double>, 8> units = {{{"s", 1.0},
+                                                                            {"sec", 1.0},
+                                                                            {"seconds", 1.0},
+                                                                            {"ms", 1e-3},
+                                                                            {"us", 1e-6},
+                                                                            {"ns", 1e-9},
+                                                                            {"min", 60.0},
+                                                                            {"h", 3600.0}}};
+  for (const auto& [name, seconds] : units) {
+    if (word == name) return seconds;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ColumnUnit unit_of_name(const std::string& name) {
@@ -58,24 +74,17 @@ ColumnUnit unit_of_name(const std::string& name) {
   return {};
 }
 
-std::optional<double> time_unit_of_name(const std::string& name) {
+bool is_time_name(const std::string& name) {
   const std::vector<std::string> words = words_of(name);
-  if (words.empty()) return std::nullopt;
+  if (words.empty()) return false;
   const std::string& first = words.front();
-  if (first != "t" && first != "time" && first != "timestamp" && first != "stamp") return std::nullopt;
-  if (words.size() == 1) return 1.0;
-  static const std::array<std::pair<std::string_view, double>, 8> units = {{{"s", 1.0},
-                                                                            {"sec", 1.0},
-                                                                            {"seconds", 1.0},
-                                                                            {"ms", 1e-3},
-                                                                            {"us", 1e-6},
-                                                                            {"ns", 1e-9},
-                                                                            {"min", 60.0},
-                                                                            {"h", 3600.0}}};
-  for (const auto& [word, seconds] : units) {
-    if (words.back() == word) return seconds;
-  }
-  return std::nullopt;
+  if (first != "t" && first != "time" && first != "timestamp" && first != "stamp") return false;
+  return words.size() == 1 || time_unit_of_word(words.back()).has_value();
+}
+
+double time_unit_of_name(const std::string& name) {
+  const std::vector<std::string> words = words_of(name);
+  return words.size() < 2 ? 1.0 : time_unit_of_word(words.back()).value_or(1.0);
 }
 
 }  // namespace noise

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "plumb/io/csv_columns.hpp"
@@ -43,15 +44,42 @@ io::FileExpected<void> check_columns(const std::string& path, const LoadOptions&
   return {};
 }
 
+/// The column of the time; csv.names.size() where there is none.
+std::size_t time_place(const LoadOptions& options, const io::CsvColumns& csv) {
+  for (std::size_t c = 0; c < csv.names.size(); ++c) {
+    if (options.time_column.empty() ? is_time_name(csv.names[c]) : csv.names[c] == options.time_column) return c;
+  }
+  return csv.names.size();
+}
+
+/// Times in seconds, which increase: a row whose time does not is bad, and goes with its readings.
+io::FileExpected<std::vector<double>> increasing_times(const std::string& path, const LoadOptions& options,
+                                                       std::size_t place, io::CsvColumns& csv) {
+  const double unit_s = time_unit_of_name(csv.names[place]);
+  const std::size_t rows = csv.values[place].size();
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double time_s = csv.values[place][k] * unit_s;
+    if (std::isfinite(time_s) && (kept == 0 || time_s > csv.values[place][kept - 1])) {
+      for (std::size_t c = 0; c < csv.values.size(); ++c) csv.values[c][kept] = csv.values[c][k];
+      csv.values[place][kept++] = time_s;
+      continue;
+    }
+    ++csv.rows_bad;
+    if (options.on_bad_row == io::BadRowPolicy::stop)
+      return refuse(path, csv.names[place],
+                    "the time of row " + std::to_string(k + 1) + " below the header is " + io::shortest(time_s) +
+                        " s and does not increase",
+                    "correct the row, run with --on-bad-row skip, or give the sampling rate: --rate \"100 Hz\"");
+  }
+  for (std::vector<double>& column : csv.values) column.resize(kept);
+  return std::move(csv.values[place]);
+}
+
 /// Takes the time out of the columns of a CSV.
 io::FileExpected<void> find_time(const std::string& path, const LoadOptions& options, io::CsvColumns& csv,
                                  LoadedLog& out) {
-  std::size_t place = csv.names.size();
-  std::optional<double> unit_s;
-  for (std::size_t c = 0; c < csv.names.size() && place == csv.names.size(); ++c) {
-    unit_s = time_unit_of_name(csv.names[c]);
-    if (options.time_column.empty() ? unit_s.has_value() : csv.names[c] == options.time_column) place = c;
-  }
+  const std::size_t place = time_place(options, csv);
   out.log.rate_hz = options.rate_hz;
   if (place == csv.names.size()) {
     if (!options.time_column.empty())
@@ -62,17 +90,10 @@ io::FileExpected<void> find_time(const std::string& path, const LoadOptions& opt
                   "name it with --time, or give the sampling rate: --rate \"100 Hz\"", io::ExitCode::usage);
   }
   if (!(options.rate_hz > 0.0)) {
+    io::FileExpected<std::vector<double>> times = increasing_times(path, options, place, csv);
+    if (!times) return tl::unexpected<io::FileError>(times.error());
     out.time_column = csv.names[place];
-    std::vector<double>& time_s = csv.values[place];
-    for (std::size_t k = 0; k < time_s.size(); ++k) {
-      time_s[k] *= unit_s.value_or(1.0);
-      if (std::isfinite(time_s[k]) && (k == 0 || time_s[k] > time_s[k - 1])) continue;
-      return refuse(path, csv.names[place],
-                    "the time of row " + std::to_string(k + 1) + " below the header is " + io::shortest(time_s[k]) +
-                        " s and does not increase",
-                    "correct or remove that row, or give the sampling rate: --rate \"100 Hz\"");
-    }
-    out.log.time_s = std::move(time_s);
+    out.log.time_s = *std::move(times);
   }
   csv.names.erase(csv.names.begin() + static_cast<std::ptrdiff_t>(place));
   csv.values.erase(csv.values.begin() + static_cast<std::ptrdiff_t>(place));
@@ -89,11 +110,11 @@ io::FileExpected<LoadedLog> load_any_csv(const std::string& path, const LoadOpti
   io::FileExpected<io::CsvColumns> csv = io::read_csv_columns(path, options.on_bad_row, options.stop);
   if (!csv) return tl::unexpected<io::FileError>(csv.error());
   LoadedLog out;
+  if (const io::FileExpected<void> time = find_time(path, options, *csv, out); !time)
+    return tl::unexpected<io::FileError>(time.error());
   out.left_out = csv->left_out;
   out.rows_bad = csv->rows_bad;
   out.complete = csv->complete;
-  if (const io::FileExpected<void> time = find_time(path, options, *csv, out); !time)
-    return tl::unexpected<io::FileError>(time.error());
   if (const io::FileExpected<void> known = check_columns(path, options, csv->names); !known)
     return tl::unexpected<io::FileError>(known.error());
   for (std::size_t c = 0; c < csv->names.size(); ++c) {

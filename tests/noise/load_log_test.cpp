@@ -110,19 +110,23 @@ TEST(LoadStillLog, SaysWhatIsWrong) {
 TEST(LoadStillLog, SkipsBadRowsWhereItMay) {
   LoadOptions options;
   options.on_bad_row = io::BadRowPolicy::skip;
-  const auto log = loaded("t_s,a\n1,2\n2\n3,x\n4,5\n", options);
+  const auto log = loaded("t_s,a\n1,2\n2\n3,x\n0.5,7\nnan,8\n4,5\n", options);
   ASSERT_TRUE(log.has_value()) << log.error().text();
-  EXPECT_EQ(log->rows_bad, 2U);
+  EXPECT_EQ(log->rows_bad, 4U);
+  EXPECT_EQ(log->log.time_s, (std::vector<double>{1.0, 4.0}));
   EXPECT_EQ(log->log.columns[0].readings, (std::vector<double>{2.0, 5.0}));
 }
 
 TEST(LoadStillLog, KnowsTimesAndUnitsByTheirNames) {
   EXPECT_EQ(time_unit_of_name("t"), 1.0);
   EXPECT_EQ(time_unit_of_name("Time [ms]"), 1e-3);
-  EXPECT_EQ(time_unit_of_name("timestamp_us"), 1e-6);
-  EXPECT_FALSE(time_unit_of_name("temperature").has_value());
-  EXPECT_FALSE(time_unit_of_name("t_degc").has_value());
-  EXPECT_FALSE(time_unit_of_name("").has_value());
+  EXPECT_EQ(time_unit_of_name("clock_us"), 1e-6);
+  EXPECT_TRUE(is_time_name("timestamp_us"));
+  EXPECT_TRUE(is_time_name("T"));
+  EXPECT_FALSE(is_time_name("clock_us"));
+  EXPECT_FALSE(is_time_name("temperature"));
+  EXPECT_FALSE(is_time_name("t_degc"));
+  EXPECT_FALSE(is_time_name(""));
   EXPECT_EQ(unit_of_name("a1_cnt").name, "count");
   EXPECT_EQ(unit_of_name("ax [m/s^2]").name, "m/s^2");
   EXPECT_TRUE(unit_of_name("v").name.empty());

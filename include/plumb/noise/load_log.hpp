@@ -4,7 +4,6 @@
 
 #include <csignal>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +25,10 @@ struct ColumnUnit {
 /// By the end of a column's name: "_mps2", "_cnt", "_V", "_radps".
 ColumnUnit unit_of_name(const std::string& name);
 
-/// Seconds per unit of a time column by its name: "t", "time_us", "timestamp [ms]"; nothing where it is no name of a
-/// time. Without a unit in the name: seconds.
-std::optional<double> time_unit_of_name(const std::string& name);
+/// "t", "time_us", "timestamp [ms]".
+bool is_time_name(const std::string& name);
+/// Seconds per unit of a time column, by the end of its name; 1 where that tells none.
+double time_unit_of_name(const std::string& name);
 
 struct LoadOptions {
   const io::ArrayFile* array = nullptr;  ///< null: any CSV; then the keys below say more
