@@ -215,6 +215,15 @@ if(TARGET plumb_logs AND review_sources)
   plumb_batch(plumb_review)
 endif()
 
+# What noise a log at rest shows.
+plumb_sources(noise_sources noise)
+if(TARGET plumb_io AND noise_sources)
+  add_library(plumb_noise STATIC ${noise_sources})
+  plumb_library(plumb_noise noise)
+  target_link_libraries(plumb_noise PUBLIC plumb_io plumb_24 PRIVATE "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_batch(plumb_noise)
+endif()
+
 # Coefficients that others have found, and calibrations in the forms of others.
 plumb_sources(coefficients_sources coefficients)
 if(TARGET plumb_io AND coefficients_sources)
@@ -294,7 +303,7 @@ if(TARGET plumb_session AND TARGET plumb_verification AND render_sources)
   plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
   add_library(plumb_render STATIC ${render_sources})
   plumb_library(plumb_render render)
-  target_link_libraries(plumb_render PUBLIC plumb_session plumb_coefficients plumb_findings plumb_review plumb_verification plumb_study plumb_io fmt::fmt
+  target_link_libraries(plumb_render PUBLIC plumb_session plumb_coefficients plumb_findings plumb_noise plumb_review plumb_verification plumb_study plumb_io fmt::fmt
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_render)
   plumb_optimise_less(plumb_render)

@@ -188,6 +188,12 @@ if(TARGET plumb_commission)
     LONGER ArrayCommission.* BoardMotion.* MotionCommission.* QuadrotorMotion.*)
 endif()
 
+# Simulations by the thousand.
+if(TARGET plumb_noise)
+  plumb_test_executable(plumb_noise_tests LABEL host ROOMS noise LIBRARIES plumb_noise plumb_scenario plumb_io plumb_24
+    COMPUTING noise/coverage LONGER NoiseCoverage.*)
+endif()
+
 # Another one: coefficients need files and nothing above them.
 if(TARGET plumb_coefficients)
   plumb_test_executable(plumb_coefficients_tests LABEL host ROOMS coefficients LIBRARIES plumb_coefficients plumb_logs plumb_io plumb_24

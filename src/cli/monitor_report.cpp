@@ -1,7 +1,6 @@
 #include "monitor_report.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -79,47 +78,8 @@ void put_counts(const session::MonitorRun& run, const io::ArrayFile& array, cons
   }
 }
 
-/// A directory of its own, removed with all that is in it.
-class Scratch {
- public:
-  Scratch() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "plumb-report-XXXXXX").string();
-    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-/// A page without pictures is a page still: what hinders the drawing is said in their place.
 render::PagePictures pictures_of(const Json& report) {
-  const std::vector<std::string> names = render::health_picture_names(report);
-  render::PagePictures out;
-  if (names.empty()) return out;
-  const Scratch scratch;
-  io::FileError failure{"TMPDIR",
-                        0,
-                        "",
-                        "cannot create a directory in it, so there are no pictures",
-                        "set TMPDIR to a directory that you may write to",
-                        io::ExitCode::other};
-  if (!scratch.path().empty()) {
-    io::FileExpected<render::PagePictures> drawn =
-        draw_pictures(scratch.path(), render::health_plot_files(report), render::kHealthScript, names);
-    if (drawn) return *std::move(drawn);
-    failure = drawn.error();
-  }
-  print_error("plumb: " + failure.text() + "\n");
-  for (const std::string& name : names) out.emplace(name, render::PagePicture{"", failure.text()});
-  return out;
+  return draw_for_page(render::health_plot_files(report), render::kHealthScript, render::health_picture_names(report));
 }
 
 }  // namespace

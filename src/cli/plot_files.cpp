@@ -1,5 +1,7 @@
 #include "plot_files.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 
 #include "plumb/io/output_file.hpp"
@@ -9,12 +11,37 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory of its own, removed with all that is in it.
+class Scratch {
+ public:
+  Scratch() {
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "plumb-report-XXXXXX").string();
+    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
 
 io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
                                                       const std::vector<render::PlotFile>& files, const char* script,
                                                       std::vector<std::string> pictures, std::string& missing) {
   std::error_code error;
-  std::filesystem::create_directories(directory, error);
+  fs::create_directories(directory, error);
   if (error) {
     return tl::unexpected<io::FileError>(io::FileError{directory, 0, "--plots",
                                                        "cannot create the directory: " + error.message(),
@@ -22,8 +49,7 @@ io::FileExpected<std::vector<std::string>> draw_files(const std::string& directo
   }
   std::vector<std::string> written;
   for (const render::PlotFile& file : files) {
-    const io::FileExpected<void> done =
-        io::write_file((std::filesystem::path(directory) / file.name).string(), file.text);
+    const io::FileExpected<void> done = io::write_file((fs::path(directory) / file.name).string(), file.text);
     if (!done) return tl::unexpected<io::FileError>(done.error());
     written.push_back(file.name);
   }
@@ -46,12 +72,33 @@ io::FileExpected<render::PagePictures> draw_pictures(const std::string& director
   for (const std::string& name : names) {
     render::PagePicture picture{"", missing};
     if (missing.empty()) {
-      const io::FileExpected<std::string> svg = io::read_file((std::filesystem::path(directory) / name).string());
+      const io::FileExpected<std::string> svg = io::read_file((fs::path(directory) / name).string());
       if (!svg) return tl::unexpected<io::FileError>(svg.error());
       picture.svg = render::inline_svg(*svg);
     }
     out.emplace(name, std::move(picture));
   }
+  return out;
+}
+
+render::PagePictures draw_for_page(const std::vector<render::PlotFile>& files, const char* script,
+                                   const std::vector<std::string>& names) {
+  render::PagePictures out;
+  if (names.empty()) return out;
+  const Scratch scratch;
+  io::FileError failure{"TMPDIR",
+                        0,
+                        "",
+                        "cannot create a directory in it, so there are no pictures",
+                        "set TMPDIR to a directory that you may write to",
+                        io::ExitCode::other};
+  if (!scratch.path().empty()) {
+    io::FileExpected<render::PagePictures> drawn = draw_pictures(scratch.path(), files, script, names);
+    if (drawn) return *std::move(drawn);
+    failure = drawn.error();
+  }
+  print_error("plumb: " + failure.text() + "\n");
+  for (const std::string& name : names) out.emplace(name, render::PagePicture{"", failure.text()});
   return out;
 }
 

@@ -24,6 +24,11 @@ io::FileExpected<render::PagePictures> draw_pictures(const std::string& director
                                                      const std::vector<render::PlotFile>& files, const char* script,
                                                      const std::vector<std::string>& names);
 
+/// The same, drawn in a directory that is removed again. A page without pictures is a page still: what hinders the
+/// drawing is said in their place.
+render::PagePictures draw_for_page(const std::vector<render::PlotFile>& files, const char* script,
+                                   const std::vector<std::string>& names);
+
 }  // namespace cli
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -13,6 +13,7 @@
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/units.hpp"
 #include "plumb/render/review_report.hpp"
+#include "plumb/review/time_skew.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -55,11 +56,11 @@ std::vector<Outcome> review_all(const ReviewOptions& options, const review::Revi
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t k = next++; k < out.size() && !interrupted(); k = next++) {
-      const io::FileExpected<review::LogDigest> digest = review::digest_log(options.logs[k]);
-      if (digest)
-        out[k].review = review::review_log(*digest, settings);
+      const io::FileExpected<review::LogReview> found = review::review_file(options.logs[k], settings);
+      if (found)
+        out[k].review = *found;
       else
-        out[k].error = digest.error();
+        out[k].error = found.error();
     }
   };
   const unsigned machine = std::max(1U, std::thread::hardware_concurrency());
@@ -87,7 +88,7 @@ io::FileExpected<review::ReviewSettings> settings_of(const ReviewOptions& option
   review::ReviewSettings out;
   if (options.gravity.empty()) return out;
   io::FileExpected<double> gravity = io::parse_quantity(io::Quantity::acceleration, options.gravity);
-  if (gravity && *gravity > 0.0) {
+  if (gravity && *gravity >= 1.0 && *gravity <= 30.0) {
     out.gravity_mps2 = *gravity;
     return out;
   }
@@ -97,7 +98,7 @@ io::FileExpected<review::ReviewSettings> settings_of(const ReviewOptions& option
     return tl::unexpected<io::FileError>(gravity.error());
   }
   return tl::unexpected<io::FileError>(
-      io::FileError{"--gravity", 0, "", "\"" + options.gravity + "\" is not above zero",
+      io::FileError{"--gravity", 0, "", "\"" + options.gravity + "\" is not from 1 to 30 m/s^2",
                     "give the local gravity, for example \"9.81 m/s^2\"", io::ExitCode::usage});
 }
 

@@ -8,6 +8,7 @@
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/unit_guess.hpp"
 #include "plumb/render/figures.hpp"
+#include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
@@ -131,10 +132,11 @@ std::string log_words(const Finding& f, const io::ArrayFile& array) {
     case Code::noise_at_rest:
       return fmt::format(
           "`noise`: even in the quietest tenth of the log {} scatters by {:.3g} mg0, {:.3g} times the {:.3g} mg0 "
-          "declared{}. If the tool was at rest then, declare the noise as it is",
+          "declared{}. If the tool was at rest then, declare the noise as it is; {}",
           id_of(array, f.sensor), in_mg0(f.value), f.value / f.limit, in_mg0(f.limit),
           f.other > 1 ? fmt::format(" ({} of {} exceed theirs)", f.other, count_text(array.array.size(), "sensor"))
-                      : "");
+                      : "",
+          measure_noise_words(array));
     default:
       return "noise, unit and time column look as declared, so the tool did not rest: hold it still for 10 s at each "
              "attitude, and check that `station` tags do not change from row to row";

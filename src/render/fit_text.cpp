@@ -142,6 +142,7 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
   out += line("chi^2", fmt::format("{:.4g} for {}, p = {:.3g}: {}", r.chi2,
                                    count_text(r.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
                                    r.p_value, p_value_words(r)));
+  if (noise_overstated(r)) out += line("noise", measure_noise_words(array));
   const HoldOut& h = run.study.held_out;
   if (h.judged > 0) {
     std::string words =
@@ -176,7 +177,8 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
   if (const std::string loud = high_variance_words(r, array); !loud.empty()) out += line("stands out", loud);
   for (const findings::Finding& f : findings::noise_remarks(run, array)) {
     out += line("noise", noise_words(r, array, f.sensor) +
-                             ": declare the measured noise; the limits of the monitor depend on it");
+                             ": declare the measured noise; the limits of the monitor depend on it; " +
+                             measure_noise_words(array));
   }
   out += line("common scale", common_scale_words(run));
   return out;

@@ -140,6 +140,8 @@ std::string attitude_words(const PlannedAttitude& attitude) {
          fmt::format(" (down along {}, {}, {})", fixed_words(d[0], 1), fixed_words(d[1], 1), fixed_words(d[2], 1));
 }
 
+bool noise_overstated(const FitReport& report) { return report.degrees_of_freedom > 0 && report.p_value > 1.0 - 1e-3; }
+
 std::string p_value_words(const FitReport& report) {
   if (report.degrees_of_freedom < 1) return "no station is left to test the fit";
   const double factor = std::sqrt(report.chi2 / report.degrees_of_freedom);
@@ -149,7 +151,7 @@ std::string p_value_words(const FitReport& report) {
         "(temperature, handling, nonlinearity) or the declared noise is too small; all limits include the excess",
         factor);
   }
-  if (report.p_value > 1.0 - 1e-3) {
+  if (noise_overstated(report)) {
     return fmt::format(
         "the residuals are only {:.2g} of what the declared noise leaves: the declared noise is too large, or a row "
         "averages more samples than `count` states; the limits are wider than necessary",

@@ -24,6 +24,8 @@ std::string attitude_words(const PlannedAttitude& attitude);
 
 /// What the p-value means, in one sentence.
 std::string p_value_words(const FitReport& report);
+/// The residuals are smaller than the declared noise makes them, but for one fit in a thousand.
+bool noise_overstated(const FitReport& report);
 
 /// What the attitudes lack, one sentence each; empty where nothing does.
 std::vector<std::string> coverage_words(const findings::CalibrationRun& run, const io::ArrayFile& array);

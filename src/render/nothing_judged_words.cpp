@@ -50,7 +50,8 @@ Refusal at_rest_words(const findings::NothingJudgedStudy& study, const io::Array
       return {fmt::format("the tool was not at rest for a block of {} samples: {} scatters by {:.3g} mg0 even in the "
                           "quietest tenth of the log, {:.3g} times the {:.3g} mg0 declared",
                           window, array.array.row(first.sensor).id.data(), mg0, mg0 / declared_mg0, declared_mg0),
-              hold + fmt::format("; if it was still, `noise` in {} is too small: declare it as it is", array.path)};
+              hold + fmt::format("; if it was still, `noise` in {} is too small: declare it as it is; {}", array.path,
+                                 measure_noise_words(array))};
     }
     default: return {log_words(first, array), "correct the array file where it is wrong; else " + hold};
   }

@@ -201,7 +201,8 @@ std::optional<Refusal> residual_words(const Finding& f, const CalibrationRun& ru
       return Refusal{noise_words(r, array, f.sensor) + ", and the residuals exceed the noise too",
                      channel +
                          "if this is its true noise, declare it in the array file: the limits of the monitor depend "
-                         "on it"};
+                         "on it; " +
+                         measure_noise_words(array)};
     case Code::too_many_outliers:
       return Refusal{fmt::format("{} of {} contradict the others (at most {:.0f} may be outliers){}", f.value,
                                  count_text(r.stations + r.outliers, "station"), f.limit,

@@ -46,9 +46,10 @@ std::string chip_table(const LogReview& in) {
                 "installed calibration"}};
   for (std::size_t i = 0; i < in.chips.size(); ++i) {
     const review::ChipSummary& chip = in.chips[i];
-    rows.push_back({chip_name(in, i), device_words(chip), fmt::format("{:.4g} Hz", chip.rate_hz),
-                    temperature_words(chip), signed_figure(off_gravity_mps2(in, i)), scatter_words(chip),
-                    std::to_string(chip.clipped), calibration_words(chip)});
+    rows.push_back({chip_name(in, i), device_words(chip),
+                    std::isfinite(chip.rate_hz) ? fmt::format("{:.4g} Hz", chip.rate_hz) : "-", temperature_words(chip),
+                    signed_figure(off_gravity_mps2(in, i)), scatter_words(chip), std::to_string(chip.clipped),
+                    calibration_words(chip)});
   }
   return columns(rows);
 }

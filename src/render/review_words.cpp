@@ -83,6 +83,23 @@ ReviewSentence of_times(const Finding& f, const LogReview& in) {
                         count_text(static_cast<std::uint64_t>(f.figure), "time")),
             "", "treat delays and rates of this log with care; update the firmware"};
   }
+  if (f.code == FindingCode::late) {
+    return {fmt::format("{} begins {:.1f} s later than the others", chip_name(in, f.chip), f.figure), "",
+            "look for the reason in the messages of the autopilot: a driver that starts late or again"};
+  }
+  if (f.code == FindingCode::stray) {
+    return {fmt::format(
+                "the first or last record of {} has a time more than 60 s from all others; it is left out of the times",
+                chip_name(in, f.chip)),
+            "", "treat delays and rates of this log with care; update the firmware"};
+  }
+  if (f.code == FindingCode::skew) {
+    const std::size_t late = f.figure > 0.0 ? f.other : f.chip;
+    const std::size_t early = f.figure > 0.0 ? f.chip : f.other;
+    return {fmt::format("{} shows motion {:.1f} ms later than {} (+-{:.1f}; limit {:.0f} ms)", chip_name(in, late),
+                        1000.0 * std::abs(f.figure), chip_name(in, early), 1000.0 * f.uncertainty, 1000.0 * f.limit),
+            "", "compare filters and time stamps of both drivers; state the delay to whatever fuses them"};
+  }
   if (f.code == FindingCode::stopped) {
     return {fmt::format("{} says nothing for the last {:.1f} s while the log goes on", chip_name(in, f.chip), f.figure),
             "", "the chip or its bus failed in flight: check connectors and power, replace it before the next flight"};
@@ -110,6 +127,10 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
     case FindingCode::gravity_length: return of_length(f, in);
     case FindingCode::disagreement:
     case FindingCode::motion_disagreement: return of_disagreement(f, in);
+    case FindingCode::common_length:
+      return {fmt::format("all accelerometers read the same length at rest, {:.2f} m/s^2 {} gravity (limit {:.2f})",
+                          std::abs(f.figure), f.figure > 0.0 ? "above" : "below", f.limit),
+              "", "nothing speaks against the sensors: the vehicle accelerated or turned steadily, or state --gravity"};
     case FindingCode::orientation:
       return {
           fmt::format("{} and another chip read gravity in directions that are {:.0f} deg apart, with equal lengths",
@@ -129,6 +150,9 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
               "", "let it warm up before the flight, or calibrate it over temperature"};
     case FindingCode::gaps:
     case FindingCode::backwards:
+    case FindingCode::skew:
+    case FindingCode::late:
+    case FindingCode::stray:
     case FindingCode::stopped: return of_times(f, in);
     case FindingCode::uncalibrated:
     case FindingCode::far_offset:
@@ -169,6 +193,10 @@ std::string code_word(FindingCode code) {
     case FindingCode::drift: return "drift";
     case FindingCode::gaps: return "gaps";
     case FindingCode::backwards: return "backwards";
+    case FindingCode::skew: return "skew";
+    case FindingCode::late: return "late";
+    case FindingCode::stray: return "stray";
+    case FindingCode::common_length: return "common_length";
     case FindingCode::stopped: return "stopped";
     case FindingCode::uncalibrated: return "uncalibrated";
     case FindingCode::far_offset: return "far_offset";
@@ -191,6 +219,15 @@ std::string sentence_of(OpenQuestion question) {
       return "one attitude at rest: errors across gravity are seen only as differences between chips";
     case OpenQuestion::slow_log:
       return "fewer than 20 records a second: vibration is judged only where the log has variances";
+    case OpenQuestion::not_compared:
+      return "at least one accelerometer has too few readings, or too much scatter, to be compared with another one";
+    case OpenQuestion::motion_unclear:
+      return "in motion the accelerometers differ by more than the limit, within what scatter and turning allow: "
+             "agreement "
+             "in motion is not judged";
+    case OpenQuestion::more_calibration:
+      return "the autopilot also turns or corrects readings by temperature, which is not applied here: those "
+             "accelerometers are not compared; log vehicle_imu";
     case OpenQuestion::no_calibration_in_log: break;
   }
   return "the log holds no calibration parameters: whether one is installed is not known";
@@ -204,6 +241,9 @@ std::string code_word(OpenQuestion question) {
     case OpenQuestion::never_in_motion: return "never_in_motion";
     case OpenQuestion::one_attitude: return "one_attitude";
     case OpenQuestion::slow_log: return "slow_log";
+    case OpenQuestion::not_compared: return "not_compared";
+    case OpenQuestion::motion_unclear: return "motion_unclear";
+    case OpenQuestion::more_calibration: return "more_calibration";
     case OpenQuestion::no_calibration_in_log: break;
   }
   return "no_calibration_in_log";
@@ -222,11 +262,18 @@ std::string answer_of(const LogReview& in) {
     return worst.what + (more == 0 ? "." : fmt::format("; and {}.", count_text(more, "more finding")));
   }
   if (!in.judged) return "Nothing was judged: never at rest, and no two accelerometers to compare.";
+  const auto compared = static_cast<std::size_t>(
+      std::count_if(in.chips.begin(), in.chips.end(), [](const review::ChipSummary& chip) { return chip.compared; }));
+  if (in.chips.size() == 1) return "The accelerometer reads gravity at rest.";
+  const bool all = compared == in.chips.size();
   const std::string subject =
-      in.chips.size() == 1 ? "The accelerometer" : fmt::format("All {} accelerometers", in.chips.size());
-  const std::string verb = in.chips.size() == 1 ? "reads" : "read";
+      all ? fmt::format("All {} accelerometers", compared)
+          : fmt::format("{} of {} accelerometers could be compared, and they", compared, in.chips.size());
+  if (compared < 2)
+    return fmt::format("{} accelerometers, none of which could be compared with another one.", in.chips.size());
+  const bool unclear = std::find(in.open.begin(), in.open.end(), OpenQuestion::motion_unclear) != in.open.end();
   if (in.stretches.empty()) return subject + " agree in motion; none was seen at rest.";
-  return subject + " " + verb + " gravity at rest" + (in.chips.size() > 1 ? " and agree." : ".");
+  return subject + (unclear ? " agree at rest; in motion that is not judged." : " read gravity at rest and agree.");
 }
 
 std::string chip_name(const LogReview& in, std::size_t chip) { return io::printable_line(in.chips.at(chip).name); }

@@ -1,9 +1,10 @@
 #include "plumb/render/run_findings.hpp"
-#include "plumb/render/figures.hpp"
 
 #include <fmt/format.h>
 
 #include "plumb/core/units.hpp"
+#include "plumb/render/figures.hpp"
+#include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
 
 namespace plumb {
@@ -19,7 +20,7 @@ double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 }  // namespace
 
-std::string findings_text(const Verdict& last) {
+std::string findings_text(const Verdict& last, const io::ArrayFile& array) {
   std::string out;
   const NormMismatch& gravity = last.norm_mismatch;
   if (gravity.configure_mps2 > 0.0) {
@@ -28,13 +29,14 @@ std::string findings_text(const Verdict& last) {
                        gravity.configure_mps2);
   }
   if (last.noise_factor > 1.0) {
-    out += fmt::format("noise       {:.1f} times what is stated: write {:.1f} times the noise into the array file\n",
-                       last.noise_factor, last.noise_factor);
+    out +=
+        fmt::format("noise       {:.1f} times what is stated: write {:.1f} times the noise into the array file; {}\n",
+                    last.noise_factor, last.noise_factor, measure_noise_words(array));
   }
   if (last.noise_correlation > kToldCorrelation) {
     out += fmt::format(
-        "noise       correlated: {:.0f} samples carry the information of one; state the output filter's rate\n",
-        last.noise_correlation);
+        "noise       correlated: {:.0f} samples carry the information of one; state the output filter's rate; {}\n",
+        last.noise_correlation, measure_noise_words(array));
   }
   const CalibrationFinding& calibration = last.calibration;
   if (calibration.contradicted) {

@@ -43,8 +43,8 @@ SensorNote noise_note_of(const session::MonitorRun& run, const io::ArrayFile& ar
                       "are at rest",
                       id, in_mg0(shown), shown / declared, in_mg0(declared),
                       count_text(counts_of(run, i).scattering_blocks, "block")),
-          fmt::format("{}; if {} is sound and always scatters like this, state noise = \"{:.3g} mg0\" for it in {}",
-                      check, id, in_mg0(shown), array.path)};
+          fmt::format("{}; if {} is sound and always scatters like this, state noise = \"{:.3g} mg0\" for it in {}; {}",
+                      check, id, in_mg0(shown), array.path, measure_noise_words(array))};
 }
 
 /// Most sensors scatter and a few do not: that is no noise of each of them.

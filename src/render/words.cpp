@@ -1,5 +1,7 @@
 #include "plumb/render/words.hpp"
 
+#include "plumb/io/file_error.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace render {
@@ -35,6 +37,11 @@ std::string listed(const std::vector<std::string>& names) {
     out += names[k];
   }
   return out;
+}
+
+std::string measure_noise_words(const io::ArrayFile& array) {
+  return "plumb noise STILL.csv --array " + io::shell_word(array.path) +
+         " measures it from a log of the tool at rest and prints the lines to declare";
 }
 
 std::string explain(Cause cause, Grade grade, HealthEvent event) {

@@ -110,10 +110,8 @@ bool usable(const SourceBlock& block) noexcept {
 
 /// Turning adds w^2 r, and the change of the rate over the cell times r.
 double lever_mps2(const Cell& cell, double block_s) noexcept {
-  double fastest = 0.0;
-  for (const SourceBlock& block : cell.readings) fastest = std::max(fastest, block.fastest_radps);
   const double length_s = static_cast<double>(cell.span.to - cell.span.from) * block_s;
-  return kLeverArm_m * (fastest * fastest + 2.0 * fastest / length_s);
+  return kLeverArm_m * (cell.rate_squares + 2.0 * std::sqrt(cell.rate_squares) / length_s);
 }
 
 std::vector<Comparison> side_by_side(const std::vector<Cell>& cells, std::size_t chips) {
@@ -243,7 +241,7 @@ Opinion opinion_of(const Comparison& chips, const GravityKnown& gravity, bool at
     if (!chips.readings[j].there) continue;
     ++there;
     for (std::size_t i = 0; i < j; ++i) {
-      if (!chips.readings[i].there || beyond(chips, i, j) <= worst) continue;
+      if (!chips.readings[i].there || !(beyond(chips, i, j) > worst)) continue;
       worst = beyond(chips, i, j);
       out.first = i;
       out.second = j;
@@ -265,35 +263,98 @@ Opinion opinion_of(const Comparison& chips, const GravityKnown& gravity, bool at
   return out;
 }
 
+namespace {
+
+bool turned(const Reading& a, const Reading& b) {
+  return angle_deg(a.mean_mps2, b.mean_mps2) > kAttitude_deg &&
+         std::abs(length_of(a.mean_mps2) - length_of(b.mean_mps2)) <= kCaution_mps2;
+}
+
+Finding finding_at(const Cell& cell, double block_s, FindingCode code) {
+  Finding out;
+  out.code = code;
+  out.from_s = static_cast<double>(cell.span.from) * block_s;
+  out.to_s = static_cast<double>(cell.span.to) * block_s;
+  return out;
+}
+
+/// Takes the chips out that read gravity in another direction than each other one, with its length: they are mounted
+/// differently. Of two, both.
+std::vector<Finding> take_out_turned(const Cell& cell, double block_s, Comparison& chips) {
+  std::vector<Finding> out;
+  const std::vector<Reading> all = chips.readings;
+  const auto there =
+      static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const Reading& r) { return r.there; }));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::size_t against = kNoChip;
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < all.size() && all[i].there; ++j) {
+      if (j == i || !all[j].there || !turned(all[i], all[j])) continue;
+      against = j;
+      ++count;
+    }
+    if (count == 0 || count + 1 < there || (there == 2 && against < i)) continue;
+    Finding finding = finding_at(cell, block_s, FindingCode::orientation);
+    finding.chip = i;
+    finding.other = there == 2 ? against : kNoChip;
+    finding.figure = angle_deg(all[i].mean_mps2, all[against].mean_mps2);
+    finding.limit = kAttitude_deg;
+    out.push_back(finding);
+    chips.readings[i].there = false;
+    if (there == 2) chips.readings[against].there = false;
+  }
+  return out;
+}
+
+Finding finding_of(const Opinion& opinion, const Cell& cell, double block_s) {
+  Finding out = finding_at(cell, block_s, FindingCode::disagreement);
+  out.chip = opinion.chip == kNoChip ? opinion.first : opinion.chip;
+  out.other = opinion.chip == kNoChip ? opinion.second : kNoChip;
+  out.told_by_length = opinion.told_by_length;
+  out.figure = opinion.figure_mps2;
+  out.limit = kCaution_mps2;
+  out.uncertainty = opinion.allowed_mps2;
+  out.grade = opinion.figure_mps2 - opinion.allowed_mps2 > kArmingLimit_mps2 ? Grade::red : Grade::orange;
+  return out;
+}
+
+/// Of one thing the worst figure is kept.
+void keep_worst(const Finding& finding, std::vector<Finding>& found) {
+  const auto same = std::find_if(found.begin(), found.end(), [&](const Finding& one) {
+    return one.code == finding.code && one.chip == finding.chip && one.other == finding.other;
+  });
+  if (same == found.end())
+    found.push_back(finding);
+  else if (same->figure < finding.figure)
+    *same = finding;
+}
+
+void leave_out(const LogReview& review, Comparison& chips) {
+  for (std::size_t i = 0; i < chips.readings.size(); ++i) {
+    if (review.chips[i].calibration.more) chips.readings[i].there = false;
+  }
+}
+
+void mark_compared(const Comparison& chips, LogReview& out) {
+  for (std::size_t i = 0; i < chips.readings.size(); ++i) {
+    for (std::size_t j = 0; j < chips.readings.size(); ++j) {
+      const bool both = i != j && chips.readings[i].there && chips.readings[j].there;
+      if (both && chips.allowed(i, j) <= kArmingLimit_mps2) out.chips[i].compared = true;
+    }
+  }
+}
+
+}  // namespace
+
 void judge_rest(const std::vector<Cell>& cells, const LogDigest& digest, const GravityKnown& gravity, LogReview& out) {
-  std::vector<Finding> found;  // the worst of each chip or pair
+  std::vector<Finding> found;
   for (const Cell& cell : cells) {
-    const Comparison chips = compare_at_rest(cell);
-    const std::vector<Reading>& readings = chips.readings;
+    Comparison chips = compare_at_rest(cell);
+    leave_out(out, chips);
+    for (const Finding& finding : take_out_turned(cell, digest.block_s, chips)) keep_worst(finding, found);
     const Opinion opinion = opinion_of(chips, gravity, true);
-    if (!opinion.disagree) continue;
-    const Axes& a = readings[opinion.first].mean_mps2;
-    const Axes& b = readings[opinion.second].mean_mps2;
-    const bool turned = angle_deg(a, b) > kAttitude_deg && std::abs(length_of(a) - length_of(b)) <= kCaution_mps2;
-    Finding finding;
-    finding.code = turned ? FindingCode::orientation : FindingCode::disagreement;
-    finding.chip = opinion.chip == kNoChip ? opinion.first : opinion.chip;
-    finding.other = opinion.chip == kNoChip ? opinion.second : kNoChip;
-    finding.told_by_length = opinion.told_by_length;
-    finding.figure = turned ? angle_deg(a, b) : opinion.figure_mps2;
-    finding.limit = turned ? kAttitude_deg : kCaution_mps2;
-    finding.uncertainty = turned ? 0.0 : opinion.allowed_mps2;
-    const bool red = !turned && opinion.figure_mps2 - opinion.allowed_mps2 > kArmingLimit_mps2;
-    finding.grade = red ? Grade::red : Grade::orange;
-    finding.from_s = static_cast<double>(cell.span.from) * digest.block_s;
-    finding.to_s = static_cast<double>(cell.span.to) * digest.block_s;
-    const auto same = std::find_if(found.begin(), found.end(), [&](const Finding& one) {
-      return one.code == finding.code && one.chip == finding.chip && one.other == finding.other;
-    });
-    if (same == found.end())
-      found.push_back(finding);
-    else if (same->figure < finding.figure)
-      *same = finding;
+    if (opinion.compared) mark_compared(chips, out);
+    if (opinion.disagree) keep_worst(finding_of(opinion, cell, digest.block_s), found);
   }
   out.findings.insert(out.findings.end(), found.begin(), found.end());
 }
@@ -308,10 +369,14 @@ void judge_motion(const std::vector<Cell>& cells, const LogDigest& digest, const
     run.clear();
     opinions.clear();
   };
-  const std::vector<Comparison> compared = compare_in_motion(cells, digest.block_s, out.chips.size());
+  std::vector<Comparison> compared = compare_in_motion(cells, digest.block_s, out.chips.size());
+  std::size_t unclear = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
+    leave_out(out, compared[c]);
     const Opinion opinion = opinion_of(compared[c], gravity, false);
     if (!opinion.compared) continue;
+    if (opinion.figure_mps2 > kCaution_mps2 && !opinion.disagree) ++unclear;
+    mark_compared(compared[c], out);
     differences.push_back(opinion.figure_mps2);
     if (!opinion.disagree || (!opinions.empty() && !same_verdict(opinions.back(), opinion))) close();
     if (!opinion.disagree) continue;
@@ -320,6 +385,7 @@ void judge_motion(const std::vector<Cell>& cells, const LogDigest& digest, const
   }
   close();
   out.motion_cells = differences.size();
+  if (2 * unclear > differences.size()) out.open.push_back(OpenQuestion::motion_unclear);
   if (differences.empty()) return;
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());

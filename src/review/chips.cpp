@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limits.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
@@ -46,6 +47,7 @@ InstalledCalibration px4_calibration(const LogDigest& digest, std::uint64_t devi
     const double id = parameter(digest, prefix + "ID", 0.0);
     if (device == 0 || std::abs(id - static_cast<double>(device)) > 0.5) continue;
     out.present = true;
+    out.more = parameter(digest, prefix + "ROT", -1.0) > 0.5 || parameter(digest, "TC_A_ENABLE", 0.0) > 0.5;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string axis(1, static_cast<char>('X' + k));
       out.offset_mps2[k] = parameter(digest, prefix + axis + "OFF", 0.0);
@@ -71,19 +73,35 @@ InstalledCalibration ardupilot_calibration(const LogDigest& digest, int instance
   return out;
 }
 
+/// One record far from all others has a wrong time: the extent is that of the rest.
+bool is_stray(const std::vector<SourceBlock>& blocks, std::size_t k, std::size_t neighbour, double block_s) {
+  const double apart_s = block_s * static_cast<double>(std::abs(blocks[k].index - blocks[neighbour].index));
+  return blocks.size() > 2 && blocks[k].records == 1 && apart_s > kStray_s;
+}
+
+void widen(const SourceDigest& source, double block_s, ChipSummary& chip) {
+  const std::vector<SourceBlock>& blocks = source.blocks;
+  const bool first = is_stray(blocks, 0, 1, block_s);
+  const bool last = is_stray(blocks, blocks.size() - 1, blocks.size() - 2, block_s);
+  chip.stray = chip.stray || first || last;
+  chip.from_s = std::fmin(chip.from_s, first ? block_s * static_cast<double>(blocks[1].index) : source.first_s);
+  chip.to_s =
+      std::fmax(chip.to_s, last ? block_s * static_cast<double>(blocks[blocks.size() - 2].index + 1) : source.last_s);
+}
+
 void set_extent(const LogDigest& digest, ChipSummary& chip) {
   for (const std::size_t k : chip.sources) {
     const SourceDigest& source = digest.sources[k];
-    chip.from_s = std::fmin(chip.from_s, source.first_s);
-    chip.to_s = std::fmax(chip.to_s, source.last_s);
-    std::uint64_t clipped = 0;
+    widen(source, digest.block_s, chip);
+    std::array<std::uint64_t, 3> clipped{};
     for (const SourceBlock& block : source.blocks) {
-      clipped += block.clipped[0] + block.clipped[1] + block.clipped[2];
+      for (std::size_t axis = 0; axis < 3; ++axis) clipped[axis] += block.clipped[axis];
       if (block.temperatures == 0) continue;
       chip.coldest_degc = std::fmin(chip.coldest_degc, block.temperature_degc);
       chip.warmest_degc = std::fmax(chip.warmest_degc, block.temperature_degc);
     }
-    chip.clipped = std::max(chip.clipped, clipped);  // several messages count the same clips
+    // Several messages, and several axes, count the same clips.
+    chip.clipped = std::max({chip.clipped, clipped[0], clipped[1], clipped[2]});
   }
   chip.rate_hz = 1.0 / digest.sources[chip.judged].intervals.usual_s();
 }
@@ -94,6 +112,7 @@ void set_calibration(const LogDigest& digest, ChipSummary& chip) {
   if (!chip.calibration.present && judged.source.instance >= 0)
     chip.calibration = ardupilot_calibration(digest, judged.source.instance);
   chip.calibration.applied_here = chip.calibration.present && judged.source.uncalibrated;
+  chip.calibration.more = chip.calibration.more && judged.source.uncalibrated;
 }
 
 }  // namespace
@@ -120,6 +139,12 @@ std::vector<ChipSummary> chips_of(const LogDigest& digest) {
         family_of(source.name) == family && family_of(digest.sources[chip.judged].source.name) != family;
     if (first || better) chip.judged = k;
   }
+  if (chips.size() > kMostChips) {
+    std::stable_sort(chips.begin(), chips.end(), [&](const ChipSummary& a, const ChipSummary& b) {
+      return digest.sources[a.judged].records > digest.sources[b.judged].records;
+    });
+    chips.resize(kMostChips);
+  }
   std::sort(chips.begin(), chips.end(), [&](const ChipSummary& a, const ChipSummary& b) {
     return digest.sources[a.judged].source.instance < digest.sources[b.judged].source.instance;
   });
@@ -131,13 +156,17 @@ std::vector<ChipSummary> chips_of(const LogDigest& digest) {
   return chips;
 }
 
-SourceBlock reading_of(const LogDigest& digest, const ChipSummary& chip, std::int64_t from, std::int64_t to) {
-  const std::vector<SourceBlock>& blocks = digest.sources[chip.judged].blocks;
+SourceBlock block_of(const SourceDigest& source, std::int64_t from, std::int64_t to) {
   SourceBlock out;
   out.index = from;
-  auto place = std::lower_bound(blocks.begin(), blocks.end(), from,
+  auto place = std::lower_bound(source.blocks.begin(), source.blocks.end(), from,
                                 [](const SourceBlock& b, std::int64_t index) { return b.index < index; });
-  for (; place != blocks.end() && place->index < to; ++place) out.add(*place);
+  for (; place != source.blocks.end() && place->index < to; ++place) out.add(*place);
+  return out;
+}
+
+SourceBlock reading_of(const LogDigest& digest, const ChipSummary& chip, std::int64_t from, std::int64_t to) {
+  SourceBlock out = block_of(digest.sources[chip.judged], from, to);
   if (!chip.calibration.applied_here) return out;
   for (std::size_t k = 0; k < 3; ++k) {
     const double scale = chip.calibration.scale[k];

@@ -13,6 +13,9 @@ namespace review {
 /// chip only where nothing else is in the log.
 std::vector<ChipSummary> chips_of(const LogDigest& digest);
 
+/// Blocks of a source from `from` up to but not including `to` as one.
+SourceBlock block_of(const SourceDigest& source, std::int64_t from, std::int64_t to);
+
 /// Blocks from `from` up to but not including `to` as one, with the calibration of the chip; without records where the
 /// chip has none there.
 SourceBlock reading_of(const LogDigest& digest, const ChipSummary& chip, std::int64_t from, std::int64_t to);

@@ -23,6 +23,12 @@ constexpr double kLeverArm_m = 0.1;
 /// Cells on either side from which the scatter of differences is taken, and the fewest steps that tell it.
 constexpr std::size_t kNearbyCells = 10;
 constexpr std::size_t kFewestSteps = 4;
+/// Cells are no longer: a chip that is slower than ten readings in one is not compared in motion.
+constexpr double kLongestCell_s = 60.0;
+/// More than this many chips are not judged: the work grows with their square.
+constexpr std::size_t kMostChips = 24;
+/// A block of one record that is further from all others has a wrong time.
+constexpr double kStray_s = 60.0;
 /// Times the median step that scatter is taken for.
 constexpr double kScatterSteps = 2.5;
 /// Cells on either side over which readings are averaged.
@@ -60,6 +66,11 @@ constexpr double kUnchangedInMotion = 20.0;
 constexpr double kMotionSeen_mps2 = 0.5;
 /// Attitudes further apart than this are different ones; chips that read gravity further apart are mounted differently.
 constexpr double kAttitude_deg = 20.0;
+/// Two chips further apart in time than this see another motion in a filter that takes them as simultaneous: at 1 rad/s
+/// 10 ms are half a degree, or 0.1 m/s^2 across gravity. Judged over the seconds with most motion.
+constexpr double kSkew_s = 0.01;
+constexpr double kSkewWindow_s = 10.0;
+constexpr double kSkewMotion_mps2 = 0.3;
 /// Records missing: a share of the log's time, and one gap.
 constexpr double kLostShare = 0.01;
 constexpr double kLongGap_s = 1.0;

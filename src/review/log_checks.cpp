@@ -1,7 +1,6 @@
 // What a chip shows by itself at any time: vibration, clipping, axes that stand still, times, the calibration it has.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "chip_checks.hpp"
 #include "chips.hpp"
@@ -24,82 +23,82 @@ Finding finding_of(FindingCode code, Grade grade, std::size_t chip, double figur
   return out;
 }
 
-/// Consecutive blocks of a source in which an axis reads one value and nothing else.
-struct Still {
-  std::size_t first = 0, last = 0;
-  double readings = 0.0;
-};
-
-bool constant(const SourceBlock& block, std::size_t axis) noexcept {
-  return !(block.most_mps2[axis] - block.least_mps2[axis] > 0.0);
-}
-
-/// The longest run of each kind: `mask` has the axes that must not change.
-Still longest_still(const std::vector<SourceBlock>& blocks, const std::vector<std::size_t>& axes) {
-  Still best;
-  Still run;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const bool still = std::all_of(axes.begin(), axes.end(), [&](std::size_t k) { return constant(blocks[b], k); });
-    const bool follows = run.readings > 0.0 && std::all_of(axes.begin(), axes.end(), [&](std::size_t k) {
-                           return !(std::abs(blocks[b].mean_mps2[k] - blocks[run.last].mean_mps2[k]) > 0.0);
-                         });
-    if (!still) {
-      run.readings = 0.0;
-      continue;
-    }
-    if (!follows) {
-      run.first = b;
-      run.readings = 0.0;
-    }
-    run.last = b;
-    run.readings += blocks[b].records;
-    if (run.readings > best.readings) best = run;
-  }
-  return best;
-}
-
-/// The greatest change within the span that any axis but those of `but_chip` in `but_axes` shows.
-double seen_by_others(const LogDigest& digest, const std::vector<ChipSummary>& chips, const Span& span,
-                      std::size_t but_chip, const std::vector<std::size_t>& but_axes) {
+/// The greatest change within the span of the same axis of other chips; `axis` -1: of any axis.
+double seen_by_others(const LogDigest& digest, const LogReview& in, const Span& span, std::size_t but_chip, int axis) {
   double out = 0.0;
-  for (std::size_t i = 0; i < chips.size(); ++i) {
-    const SourceBlock block = reading_of(digest, chips[i], span.from, span.to);
-    if (block.records < 2) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const bool left_out = i == but_chip && std::find(but_axes.begin(), but_axes.end(), k) != but_axes.end();
-      if (!left_out) out = std::max(out, block.most_mps2[k] - block.least_mps2[k]);
+  for (std::size_t i = 0; i < in.chips.size(); ++i) {
+    const SourceBlock block = reading_of(digest, in.chips[i], span.from, span.to);
+    if (i == but_chip || block.records < 2) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (axis < 0 || k == axis) out = std::max(out, block.most_mps2[at] - block.least_mps2[at]);
     }
   }
   return out;
 }
 
-/// Whether the other axes of the chip changed in each block of the run: what is coarse stands still in all of them now
+/// Whether the other axes of the chip changed in each block of the span: what is coarse stands still in all of them now
 /// and then.
-bool others_busy(const std::vector<SourceBlock>& blocks, const Still& run, std::size_t axis) {
-  for (std::size_t b = run.first; b <= run.last; ++b) {
+bool others_busy(const LogDigest& digest, const ChipSummary& chip, const Span& span, std::size_t axis) {
+  for (std::int64_t block = span.from; block < span.to; ++block) {
+    const SourceBlock here = reading_of(digest, chip, block, block + 1);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (k != axis && blocks[b].records > 1 && constant(blocks[b], k)) return false;
+      if (k != axis && here.records > 1 && !(here.most_mps2[k] - here.least_mps2[k] > 0.0)) return false;
     }
   }
   return true;
 }
 
-void add_still(const LogDigest& digest, std::size_t chip, const std::vector<std::size_t>& axes, LogReview& out) {
-  const std::vector<SourceBlock>& blocks = digest.sources[out.chips[chip].judged].blocks;
-  const Still run = longest_still(blocks, axes);
-  if (run.readings < kUnchangedInMotion) return;
-  const Span span{blocks[run.first].index, blocks[run.last].index + 1};
-  const bool moved = seen_by_others(digest, out.chips, span, chip, axes) > kMotionSeen_mps2;
-  const bool whole = axes.size() == 3;
-  const bool long_enough = run.readings >= kUnchangedReadings && (whole || others_busy(blocks, run, axes.front()));
-  if (!moved && !long_enough) return;
-  Finding finding =
-      finding_of(whole ? FindingCode::chip_frozen : FindingCode::axis_stuck, moved ? Grade::red : Grade::orange, chip,
-                 blocks[run.last].mean_mps2[axes.front()], run.readings);
-  finding.axis = whole ? -1 : static_cast<int>(axes.front());
-  finding.from_s = time_of(span.from, digest);
-  finding.to_s = time_of(span.to, digest);
+/// Whole blocks of the run where it has some, else those that it touches.
+Span span_of(const StillRun& run, double block_s) {
+  Span out{static_cast<std::int64_t>(std::ceil(run.from_s / block_s)),
+           static_cast<std::int64_t>(std::floor(run.to_s / block_s))};
+  if (out.to > out.from) return out;
+  return {static_cast<std::int64_t>(std::floor(run.from_s / block_s)),
+          static_cast<std::int64_t>(std::floor(run.to_s / block_s)) + 1};
+}
+
+/// `axis` -1: all three at once.
+void add_still(const LogDigest& digest, std::size_t chip, int axis, LogReview& out) {
+  const bool whole = axis < 0;
+  const SourceDigest& source = digest.sources[out.chips[chip].judged];
+  const StillRun& run = source.longest_still[whole ? 3U : static_cast<std::size_t>(axis)];
+  const auto records = static_cast<double>(run.records);
+  if (records < kUnchangedInMotion) return;
+  const Span span = span_of(run, digest.block_s);
+  const bool moved = seen_by_others(digest, out, span, chip, axis) > kMotionSeen_mps2;
+  const bool alone = whole || others_busy(digest, out.chips[chip], span, static_cast<std::size_t>(axis));
+  if (!moved && (records < kUnchangedReadings || !alone)) return;
+  Finding finding = finding_of(whole ? FindingCode::chip_frozen : FindingCode::axis_stuck,
+                               moved ? Grade::red : Grade::orange, chip, run.value_mps2, records);
+  finding.axis = axis;
+  finding.from_s = run.from_s;
+  finding.to_s = run.to_s;
   out.findings.push_back(finding);
+}
+
+/// The least of three cells in a row: a touchdown is one.
+double lasting(const std::vector<Cell>& cells, std::size_t c, std::size_t chip, std::size_t axis) {
+  double out = HUGE_VAL;
+  for (std::size_t k = c; k < c + 3; ++k) {
+    const SourceBlock& block = cells[k].readings[chip];
+    out = std::min(out, block.weight < kWindowReadings ? 0.0 : block.deviation_mps2(axis));
+  }
+  return out;
+}
+
+/// Records of other chips behind the end of one.
+double records_after(const LogDigest& digest, const LogReview& in, std::size_t chip) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < in.chips.size(); ++i) {
+    if (i == chip) continue;
+    double here = 0.0;
+    for (const SourceBlock& block : digest.sources[in.chips[i].judged].blocks) {
+      if (time_of(block.index, digest) > in.chips[chip].to_s) here += block.records;
+    }
+    out = std::max(out, here);
+  }
+  return out;
 }
 
 }  // namespace
@@ -110,13 +109,12 @@ void check_vibration(const std::vector<Cell>& motion, const LogDigest& digest, L
     const bool spread = digest.sources[summary.judged].source.kind == logs::RecordKind::mean;
     if (!(summary.rate_hz >= kFastHz) && !spread) continue;
     int axis = -1;
-    for (const Cell& cell : motion) {
-      const SourceBlock& block = cell.readings[chip];
-      if (block.weight < kWindowReadings) continue;
+    for (std::size_t c = 0; c + 2 < motion.size(); ++c) {
       for (std::size_t k = 0; k < 3; ++k) {
-        if (!(block.deviation_mps2(k) > (axis < 0 ? -1.0 : summary.vibration_mps2))) continue;
-        summary.vibration_mps2 = block.deviation_mps2(k);
-        summary.vibration_at_s = time_of(cell.span.from, digest);
+        const double here = lasting(motion, c, chip, k);
+        if (!(here > (axis < 0 ? 0.0 : summary.vibration_mps2))) continue;
+        summary.vibration_mps2 = here;
+        summary.vibration_at_s = time_of(motion[c].span.from, digest);
         axis = static_cast<int>(k);
       }
     }
@@ -139,15 +137,17 @@ void check_clipping(const LogDigest& digest, LogReview& out) {
         finding_of(FindingCode::clipping, Grade::orange, chip, static_cast<double>(summary.clipped), kClippedReadings);
     for (const std::size_t source : summary.sources) {
       double here = 0.0;
+      // Means count clips of readings that are not all behind them: their share is not known.
+      const bool samples = digest.sources[source].source.kind == logs::RecordKind::sample;
       for (const SourceBlock& block : digest.sources[source].blocks) {
-        here += block.weight;
+        here += samples ? block.weight : 0.0;
         if (block.clipped[0] + block.clipped[1] + block.clipped[2] == 0) continue;
         finding.from_s = std::fmin(finding.from_s, time_of(block.index, digest));
         finding.to_s = std::fmax(finding.to_s, time_of(block.index + 1, digest));
       }
       readings = std::max(readings, here);
     }
-    if (finding.figure > kClippedShare * readings) finding.grade = Grade::red;
+    if (readings > 0.0 && finding.figure > kClippedShare * readings) finding.grade = Grade::red;
     out.findings.push_back(finding);
   }
 }
@@ -155,9 +155,9 @@ void check_clipping(const LogDigest& digest, LogReview& out) {
 void check_stuck(const LogDigest& digest, LogReview& out) {
   for (std::size_t chip = 0; chip < out.chips.size(); ++chip) {
     const std::size_t before = out.findings.size();
-    add_still(digest, chip, {0, 1, 2}, out);
+    add_still(digest, chip, -1, out);
     if (out.findings.size() > before) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) add_still(digest, chip, {axis}, out);
+    for (int axis = 0; axis < 3; ++axis) add_still(digest, chip, axis, out);
   }
 }
 
@@ -169,7 +169,9 @@ void check_times(const LogDigest& digest, LogReview& out) {
     const Intervals::Gaps gaps = source.intervals.gaps(kGapIntervals);
     const double usual_s = source.intervals.usual_s();
     const bool long_gap = source.longest_gap_s > std::max(kLongGap_s, kGapIntervals * usual_s);
-    if (gaps.lost_s > kLostShare * length_s || long_gap) {
+    if (summary.stray) {
+      out.findings.push_back(finding_of(FindingCode::stray, Grade::orange, chip, 1.0, 0.0));
+    } else if (gaps.lost_s > kLostShare * length_s || long_gap) {
       Finding finding = finding_of(FindingCode::gaps, Grade::orange, chip, gaps.lost_s, kLostShare * length_s);
       finding.times = gaps.count;
       finding.from_s = source.longest_gap_at_s;
@@ -181,10 +183,18 @@ void check_times(const LogDigest& digest, LogReview& out) {
           finding_of(FindingCode::backwards, Grade::orange, chip, static_cast<double>(source.backwards), 0.0));
     }
     const double silent_s = out.to_s - summary.to_s;
-    if (silent_s > std::max(kStopped_s, kGapIntervals * usual_s)) {
+    if (silent_s > std::max(kStopped_s, kGapIntervals * usual_s) &&
+        records_after(digest, out, chip) >= kWindowReadings) {
       Finding finding = finding_of(FindingCode::stopped, Grade::red, chip, silent_s, kStopped_s);
       finding.from_s = summary.to_s;
       finding.to_s = out.to_s;
+      out.findings.push_back(finding);
+    }
+    const double late_s = summary.from_s - out.from_s;
+    if (late_s > std::max(kStopped_s, kGapIntervals * usual_s)) {
+      Finding finding = finding_of(FindingCode::late, Grade::orange, chip, late_s, kStopped_s);
+      finding.from_s = out.from_s;
+      finding.to_s = summary.from_s;
       out.findings.push_back(finding);
     }
   }

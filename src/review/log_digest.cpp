@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kMostParameters = 1024;
 constexpr std::size_t kMostNotes = 256;
+/// A change of velocity over a time, in 32-bit numbers each, comes back to a few parts in ten million.
+constexpr double kSameReading = 1.0e-6;
 /// A block index beyond this is no time of a log: it would not fit into a double without loss.
 constexpr double kFurthestBlock = 4.0e15;
 
@@ -33,7 +35,8 @@ SourceBlock block_of(const logs::ImuRecord& record) noexcept {
   }
   if (finite(record.rate_radps)) {
     out.rates = 1;
-    out.fastest_radps = std::hypot(record.rate_radps[0], record.rate_radps[1], record.rate_radps[2]);
+    out.rate_radps = record.rate_radps;
+    for (const double w : record.rate_radps) out.rate_squares += w * w;
   }
   if (std::isfinite(record.temperature_degc)) {
     out.temperatures = 1;
@@ -69,7 +72,11 @@ void SourceBlock::add(const SourceBlock& other) noexcept {
   weight = sum;
   records += other.records;
   rates += other.rates;
-  fastest_radps = std::max(fastest_radps, other.fastest_radps);
+  if (other.rates > 0) {
+    const double share = static_cast<double>(other.rates) / rates;
+    for (std::size_t k = 0; k < 3; ++k) rate_radps[k] += share * (other.rate_radps[k] - rate_radps[k]);
+    rate_squares += share * (other.rate_squares - rate_squares);
+  }
   temperatures += other.temperatures;
   if (other.temperatures > 0)
     temperature_degc += (other.temperature_degc - temperature_degc) * other.temperatures / temperatures;
@@ -127,6 +134,24 @@ void LogDigester::double_blocks() {
   }
 }
 
+void LogDigester::follow_still(const logs::ImuRecord& record, Reading& reading, SourceDigest& digest) {
+  const Axes& f = record.specific_force_mps2;
+  std::array<bool, 4> same{};
+  for (std::size_t k = 0; k < 3; ++k)
+    same[k] = std::abs(f[k] - reading.still_at_mps2[k]) <= kSameReading * std::max(1.0, std::abs(f[k]));
+  same[3] = same[0] && same[1] && same[2];
+  for (std::size_t k = 0; k < 4; ++k) {
+    StillRun& run = reading.still[k];
+    if (!same[k]) run = {0, record.time_s, record.time_s, f[k % 3]};
+    ++run.records;
+    run.to_s = record.time_s;
+    if (run.records > digest.longest_still[k].records) digest.longest_still[k] = run;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!same[k]) reading.still_at_mps2[k] = f[k];
+  }
+}
+
 void LogDigester::record(std::size_t number, const logs::ImuRecord& record) {
   if (number >= digest_.sources.size()) return;
   SourceDigest& digest = digest_.sources[number];
@@ -144,6 +169,7 @@ void LogDigester::record(std::size_t number, const logs::ImuRecord& record) {
     digest.longest_gap_at_s = reading.last_s;
   }
   reading.last_s = record.time_s;
+  follow_still(record, reading, digest);
   digest.first_s = std::fmin(digest.first_s, record.time_s);
   digest.last_s = std::fmax(digest.last_s, record.time_s);
   ++digest.records;
@@ -156,7 +182,17 @@ void LogDigester::record(std::size_t number, const logs::ImuRecord& record) {
 
 void LogDigester::parameter(const std::string& name, double value) {
   const bool wanted = starts_with(name, "CAL_ACC") || starts_with(name, "INS_ACC") || starts_with(name, "TC_A");
-  if (wanted && digest_.parameters.size() < kMostParameters) digest_.parameters[name] = value;
+  if (!wanted) return;
+  if (!std::isfinite(value)) {
+    note(0, "the parameter " + name + " is no number and is left out");
+    return;
+  }
+  const auto found = digest_.parameters.find(name);
+  if (found == digest_.parameters.end()) {
+    if (digest_.parameters.size() < kMostParameters) digest_.parameters[name] = value;
+  } else if (std::abs(found->second - value) > 0.0) {
+    note(0, "the parameter " + name + " changes within the log; its first value counts");
+  }
 }
 
 void LogDigester::note(std::uint64_t offset, const std::string& what) {

@@ -17,8 +17,8 @@ namespace {
 void set_stretches(const std::vector<Cell>& rest, double block_s, LogReview& out) {
   for (const Cell& cell : rest) {
     Stretch stretch;
-    stretch.from_s = static_cast<double>(cell.span.from) * block_s;
-    stretch.to_s = static_cast<double>(cell.span.to) * block_s;
+    stretch.from_s = std::max(static_cast<double>(cell.span.from) * block_s, out.from_s);
+    stretch.to_s = std::min(static_cast<double>(cell.span.to) * block_s, out.to_s);
     out.at_rest_s += stretch.to_s - stretch.from_s;
     for (const Reading& reading : readings_of(cell)) {
       stretch.mean_mps2.push_back(reading.there ? reading.mean_mps2 : logs::kAbsentAxes);
@@ -54,6 +54,11 @@ void set_open(const LogDigest& digest, bool moved, LogReview& out) {
   const bool slow = std::all_of(out.chips.begin(), out.chips.end(),
                                 [](const ChipSummary& chip) { return !(chip.rate_hz >= kFastHz); });
   if (slow) out.open.push_back(OpenQuestion::slow_log);
+  const auto any = [&out](auto holds) { return std::any_of(out.chips.begin(), out.chips.end(), holds); };
+  if (any([](const ChipSummary& chip) { return chip.calibration.more; }))
+    out.open.push_back(OpenQuestion::more_calibration);
+  if (out.chips.size() > 1 && any([](const ChipSummary& chip) { return !chip.compared && !chip.calibration.more; }))
+    out.open.push_back(OpenQuestion::not_compared);
   if (digest.parameters.empty()) out.open.push_back(OpenQuestion::no_calibration_in_log);
 }
 
@@ -69,6 +74,13 @@ void leave_out_turned(const LogReview& review, std::vector<Cell>& motion) {
 }
 
 /// Runs of one and the same thing become one finding with the worst figure; the place is that of the worst.
+void clamp_places(LogReview& out) {
+  for (Finding& finding : out.findings) {
+    if (finding.from_s < out.from_s) finding.from_s = out.from_s;
+    if (finding.to_s > out.to_s) finding.to_s = out.to_s;
+  }
+}
+
 void merge_runs(std::vector<Finding>& findings) {
   std::vector<Finding> out;
   for (const Finding& finding : findings) {
@@ -86,14 +98,17 @@ void merge_runs(std::vector<Finding>& findings) {
     if (worse) *same = finding;
     same->times = times;
   }
-  std::stable_sort(out.begin(), out.end(), [](const Finding& a, const Finding& b) { return a.grade > b.grade; });
+  std::stable_sort(out.begin(), out.end(), [](const Finding& a, const Finding& b) {
+    // Of equal grade, what is told of one chip comes before what is not.
+    return a.grade != b.grade ? a.grade > b.grade : (a.other == kNoChip && b.other != kNoChip);
+  });
   findings = std::move(out);
 }
 
 void note_damage(const LogDigest& digest, LogReview& out) {
   out.notes = digest.notes;
   const std::uint64_t unread = digest.extent.bytes - std::min(digest.extent.bytes, digest.extent.read_bytes);
-  if (unread == 0) return;
+  if (unread == 0 || out.chips.empty()) return;
   Finding finding;
   finding.code = FindingCode::damage;
   finding.figure = static_cast<double>(unread);
@@ -133,9 +148,12 @@ LogReview review_log(const LogDigest& digest, const ReviewSettings& settings) {
   check_times(digest, out);
   check_calibration(digest, out);
   note_damage(digest, out);
+  clamp_places(out);
   merge_runs(out.findings);
   set_open(digest, !motion.empty(), out);
-  out.judged = !out.chips.empty() && (!out.stretches.empty() || out.motion_cells > 0);
+  const bool any_compared =
+      std::any_of(out.chips.begin(), out.chips.end(), [](const ChipSummary& c) { return c.compared; });
+  out.judged = !out.chips.empty() && (!out.stretches.empty() || any_compared);
   for (const Finding& finding : out.findings) out.grade = std::max(out.grade, finding.grade);
   return out;
 }

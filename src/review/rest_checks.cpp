@@ -65,16 +65,57 @@ std::vector<double> wandered(const std::vector<Axes>& changes, const std::vector
 
 }  // namespace
 
+namespace {
+
+/// All chips of two or more are off by the same: the vehicle accelerates, or gravity is not what it is taken for.
+bool off_together(const std::vector<Reading>& readings, const GravityKnown& gravity) {
+  double least = HUGE_VAL;
+  double most = -HUGE_VAL;
+  int count = 0;
+  for (const Reading& reading : readings) {
+    if (!reading.there) continue;
+    const double off_mps2 = length_of(reading.mean_mps2) - gravity.middle_mps2;
+    least = std::min(least, off_mps2);
+    most = std::max(most, off_mps2);
+    ++count;
+  }
+  const double nearest = std::min(std::abs(least), std::abs(most));
+  return count > 1 && most - least <= kCaution_mps2 && nearest - gravity.half_mps2 > kCaution_mps2;
+}
+
+/// Once for all of them, the worst stretch.
+void check_common_length(const std::vector<Cell>& rest, double block_s, const GravityKnown& gravity, LogReview& out) {
+  Finding worst;
+  worst.code = FindingCode::common_length;
+  worst.limit = kCaution_mps2;
+  for (const Cell& cell : rest) {
+    const std::vector<Reading> readings = readings_of(cell);
+    if (!off_together(readings, gravity)) continue;
+    const auto first = std::find_if(readings.begin(), readings.end(), [](const Reading& r) { return r.there; });
+    const double off_mps2 = length_of(first->mean_mps2) - gravity.middle_mps2;
+    if (std::abs(off_mps2) <= std::abs(worst.figure)) continue;
+    worst.figure = off_mps2;
+    worst.uncertainty = first->allowed_mps2 + gravity.half_mps2;
+    worst.from_s = static_cast<double>(cell.span.from) * block_s;
+    worst.to_s = static_cast<double>(cell.span.to) * block_s;
+  }
+  if (std::abs(worst.figure) > 0.0) out.findings.push_back(worst);
+}
+
+}  // namespace
+
 void check_length(const std::vector<Cell>& rest, double block_s, const GravityKnown& gravity, LogReview& out) {
+  check_common_length(rest, block_s, gravity, out);
   for (std::size_t chip = 0; chip < out.chips.size(); ++chip) {
     Finding worst;
     double worst_beyond = kCaution_mps2;
     for (const Cell& cell : rest) {
-      const Reading reading = readings_of(cell)[chip];
-      if (!reading.there) continue;
+      const std::vector<Reading> readings = readings_of(cell);
+      const Reading& reading = readings[chip];
+      if (!reading.there || out.chips[chip].calibration.more || off_together(readings, gravity)) continue;
       const double off_mps2 = length_of(reading.mean_mps2) - gravity.middle_mps2;
       const double beyond_mps2 = std::abs(off_mps2) - reading.allowed_mps2 - gravity.half_mps2;
-      if (beyond_mps2 <= worst_beyond) continue;
+      if (!(beyond_mps2 > worst_beyond)) continue;
       worst_beyond = beyond_mps2;
       worst.code = FindingCode::gravity_length;
       worst.chip = chip;

@@ -55,6 +55,7 @@ Watcher watcher_of(const SourceDigest& source, std::int64_t blocks) {
 
 struct Votes {
   int all = 0, still = 0, stayed = 0;
+  bool turns = false;  ///< by any gyro
 };
 
 /// What the watchers say of a window.
@@ -65,7 +66,8 @@ Votes ask(const std::vector<Watcher>& watchers, std::int64_t window) {
     if (found == watcher.windows.end() || !tells(found->second)) continue;
     const SourceBlock& block = found->second;
     ++out.all;
-    if (scatter_of(block) > watcher.still_mps2 || block.fastest_radps > kStillRate_radps) continue;
+    out.turns = out.turns || length_of(block.rate_radps) > kStillRate_radps;
+    if (scatter_of(block) > watcher.still_mps2) continue;
     ++out.still;
     const double error_mps2 = 3.0 * scatter_of(block) / std::sqrt(static_cast<double>(block.records));
     const bool stayed = std::isnan(watcher.mean_mps2[0]) ||
@@ -93,16 +95,14 @@ void settle(std::vector<Watcher>& watchers, std::int64_t window, bool anew) {
   }
 }
 
-double usual_interval(const LogDigest& digest, const std::vector<ChipSummary>& chips) {
-  std::vector<double> intervals;
+/// Of the slowest chip that has ten readings in a minute.
+double slowest_interval(const LogDigest& digest, const std::vector<ChipSummary>& chips) {
+  double out = 0.0;
   for (const ChipSummary& chip : chips) {
     const double interval_s = digest.sources[chip.judged].intervals.usual_s();
-    if (std::isfinite(interval_s)) intervals.push_back(interval_s);
+    if (interval_s * kWindowReadings <= kLongestCell_s) out = std::max(out, interval_s);
   }
-  if (intervals.empty()) return digest.block_s;
-  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
-                   intervals.end());
-  return intervals[intervals.size() / 2];
+  return out;
 }
 
 Cell cell_of(const LogDigest& digest, const std::vector<ChipSummary>& chips, const Span& span) {
@@ -110,6 +110,8 @@ Cell cell_of(const LogDigest& digest, const std::vector<ChipSummary>& chips, con
   out.span = span;
   out.readings.reserve(chips.size());
   for (const ChipSummary& chip : chips) out.readings.push_back(reading_of(digest, chip, span.from, span.to));
+  for (const SourceDigest& source : digest.sources)
+    out.rate_squares = std::max(out.rate_squares, block_of(source, span.from, span.to).rate_squares);
   return out;
 }
 
@@ -134,7 +136,7 @@ std::vector<Span> spans_at_rest(const LogDigest& digest) {
     const std::int64_t from = window * blocks;
     if (open.to != from) close();
     const Votes votes = ask(watchers, window);
-    const bool still = votes.all > 0 && 2 * votes.still >= votes.all;
+    const bool still = votes.all > 0 && 2 * votes.still >= votes.all && !votes.turns;
     const bool goes_on = still && open.to == from && open.to > open.from && 2 * votes.stayed >= votes.still;
     if (!goes_on) close();
     if (!still) continue;
@@ -150,7 +152,7 @@ std::vector<Cell> cells_in_motion(const LogDigest& digest, const std::vector<Chi
                                   const std::vector<Span>& rest) {
   std::vector<Cell> out;
   if (chips.empty()) return out;
-  const double cell_s = kWindowReadings * usual_interval(digest, chips);
+  const double cell_s = kWindowReadings * slowest_interval(digest, chips);
   const auto blocks = static_cast<std::int64_t>(std::clamp(std::ceil(cell_s / digest.block_s), 1.0, 3600.0));
   std::set<std::int64_t> starts;
   for (const ChipSummary& chip : chips) {

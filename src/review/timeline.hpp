@@ -25,9 +25,10 @@ struct Cell {
   Span span;
   bool at_rest = false;
   std::vector<SourceBlock> readings;  ///< by chip
+  double rate_squares = 0.0;          ///< rad^2/s^2, of the gyro that shows most, whichever message it is in
 };
 
-/// The log outside of `rest`, cut into cells of so many blocks that the usual chip has kWindowReadings in one.
+/// The log outside of `rest`, cut into cells of so many blocks that the slowest chip has kWindowReadings in one.
 std::vector<Cell> cells_in_motion(const LogDigest& digest, const std::vector<ChipSummary>& chips,
                                   const std::vector<Span>& rest);
 /// One cell for each span at rest.

@@ -251,7 +251,8 @@ TEST(KeepOutliersOption, LetsThemSpoilTheFit) {
 TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {
   const Workshop noise;
   noise.put("array.toml", with(noise.text("array.toml"), "noise = \"200 ug0\"", "noise = \"20 ug0\""));
-  EXPECT_TRUE(says(calibrate(noise).err, {"no stretch at rest", "`noise`", "a1", "times the"}));
+  EXPECT_TRUE(says(calibrate(noise).err, {"no stretch at rest", "`noise`", "a1", "times the",
+                                          "plumb noise STILL.csv --array", "array.toml measures it"}));
   const Workshop unit;
   scale_log(unit, 1000.0);
   const std::string named = calibrate(unit).err;
@@ -269,6 +270,13 @@ TEST(CalibrateReport, NamesNoiseUnitAndTimeWhereNothingIsStill) {
   const Outcome none = calibrate(noise);
   EXPECT_EQ(none.code, 4);
   EXPECT_EQ(none.out.find(" 0.000 "), std::string::npos) << "what is not known is a dash:\n" << none.out;
+}
+
+TEST(CalibrateReport, AnOverstatedNoiseIsToldWithTheCommandThatMeasuresIt) {
+  const Workshop where;
+  EXPECT_EQ(calibrate(where).out.find("plumb noise"), std::string::npos) << "the noise is as declared";
+  where.put("array.toml", with(where.text("array.toml"), "noise = \"200 ug0\"", "noise = \"2 mg0\""));
+  EXPECT_TRUE(says(calibrate(where).out, {"the declared noise is too large", "plumb noise STILL.csv --array"}));
 }
 
 TEST(PlotsOption, DrawsFourPictures) {

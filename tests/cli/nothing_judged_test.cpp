@@ -49,7 +49,8 @@ TEST(NothingJudged, NamesItsCauseAndARemedyThatWorks) {
   monitored({"are at full scale in most rows", "Remedy: check `full_scale`, `scale` and `unit`"});
   int row = 0;
   where.put("log.csv", changed([&row](double v) { return std::to_string(v + (++row / 4 % 2 == 0 ? 0.3 : -0.3)); }));
-  monitored({"was not at rest for a block of 32", "Remedy: hold the tool still for at least 32 samples", "`noise`"});
+  monitored({"was not at rest for a block of 32", "Remedy: hold the tool still for at least 32 samples", "`noise`",
+             "plumb noise STILL.csv --array"});
   int cell = 0;
   where.put("log.csv", changed([&cell](double v) { return cell++ % 40 < 4 ? "nan" : std::to_string(v); }));
   monitored(

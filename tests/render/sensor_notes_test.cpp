@@ -62,6 +62,7 @@ TEST(SensorNotes, ANoisySensorHasItsNoiseBesideTheDeclaredOne) {
   const std::string text = text_of(run);
   EXPECT_TRUE(says(text, "a3 scatters by 2 mg0, 10 times the 0.2 mg0 declared, in 4 blocks")) << text;
   EXPECT_TRUE(says(text, "state noise = \"2 mg0\" for it")) << text;
+  EXPECT_TRUE(says(text, "plumb noise STILL.csv --array")) << text;
   run.counts.sensor[2].scattering_blocks = 0;
   EXPECT_FALSE(says(text_of(run), "state noise")) << "no figure was measured";
   EXPECT_TRUE(says(text_of(run), "check cable, connector and supply of a3")) << text_of(run);

@@ -6,6 +6,7 @@
 
 #include "plumb/array/sensor_array.hpp"
 #include "plumb/health/verdict.hpp"
+#include "plumb/io/array_file.hpp"
 #include "plumb/verification/tool_health.hpp"
 
 namespace plumb {
@@ -24,6 +25,10 @@ std::string explain(Cause cause, Grade grade = Grade::none, HealthEvent event = 
 
 /// The same of an event, with the sensors that are noisy, stuck or at full scale by name.
 std::string explain(const verification::NamedEvent& event, const SensorArray& array);
+
+/// How to measure the noise that the sensors of this file have, with the command: for remarks on a declared noise that
+/// a log contradicts.
+std::string measure_noise_words(const io::ArrayFile& array);
 
 /// What a state means, in one sentence.
 const char* meaning(HealthState state) noexcept;

@@ -29,7 +29,8 @@ struct SourceBlock {
   Axes squares_m2ps4{};
   Axes least_mps2{}, most_mps2{};
   std::array<std::uint64_t, 3> clipped{};
-  double fastest_radps = 0.0;     ///< the longest rate
+  Axes rate_radps{};              ///< the mean of the records with a rate
+  double rate_squares = 0.0;      ///< rad^2/s^2, the mean square of the length of the rate
   double temperature_degc = 0.0;  ///< the mean
 
   /// Standard deviation of single readings; 0 where fewer than two are there.
@@ -66,6 +67,13 @@ class Intervals {
 /// A gap is longer than this many usual intervals.
 constexpr double kGapIntervals = 5.0;
 
+/// Records in a row in which an axis reads the same, but for the rounding of 32-bit numbers.
+struct StillRun {
+  std::uint64_t records = 0;
+  double from_s = 0.0, to_s = 0.0;
+  double value_mps2 = 0.0;
+};
+
 struct SourceDigest {
   logs::ImuSource source;
   std::vector<SourceBlock> blocks;  ///< in order of time, gaps left out
@@ -75,6 +83,7 @@ struct SourceDigest {
   double first_s = logs::kAbsent, last_s = logs::kAbsent;  ///< the least and the greatest time
   Intervals intervals;
   double longest_gap_s = 0.0, longest_gap_at_s = 0.0;
+  std::array<StillRun, 4> longest_still{};  ///< of x, y, z, and of all three at once (with the value of x)
 };
 
 struct Note {
@@ -103,6 +112,7 @@ class LogDigester final : public logs::LogSink {
       : most_blocks_(most_blocks > 2 ? most_blocks : 2) {}  // one before the zero of time, one after it
   void source(std::size_t number, const logs::ImuSource& source) override;
   void record(std::size_t number, const logs::ImuRecord& record) override;
+  /// The first value counts: it is the one that the log was taken with. Changes and what is no number are noted.
   void parameter(const std::string& name, double value) override;
   void note(std::uint64_t offset, const std::string& what) override;
   void detected(const std::string& what) override { digest_.understood = what; }
@@ -113,7 +123,10 @@ class LogDigester final : public logs::LogSink {
   struct Reading {
     std::map<std::int64_t, SourceBlock> blocks;
     double last_s = logs::kAbsent;
+    std::array<StillRun, 4> still{};  ///< that go on
+    Axes still_at_mps2 = logs::kAbsentAxes;
   };
+  static void follow_still(const logs::ImuRecord& record, Reading& reading, SourceDigest& digest);
   void double_blocks();
 
   std::size_t most_blocks_;

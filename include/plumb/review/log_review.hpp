@@ -23,6 +23,7 @@ enum class FindingCode : std::uint8_t {
   gravity_length,       ///< the length of specific force at rest is not that of gravity
   disagreement,         ///< chips differ at rest
   motion_disagreement,  ///< chips differ in motion, in several cells in a row
+  common_length,        ///< all chips read the same length at rest, and it is not that of gravity
   orientation,          ///< chips agree in length but not in direction: mounting or axes
   axis_stuck,           ///< an axis does not change while others do
   chip_frozen,          ///< no axis of a chip changes
@@ -32,6 +33,9 @@ enum class FindingCode : std::uint8_t {
   drift,         ///< the reading at rest wanders within one stretch
   gaps,          ///< records are missing
   backwards,     ///< time goes back
+  skew,          ///< two chips show the same motion at different times
+  late,          ///< the chip begins later than others
+  stray,         ///< a record has a time far from all others
   stopped,       ///< the chip says nothing any more while others go on
   uncalibrated,  ///< the autopilot has no calibration of this chip
   far_offset,    ///< the installed calibration has an offset or a scale that no sensor in order needs
@@ -41,9 +45,9 @@ enum class FindingCode : std::uint8_t {
 
 constexpr std::size_t kNoChip = static_cast<std::size_t>(-1);
 
-/// Units of `figure`, `limit` and `uncertainty` (95 %): m/s^2, but degrees of orientation, seconds of gaps and stopped,
-/// readings of clipping and backwards, 1 of far_scale, bytes of damage. Of what does not change, `figure` is what it
-/// reads and `limit` how many readings are alike.
+/// Units of `figure`, `limit` and `uncertainty` (95 %): m/s^2, but degrees of orientation, seconds of gaps, skew and
+/// stopped, readings of clipping and backwards, 1 of far_scale, bytes of damage. Of what does not change, `figure` is
+/// what it reads and `limit` how many readings are alike.
 struct Finding {
   FindingCode code = FindingCode::damage;
   Grade grade = Grade::orange;
@@ -65,12 +69,18 @@ enum class OpenQuestion : std::uint8_t {
   one_attitude,  ///< an error across gravity, or of scale, is seen only in part
   slow_log,      ///< vibration and noise: fewer than kFastHz readings a second
   no_calibration_in_log,
+  not_compared,      ///< a chip has too few readings to be compared with another one
+  motion_unclear,    ///< chips differ in motion by more than the limit, within what scatter and turning allow
+  more_calibration,  ///< the autopilot turns or corrects readings in a way that is not applied here: they are not
+                     ///< compared
 };
 
 struct InstalledCalibration {
   bool present = false;
   Axes offset_mps2{};
   Axes scale{1.0, 1.0, 1.0};
+  bool more =
+      false;  ///< the autopilot also turns the readings or corrects them by temperature; that is not applied here
   bool applied_here = false;  ///< by this review, since the log holds readings before the calibration
 };
 
@@ -86,7 +96,11 @@ struct ChipSummary {
   Axes scatter_mps2 = logs::kAbsentAxes;  ///< at rest, standard deviation of single readings
   double vibration_mps2 = logs::kAbsent;  ///< the worst cell in motion, root of the sum of the axes' variances
   double vibration_at_s = logs::kAbsent;
-  std::uint64_t clipped = 0;
+  std::uint64_t clipped = 0;     ///< readings, of the axis with most
+  bool stray = false;            ///< a record at its beginning or end has a time far from all others
+  bool compared = false;         ///< with another chip, at rest or in motion
+  double lag_s = logs::kAbsent;  ///< behind the first chip that is fast enough, by the motion that both saw
+  double lag_uncertainty_s = logs::kAbsent;
 };
 
 /// A stretch at rest: what each chip read, NaN where it did not.
