@@ -36,9 +36,8 @@ constexpr const char* kImportAbout =
     "log.csv with one row for each instant, the readings of all chips aligned in time.";
 constexpr const char* kImportNotes =
     "Rows have the instants of the slowest chip; the others are interpolated to them, and cells across a gap stay\n"
-    "empty. What is known of the calibration comes with them, for plumb calibrate --from: installed.params with the\n"
-    "autopilot's parameters where the log holds readings before them, else corrected.csv. The last lines say what to\n"
-    "run next.\n\n"
+    "empty. The autopilot's calibration, as far as the log holds readings before it, goes to coefficients.csv, for\n"
+    "plumb calibrate --from. The last lines say what to run next.\n\n"
     "Examples:\n"
     "  plumb import flight.ulg --out flight\n"
     "  plumb import flight.ulg --message sensor_accel --align nearest --out raw\n\n";
@@ -140,13 +139,18 @@ io::FileExpected<void> read_gravity(ImportOptions& options) {
     gravity.error().code = io::ExitCode::usage;
     return tl::unexpected<io::FileError>(gravity.error());
   }
+  if (!(*gravity >= 9.5 && *gravity <= 10.2)) {
+    return tl::unexpected<io::FileError>(failed("--gravity",
+                                                "\"" + options.gravity + "\" is not from 9.5 to 10.2 m/s^2",
+                                                "give the gravity where the log was taken", io::ExitCode::usage));
+  }
   options.settings.gravity_mps2 = *gravity;
   return {};
 }
 
 /// The file beside the log with what is known of its calibration.
-std::string coefficients_path(const ImportOptions& options, const review::ImportPlan& plan) {
-  return (fs::path(options.out) / (plan.uncalibrated ? "installed.params" : "corrected.csv")).string();
+std::string coefficients_path(const ImportOptions& options) {
+  return (fs::path(options.out) / "coefficients.csv").string();
 }
 
 std::string next_words(const ImportOptions& options, const review::ImportPlan& plan) {
@@ -157,22 +161,18 @@ std::string next_words(const ImportOptions& options, const review::ImportPlan& p
   }
   const std::string calibration = io::shell_word((fs::path(options.out) / "calibration.json").string());
   return fmt::format(
-      "\nNext:\n  plumb calibrate --array {} --from {}{} --out {}\n  plumb monitor --array {} --calibration {} --log "
+      "\nNext:\n  plumb calibrate --array {} --from {} --out {}\n  plumb monitor --array {} --calibration {} --log "
       "{}\n",
-      array, io::shell_word(coefficients_path(options, plan)),
-      plan.uncalibrated ? " --uncertainty \"bias=0.05 m/s^2, scale=0.5 %, axis=0.5 deg\"" : "", calibration, array,
-      calibration, log);
+      array, io::shell_word(coefficients_path(options)), calibration, array, calibration, log);
 }
 
 io::ExitCode run_import(ImportOptions& options) {
   if (const io::FileExpected<void> gravity = read_gravity(options); !gravity) return report(gravity.error());
   const std::string array_path = (fs::path(options.out) / "array.toml").string();
-  const std::string params_path = (fs::path(options.out) / "installed.params").string();
-  const std::string table_path = (fs::path(options.out) / "corrected.csv").string();
+  const std::string table_path = coefficients_path(options);
   const std::string log_path = (fs::path(options.out) / "log.csv").string();
   if (const std::optional<io::FileError> clash =
-          overwritten({{"--out", array_path}, {"--out", params_path}, {"--out", table_path}, {"--out", log_path}},
-                      {{"LOG", options.log}}))
+          overwritten({{"--out", array_path}, {"--out", table_path}, {"--out", log_path}}, {{"LOG", options.log}}))
     return report(*clash);
   const io::FileExpected<review::LogDigest> digest = review::digest_log(options.log);
   if (!digest) return report(digest.error());
@@ -190,11 +190,10 @@ io::ExitCode run_import(ImportOptions& options) {
     print_error(
         fmt::format("plumb: {} left out: an array has 24 sensors at most.\n", count_text(plan->left_out, "chip")));
   if (!plan->coefficients_text.empty()) {
-    const std::string path = coefficients_path(options, *plan);
+    const std::string path = coefficients_path(options);
     if (const io::FileExpected<void> kept = io::write_file(path, plan->coefficients_text); !kept)
       return report(kept.error());
-    print(path + (plan->uncalibrated ? ": the calibration that is installed in the autopilot\n"
-                                     : ": the readings have the autopilot's calibration; what it may be off by\n"));
+    print(path + ": the autopilot's calibration of what the log holds, with what it may be off by\n");
   }
   const io::FileExpected<std::string> written = write_log(options, *digest, *plan, array_path);
   if (!written) return report(written.error());

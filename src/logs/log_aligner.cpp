@@ -28,6 +28,13 @@ void LogAligner::record(std::size_t number, const ImuRecord& record) {
                                   [&](const Waiting& waiting) { return waiting.source.number == number; });
   if (stopped_ || found == waiting_.end()) return;
   std::deque<ImuRecord>& records = found->records;
+  // A record that jumped ahead, and after which the log goes on where it was, has a wrong time.
+  const std::size_t size = records.size();
+  if (size > 1 && record.time_s > records[size - 2].time_s && record.time_s <= records.back().time_s &&
+      records.back().time_s - records[size - 2].time_s > found->source.longest_gap_s) {
+    records.pop_back();
+    ++left_out_;
+  }
   if (!std::isfinite(record.time_s) || (!records.empty() && !(record.time_s > records.back().time_s))) {
     ++left_out_;
     return;

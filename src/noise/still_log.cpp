@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "plumb/noise/fit.hpp"
@@ -25,6 +24,9 @@ constexpr std::size_t kShortestBlock = 16, kLongestRestBlock = 1000, kFewestBloc
 /// Median of |x| of a normal law over its sigma.
 constexpr double kMedianOfNormal = 0.6744897501960817;
 constexpr std::size_t kReadingsForResolution = 100000;
+/// Beyond these no sampling of an accelerometer is; the fourth powers of readings within kLargest, and of steps
+/// above its inverse, stay numbers.
+constexpr double kShortestPeriod_s = 1e-9, kLongestPeriod_s = 1e9, kLargest = 1e50;
 
 /// Readings in a row, evenly spaced.
 struct Piece {
@@ -99,7 +101,7 @@ std::vector<Piece> even_pieces(const StillLog& log, const std::vector<double>& r
   std::size_t silent_rows = 0;  // of these, rows that are there without a reading
   for (std::size_t row = 0; row < readings.size(); ++row) {
     missing += missing_before(log, out, row);
-    if (!std::isfinite(readings[row])) {
+    if (!(std::fabs(readings[row]) < kLargest)) {
       ++missing;
       ++silent_rows;
       continue;
@@ -211,7 +213,8 @@ double resolution_of(const std::vector<double>& readings) {
 }
 
 bool all_alike(const std::vector<double>& readings) {
-  return std::all_of(readings.begin(), readings.end(), [&](double y) { return y == readings.front(); });
+  return std::all_of(readings.begin(), readings.end(),
+                     [&](double y) { return std::fabs(y - readings.front()) < 1.0 / kLargest; });
 }
 
 }  // namespace
@@ -242,7 +245,7 @@ Stretch longest_stretch(const StillLog& log, std::size_t column) {
   out.refused = Refused::too_short;
   if (readings.size() < 2) return out;
   find_period(log, out);
-  if (!(out.period_s > 0.0) || !std::isfinite(out.period_s)) {
+  if (!(out.period_s >= kShortestPeriod_s && out.period_s <= kLongestPeriod_s)) {
     out.refused = Refused::no_rate;
     return out;
   }

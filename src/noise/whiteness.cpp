@@ -39,7 +39,7 @@ BlockScatter block_scatter(const std::vector<double>& readings, const std::vecto
 std::size_t best_block_of(const std::vector<double>& sums) {
   std::size_t best = 1;
   double before = allan_variance(sums, 1);
-  for (std::size_t m = 2; m <= kLongestBlock && 4 * m < sums.size(); m *= 2) {
+  for (std::size_t m = 2; m <= kLongestWindow && 4 * m < sums.size(); m *= 2) {
     const double now = allan_variance(sums, m);
     if (now <= kPays * before) best = m;
     before = now;

@@ -28,18 +28,19 @@ void add_breaks(const AxisStudy& study, noise::BreakCode code, std::vector<Noise
   if (breaks.count == 0) return;
   const noise::Break& first = breaks.first;
   const double worst = breaks.worst.value;
+  const std::string most = breaks.count == 1 ? std::string() : fmt::format(", at most {:.3g} s", worst);
   const std::string times = breaks.count == 1 ? std::string("once") : fmt::format("{} times", breaks.count);
   switch (code) {
     case noise::BreakCode::gap:
       out.push_back({study.name,
-                     fmt::format("rows are missing {}, first {:.3g} s at t = {:.6g} s, at most {:.3g} s; {}", times,
-                                 first.value, first.time_s, worst, stretch_words(study)),
+                     fmt::format("rows are missing {}, first {:.3g} s at t = {:.6g} s{}; {}", times, first.value,
+                                 first.time_s, most, stretch_words(study)),
                      "record without gaps: slow terms need one long stretch"});
       return;
     case noise::BreakCode::silent:
       out.push_back({study.name,
-                     fmt::format("the column delivers nothing {}, first for {:.3g} s at t = {:.6g} s; {}", times,
-                                 first.value, first.time_s, stretch_words(study)),
+                     fmt::format("the column delivers nothing {}, first {:.3g} s at t = {:.6g} s{}; {}", times,
+                                 first.value, first.time_s, most, stretch_words(study)),
                      "check the channel, or the recorder"});
       return;
     case noise::BreakCode::motion:
@@ -96,6 +97,21 @@ void add_fit(const NoiseAxis& axis, std::vector<NoiseRemark>& out) {
          "`noise` does not cover it: state at least that as `stability`"});
 }
 
+/// What is said of several columns alike is said once.
+std::vector<NoiseRemark> once_each(const std::vector<NoiseRemark>& all) {
+  std::vector<NoiseRemark> out;
+  for (const NoiseRemark& one : all) {
+    const auto same = std::find_if(out.begin(), out.end(), [&one](const NoiseRemark& other) {
+      return other.what == one.what && other.remedy == one.remedy;
+    });
+    if (same == out.end())
+      out.push_back(one);
+    else
+      same->axis += ", " + one.axis;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<NoiseRemark> noise_remarks(const NoiseReport& report) {
@@ -125,7 +141,7 @@ std::vector<NoiseRemark> noise_remarks(const NoiseReport& report) {
            "log the time at which the chip sampled, not that of the transfer"});
     add_fit(axis, out);
   }
-  return out;
+  return once_each(out);
 }
 
 }  // namespace render

@@ -88,7 +88,7 @@ std::string noise_text(const NoiseReport& report) {
   const std::vector<NoiseRemark> remarks = noise_remarks(report);
   if (!remarks.empty()) out += "\n";
   for (const NoiseRemark& remark : remarks)
-    out += fmt::format("{:<12}{}. Remedy: {}\n", remark.axis.empty() ? "log" : io::printable_line(remark.axis),
+    out += fmt::format("{:<11} {}. Remedy: {}\n", remark.axis.empty() ? "log" : io::printable_line(remark.axis),
                        remark.what, remark.remedy);
   const std::string lines = noise_lines(report);
   return lines.empty() ? out : out + "\n" + lines;

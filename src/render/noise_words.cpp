@@ -115,7 +115,7 @@ std::string whiteness_words(const NoiseAxis& axis) {
       break;
   }
   return out + fmt::format("; a block still averages up to {}{}", count_text(w.best_block, "sample"),
-                           w.best_block >= noise::kLongestBlock ? ", the longest window" : "");
+                           w.best_block >= noise::kLongestWindow ? ", the longest window" : "");
 }
 
 std::string declare_words(const NoiseAxis& axis) {

@@ -16,10 +16,11 @@ inline namespace PLUMB_ABI {
 namespace review {
 namespace {
 
-constexpr std::size_t kMostChips = static_cast<std::size_t>(kCapacity) / 3;
+constexpr std::size_t kMostImported = static_cast<std::size_t>(kCapacity) / 3;
 /// Scatter that is declared where the log was never at rest, and the least that is declared.
 constexpr double kUnknownScatter_mps2 = 0.05;
 constexpr double kLeastScatter_mps2 = 0.002;
+constexpr double kMostScatter_mps2 = 0.5;
 /// A block of the monitor is about this long, and has 32 rows where it can.
 constexpr double kBlock_s = 2.0;
 /// What an accelerometer is off by after an autopilot's calibration by hand, 1 sigma: bias, scale, axis.
@@ -96,7 +97,7 @@ std::string sensors_of(const LogDigest& digest, const ImportPlan& plan, const Lo
         const bool same =
             std::find(summary.sources.begin(), summary.sources.end(), plan.sources[chip]) != summary.sources.end();
         if (same && std::isfinite(summary.scatter_mps2[axis]))
-          scatter = std::max(summary.scatter_mps2[axis], kLeastScatter_mps2);
+          scatter = std::clamp(summary.scatter_mps2[axis], kLeastScatter_mps2, kMostScatter_mps2);
       }
       out += fmt::format("[[sensor]]\nid = \"{}{}\"\n", static_cast<char>('x' + axis), chip);
       if (plan.sources.size() > 1) out += fmt::format("package = \"imu{}\"\n", chip);
@@ -110,41 +111,50 @@ std::string sensors_of(const LogDigest& digest, const ImportPlan& plan, const Lo
   return out;
 }
 
-/// Tab-separated: vehicle, component, name, value, type (9 is a float, 6 a whole number).
-std::string parameter_line(const std::string& name, double value) {
-  const bool whole = name.size() > 3 && name.compare(name.size() - 3, 3, "_ID") == 0;
-  return whole ? fmt::format("1\t1\t{}\t{:.0f}\t6\n", name, value) : fmt::format("1\t1\t{}\t{:.17g}\t9\n", name, value);
-}
-
-/// The installed calibration of each chip that is taken, numbered as in the array file: the autopilot keeps them by
-/// device, in an order of its own. Empty where a chip has none.
-std::string parameters_of(const LogDigest& digest, const LogReview& found, const ImportPlan& plan) {
-  std::string out = "# Vehicle-Id Component-Id Name Value Type\n";
+/// The table for `plumb calibrate --from`. Readings that have the autopilot's calibration keep scale 1 and bias 0; the
+/// others get it, by their device: what the autopilot makes of a reading r is (r - offset) scale, so that r = a / scale
+/// + offset. Empty where a chip has none, or more than that.
+std::string coefficients_of(const LogDigest& digest, const LogReview& found, const ImportPlan& plan) {
+  std::string out = "id,scale,bias,sigma_bias,sigma_scale,sigma_axis\n";
   for (std::size_t chip = 0; chip < plan.sources.size(); ++chip) {
     const auto summary = std::find_if(found.chips.begin(), found.chips.end(), [&](const ChipSummary& one) {
       return std::find(one.sources.begin(), one.sources.end(), plan.sources[chip]) != one.sources.end();
     });
-    if (summary == found.chips.end() || !summary->calibration.present) return "";
-    const std::string prefix = fmt::format("CAL_ACC{}_", chip);
-    out += parameter_line(prefix + "ID", static_cast<double>(summary->device_id));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::string axis(1, static_cast<char>('X' + k));
-      out += parameter_line(prefix + axis + "OFF", summary->calibration.offset_mps2[k]);
-      out += parameter_line(prefix + axis + "SCALE", summary->calibration.scale[k]);
+    if (summary == found.chips.end()) return "";
+    const InstalledCalibration& installed = summary->calibration;
+    const bool raw = digest.sources[plan.sources[chip]].source.uncalibrated;
+    if (raw && (!installed.present || installed.more)) return "";
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double scale = raw ? installed.scale[axis] : 1.0;
+      const double offset_mps2 = raw ? installed.offset_mps2[axis] : 0.0;
+      if (!(std::abs(scale) > 0.0)) return "";
+      out += fmt::format("{}{},{:.17g},{:.17g} m/s^2,{}\n", static_cast<char>('x' + axis), chip, 1.0 / scale,
+                         offset_mps2 * scale, kCorrectedUncertainty);
     }
-  }
-  for (const auto& [name, value] : digest.parameters) {
-    if (name.rfind("TC_A", 0) == 0) out += parameter_line(name, value);
   }
   return out;
 }
 
-/// Readings that the autopilot has corrected already: nothing is left but what its own calibration is off by.
-std::string corrected_coefficients(std::size_t chips) {
-  std::string out = "id,scale,bias,sigma_bias,sigma_scale,sigma_axis\n";
-  for (std::size_t chip = 0; chip < chips; ++chip) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      out += fmt::format("{}{},1,0 m/s^2,{}\n", static_cast<char>('x' + axis), chip, kCorrectedUncertainty);
+/// The chip whose instants the rows have: of those that are there for nine tenths of the longest time, the slowest, but
+/// not slower than a tenth of the fastest.
+std::size_t reference_of(const LogDigest& digest, const ImportPlan& plan) {
+  double longest_s = 0.0;
+  double fastest_s = HUGE_VAL;
+  const auto length_of = [&](std::size_t k) {
+    const SourceDigest& source = digest.sources[plan.sources[k]];
+    return source.records > 1 ? source.last_s - source.first_s : 0.0;
+  };
+  for (std::size_t k = 0; k < plan.sources.size(); ++k) {
+    longest_s = std::max(longest_s, length_of(k));
+    fastest_s = std::fmin(fastest_s, digest.sources[plan.sources[k]].intervals.usual_s());
+  }
+  std::size_t out = 0;
+  double slowest_s = -1.0;
+  for (std::size_t k = 0; k < plan.sources.size(); ++k) {
+    const double interval_s = digest.sources[plan.sources[k]].intervals.usual_s();
+    if (length_of(k) < 0.9 * longest_s || !(interval_s <= 10.0 * fastest_s) || interval_s <= slowest_s) continue;
+    slowest_s = interval_s;
+    out = k;
   }
   return out;
 }
@@ -159,7 +169,7 @@ io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogRevie
   for (const ChipSummary& chip : found.chips) {
     const std::size_t source = source_of(digest, chip, settings.message);
     if (source == kNoChip) continue;
-    if (plan.sources.size() < kMostChips)
+    if (plan.sources.size() < kMostImported)
       plan.sources.push_back(source);
     else
       ++plan.left_out;
@@ -169,24 +179,20 @@ io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogRevie
         refused("has no message \"" + io::printable_line(settings.message) + "\" of an accelerometer",
                 "choose one of " + messages_of(digest)));
   }
-  double slowest_s = -1.0;
-  for (std::size_t k = 0; k < plan.sources.size(); ++k) {
-    const SourceDigest& source = digest.sources[plan.sources[k]];
+  for (const std::size_t number : plan.sources) {
+    const SourceDigest& source = digest.sources[number];
     const double interval_s = std::isfinite(source.intervals.usual_s()) ? source.intervals.usual_s() : digest.block_s;
     plan.longest_gap_s.push_back(kGapIntervals * interval_s);
-    if (interval_s > slowest_s) {
-      slowest_s = interval_s;
-      plan.reference = k;
-    }
+    plan.uncalibrated = plan.uncalibrated || source.source.uncalibrated;
     for (const SourceBlock& block : source.blocks) {
       plan.temperature = plan.temperature || block.temperatures > 0;
-      if (settings.rates && plan.rates_from == kNoChip && block.rates > 0) plan.rates_from = k;
+      if (settings.rates && plan.rates_from == kNoChip && block.rates > 0)
+        plan.rates_from = plan.longest_gap_s.size() - 1;
     }
-    plan.uncalibrated = plan.uncalibrated || source.source.uncalibrated;
   }
+  plan.reference = reference_of(digest, plan);
   plan.array_text = head_of(digest, plan, settings) + sensors_of(digest, plan, found);
-  if (!plan.uncalibrated) plan.coefficients_text = corrected_coefficients(plan.sources.size());
-  if (plan.uncalibrated) plan.coefficients_text = parameters_of(digest, found, plan);
+  plan.coefficients_text = coefficients_of(digest, found, plan);
   return plan;
 }
 

@@ -1,4 +1,4 @@
-// plumb import: from a log of another program to an array file, a log and, by what the log knows, a calibration.
+// plumb import: from a log of another program to an array file.
 #include <cmath>
 #include <string>
 
@@ -102,9 +102,7 @@ TEST(ImportCommand, CalibrationsFollowTheDeviceNotTheSlot) {
   const Workshop where;
   where.put("flight.ulg", flight(true));
   ASSERT_EQ(run(where, {"import", "flight.ulg", "--out", "made"}).code, 0);
-  EXPECT_TRUE(
-      says(where.text("made/installed.params"), {"CAL_ACC0_ID\t501", "CAL_ACC0_XOFF\t0.1", "CAL_ACC1_ID\t502",
-                                                 "CAL_ACC1_XOFF\t0.2", "CAL_ACC2_ID\t503", "CAL_ACC2_XOFF\t0.3"}));
+  EXPECT_TRUE(says(where.text("made/coefficients.csv"), {"x0,1,0.1", "y0,1,0 m/s^2", "x1,1,0.2", "x2,1,0.3"}));
 }
 
 TEST(ImportCommand, RowsAreAtTheInstantsOfOneChipAndSayHowFarTheOthersAre) {
@@ -126,6 +124,7 @@ TEST(ImportCommand, WhatCannotBeIsRefusedWithARemedy) {
   EXPECT_EQ(run(where, {"import", "empty.ulg", "--out", "made"}).code, 3);
   EXPECT_EQ(run(where, {"import", "absent.ulg", "--out", "made"}).code, 3);
   EXPECT_EQ(run(where, {"import", "flight.ulg", "--out", "flight.ulg"}).code, 1);
+  EXPECT_EQ(run(where, {"import", "flight.ulg", "--out", "made", "--gravity", "-9.8 m/s^2"}).code, 2);
   EXPECT_EQ(run(where, {"import", "flight.ulg"}).code, 2);
 }
 

@@ -91,6 +91,17 @@ TEST(LogAligner, WhatIsNotNewerIsLeftOutAndCounted) {
   EXPECT_EQ(under_test.left_out(), 3U);
 }
 
+TEST(LogAligner, ARecordThatJumpedAheadIsLeftOutNotThoseBehindIt) {
+  std::vector<AlignedRow> rows;
+  LogAligner under_test = aligner(rows);
+  for (const double t : {0.0, 0.1, 3600.0, 0.2, 0.3}) under_test.record(1, line(t));
+  for (const double t : {0.05, 0.25}) under_test.record(0, line(t));
+  under_test.finish();
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_NEAR(rows[1].readings[1].specific_force_mps2[0], 0.5, 1e-12);
+  EXPECT_EQ(under_test.left_out(), 1U);
+}
+
 // A source that stops does not hold up the others for ever.
 TEST(LogAligner, ASourceThatStopsIsWaitedForOnlySoLong) {
   std::vector<AlignedRow> rows;

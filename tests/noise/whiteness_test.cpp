@@ -31,7 +31,7 @@ TEST(Whiteness, OfWhiteNoiseDeclaresItsSigma) {
   EXPECT_NEAR(found.sample_sigma, 1.0, 0.01);
   EXPECT_NEAR(found.declare_sigma, 1.0, 0.06);
   EXPECT_GE(found.declare_sigma, found.sample_sigma);
-  EXPECT_EQ(found.best_block, kLongestBlock);
+  EXPECT_EQ(found.best_block, kLongestWindow);
   EXPECT_EQ(found.wander, 0.0);
 }
 
@@ -79,7 +79,7 @@ RC_GTEST_PROP(Whiteness, DeclaredSigmaCoversSamplesAndBlocks, ()) {
   const Whiteness found = of(readings, block);
   RC_ASSERT(found.declare_sigma >= found.sample_sigma);
   RC_ASSERT(found.declare_sigma / std::sqrt(static_cast<double>(block)) >= found.block_sigma);
-  RC_ASSERT(found.best_block >= 1 && found.best_block <= kLongestBlock);
+  RC_ASSERT(found.best_block >= 1 && found.best_block <= kLongestWindow);
 }
 
 }  // namespace

@@ -126,3 +126,23 @@ TEST(Intervals, TheUsualOneIsTheMedianAndGapsAreWhatIsMuchLonger) {
   intervals.add(NAN);
   EXPECT_EQ(intervals.gaps(5.0).count, 3U);
 }
+
+TEST(LogDigest, TheFirstValueOfAParameterCountsAndWhatIsNoNumberIsLeftOut) {
+  LogDigester digester;
+  digester.parameter("CAL_ACC0_XOFF", 0.5);
+  digester.parameter("CAL_ACC0_XOFF", 0.0);
+  digester.parameter("CAL_ACC0_YOFF", NAN);
+  const LogDigest digest = digester.take("log", {});
+  EXPECT_DOUBLE_EQ(digest.parameters.at("CAL_ACC0_XOFF"), 0.5);
+  EXPECT_EQ(digest.parameters.count("CAL_ACC0_YOFF"), 0U);
+  EXPECT_EQ(digest.notes.size(), 2U);
+}
+
+TEST(LogDigest, ReadingsThatDoNotChangeAreFollowedAcrossBlocks) {
+  std::vector<ImuRecord> records;
+  for (int k = 0; k < 40; ++k) records.push_back(reading(0.1 * k, k > 5 && k < 31 ? 1.0 + 1.0e-8 * k : 0.1 * k));
+  const auto still = digest_of(records, 8).sources[0].longest_still;
+  EXPECT_EQ(still[0].records, 25U);
+  EXPECT_NEAR(still[3].from_s, 0.6, 1e-12);
+  EXPECT_NEAR(still[3].to_s, 3.0, 1e-12);
+}

@@ -288,3 +288,80 @@ TEST(LogReview, WhatPx4ChoseIsNoChipBesideTheOnesItChoseFrom) {
   EXPECT_EQ(review.chips[0].name, "vehicle_imu[0]");
   EXPECT_EQ(review.chips[1].device_id, 22U);
 }
+
+// What an attack found. A noisy gyro, a slow chip, one wrong time, a chip that is turned beside one that is off.
+TEST(LogReview, ANoisyGyroHidesNoDisagreement) {
+  SimulatedFlight flight = with_chips(3);
+  flight.rate_radps = 1.2;
+  flight.chips[1].reads = plus(3.0, 0.0, 0.0, 15.0);
+  EXPECT_NE(first_of(flight.review(), FindingCode::motion_disagreement), nullptr);
+}
+
+TEST(LogReview, ASlowChipIsComparedInLongerCells) {
+  SimulatedFlight flight = with_chips(3);
+  flight.rest_s = 0.0;
+  flight.motion_s = 120.0;
+  flight.chips[2].rate_hz = 2.0;
+  flight.chips[2].reads = plus(5.0, 0.0, 0.0);
+  EXPECT_EQ(flight.review().grade, Grade::red);
+}
+
+TEST(LogReview, AChipThatIsNotComparedIsSaid) {
+  SimulatedFlight flight = with_chips(3);
+  flight.chips[2].rate_hz = 0.1;
+  flight.chips[2].reads = plus(4.0, 0.0, 0.0);
+  const LogReview review = flight.review();
+  EXPECT_TRUE(is_open(review, OpenQuestion::not_compared));
+  EXPECT_FALSE(review.chips[2].compared);
+  EXPECT_TRUE(review.chips[0].compared);
+}
+
+TEST(LogReview, OneWrongTimeStopsNoOtherChip) {
+  SimulatedFlight flight = with_chips(2);
+  plumb::review::LogDigest digest = flight.digest();
+  plumb::review::SourceBlock stray = digest.sources[0].blocks.back();
+  stray.index += 3600;
+  stray.records = 1;
+  digest.sources[0].blocks.push_back(stray);
+  digest.sources[0].last_s += 3600.0;
+  const LogReview review = plumb::review::review_log(digest);
+  EXPECT_EQ(count_of(review, FindingCode::stopped), 0U);
+  EXPECT_EQ(count_of(review, FindingCode::stray), 1U);
+  EXPECT_LT(review.to_s, 60.0);
+}
+
+TEST(LogReview, ATurnedChipHidesNoDisagreementOfTheOthers) {
+  SimulatedFlight flight = with_chips(3);
+  flight.chips[1].reads = plus(2.2, 0.0, 0.0);
+  flight.chips[2].reads = [](double, Axes f) { return Axes{f[2], f[1], -f[0]}; };
+  const LogReview review = flight.review();
+  EXPECT_EQ(count_of(review, FindingCode::orientation), 1U);
+  EXPECT_EQ(first_of(review, FindingCode::orientation)->chip, 2U);
+  EXPECT_EQ(count_of(review, FindingCode::disagreement), 1U);
+  EXPECT_EQ(review.grade, Grade::red);
+}
+
+TEST(LogReview, AFreezeThatFillsNoWholeBlockIsSeen) {
+  SimulatedFlight flight = with_chips(3);
+  flight.chips[0].rate_hz = 500.0;
+  flight.chips[0].reads = [](double t, Axes f) { return t > 20.5 && t < 22.4 ? Axes{1.0, 1.0, -9.0} : f; };
+  const LogReview review = flight.review();
+  ASSERT_NE(first_of(review, FindingCode::chip_frozen), nullptr);
+  EXPECT_NEAR(first_of(review, FindingCode::chip_frozen)->from_s, 20.5, 0.01);
+}
+
+TEST(LogReview, WhatAllReadAlikeIsNoFaultOfAnyChip) {
+  SimulatedFlight flight = with_chips(3);
+  flight.gravity_mps2 = 12.0;
+  flight.gyro = false;
+  const LogReview review = flight.review();
+  EXPECT_EQ(count_of(review, FindingCode::common_length), 1U);
+  EXPECT_EQ(count_of(review, FindingCode::gravity_length), 0U);
+}
+
+TEST(LogReview, AChipThatBeginsLateIsSaid) {
+  SimulatedFlight flight = with_chips(3);
+  flight.chips[1].from_s = 12.0;
+  ASSERT_NE(first_of(flight.review(), FindingCode::late), nullptr);
+  EXPECT_EQ(first_of(flight.review(), FindingCode::late)->chip, 1U);
+}

@@ -30,14 +30,14 @@ struct Whiteness {
   double factor = 1.0;            ///< block_sigma sqrt(block)/sample_sigma; 1 for white noise
   /// What to state as the noise of one sample: covers samples within a block and means of blocks.
   double declare_sigma = 0.0;
-  /// The longest block up to kLongestBlock that still averages: each doubling up to it takes three tenths off the
+  /// The longest block up to kLongestWindow that still averages: each doubling up to it takes three tenths off the
   /// variance.
   std::size_t best_block = 1;
   double log_block_sigma = 0.0;  ///< of the means of all blocks of the log about their mean
   double wander = 0.0;  ///< what that is beyond declare_sigma/sqrt(block); 0: nothing. It belongs to `stability`
 };
 /// Longest block of a monitor.
-inline constexpr std::size_t kLongestBlock = 256;
+inline constexpr std::size_t kLongestWindow = 256;
 
 /// `sums` as of prefix_sums, with readings for at least four blocks of `block` samples; `noise`: of the fit, for the
 /// interval.

@@ -21,15 +21,16 @@ struct ImportSettings {
 /// What of the log is taken.
 struct ImportPlan {
   std::vector<std::size_t> sources;  ///< of the digest, one for each chip, in the order of the array file
-  std::size_t reference = 0;         ///< whose instants the rows have: the slowest, so that nothing is made up
+  std::size_t reference =
+      0;  ///< whose instants the rows have: the slowest that is there all the time, so that nothing is made up
   std::vector<double> longest_gap_s;
   std::size_t rates_from = kNoChip;  ///< the source with the rates that are taken
   bool temperature = false;
   bool uncalibrated = false;  ///< the readings are those before the autopilot's calibration
   std::size_t left_out = 0;   ///< chips beyond what an array can have
   std::string array_text;     ///< three sensors for each chip along x, y and z; chips as packages
-  /// For `plumb calibrate --from`: the parameters of the installed calibration, as QGroundControl writes them, or for
-  /// readings that have it already a table of scale 1 and bias 0; "" where the log has neither.
+  /// The table for `plumb calibrate --from`: the installed calibration of each chip by its device, scale 1 and bias 0
+  /// where the readings have it already; "" where a chip has none in the log.
   std::string coefficients_text;
 };
 
