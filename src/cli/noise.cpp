@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/units.hpp"
+#include "plumb/logs/flight_log.hpp"
 #include "plumb/noise/axis_study.hpp"
 #include "plumb/noise/load_log.hpp"
 #include "plumb/render/noise_report.hpp"
@@ -83,6 +85,18 @@ io::FileExpected<noise::LoadOptions> load_options(const NoiseOptions& options, c
   return out;
 }
 
+/// A log of an autopilot is named for what it is, and so is any other file that is no table.
+io::FileExpected<void> check_is_table(const NoiseOptions& options) {
+  std::error_code error;
+  if (!options.array.empty() || !std::filesystem::is_regular_file(options.log, error)) return {};
+  const io::FileExpected<logs::LogFormat> format = logs::log_format(options.log);
+  if (!format) return tl::unexpected<io::FileError>(format.error());
+  if (*format == logs::LogFormat::csv) return {};
+  return tl::unexpected<io::FileError>(
+      io::FileError{options.log, 0, "", std::string("is a log in the form ") + to_string(*format) + ", not a CSV",
+                    "turn it into a CSV and an array file with plumb import, and give both"});
+}
+
 render::NoiseReport study(const NoiseOptions& options, const io::ArrayFile* array, const noise::LoadedLog& loaded) {
   render::NoiseReport out;
   out.log = options.log == "-" ? "standard input" : options.log;
@@ -131,6 +145,7 @@ io::ExitCode run_noise(const NoiseOptions& options) {
     if (!file) return report(file.error());
     array = *std::move(file);
   }
+  if (const io::FileExpected<void> table = check_is_table(options); !table) return report(table.error());
   watch_interrupts();
   const io::ArrayFile* const described = array ? &*array : nullptr;
   const io::FileExpected<noise::LoadOptions> how = load_options(options, described);
