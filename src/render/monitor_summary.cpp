@@ -90,8 +90,8 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                    "the housing\n",
                    deg_from_rad(v.protection_level_calibrated_axes_rad), deg_from_rad(v.protection_level_housing_rad))
              : std::string("no bound on the error can be given\n");
-  return out + notes_text(run, array, sensors) + findings_text(v, array) + "drift       " + drift_of(array, days) + "\n" +
-         motion_text(motion, array);
+  return out + notes_text(run, array, sensors) + findings_text(v, array) + "drift       " + drift_of(array, days) +
+         "\n" + motion_text(motion, array);
 }
 
 std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
