@@ -128,7 +128,7 @@ io::FileExpected<void> draw_noise(const NoiseOptions& options, const render::Noi
     if (!options.json) print(fmt::format("\nwritten to {}: {}\n", options.plots, fmt::join(*names, ", ")));
   }
   if (options.page.empty()) return {};
-  const io::FileExpected<void> written =
+  io::FileExpected<void> written =
       io::write_file(options.page, render::noise_html(found, draw_for_page(files, render::kNoiseScript, pictures)));
   if (written && !options.json) print("\nPage: " + options.page + "\n");
   return written;

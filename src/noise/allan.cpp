@@ -44,18 +44,18 @@ double allan_variance(const std::vector<double>& sums, std::size_t samples) noex
     const double second = sums[k + 2 * samples] - 2.0 * sums[k + samples] + sums[k];
     total += second * second;
   }
-  const double m = static_cast<double>(samples);
+  const auto m = static_cast<double>(samples);
   return total / (2.0 * m * m * static_cast<double>(count));
 }
 
 std::vector<std::size_t> averaging_lengths(std::size_t readings, int per_octave) {
   std::vector<std::size_t> out;
   const double step = std::exp2(1.0 / std::max(per_octave, 1));
-  const double last = static_cast<double>(readings / kLeastMeans);
+  const std::size_t last = readings / kLeastMeans;
   for (int k = 0;; ++k) {
-    const double length = std::round(std::pow(step, k));
-    if (!(length <= last)) return out;
-    if (out.empty() || static_cast<std::size_t>(length) > out.back()) out.push_back(static_cast<std::size_t>(length));
+    const auto length = static_cast<std::size_t>(std::llround(std::pow(step, k)));
+    if (length > last) return out;
+    if (out.empty() || length > out.back()) out.push_back(length);
   }
 }
 
@@ -75,7 +75,7 @@ double equivalent_freedom(const Coefficients& noise, std::size_t readings, std::
                           double period_s) noexcept {
   if (readings < 2 * samples || samples == 0) return 1.0;
   const Variances unit = per_sample(squares(noise), period_s);
-  const double m = static_cast<double>(samples), count = static_cast<double>(readings + 1 - 2 * samples);
+  const auto m = static_cast<double>(samples), count = static_cast<double>(readings + 1 - 2 * samples);
   const double variance = second_difference_covariance(unit, m, 0.0);
   if (!(variance > 0.0)) return 1.0;
   // Sum over all lags of (1 - |lag|/count) rho^2, in steps where m is long. Quantisation correlates at the lags 0, m
@@ -89,7 +89,11 @@ double equivalent_freedom(const Coefficients& noise, std::size_t readings, std::
   const double stride = std::max(1.0, std::floor(m / kLagsPerStep));
   const double reach = std::min(count, kReach * m);
   double sum = 0.5 * squared(smooth, 0.0);
-  for (double lag = stride; lag < reach; lag += stride) sum += (1.0 - lag / count) * squared(smooth, lag);
+  const auto steps = static_cast<int>(std::ceil(reach / stride));
+  for (int k = 1; k < steps; ++k) {
+    const double lag = k * stride;
+    sum += (1.0 - lag / count) * squared(smooth, lag);
+  }
   double all = 2.0 * stride * sum + 1.0 - squared(smooth, 0.0);
   for (const double lag : {m, 2.0 * m}) {
     if (lag < count) all += 2.0 * (1.0 - lag / count) * (squared(unit, lag) - squared(smooth, lag));

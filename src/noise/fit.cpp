@@ -16,8 +16,9 @@ namespace {
 
 /// An octave contradicts the terms where its power is off by a tenth, and by what chance does once in a million.
 constexpr double kOff = 0.1, kChance = 1e-6;
-/// The highest frequency of a fit is brought down in these steps, to this part of half the sampling rate at the most.
-constexpr double kStepDown = 0.70710678118654752, kLowestTop = 1.0 / 64.0;
+/// The highest frequency of a fit is brought down in these steps, to a 64th of half the sampling rate at the most.
+constexpr double kStepDown = 0.70710678118654752;
+constexpr int kMostStepsDown = 12;
 
 struct Misfit {
   double ratio = 1.0;
@@ -42,6 +43,7 @@ Misfit misfit_of(const std::vector<PowerBin>& bins, const Maximum& fit) {
     sum = count = 0.0;
   };
   std::vector<const PowerBin*> in_order;
+  in_order.reserve(bins.size());
   for (const PowerBin& bin : bins) in_order.push_back(&bin);
   std::sort(in_order.begin(), in_order.end(),
             [](const PowerBin* a, const PowerBin* b) { return a->frequency_hz < b->frequency_hz; });
@@ -84,7 +86,9 @@ Fitted fit_where_it_holds(const std::vector<PowerBin>& all, double half_rate_hz,
   Fitted whole = fit_up_to(all, half_rate_hz);
   highest_hz = half_rate_hz;
   if (whole.misfit.ratio == 1.0) return whole;
-  for (double top = kStepDown; top >= kLowestTop; top *= kStepDown) {
+  double top = 1.0;
+  for (int step = 0; step < kMostStepsDown; ++step) {
+    top *= kStepDown;
     Fitted part = fit_up_to(all, top * half_rate_hz);
     if (part.misfit.ratio != 1.0 || part.likelihood.bins().size() < 2 * kNoiseTerms) continue;
     highest_hz = top * half_rate_hz;

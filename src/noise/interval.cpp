@@ -48,11 +48,12 @@ double crossing(const std::function<double(double)>& rise, double inside, double
 /// From `from`, where the rise is 0, in steps that double until the rise is beyond kRise.
 double far_end(const std::function<double(double)>& rise, double from, double step) {
   double inside = from, at_inside = 0.0;
-  for (int k = 0; k < kMostDoublings; ++k, step *= 2.0) {
+  for (int k = 0; k < kMostDoublings; ++k) {
     const double outside = from + step, at_outside = rise(outside);
     if (at_outside > kRise) return crossing(rise, inside, at_inside, outside, at_outside);
     inside = outside;
     at_inside = at_outside;
+    step *= 2.0;
   }
   return inside;
 }

@@ -145,11 +145,12 @@ Maximum Likelihood::maximum(const Held& held, const Maximum* start) const {
   for (int step = 0; step < kMostSteps && std::isfinite(best.deviance); ++step) {
     const Variances aim = next(best, held);
     double part = 1.0, gain = 0.0;
-    for (int halving = 0; halving < kMostHalvings; ++halving, part *= 0.5) {
+    for (int halving = 0; halving < kMostHalvings; ++halving) {
       Variances squares{};
       for (std::size_t t = 0; t < kNoiseTerms; ++t) squares[t] = best.squares[t] + part * (aim[t] - best.squares[t]);
       const Maximum tried = evaluate(squares, held);
       gain = best.deviance - tried.deviance;
+      part *= 0.5;
       if (gain > 0.0) {
         best = tried;
         break;

@@ -139,6 +139,7 @@ io::FileExpected<LoadedLog> load_described_log(const std::string& path, const Lo
     return refuse(array.path, "input.rows", "the rows of this log are stations, means over many samples",
                   "measure the noise on a log of single samples");
   std::vector<std::string> ids;
+  ids.reserve(static_cast<std::size_t>(array.array.size()));
   for (int i = 0; i < array.array.size(); ++i) ids.emplace_back(array.array.row(i).id.data());
   if (const io::FileExpected<void> known = check_columns(path, options, ids); !known)
     return tl::unexpected<io::FileError>(known.error());

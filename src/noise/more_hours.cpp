@@ -10,8 +10,10 @@ inline namespace PLUMB_ABI {
 namespace noise {
 namespace {
 
-/// A log that is to tell more is longer by a quarter at least; lengths are tried in these steps, up to kMostLengths.
-constexpr double kLengthStep = 1.25, kMostLengths = 100.0;
+/// A log that is to tell more is longer by a quarter at least; lengths are tried in these steps, up to a
+/// hundred times as long.
+constexpr double kLengthStep = 1.25;
+constexpr int kMostSteps = 21;
 /// Sigmas of a 95 % interval.
 constexpr double kSigmas = 1.959963984540054;
 
@@ -22,7 +24,9 @@ std::optional<double> more_hours(Term term, double wanted, const Coefficients& n
   const bool line = term == Term::drift_rate;
   Variances true_squares = squares(noise);
   if (!line) true_squares[index(term)] = wanted * wanted;
-  for (double times = kLengthStep; times <= kMostLengths; times *= kLengthStep) {
+  double times = 1.0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    times *= kLengthStep;
     const double length = times * static_cast<double>(readings);
     const Precision at = precision(empty_bins(static_cast<std::size_t>(length), period_s), true_squares);
     const double variance = line ? at.of_slope : at.of_squares[index(term)];

@@ -28,7 +28,7 @@ std::vector<double> floor_of(const std::vector<double>& density, double freedom)
   std::vector<double> out(density.size(), 0.0), around;
   const std::size_t last = density.size() - 1;
   for (std::size_t k = 1; k <= last; ++k) {
-    const double f = static_cast<double>(k);
+    const auto f = static_cast<double>(k);
     const std::size_t reach = std::clamp(static_cast<std::size_t>(f * kAround) - k, kUsual, kMost);
     const std::size_t side = std::max(kFewest, std::min({reach, k - 1, last - k}));
     const std::size_t from = k > side ? k - side : 1, to = std::min(last, k + side);
@@ -112,7 +112,7 @@ const char* to_string(PeakOrigin origin) noexcept {
 void find_floor_and_peaks(Spectrum& s, double half_rate_hz) {
   const double freedom = 2.0 * s.averages;
   s.floor = floor_of(s.density, freedom);
-  const double bins = static_cast<double>(s.density.size());
+  const auto bins = static_cast<double>(s.density.size());
   const boost::math::chi_squared law(freedom);
   const double limit =
       std::max(kLeastOverFloor, boost::math::quantile(boost::math::complement(law, kFalsePeak / bins)) / freedom);

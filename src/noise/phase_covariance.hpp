@@ -14,11 +14,11 @@ namespace noise {
 Variances per_sample(const Variances& squares, double period_s) noexcept;
 
 /// Of phases `lag` samples apart, without quantisation, whose covariance is Q^2 at lag 0 and nothing elsewhere.
-double smooth_phase_covariance(const Variances& per_sample, double lag) noexcept;
+double smooth_phase_covariance(const Variances& unit, double lag) noexcept;
 
 /// Covariance of second differences x(k + m) - 2 x(k) + x(k - m) whose places are `lag` samples apart, m = `step`;
 /// quantisation counts where a lag is a whole multiple of m.
-double second_difference_covariance(const Variances& per_sample, double step, double lag) noexcept;
+double second_difference_covariance(const Variances& unit, double step, double lag) noexcept;
 
 }  // namespace noise
 }  // namespace PLUMB_ABI

@@ -44,16 +44,17 @@ Spectrum power_spectrum(const std::vector<double>& readings, double period_s) {
   Spectrum out;
   out.bin_hz = 1.0 / (static_cast<double>(piece) * period_s);
   out.density.assign(bins + 1, 0.0);
-  double pieces = 0.0;
-  for (std::size_t at = 0; at + piece <= rest.size(); at += piece / 2, pieces += 1.0) {
+  std::size_t pieces = 0;
+  for (std::size_t at = 0; at + piece <= rest.size(); at += piece / 2, ++pieces) {
     double mean = 0.0;
     for (std::size_t i = 0; i < piece; ++i) mean += rest[at + i] / static_cast<double>(piece);
     for (std::size_t i = 0; i < piece; ++i) part[i] = window[i] * (rest[at + i] - mean);
     fourier.fwd(components, part);
     for (std::size_t k = 1; k <= bins; ++k) out.density[k] += std::norm(components[k]);
   }
-  for (std::size_t k = 1; k <= bins; ++k) out.density[k] *= (k < bins ? 2.0 : 1.0) * period_s / (power * pieces);
-  out.averages = std::max(1.0, pieces / kSharedByNeighbours);
+  for (std::size_t k = 1; k <= bins; ++k)
+    out.density[k] *= (k < bins ? 2.0 : 1.0) * period_s / (power * static_cast<double>(pieces));
+  out.averages = std::max(1.0, static_cast<double>(pieces) / kSharedByNeighbours);
   find_floor_and_peaks(out, 0.5 / period_s);
   return out;
 }

@@ -253,6 +253,7 @@ Stretch longest_stretch(const StillLog& log, std::size_t column) {
   const std::size_t length = static_cast<std::size_t>(
       std::clamp(kBlock_s / out.period_s, static_cast<double>(kShortestBlock), static_cast<double>(kLongestRestBlock)));
   std::vector<std::vector<RestBlock>> blocks;
+  blocks.reserve(pieces.size());
   for (const Piece& piece : pieces) blocks.push_back(blocks_of(piece, length));
   const Usual usual = usual_of(blocks, length);
   std::vector<Piece> at_rest;

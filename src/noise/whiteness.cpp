@@ -20,7 +20,7 @@ struct BlockScatter {
 
 BlockScatter block_scatter(const std::vector<double>& readings, const std::vector<double>& sums, std::size_t block) {
   const std::size_t blocks = readings.size() / block;
-  const double n = static_cast<double>(block), count = static_cast<double>(blocks);
+  const auto n = static_cast<double>(block), count = static_cast<double>(blocks);
   // Sums are of readings less their mean: so are these means.
   const double level = sums.size() > 1 ? readings[0] - (sums[1] - sums[0]) : 0.0;
   const double all = (sums[blocks * block] - sums[0]) / (n * count);

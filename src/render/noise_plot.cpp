@@ -12,7 +12,6 @@ inline namespace PLUMB_ABI {
 namespace render {
 namespace {
 
-using noise::AxisStudy;
 using noise::Term;
 
 std::string csv_name(const char* kind, std::size_t k) { return fmt::format("noise-{}-{}.csv", kind, k + 1); }

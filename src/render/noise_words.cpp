@@ -13,7 +13,6 @@ inline namespace PLUMB_ABI {
 namespace render {
 namespace {
 
-using noise::AxisStudy;
 using noise::Term;
 
 std::string hours_words(double hours) {
