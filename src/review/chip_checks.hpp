@@ -25,6 +25,9 @@ void check_stuck(const LogDigest& digest, LogReview& out);
 /// Gaps, clocks that go back, chips that stop.
 void check_times(const LogDigest& digest, LogReview& out);
 void check_calibration(const LogDigest& digest, LogReview& out);
+/// What the autopilot itself says: chips that it took for failed, its comparison at rest of those that nothing else is
+/// found of, vibration of those that are read too rarely. After all other checks.
+void check_autopilot(const std::vector<Span>& rest, const LogDigest& digest, LogReview& out);
 
 }  // namespace review
 }  // namespace PLUMB_ABI

@@ -76,6 +76,8 @@ constexpr double kLostShare = 0.01;
 constexpr double kLongGap_s = 1.0;
 /// A chip that says nothing for so long before the log ends has stopped.
 constexpr double kStopped_s = 2.0;
+/// Reports of an autopilot in a row: one alone may be of a start.
+constexpr double kFailedReports = 3.0;
 /// Calibrations that no sensor in order needs: PX4 accepts scales of 0.9 to 1.1; 2 m/s^2 is 200 mg0.
 constexpr double kFarOffset_mps2 = 2.0;
 constexpr double kFarScale = 0.1;
