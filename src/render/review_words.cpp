@@ -153,6 +153,12 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
       return {fmt::format("{} wanders by {:.2f} m/s^2 at rest (+-{:.2f}; limit {:.2f})", chip_name(in, f.chip),
                           f.figure, f.uncertainty, f.limit),
               "", "let it warm up before the flight, or calibrate it over temperature"};
+    case FindingCode::changed:
+      return {fmt::format("{} reads {:.2f} m/s^2 otherwise than before, at rest in the same attitude (+-{:.2f}; limit "
+                          "{:.2f}): it changed in between",
+                          chip_name(in, f.chip), f.figure, f.uncertainty, f.limit),
+              "",
+              "look for a shock or a step of temperature in between; calibrate, and replace it if it changes again"};
     case FindingCode::gaps:
     case FindingCode::backwards:
     case FindingCode::skew:
@@ -206,6 +212,7 @@ std::string code_word(FindingCode code) {
     case FindingCode::vibration: return "vibration";
     case FindingCode::noise: return "noise";
     case FindingCode::drift: return "drift";
+    case FindingCode::changed: return "changed";
     case FindingCode::gaps: return "gaps";
     case FindingCode::backwards: return "backwards";
     case FindingCode::skew: return "skew";

@@ -66,6 +66,8 @@ constexpr double kUnchangedInMotion = 20.0;
 constexpr double kMotionSeen_mps2 = 0.5;
 /// Attitudes further apart than this are different ones; chips that read gravity further apart are mounted differently.
 constexpr double kAttitude_deg = 20.0;
+/// Closer than this they are the same: an error of scale of 1 % then changes a reading by 0.02 m/s^2.
+constexpr double kSameAttitude_deg = 10.0;
 /// Two chips further apart in time than this see another motion in a filter that takes them as simultaneous: at 1 rad/s
 /// 10 ms are half a degree, or 0.1 m/s^2 across gravity. Judged over the seconds with most motion.
 constexpr double kSkew_s = 0.01;

@@ -159,6 +159,7 @@ LogReview review_log(const LogDigest& digest, const ReviewSettings& settings) {
   judge_motion(motion, digest, gravity, out);
   check_noise(rest, digest, out);
   check_drift(spans, digest, out);
+  check_change(out);
   check_vibration(motion, digest, out);
   check_clipping(digest, out);
   check_stuck(digest, out);

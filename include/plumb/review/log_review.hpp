@@ -31,6 +31,7 @@ enum class FindingCode : std::uint8_t {
   vibration,
   noise,         ///< scatter at rest above the class of the sensor
   drift,         ///< the reading at rest wanders within one stretch
+  changed,       ///< at rest again as before, a chip reads something else; the place is what lies between
   gaps,          ///< records are missing
   backwards,     ///< time goes back
   skew,          ///< two chips show the same motion at different times
