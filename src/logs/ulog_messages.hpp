@@ -8,8 +8,8 @@
 #include <string>
 
 #include "plumb/core/config.hpp"
+#include "plumb/io/ulog_format.hpp"
 #include "plumb/logs/flight_log.hpp"
-#include "ulog_format.hpp"
 #include "ulog_notes.hpp"
 #include "ulog_topics.hpp"
 
@@ -17,8 +17,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace logs {
 
-constexpr std::size_t kUlogMessageHeader = 3;  ///< bytes: uint16 size, uint8 type
-constexpr std::size_t kUlogNeeded = 8;         ///< bytes of a message that `judge` may look at
+constexpr std::size_t kUlogNeeded = 8;  ///< bytes of a message that `judge` may look at
 
 struct UlogMessage {
   std::uint64_t offset = 0;  ///< of its header in the file
@@ -52,7 +51,7 @@ class UlogMessages {
     std::size_t topic = kNoUlogTopic;  ///< or one without all fields that are needed
     UlogReadings readings;
     std::uint32_t least = 0;  ///< bytes of its data
-    std::uint32_t most = UlogFormats::kLargest;
+    std::uint32_t most = io::UlogFormats::kLargest;
     bool removed = false;
   };
   void take_format(const UlogMessage& message);
@@ -65,7 +64,7 @@ class UlogMessages {
 
   LogSink& sink_;
   UlogNotes& notes_;
-  UlogFormats formats_;
+  io::UlogFormats formats_;
   UlogSources sources_;
   std::map<std::uint64_t, Subscription> subscriptions_;
   std::set<std::size_t> lacking_;  ///< topics of which it was said that they lack a field

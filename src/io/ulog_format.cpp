@@ -1,14 +1,14 @@
-#include "ulog_format.hpp"
+#include "plumb/io/ulog_format.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
-#include "plumb/io/printable.hpp"
+#include "text_tools.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-namespace logs {
+namespace io {
 namespace {
 
 struct NamedType {
@@ -56,10 +56,6 @@ bool parse_field(std::string_view text, UlogField& out) {
 }
 
 bool is_padding(const UlogField& field) noexcept { return field.name.compare(0, 8, "_padding") == 0; }
-
-std::string in_quotes(std::string_view name) {
-  return "\"" + io::printable_line(name.substr(0, UlogFormats::kLongestName)) + "\"";
-}
 
 }  // namespace
 
@@ -138,6 +134,31 @@ bool ulog_type(std::string_view text, UlogField& out) {
   return true;
 }
 
+bool ulog_key(std::string_view payload, UlogKey& out) {
+  if (payload.empty()) return false;
+  const std::size_t length = static_cast<unsigned char>(payload[0]);
+  if (length + 1 > payload.size()) return false;
+  const std::string_view key = payload.substr(1, length);
+  const std::size_t space = std::min(key.find(' '), key.size());
+  if (space + 1 >= key.size() || !ulog_type(key.substr(0, space), out.field)) return false;
+  out.field.name = key.substr(space + 1);
+  out.value = payload.substr(1 + length);
+  return true;
+}
+
+std::string ulog_message(char type, std::string_view payload) {
+  std::string out;
+  out += static_cast<char>(payload.size() & 0xFFU);
+  out += static_cast<char>(payload.size() >> 8U & 0xFFU);
+  out += type;
+  return out.append(payload);
+}
+
+std::string ulog_key_message(char type, std::string_view typed_name, std::string_view value) {
+  std::string payload(1, static_cast<char>(typed_name.size()));
+  return ulog_message(type, payload.append(typed_name).append(value));
+}
+
 UlogCell UlogLayout::cell(std::string_view name, std::uint32_t index) const {
   for (const Placed& placed : placed_) {
     if (placed.field->name != name) continue;
@@ -184,6 +205,11 @@ std::string UlogFormats::define(std::string_view text) {
   fields_ += fields.size();
   formats_.emplace(name, std::move(fields));
   return {};
+}
+
+const std::vector<UlogField>* UlogFormats::fields(const std::string& name) const {
+  const auto found = formats_.find(name);
+  return found == formats_.end() ? nullptr : &found->second;
 }
 
 tl::expected<std::uint32_t, std::string> UlogFormats::field_size(  // NOLINT(misc-no-recursion) kDeepest levels
@@ -236,6 +262,6 @@ tl::expected<UlogLayout, std::string> UlogFormats::layout(const std::string& nam
   return out;
 }
 
-}  // namespace logs
+}  // namespace io
 }  // namespace PLUMB_ABI
 }  // namespace plumb
