@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "text_tools.hpp"
+#include "plumb/io/printable.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -53,6 +53,10 @@ bool parse_field(std::string_view text, UlogField& out) {
   if (name.size() > UlogFormats::kLongestName || name.find(' ') != std::string_view::npos) return false;
   out.name = name;
   return ulog_type(text.substr(0, space), out);
+}
+
+std::string quoted_name(std::string_view name) {
+  return "\"" + printable_line(name.substr(0, UlogFormats::kLongestName)) + "\"";
 }
 
 bool is_padding(const UlogField& field) noexcept { return field.name.compare(0, 8, "_padding") == 0; }
@@ -187,21 +191,21 @@ std::string UlogFormats::define(std::string_view text) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (one.empty()) continue;
     if (fields.size() == kMostFieldsOfOne)
-      return "the format " + in_quotes(name) + " has more than 1024 fields, left out";
+      return "the format " + quoted_name(name) + " has more than 1024 fields, left out";
     UlogField field;
     if (!parse_field(one, field))
-      return "the format " + in_quotes(name) + " has no field in " + in_quotes(one) + ", left out";
+      return "the format " + quoted_name(name) + " has no field in " + quoted_name(one) + ", left out";
     fields.push_back(std::move(field));
   }
-  if (fields.empty()) return "the format " + in_quotes(name) + " has no fields, left out";
+  if (fields.empty()) return "the format " + quoted_name(name) + " has no fields, left out";
   const auto known = formats_.find(name);
   if (known != formats_.end()) {
     if (same_fields(known->second, fields)) return {};
-    return "the format " + in_quotes(name) + " comes a second time with other fields, the first one stays";
+    return "the format " + quoted_name(name) + " comes a second time with other fields, the first one stays";
   }
-  if (formats_.size() == kMostFormats) return "more than 2048 formats, " + in_quotes(name) + " is left out";
+  if (formats_.size() == kMostFormats) return "more than 2048 formats, " + quoted_name(name) + " is left out";
   if (fields_ + fields.size() > kMostFields)
-    return "more than 32768 fields in all formats together, " + in_quotes(name) + " is left out";
+    return "more than 32768 fields in all formats together, " + quoted_name(name) + " is left out";
   fields_ += fields.size();
   formats_.emplace(name, std::move(fields));
   return {};
@@ -227,12 +231,13 @@ tl::expected<std::uint32_t, std::string> UlogFormats::field_size(  // NOLINT(mis
 tl::expected<std::uint32_t, std::string> UlogFormats::nested_size(  // NOLINT(misc-no-recursion) kDeepest levels
     const std::string& name, int depth, Sizes& known) const {
   const auto format = formats_.find(name);
-  if (format == formats_.end()) return tl::make_unexpected("the log has no format " + in_quotes(name));
+  if (format == formats_.end()) return tl::make_unexpected("the log has no format " + quoted_name(name));
   if (depth > kDeepest) return tl::make_unexpected(std::string("its formats are nested more than 16 deep"));
   constexpr std::uint32_t kOpen = 0;
   const auto entry = known.emplace(name, kOpen);
   if (!entry.second) {
-    if (entry.first->second == kOpen) return tl::make_unexpected("the format " + in_quotes(name) + " contains itself");
+    if (entry.first->second == kOpen)
+      return tl::make_unexpected("the format " + quoted_name(name) + " contains itself");
     return entry.first->second;
   }
   std::uint32_t size = 0;
@@ -240,7 +245,7 @@ tl::expected<std::uint32_t, std::string> UlogFormats::nested_size(  // NOLINT(mi
     const auto bytes = field_size(field, depth, known);
     if (!bytes) return bytes;
     if (*bytes > kLargest - size)
-      return tl::make_unexpected("the format " + in_quotes(name) + " is larger than a message can be");
+      return tl::make_unexpected("the format " + quoted_name(name) + " is larger than a message can be");
     size += *bytes;
   }
   entry.first->second = size;

@@ -20,7 +20,7 @@ constexpr const char* kOfFlight = "give the log that the flight controller wrote
 // clang-format off
 constexpr std::array<KnownFile, 46> kKnownFiles = {{
     // Behind the header and the flags: what plumb's own begin with.
-    {62, "\x10""char[5] sys_nameplumb"sv, FileKind::foreign, "is a ULog that plumb wrote, the log of one array",
+    {62, "\x10""char[5] sys_nameplumb"sv, FileKind::own, "is a ULog that plumb wrote, the log of one array",
      "give it to plumb monitor, calibrate or convert with its array file; plumb convert makes a CSV of it"},
     {0, "ULog\x01\x12\x35"sv, FileKind::ulog, "is a ULog, the log of PX4", "read it as a ULog"},
     {0, "\xA3\x95\x80"sv, FileKind::dataflash, "is a DataFlash log of ArduPilot", "read it as a DataFlash log"},
