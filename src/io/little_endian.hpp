@@ -16,12 +16,16 @@ inline void put_u16(std::string& out, std::size_t value) {
   out += static_cast<char>(value >> 8U & 0xFFU);
 }
 inline void put_u32(std::string& out, std::uint32_t value) {
-  put_u16(out, value & 0xFFFFU);
-  put_u16(out, value >> 16U);
+  const std::uint32_t bytes = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? value : __builtin_bswap32(value);
+  char text[sizeof bytes];
+  std::memcpy(text, &bytes, sizeof bytes);
+  out.append(text, sizeof text);
 }
 inline void put_u64(std::string& out, std::uint64_t value) {
-  put_u32(out, static_cast<std::uint32_t>(value));
-  put_u32(out, static_cast<std::uint32_t>(value >> 32U));
+  const std::uint64_t bytes = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? value : __builtin_bswap64(value);
+  char text[sizeof bytes];
+  std::memcpy(text, &bytes, sizeof bytes);
+  out.append(text, sizeof text);
 }
 inline void put_double(std::string& out, double value) {
   std::uint64_t bits = 0;
