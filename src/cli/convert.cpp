@@ -100,9 +100,11 @@ Command add_convert(const Options& tool) {
                   "the log to write: OUT.ulg a ULog, any other name CSV; `-` = standard output, CSV without --to")
       .required()
       .type_name("OUT|-");
-  command.add_option<io::LogWriter::Form>("--to", options->form,
-                                          {{"csv", io::LogWriter::Form::csv}, {"ulog", io::LogWriter::Form::ulog}},
-                                          "what to write, whatever the name of the output");
+  command
+      .add_option<io::LogWriter::Form>("--to", options->form,
+                                       {{"csv", io::LogWriter::Form::csv}, {"ulog", io::LogWriter::Form::ulog}},
+                                       "what to write, whatever the name of the output")
+      .type_name("csv|ulog");
   add_bad_row_option(command, options->on_bad_row);
   command.footer(kConvertNotes + exit_codes_help());
   return {command, kConvertAbout, [options] { return run_convert(*options); }};
