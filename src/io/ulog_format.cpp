@@ -173,8 +173,8 @@ UlogCell UlogLayout::cell(std::string_view name, std::uint32_t index) const {
   return {};
 }
 
-UlogCells UlogLayout::three(std::string_view name) const {
-  const UlogCells out = {cell(name, 0), cell(name, 1), cell(name, 2)};
+UlogCells UlogLayout::three(std::string_view name, std::uint32_t first) const {
+  const UlogCells out = {cell(name, first), cell(name, first + 1), cell(name, first + 2)};
   return out[2] ? out : UlogCells{};
 }
 

@@ -144,12 +144,16 @@ UlogMessages::Subscription UlogMessages::subscribe(const UlogMessage& message, c
   }
   out.least = layout->unpadded;
   out.most = layout->size;
+  if (name == kUlogStatusTopic) out.status = ulog_status(*layout);
   const std::size_t topic = ulog_topic(name);
   if (topic == kNoUlogTopic) return out;
   const auto readings = ulog_readings(topic, *layout);
   if (readings) {
     out.topic = topic;
-    out.readings = *readings;
+    out.readings.push_back(*readings);
+    for (std::uint32_t which = 1; which < ulog_chips(topic, *layout); ++which) {
+      if (const auto next = ulog_readings(topic, *layout, which)) out.readings.push_back(*next);
+    }
   } else if (lacking_.insert(topic).second) {
     note(UlogTrouble::lacking, message.offset,
          name + " has no " + readings.error() + " that could be read, its data are left out");
@@ -192,9 +196,12 @@ void UlogMessages::take_removal(const UlogMessage& message) {
 
 void UlogMessages::take_data(const UlogMessage& message) {
   const auto known = subscriptions_.find(io::ulog_unsigned(message.payload, 2));
-  if (known == subscriptions_.end() || known->second.topic == kNoUlogTopic) return;
+  if (known == subscriptions_.end()) return;
   const Subscription& data = known->second;
-  sources_.add(message.offset, data.topic, data.instance, data.readings, message.payload + 2);
+  if (data.status.time) sources_.add_status(data.status, message.payload + 2);
+  int instance = data.instance;
+  for (const UlogReadings& readings : data.readings)
+    sources_.add(message.offset, data.topic, instance++, readings, message.payload + 2);
 }
 
 }  // namespace logs

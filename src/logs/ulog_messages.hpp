@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "plumb/core/config.hpp"
 #include "plumb/io/ulog_format.hpp"
@@ -48,9 +49,10 @@ class UlogMessages {
   struct Subscription {
     std::string name;
     int instance = 0;
-    std::size_t topic = kNoUlogTopic;  ///< or one without all fields that are needed
-    UlogReadings readings;
-    std::uint32_t least = 0;  ///< bytes of its data
+    std::size_t topic = kNoUlogTopic;    ///< or one without all fields that are needed
+    std::vector<UlogReadings> readings;  ///< a chip each
+    UlogStatus status;                   ///< with a time, where it is sensors_status_imu
+    std::uint32_t least = 0;             ///< bytes of its data
     std::uint32_t most = io::UlogFormats::kLargest;
     bool removed = false;
   };

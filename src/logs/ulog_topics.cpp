@@ -20,6 +20,8 @@ enum UlogTopicNumber : std::size_t {
 /// PX4 publishes vehicle_imu_status this often and begins its mean anew each time; the log may hold one in ten.
 constexpr double kStatusInterval_s = 0.1;
 constexpr std::uint64_t kInvalidRelativeTime = 0x7fffffff;
+constexpr const char* kCombined = "accelerometer_m_s2";
+constexpr std::uint32_t kMostCombined = 4;  ///< chips in one message
 constexpr std::uint64_t kMostCounted = std::numeric_limits<std::uint32_t>::max();
 
 /// The first of these names that the message has.
@@ -110,7 +112,7 @@ const char* force_name(std::size_t topic) noexcept {
     case kSensorAccel: return "x, y, z";
     case kVehicleImu: return "delta_velocity";
     case kVehicleImuStatus: return "mean_accel";
-    case kSensorCombined: return "accelerometer_m_s2";
+    case kSensorCombined: return kCombined;
     default: return "xyz";
   }
 }
@@ -122,7 +124,27 @@ std::size_t ulog_topic(std::string_view name) noexcept {
   return static_cast<std::size_t>(found - kUlogTopics.begin());
 }
 
-tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const io::UlogLayout& layout) {
+std::uint32_t ulog_chips(std::size_t topic, const io::UlogLayout& layout) {
+  if (topic != kSensorCombined) return 1;
+  std::uint32_t chips = 1;
+  while (chips < kMostCombined && layout.three(kCombined, 3 * chips)[0]) ++chips;
+  return chips;
+}
+
+UlogStatus ulog_status(const io::UlogLayout& layout) {
+  UlogStatus out;
+  const io::UlogCell time = layout.cell("timestamp");
+  for (std::uint32_t k = 0; k < kUlogStatusChips; ++k) {
+    out.device[k] = layout.cell("accel_device_ids", k);
+    out.inconsistency[k] = layout.cell("accel_inconsistency_m_s_s", k);
+    out.healthy[k] = layout.cell("accel_healthy", k);
+  }
+  if (io::ulog_is_whole(time.type) && io::ulog_is_whole(out.device[0].type)) out.time = time;
+  return out;
+}
+
+tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const io::UlogLayout& layout,
+                                                      std::uint32_t which) {
   UlogReadings out;
   out.time = layout.cell("timestamp");
   out.sample_time = layout.cell("timestamp_sample");
@@ -141,8 +163,12 @@ tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const i
   } else if (topic == kVehicleImuStatus) {
     set_imu_status(layout, out);
   } else if (topic == kSensorCombined) {
-    out.force = layout.three("accelerometer_m_s2");
-    out.rate = layout.three("gyro_rad");
+    out.force = layout.three(kCombined, 3 * which);
+    out.rate = layout.three("gyro_rad", 3 * which);
+    if (const io::UlogCell own = layout.cell("accelerometer_timestamp", which); io::ulog_is_whole(own.type)) {
+      out.time = own;
+      out.shared = true;
+    }
     out.relative_time = layout.cell("accelerometer_timestamp_relative");
     out.clip_mask = layout.cell("accelerometer_clipping");
     out.kind = RecordKind::mean;
@@ -155,14 +181,17 @@ tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const i
   return out;
 }
 
+// Unsigned differences: a time since 1970 loses nothing by what a double holds.
+double UlogSources::since_zero_s(std::uint64_t time_us) const noexcept {
+  return time_us >= zero_us_ ? static_cast<double>(time_us - zero_us_) * 1e-6
+                             : static_cast<double>(zero_us_ - time_us) * -1e-6;
+}
+
 double UlogSources::time_s(const UlogReadings& readings, const unsigned char* payload) const noexcept {
   std::uint64_t time_us = whole_or_zero(payload, readings.sample_time);
   if (time_us == 0) time_us = whole_or_zero(payload, readings.time);  // not every driver says when it sampled
   const double relative = readings.relative_time ? 1e-6 * io::ulog_number(payload, readings.relative_time) : 0.0;
-  // Unsigned differences: a time since 1970 loses nothing by what a double holds.
-  const double since = time_us >= zero_us_ ? static_cast<double>(time_us - zero_us_) * 1e-6
-                                           : static_cast<double>(zero_us_ - time_us) * -1e-6;
-  return since + relative;
+  return since_zero_s(time_us) + relative;
 }
 
 bool UlogSources::refuse(std::uint64_t offset, const char* what) {
@@ -214,8 +243,12 @@ void UlogSources::check_time(std::uint64_t offset, const State& state, const cha
 void UlogSources::add(std::uint64_t offset, std::size_t topic, int instance, const UlogReadings& readings,
                       const unsigned char* payload) {
   ImuRecord record;
+  const std::uint64_t sampled_us = readings.shared ? io::ulog_whole(payload, readings.time) : 0;
+  if (readings.shared && sampled_us == 0) return;  // no such chip in this vehicle
   if (!read(offset, readings, payload, record)) return;
   State& state = state_of(topic, instance, readings, payload);
+  if (readings.shared && sampled_us == state.last_us) return;
+  state.last_us = sampled_us;
   const std::uint64_t device = whole_or_zero(payload, readings.device);
   if (device != 0 && state.device != 0 && device != state.device) {
     if (notes_.wanted(UlogTrouble::device, offset))
@@ -234,6 +267,20 @@ void UlogSources::add(std::uint64_t offset, std::size_t topic, int instance, con
   state.last_time_s = record.time_s;
   sink_.record(state.number, record);
   ++records_;
+}
+
+void UlogSources::add_status(const UlogStatus& cells, const unsigned char* payload) {
+  for (std::size_t k = 0; k < kUlogStatusChips; ++k) {
+    ChipStatus status;
+    status.device_id = whole_or_zero(payload, cells.device[k]);
+    if (status.device_id == 0) continue;
+    status.time_s = since_zero_s(io::ulog_whole(payload, cells.time));
+    if (cells.inconsistency[k]) status.inconsistency_mps2 = io::ulog_number(payload, cells.inconsistency[k]);
+    if (cells.healthy[k])
+      status.health =
+          io::ulog_whole(payload, cells.healthy[k]) != 0 ? ChipStatus::Health::sound : ChipStatus::Health::failed;
+    sink_.status(status);
+  }
 }
 
 }  // namespace logs

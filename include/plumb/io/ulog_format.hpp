@@ -85,8 +85,8 @@ class UlogLayout {
   void place(const UlogField& field, std::uint32_t offset) { placed_.push_back({&field, offset}); }
   /// Element `index` of a field of a basic type; empty where there is none of this name, or not so many.
   UlogCell cell(std::string_view name, std::uint32_t index = 0) const;
-  /// The first three elements; all are empty where one is.
-  UlogCells three(std::string_view name) const;
+  /// Three elements from `first` on; all are empty where one is.
+  UlogCells three(std::string_view name, std::uint32_t first = 0) const;
 
   std::uint32_t size = 0;      ///< in bytes, padding at the end included
   std::uint32_t unpadded = 0;  ///< without the padding at the end, which a logger may leave out
