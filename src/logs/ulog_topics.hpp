@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "plumb/core/config.hpp"
+#include "plumb/io/ulog_format.hpp"
 #include "plumb/logs/flight_log.hpp"
-#include "ulog_format.hpp"
 #include "ulog_notes.hpp"
 
 namespace plumb {
@@ -30,20 +30,20 @@ std::size_t ulog_topic(std::string_view name) noexcept;
 
 /// Where the readings of a topic stand in its messages.
 struct UlogReadings {
-  UlogCell time;           ///< of publishing, us
-  UlogCell sample_time;    ///< of sampling, us; before that of publishing
-  UlogCell relative_time;  ///< us from `time` to the sample
-  UlogCell device;
-  UlogCell temperature;
-  UlogCell samples;    ///< in the mean
-  UlogCell rate_hz;    ///< of the samples in the mean
-  UlogCell dt;         ///< `force` is a change of velocity in this time
-  UlogCell rate_dt;    ///< `rate` is an angle turned in this time
-  UlogCell clip_mask;  ///< bit 0 is x
-  UlogCells force;
-  UlogCells rate;
-  UlogCells clips;
-  UlogCells variance;
+  io::UlogCell time;           ///< of publishing, us
+  io::UlogCell sample_time;    ///< of sampling, us; before that of publishing
+  io::UlogCell relative_time;  ///< us from `time` to the sample
+  io::UlogCell device;
+  io::UlogCell temperature;
+  io::UlogCell samples;    ///< in the mean
+  io::UlogCell rate_hz;    ///< of the samples in the mean
+  io::UlogCell dt;         ///< `force` is a change of velocity in this time
+  io::UlogCell rate_dt;    ///< `rate` is an angle turned in this time
+  io::UlogCell clip_mask;  ///< bit 0 is x
+  io::UlogCells force;
+  io::UlogCells rate;
+  io::UlogCells clips;
+  io::UlogCells variance;
   bool clips_add_up = false;  ///< counted since the start, not since the last message
   bool uncalibrated = false;  ///< before the calibration of the autopilot
   bool shared = false;        ///< the message has several chips: this one's time tells whether its reading is new
@@ -51,18 +51,18 @@ struct UlogReadings {
 };
 
 /// How many chips one message has the readings of: sensor_combined of 2016 had up to three.
-std::uint32_t ulog_chips(std::size_t topic, const UlogLayout& layout);
+std::uint32_t ulog_chips(std::size_t topic, const io::UlogLayout& layout);
 /// Those of chip `which`. The error is the name of a field that the topic lacks.
-tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const UlogLayout& layout,
+tl::expected<UlogReadings, const char*> ulog_readings(std::size_t topic, const io::UlogLayout& layout,
                                                       std::uint32_t which = 0);
 
 /// Where sensors_status_imu has what.
 struct UlogStatus {
-  UlogCell time;
-  std::array<UlogCell, kUlogStatusChips> device, inconsistency, healthy;
+  io::UlogCell time;
+  std::array<io::UlogCell, kUlogStatusChips> device, inconsistency, healthy;
 };
 /// Without a time where the message lacks something.
-UlogStatus ulog_status(const UlogLayout& layout);
+UlogStatus ulog_status(const io::UlogLayout& layout);
 
 /// Numbers the sources and hands their records on.
 class UlogSources {
