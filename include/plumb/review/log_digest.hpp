@@ -96,7 +96,7 @@ struct LogDigest {
   std::string understood;  ///< how, where a log does not say itself: the layout of a table; else empty
   double block_s = 1.0;
   std::vector<SourceDigest> sources;
-  std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*
+  std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*, INS_USE*
   std::vector<Note> notes;
   logs::LogExtent extent;
 };
