@@ -1,16 +1,19 @@
 // Logs of flight controllers: bytes a second of one processor, for the readers alone and for what a review keeps.
 #include <benchmark/benchmark.h>
+#include <sqlite3.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <string>
 
 #include "../tests/logs/dataflash_bytes.hpp"
 #include "../tests/logs/mcap_bytes.hpp"
 #include "../tests/logs/ulog_bytes.hpp"
 #include "plumb/review/log_digest.hpp"
+#include "plumb/review/time_skew.hpp"
 
 namespace {
 
@@ -79,6 +82,40 @@ std::string mcap(const std::string& compression) {
   return out + data_end() + footer();
 }
 
+/// A bag as `ros2 bag record` leaves it: one table of messages with an index of their times.
+std::string rosbag2() {
+  sqlite3* made = nullptr;
+  sqlite3_open(":memory:", &made);
+  const std::unique_ptr<sqlite3, int (*)(sqlite3*)> open(made, &sqlite3_close);
+  sqlite3_exec(made,
+               "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
+               "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
+               "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL, "
+               "data BLOB NOT NULL);CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
+               "INSERT INTO topics VALUES(1,'/imu0','sensor_msgs/msg/Imu','cdr',''),"
+               "(2,'/imu1','sensor_msgs/msg/Imu','cdr',''),(3,'/imu2','sensor_msgs/msg/Imu','cdr','');BEGIN;",
+               nullptr, nullptr, nullptr);
+  sqlite3_stmt* row = nullptr;
+  sqlite3_prepare_v2(made, "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", -1, &row, nullptr);
+  for (int k = 0; k < kInstants; ++k) {
+    const std::string message = ros_bytes::imu(ros_bytes::imu_at(k));
+    for (int chip = 1; chip <= 3; ++chip) {
+      sqlite3_bind_int(row, 1, chip);
+      sqlite3_bind_int64(row, 2, 1700000000500000000 + 1000000LL * k + chip);
+      sqlite3_bind_blob(row, 3, message.data(), static_cast<int>(message.size()), nullptr);
+      sqlite3_step(row);
+      sqlite3_reset(row);
+    }
+  }
+  sqlite3_finalize(row);
+  sqlite3_exec(made, "COMMIT;", nullptr, nullptr, nullptr);
+  sqlite3_int64 size = 0;
+  unsigned char* bytes = sqlite3_serialize(made, "main", &size, 0);
+  std::string out(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
+  sqlite3_free(bytes);
+  return out;
+}
+
 std::string csv() {
   std::string out = "time_s";
   for (const char* chip : {"imu0", "imu1", "imu2"}) {
@@ -128,7 +165,7 @@ void read(benchmark::State& state, const std::string& bytes) {
     if (!extent || extent->records != 3U * kInstants) state.SkipWithError("the log was not read to its end");
     benchmark::DoNotOptimize(sink.sum);
   }
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * file.size()));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(file.size()));
 }
 
 void BM_ReadUlog(benchmark::State& state) { read(state, ulog()); }
@@ -136,20 +173,41 @@ void BM_ReadDataflash(benchmark::State& state) { read(state, dataflash()); }
 void BM_ReadMcap(benchmark::State& state) { read(state, mcap("")); }
 void BM_ReadMcapZstd(benchmark::State& state) { read(state, mcap("zstd")); }
 void BM_ReadMcapLz4(benchmark::State& state) { read(state, mcap("lz4")); }
+void BM_ReadRosbag2(benchmark::State& state) { read(state, rosbag2()); }
 void BM_ReadCsv(benchmark::State& state) { read(state, csv()); }
 
 void BM_DigestUlog(benchmark::State& state) {
   const File file(ulog());
   for (auto _ : state) benchmark::DoNotOptimize(review::digest_log(file.path()));
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * file.size()));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(file.size()));
 }
+
+/// All that `plumb review` does with a log but its words. Nothing moves in these logs: they are not read a second time
+/// for the shifts between chips.
+void review_whole(benchmark::State& state, const std::string& bytes) {
+  const File file(bytes);
+  for (auto _ : state) {
+    const auto found = review::review_file(file.path(), {});
+    if (!found || found->chips.size() != 3U) state.SkipWithError("the log was not reviewed");
+    benchmark::DoNotOptimize(found);
+  }
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(file.size()));
+}
+
+void BM_ReviewUlog(benchmark::State& state) { review_whole(state, ulog()); }
+void BM_ReviewDataflash(benchmark::State& state) { review_whole(state, dataflash()); }
+void BM_ReviewRosbag2(benchmark::State& state) { review_whole(state, rosbag2()); }
 
 BENCHMARK(BM_ReadUlog)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadDataflash)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadMcap)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadMcapZstd)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadMcapLz4)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReadRosbag2)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_ReadCsv)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_DigestUlog)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReviewUlog)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReviewDataflash)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_ReviewRosbag2)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -92,10 +92,11 @@ class Rows {
 std::string aligned_words(const review::LogDigest& digest, const review::ImportPlan& plan,
                           const logs::LogAligner& aligner) {
   std::string out = fmt::format("{}, at the instants of {}", count_text(aligner.rows(), "row"),
-                                digest.sources[plan.sources[plan.reference]].source.name);
+                                io::printable_line(digest.sources[plan.sources[plan.reference]].source.name));
   for (std::size_t k = 0; k < plan.sources.size(); ++k) {
     if (k == plan.reference) continue;
-    out += fmt::format("; {} is {:.2f} ms away on average", digest.sources[plan.sources[k]].source.name,
+    out += fmt::format("; {} is {:.2f} ms away on average",
+                       io::printable_line(digest.sources[plan.sources[k]].source.name),
                        1000.0 * aligner.mean_distance_s(k));
   }
   if (aligner.left_out() > 0)
@@ -120,7 +121,7 @@ io::FileExpected<std::string> write_log(const ImportOptions& options, const revi
   if (rows.error()) return tl::unexpected<io::FileError>(*rows.error());
   const io::FileExpected<void> kept = writer->commit();
   if (!kept) return tl::unexpected<io::FileError>(kept.error());
-  return fmt::format("{}: {}", path, aligned_words(digest, plan, aligner));
+  return fmt::format("{}: {}", io::printable_line(path), aligned_words(digest, plan, aligner));
 }
 
 io::FileExpected<void> make_place(const std::string& path) {
@@ -153,17 +154,31 @@ std::string coefficients_path(const ImportOptions& options) {
   return (fs::path(options.out) / "coefficients.csv").string();
 }
 
+/// What the array file accepts, and what the number of chips allows.
+std::string about_the_monitor(const review::ImportPlan& plan) {
+  if (plan.sources.size() == 1) {
+    return "One chip has no redundancy: the monitor compares the length of gravity alone, and no direction is valid.\n";
+  }
+  return fmt::format(
+      "The array file accepts errors of direction up to {:.0f} deg (alert_limit), which an autopilot's calibration "
+      "allows.\n",
+      review::kImportAlertLimit_deg);
+}
+
 std::string next_words(const ImportOptions& options, const review::ImportPlan& plan) {
   const std::string array = io::shell_word((fs::path(options.out) / "array.toml").string());
   const std::string log = io::shell_word((fs::path(options.out) / "log.csv").string());
   if (plan.coefficients_text.empty()) {
-    return fmt::format("\nNext:\n  plumb monitor --array {} --calibrate-first --log {}\n", array, log);
+    return fmt::format(
+        "\n{}The log has no calibration that can be taken over: the monitor finds one, where the log has some 20 still "
+        "attitudes.\nNext:\n  plumb monitor --array {} --calibrate-first --log {}\n",
+        about_the_monitor(plan), array, log);
   }
   const std::string calibration = io::shell_word((fs::path(options.out) / "calibration.json").string());
   return fmt::format(
-      "\nNext:\n  plumb calibrate --array {} --from {} --out {}\n  plumb monitor --array {} --calibration {} --log "
+      "\n{}Next:\n  plumb calibrate --array {} --from {} --out {}\n  plumb monitor --array {} --calibration {} --log "
       "{}\n",
-      array, io::shell_word(coefficients_path(options)), calibration, array, calibration, log);
+      about_the_monitor(plan), array, io::shell_word(coefficients_path(options)), calibration, array, calibration, log);
 }
 
 io::ExitCode run_import(ImportOptions& options) {
@@ -185,7 +200,7 @@ io::ExitCode run_import(ImportOptions& options) {
   if (const io::FileExpected<void> made = make_place(options.out); !made) return report(made.error());
   if (const io::FileExpected<void> kept = io::write_file(array_path, plan->array_text); !kept)
     return report(kept.error());
-  print(fmt::format("{}: {}\n", array_path, count_text(plan->sources.size(), "chip")));
+  print(fmt::format("{}: {}\n", io::printable_line(array_path), count_text(plan->sources.size(), "chip")));
   if (plan->left_out > 0)
     print_error(
         fmt::format("plumb: {} left out: an array has 24 sensors at most.\n", count_text(plan->left_out, "chip")));
@@ -193,15 +208,21 @@ io::ExitCode run_import(ImportOptions& options) {
     const std::string path = coefficients_path(options);
     if (const io::FileExpected<void> kept = io::write_file(path, plan->coefficients_text); !kept)
       return report(kept.error());
-    print(path + ": the autopilot's calibration of what the log holds, with what it may be off by\n");
+    print(io::printable_line(path) +
+          (plan->uncalibrated ? ": the autopilot's calibration of what the log holds, with what it may be "
+                                "off by\n"
+                              : ": scale 1 and bias 0, since the autopilot has corrected the readings, with "
+                                "what they may be off by\n"));
   }
   const io::FileExpected<std::string> written = write_log(options, *digest, *plan, array_path);
   if (!written) return report(written.error());
   print(*written);
   if (!digest->understood.empty())
-    print_error(fmt::format("plumb: {}: read as {}.\n", options.log, io::printable_line(digest->understood)));
+    print_error(fmt::format("plumb: {}: read as {}.\n", io::printable_line(options.log),
+                            io::printable_line(digest->understood)));
   for (const review::Note& note : digest->notes)
-    print_error(fmt::format("plumb: {}: byte {}: {}.\n", options.log, note.offset, note.what));
+    print_error(fmt::format("plumb: {}: byte {}: {}.\n", io::printable_line(options.log), note.offset,
+                            io::printable_line(note.what)));
   if (interrupted()) {
     print_error("plumb: interrupted; the rows up to here are written.\n");
     return io::ExitCode::other;

@@ -107,7 +107,7 @@ std::string text_of(const std::vector<review::LogReview>& logs, const std::vecto
   if (logs.size() + unread.size() > 1) {
     std::string out = render::fleet_text(logs, unread);
     for (const review::LogReview& log : logs) {
-      if (!log.findings.empty()) out += "\n" + render::review_text(log, notes);
+      if (log.grade != review::Grade::green) out += "\n" + render::review_text(log, notes);
     }
     return out;
   }

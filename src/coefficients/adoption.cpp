@@ -59,6 +59,30 @@ void check_forms(const std::vector<CoefficientFile>& files) {
   }
 }
 
+bool is_of_autopilot(const CoefficientFile& file) noexcept {
+  return file.form == Form::px4 || file.form == Form::ardupilot;
+}
+
+/// An autopilot's parameters are for readings before them: a second time they would add what they take away.
+void check_not_applied(const io::ArrayFile& array, const std::vector<CoefficientFile>& files,
+                       std::vector<std::string>& notes) {
+  for (const CoefficientFile& file : files) {
+    if (!is_of_autopilot(file)) continue;
+    if (array.input.corrected)
+      refuse_adoption(file.path, "",
+                      "holds the autopilot's own calibration, which the readings have already (corrected = true in "
+                      "[input] of " +
+                          array.path + "): applied twice it would be wrong by all that it corrects",
+                      "give the coefficients.csv that plumb import wrote beside the array file; or import readings "
+                      "from before the calibration, where the log has them (PX4: --message sensor_accel)");
+    notes.emplace_back(file.form == Form::px4
+                           ? "these parameters are for readings before them (sensor_accel); vehicle_imu and "
+                             "sensor_combined have them applied already"
+                           : "these parameters are for readings before them; IMU and ACC of a DataFlash log have them "
+                             "applied already");
+  }
+}
+
 /// Chips as statements of sensors.
 void place_all(const io::ArrayFile& array, const std::vector<CoefficientFile>& files,
                const std::vector<InstanceChoice>& choices, Adoption& out, std::vector<SensorStatement>& found) {
@@ -209,10 +233,7 @@ TemperatureSpan span_of(const io::ArrayFile& array, const std::vector<SensorStat
 /// gravity where they calibrate, and nobody says where that was: near here, as far as one can tell.
 double common_scale_of(const io::ArrayFile& array, const std::vector<CoefficientFile>& files,
                        std::vector<std::string>& notes) {
-  const bool of_autopilot = std::any_of(files.begin(), files.end(), [](const CoefficientFile& file) {
-    return file.form == Form::px4 || file.form == Form::ardupilot;
-  });
-  if (!of_autopilot) return 0.0;
+  if (std::none_of(files.begin(), files.end(), is_of_autopilot)) return 0.0;
   const double off = std::fabs(kG0_mps2 / array.gravity.g_mps2 - 1.0);
   notes.push_back("autopilots calibrate against 9.80665 m/s^2, and gravity here is " + io::brief(array.gravity.g_mps2) +
                   ": a scale common to all sensors of " + io::brief(1e6 * off, 3) + " ppm is allowed for, 1 sigma");
@@ -284,6 +305,7 @@ Adoption adopted(const io::ArrayFile& array, const std::vector<CoefficientFile>&
   if (files.empty()) refuse_adoption("--from", "", "names no file", "give a file of coefficients", io::ExitCode::usage);
   note_origin(files, out);
   check_forms(files);
+  check_not_applied(array, files, out.notes);
   std::vector<SensorStatement> found;
   place_all(array, files, choice.instances, out, found);
   for (const CoefficientFile& file : files) found.insert(found.end(), file.sensors.begin(), file.sensors.end());

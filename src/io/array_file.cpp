@@ -23,26 +23,23 @@ const std::vector<std::string>& known_sections() {
 }
 
 const std::vector<std::string>& known_input_keys() {
-  static const std::vector<std::string> names = {"rows",
-                                                 "time",
-                                                 "time_unit",
-                                                 "rate",
-                                                 "station",
-                                                 "roll_group",
-                                                 "count",
-                                                 "where",
-                                                 "temperature",
-                                                 "reads",
-                                                 "unit",
-                                                 "rotation_radps",
-                                                 "second_rotation_radps",
-                                                 "depth",
-                                                 "depth_unit",
-                                                 "known_attitudes"};
+  static const std::vector<std::string> names = {
+      "rows",  "time",        "time_unit",      "rate",      "station", "roll_group",     "count",
+      "where", "temperature", "reads",          "corrected", "unit",    "rotation_radps", "second_rotation_radps",
+      "depth", "depth_unit",  "known_attitudes"};
   return names;
 }
 
 constexpr double kFrameTolerance = 1e-6;
+
+void read_corrected(const TomlTable& table, InputSpec& input) {
+  const TomlNode* corrected = table.find("corrected");
+  if (corrected == nullptr) return;
+  if (corrected->kind != TomlNode::Kind::boolean)
+    table.fail(corrected->line, "corrected", std::string("is ") + corrected->kind_name() + ", must be true or false",
+               "write corrected = true where the autopilot's own calibration is in the readings already");
+  input.corrected = corrected->boolean;
+}
 
 void read_time(const TomlTable& table, InputSpec& input) {
   input.time_column = table.text("time", "");
@@ -235,6 +232,7 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   const std::string about_unit = "state the unit of the log, one of: " + accepted_raw_units();
   const std::string unit = table.need_text("unit", about_unit);
   input.unit = table.checked(parse_raw_unit(unit), "unit", table.need("unit", about_unit));
+  read_corrected(table, input);
   read_time(table, input);
   input.station_column = table.text("station", "");
   input.roll_group_column = table.text("roll_group", "");

@@ -40,6 +40,7 @@ Json chip_json(const LogReview& in, std::size_t i) {
        {"vibration_mps2", finite_or_null(chip.vibration_mps2)},
        {"vibration_at_s", finite_or_null(chip.vibration_at_s)},
        {"clipped", chip.clipped},
+       {"disabled", chip.disabled},
        {"lag_s", finite_or_null(chip.lag_s)},
        {"lag_uncertainty_s", finite_or_null(chip.lag_uncertainty_s)},
        {"installed_calibration", calibration}});

@@ -20,7 +20,7 @@ std::string tone_of(review::Grade grade) {
   return grade == review::Grade::orange ? "open" : "good";
 }
 std::string tone_of(const LogReview& log) {
-  return log.judged || !log.findings.empty() ? tone_of(log.grade) : std::string("open");
+  return log.judged || log.grade != review::Grade::green ? tone_of(log.grade) : std::string("open");
 }
 
 std::string figure(double value, const char* format) {

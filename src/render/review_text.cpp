@@ -64,6 +64,28 @@ std::string findings_text(const LogReview& in) {
   return out;
 }
 
+/// Every figure where they fit on a line; else the first, the last and the one that is furthest off.
+std::string trend_words(const DeviceTrend& trend, const std::vector<LogReview>& logs) {
+  constexpr std::size_t kMostFigures = 10;
+  const std::vector<double>& off = trend.off_gravity_mps2;
+  std::string out;
+  if (off.size() <= kMostFigures) {
+    for (const double one : off) out += signed_figure(one) + " ";
+    return out;
+  }
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    if (std::isfinite(off[k])) known.push_back(k);
+  }
+  if (known.empty()) return "-";
+  const std::size_t worst = *std::max_element(
+      known.begin(), known.end(), [&](std::size_t a, std::size_t b) { return std::abs(off[a]) < std::abs(off[b]); });
+  return fmt::format("first {}, last {}, furthest {} in {}{}", signed_figure(off[known.front()]),
+                     signed_figure(off[known.back()]), signed_figure(off[worst]),
+                     io::printable_line(logs[trend.logs[worst]].name),
+                     known.size() == off.size() ? "" : fmt::format("; {} never at rest", off.size() - known.size()));
+}
+
 std::string rest_words(const LogReview& in) {
   if (in.stretches.empty()) return "At rest: never for 3 s or more.";
   return fmt::format("At rest: {:.1f} s in {}. Gravity is taken as {:.3f} m/s^2, +-{:.3f}.", in.at_rest_s,
@@ -82,7 +104,7 @@ std::string notes_text(const LogReview& in, bool all) {
 }  // namespace
 
 const char* grade_word(const LogReview& one) noexcept {
-  return one.judged || !one.findings.empty() ? grade_word(one.grade) : "NOT JUDGED";
+  return one.judged || one.grade != review::Grade::green ? grade_word(one.grade) : "NOT JUDGED";
 }
 
 std::string review_text(const LogReview& one, bool notes) {
@@ -119,11 +141,8 @@ std::string fleet_text(const std::vector<LogReview>& logs, const std::vector<Unr
   const std::vector<DeviceTrend> trends = trends_of(logs);
   if (trends.empty()) return out;
   Rows table = {{"device", "logs", "rest, m/s^2 off gravity, in the order of the logs"}};
-  for (const DeviceTrend& trend : trends) {
-    std::string figures;
-    for (const double off : trend.off_gravity_mps2) figures += signed_figure(off) + " ";
-    table.push_back({std::to_string(trend.device_id), std::to_string(trend.logs.size()), figures});
-  }
+  for (const DeviceTrend& trend : trends)
+    table.push_back({std::to_string(trend.device_id), std::to_string(trend.logs.size()), trend_words(trend, logs)});
   return out + "\nThe same accelerometer in several logs\n" + columns(table);
 }
 

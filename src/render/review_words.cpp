@@ -115,6 +115,11 @@ ReviewSentence of_times(const Finding& f, const LogReview& in) {
 }
 
 ReviewSentence of_calibration(const Finding& f, const LogReview& in) {
+  if (f.code == FindingCode::disabled) {
+    return {fmt::format("{} is switched off in the autopilot's parameters: it is logged and judged, not flown by",
+                        chip_name(in, f.chip)),
+            "", "nothing, where that is meant; else set CAL_ACCn_PRIO (PX4) or INS_USEn (ArduPilot) again"};
+  }
   if (f.code == FindingCode::uncalibrated) {
     return {fmt::format("{} has no calibration in the autopilot's parameters", chip_name(in, f.chip)), "",
             "calibrate the accelerometers of this vehicle"};
@@ -166,6 +171,7 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
     case FindingCode::stray:
     case FindingCode::stopped: return of_times(f, in);
     case FindingCode::uncalibrated:
+    case FindingCode::disabled:
     case FindingCode::far_offset:
     case FindingCode::far_scale: return of_calibration(f, in);
     case FindingCode::autopilot_failed:
@@ -221,6 +227,7 @@ std::string code_word(FindingCode code) {
     case FindingCode::common_length: return "common_length";
     case FindingCode::stopped: return "stopped";
     case FindingCode::uncalibrated: return "uncalibrated";
+    case FindingCode::disabled: return "disabled";
     case FindingCode::far_offset: return "far_offset";
     case FindingCode::far_scale: return "far_scale";
     case FindingCode::autopilot_failed: return "autopilot_failed";
@@ -279,13 +286,10 @@ const char* grade_word(review::Grade grade) noexcept {
   return grade == review::Grade::orange ? "ORANGE" : "GREEN";
 }
 
-std::string answer_of(const LogReview& in) {
-  if (in.chips.empty()) return "No accelerometer in this log: nothing was judged.";
-  if (!in.findings.empty()) {
-    const ReviewSentence worst = sentence_of(in.findings.front(), in);
-    const std::size_t more = in.findings.size() - 1;
-    return worst.what + (more == 0 ? "." : fmt::format("; and {}.", count_text(more, "more finding")));
-  }
+namespace {
+
+/// Nothing but information was found.
+std::string answer_where_green(const LogReview& in) {
   if (!in.judged) return "Nothing was judged: never at rest, and no two accelerometers to compare.";
   const auto compared = static_cast<std::size_t>(
       std::count_if(in.chips.begin(), in.chips.end(), [](const review::ChipSummary& chip) { return chip.compared; }));
@@ -301,6 +305,22 @@ std::string answer_of(const LogReview& in) {
   return subject + (unclear ? " agree at rest; in motion that is not judged." : " read gravity at rest and agree.");
 }
 
+}  // namespace
+
+std::string answer_of(const LogReview& in) {
+  if (in.chips.empty()) return "No accelerometer in this log: nothing was judged.";
+  const auto wrong = static_cast<std::size_t>(std::count_if(
+      in.findings.begin(), in.findings.end(), [](const Finding& f) { return f.grade != review::Grade::green; }));
+  if (wrong > 0) {
+    const ReviewSentence worst = sentence_of(in.findings.front(), in);
+    const std::size_t more = wrong - 1;
+    return worst.what + (more == 0 ? "." : fmt::format("; and {}.", count_text(more, "more finding")));
+  }
+  const auto off = static_cast<std::size_t>(
+      std::count_if(in.chips.begin(), in.chips.end(), [](const review::ChipSummary& chip) { return chip.disabled; }));
+  return answer_where_green(in) + (off == 0 ? "" : fmt::format(" Switched off in the autopilot: {}.", off));
+}
+
 std::string chip_name(const LogReview& in, std::size_t chip) { return io::printable_line(in.chips.at(chip).name); }
 
 std::string device_words(const review::ChipSummary& chip) {
@@ -309,14 +329,15 @@ std::string device_words(const review::ChipSummary& chip) {
 
 std::string calibration_words(const review::ChipSummary& chip) {
   const review::InstalledCalibration& c = chip.calibration;
-  if (!c.present) return "none in this log";
+  const std::string off = chip.disabled ? "; switched off" : "";
+  if (!c.present) return "none in this log" + off;
   double offset = 0.0;
   double scale = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     offset = std::max(offset, std::abs(c.offset_mps2[k]));
     scale = std::max(scale, std::abs(c.scale[k] - 1.0));
   }
-  return fmt::format("up to {:.2f} m/s^2, {}{}", offset, percent(scale), c.applied_here ? ", applied here" : "");
+  return fmt::format("up to {:.2f} m/s^2, {}{}{}", offset, percent(scale), c.applied_here ? ", applied here" : "", off);
 }
 
 std::string temperature_words(const review::ChipSummary& chip) {

@@ -11,6 +11,8 @@ inline namespace PLUMB_ABI {
 namespace review {
 namespace {
 
+constexpr int kCalibrationSlots = 8;  ///< of PX4, and some to spare: it has four
+
 std::string family_of(const std::string& source) { return source.substr(0, source.find('[')); }
 
 /// What an autopilot chose among its chips, or made of them.
@@ -42,7 +44,7 @@ double parameter(const LogDigest& digest, const std::string& name, double otherw
 /// PX4: the slot whose id is the device's.
 InstalledCalibration px4_calibration(const LogDigest& digest, std::uint64_t device) {
   InstalledCalibration out;
-  for (int slot = 0; slot < 8; ++slot) {
+  for (int slot = 0; slot < kCalibrationSlots; ++slot) {
     const std::string prefix = "CAL_ACC" + std::to_string(slot) + "_";
     const double id = parameter(digest, prefix + "ID", 0.0);
     if (device == 0 || std::abs(id - static_cast<double>(device)) > 0.5) continue;
@@ -71,6 +73,19 @@ InstalledCalibration ardupilot_calibration(const LogDigest& digest, int instance
   }
   out.present = true;
   return out;
+}
+
+/// PX4 does not use a chip of priority 0 (CAL_ACCn_PRIO), nor ArduPilot one whose INS_USE is 0.
+bool is_disabled(const LogDigest& digest, std::uint64_t device, int instance) {
+  for (int slot = 0; slot < kCalibrationSlots; ++slot) {
+    const std::string prefix = "CAL_ACC" + std::to_string(slot) + "_";
+    const double id = parameter(digest, prefix + "ID", 0.0);
+    if (device == 0 || std::abs(id - static_cast<double>(device)) > 0.5) continue;
+    return std::abs(parameter(digest, prefix + "PRIO", -1.0)) < 0.5;
+  }
+  if (instance < 0) return false;
+  const std::string use = "INS_USE" + (instance == 0 ? std::string() : std::to_string(instance + 1));
+  return std::abs(parameter(digest, use, 1.0)) < 0.5;
 }
 
 /// One record far from all others has a wrong time: the extent is that of the rest.
@@ -152,6 +167,7 @@ std::vector<ChipSummary> chips_of(const LogDigest& digest) {
     chip.name = digest.sources[chip.judged].source.name;
     set_extent(digest, chip);
     set_calibration(digest, chip);
+    chip.disabled = is_disabled(digest, chip.device_id, digest.sources[chip.judged].source.instance);
   }
   return chips;
 }

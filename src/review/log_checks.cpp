@@ -205,6 +205,8 @@ void check_calibration(const LogDigest& digest, LogReview& out) {
                                [](const auto& one) { return one.first.rfind("CAL_ACC", 0) == 0; });
   for (std::size_t chip = 0; chip < out.chips.size(); ++chip) {
     const InstalledCalibration& installed = out.chips[chip].calibration;
+    if (out.chips[chip].disabled)
+      out.findings.push_back(finding_of(FindingCode::disabled, Grade::green, chip, 0.0, 0.0));
     if (!installed.present) {
       // PX4 keeps calibrations by device: where there are some, but none of this one, it flies without.
       if (ids && out.chips[chip].device_id != 0)

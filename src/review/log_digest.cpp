@@ -233,7 +233,8 @@ void LogDigester::status(const logs::ChipStatus& status) {
 }
 
 void LogDigester::parameter(const std::string& name, double value) {
-  const bool wanted = starts_with(name, "CAL_ACC") || starts_with(name, "INS_ACC") || starts_with(name, "TC_A");
+  const bool wanted = starts_with(name, "CAL_ACC") || starts_with(name, "INS_ACC") || starts_with(name, "INS_USE") ||
+                      starts_with(name, "TC_A");
   if (!wanted) return;
   if (!std::isfinite(value)) {
     note(0, "the parameter " + name + " is no number and is left out");

@@ -28,6 +28,14 @@ constexpr const char* kCorrectedUncertainty = "0.05 m/s^2,0.5 %,0.5 deg";
 
 std::string family_of(const std::string& source) { return source.substr(0, source.find('[')); }
 
+/// PX4 and ArduPilot correct what they log, but for `ImuSource::uncalibrated`; what a robot or a table holds is
+/// unknown.
+bool is_of_autopilot(const logs::ImuSource& source) {
+  static const std::set<std::string> families = {
+      "sensor_accel", "vehicle_imu", "vehicle_imu_status", "sensor_combined", "vehicle_acceleration", "IMU", "ACC"};
+  return families.count(family_of(source.name)) > 0;
+}
+
 io::FileError refused(std::string what, std::string remedy) {
   return {"", 0, "", std::move(what), std::move(remedy), io::ExitCode::invalid_input};
 }
@@ -77,11 +85,18 @@ std::string head_of(const LogDigest& digest, const ImportPlan& plan, const Impor
         "sigma = \"0.017 m/s^2\"\n";
   }
   out += "\n[input]\nreads = \"specific-force\"\nunit = \"m/s^2\"\ntime = \"t_s\"\n";
+  if (plan.corrected)
+    out += "corrected = true   # by the autopilot's own calibration: its parameters are not to be applied again\n";
   if (plan.temperature) out += "temperature = \"temperature_degc\"\n";
   if (plan.rates_from != kNoChip) out += "rotation_radps = [\"wx_radps\", \"wy_radps\", \"wz_radps\"]\n";
   const double longest_s = *std::max_element(plan.longest_gap_s.begin(), plan.longest_gap_s.end());
   out += fmt::format("\n[monitor]\nwindow = {:.0f}\nmax_gap = \"{:.3g} s\"\n", std::clamp(std::round(rows), 4.0, 32.0),
                      std::max(5.0, longest_s));
+  out += fmt::format(
+      "# The error of direction that you accept. A calibration by an autopilot leaves a bound of 5 to 7 deg in the\n"
+      "# housing, with two chips or more; with better coefficients and known attitudes state less.\n"
+      "alert_limit = \"{:.0f} deg\"\n",
+      kImportAlertLimit_deg);
   return out;
 }
 
@@ -103,8 +118,8 @@ std::string sensors_of(const LogDigest& digest, const ImportPlan& plan, const Lo
       if (plan.sources.size() > 1) out += fmt::format("package = \"imu{}\"\n", chip);
       out += fmt::format("axis = [{}, {}, {}]\nscale = \"1\"\nnoise = \"{:.2g} m/s^2\"\nfull_scale = \"{:.0f} g0\"\n",
                          axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0, scatter, range_g0);
-      out += plan.uncalibrated ? "prior = {bias = \"0.5 m/s^2\", scale = \"3 %\", axis = \"1 deg\"}\n"
-                               : "prior = {bias = \"0.1 m/s^2\", scale = \"1 %\", axis = \"1 deg\"}\n";
+      out += source.uncalibrated ? "prior = {bias = \"0.5 m/s^2\", scale = \"3 %\", axis = \"1 deg\"}\n"
+                                 : "prior = {bias = \"0.1 m/s^2\", scale = \"1 %\", axis = \"1 deg\"}\n";
       if (plan.rates_from != kNoChip) out += "lever_arm_m = [0, 0, 0]   # state where the chip sits\n";
     }
   }
@@ -184,6 +199,7 @@ io::FileExpected<ImportPlan> plan_import(const LogDigest& digest, const LogRevie
     const double interval_s = std::isfinite(source.intervals.usual_s()) ? source.intervals.usual_s() : digest.block_s;
     plan.longest_gap_s.push_back(kGapIntervals * interval_s);
     plan.uncalibrated = plan.uncalibrated || source.source.uncalibrated;
+    plan.corrected = plan.corrected || (!source.source.uncalibrated && is_of_autopilot(source.source));
     for (const SourceBlock& block : source.blocks) {
       plan.temperature = plan.temperature || block.temperatures > 0;
       if (settings.rates && plan.rates_from == kNoChip && block.rates > 0)

@@ -59,7 +59,9 @@ void set_open(const LogDigest& digest, bool moved, LogReview& out) {
     out.open.push_back(OpenQuestion::more_calibration);
   if (out.chips.size() > 1 && any([](const ChipSummary& chip) { return !chip.compared && !chip.calibration.more; }))
     out.open.push_back(OpenQuestion::not_compared);
-  if (digest.parameters.empty()) out.open.push_back(OpenQuestion::no_calibration_in_log);
+  const bool parameters = std::any_of(digest.parameters.begin(), digest.parameters.end(),
+                                      [](const auto& one) { return one.first.rfind("INS_USE", 0) != 0; });
+  if (!parameters) out.open.push_back(OpenQuestion::no_calibration_in_log);
 }
 
 /// Chips whose direction is not to be compared: mounted in another way, or with other axes.

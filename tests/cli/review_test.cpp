@@ -1,7 +1,11 @@
 // plumb review: from a log of another program to an answer and an exit code.
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "logs/ulog_bytes.hpp"
 #include "support/recording.hpp"
@@ -89,6 +93,55 @@ TEST(ReviewCommand, ManyLogsAreATableAndTheWorstDecidesTheCode) {
   const std::string page = where.text("page.html");
   EXPECT_TRUE(says(page, {"<!DOCTYPE html>", "one.ulg", "sensor_accel[0]", "NOT READ", "What this log cannot tell"}));
   EXPECT_EQ(review_of(where, {"one.ulg", "absent.ulg"}, 3)["not_read"].size(), 1U);
+}
+
+// Of many logs of one accelerometer the figures stay on a line that can be read.
+TEST(ReviewCommand, ManyLogsOfOneAccelerometerAreToldByFirstLastAndFurthest) {
+  const Workshop where;
+  std::vector<std::string> arguments = {"review"};
+  for (int k = 0; k < 30; ++k) {
+    const std::string name = "log" + std::to_string(k) + ".ulg";
+    where.put(name.c_str(), flight(0, k == 17 ? 3.0 : 0.0));
+    arguments.push_back(name);
+  }
+  const Outcome outcome = run(where, arguments);
+  EXPECT_EQ(outcome.code, 9);
+  const std::size_t table = outcome.out.find("The same accelerometer in several logs");
+  ASSERT_NE(table, std::string::npos) << outcome.out;
+  std::istringstream lines(outcome.out.substr(table));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(lines, line) && line.find("log17.ulg: RED") == std::string::npos;) {
+    EXPECT_LT(line.size(), 119U) << line;
+    rows += line.find("  30 ") != std::string::npos ? 1U : 0U;
+  }
+  EXPECT_EQ(rows, 3U) << outcome.out;
+  EXPECT_TRUE(says(outcome.out, {"first +0.01", "last +0.01", "furthest +0.4", "in log17.ulg"})) << outcome.out;
+}
+
+// A chip that the pilot has switched off is said, and is no warning by itself.
+TEST(ReviewCommand, AChipSwitchedOffIsSaidAndGreen) {
+  const Workshop where;
+  using namespace ulog_bytes;
+  const std::string log = flight();
+  const std::size_t head = (header(0) + flags()).size();
+  std::string parameters;
+  for (int k = 0; k < 3; ++k) {
+    const std::string prefix = "CAL_ACC" + std::to_string(k) + "_";
+    parameters += parameter("int32_t " + prefix + "ID", u32(static_cast<std::uint64_t>(501 + k))) +
+                  parameter("int32_t " + prefix + "PRIO", u32(k == 1 ? 0 : 50)) +
+                  parameter("float " + prefix + "XOFF", f32(0.01F));
+  }
+  where.put("off.ulg", log.substr(0, head) + parameters + log.substr(head));
+  const Outcome outcome = run(where, {"review", "off.ulg"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  EXPECT_TRUE(says(outcome.out, {"off.ulg: GREEN", "read gravity at rest and agree. Switched off in the autopilot: 1.",
+                                 "applied here; switched off", "GREEN   sensor_accel[1] is switched off"}))
+      << outcome.out;
+  const nlohmann::json found = review_of(where, {"off.ulg"}, 0);
+  EXPECT_EQ(found["logs"][0]["findings"][0]["code"], "disabled");
+  EXPECT_EQ(found["logs"][0]["findings"][0]["grade"], "GREEN");
+  EXPECT_EQ(found["logs"][0]["chips"][1]["disabled"], true);
+  EXPECT_EQ(found["logs"][0]["chips"][0]["disabled"], false);
 }
 
 // Where nothing is at rest and there is one chip, nothing was judged, and that is not green.

@@ -1,4 +1,6 @@
 // Known coefficients as a calibration: what it states, and what is refused.
+#include <algorithm>
+
 #include "coefficients_support.hpp"
 
 namespace adoption_test {
@@ -132,14 +134,27 @@ TEST(Adoption, ValuesThatNoSuchSensorHasAreRefused) {
       adopted(array, "id,scale,bias,bias_t3\nx1,1,0 mg,1e200 m/s^2/degC^3\ny1,1,0 mg,\nz1,1,0 mg,\n"), "out of range"));
 }
 
+// What an autopilot has applied is refused where the array file says so, and where it does not the reader is told for
+// which readings it is; a table states what it states of these readings, and is taken.
+TEST(Adoption, WhatTheReadingsHaveAlreadyIsNotAppliedAgain) {
+  const auto raw = adopted(array_of(drone_toml(1, "unit = \"m/s^2\"")), kGood);
+  ASSERT_TRUE(raw.has_value());
+  EXPECT_TRUE(std::any_of(raw->notes.begin(), raw->notes.end(), [](const std::string& note) {
+    return note.find("are for readings before them") != std::string::npos;
+  }));
+  const auto corrected = array_of(drone_toml(1, "unit = \"m/s^2\"\ncorrected = true"));
+  EXPECT_TRUE(refused_with(adopted(corrected, kGood), "which the readings have already"));
+  EXPECT_TRUE(adopted(corrected, "id,scale,bias\nx1,1,0 mg\ny1,1,0 mg\nz1,1,0 mg\n").has_value());
+}
+
 TEST(Adoption, TheTemperaturesAreThoseStated) {
   const auto array = array_of(drone_toml(1, "unit = \"m/s^2\"\ntemperature = \"temp\""));
   const auto alone = adopted(array, kGood);
   ASSERT_TRUE(alone.has_value());
   EXPECT_EQ(alone->span.min_degc, 25.0);
   EXPECT_EQ(alone->span.max_degc, 25.0);
-  ASSERT_EQ(alone->notes.size(), 3U);
-  EXPECT_NE(alone->notes[1].find("25 degC alone"), std::string::npos);
+  ASSERT_EQ(alone->notes.size(), 4U);
+  EXPECT_NE(alone->notes[2].find("25 degC alone"), std::string::npos);
   pc::AdoptionChoice choice = usual_choice();
   choice.span = pc::TemperatureSpan{-10.0, 60.0};
   const auto stated = adopted(array, kGood, choice);

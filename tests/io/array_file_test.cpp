@@ -93,6 +93,13 @@ TEST(ArrayFile, ReadsTheColumnOfTheDepth) {
   }
 }
 
+TEST(ArrayFile, ReadsWhetherAnAutopilotHasCorrectedTheReadings) {
+  EXPECT_FALSE(array_of(changed("reads", "reads")).input.corrected) << "where nothing is said";
+  EXPECT_TRUE(array_of(changed("reads", "corrected = true\nreads")).input.corrected);
+  EXPECT_FALSE(array_of(changed("reads", "corrected = false\nreads")).input.corrected);
+  expect_refused(changed("reads", "corrected = \"yes\"\nreads"), 13, "input.corrected", {"must be true or false"});
+}
+
 TEST(ArrayFile, ReadsEveryPart) {
   const ArrayFile file = array_of();
   EXPECT_EQ(file.name, "four on a tool");

@@ -1,9 +1,11 @@
 #include "plumb/io/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -114,6 +116,28 @@ TEST(FileErrorText, ShellWordQuotesWhatAShellWouldSplitOrExpand) {
   EXPECT_EQ(shell_word("my tool.toml"), "'my tool.toml'");
   EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
   EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("a\nb"), "$'a\\012b'");
+  EXPECT_EQ(shell_word("it's\x1b[2J\\"), "$'it\\'s\\033[2J\\\\'");
+  EXPECT_EQ(shell_word("gr\xc3\xbcn"), "'gr\xc3\xbcn'") << "letters of any language stay";
+  EXPECT_EQ(shell_word("\xc2\x9b"), "$'\\302\\233'") << "a control character in UTF-8";
+}
+
+/// What bash makes of a word; the word is all that it gets.
+std::string by_bash(const std::string& word) {
+  const std::string script = written("word.sh", "printf %s " + word + "\n");
+  FILE* pipe = ::popen(("bash '" + script + "' 2>&1").c_str(), "r");
+  if (pipe == nullptr) return "no bash";
+  std::string out;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out += static_cast<char>(c);
+  return ::pclose(pipe) == 0 ? out : "failed: " + out;
+}
+
+RC_GTEST_PROP(FileErrorLaw, AShellReadsAWordAsItsText, ()) {
+  const auto text = *rc::gen::container<std::string>(rc::gen::oneOf(
+      rc::gen::inRange<char>(1, 127), rc::gen::element('\n', '\'', '"', '\\', '$', '`', ' ', '\x1b', '\t', '!', '7')));
+  const std::string word = shell_word(text);
+  RC_ASSERT(word.find_first_of("\n\r\t\x1b") == std::string::npos);
+  RC_ASSERT(by_bash(word) == text);
 }
 
 TEST(FileErrorText, LeavesOutWhatDoesNotApply) {

@@ -36,12 +36,14 @@ struct ColumnFilter {
 /// [input] and the `column` keys of the sensors.
 struct InputSpec {
   RowKind rows = RowKind::samples;
-  std::string time_column;         ///< empty: time follows from `rate_hz`, or is the row number (stations)
-  double time_unit_s = 1.0;        ///< seconds per unit of the time column
-  double rate_hz = 0.0;            ///< 0: not given
-  std::string station_column;      ///< empty: none
-  std::string roll_group_column;   ///< empty: none; stations of one group share an inclination
-  std::string count_column;        ///< empty: every row stands for one sample
+  std::string time_column;        ///< empty: time follows from `rate_hz`, or is the row number (stations)
+  double time_unit_s = 1.0;       ///< seconds per unit of the time column
+  double rate_hz = 0.0;           ///< 0: not given
+  std::string station_column;     ///< empty: none
+  std::string roll_group_column;  ///< empty: none; stations of one group share an inclination
+  std::string count_column;       ///< empty: every row stands for one sample
+  /// The autopilot has applied its own calibration to the readings: it is not adopted a second time.
+  bool corrected = false;
   std::string temperature_column;  ///< empty: every row gets `default_temperature_degc`
   double default_temperature_degc = 25.0;
   std::vector<std::string> rotation_columns;  ///< x, y, z of the rate of turn [rad/s], tool frame; empty: not logged

@@ -41,7 +41,8 @@ struct FileError {
 template <class T>
 using FileExpected = tl::expected<T, FileError>;
 
-/// A path or text as a shell takes it for one word: quoted where it must be.
+/// A path or text as a shell takes it for one word, on one line: quoted where it must be. Control characters are
+/// written out as bash, zsh and POSIX of 2024 read them, $'a\012b'.
 std::string shell_word(const std::string& text);
 
 /// An error of layers 1 to 4 in the words of `describe` and `remedy`, with its figures. `code` says

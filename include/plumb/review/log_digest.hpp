@@ -108,7 +108,7 @@ struct LogDigest {
   double block_s = 1.0;
   std::vector<SourceDigest> sources;
   std::vector<StatusDigest> statuses;
-  std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*
+  std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*, INS_USE*
   std::vector<Note> notes;
   logs::LogExtent extent;
 };

@@ -39,6 +39,7 @@ enum class FindingCode : std::uint8_t {
   stray,         ///< a record has a time far from all others
   stopped,       ///< the chip says nothing any more while others go on
   uncalibrated,  ///< the autopilot has no calibration of this chip
+  disabled,      ///< switched off in the autopilot's parameters: its readings are logged, not used
   far_offset,    ///< the installed calibration has an offset or a scale that no sensor in order needs
   far_scale,
   autopilot_failed,  ///< the autopilot itself took the chip for failed
@@ -49,8 +50,9 @@ enum class FindingCode : std::uint8_t {
 constexpr std::size_t kNoChip = static_cast<std::size_t>(-1);
 
 /// Units of `figure`, `limit` and `uncertainty` (95 %): m/s^2, but degrees of orientation, seconds of gaps, skew and
-/// stopped, readings of clipping and backwards, reports of autopilot_failed, 1 of far_scale, bytes of damage. Of what
-/// does not change, `figure` is what it reads and `limit` how many readings are alike.
+/// stopped, readings of clipping and backwards, reports of autopilot_failed, 1 of far_scale, bytes of damage;
+/// `disabled` has none of them and is green. Of what does not change, `figure` is what it reads and `limit` how many
+/// readings are alike.
 struct Finding {
   FindingCode code = FindingCode::damage;
   Grade grade = Grade::orange;
@@ -101,6 +103,7 @@ struct ChipSummary {
   double vibration_mps2 = logs::kAbsent;  ///< the worst cell in motion, root of the sum of the axes' variances
   double vibration_at_s = logs::kAbsent;
   std::uint64_t clipped = 0;     ///< readings, of the axis with most
+  bool disabled = false;         ///< by the autopilot's parameters
   bool stray = false;            ///< a record at its beginning or end has a time far from all others
   bool compared = false;         ///< with another chip, at rest or in motion
   double lag_s = logs::kAbsent;  ///< behind the first chip that is fast enough, by the motion that both saw
