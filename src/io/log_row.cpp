@@ -119,10 +119,10 @@ inline bool LogReader::State::fill_temperature(Sample& sample) {
   return true;
 }
 
+/// Of a log that has rates; without them it stays as it is, at rest.
 template <bool kBinary>
 inline bool LogReader::State::fill_rotation(const std::vector<std::size_t>& columns, Rotation& out) {
   out = Rotation{};
-  if (columns.empty()) return true;
   out.rate_known = true;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     double value = 0.0;
@@ -216,8 +216,9 @@ template <bool kBinary>
 bool LogReader::State::fill_row(Sample& sample) {
   sample = kNoSample;
   return fill_time<kBinary>(sample) && fill_tags<kBinary>(sample) && fill_temperature<kBinary>(sample) &&
-         fill_rotation<kBinary>(rates, rotation) && fill_rotation<kBinary>(second_rates, second_rotation) &&
-         fill_clocks<kBinary>() && fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
+         (rates.empty() || fill_rotation<kBinary>(rates, rotation)) &&
+         (second_rates.empty() || fill_rotation<kBinary>(second_rates, second_rotation)) && fill_clocks<kBinary>() &&
+         fill_depth<kBinary>() && fill_sensors<kBinary>(sample);
 }
 template bool LogReader::State::fill_row<true>(Sample& sample);
 template bool LogReader::State::fill_row<false>(Sample& sample);
