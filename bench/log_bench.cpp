@@ -1,4 +1,4 @@
-// Logs: reading a binary one against the same as CSV, and the monitor on the way; the start of the tool.
+// Logs: reading a ULog against the same as CSV, and the monitor on the way; the start of the tool.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -32,7 +32,7 @@ using namespace plumb;
 constexpr std::size_t kRows = 100000;
 
 /// The paper's tool, a new attitude every 32 rows, six digits behind the point as a recorder prints them; as CSV and
-/// binary. Removed at the end.
+/// ULog. Removed at the end.
 class Logs {
  public:
   Logs() {
@@ -40,10 +40,10 @@ class Logs {
     char name[] = "/tmp/plumb-bench-XXXXXX";
     if (!array_ || mkdtemp(name) == nullptr) return;
     directory_ = name;
-    sound_ = write(csv()) && write(binary());
+    sound_ = write(csv()) && write(ulog());
   }
   ~Logs() {
-    for (const std::string& path : {csv(), binary()}) (void)std::remove(path.c_str());
+    for (const std::string& path : {csv(), ulog()}) (void)std::remove(path.c_str());
     (void)rmdir(directory_.c_str());
   }
   Logs(const Logs&) = delete;
@@ -52,7 +52,7 @@ class Logs {
   bool sound() const { return sound_; }
   const io::ArrayFile& array() const { return *array_; }
   std::string csv() const { return directory_ + "/log.csv"; }
-  std::string binary() const { return directory_ + "/log.plog"; }
+  std::string ulog() const { return directory_ + "/log.ulg"; }
 
  private:
   bool write(const std::string& path) const {
@@ -87,12 +87,12 @@ const std::shared_ptr<Logs>& logs() {
 }
 
 /// The whole log so many times.
-plumb_bench::Runs reading(bool binary) {
+plumb_bench::Runs reading(bool ulog) {
   const std::shared_ptr<Logs> both = logs();
   if (!both->sound()) return {};
-  return [both, binary](std::size_t count) {
+  return [both, ulog](std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
-      auto reader = io::LogReader::open(binary ? both->binary() : both->csv(), both->array(), io::BadRowPolicy::stop);
+      auto reader = io::LogReader::open(ulog ? both->ulog() : both->csv(), both->array(), io::BadRowPolicy::stop);
       Sample sample;
       double sum = 0.0;
       while (reader && reader->next(sample) == io::LogReader::Next::row) sum += sample.raw[0];
@@ -102,13 +102,13 @@ plumb_bench::Runs reading(bool binary) {
 }
 
 const plumb_bench::Enrolled kReading{
-    {"log: a binary row, read", "the same as CSV", 5.0, [] {
+    {"log: a ULog row, read", "the same as CSV", 5.0, [] {
        return plumb_bench::Contest{reading(true), reading(false), static_cast<double>(kRows)};
      }}};
 
 #ifdef PLUMB_TOOL_PATH
 /// The same as `plumb monitor` does it, for whom nothing but a change would be printed.
-plumb_bench::Runs monitoring(bool binary) {
+plumb_bench::Runs monitoring(bool ulog) {
   const std::shared_ptr<Logs> both = logs();
   if (!both->sound()) return {};
   const auto calibration = std::make_shared<Calibration>();
@@ -116,17 +116,17 @@ plumb_bench::Runs monitoring(bool binary) {
   calibration->model = both->array().datasheet.model();
   calibration->report.temperature_min_degc = MonitorConfig{}.temperature_min_degc;  // of any temperature
   calibration->report.temperature_max_degc = MonitorConfig{}.temperature_max_degc;
-  return [both, calibration, binary](std::size_t count) {
+  return [both, calibration, ulog](std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
       const auto stepper = session::make_stepper(both->array(), calibration.get());
-      const auto run = session::run_stepper(*stepper, both->array(), {binary ? both->binary() : both->csv()}, {});
+      const auto run = session::run_stepper(*stepper, both->array(), {ulog ? both->ulog() : both->csv()}, {});
       if (!run || run->samples != kRows) std::abort();
     }
   };
 }
 
-plumb_bench::Contest monitored(bool binary, plumb_bench::Runs rival) {
-  return {monitoring(binary), std::move(rival), static_cast<double>(kRows)};
+plumb_bench::Contest monitored(bool ulog, plumb_bench::Runs rival) {
+  return {monitoring(ulog), std::move(rival), static_cast<double>(kRows)};
 }
 const plumb_bench::Enrolled kMonitored{{"log: a CSV row, read and monitored, processor time", "reading alone",
                                         1.0 / 1.6, [] { return monitored(false, reading(false)); },
@@ -134,11 +134,11 @@ const plumb_bench::Enrolled kMonitored{{"log: a CSV row, read and monitored, pro
 const plumb_bench::Enrolled kMonitoredByTheClock{{"log: a CSV row, read and monitored, by the clock", "reading alone",
                                                   1.0 / 1.6, [] { return monitored(false, reading(false)); },
                                                   plumb_bench::Clock::wall}};
-const plumb_bench::Enrolled kMonitoredBinary{{"log: a binary row, read and monitored, processor time",
+const plumb_bench::Enrolled kMonitoredUlog{{"log: a ULog row, read and monitored, processor time",
                                               "the same as CSV", 0.0, [] { return monitored(true, monitoring(false)); },
                                               plumb_bench::Clock::program}};
-const plumb_bench::Enrolled kMonitoredBinaryByTheClock{
-    {"log: a binary row, read and monitored, by the clock", "the same as CSV", 0.0,
+const plumb_bench::Enrolled kMonitoredUlogByTheClock{
+    {"log: a ULog row, read and monitored, by the clock", "the same as CSV", 0.0,
      [] { return monitored(true, monitoring(false)); }, plumb_bench::Clock::wall}};
 #endif
 
@@ -148,7 +148,7 @@ void BM_LogRead(benchmark::State& state) {
   for (auto _ : state) runs(1);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kRows));
 }
-BENCHMARK(BM_LogRead)->ArgName("binary")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_LogRead)->ArgName("ulog")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 #ifdef PLUMB_TOOL_PATH
 /// Least and median wall time of `plumb --version`, in ms: the whole start, with loading and libraries.

@@ -166,7 +166,7 @@ if(PLUMB_BUILD_HOST)
   plumb_test_executable(plumb_host_tests
     LABEL host
     ROOMS paper scenario study io logs review findings testing verification render cli recordings docs
-    COMPUTING scenario/flight
+    COMPUTING recordings/gyro_board_recording scenario/flight
     SLOW VerifyCommand.* Demo.AnotherSeed* Demo.SameSeed* MonitorLaws.HoldOn* Table2Study.*ForEverySeed
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* MotionCommand.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*

@@ -57,7 +57,8 @@ std::vector<Vec3> arms_of(const FlightCase& one) {
       arm = {draw(), draw(), draw()};
       length = norm(arm);
     } while (length < 0.1 || length > 1.0);
-    out.push_back(scaled(arm, (0.02 + 0.01 * draw()) / length));
+    const double drawn_m = 0.02 + 0.01 * draw();
+    out.push_back(scaled(arm, (one.arm_m > 0.0 ? one.arm_m : drawn_m) / length));
   }
   return out;
 }

@@ -23,6 +23,7 @@ struct FlightCase {
   int max_faults = plumb::kMotionDepth;
   int shortest_block = 1;
   double duration_s = 6.0;
+  double arm_m = 0.0;         ///< of every sensor from the reference point; 0: 10 to 30 mm
   double error_factor = 1.0;  ///< on every width from which true errors are drawn, the limits stay
   std::uint64_t seed = 0;
   std::vector<plumb::scenario::FlightFault> faults;

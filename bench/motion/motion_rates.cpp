@@ -4,8 +4,9 @@
 //   faults   detection and isolation by fault and number of sensors
 //   chips    the same of three and two parallel triads, whole chips failing
 //   gyro     a gyro that fails, alone and one of two: who is blamed
-//   beyond   true errors of 1.5, 2 and 3 times the bounds
-//   rivals   three triads, a whole chip failing, judged by the rules of others too, all on the same flights
+//   triads   one of three gyro triads fails: who is blamed, and whether an accelerometer that fails is found all the
+//   same beyond   true errors of 1.5, 2 and 3 times the bounds rivals   three triads, a whole chip failing, judged by
+//   the rules of others too, all on the same flights
 // docs/motion.md holds what it printed.
 #include <algorithm>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "flight_runs.hpp"
 #include "plumb/core/units.hpp"
 #include "rivals.hpp"
+#include "three_gyros.hpp"
 
 namespace {
 
@@ -207,6 +209,33 @@ void chips(const Settings& s) {
   }
 }
 
+void triads_row(const Settings& s, const char* play, double bias_mps2, int n,
+                const std::vector<ThreeGyroOutcome>& all) {
+  std::vector<FlightOutcome> forces, gyros;
+  std::uint64_t gyro_blamed = 0, checks = 0, violations = 0;
+  double share_of_limit = 0.0;
+  for (const ThreeGyroOutcome& one : all) {
+    forces.push_back(one.accelerometers);
+    gyros.emplace_back().isolated_s = one.gyro_isolated_s;
+    gyro_blamed += one.gyro_wrongly_isolated ? 1U : 0U;
+    checks += one.rate_checks;
+    violations += one.rate_violations;
+    share_of_limit = std::max(share_of_limit, one.worst_median_share);
+  }
+  const auto isolated = [](const FlightOutcome& o) { return o.isolated_s >= 0.0; };
+  const BoundTally block = sum(forces, &FlightOutcome::block);
+  std::printf("| %s | %s | %d | %s | %s | %llu | %s | %s | %llu | %llu of %llu | %llu of %llu | %.0f |\n", play,
+              bias_mps2 > 0.0 ? (std::to_string(static_cast<int>(mg(bias_mps2) + 0.5)) + " mg").c_str() : "healthy", n,
+              share(count(forces, isolated), s.flights).c_str(), times_ms(forces, &FlightOutcome::isolated_s).c_str(),
+              static_cast<unsigned long long>(
+                  count(forces, [](const FlightOutcome& o) { return o.wrongly_isolated || o.wrongly_excluded; })),
+              share(count(gyros, isolated), s.flights).c_str(), times_ms(gyros, &FlightOutcome::isolated_s).c_str(),
+              static_cast<unsigned long long>(gyro_blamed), static_cast<unsigned long long>(block.violations),
+              static_cast<unsigned long long>(block.checks), static_cast<unsigned long long>(violations),
+              static_cast<unsigned long long>(checks), 100.0 * share_of_limit);
+  std::fflush(stdout);
+}
+
 void gyro(const Settings& s) {
   std::printf("%s", kHead);
   const struct {
@@ -230,6 +259,34 @@ void gyro(const Settings& s) {
           return one;
         });
         row(fault.name, s, like, all);
+      }
+    }
+  }
+}
+
+/// Three gyro triads, one of which fails; arms of 30 mm. An accelerometer fails a second later, or none does.
+void triads(const Settings& s) {
+  std::printf(
+      "| gyro | accelerometer | n | isolated, %% | p50 / p99, ms | healthy ones blamed | gyro isolated, %% | p50 / "
+      "p99, "
+      "ms | healthy gyros blamed | force bound passed | rate bound passed | median's error of its limit, %% |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (int play = 0; play < kGyroPlays; ++play) {
+    for (const double bias_mps2 : {0.0, 0.5 * kG0_mps2}) {
+      for (const int n : {5, 6, 8}) {
+        const auto all = run_all(s.flights, s.jobs, s.seed * 1000003, [&](std::uint64_t seed) {
+          ThreeGyroCase one;
+          one.play = static_cast<GyroPlay>(play);
+          one.flight.sensors = n;
+          one.flight.arm_m = one.arm_m;
+          one.flight.seed = seed;
+          if (bias_mps2 > 0.0)
+            one.flight.faults = {{FlightFaultKind::bias,
+                                  SensorSet::of(static_cast<int>(seed % static_cast<unsigned>(n))),
+                                  (seed / 2) % 2 == 0 ? bias_mps2 : -bias_mps2, 2.5}};
+          return fly_three_gyros(one);
+        });
+        triads_row(s, to_string(static_cast<GyroPlay>(play)), bias_mps2, n, all);
       }
     }
   }
@@ -359,7 +416,7 @@ int main(int argc, char** argv) {
   if (!read(argc, argv, &s)) {
     std::fprintf(
         stderr,
-        "usage: plumb_motion_rates healthy|faults|chips|gyro|beyond|rivals [--flights N] [--seed S] [--jobs J]\n"
+        "usage: plumb_motion_rates healthy|faults|chips|gyro|triads|beyond|rivals [--flights N] [--seed S] [--jobs J]\n"
         "                          [--kind drone|drilling|car|launch] [--layout 4|5|6|8|12|'3 triads']\n"
         "                          (of healthy and beyond: only these)\n");
     return 2;
@@ -372,6 +429,8 @@ int main(int argc, char** argv) {
     chips(s);
   } else if (s.what == "gyro") {
     gyro(s);
+  } else if (s.what == "triads") {
+    triads(s);
   } else if (s.what == "rivals") {
     rivals(s);
   } else if (s.what == "beyond") {
@@ -380,7 +439,7 @@ int main(int argc, char** argv) {
       healthy(s, factor);
     }
   } else {
-    std::fprintf(stderr, "plumb_motion_rates: WHAT is healthy, faults, chips, gyro, beyond or rivals, not %s\n",
+    std::fprintf(stderr, "plumb_motion_rates: WHAT is healthy, faults, chips, gyro, triads, beyond or rivals, not %s\n",
                  argv[1]);
     return 2;
   }

@@ -249,7 +249,8 @@ Command add_calibrate(const Options& tool) {
       .type_name("ARRAY.toml");
   command
       .add_option("--log", options->log.path,
-                  "the log of still attitudes, CSV with a header row; `-` reads standard input. Required without "
+                  "the log of still attitudes, CSV with a header row or a ULog that plumb wrote; `-` reads standard "
+                  "input. Required without "
                   "--motion, --from and --export")
       .type_name("LOG.csv");
   command

@@ -1,4 +1,4 @@
-// plumb convert: a log from CSV to binary, or back.
+// plumb convert: a log from CSV to ULog, or back.
 #include <fmt/format.h>
 
 #include <memory>
@@ -18,19 +18,25 @@ struct ConvertOptions {
   std::string array;
   std::string log;
   std::string out;
+  io::LogWriter::Form form = io::LogWriter::Form::by_name;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
 
 constexpr const char* kConvertAbout =
-    "Write a log again in the other form: CSV, or the binary log, which is read several times faster and finds damage\n"
-    "by check sums. What is written is what the array file names; every command gives the same results on both.";
+    "Write a log again in the other form: CSV, or ULog, the log of PX4, which is read several times faster, finds "
+    "damage\n"
+    "by check sums, and opens in other tools (PlotJuggler, pyulog). What is written is what the array file names; "
+    "every\n"
+    "command gives the same results on both.";
 constexpr const char* kConvertNotes =
-    "The name of the output decides: one that ends in .plog becomes a binary log, any other a CSV. Every command "
-    "knows\n"
-    "by itself which of the two it reads. docs/array-file.md holds the layout of the binary log.\n\n"
+    "The name of the output decides: one that ends in .ulg or .ulog becomes a ULog, any other a CSV; --to says it\n"
+    "otherwise. Every command knows by itself which of the two it reads. docs/array-file.md holds the layout of the "
+    "ULog.\n"
+    "A ULog that plumb did not write goes through plumb import first.\n\n"
     "Examples:\n"
-    "  plumb convert --array tool.toml --log run.csv --out run.plog\n"
-    "  plumb convert --array tool.toml --log run.plog --out -      # as CSV, to look at\n\n"
+    "  plumb convert --array tool.toml --log run.csv --out run.ulg\n"
+    "  plumb convert --array tool.toml --log run.ulg --out -                # as CSV, to look at\n"
+    "  plumb convert --array tool.toml --log - --to ulog --out - <run.csv   # in a pipe\n\n"
     "Cells come back as the same numbers, written the shortest way. Rows that [input] where does not select, and rows\n"
     "skipped as bad, are left out.\n\n";
 
@@ -38,7 +44,8 @@ io::FileExpected<io::LogStatistics> convert(const ConvertOptions& options, const
   io::FileExpected<io::LogReader> reader = io::LogReader::open(options.log, array, options.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
-  io::FileExpected<io::LogWriter> writer = io::LogWriter::create(options.out, array, io::LogWriter::Columns::all);
+  io::FileExpected<io::LogWriter> writer =
+      io::LogWriter::create(options.out, array, io::LogWriter::Columns::all, options.form);
   if (!writer) return tl::unexpected<io::FileError>(writer.error());
   Progress progress("converting " + options.log);
   Sample sample;
@@ -85,14 +92,19 @@ io::ExitCode run_convert(const ConvertOptions& options) {
 
 Command add_convert(const Options& tool) {
   auto options = std::make_shared<ConvertOptions>();
-  const Options command = tool.add_command("convert", "write a log again: from CSV to binary, or back");
+  const Options command = tool.add_command("convert", "write a log again: from CSV to ULog, or back");
   command.add_option("--array", options->array, "the array file: how the log looks").required().type_name("ARRAY.toml");
   command.add_option("--log", options->log, "the log to read; `-` = standard input").required().type_name("LOG|-");
   command
       .add_option("--out", options->out,
-                  "the log to write: OUT.plog binary, any other name CSV; `-` = CSV to standard output")
+                  "the log to write: OUT.ulg a ULog, any other name CSV; `-` = standard output, CSV without --to")
       .required()
       .type_name("OUT|-");
+  command
+      .add_option<io::LogWriter::Form>("--to", options->form,
+                                       {{"csv", io::LogWriter::Form::csv}, {"ulog", io::LogWriter::Form::ulog}},
+                                       "what to write, whatever the name of the output")
+      .type_name("csv|ulog");
   add_bad_row_option(command, options->on_bad_row);
   command.footer(kConvertNotes + exit_codes_help());
   return {command, kConvertAbout, [options] { return run_convert(*options); }};

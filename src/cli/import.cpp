@@ -29,11 +29,16 @@ struct ImportOptions {
   std::string gravity;
   review::ImportSettings settings;
   logs::Alignment alignment = logs::Alignment::linear;
+  io::LogWriter::Form form = io::LogWriter::Form::csv;
 };
+
+std::string log_path_of(const ImportOptions& options) {
+  return (fs::path(options.out) / (options.form == io::LogWriter::Form::ulog ? "log.ulg" : "log.csv")).string();
+}
 
 constexpr const char* kImportAbout =
     "Turn a log of a flight controller or robot into files of plumb: array.toml with three sensors for each chip, and\n"
-    "log.csv with one row for each instant, the readings of all chips aligned in time.";
+    "log.csv (or log.ulg) with one row for each instant, the readings of all chips aligned in time.";
 constexpr const char* kImportNotes =
     "Rows have the instants of the slowest chip; the others are interpolated to them, and cells across a gap stay\n"
     "empty. The autopilot's calibration, as far as the log holds readings before it, goes to coefficients.csv, for\n"
@@ -111,7 +116,7 @@ io::FileExpected<std::string> write_log(const ImportOptions& options, const revi
                                         const review::ImportPlan& plan, const std::string& array_path) {
   const io::FileExpected<io::ArrayFile> array = io::read_array_file(array_path);
   if (!array) return tl::unexpected<io::FileError>(array.error());
-  const std::string path = (fs::path(options.out) / "log.csv").string();
+  const std::string path = log_path_of(options);
   io::FileExpected<io::LogWriter> writer = io::LogWriter::create(path, *array, io::LogWriter::Columns::all);
   if (!writer) return tl::unexpected<io::FileError>(writer.error());
   Rows rows(plan, *writer);
@@ -170,7 +175,7 @@ std::string about_the_monitor(const review::ImportPlan& plan) {
 
 std::string next_words(const ImportOptions& options, const review::ImportPlan& plan) {
   const std::string array = io::shell_word((fs::path(options.out) / "array.toml").string());
-  const std::string log = io::shell_word((fs::path(options.out) / "log.csv").string());
+  const std::string log = io::shell_word(log_path_of(options));
   if (plan.coefficients_text.empty()) {
     return fmt::format(
         "\n{}The log has no calibration that can be taken over: the monitor finds one, where the log has some 20 still "
@@ -188,7 +193,7 @@ io::ExitCode run_import(ImportOptions& options) {
   if (const io::FileExpected<void> gravity = read_gravity(options); !gravity) return report(gravity.error());
   const std::string array_path = (fs::path(options.out) / "array.toml").string();
   const std::string table_path = coefficients_path(options);
-  const std::string log_path = (fs::path(options.out) / "log.csv").string();
+  const std::string log_path = log_path_of(options);
   if (const std::optional<io::FileError> clash =
           overwritten({{"--out", array_path}, {"--out", table_path}, {"--out", log_path}}, {{"LOG", options.log}}))
     return report(*clash);
@@ -241,7 +246,7 @@ Command add_import(const Options& tool) {
   const Options command =
       tool.add_command("import", "turn a log of an autopilot or robot into an array file and a CSV");
   command.add_option("LOG", options->log, "The log: ULog, DataFlash, ROS 2 bag or CSV").required().type_name("FILE");
-  command.add_option("--out", options->out, "Directory for array.toml and log.csv; made where it is missing")
+  command.add_option("--out", options->out, "Directory for array.toml and the log; made where it is missing")
       .required()
       .type_name("DIR");
   command
@@ -251,6 +256,11 @@ Command add_import(const Options& tool) {
   command.add_option("--align", options->alignment,
                      {{"linear", logs::Alignment::linear}, {"nearest", logs::Alignment::nearest}},
                      "How the other chips are brought to the instants of the slowest: linear (default) or nearest");
+  command
+      .add_option<io::LogWriter::Form>("--to", options->form,
+                                       {{"csv", io::LogWriter::Form::csv}, {"ulog", io::LogWriter::Form::ulog}},
+                                       "What to write the log as (default: csv)")
+      .type_name("csv|ulog");
   command.add_flag("--rates", options->settings.rates, "With the rates of the first gyro, for a tool that turns");
   command.add_option("--gravity", options->gravity, "Gravity where the log was taken (default: anywhere on the ground)")
       .type_name("\"9.81 m/s^2\"");

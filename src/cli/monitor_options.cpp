@@ -62,7 +62,9 @@ void add_monitor_options(const Options& command, MonitorOptions& options) {
       .type_name("CAL.json");
   command.add_flag("--calibrate-first", options.calibrate_first,
                    "there is no calibration: the monitor makes its own from the log's first stations");
-  command.add_option("--log", options.log.path, "the log, CSV with a header row; `-` (default) reads standard input")
+  command
+      .add_option("--log", options.log.path,
+                  "the log, CSV with a header row or a ULog that plumb wrote; `-` (default) reads standard input")
       .type_name("LOG.csv|-");
   command.add_flag("--follow", options.log.follow, "at the end of the log wait for the rows that are appended to it");
   command

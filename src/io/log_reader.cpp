@@ -190,8 +190,13 @@ FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile
   state->policy = policy;
   const int error_number = state->source.open(path);
   if (error_number != 0) return tl::unexpected<FileError>(state->io_failure(error_number));
-  const unsigned char* const first = state->source.peek(1);
-  const bool binary = first != nullptr && *first == static_cast<unsigned char>(kPlogMagic[0]);
+  const State::Kind kind = state->kind_of_log();
+  if (kind == State::Kind::plog) {
+    return tl::unexpected<FileError>(FileError{
+        state->path, 0, "", "is a .plog, the binary log of plumb before it wrote ULog, which is read no longer",
+        "write it as CSV with the plumb that wrote it: plumb convert --array ARRAY.toml --log LOG.plog --out LOG.csv"});
+  }
+  const bool binary = kind == State::Kind::ulog;
   FileExpected<void> done = binary ? state->read_binary_header(path) : state->read_header();
   if (done) done = state->map_columns();
   if (done && binary) {

@@ -13,7 +13,7 @@ constexpr std::int64_t kLargestCount = 0xFFFFFFFFLL;
 constexpr Sample kNoSample{};
 }  // namespace
 
-/// A column that is the same in all rows of a binary log.
+/// A column that is the same in all rows of a ULog.
 CellKind LogReader::State::text_in(std::size_t column, double& value) const noexcept {
   return parse_cell(binary->header().columns[column].text, value);
 }

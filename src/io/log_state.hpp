@@ -1,5 +1,5 @@
 /// What LogReader keeps between rows. Its members are in log_reader.cpp (the file and its header), log_row.cpp (one
-/// row) and log_binary.cpp (what is different for a binary log).
+/// row) and log_ulog.cpp (what is different for a ULog).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "csv.hpp"
-#include "plog_rows.hpp"
 #include "plumb/io/log_reader.hpp"
+#include "ulog_rows.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -27,7 +27,7 @@ struct LogReader::State {
   InputSpec input;
   BadRowPolicy policy = BadRowPolicy::stop;
   LineSource source;
-  std::optional<PlogRows> binary;         ///< a binary log: its rows
+  std::optional<UlogRows> binary;         ///< a ULog: its rows
   std::vector<std::size_t> number_place;  ///< ... where in a row the number of a column stands; kNoColumn: a constant
   std::vector<std::size_t> sensor_place;  ///< ... the same of the sensors, where none of them is a constant
   std::uint64_t sensor_marks = 0;         ///< ... and their bits in a row
@@ -67,6 +67,9 @@ struct LogReader::State {
   FileExpected<void> read_header();
   FileExpected<void> map_columns();
   FileExpected<std::size_t> column_of(const std::string& name, const std::string& role) const;
+  enum class Kind : std::uint8_t { text, ulog, plog };
+  Kind kind_of_log();
+  void use_seconds_and_metres();
   FileExpected<void> read_binary_header(const std::string& file);
   FileExpected<void> check_unit(std::size_t column, const std::string& wanted, const char* key) const;
   FileExpected<void> check_binary() const;

@@ -172,6 +172,21 @@ void DataflashContent::reading(const unsigned char* message, const Layout& layou
   }
   ++records_;
   sink_.record(number, record);
+  health(message, columns, static_cast<int>(instance), record.time_s, source);
+}
+
+/// Told while it lasts, and when it ends.
+void DataflashContent::health(const unsigned char* message, const Columns& columns, int instance, double time_s,
+                              Source& source) {
+  if (!columns.force_health.present()) return;
+  const bool failed = number_at(message, columns.force_health) < 0.5;
+  if (!failed && !source.failed) return;
+  source.failed = failed;
+  ChipStatus status;
+  status.time_s = time_s;
+  status.instance = instance;
+  status.health = failed ? ChipStatus::Health::failed : ChipStatus::Health::sound;
+  sink_.status(status);
 }
 
 /// VIBE counts the clips of a chip, of whichever axis, from the start on. What it has grown by goes with the next
@@ -188,6 +203,12 @@ void DataflashContent::vibe(const unsigned char* message, const Columns& columns
     Instance& state = instances_[(first + k) % kInstances];
     state.clipped += state.clips.grow(number_at(message, columns.clips[k]), offset);
   }
+  ChipStatus status;
+  status.time_s = number_at(message, columns.time);
+  // Without an instance it is that of the accelerometer in use.
+  if (columns.instance.present()) status.instance = static_cast<int>(first);
+  for (std::size_t k = 0; k < 3; ++k) status.vibration_mps2[k] = number_at(message, columns.vibration[k]);
+  if (columns.vibration[0].present()) sink_.status(status);
 }
 
 void DataflashContent::parameter(const unsigned char* message, const Columns& columns, std::uint64_t offset) {

@@ -47,6 +47,7 @@ class DataflashContent {
     double last_s = kAbsent;
     Counter gyro_errors;
     Counter force_errors;
+    bool failed = false;  ///< by the autopilot's own word
   };
   struct Instance {
     std::uint64_t device_id = 0;
@@ -57,6 +58,7 @@ class DataflashContent {
 
   void reading(const unsigned char* message, const Layout& layout, std::uint64_t offset);
   void vibe(const unsigned char* message, const Columns& columns, std::uint64_t offset);
+  void health(const unsigned char* message, const Columns& columns, int instance, double time_s, Source& source);
   void parameter(const unsigned char* message, const Columns& columns, std::uint64_t offset);
   void look_at_clock(double time_s, std::uint64_t offset);
   std::size_t source_of(bool is_imu, std::size_t instance);

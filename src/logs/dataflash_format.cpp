@@ -232,6 +232,7 @@ void DataflashFormats::find_columns(std::uint8_t type, Layout& layout, std::uint
       if (!c.instance.present()) c.instance = plain("I");
       c.clips = c.instance.present() ? std::array<Field, 3>{plain("Clip")}
                                      : std::array<Field, 3>{plain("Clip0"), plain("Clip1"), plain("Clip2")};
+      c.vibration = {plain("VibeX"), plain("VibeY"), plain("VibeZ")};
       layout.usable = c.clips[0].present();
       return;
     case Family::parm:
@@ -278,6 +279,7 @@ void DataflashFormats::find_reading(std::uint8_t type, Layout& layout, std::uint
   c.temperature = either("T", "Temp", Quantity::temperature);
   c.gyro_errors = either("EG", "ErrG", Quantity::none);
   c.force_errors = either("EA", "ErrA", Quantity::none);
+  c.force_health = either("AH", "AcHlt", Quantity::none);
   const auto is_number = [](const Field& field) { return field.present() && !is_text(field.letter); };
   layout.usable = is_number(c.time) && std::all_of(c.force.begin(), c.force.end(), is_number);
 }

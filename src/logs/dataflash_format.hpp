@@ -49,6 +49,8 @@ struct Columns {
   Field temperature;
   Field gyro_errors;
   Field force_errors;
+  Field force_health;  ///< 0: the autopilot takes the accelerometer for failed
+  std::array<Field, 3> vibration;
   std::array<Field, 3> clips;  ///< VIBE: of the instance, or of the instances 0 to 2 where it has no instance
   Field name;                  ///< PARM: Name, UNIT: Label
   Field value;                 ///< PARM: Value, MULT: Mult, DSF: Dp

@@ -18,13 +18,17 @@ constexpr const char* kAsText = "export the readings as CSV";
 constexpr const char* kOfFlight = "give the log that the flight controller wrote";
 
 // clang-format off
-constexpr std::array<KnownFile, 45> kKnownFiles = {{
+constexpr std::array<KnownFile, 46> kKnownFiles = {{
+    // Behind the header and the flags: what plumb's own begin with.
+    {62, "\x10""char[5] sys_nameplumb"sv, FileKind::own, "is a ULog that plumb wrote, the log of one array",
+     "give it to plumb monitor, calibrate or convert with its array file; plumb convert makes a CSV of it"},
     {0, "ULog\x01\x12\x35"sv, FileKind::ulog, "is a ULog, the log of PX4", "read it as a ULog"},
     {0, "\xA3\x95\x80"sv, FileKind::dataflash, "is a DataFlash log of ArduPilot", "read it as a DataFlash log"},
     {0, "\x89MCAP0\r\n"sv, FileKind::mcap, "is an MCAP file", "read it as MCAP"},
     {0, "SQLite format 3\0"sv, FileKind::sqlite, "is an SQLite database (perhaps a bag of ROS 2)", "read it as a bag"},
     {0, "#ROSBAG V"sv, FileKind::foreign, "is a bag of ROS 1", "convert it to a bag of ROS 2 (rosbags-convert)"},
-    {0, "\x89PLOG\r\n"sv, FileKind::foreign, "is a binary log of plumb", "turn it into CSV with plumb convert"},
+    {0, "\x89PLOG\r\n"sv, FileKind::foreign, "is a .plog, the binary log of plumb before it wrote ULog",
+     "write it as CSV with the plumb that wrote it (plumb convert)"},
     // Packed.
     {0, "\x1F\x8B"sv, FileKind::foreign, "is packed with gzip", "unpack it with gunzip"},
     {0, "\x28\xB5\x2F\xFD"sv, FileKind::foreign, "is packed with zstd", "unpack it with unzstd"},

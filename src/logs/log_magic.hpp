@@ -13,7 +13,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace logs {
 
-enum class FileKind : std::uint8_t { ulog, dataflash, mcap, sqlite, foreign };
+enum class FileKind : std::uint8_t { ulog, dataflash, mcap, sqlite, own, foreign };
 
 /// One that is recognised by bytes at a fixed place.
 struct KnownFile {

@@ -45,6 +45,7 @@ io::FileExpected<LogFormat> log_format(const std::string& path) {
       case FileKind::dataflash: return LogFormat::dataflash;
       case FileKind::mcap: return LogFormat::mcap;
       case FileKind::sqlite: return LogFormat::rosbag2;
+      case FileKind::own: return refuse(std::string(known->what) + ", and is read with its array file", known->remedy);
       case FileKind::foreign: return refuse(std::string(known->what) + ", no log that can be read", known->remedy);
     }
   }

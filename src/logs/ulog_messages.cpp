@@ -39,7 +39,7 @@ std::string_view message_text(const unsigned char* bytes, std::size_t count) {
 }
 
 std::string quoted_name(std::string_view name) {
-  return "\"" + io::printable_line(name.substr(0, UlogFormats::kLongestName)) + "\"";
+  return "\"" + io::printable_line(name.substr(0, io::UlogFormats::kLongestName)) + "\"";
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ UlogMessages::Judgement UlogMessages::judge(const UlogMessage& message, std::siz
     return std::equal(message.payload, message.payload + count, kUlogSync.begin()) ? Judgement::good : Judgement::sync;
   }
   if (message.type != 'D' || available < 2) return Judgement::good;
-  const auto known = subscriptions_.find(ulog_unsigned(message.payload, 2));
+  const auto known = subscriptions_.find(io::ulog_unsigned(message.payload, 2));
   if (known == subscriptions_.end()) return Judgement::unknown_id;
   const std::size_t data = message.size - 2;
   if (data < known->second.least || data > known->second.most) return Judgement::data_size;
@@ -82,12 +82,12 @@ void UlogMessages::say(const UlogMessage& message, Judgement judgement, std::uin
     case Judgement::unknown_id:
     case Judgement::removed_id:
       trouble = UlogTrouble::unknown_id;
-      what = "data of message number " + std::to_string(ulog_unsigned(message.payload, 2)) +
+      what = "data of message number " + std::to_string(io::ulog_unsigned(message.payload, 2)) +
              (judgement == Judgement::unknown_id ? ", which has no subscription" : ", whose subscription was removed");
       break;
     case Judgement::data_size:
       trouble = UlogTrouble::data_size;
-      what = "data of message number " + std::to_string(ulog_unsigned(message.payload, 2)) + " in " + size +
+      what = "data of message number " + std::to_string(io::ulog_unsigned(message.payload, 2)) + " in " + size +
              " bytes, which is not what its format says";
       break;
   }
@@ -101,7 +101,7 @@ void UlogMessages::take(const UlogMessage& message) {
     case 'A': take_subscription(message); break;
     case 'R': take_removal(message); break;
     case 'D': take_data(message); break;
-    case 'O': dropped_ms_ += ulog_unsigned(message.payload, 2); break;
+    case 'O': dropped_ms_ += io::ulog_unsigned(message.payload, 2); break;
     case 'B':  // the first one is read with the header
       note(UlogTrouble::flags, message.offset, "flag bits that do not come first are left out");
       break;
@@ -120,16 +120,16 @@ void UlogMessages::take_parameter(const UlogMessage& message) {
     note(UlogTrouble::parameter, message.offset, "a parameter whose name runs past its message is left out");
     return;
   }
-  const std::string_view key = message_text(message.payload + 1, length);
-  const std::size_t space = std::min(key.find(' '), key.size());
-  UlogField field;
-  const bool typed = ulog_type(key.substr(0, space), field) && field.count == 1 && ulog_size(field.type) != 0;
-  const std::size_t value_size = message.size - 1 - length;
-  if (!typed || space + 1 >= key.size() || value_size != ulog_size(field.type)) {
-    note(UlogTrouble::parameter, message.offset, "the parameter " + quoted_name(key) + " has no number, left out");
+  io::UlogKey key;
+  const std::uint32_t wanted = io::ulog_key(message_text(message.payload, message.size), key) && key.field.count == 1
+                                   ? io::ulog_size(key.field.type)
+                                   : 0;
+  if (wanted == 0 || key.value.size() != wanted) {
+    note(UlogTrouble::parameter, message.offset,
+         "the parameter " + quoted_name(message_text(message.payload + 1, length)) + " has no number, left out");
     return;
   }
-  sink_.parameter(std::string(key.substr(space + 1)), ulog_number(message.payload + 1 + length, {field.type, 0}));
+  sink_.parameter(key.field.name, io::ulog_number(message.payload + 1 + length, {key.field.type, 0}));
 }
 
 UlogMessages::Subscription UlogMessages::subscribe(const UlogMessage& message, const std::string& name) {
@@ -144,12 +144,16 @@ UlogMessages::Subscription UlogMessages::subscribe(const UlogMessage& message, c
   }
   out.least = layout->unpadded;
   out.most = layout->size;
+  if (name == kUlogStatusTopic) out.status = ulog_status(*layout);
   const std::size_t topic = ulog_topic(name);
   if (topic == kNoUlogTopic) return out;
   const auto readings = ulog_readings(topic, *layout);
   if (readings) {
     out.topic = topic;
-    out.readings = *readings;
+    out.readings.push_back(*readings);
+    for (std::uint32_t which = 1; which < ulog_chips(topic, *layout); ++which) {
+      if (const auto next = ulog_readings(topic, *layout, which)) out.readings.push_back(*next);
+    }
   } else if (lacking_.insert(topic).second) {
     note(UlogTrouble::lacking, message.offset,
          name + " has no " + readings.error() + " that could be read, its data are left out");
@@ -158,9 +162,9 @@ UlogMessages::Subscription UlogMessages::subscribe(const UlogMessage& message, c
 }
 
 void UlogMessages::take_subscription(const UlogMessage& message) {
-  const std::uint64_t id = ulog_unsigned(message.payload + 1, 2);
+  const std::uint64_t id = io::ulog_unsigned(message.payload + 1, 2);
   const std::string name(message_text(message.payload + 3, message.size - 3));
-  if (name.size() > UlogFormats::kLongestName) {
+  if (name.size() > io::UlogFormats::kLongestName) {
     note(UlogTrouble::subscription, message.offset, "a subscription with a name of more than 255 characters, left out");
     return;
   }
@@ -182,7 +186,7 @@ void UlogMessages::take_subscription(const UlogMessage& message) {
 }
 
 void UlogMessages::take_removal(const UlogMessage& message) {
-  const auto known = subscriptions_.find(ulog_unsigned(message.payload, 2));
+  const auto known = subscriptions_.find(io::ulog_unsigned(message.payload, 2));
   if (known != subscriptions_.end()) {
     known->second.removed = true;
     return;
@@ -191,10 +195,13 @@ void UlogMessages::take_removal(const UlogMessage& message) {
 }
 
 void UlogMessages::take_data(const UlogMessage& message) {
-  const auto known = subscriptions_.find(ulog_unsigned(message.payload, 2));
-  if (known == subscriptions_.end() || known->second.topic == kNoUlogTopic) return;
+  const auto known = subscriptions_.find(io::ulog_unsigned(message.payload, 2));
+  if (known == subscriptions_.end()) return;
   const Subscription& data = known->second;
-  sources_.add(message.offset, data.topic, data.instance, data.readings, message.payload + 2);
+  if (data.status.time) sources_.add_status(data.status, message.payload + 2);
+  int instance = data.instance;
+  for (const UlogReadings& readings : data.readings)
+    sources_.add(message.offset, data.topic, instance++, readings, message.payload + 2);
 }
 
 }  // namespace logs

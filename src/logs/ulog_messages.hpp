@@ -6,10 +6,11 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "plumb/core/config.hpp"
+#include "plumb/io/ulog_format.hpp"
 #include "plumb/logs/flight_log.hpp"
-#include "ulog_format.hpp"
 #include "ulog_notes.hpp"
 #include "ulog_topics.hpp"
 
@@ -17,8 +18,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace logs {
 
-constexpr std::size_t kUlogMessageHeader = 3;  ///< bytes: uint16 size, uint8 type
-constexpr std::size_t kUlogNeeded = 8;         ///< bytes of a message that `judge` may look at
+constexpr std::size_t kUlogNeeded = 8;  ///< bytes of a message that `judge` may look at
 
 struct UlogMessage {
   std::uint64_t offset = 0;  ///< of its header in the file
@@ -49,10 +49,11 @@ class UlogMessages {
   struct Subscription {
     std::string name;
     int instance = 0;
-    std::size_t topic = kNoUlogTopic;  ///< or one without all fields that are needed
-    UlogReadings readings;
-    std::uint32_t least = 0;  ///< bytes of its data
-    std::uint32_t most = UlogFormats::kLargest;
+    std::size_t topic = kNoUlogTopic;    ///< or one without all fields that are needed
+    std::vector<UlogReadings> readings;  ///< a chip each
+    UlogStatus status;                   ///< with a time, where it is sensors_status_imu
+    std::uint32_t least = 0;             ///< bytes of its data
+    std::uint32_t most = io::UlogFormats::kLargest;
     bool removed = false;
   };
   void take_format(const UlogMessage& message);
@@ -65,7 +66,7 @@ class UlogMessages {
 
   LogSink& sink_;
   UlogNotes& notes_;
-  UlogFormats formats_;
+  io::UlogFormats formats_;
   UlogSources sources_;
   std::map<std::uint64_t, Subscription> subscriptions_;
   std::set<std::size_t> lacking_;  ///< topics of which it was said that they lack a field

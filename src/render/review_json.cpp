@@ -58,6 +58,7 @@ Json finding_json(const LogReview& in, const review::Finding& finding) {
        {"grade", grade_word(finding.grade)},
        {"chip", undecided ? Json() : name_or_null(in, finding.chip)},
        {"one_of", undecided ? Json::array({in.chips[finding.chip].name, in.chips[finding.other].name}) : Json()},
+       {"likely", name_or_null(in, finding.likely)},
        {"axis", finding.axis < 0 ? Json() : Json(std::string(1, static_cast<char>('x' + finding.axis)))},
        {"figure", finite_or_null(finding.figure)},
        {"limit", finite_or_null(finding.limit)},

@@ -43,6 +43,11 @@ ReviewSentence of_disagreement(const Finding& f, const LogReview& in) {
   const std::string figures = fmt::format("{:.2f} m/s^2 ({:.0f} mg0, +-{:.2f} for noise{}; limit {:.2f})", f.figure,
                                           milli_g0(f.figure), f.uncertainty, motion ? " and lever arms" : "", f.limit);
   if (f.other != kNoChip) {
+    if (f.likely != kNoChip) {
+      return {fmt::format("{} differ by {} {}: likely the fault is that of {}, which other findings name", both(f, in),
+                          figures, when, chip_name(in, f.likely)),
+              "", "calibrate this accelerometer; if it differs again, take it out of use"};
+    }
     const bool two = in.chips.size() == 2;
     return {
         fmt::format("{} differ by {} {}: which one is wrong cannot be told from this log", both(f, in), figures, when),
@@ -153,6 +158,12 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
       return {fmt::format("{} wanders by {:.2f} m/s^2 at rest (+-{:.2f}; limit {:.2f})", chip_name(in, f.chip),
                           f.figure, f.uncertainty, f.limit),
               "", "let it warm up before the flight, or calibrate it over temperature"};
+    case FindingCode::changed:
+      return {fmt::format("{} reads {:.2f} m/s^2 otherwise than before, at rest in the same attitude (+-{:.2f}; limit "
+                          "{:.2f}): it changed in between",
+                          chip_name(in, f.chip), f.figure, f.uncertainty, f.limit),
+              "",
+              "look for a shock or a step of temperature in between; calibrate, and replace it if it changes again"};
     case FindingCode::gaps:
     case FindingCode::backwards:
     case FindingCode::skew:
@@ -163,6 +174,16 @@ ReviewSentence worded(const Finding& f, const LogReview& in) {
     case FindingCode::disabled:
     case FindingCode::far_offset:
     case FindingCode::far_scale: return of_calibration(f, in);
+    case FindingCode::autopilot_failed:
+      return {fmt::format("the autopilot took {} for failed in {} in a row", chip_name(in, f.chip),
+                          count_text(static_cast<std::uint64_t>(f.figure), "report")),
+              "",
+              "read the autopilot's messages of that time (timeouts, bus errors); replace the chip if it fails again"};
+    case FindingCode::autopilot_apart:
+      return {fmt::format("by the autopilot's own comparison at rest {} is {:.2f} m/s^2 apart from the mean of all "
+                          "(limit {:.2f})",
+                          chip_name(in, f.chip), f.figure, f.limit),
+              "", "calibrate all accelerometers, then compare again"};
     case FindingCode::damage: break;
   }
   return {fmt::format("the last {:.0f} of {:.0f} bytes could not be read", f.figure, f.limit), "",
@@ -197,6 +218,7 @@ std::string code_word(FindingCode code) {
     case FindingCode::vibration: return "vibration";
     case FindingCode::noise: return "noise";
     case FindingCode::drift: return "drift";
+    case FindingCode::changed: return "changed";
     case FindingCode::gaps: return "gaps";
     case FindingCode::backwards: return "backwards";
     case FindingCode::skew: return "skew";
@@ -208,6 +230,8 @@ std::string code_word(FindingCode code) {
     case FindingCode::disabled: return "disabled";
     case FindingCode::far_offset: return "far_offset";
     case FindingCode::far_scale: return "far_scale";
+    case FindingCode::autopilot_failed: return "autopilot_failed";
+    case FindingCode::autopilot_apart: return "autopilot_apart";
     case FindingCode::damage: break;
   }
   return "damage";
@@ -225,7 +249,8 @@ std::string sentence_of(OpenQuestion question) {
     case OpenQuestion::one_attitude:
       return "one attitude at rest: errors across gravity are seen only as differences between chips";
     case OpenQuestion::slow_log:
-      return "fewer than 20 records a second: vibration is judged only where the log has variances";
+      return "fewer than 20 records a second: vibration is judged only where the log has variances or the autopilot's "
+             "own measure";
     case OpenQuestion::not_compared:
       return "at least one accelerometer has too few readings, or too much scatter, to be compared with another one";
     case OpenQuestion::motion_unclear:

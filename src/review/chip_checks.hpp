@@ -17,6 +17,8 @@ void check_length(const std::vector<Cell>& rest, double block_s, const GravityKn
 void check_noise(const std::vector<Cell>& rest, const LogDigest& digest, LogReview& out);
 /// The first third of a stretch against its last: against the other chips where there are three, else the length.
 void check_drift(const std::vector<Span>& rest, const LogDigest& digest, LogReview& out);
+/// Stretches of one attitude: what a chip reads in a later one against the first.
+void check_change(LogReview& out);
 /// Vibration and clipping. Sets `vibration_mps2`.
 void check_vibration(const std::vector<Cell>& motion, const LogDigest& digest, LogReview& out);
 void check_clipping(const LogDigest& digest, LogReview& out);
@@ -25,6 +27,9 @@ void check_stuck(const LogDigest& digest, LogReview& out);
 /// Gaps, clocks that go back, chips that stop.
 void check_times(const LogDigest& digest, LogReview& out);
 void check_calibration(const LogDigest& digest, LogReview& out);
+/// What the autopilot itself says: chips that it took for failed, its comparison at rest of those that nothing else is
+/// found of, vibration of those that are read too rarely. After all other checks.
+void check_autopilot(const std::vector<Span>& rest, const LogDigest& digest, LogReview& out);
 
 }  // namespace review
 }  // namespace PLUMB_ABI

@@ -66,6 +66,8 @@ constexpr double kUnchangedInMotion = 20.0;
 constexpr double kMotionSeen_mps2 = 0.5;
 /// Attitudes further apart than this are different ones; chips that read gravity further apart are mounted differently.
 constexpr double kAttitude_deg = 20.0;
+/// Closer than this they are the same: an error of scale of 1 % then changes a reading by 0.02 m/s^2.
+constexpr double kSameAttitude_deg = 10.0;
 /// Two chips further apart in time than this see another motion in a filter that takes them as simultaneous: at 1 rad/s
 /// 10 ms are half a degree, or 0.1 m/s^2 across gravity. Judged over the seconds with most motion.
 constexpr double kSkew_s = 0.01;
@@ -76,6 +78,8 @@ constexpr double kLostShare = 0.01;
 constexpr double kLongGap_s = 1.0;
 /// A chip that says nothing for so long before the log ends has stopped.
 constexpr double kStopped_s = 2.0;
+/// Reports of an autopilot in a row: one alone may be of a start.
+constexpr double kFailedReports = 3.0;
 /// Calibrations that no sensor in order needs: PX4 accepts scales of 0.9 to 1.1; 2 m/s^2 is 200 mg0.
 constexpr double kFarOffset_mps2 = 2.0;
 constexpr double kFarScale = 0.1;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kMostParameters = 1024;
 constexpr std::size_t kMostNotes = 256;
+constexpr std::size_t kMostStatuses = 64;
 /// A change of velocity over a time, in 32-bit numbers each, comes back to a few parts in ten million.
 constexpr double kSameReading = 1.0e-6;
 /// A block index beyond this is no time of a log: it would not fit into a double without loss.
@@ -132,6 +133,14 @@ void LogDigester::double_blocks() {
     }
     reading.blocks = std::move(out);
   }
+  for (StatusDigest& status : digest_.statuses) {
+    std::map<std::int64_t, double> out;
+    for (const auto& [index, apart] : status.apart_mps2) {
+      const auto into = out.try_emplace(index >= 0 ? index / 2 : (index - 1) / 2, apart).first;
+      into->second = std::min(into->second, apart);
+    }
+    status.apart_mps2 = std::move(out);
+  }
 }
 
 void LogDigester::follow_still(const logs::ImuRecord& record, Reading& reading, SourceDigest& digest) {
@@ -178,6 +187,49 @@ void LogDigester::record(std::size_t number, const logs::ImuRecord& record) {
   block.index = index;
   block.add(block_of(record));
   while (reading.blocks.size() > most_blocks_) double_blocks();
+}
+
+/// One report alone is a touchdown: the least of three in a row counts.
+void LogDigester::follow_vibration(const logs::ChipStatus& status, Saying& now, StatusDigest& digest) {
+  const Axes& here = status.vibration_mps2;
+  if (!finite(here)) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double lasting = std::min({here[k], now.last_vibration_mps2[0][k], now.last_vibration_mps2[1][k]});
+    if (!(lasting > digest.vibration_mps2)) continue;
+    digest.vibration_mps2 = lasting;
+    digest.vibration_at_s = status.time_s;
+    digest.vibration_axis = static_cast<int>(k);
+  }
+  now.last_vibration_mps2 = {here, now.last_vibration_mps2[0]};
+}
+
+void LogDigester::status(const logs::ChipStatus& status) {
+  if (!(std::abs(status.time_s) < kFurthestBlock * digest_.block_s)) return;
+  auto found = std::find_if(digest_.statuses.begin(), digest_.statuses.end(), [&](const StatusDigest& one) {
+    return one.device_id == status.device_id && (one.device_id != 0 || one.instance == status.instance);
+  });
+  if (found == digest_.statuses.end()) {
+    if (digest_.statuses.size() == kMostStatuses) return;
+    found = digest_.statuses.insert(digest_.statuses.end(), StatusDigest{});
+    found->device_id = status.device_id;
+    found->instance = status.instance;
+    sayings_.emplace_back();
+  }
+  Saying& now = sayings_[static_cast<std::size_t>(found - digest_.statuses.begin())];
+  follow_vibration(status, now, *found);
+  if (status.health == logs::ChipStatus::Health::failed) {
+    if (now.failed.records == 0) now.failed.from_s = status.time_s;
+    ++now.failed.records;
+    now.failed.to_s = status.time_s;
+    if (now.failed.records > found->failed.records) found->failed = now.failed;
+  } else if (status.health == logs::ChipStatus::Health::sound) {
+    now.failed.records = 0;
+  }
+  if (!std::isfinite(status.inconsistency_mps2)) return;
+  const auto index = static_cast<std::int64_t>(std::floor(status.time_s / digest_.block_s));
+  const auto apart = found->apart_mps2.try_emplace(index, status.inconsistency_mps2).first;
+  apart->second = std::min(apart->second, status.inconsistency_mps2);
+  while (found->apart_mps2.size() > most_blocks_) double_blocks();
 }
 
 void LogDigester::parameter(const std::string& name, double value) {

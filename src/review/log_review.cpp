@@ -107,6 +107,23 @@ void merge_runs(std::vector<Finding>& findings) {
   findings = std::move(out);
 }
 
+/// Where one of two that differ is told elsewhere in the log, it is likely the one here too.
+void name_likely(std::vector<Finding>& findings) {
+  const auto differs = [](const Finding& one) {
+    return one.code == FindingCode::disagreement || one.code == FindingCode::motion_disagreement;
+  };
+  const auto told = [&](std::size_t chip) {
+    return std::any_of(findings.begin(), findings.end(), [&](const Finding& one) {
+      return one.chip == chip && one.other == kNoChip && (differs(one) || one.code == FindingCode::gravity_length);
+    });
+  };
+  for (Finding& finding : findings) {
+    if (finding.other == kNoChip || !differs(finding)) continue;
+    const bool first = told(finding.chip), second = told(finding.other);
+    if (first != second) finding.likely = first ? finding.chip : finding.other;
+  }
+}
+
 void note_damage(const LogDigest& digest, LogReview& out) {
   out.notes = digest.notes;
   const std::uint64_t unread = digest.extent.bytes - std::min(digest.extent.bytes, digest.extent.read_bytes);
@@ -144,14 +161,17 @@ LogReview review_log(const LogDigest& digest, const ReviewSettings& settings) {
   judge_motion(motion, digest, gravity, out);
   check_noise(rest, digest, out);
   check_drift(spans, digest, out);
+  check_change(out);
   check_vibration(motion, digest, out);
   check_clipping(digest, out);
   check_stuck(digest, out);
   check_times(digest, out);
   check_calibration(digest, out);
+  check_autopilot(spans, digest, out);
   note_damage(digest, out);
   clamp_places(out);
   merge_runs(out.findings);
+  name_likely(out.findings);
   set_open(digest, !motion.empty(), out);
   const bool any_compared =
       std::any_of(out.chips.begin(), out.chips.end(), [](const ChipSummary& c) { return c.compared; });

@@ -88,13 +88,13 @@ TEST(ClockedMotion, AClockThatIsStatedWrongIsToldAndSaysWhatToDo) {
       says(monitor(where, {}).out, {"lie further than valid_s = 2 s from since_s = 0 s", "or a longer valid_s"}));
 }
 
-TEST(ClockedMotion, ABinaryLogAndAnIncidentKeepTheTimesOfTheChips) {
+TEST(ClockedMotion, AULogAndAnIncidentKeepTheTimesOfTheChips) {
   const Hangar where;
   ASSERT_EQ(fly(where, {"--fault", "imu2:stuck=0g0@1s", "--duration", "2"}).code, 0);
   const Json plain = motion_of(monitor(where, {"--json", "--incidents", "found"}));
-  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.csv", "--out", "flight.plog"}).code, 0);
-  EXPECT_EQ(motion_of(monitor(where, {"--json"}, "flight.plog")), plain);
-  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.plog", "--out", "again.csv"}).code, 0);
+  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.csv", "--out", "flight.ulg"}).code, 0);
+  EXPECT_EQ(motion_of(monitor(where, {"--json"}, "flight.ulg")), plain);
+  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.ulg", "--out", "again.csv"}).code, 0);
   EXPECT_EQ(read_text(where / "again.csv"), read_text(where / "flight.csv"));
   ASSERT_EQ(run(where, {"inject", "--array", "array.toml", "--log", "flight.csv", "--out", "injected.csv", "--fault",
                         "x3:bias=1g0@1.5s"})

@@ -259,6 +259,25 @@ TEST(ImportCommand, RowsAreAtTheInstantsOfOneChipAndSayHowFarTheOthersAre) {
   EXPECT_EQ(line_of(log, 1), "t_s,temperature_degc,x0,y0,z0,x1,y1,z1,x2,y2,z2");
 }
 
+// As a ULog the log is the same: what is said to run next prints the same but for its name.
+TEST(ImportCommand, AULogSaysWhatTheCsvSays) {
+  std::string said[2];
+  for (const bool ulog : {false, true}) {
+    const Workshop where;
+    where.put("flight.ulg", flight(false, 60.0));
+    std::vector<std::string> command = {"import", "flight.ulg", "--out", "made"};
+    if (ulog) command.insert(command.end(), {"--to", "ulog"});
+    const Outcome imported = run(where, command);
+    ASSERT_EQ(imported.code, 0) << imported.err;
+    EXPECT_EQ(says(imported.out, {"made/log.ulg"}), ulog) << imported.out;
+    for (const auto& next : next_of(imported.out)) said[ulog ? 1 : 0] += run(where, next).out;
+  }
+  std::size_t at = 0;
+  while ((at = said[1].find("log.ulg", at)) != std::string::npos) said[1].replace(at, 7, "log.csv");
+  EXPECT_EQ(said[1], said[0]);
+  EXPECT_TRUE(says(said[0], {"excluded"}));
+}
+
 TEST(ImportCommand, WhatCannotBeIsRefusedWithARemedy) {
   const Workshop where;
   where.put("flight.ulg", flight(true));

@@ -218,14 +218,14 @@ TEST(MotionCommand, SaysWhatIsWrongWithTheGyro) {
       << told.err;
 }
 
-TEST(MotionCommand, ABinaryLogHoldsBothGyros) {
+TEST(MotionCommand, AULogHoldsBothGyros) {
   const Hangar where;
   ASSERT_EQ(fly(where, {"--duration", "1"}).code, 0);
   ASSERT_EQ(monitor(where, {"--motion", "text.csv"}).code, 0);
-  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.csv", "--out", "flight.plog"}).code, 0);
-  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.plog", "--out", "flight.csv"}).code, 0);
-  ASSERT_EQ(monitor(where, {"--motion", "binary.csv"}).code, 0);
-  EXPECT_EQ(read_text(where / "binary.csv"), read_text(where / "text.csv"));
+  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.csv", "--out", "flight.ulg"}).code, 0);
+  ASSERT_EQ(run(where, {"convert", "--array", "array.toml", "--log", "flight.ulg", "--out", "flight.csv"}).code, 0);
+  ASSERT_EQ(monitor(where, {"--motion", "ulog.csv"}).code, 0);
+  EXPECT_EQ(read_text(where / "ulog.csv"), read_text(where / "text.csv"));
   EXPECT_TRUE(says(line_of(read_text(where / "flight.csv"), 1), {"wx", "wy", "wz", "ux", "uy", "uz", "x1"}));
 }
 

@@ -65,7 +65,7 @@ TEST(ReadLog, WhatIsNoLogIsNamedForWhatItIs) {
       {"#ROSBAG V2.0\n", "ROS 1"},
       {"PAR1\x15\x04", "Parquet"},
       {std::string(257, 'a') + "ustar", "tar archive"},
-      {"\x89PLOG\r\n\x1A", "binary log of plumb"},
+      {"\x89PLOG\r\n\x1A", "binary log of plumb before it wrote ULog"},
       {"\x89HDF\r\n\x1A\n", "HDF5"},
       {"<!DOCTYPE html>\n<html>", "page of the web"},
       {"\x7F"

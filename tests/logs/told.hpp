@@ -44,6 +44,7 @@ struct Told final : plumb::logs::LogSink {
     notes.push_back({offset, what});
   }
 
+  void status(const plumb::logs::ChipStatus& status) override { statuses.push_back(status); }
   void detected(const std::string& what) override {
     EXPECT_TRUE(sources.empty());
     understood = what;
@@ -77,6 +78,7 @@ struct Told final : plumb::logs::LogSink {
   std::vector<ImuSource> sources;
   std::vector<std::pair<std::size_t, ImuRecord>> records;
   std::vector<std::pair<std::string, double>> parameters;
+  std::vector<plumb::logs::ChipStatus> statuses;
   std::vector<Note> notes;
   std::string understood;
 };

@@ -1,5 +1,5 @@
-/// Writes the log that `LogReader` reads with the same array file, bit for bit: a CSV, or, to a path that ends in
-/// ".plog", a binary log.
+/// Writes the log that `LogReader` reads with the same array file, bit for bit: a CSV, or a ULog, the log of PX4, which
+/// other tools open as well.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
-class PlogWriter;
+class UlogWriter;
 
 /// One a [[clock]] of the array file.
 using ClockTimes = std::array<double, static_cast<std::size_t>(kMotionClocks)>;
@@ -36,6 +36,11 @@ class LogWriter {
     samples,  ///< all but the rates of turn and the times of chips
     all,      ///< these too, where the array file names them
   };
+  enum class Form : std::uint8_t {
+    by_name,  ///< a path that ends in ".ulg" or ".ulog" becomes a ULog, any other a CSV; ".plog" is refused
+    csv,
+    ulog,
+  };
   /// What a row says beyond its sample.
   struct Notes {
     bool temperature_held = false;                              ///< of the row before: the cell becomes empty
@@ -49,7 +54,7 @@ class LogWriter {
   /// their values, the rates of turn, the times of chips with clocks of their own, then the sensors. Without a time
   /// column the time is left to the reader.
   static FileExpected<LogWriter> create(const std::string& path, const ArrayFile& array,
-                                        Columns columns = Columns::samples);
+                                        Columns columns = Columns::samples, Form form = Form::by_name);
 
   LogWriter(LogWriter&& other) noexcept;
   LogWriter& operator=(LogWriter&& other) noexcept;
@@ -66,12 +71,12 @@ class LogWriter {
   LogWriter(OutputFile file, const InputSpec& input, Columns columns);
   void choose_constants();
   FileExpected<void> begin_csv();
-  FileExpected<void> begin_binary();
+  FileExpected<void> begin_ulog();
 
   OutputFile file_;
   InputSpec input_;  ///< `where` without what has a role already, rates of turn only where they are written
   std::string line_;
-  std::unique_ptr<PlogWriter> binary_;
+  std::unique_ptr<UlogWriter> ulog_;
 };
 
 }  // namespace io

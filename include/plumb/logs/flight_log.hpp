@@ -46,6 +46,17 @@ struct ImuRecord {
   Axes variance_m2ps4 = kAbsentAxes;       ///< of the readings of a mean; of a sample what its driver declares
 };
 
+/// What an autopilot says of one of its accelerometers beside the readings.
+struct ChipStatus {
+  double time_s = kAbsent;
+  std::uint64_t device_id = 0;  ///< 0: `instance` says which one
+  int instance = -1;            ///< -1 beside a device_id of 0: the one that it flies by
+  enum class Health : std::uint8_t { unknown, sound, failed };
+  Health health = Health::unknown;
+  double inconsistency_mps2 = kAbsent;  ///< from the mean of all, smoothed (PX4)
+  Axes vibration_mps2 = kAbsentAxes;    ///< by its own measure (ArduPilot)
+};
+
 /// Who is told what a log holds. `source` comes before the first record of that number; numbers count from 0.
 class LogSink {
  public:
@@ -58,6 +69,8 @@ class LogSink {
   virtual void note(std::uint64_t offset, const std::string& what) = 0;
   /// How the log was understood where it does not say so itself: a sentence without an end, before the first source.
   virtual void detected(const std::string& what) { (void)what; }
+  /// May come before the source that it speaks of, or of one that the log has no readings of.
+  virtual void status(const ChipStatus& status) { (void)status; }
 };
 
 /// What a reader has seen. Every count is of what could be read.

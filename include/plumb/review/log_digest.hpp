@@ -86,6 +86,17 @@ struct SourceDigest {
   std::array<StillRun, 4> longest_still{};  ///< of x, y, z, and of all three at once (with the value of x)
 };
 
+/// What the autopilot said of one of its accelerometers.
+struct StatusDigest {
+  std::uint64_t device_id = 0;  ///< 0: `instance` says which
+  int instance = -1;
+  StillRun failed;                            ///< the most reports in a row that call it failed
+  std::map<std::int64_t, double> apart_mps2;  ///< by block: the least inconsistency within it
+  double vibration_mps2 = 0.0;                ///< the most that three reports in a row reach
+  double vibration_at_s = logs::kAbsent;
+  int vibration_axis = -1;
+};
+
 struct Note {
   std::uint64_t offset = 0;
   std::string what;
@@ -96,6 +107,7 @@ struct LogDigest {
   std::string understood;  ///< how, where a log does not say itself: the layout of a table; else empty
   double block_s = 1.0;
   std::vector<SourceDigest> sources;
+  std::vector<StatusDigest> statuses;
   std::map<std::string, double> parameters;  ///< of accelerometers: CAL_ACC*, TC_A*, INS_ACC*, INS_USE*
   std::vector<Note> notes;
   logs::LogExtent extent;
@@ -116,6 +128,7 @@ class LogDigester final : public logs::LogSink {
   void parameter(const std::string& name, double value) override;
   void note(std::uint64_t offset, const std::string& what) override;
   void detected(const std::string& what) override { digest_.understood = what; }
+  void status(const logs::ChipStatus& status) override;
   LogDigest take(std::string name, const logs::LogExtent& extent);
 
  private:
@@ -126,12 +139,19 @@ class LogDigester final : public logs::LogSink {
     std::array<StillRun, 4> still{};  ///< that go on
     Axes still_at_mps2 = logs::kAbsentAxes;
   };
+  /// What is being said of one while the log is read.
+  struct Saying {
+    StillRun failed;
+    std::array<Axes, 2> last_vibration_mps2{};
+  };
+  static void follow_vibration(const logs::ChipStatus& status, Saying& now, StatusDigest& digest);
   static void follow_still(const logs::ImuRecord& record, Reading& reading, SourceDigest& digest);
   void double_blocks();
 
   std::size_t most_blocks_;
   LogDigest digest_;
   std::vector<Reading> readings_;
+  std::vector<Saying> sayings_;  ///< as `LogDigest::statuses`
 };
 
 /// Reads any log that `logs::read_log` knows. Refused where that refuses it.

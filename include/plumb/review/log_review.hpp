@@ -31,6 +31,7 @@ enum class FindingCode : std::uint8_t {
   vibration,
   noise,         ///< scatter at rest above the class of the sensor
   drift,         ///< the reading at rest wanders within one stretch
+  changed,       ///< at rest again as before, a chip reads something else; the place is what lies between
   gaps,          ///< records are missing
   backwards,     ///< time goes back
   skew,          ///< two chips show the same motion at different times
@@ -41,14 +42,17 @@ enum class FindingCode : std::uint8_t {
   disabled,      ///< switched off in the autopilot's parameters: its readings are logged, not used
   far_offset,    ///< the installed calibration has an offset or a scale that no sensor in order needs
   far_scale,
-  damage,  ///< bytes of the log that could not be read
+  autopilot_failed,  ///< the autopilot itself took the chip for failed
+  autopilot_apart,   ///< by the autopilot's own comparison the chip is apart from the others at rest
+  damage,            ///< bytes of the log that could not be read
 };
 
 constexpr std::size_t kNoChip = static_cast<std::size_t>(-1);
 
 /// Units of `figure`, `limit` and `uncertainty` (95 %): m/s^2, but degrees of orientation, seconds of gaps, skew and
-/// stopped, readings of clipping and backwards, 1 of far_scale, bytes of damage; `disabled` has none of them and is
-/// green. Of what does not change, `figure` is what it reads and `limit` how many readings are alike.
+/// stopped, readings of clipping and backwards, reports of autopilot_failed, 1 of far_scale, bytes of damage;
+/// `disabled` has none of them and is green. Of what does not change, `figure` is what it reads and `limit` how many
+/// readings are alike.
 struct Finding {
   FindingCode code = FindingCode::damage;
   Grade grade = Grade::orange;
@@ -57,8 +61,9 @@ struct Finding {
   int axis = -1;                ///< 0, 1, 2, or -1: none in particular
   double figure = 0.0, limit = 0.0, uncertainty = 0.0;
   double from_s = logs::kAbsent, to_s = logs::kAbsent;
-  std::uint64_t times = 1;      ///< how often it happened; the place is that of the worst or longest
-  bool told_by_length = false;  ///< named because its length is not gravity's, not because two others agree
+  std::uint64_t times = 1;       ///< how often it happened; the place is that of the worst or longest
+  std::size_t likely = kNoChip;  ///< of two that differ: the one that other findings of the log name, of one only
+  bool told_by_length = false;   ///< named because its length is not gravity's, not because two others agree
 };
 
 /// Why a question was left open.

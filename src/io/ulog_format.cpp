@@ -1,4 +1,4 @@
-#include "ulog_format.hpp"
+#include "plumb/io/ulog_format.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
-namespace logs {
+namespace io {
 namespace {
 
 struct NamedType {
@@ -55,11 +55,11 @@ bool parse_field(std::string_view text, UlogField& out) {
   return ulog_type(text.substr(0, space), out);
 }
 
-bool is_padding(const UlogField& field) noexcept { return field.name.compare(0, 8, "_padding") == 0; }
-
-std::string in_quotes(std::string_view name) {
-  return "\"" + io::printable_line(name.substr(0, UlogFormats::kLongestName)) + "\"";
+std::string quoted_name(std::string_view name) {
+  return "\"" + printable_line(name.substr(0, UlogFormats::kLongestName)) + "\"";
 }
+
+bool is_padding(const UlogField& field) noexcept { return field.name.compare(0, 8, "_padding") == 0; }
 
 }  // namespace
 
@@ -138,6 +138,31 @@ bool ulog_type(std::string_view text, UlogField& out) {
   return true;
 }
 
+bool ulog_key(std::string_view payload, UlogKey& out) {
+  if (payload.empty()) return false;
+  const std::size_t length = static_cast<unsigned char>(payload[0]);
+  if (length + 1 > payload.size()) return false;
+  const std::string_view key = payload.substr(1, length);
+  const std::size_t space = std::min(key.find(' '), key.size());
+  if (space + 1 >= key.size() || !ulog_type(key.substr(0, space), out.field)) return false;
+  out.field.name = key.substr(space + 1);
+  out.value = payload.substr(1 + length);
+  return true;
+}
+
+std::string ulog_message(char type, std::string_view payload) {
+  std::string out;
+  out += static_cast<char>(payload.size() & 0xFFU);
+  out += static_cast<char>(payload.size() >> 8U & 0xFFU);
+  out += type;
+  return out.append(payload);
+}
+
+std::string ulog_key_message(char type, std::string_view typed_name, std::string_view value) {
+  std::string payload(1, static_cast<char>(typed_name.size()));
+  return ulog_message(type, payload.append(typed_name).append(value));
+}
+
 UlogCell UlogLayout::cell(std::string_view name, std::uint32_t index) const {
   for (const Placed& placed : placed_) {
     if (placed.field->name != name) continue;
@@ -148,8 +173,8 @@ UlogCell UlogLayout::cell(std::string_view name, std::uint32_t index) const {
   return {};
 }
 
-UlogCells UlogLayout::three(std::string_view name) const {
-  const UlogCells out = {cell(name, 0), cell(name, 1), cell(name, 2)};
+UlogCells UlogLayout::three(std::string_view name, std::uint32_t first) const {
+  const UlogCells out = {cell(name, first), cell(name, first + 1), cell(name, first + 2)};
   return out[2] ? out : UlogCells{};
 }
 
@@ -166,24 +191,29 @@ std::string UlogFormats::define(std::string_view text) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (one.empty()) continue;
     if (fields.size() == kMostFieldsOfOne)
-      return "the format " + in_quotes(name) + " has more than 1024 fields, left out";
+      return "the format " + quoted_name(name) + " has more than 1024 fields, left out";
     UlogField field;
     if (!parse_field(one, field))
-      return "the format " + in_quotes(name) + " has no field in " + in_quotes(one) + ", left out";
+      return "the format " + quoted_name(name) + " has no field in " + quoted_name(one) + ", left out";
     fields.push_back(std::move(field));
   }
-  if (fields.empty()) return "the format " + in_quotes(name) + " has no fields, left out";
+  if (fields.empty()) return "the format " + quoted_name(name) + " has no fields, left out";
   const auto known = formats_.find(name);
   if (known != formats_.end()) {
     if (same_fields(known->second, fields)) return {};
-    return "the format " + in_quotes(name) + " comes a second time with other fields, the first one stays";
+    return "the format " + quoted_name(name) + " comes a second time with other fields, the first one stays";
   }
-  if (formats_.size() == kMostFormats) return "more than 2048 formats, " + in_quotes(name) + " is left out";
+  if (formats_.size() == kMostFormats) return "more than 2048 formats, " + quoted_name(name) + " is left out";
   if (fields_ + fields.size() > kMostFields)
-    return "more than 32768 fields in all formats together, " + in_quotes(name) + " is left out";
+    return "more than 32768 fields in all formats together, " + quoted_name(name) + " is left out";
   fields_ += fields.size();
   formats_.emplace(name, std::move(fields));
   return {};
+}
+
+const std::vector<UlogField>* UlogFormats::fields(const std::string& name) const {
+  const auto found = formats_.find(name);
+  return found == formats_.end() ? nullptr : &found->second;
 }
 
 tl::expected<std::uint32_t, std::string> UlogFormats::field_size(  // NOLINT(misc-no-recursion) kDeepest levels
@@ -201,12 +231,13 @@ tl::expected<std::uint32_t, std::string> UlogFormats::field_size(  // NOLINT(mis
 tl::expected<std::uint32_t, std::string> UlogFormats::nested_size(  // NOLINT(misc-no-recursion) kDeepest levels
     const std::string& name, int depth, Sizes& known) const {
   const auto format = formats_.find(name);
-  if (format == formats_.end()) return tl::make_unexpected("the log has no format " + in_quotes(name));
+  if (format == formats_.end()) return tl::make_unexpected("the log has no format " + quoted_name(name));
   if (depth > kDeepest) return tl::make_unexpected(std::string("its formats are nested more than 16 deep"));
   constexpr std::uint32_t kOpen = 0;
   const auto entry = known.emplace(name, kOpen);
   if (!entry.second) {
-    if (entry.first->second == kOpen) return tl::make_unexpected("the format " + in_quotes(name) + " contains itself");
+    if (entry.first->second == kOpen)
+      return tl::make_unexpected("the format " + quoted_name(name) + " contains itself");
     return entry.first->second;
   }
   std::uint32_t size = 0;
@@ -214,7 +245,7 @@ tl::expected<std::uint32_t, std::string> UlogFormats::nested_size(  // NOLINT(mi
     const auto bytes = field_size(field, depth, known);
     if (!bytes) return bytes;
     if (*bytes > kLargest - size)
-      return tl::make_unexpected("the format " + in_quotes(name) + " is larger than a message can be");
+      return tl::make_unexpected("the format " + quoted_name(name) + " is larger than a message can be");
     size += *bytes;
   }
   entry.first->second = size;
@@ -236,6 +267,6 @@ tl::expected<UlogLayout, std::string> UlogFormats::layout(const std::string& nam
   return out;
 }
 
-}  // namespace logs
+}  // namespace io
 }  // namespace PLUMB_ABI
 }  // namespace plumb

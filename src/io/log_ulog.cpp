@@ -1,4 +1,6 @@
-// What is different where the log is a binary one.
+// What is different where the log is a ULog that plumb wrote.
+#include <array>
+
 #include "log_state.hpp"
 #include "plumb/io/units.hpp"
 #include "text_tools.hpp"
@@ -18,23 +20,50 @@ bool same_raw_unit(const std::string& name, const RawUnit& wanted) {
 
 }  // namespace
 
+/// By its first bytes. No more is asked for than a text has that begins like one: a live stream is not held back.
+LogReader::State::Kind LogReader::State::kind_of_log() {
+  const auto begins_with = [this](const unsigned char* bytes, std::size_t length) {
+    for (std::size_t k = 1; k <= length; ++k) {
+      const unsigned char* const at = source.peek(k);
+      if (at == nullptr || at[k - 1] != bytes[k - 1]) return false;
+    }
+    return true;
+  };
+  constexpr std::array<unsigned char, 5> kPlogMagic = {0x89, 'P', 'L', 'O', 'G'};
+  if (begins_with(kUlogMagic.data(), kUlogMagic.size())) return Kind::ulog;
+  return begins_with(kPlogMagic.data(), kPlogMagic.size()) ? Kind::plog : Kind::text;
+}
+
 FileExpected<void> LogReader::State::read_binary_header(const std::string& file) {
-  FileExpected<PlogRows> rows = PlogRows::open(source, path);
+  FileExpected<UlogRows> rows = UlogRows::open(source, path);
   if (!rows) return tl::unexpected<FileError>(rows.error());
   binary.emplace(*std::move(rows));
   if (file != "-") binary->map(file);
+  use_seconds_and_metres();
   std::size_t numbers = 0;
-  for (const PlogColumn& column : binary->header().columns) {
+  for (const UlogColumn& column : binary->header().columns) {
     header.push_back(column.name);
     number_place.push_back(column.constant ? kNoColumn : numbers++);
   }
   return {};
 }
 
+/// What the array file says in the unit of a CSV, in that of a ULog.
+void LogReader::State::use_seconds_and_metres() {
+  for (ColumnFilter& filter : input.where) {
+    bool timed = filter.column == input.time_column;
+    for (const std::string& column : input.clock_columns) timed = timed || filter.column == column;
+    if (timed) filter.number *= input.time_unit_s;
+    if (filter.column == input.depth_column) filter.number *= input.depth_unit_m;
+  }
+  input.time_unit_s = 1.0;
+  input.depth_unit_m = 1.0;
+}
+
 /// That what the log says of its columns is what the array file takes them for. A column without a unit is believed.
 FileExpected<void> LogReader::State::check_unit(std::size_t column, const std::string& wanted, const char* key) const {
   if (column == kNoColumn) return {};
-  const PlogColumn& found = binary->header().columns[column];
+  const UlogColumn& found = binary->header().columns[column];
   if (found.constant || found.text.empty() || found.text == wanted) return {};
   return tl::unexpected<FileError>(
       FileError{path, 0, found.name,
@@ -44,14 +73,13 @@ FileExpected<void> LogReader::State::check_unit(std::size_t column, const std::s
 }
 
 FileExpected<void> LogReader::State::check_binary() const {
-  FileExpected<void> done = check_unit(time, plog_time_unit(input.time_unit_s), "[input] time_unit");
+  FileExpected<void> done = check_unit(time, "s", "[input] time");
   if (done) done = check_unit(temperature, "degC", "[input] temperature");
-  if (done) done = check_unit(depth, plog_depth_unit(input.depth_unit_m), "[input] depth_unit");
+  if (done) done = check_unit(depth, "m", "[input] depth");
   for (std::size_t k = 0; k < rates.size() && done; ++k) done = check_unit(rates[k], "rad/s", "[input] rotation_radps");
   for (std::size_t k = 0; k < second_rates.size() && done; ++k)
     done = check_unit(second_rates[k], "rad/s", "[input] second_rotation_radps");
-  for (std::size_t k = 0; k < clocks.size() && done; ++k)
-    done = check_unit(clocks[k], plog_time_unit(input.time_unit_s), "[input] time_unit");
+  for (std::size_t k = 0; k < clocks.size() && done; ++k) done = check_unit(clocks[k], "s", "[[clock]] time");
   for (std::size_t k = 0; k < sensors.size() && done; ++k) {
     if (!same_raw_unit(binary->header().columns[sensors[k]].text, input.unit))
       done = check_unit(sensors[k], input.unit.name, "[input] unit");
@@ -90,17 +118,17 @@ void LogReader::State::plan_sensors() {
 }
 
 LogReader::State::Got LogReader::State::next_block() {
-  const PlogRows::Status status = binary->next_block();
+  const UlogRows::Status status = binary->next_block();
   statistics.bytes = binary->bytes();
   statistics.hash = binary->hash();
   switch (status) {
-    case PlogRows::Status::end: return Got::end;
-    case PlogRows::Status::failed: error = io_failure(source.error_number()); return Got::error;
-    case PlogRows::Status::damaged:
+    case UlogRows::Status::end: return Got::end;
+    case UlogRows::Status::failed: error = io_failure(source.error_number()); return Got::error;
+    case UlogRows::Status::damaged:
       index += binary->rows_lost();
       return note_bad(binary->rows_lost(), FileError{path, 0, "", binary->what(), kCopyAgain});
-    case PlogRows::Status::lost: return note_bad(1, FileError{path, 0, "", binary->what(), kCopyAgain});
-    case PlogRows::Status::row: break;
+    case UlogRows::Status::lost: return note_bad(1, FileError{path, 0, "", binary->what(), kCopyAgain});
+    case UlogRows::Status::row: break;
   }
   return binary->marks_sound() ? Got::row : refuse_marks();
 }

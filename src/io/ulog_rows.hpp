@@ -1,19 +1,20 @@
-/// The rows of a binary log, one block after the other (private to src/io). No row is given out before the check sum of
-/// its block was found right.
+/// The rows of a ULog that plumb wrote, one block after the other (private to src/io). No row is given out before the
+/// check sum of its block was found right.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "csv.hpp"
-#include "plog_format.hpp"
+#include "little_endian.hpp"
 #include "plumb/io/mapped_file.hpp"
+#include "ulog_header.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
-class PlogRows {
+class UlogRows {
  public:
   enum class Status : std::uint8_t {
     row,
@@ -23,16 +24,16 @@ class PlogRows {
     failed,   ///< reading itself, see LineSource::error_number
   };
 
-  /// `source` stands before the magic number. Errors: what is wrong with the header.
-  static FileExpected<PlogRows> open(LineSource& source, const std::string& path);
+  /// `source` stands before the magic number. Errors: another program's ULog, what is wrong with the header.
+  static FileExpected<UlogRows> open(LineSource& source, const std::string& path);
 
-  PlogRows(PlogRows&&) = default;
-  PlogRows& operator=(PlogRows&&) = delete;
-  PlogRows(const PlogRows&) = delete;
-  PlogRows& operator=(const PlogRows&) = delete;
-  ~PlogRows() = default;
+  UlogRows(UlogRows&&) = default;
+  UlogRows& operator=(UlogRows&&) = delete;
+  UlogRows(const UlogRows&) = delete;
+  UlogRows& operator=(const UlogRows&) = delete;
+  ~UlogRows() = default;
 
-  const PlogHeader& header() const noexcept { return header_; }
+  const UlogHeader& header() const noexcept { return header_; }
   /// From here on out of the mapped file, where it is a file. Before the first row.
   void map(const std::string& path);
   /// Back to reading: for a file that grows.
@@ -45,7 +46,7 @@ class PlogRows {
     --left_;
     ++row_number_;
     row_ += row_bytes_;
-    present_ = u64_at(row_);
+    present_ = u64_at(row_ + kUlogRowMarks);
     return true;
   }
   /// To the first row of the next block.
@@ -53,8 +54,8 @@ class PlogRows {
   /// Of the row at hand; `number` counts the columns that have a number in every row.
   bool has(std::size_t number) const noexcept { return (present_ >> number & 1U) != 0; }
   bool has_all(std::uint64_t marks) const noexcept { return (present_ & marks) == marks; }
-  double value(std::size_t number) const noexcept { return double_at(row_ + 8 + 8 * number); }
-  bool marks_sound() const noexcept { return numbers_ == kPlogColumns || present_ >> numbers_ == 0; }
+  double value(std::size_t number) const noexcept { return double_at(row_ + kUlogRowNumbers + 8 * number); }
+  bool marks_sound() const noexcept { return numbers_ == kUlogColumns || present_ >> numbers_ == 0; }
   std::uint64_t row() const noexcept { return row_number_; }  ///< counted from 1
 
   const std::string& what() const noexcept { return what_; }  ///< after `damaged` and `lost`
@@ -63,18 +64,21 @@ class PlogRows {
   std::uint64_t hash() const noexcept { return hash_; }
 
  private:
-  PlogRows(LineSource& source, PlogHeader header, std::string header_bytes);
+  UlogRows(LineSource& source, UlogHeader header, std::string header_bytes);
   const unsigned char* peek(std::size_t count);
   void consume(const unsigned char* bytes, std::size_t count);
   Status cut_short(std::size_t wanted);
-  Status end_mark(const unsigned char* at);
+  Status end_mark(const unsigned char* at, const UlogBlock& block);
+  Status damage(const unsigned char* at, std::size_t size, std::uint32_t rows, const char* what);
+  bool are_rows(const unsigned char* at, std::uint32_t rows) const noexcept;
   Status lose(std::string what);
 
   LineSource* source_;
-  PlogHeader header_;
+  UlogHeader header_;
   std::string header_bytes_;
   std::size_t numbers_;
   std::size_t row_bytes_;
+  std::string row_head_, block_head_;  ///< what the messages begin with
   MappedFile map_;
   bool mapped_ = false;
   bool hashing_ = false;
