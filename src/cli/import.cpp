@@ -42,7 +42,9 @@ constexpr const char* kImportAbout =
 constexpr const char* kImportNotes =
     "Rows have the instants of the slowest chip; the others are interpolated to them, and cells across a gap stay\n"
     "empty. The autopilot's calibration, as far as the log holds readings before it, goes to coefficients.csv, for\n"
-    "plumb calibrate --from. The last lines say what to run next.\n\n"
+    "plumb calibrate --from; readings after it are marked so in array.toml (corrected = true), and are not corrected\n"
+    "again. array.toml accepts errors of direction up to 8 deg, which such a calibration can meet: state your own.\n"
+    "The last lines say what to run next.\n\n"
     "Examples:\n"
     "  plumb import flight.ulg --out flight\n"
     "  plumb import flight.ulg --message sensor_accel --align nearest --out raw\n\n";
