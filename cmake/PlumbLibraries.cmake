@@ -224,6 +224,15 @@ if(TARGET plumb_io AND noise_sources)
   plumb_batch(plumb_noise)
 endif()
 
+# The Earth's magnetic field at a place and a date.
+plumb_sources(geomagnetic_sources geomagnetic)
+if(TARGET plumb_io AND geomagnetic_sources)
+  add_library(plumb_geomagnetic STATIC ${geomagnetic_sources})
+  plumb_library(plumb_geomagnetic geomagnetic)
+  target_link_libraries(plumb_geomagnetic PUBLIC plumb_io plumb_24 PRIVATE fmt::fmt)
+  plumb_batch(plumb_geomagnetic)
+endif()
+
 # Coefficients that others have found, and calibrations in the forms of others.
 plumb_sources(coefficients_sources coefficients)
 if(TARGET plumb_io AND coefficients_sources)
