@@ -233,6 +233,15 @@ if(TARGET plumb_io AND geomagnetic_sources)
   plumb_batch(plumb_geomagnetic)
 endif()
 
+# Inclination, azimuth and path of a tool with accelerometers and magnetometers, checked against gravity and field.
+plumb_sources(survey_sources survey)
+if(TARGET plumb_geomagnetic AND survey_sources)
+  add_library(plumb_survey STATIC ${survey_sources})
+  plumb_library(plumb_survey survey)
+  target_link_libraries(plumb_survey PUBLIC plumb_geomagnetic plumb_24 PRIVATE fmt::fmt "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_batch(plumb_survey)
+endif()
+
 # Coefficients that others have found, and calibrations in the forms of others.
 plumb_sources(coefficients_sources coefficients)
 if(TARGET plumb_io AND coefficients_sources)

@@ -198,6 +198,10 @@ if(TARGET plumb_geomagnetic)
   plumb_test_executable(plumb_geomagnetic_tests LABEL host ROOMS geomagnetic LIBRARIES plumb_geomagnetic plumb_io plumb_24)
 endif()
 
+if(TARGET plumb_survey)
+  plumb_test_executable(plumb_survey_tests LABEL host ROOMS survey LIBRARIES plumb_survey plumb_24)
+endif()
+
 # Another one: coefficients need files and nothing above them.
 if(TARGET plumb_coefficients)
   plumb_test_executable(plumb_coefficients_tests LABEL host ROOMS coefficients LIBRARIES plumb_coefficients plumb_logs plumb_io plumb_24
