@@ -17,7 +17,8 @@ namespace geomagnetic {
 namespace {
 
 constexpr std::size_t kMostBytes = 1'000'000;
-constexpr double kMostCoefficient_nt = 100e3, kYearsValid = 5.0;
+constexpr double kMostCoefficient_nt = 100e3;
+constexpr double kYearsValid = 5.0;
 
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> out;

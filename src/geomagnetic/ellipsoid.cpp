@@ -9,7 +9,8 @@ inline namespace PLUMB_ABI {
 namespace geomagnetic {
 namespace {
 
-constexpr double kSemiMajor_m = 6378137.0, kFlattening = 1.0 / 298.257223563;
+constexpr double kSemiMajor_m = 6378137.0;
+constexpr double kFlattening = 1.0 / 298.257223563;
 constexpr double kEccentricitySquared = kFlattening * (2.0 - kFlattening);
 
 }  // namespace

@@ -16,8 +16,10 @@ inline namespace PLUMB_ABI {
 namespace geomagnetic {
 namespace {
 
-constexpr double kReferenceRadius_m = 6371200.0, kTeslaPerNt = 1e-9;
-constexpr double kBlackout_tesla = 2000e-9, kCaution_tesla = 6000e-9;
+constexpr double kReferenceRadius_m = 6371200.0;
+constexpr double kNanotesla = 1e-9;
+constexpr double kBlackout_tesla = 2000e-9;
+constexpr double kCaution_tesla = 6000e-9;
 constexpr double kGridFrom_deg = 55.0;
 
 tl::unexpected<io::FileError> refuse(const char* field, std::string what, std::string remedy) {
@@ -136,8 +138,8 @@ io::FileExpected<EarthField> field_at(const FieldModel& model, const Place& plac
   out.place = place;
   out.year = year;
   out.model = model.name;
-  out.value = elements_of(scaled(geodetic_axes(gradient_nt(now, p, at), at, latitude), kTeslaPerNt));
-  out.per_year = rates_of(out.value, scaled(geodetic_axes(gradient_nt(change, p, at), at, latitude), kTeslaPerNt));
+  out.value = elements_of(scaled(geodetic_axes(gradient_nt(now, p, at), at, latitude), kNanotesla));
+  out.per_year = rates_of(out.value, scaled(geodetic_axes(gradient_nt(change, p, at), at, latitude), kNanotesla));
   out.north_undefined = std::fabs(place.latitude_deg) == 90.0;
   out.below_stated_height = place.height_m < kLowestStated_m;
   if (std::fabs(place.latitude_deg) >= kGridFrom_deg) {

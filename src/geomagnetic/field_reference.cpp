@@ -13,8 +13,10 @@ inline namespace PLUMB_ABI {
 namespace geomagnetic {
 namespace {
 
-constexpr double kNtPerTesla = 1e9, kTeslaPerNt = 1e-9;
-constexpr double kLeast_nt = 15e3, kMost_nt = 80e3;
+constexpr double kNtPerTesla = 1e9;
+constexpr double kTeslaPerNt = 1e-9;
+constexpr double kLeast_nt = 15e3;
+constexpr double kMost_nt = 80e3;
 
 double declination_sigma_rad(const ErrorTerms& terms, double horizontal_tesla) noexcept {
   const double h_nt = horizontal_tesla * kNtPerTesla;

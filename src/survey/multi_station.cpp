@@ -11,7 +11,9 @@ inline namespace PLUMB_ABI {
 namespace survey {
 namespace {
 
-constexpr int kTerms = static_cast<int>(kTermCount), kReferences = 3, kUnknowns = kTerms + kReferences;
+constexpr int kTerms = static_cast<int>(kTermCount);
+constexpr int kReferences = 3;
+constexpr int kUnknowns = kTerms + kReferences;
 constexpr int kMostSteps = 50;
 constexpr double kStepEnough = 1e-11;  // of a stated sigma
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;

@@ -14,7 +14,9 @@ inline namespace PLUMB_ABI {
 namespace survey {
 namespace {
 
-constexpr double kNearlyStraight_rad = 0.01, kBack_rad = 0.5 * kPi - 5e-7, kVerticalEnough_rad = rad_from_deg(5.0);
+constexpr double kNearlyStraight_rad = 0.01;
+constexpr double kBack_rad = 0.5 * kPi - 5e-7;
+constexpr double kVerticalEnough_rad = rad_from_deg(5.0);
 
 tl::unexpected<io::FileError> refuse(const PathStation& at, std::string what, std::string remedy) {
   return tl::unexpected<io::FileError>(io::FileError{"", 0, fmt::format("station at {:.2f} m", at.md_m),
