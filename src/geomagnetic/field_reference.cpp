@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "plumb/core/units.hpp"
@@ -100,6 +103,24 @@ io::FileExpected<FieldReference> stated_reference(const StatedField& stated) {
     out.declination_rad_sigma = {rad_from_deg(stated.declination_sigma_deg), 0.0};
   }
   return out;
+}
+
+io::FileExpected<double> parse_field(std::string_view text) {
+  struct Unit {
+    std::string_view name;
+    double tesla;
+  };
+  constexpr Unit units[] = {{"nT", 1e-9}, {"uT", 1e-6}, {"mG", 1e-7}, {"G", 1e-4}, {"T", 1.0}};
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  std::string_view unit(read.ptr, static_cast<std::size_t>(end - read.ptr));
+  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  for (const Unit& known : units) {
+    if (read.ec == std::errc() && std::isfinite(value) && unit == known.name) return value * known.tesla;
+  }
+  return tl::unexpected<io::FileError>(io::FileError{"", 0, "", "is no magnetic field: a number and nT, uT, mG, G or T",
+                                                     "write it as in \"50123 nT\"", io::ExitCode::usage});
 }
 
 }  // namespace geomagnetic

@@ -92,10 +92,14 @@ io::FileExpected<void> check_unit(std::vector<double> lengths, const Triad& tria
   const double median = *middle;
   if (median >= least && median <= most) return {};
   std::string remedy = "check the unit at the end of the columns' names";
-  for (const Unit& unit : units) {
+  const double usual = std::sqrt(least * most);
+  double nearest = std::sqrt(most / least);
+  for (const Unit& unit : units) {  // of several that would do, the one that gives the most usual length
     const double length = median / triad.unit.si * unit.si;
-    if (length >= least && length <= most)
-      remedy = fmt::format("the numbers are right in {}: end the columns' names in _{}", unit.name, unit.name);
+    const double off = length > usual ? length / usual : usual / length;
+    if (!(off <= nearest)) continue;
+    nearest = off;
+    remedy = fmt::format("the numbers are right in {}: end the columns' names in _{}", unit.name, unit.name);
   }
   return refuse(path, fmt::format("{}x_{}", triad.prefix, triad.unit.name),
                 fmt::format("gives {} of {:.4g} {} at half of the stations, must be {:.4g} to {:.4g} {}", what,

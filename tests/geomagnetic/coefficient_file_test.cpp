@@ -165,5 +165,15 @@ TEST(FieldReference, IsRefusedWhereItIsNoFieldOfTheEarth) {
   EXPECT_TRUE(broken([](StatedField& s) { s.declination_deg = NAN, s.declination_known = false; }).has_value());
 }
 
+TEST(FieldReference, ReadsFieldsWithTheirUnit) {
+  EXPECT_DOUBLE_EQ(*parse_field("50123 nT"), 50123e-9);
+  EXPECT_DOUBLE_EQ(*parse_field("50.5uT"), 50.5e-6);
+  EXPECT_DOUBLE_EQ(*parse_field("0.5 G"), 50e-6);
+  EXPECT_DOUBLE_EQ(*parse_field("500  mG"), 50e-6);
+  EXPECT_DOUBLE_EQ(*parse_field("5e-5 T"), 50e-6);
+  for (const char* wrong : {"", "50123", "nT", "50123 nt", "50123 nT x", "nan nT", "inf nT", "1e999 nT", " 5 nT"})
+    EXPECT_FALSE(parse_field(wrong).has_value()) << wrong;
+}
+
 }  // namespace
 }  // namespace coefficient_file_test

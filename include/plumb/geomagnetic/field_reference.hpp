@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "plumb/geomagnetic/field_model.hpp"
 
@@ -65,6 +66,10 @@ struct StatedField {
 /// Refuses what is no field of the Earth: 15 000 to 80 000 nT (its extremes are 22 200 and 67 000 nT), dip within 90
 /// degrees, declination within 180, sigmas above 0 and below a tenth of the field, 10 and 180 degrees.
 io::FileExpected<FieldReference> stated_reference(const StatedField& stated);
+
+/// "50123 nT" in tesla: nT, uT, mG, G or T, the blank before the unit may be left out. A number without unit is
+/// refused.
+io::FileExpected<double> parse_field(std::string_view text);
 
 }  // namespace geomagnetic
 }  // namespace PLUMB_ABI
