@@ -85,7 +85,7 @@ io::ExitCode verdict(const SurveyOptions& options, const survey::Survey& found) 
     return report({options.stations, 0, "",
                    "the axial interference could not be estimated: " + found.axial->error().text(),
                    "leave --axial out, or add stations at other attitudes", io::ExitCode::not_accepted});
-  for (const survey::Station& s : found.stations) {
+  for (const survey::SurveyStation& s : found.stations) {
     if (s.status != survey::StationStatus::rejected) return io::ExitCode::done;
   }
   return report({options.stations, 0, "", "no station passed the check of gravity",

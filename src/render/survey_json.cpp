@@ -27,7 +27,7 @@ Json check_json(const survey::Check& check, double unit) {
                  {"passed", check.passed}});
 }
 
-Json station_json(const survey::Station& s, double risk) {
+Json station_json(const survey::SurveyStation& s, double risk) {
   const OrUndefined<Angle> magnetic = survey::azimuth_from(s, survey::North::magnetic);
   return object({{"md_m", s.measured.md_m},
                  {"status", to_string(s.status)},
@@ -83,7 +83,7 @@ Json path_json(const survey::Survey& s) {
 
 nlohmann::ordered_json survey_json(const SurveyReport& r) {
   Json stations = Json::array();
-  for (const survey::Station& s : r.survey.stations) stations.push_back(station_json(s, r.survey.integrity_risk));
+  for (const survey::SurveyStation& s : r.survey.stations) stations.push_back(station_json(s, r.survey.integrity_risk));
   Json tests = nullptr;
   if (r.survey.tests)
     tests = object({{"gravity_mps2", test_json(r.survey.tests->gravity, 1.0)},

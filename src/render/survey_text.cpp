@@ -49,7 +49,7 @@ std::string references(const SurveyReport& r) {
 std::string station_lines(const SurveyReport& r) {
   std::string out = fmt::format("{:>9} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7}  {}\n", "MD m", "inc", "azimuth",
                                 "PL inc", "PL azi", "GTF", "dG mg", "dB nT", "dDip", "verdict");
-  for (const survey::Station& s : r.survey.stations) {
+  for (const survey::SurveyStation& s : r.survey.stations) {
     const OrUndefined<Angle> azimuth = survey::azimuth_from(s, r.survey.north);
     const auto level = [&](const OrUndefined<Angle>& angle) {
       return angle ? fmt::format("{:.2f}", deg_from_rad(survey::protection_level_rad(*angle, r.survey.integrity_risk)))
@@ -110,8 +110,9 @@ std::string path_text(const survey::Survey& s) {
 }  // namespace
 
 std::string survey_text(const SurveyReport& r) {
-  std::string out = fmt::format("{}: {} stations, accelerometers in {}, magnetometers in {}\n",
-                                io::printable_line(r.file), r.survey.stations.size(), r.gravity_unit, r.field_unit);
+  std::string out =
+      fmt::format("{}: {} stations, accelerometers in {}, magnetometers in {}\n", io::printable_line(r.file),
+                  r.survey.stations.size(), r.gravity_unit == "mps2" ? "m/s^2" : r.gravity_unit, r.field_unit);
   if (r.rows_left_out > 0) out += fmt::format("Rows left out for want of a number: {}\n", r.rows_left_out);
   out += references(r);
   out += fmt::format("Noise of a station: {:.2f} mg, {:.0f} nT. Limits: {}", r.noise_mps2 / kMg_mps2,

@@ -83,16 +83,16 @@ StationChecks check_station(const Measurement& station, const Covariance6& total
   return out;
 }
 
-Station judge_station(const Measurement& station, const Reference& reference, const StationSettings& settings) {
+SurveyStation judge_station(const Measurement& station, const Reference& reference, const StationSettings& settings) {
   const Covariance6 total = total_covariance(station, settings.tool);
   const StationChecks checks = check_station(station, total, reference, settings.checks);
-  Station out{station,
-              reference,
-              checks,
-              StationStatus::rejected,
-              attitude_of(station, total),
-              because(NoAngle::gravity_failed),
-              because(NoAngle::gravity_failed)};
+  SurveyStation out{station,
+                    reference,
+                    checks,
+                    StationStatus::rejected,
+                    attitude_of(station, total),
+                    because(NoAngle::gravity_failed),
+                    because(NoAngle::gravity_failed)};
   if (checks.gravity.passed && out.attitude.inclination)
     out.status = checks.field_passed() ? StationStatus::accepted : StationStatus::inclination_only;
   withhold(out.attitude, out.status);
@@ -109,7 +109,7 @@ Station judge_station(const Measurement& station, const Reference& reference, co
   return out;
 }
 
-std::string Station::flags() const {
+std::string SurveyStation::flags() const {
   std::string out;
   if (!std::isfinite(checks.gravity.measured + checks.field.measured + checks.dip.measured)) out += 'N';
   if (!checks.gravity.passed) out += 'G';

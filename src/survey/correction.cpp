@@ -69,12 +69,13 @@ CorrectedStation corrected(const Measurement& station, const Estimate& estimate)
   return out;
 }
 
-Station judge_corrected(const CorrectedStation& station, const Reference& reference, const StationSettings& settings) {
+SurveyStation judge_corrected(const CorrectedStation& station, const Reference& reference,
+                              const StationSettings& settings) {
   StationSettings without_tool = settings;
   without_tool.tool = {};
   Measurement measured = station.measured;
   measured.random = station.total;
-  Station out = judge_station(measured, reference, without_tool);
+  SurveyStation out = judge_station(measured, reference, without_tool);
   out.measured = station.measured;
   return out;
 }

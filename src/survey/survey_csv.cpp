@@ -35,7 +35,7 @@ std::string number(double value, int decimals) {
   return text.find_first_of("123456789") == std::string::npos && text[0] == '-' ? text.substr(1) : text;
 }
 
-void append_station(std::string& out, const Survey& survey, const Station& s, const PathPoint* point) {
+void append_station(std::string& out, const Survey& survey, const SurveyStation& s, const PathPoint* point) {
   const double mg = 1e-3 * kG0_mps2;
   const OrUndefined<Angle> azimuth = azimuth_from(s, survey.north);
   const StationChecks& c = s.checks;

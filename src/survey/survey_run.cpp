@@ -15,7 +15,7 @@ North north_of(const SurveySettings& settings, const std::vector<ReferencedStati
 }
 
 /// A station that can stand on a path: with its azimuth, or vertical.
-std::optional<PathStation> path_station(const Station& station, North north) {
+std::optional<PathStation> path_station(const SurveyStation& station, North north) {
   if (station.status != StationStatus::accepted) return std::nullopt;
   const OrUndefined<Angle> azimuth = azimuth_from(station, north);
   if (!azimuth && azimuth.error().why != NoAngle::vertical) return std::nullopt;
@@ -25,7 +25,7 @@ std::optional<PathStation> path_station(const Station& station, North north) {
 
 }  // namespace
 
-OrUndefined<Angle> azimuth_from(const Station& station, North north) {
+OrUndefined<Angle> azimuth_from(const SurveyStation& station, North north) {
   const auto angle_of = [](const auto& azimuth) {
     return azimuth ? OrUndefined<Angle>(azimuth->angle)
                    : OrUndefined<Angle>(tl::unexpected<Undefined>(azimuth.error()));

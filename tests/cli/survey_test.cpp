@@ -66,7 +66,7 @@ TEST(SurveyCommand, PrintsStationsTestsAndThePath) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(says(
       outcome.out,
-      {"run.csv: 21 stations, accelerometers in mps2, magnetometers in nT",
+      {"run.csv: 21 stations, accelerometers in m/s^2, magnetometers in nT",
        "field 51000 nT (130 nT), dip 73.00 deg (0.20 deg); stated", "Declination: -2.50 deg from true north",
        "azimuths from true north", "1500.00", "accepted (V)", "2100.00   80.00  117.50", "accepted", "gravity passed",
        "field   passed", "dip     passed", "Path of 21 stations, minimum curvature from true north"}));

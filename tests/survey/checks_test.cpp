@@ -23,7 +23,7 @@ const Truth kHole{rad_from_deg(60.0), rad_from_deg(40.0), rad_from_deg(100.0)};
 TEST(SurveyChecks, AGoodStationHasEveryAzimuth) {
   StationSettings settings;
   settings.convergence = {true, rad_from_deg(1.5)};
-  const Station s = judge_station(station_of(kHole, World{}), reference_of(World{}), settings);
+  const SurveyStation s = judge_station(station_of(kHole, World{}), reference_of(World{}), settings);
   EXPECT_EQ(s.status, StationStatus::accepted);
   EXPECT_EQ(s.flags(), "");
   ASSERT_TRUE(s.attitude.azimuth && s.true_azimuth && s.grid_azimuth);
@@ -35,7 +35,7 @@ TEST(SurveyChecks, AGoodStationHasEveryAzimuth) {
 TEST(SurveyChecks, AFieldThatIsOffLeavesTheInclination) {
   Measurement m = station_of(kHole, World{});
   m.field_tesla[2] += 3e-6;
-  const Station s = judge_station(m, reference_of(World{}), {});
+  const SurveyStation s = judge_station(m, reference_of(World{}), {});
   EXPECT_EQ(s.status, StationStatus::inclination_only);
   EXPECT_EQ(s.flags(), "BD");
   EXPECT_TRUE(s.attitude.inclination && s.attitude.gravity_toolface);
@@ -48,7 +48,7 @@ TEST(SurveyChecks, AFieldThatIsOffLeavesTheInclination) {
 TEST(SurveyChecks, AFieldThatIsTurnedFailsByItsDipAlone) {
   World turned;
   turned.dip_rad += rad_from_deg(1.5);
-  const Station s = judge_station(station_of(kHole, turned), reference_of(World{}), {});
+  const SurveyStation s = judge_station(station_of(kHole, turned), reference_of(World{}), {});
   EXPECT_EQ(s.flags(), "D");
   EXPECT_EQ(s.status, StationStatus::inclination_only);
 }
@@ -56,7 +56,7 @@ TEST(SurveyChecks, AFieldThatIsTurnedFailsByItsDipAlone) {
 TEST(SurveyChecks, GravityThatIsOffLeavesNothing) {
   Measurement m = station_of(kHole, World{});
   m.gravity_mps2[0] += 0.1;
-  const Station s = judge_station(m, reference_of(World{}), {});
+  const SurveyStation s = judge_station(m, reference_of(World{}), {});
   EXPECT_EQ(s.status, StationStatus::rejected);
   EXPECT_EQ(s.flags()[0], 'G');
   EXPECT_FALSE(s.attitude.inclination || s.attitude.gravity_toolface || s.attitude.azimuth || s.true_azimuth ||
@@ -157,7 +157,7 @@ TEST(SurveyChecks, WhatIsNoNumberFails) {
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       Measurement m = station_of(kHole, World{});
       (k < 3 ? m.gravity_mps2[k] : m.field_tesla[k - 3]) = value;
-      const Station s = judge_station(m, reference_of(World{}), {});
+      const SurveyStation s = judge_station(m, reference_of(World{}), {});
       EXPECT_NE(s.status, StationStatus::accepted);
       EXPECT_FALSE(s.attitude.azimuth.has_value());
       EXPECT_EQ(s.flags()[0], 'N');

@@ -233,7 +233,7 @@ TEST(MultiStation, CorrectionTakesTheErrorOffTheAzimuth) {
   const ReferencedStation& last = stations.back();
   const CorrectedStation better = corrected(last.measured, *found);
   const Attitude before = attitude_of(last.measured, total_covariance(last.measured, iscwsa_tool()));
-  const Station after = judge_corrected(better, last.reference, {});
+  const SurveyStation after = judge_corrected(better, last.reference, {});
   ASSERT_TRUE(before.azimuth && after.attitude.azimuth);
   EXPECT_GT(std::fabs(deg_from_rad(before.azimuth->angle.rad) - 90.0), 1.5);
   EXPECT_NEAR(after.attitude.azimuth->angle.rad, 0.5 * kPi, 4.0 * after.attitude.azimuth->angle.sigma_rad);

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -254,6 +255,52 @@ TEST(StationFile, RefusesWhatIsNoSurvey) {
   expect_refused(table({"md_m", "md_ft", "gx_g", "gy_g", "gz_g", "bx_uT", "by_uT", "bz_uT"}, {}),
                  "measured depth twice", "keep one");
   expect_refused(table({"md_m", "gx_g", "gy_g", "gz_g", "bx_uT", "by_uT", "bz_uT"}, {}), "no row", "one row a station");
+}
+
+RC_GTEST_PROP(StationFileLaw, AnyNumbersAreASurveyOrAnError, ()) {
+  const double values[] = {0.0,
+                           1.0,
+                           -1.0,
+                           9.81,
+                           -9.81,
+                           4e4,
+                           -4e4,
+                           1e-300,
+                           1e300,
+                           -1e308,
+                           std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()};
+  const int rows = *rc::gen::inRange(1, 8);
+  std::vector<std::vector<double>> cells_of_rows;
+  for (int k = 0; k < rows; ++k) {
+    std::vector<double> row{30.0 * k, 0.0, 0.0, 9.81, 15e3, 0.0, 48e3};
+    const int odd = *rc::gen::inRange(0, 4);
+    for (int n = 0; n < odd; ++n)
+      row[static_cast<std::size_t>(*rc::gen::inRange(0, 7))] =
+          values[*rc::gen::inRange(0, static_cast<int>(std::size(values)))];
+    cells_of_rows.push_back(row);
+  }
+  const auto file =
+      stations_of(table({"md_m", "gx_mps2", "gy_mps2", "gz_mps2", "bx_nT", "by_nT", "bz_nT"}, cells_of_rows), "x.csv");
+  if (!file) {
+    RC_ASSERT(!file.error().what.empty() && !file.error().remedy.empty());
+    return;
+  }
+  std::vector<ReferencedStation> stations;
+  for (Measurement m : file->stations) {
+    m.random = independent_covariance(1e-3, 20e-9);
+    stations.push_back({m, reference_of(World{})});
+  }
+  SurveySettings settings;
+  settings.correct_axial = *rc::gen::arbitrary<bool>();
+  const Survey s = run_survey(stations, settings);
+  RC_ASSERT(s.stations.size() == stations.size());
+  for (const SurveyStation& one : s.stations) {
+    if (one.status == StationStatus::accepted) RC_ASSERT(one.checks.gravity.passed && one.checks.field_passed());
+    if (one.true_azimuth) RC_ASSERT(std::isfinite(one.true_azimuth->angle.rad + one.true_azimuth->angle.sigma_rad));
+  }
+  std::istringstream lines(survey_csv(s));
+  for (std::string line; std::getline(lines, line);) RC_ASSERT(cells(line).size() == 24U);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ const char* to_string(StationStatus status) noexcept;  ///< "accepted", "inclina
 
 /// A station, judged. Azimuths are there only where all three checks passed; inclination and toolface where gravity
 /// did.
-struct Station {
+struct SurveyStation {
   Measurement measured;
   Reference reference;
   StationChecks checks;
@@ -90,7 +90,7 @@ struct StationSettings {
   Convergence convergence;
 };
 
-Station judge_station(const Measurement& station, const Reference& reference, const StationSettings& settings);
+SurveyStation judge_station(const Measurement& station, const Reference& reference, const StationSettings& settings);
 
 }  // namespace survey
 }  // namespace PLUMB_ABI

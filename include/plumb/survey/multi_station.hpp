@@ -82,7 +82,8 @@ CorrectedStation corrected(const Measurement& station, const Estimate& estimate)
 
 /// The station judged by what is left. Its checks use the data that the estimate came from: they show a misfit, and no
 /// longer test the reference.
-Station judge_corrected(const CorrectedStation& station, const Reference& reference, const StationSettings& settings);
+SurveyStation judge_corrected(const CorrectedStation& station, const Reference& reference,
+                              const StationSettings& settings);
 
 }  // namespace survey
 }  // namespace PLUMB_ABI

@@ -14,7 +14,7 @@ namespace survey {
 ///   Inc_deg, AziMag_deg, AziTrue_deg, AziGrid_deg, GTF_deg, MTF_deg   two decimals; empty where undefined or withheld
 ///   Gt_mg, Bt_nT, Dip_deg                    as measured; dGt_mg, dBt_nT, dDip_deg: less reference
 ///   QC                                       accepted, inclination only, rejected
-///   Flags                                    Station::flags
+///   Flags                                    SurveyStation::flags
 ///   sInc_deg, sAzi_deg, PLInc_deg, PLAzi_deg 1 sigma and protection level; the azimuth is that of `north`
 ///   TVD_m, North_m, East_m, DLS_deg_per_30m  empty where the station is not on the path
 ///   AziNorth                                 which north sAzi, PLAzi and the positions are of

@@ -21,7 +21,7 @@ struct SurveySettings {
 };
 
 struct Survey {
-  std::vector<Station> stations;
+  std::vector<SurveyStation> stations;
   double integrity_risk = 0.0;
   North north = North::magnetic;
   WiringStudy wiring;
@@ -37,7 +37,7 @@ struct Survey {
 Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySettings& settings);
 
 /// The azimuth from that north, or why there is none.
-OrUndefined<Angle> azimuth_from(const Station& station, North north);
+OrUndefined<Angle> azimuth_from(const SurveyStation& station, North north);
 
 /// True vertical depth of each station from inclinations alone (the mean of neighbouring cosines), as its references
 /// need it before anything is judged; the first lies as deep as it is along the hole.
